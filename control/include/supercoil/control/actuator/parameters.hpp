@@ -1,0 +1,54 @@
+// The muscle's parameters in the three forms that the literature uses.
+#pragma once
+
+#include <optional>
+
+#include "supercoil/control/scalar/scalar.hpp"
+
+namespace supercoil::control {
+
+/// A value outside what is allowed: which one, and the range (ends included).
+struct Violation {
+  const char* quantity;
+  double value;
+  double lowest;
+  double highest;
+};
+
+/// A super-coiled polymer muscle with its load, lumped (paper, Eqs. (1) and (2), Table 1).
+/// The defaults are the paper's actuator (Sec. 5.1).
+struct PhysicalParameters {
+  double thermal_mass_J_per_K = 0.162;       ///< ψ
+  double heat_transfer_W_per_K = 0.089;      ///< η
+  double stiffness_N_per_m = 16.0;           ///< ϱ
+  double damping_Ns_per_m = 2.0;             ///< µ
+  double moving_mass_kg = 0.09;              ///< m̂, the muscle's own mass and its load's
+  double force_per_kelvin_N_per_K = 0.0086;  ///< γ
+
+  friend bool operator==(const PhysicalParameters&, const PhysicalParameters&) = default;
+
+  /// x/P at rest, γ/(ηϱ), in m/W.
+  double dc_gain_m_per_W() const {
+    return force_per_kelvin_N_per_K / (heat_transfer_W_per_K * stiffness_N_per_m);
+  }
+  /// −η/ψ, the thermal pole, in rad/s.
+  double thermal_pole_rad_per_s() const { return -heat_transfer_W_per_K / thermal_mass_J_per_K; }
+};
+
+/// θ = [ψ, m̂η+µψ, ψϱ+µη, ηϱ]/γ: the coefficients that are linear in the measured signals,
+/// z = P/Λ = θᵀφ with φ = [m̂s³X, s²X, sX, X]/Λ (paper, Eq. (3), as corrected in docs/paper.md).
+using Theta = Vector<double, 4>;
+
+/// x/P = b3/(s³ + b2 s² + b1 s + b0) (paper, Eq. (5)).
+struct TransferFunction {
+  double b0;
+  double b1;
+  double b2;
+  double b3;
+};
+
+/// Each parameter must be finite, positive and within a span that holds any muscle of thread, from
+/// a hair's to a rope's. Returns the first that is not.
+std::optional<Violation> check(const PhysicalParameters& parameters);
+
+}  // namespace supercoil::control

@@ -1,0 +1,76 @@
+// The paper's gradient estimator.
+#pragma once
+
+#include <optional>
+
+#include "supercoil/control/estimation/parametric_model.hpp"
+#include "supercoil/control/estimation/projection.hpp"
+
+namespace supercoil::control {
+
+/// θ̇ = Γ ε φ, ε = z − θᵀφ (paper, Eq. (4)). The defaults are the paper's (Sec. 5.1).
+struct GradientSettings {
+  Polynomial<3> lambda = paper_lambda;
+  Theta gain{0.6e7, 0.4e7, 0.7e7, 0.09e7};  ///< diagonal of Γ, > 0
+  Theta initial{0.1, 5.0, 30.0, 20.0};      ///< θ(0)
+  RegressionScale scale;
+  /// θ is kept inside, when given (in θ's own units).
+  std::optional<Box<double, 4>> bounds;
+  /// Divides ε by 1 + normalisation · φᵀ(Γ·step)φ; 0 is the paper's law. From 0.5 on every Euler
+  /// step shrinks the error along φ, whatever the gain and the signals' size.
+  double normalisation = 0.0;
+};
+
+template <class Scalar>
+class GradientEstimator {
+ public:
+  using ScalarType = Scalar;
+
+  /// step_s: the sampling period in seconds, > 0.
+  GradientEstimator(const GradientSettings& settings, double step_s)
+      : model_(settings.lambda, settings.scale, step_s), nominal_(settings.scale.nominal) {
+    const Theta squared = nominal_.cwiseProduct(nominal_);
+    gain_step_ = (settings.gain.cwiseQuotient(squared) * step_s).template cast<Scalar>();
+    normalisation_ = to<Scalar>(settings.normalisation);
+    normalised_ = settings.normalisation > 0.0;
+    theta_ = settings.initial.cwiseQuotient(nominal_).template cast<Accumulator<Scalar>>();
+    if (settings.bounds) {
+      bounds_ = Box<Accumulator<Scalar>, 4>{
+          settings.bounds->lower.cwiseQuotient(nominal_).template cast<Accumulator<Scalar>>(),
+          settings.bounds->upper.cwiseQuotient(nominal_).template cast<Accumulator<Scalar>>()};
+    }
+  }
+
+  /// One tick. position_W: position over the DC gain. applied_power_W: the power really applied
+  /// since the last tick.
+  void step(Scalar position_W, Scalar applied_power_W) {
+    model_.step(position_W, applied_power_W);
+    const Vector<Scalar, 4>& phi = model_.phi();
+    const Vector<Scalar, 4> theta = theta_.template cast<Scalar>();
+    error_ = model_.z() - theta.dot(phi);
+    const Vector<Scalar, 4> direction = gain_step_.cwiseProduct(phi);
+    Scalar drive = error_;
+    if (normalised_) drive /= to<Scalar>(1) + direction.dot(phi) * normalisation_;
+    // Forward Euler is enough for the adaptation: stable from 0.1 to 50 ms with the paper's gains.
+    theta_ += direction.template cast<Accumulator<Scalar>>() * Accumulator<Scalar>(drive);
+    if (bounds_) theta_ = project(theta_, *bounds_);
+  }
+
+  /// θ in its own units.
+  Theta theta() const { return theta_.template cast<double>().cwiseProduct(nominal_); }
+  /// ε = z − θᵀφ of this tick, in watts through 1/Λ.
+  double error() const { return static_cast<double>(error_); }
+  const ParametricModel<Scalar>& model() const { return model_; }
+
+ private:
+  ParametricModel<Scalar> model_;
+  Theta nominal_;
+  Vector<Scalar, 4> gain_step_;  // Γ·step over the squared scale: Γ itself exceeds Q8.24
+  Scalar normalisation_{};
+  bool normalised_ = false;
+  Vector<Accumulator<Scalar>, 4> theta_;
+  std::optional<Box<Accumulator<Scalar>, 4>> bounds_;
+  Scalar error_{};
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,51 @@
+// Stability and positive realness of the small polynomials that designs are made of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace supercoil::control {
+
+/// Coefficients in ascending powers: c[0] + c[1] s + … + c[Degree] s^Degree.
+template <std::size_t Degree>
+using Polynomial = std::array<double, Degree + 1>;
+
+/// All roots strictly in the left half plane (Routh's test). A leading coefficient that is not
+/// positive, or a NaN anywhere, is not Hurwitz.
+template <std::size_t Degree>
+constexpr bool is_hurwitz(const Polynomial<Degree>& c) {
+  constexpr std::size_t width = Degree / 2 + 1;
+  std::array<double, width + 1> above{};
+  std::array<double, width + 1> below{};
+  for (std::size_t i = 0; i < width; ++i) {
+    above[i] = 2 * i <= Degree ? c[Degree - 2 * i] : 0.0;
+    below[i] = 2 * i + 1 <= Degree ? c[Degree - 2 * i - 1] : 0.0;
+  }
+  if (!(above[0] > 0.0)) return false;
+  for (std::size_t row = 1; row <= Degree; ++row) {
+    if (!(below[0] > 0.0)) return false;
+    std::array<double, width + 1> next{};
+    for (std::size_t i = 0; i < width; ++i) {
+      next[i] = above[i + 1] - above[0] / below[0] * below[i + 1];
+    }
+    above = below;
+    below = next;
+  }
+  return true;
+}
+
+/// What strict positive realness of a transfer function of relative degree one hangs on.
+struct PositiveRealness {
+  bool hurwitz;             ///< the denominator has all its roots in the left half plane
+  bool high_frequency;      ///< lim ω² Re G(jω) > 0
+  double lowest_real_part;  ///< the least of Re G(jω)·|D(jω)|² over all ω
+  double worst_rad_per_s;   ///< where it is reached (infinity when it falls without bound)
+  bool strict() const { return hurwitz && high_frequency && lowest_real_part > 0.0; }
+};
+
+/// G = (n2 s² + n1 s + n0)/(s³ + d2 s² + d1 s + d0), closed form: Re N(jω)D(−jω) is a parabola in
+/// ω².
+PositiveRealness positive_realness(const Polynomial<2>& numerator,
+                                   const Polynomial<3>& denominator);
+
+}  // namespace supercoil::control

@@ -1,0 +1,37 @@
+// The arithmetics that a controller or an estimator can be asked to run in, and naming of choices.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace supercoil::control {
+
+/// A choice and the names that configurations call its values by.
+template <class Value, std::size_t N>
+using Names = std::array<std::pair<std::string_view, Value>, N>;
+
+template <class Value, std::size_t N>
+constexpr std::optional<Value> find_named(const Names<Value, N>& names, std::string_view name) {
+  for (const auto& [text, value] : names) {
+    if (text == name) return value;
+  }
+  return std::nullopt;
+}
+
+template <class Value, std::size_t N>
+constexpr std::string_view name_of(const Names<Value, N>& names, Value wanted) {
+  for (const auto& [text, value] : names) {
+    if (value == wanted) return text;
+  }
+  return "?";
+}
+
+enum class Arithmetic { float64, float32, q8_24 };
+
+inline constexpr Names<Arithmetic, 3> arithmetic_names{{{"double", Arithmetic::float64},
+                                                        {"float", Arithmetic::float32},
+                                                        {"q8.24", Arithmetic::q8_24}}};
+
+}  // namespace supercoil::control

@@ -1,0 +1,110 @@
+// Any controller in any arithmetic behind one call, in fixed storage.
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/scalar/arithmetic.hpp"
+#include "supercoil/control/tracking/mrac.hpp"
+#include "supercoil/control/tracking/pd_feedforward.hpp"
+#include "supercoil/control/tracking/pi.hpp"
+
+namespace supercoil::control {
+
+enum class ControllerKind { power, pi, pd_ff, mrac };
+
+inline constexpr Names<ControllerKind, 4> controller_names{{{"power", ControllerKind::power},
+                                                            {"pi", ControllerKind::pi},
+                                                            {"pd_ff", ControllerKind::pd_ff},
+                                                            {"mrac", ControllerKind::mrac}}};
+
+struct ControllerSettings {
+  ControllerKind kind = ControllerKind::mrac;
+  Arithmetic arithmetic = Arithmetic::float64;
+  ReferenceModelSettings model = wm16_model();
+  double dc_gain_m_per_W = PhysicalParameters{}.dc_gain_m_per_W();  ///< of the channel's muscle
+  PiSettings pi;
+  PdFeedforwardSettings pd_ff;
+  MracSettings mrac;
+};
+
+/// One tick's inputs in SI units.
+struct ControllerInput {
+  double reference_m = 0.0;
+  double reference_power_W = 0.0;  ///< for open loop
+  double position_m = 0.0;
+  double applied_power_W = 0.0;  ///< really applied since the last tick
+  bool limited = false;          ///< that power was not the one wanted
+};
+
+struct ControllerOutput {
+  double wanted_power_W = 0.0;
+  double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
+};
+
+/// Open loop: the reference is a power.
+class OpenLoopPower {
+ public:
+  ControllerOutput step(const ControllerInput& in) const { return {in.reference_power_W, 0.0}; }
+};
+
+/// A law with its reference model; converts between SI and the law's scalar.
+template <class Scalar, class Law>
+class ModelFollower {
+ public:
+  ModelFollower(const ReferenceModelSettings& model, Law law, double dc_gain_m_per_W, double step_s)
+      : model_(model, step_s),
+        law_(std::move(law)),
+        to_watts_(1.0 / dc_gain_m_per_W),
+        to_metres_(dc_gain_m_per_W) {}
+
+  ControllerOutput step(const ControllerInput& in) {
+    model_.step(last_reference_);
+    LawInput<Scalar> input;
+    input.reference = to<Scalar>(in.reference_m * to_watts_);
+    input.position = to<Scalar>(in.position_m * to_watts_);
+    input.model = model_.motion();
+    input.applied = to<Scalar>(in.applied_power_W);
+    input.limited = in.limited;
+    last_reference_ = input.reference;
+    const auto wanted = static_cast<double>(law_.step(input));
+    return {wanted, static_cast<double>(input.model.position) * to_metres_};
+  }
+
+  const Law& law() const { return law_; }
+
+ private:
+  ReferenceModel<Scalar> model_;
+  Law law_;
+  Scalar last_reference_{};
+  double to_watts_;
+  double to_metres_;
+};
+
+class Controller {
+ public:
+  /// Settings must be valid (the configuration checks them); step_s > 0 in seconds.
+  Controller(const ControllerSettings& settings, double step_s);
+  /// One tick: no heap, no exception, no operating system.
+  ControllerOutput step(const ControllerInput& input);
+
+ private:
+  template <class Scalar>
+  using PiFollower = ModelFollower<Scalar, Pi<Scalar>>;
+  template <class Scalar>
+  using PdFollower = ModelFollower<Scalar, PdFeedforward<Scalar>>;
+  template <class Scalar>
+  using MracFollower = ModelFollower<Scalar, Mrac<Scalar>>;
+  using Any = std::variant<OpenLoopPower, PiFollower<double>, PiFollower<float>, PiFollower<Q8_24>,
+                           PdFollower<double>, PdFollower<float>, PdFollower<Q8_24>,
+                           MracFollower<double>, MracFollower<float>, MracFollower<Q8_24>>;
+
+  template <class Scalar>
+  static Any make(const ControllerSettings& settings, double step_s);
+  static Any choose(const ControllerSettings& settings, double step_s);
+
+  Any any_;
+};
+
+}  // namespace supercoil::control

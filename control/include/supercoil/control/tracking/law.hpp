@@ -1,0 +1,30 @@
+// What every tracking law is given at a tick, and the saturation of Eq. (19).
+#pragma once
+
+#include "supercoil/control/tracking/reference_model.hpp"
+
+namespace supercoil::control {
+
+/// Inputs of one tick. Positions are in watts at rest (metres over the muscle's DC gain), so that
+/// position, reference and power are of one size in every arithmetic.
+template <class Scalar>
+struct LawInput {
+  Scalar reference{};         ///< r, this tick's
+  Scalar position{};          ///< y, this tick's
+  ModelMotion<Scalar> model;  ///< where the reference model is at this tick
+  Scalar applied{};           ///< the power really applied since the last tick
+  bool limited = false;       ///< that power was not the one asked for
+};
+
+/// The saturation of Eq. (19), in watts.
+struct PowerRange {
+  double min_W = 0.0;
+  double max_W = 4.5;
+
+  double clip(double power_W) const {
+    if (!(power_W > min_W)) return min_W;  // a NaN is cut to the least power
+    return power_W < max_W ? power_W : max_W;
+  }
+};
+
+}  // namespace supercoil::control

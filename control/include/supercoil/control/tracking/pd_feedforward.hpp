@@ -1,0 +1,44 @@
+// Proportional-derivative control with feedforward (Yip & Niemeyer 2017, as the paper compares it).
+#pragma once
+
+#include "supercoil/control/tracking/law.hpp"
+
+namespace supercoil::control {
+
+/// u = Kp e + Kd (ẋm − ẋf) + Kf xm, e = xm − x, xf = x/(s/ω + 1)².
+struct PdFeedforwardSettings {
+  double proportional_W_per_m = 2000.0;
+  double derivative_Ws_per_m = 300.0;
+  double feedforward_W_per_m = 165.58;  ///< ηϱ/γ: the power that holds a metre
+  double derivative_filter_rad_per_s = 60.0;
+};
+
+template <class Scalar>
+class PdFeedforward {
+ public:
+  PdFeedforward(const PdFeedforwardSettings& settings, double dc_gain_m_per_W, double step_s)
+      : filter_({settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s,
+                 2.0 * settings.derivative_filter_rad_per_s, 1.0},
+                step_s),
+        filter_gain_(settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s),
+        proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
+        derivative_(to<Scalar>(settings.derivative_Ws_per_m * dc_gain_m_per_W)),
+        feedforward_(to<Scalar>(settings.feedforward_W_per_m * dc_gain_m_per_W)) {}
+
+  /// Returns the wanted power.
+  Scalar step(const LawInput<Scalar>& in) {
+    filter_.step(in.position);
+    const auto velocity = to<Scalar>(filter_.state()[1] * filter_gain_);
+    return (in.model.position - in.position) * proportional_ +
+           (in.model.velocity - velocity) * derivative_ + in.model.position * feedforward_;
+  }
+
+ private:
+  StateVariableFilter<Scalar, 2, Hold::first_order> filter_;
+  Accumulator<Scalar> filter_gain_;
+  Scalar proportional_;
+  Scalar derivative_;
+  Scalar feedforward_;
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,41 @@
+// Proportional-integral control (Sun & Zhao 2020, as the paper compares it).
+#pragma once
+
+#include "supercoil/control/tracking/law.hpp"
+
+namespace supercoil::control {
+
+/// u = Kp e + Ki ∫e, e = xm − x.
+struct PiSettings {
+  double proportional_W_per_m = 2000.0;
+  double integral_W_per_m_s = 1100.0;
+};
+
+template <class Scalar>
+class Pi {
+ public:
+  /// dc_gain_m_per_W: metres that a watt of the law's own unit stands for.
+  Pi(const PiSettings& settings, double dc_gain_m_per_W, double step_s)
+      : proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
+        integral_step_(settings.integral_W_per_m_s * dc_gain_m_per_W * step_s) {}
+
+  /// Returns the wanted power. The integrator holds while the power is limited, unless the error
+  /// leads out of the limit.
+  Scalar step(const LawInput<Scalar>& in) {
+    const Scalar error = in.model.position - in.position;
+    const bool leads_out = (wanted_ > in.applied) == (error < Scalar(0));
+    if (!in.limited || leads_out) {
+      integral_ += Accumulator<Scalar>(error) * integral_step_;
+    }
+    wanted_ = error * proportional_ + to<Scalar>(integral_);
+    return wanted_;
+  }
+
+ private:
+  Scalar proportional_;
+  Accumulator<Scalar> integral_step_;
+  Accumulator<Scalar> integral_{};
+  Scalar wanted_{};
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,58 @@
+// The motion that a controller is asked to make the muscle follow.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "supercoil/control/linear/filter.hpp"
+
+namespace supercoil::control {
+
+/// Wm(s) = gain/denominator, third order, of relative degree three as the muscle is.
+struct ReferenceModelSettings {
+  Polynomial<3> denominator;  ///< monic, Hurwitz, ascending
+  double gain;                ///< > 0; equal to denominator[0] for a DC gain of 1
+
+  double dc_gain() const { return gain / denominator[0]; }
+};
+
+/// ωn²q0/((s² + 2ζωn s + ωn²)(s + q0)) with ωn = 1 rad/s, ζ = 0.69, q0 = 0.8: what the paper's text
+/// asks for (less than 5 % of overshoot). The default.
+ReferenceModelSettings design_model();
+/// 1/(s³ + s² + 1.38 s + 1): what the paper prints as Eq. (8); 40 % of overshoot.
+ReferenceModelSettings eq8_model();
+/// 16/((s + 4)(s + 5)(s + 0.8)): the model that makes Eq. (12) hold for p0 = 4, p1 = 5, q0 = 0.8.
+ReferenceModelSettings wm16_model();
+/// Three real poles at −poles[i] rad/s (each > 0), DC gain 1.
+ReferenceModelSettings poles_model(const std::array<double, 3>& poles);
+/// "design", "eq8" or "wm16"; empty for any other name.
+std::optional<ReferenceModelSettings> reference_model_named(std::string_view name);
+
+/// The model's motion at one tick; position and its derivatives by time in the reference's unit.
+template <class Scalar>
+struct ModelMotion {
+  Scalar position{};
+  Scalar velocity{};
+  Scalar acceleration{};
+};
+
+template <class Scalar>
+class ReferenceModel {
+ public:
+  ReferenceModel(const ReferenceModelSettings& settings, double step_s)
+      : filter_(settings.denominator, step_s), gain_(settings.gain) {}
+
+  /// Advances to this tick; the reference is the one held since the last tick.
+  void step(Scalar reference) { filter_.step(reference); }
+
+  ModelMotion<Scalar> motion() const {
+    const auto& x = filter_.state();
+    return {to<Scalar>(x[0] * gain_), to<Scalar>(x[1] * gain_), to<Scalar>(x[2] * gain_)};
+  }
+
+ private:
+  StateVariableFilter<Scalar, 3, Hold::zero_order> filter_;
+  Accumulator<Scalar> gain_;
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,36 @@
+#include "supercoil/control/estimation/excitation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+namespace supercoil::control {
+
+ExcitationMonitor::ExcitationMonitor(const Settings& settings, double step_s)
+    : step_s_(step_s),
+      trusted_error_(settings.trusted_error),
+      ticks_per_block_(
+          std::max(1L, std::lround(settings.window_s / (step_s * static_cast<double>(blocks))))) {}
+
+void ExcitationMonitor::close_block() {
+  history_[next_block_] = current_;
+  next_block_ = (next_block_ + 1) % blocks;
+  filled_ = std::min(filled_ + 1, blocks);
+  current_ = Block{};
+  ticks_in_block_ = 0;
+  if (filled_ < blocks) return;
+  Block sum;
+  for (const Block& block : history_) {
+    sum.information += block.information;
+    sum.error_energy += block.error_energy;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix<double, 4>> solver(sum.information * step_s_,
+                                                                Eigen::EigenvaluesOnly);
+  smallest_eigenvalue_ = std::max(0.0, solver.eigenvalues()[0]);
+  error_bound_ = smallest_eigenvalue_ > 0.0
+                     ? std::sqrt(sum.error_energy * step_s_ / smallest_eigenvalue_)
+                     : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace supercoil::control

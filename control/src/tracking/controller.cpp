@@ -1,0 +1,41 @@
+#include "supercoil/control/tracking/controller.hpp"
+
+namespace supercoil::control {
+
+template <class Scalar>
+Controller::Any Controller::make(const ControllerSettings& s, double step_s) {
+  const double gain = s.dc_gain_m_per_W;
+  switch (s.kind) {
+    case ControllerKind::pi:
+      return PiFollower<Scalar>(s.model, Pi<Scalar>(s.pi, gain, step_s), gain, step_s);
+    case ControllerKind::pd_ff:
+      return PdFollower<Scalar>(s.model, PdFeedforward<Scalar>(s.pd_ff, gain, step_s), gain,
+                                step_s);
+    case ControllerKind::mrac:
+      return MracFollower<Scalar>(s.model, Mrac<Scalar>(s.mrac, step_s), gain, step_s);
+    case ControllerKind::power:
+      break;
+  }
+  return OpenLoopPower{};
+}
+
+Controller::Any Controller::choose(const ControllerSettings& settings, double step_s) {
+  switch (settings.arithmetic) {
+    case Arithmetic::float32:
+      return make<float>(settings, step_s);
+    case Arithmetic::q8_24:
+      return make<Q8_24>(settings, step_s);
+    case Arithmetic::float64:
+      break;
+  }
+  return make<double>(settings, step_s);
+}
+
+Controller::Controller(const ControllerSettings& settings, double step_s)
+    : any_(choose(settings, step_s)) {}
+
+ControllerOutput Controller::step(const ControllerInput& input) {
+  return std::visit([&](auto& controller) { return controller.step(input); }, any_);
+}
+
+}  // namespace supercoil::control

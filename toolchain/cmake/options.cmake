@@ -1,0 +1,11 @@
+# What every target of supercoil is compiled with.
+add_library(supercoil_options INTERFACE)
+target_compile_options(supercoil_options INTERFACE
+  -Wall -Wextra -Wconversion -Wshadow -Werror
+  # Contracted multiply-adds would make arm64 and x86-64 differ in the last bit.
+  -ffp-contract=off)
+
+if(SUPERCOIL_SANITIZE)
+  add_compile_options(-fsanitize=${SUPERCOIL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1)
+  add_link_options(-fsanitize=${SUPERCOIL_SANITIZE})
+endif()

@@ -1,0 +1,41 @@
+// What is wrong with a configuration, said so that its author can mend it.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace supercoil::config {
+
+/// One mistake, with where it stands.
+struct Problem {
+  std::string file;
+  int line = 0;     ///< 0: the file as a whole
+  std::string key;  ///< the whole path, e.g. plant.moving_mass_kg; empty for the file as a whole
+  std::string message;
+
+  /// "file:line: key: message"
+  std::string text() const;
+};
+
+/// Collects every mistake of a file, so that they can be mended in one go.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::string file) : file_(std::move(file)) {}
+
+  void add(int line, std::string key, std::string message) {
+    problems_.push_back({file_, line, std::move(key), std::move(message)});
+  }
+  bool empty() const { return problems_.empty(); }
+  const std::vector<Problem>& problems() const { return problems_; }
+  const std::string& file() const { return file_; }
+
+ private:
+  std::string file_;
+  std::vector<Problem> problems_;
+};
+
+/// Problems, a line each.
+std::string to_text(const std::vector<Problem>& problems);
+
+}  // namespace supercoil::config

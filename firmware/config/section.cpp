@@ -1,0 +1,144 @@
+#include "config/section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "config/nearest.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+std::string shown(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+std::string shown(const Range& range) {
+  return shown(range.lowest) + " to " + shown(range.highest);
+}
+
+std::string shown(const toml::node& node) {
+  std::ostringstream out;
+  node.visit([&](const auto& value) { out << value; });
+  return out.str();
+}
+
+bool within(double value, const Range& range) {
+  return value >= range.lowest && value <= range.highest;  // false for a NaN
+}
+
+}  // namespace
+
+const toml::node* Section::find(std::string_view key) {
+  known_.emplace_back(key);
+  return table_ == nullptr ? nullptr : table_->get(key);
+}
+
+std::string Section::full(std::string_view key) const {
+  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
+void Section::wrong(std::string_view key, const std::string& message) {
+  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
+  const int line = node == nullptr ? 0 : static_cast<int>(node->source().begin.line);
+  const bool has_value = node != nullptr && !node->is_table() && !node->is_array_of_tables();
+  diagnostics_->add(line, full(key) + (has_value ? " = " + shown(*node) : ""), message);
+}
+
+double Section::number(std::string_view key, double fallback, Range range) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  if (!node->is_number()) {
+    wrong(key, "must be a number, " + shown(range));
+    return fallback;
+  }
+  const double value = *node->value<double>();
+  if (within(value, range)) return value;
+  wrong(key, "must be " + shown(range));
+  return fallback;
+}
+
+long Section::integer(std::string_view key, long fallback, long lowest, long highest) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  const std::string allowed = std::to_string(lowest) + " to " + std::to_string(highest);
+  if (!node->is_integer()) {
+    wrong(key, "must be a whole number, " + allowed);
+    return fallback;
+  }
+  const std::int64_t value = *node->value<std::int64_t>();
+  if (value >= lowest && value <= highest) return static_cast<long>(value);
+  wrong(key, "must be " + allowed);
+  return fallback;
+}
+
+bool Section::flag(std::string_view key, bool fallback) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  if (node->is_boolean()) return *node->value<bool>();
+  wrong(key, "must be true or false");
+  return fallback;
+}
+
+std::string Section::text(std::string_view key, std::string_view fallback) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return std::string(fallback);
+  if (node->is_string()) return *node->value<std::string>();
+  wrong(key, "must be text in quotes");
+  return std::string(fallback);
+}
+
+std::vector<double> Section::numbers(std::string_view key, std::vector<double> fallback,
+                                     Range range, std::size_t least, std::size_t most) {
+  const toml::node* node = find(key);
+  if (node == nullptr) return fallback;
+  const std::string count = least == most ? std::to_string(least)
+                                          : std::to_string(least) + " to " + std::to_string(most);
+  const std::string rule = "must be a list of " + count + " numbers, each " + shown(range);
+  const toml::array* list = node->as_array();
+  if (list == nullptr || list->size() < least || list->size() > most) {
+    wrong(key, rule);
+    return fallback;
+  }
+  std::vector<double> values;
+  for (const toml::node& element : *list) {
+    if (!element.is_number() || !within(*element.value<double>(), range)) {
+      wrong(key, rule + "; " + shown(element) + " is not");
+      return fallback;
+    }
+    values.push_back(*element.value<double>());
+  }
+  return values;
+}
+
+Section Section::section(std::string_view key) {
+  const toml::node* node = find(key);
+  if (node != nullptr && !node->is_table()) {
+    wrong(key, "must be a table: [" + full(key) + "]");
+    node = nullptr;
+  }
+  return {node == nullptr ? nullptr : node->as_table(), full(key), *diagnostics_};
+}
+
+void Section::finish() {
+  if (table_ == nullptr) return;
+  for (const auto& [key, node] : *table_) {
+    const std::string name(key.str());
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    std::string message = "is not a key of " + (path_.empty() ? "this file" : "[" + path_ + "]");
+    const Nearest nearest = nearest_name(name, known_);
+    if (nearest.lacks_unit) {
+      message += "; did you mean " + nearest.name + " (the unit is part of the name)?";
+    } else if (!nearest.name.empty()) {
+      message += "; did you mean " + nearest.name + "?";
+    } else {
+      message += "; its keys are: " + joined(known_);
+    }
+    wrong(name, message);
+  }
+}
+
+}  // namespace supercoil::config

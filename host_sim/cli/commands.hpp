@@ -1,0 +1,34 @@
+// The commands of supercoil-sim. Each returns the program's exit status: 0 done, 1 failed while
+// running, 2 wrong input (nothing was written).
+#pragma once
+
+#include <string>
+
+namespace supercoil::host_sim {
+
+inline constexpr int exit_done = 0;
+inline constexpr int exit_failed = 1;
+inline constexpr int exit_wrong_input = 2;
+
+struct RunOptions {
+  std::string scenario;
+  std::string out;     ///< empty: supercoil-out/NAME
+  std::string window;  ///< "FROM:TO" in seconds, either may be empty
+  long every = 1;
+  bool trace = true;
+  bool plot = true;
+  bool check = false;  ///< only read the scenario
+  bool quiet = false;
+};
+int run_command(const RunOptions& options);
+
+struct ReproduceOptions {
+  std::string out = "supercoil-out/reproduction";
+  bool plots = true;
+  bool quiet = false;
+};
+int reproduce_command(const ReproduceOptions& options);
+
+int list_command();
+
+}  // namespace supercoil::host_sim

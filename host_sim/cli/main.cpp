@@ -1,0 +1,66 @@
+// supercoil-sim: the muscle and its firmware on any PC.
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/commands.hpp"
+
+namespace {
+
+using namespace supercoil::host_sim;
+
+void add_run(CLI::App& app, RunOptions& options) {
+  CLI::App* run = app.add_subcommand("run", "Simulate a scenario; write trace, summary and plot");
+  run->add_option("SCENARIO", options.scenario, "A TOML file, or a name from supercoil-sim list")
+      ->required();
+  run->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
+  run->add_option("--window", options.window,
+                  "FROM:TO in seconds, for the tracking error [the whole run]");
+  run->add_option("--every", options.every, "One row of trace.csv for so many ticks [1]")
+      ->check(CLI::Range(1L, 1000000L));
+  run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
+  run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
+  run->add_flag("--check", options.check, "Only say whether the scenario is in order");
+  run->add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+void add_reproduce(CLI::App& app, ReproduceOptions& options) {
+  CLI::App* reproduce = app.add_subcommand(
+      "reproduce", "Repeat the paper's figures and numbers; print them beside ours");
+  reproduce
+      ->add_option("--out", options.out, "Folder for the results [supercoil-out/reproduction]");
+  reproduce->add_flag("!--no-plots", options.plots, "Write no plots and no report.html");
+  reproduce->add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
+int run_program(int count, char** arguments) {
+  CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.", "supercoil-sim"};
+  app.set_version_flag("--version", SUPERCOIL_VERSION);
+  app.require_subcommand(1);
+  RunOptions run;
+  ReproduceOptions reproduce;
+  add_run(app, run);
+  add_reproduce(app, reproduce);
+  app.add_subcommand("list", "List built-in scenarios, presets and reference models");
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? exit_done : exit_wrong_input;
+  }
+  if (app.got_subcommand("run")) return run_command(run);
+  if (app.got_subcommand("reproduce")) return reproduce_command(reproduce);
+  return list_command();
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  try {
+    return run_program(count, arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "supercoil-sim: %s\n", error.what());
+    return exit_failed;
+  }
+}

@@ -1,0 +1,44 @@
+// Plots, described as data and drawn by gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+namespace supercoil::host_sim {
+
+struct Curve {
+  std::string label;
+  std::vector<double> x;
+  std::vector<double> y;  ///< a value that is not finite leaves a gap
+  bool dashed = false;
+  /// Which of the figure's colours; the same in every panel means the same thing.
+  int colour = 0;
+};
+
+struct Panel {
+  std::string title;
+  std::string x_label = "time (s)";
+  std::string y_label;
+  std::vector<Curve> curves;
+  double y_low = 0.0;  ///< with y_high equal: chosen by gnuplot
+  double y_high = 0.0;
+  bool logarithmic = false;
+};
+
+struct Figure {
+  std::vector<Panel> panels;
+  int columns = 1;
+  int width_px = 900;
+  int panel_height_px = 240;
+};
+
+/// gnuplot's input for the figure, data included.
+std::string gnuplot_script(const Figure& figure, const std::filesystem::path& svg);
+
+/// Draws the figure as SVG. The error says what gnuplot said, or how to install it.
+tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem::path& svg);
+
+}  // namespace supercoil::host_sim

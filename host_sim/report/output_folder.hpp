@@ -1,0 +1,45 @@
+// A folder of results that is never half written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+namespace supercoil::host_sim {
+
+/// Files are written under temporary names and get their own when all are complete. Without
+/// commit() (an error, an exception) nothing of this run remains, and files of an earlier run stay
+/// as they were.
+class OutputFolder {
+ public:
+  /// Makes the folder where it is missing. The error says why it cannot be written to.
+  static tl::expected<OutputFolder, std::string> open(const std::filesystem::path& folder);
+
+  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder& operator=(OutputFolder&&) = delete;
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
+  ~OutputFolder();
+
+  /// Where to write the file that will be called name.
+  std::filesystem::path temporary(const std::string& name);
+  /// Writes a whole file; the error says why it failed (a full disk, for one).
+  tl::expected<void, std::string> write(const std::string& name, const std::string& content);
+  /// Gives up a file that temporary() announced; the others are kept.
+  void drop(const std::string& name);
+  /// Gives every file its name.
+  tl::expected<void, std::string> commit();
+
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  explicit OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  std::filesystem::path folder_;
+  bool made_ = false;  ///< this run made the folder, and takes it away when it fails
+  std::vector<std::string> names_;
+};
+
+}  // namespace supercoil::host_sim

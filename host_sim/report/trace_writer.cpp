@@ -1,0 +1,64 @@
+#include "report/trace_writer.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <system_error>
+
+namespace supercoil::host_sim {
+
+namespace {
+
+constexpr std::size_t flush_bytes = 1 << 20;
+constexpr const char* header =
+    "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,temperature_rise_K,"
+    "limited,theta1,theta2,theta3,theta4,trusted,reference_power_W\n";
+
+}  // namespace
+
+TraceWriter::TraceWriter(const std::filesystem::path& path, long every)
+    : out_(path, std::ios::binary), every_(every), buffer_(header) {
+  buffer_.reserve(flush_bytes + 4096);
+}
+
+void TraceWriter::number(double value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  buffer_.append(text.data(), end);
+}
+
+void TraceWriter::add(const TickRecord& record, const std::optional<control::Estimate>& estimate) {
+  number(record.time_s);
+  for (const double value : {record.open_loop ? NAN : record.reference,
+                             record.open_loop ? NAN : record.model_m, record.position_m,
+                             record.measured_m, record.power_W, record.applied_power_W,
+                             record.temperature_rise_K}) {
+    buffer_ += ',';
+    if (!std::isnan(value)) number(value);
+  }
+  buffer_ += record.limited ? ",1" : ",0";
+  for (int i = 0; i < 4; ++i) {
+    buffer_ += ',';
+    if (estimate) number(estimate->theta[i]);
+  }
+  buffer_ += !estimate ? "," : estimate->trusted ? ",1" : ",0";
+  buffer_ += ',';
+  if (record.open_loop) number(record.reference);
+  buffer_ += '\n';
+  if (buffer_.size() >= flush_bytes) flush();
+}
+
+void TraceWriter::flush() {
+  out_ << buffer_;
+  buffer_.clear();
+}
+
+tl::expected<void, std::string> TraceWriter::finish() {
+  flush();
+  out_.close();
+  if (out_) return {};
+  return tl::unexpected("trace.csv: cannot be written: " +
+                        std::generic_category().message(errno));
+}
+
+}  // namespace supercoil::host_sim

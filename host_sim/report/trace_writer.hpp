@@ -1,0 +1,34 @@
+// trace.csv: one row a tick.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "runner/simulation.hpp"
+
+namespace supercoil::host_sim {
+
+/// Numbers are written with as many digits as it takes to read the same double back.
+class TraceWriter {
+ public:
+  /// every: one row for so many ticks, from the first on.
+  TraceWriter(const std::filesystem::path& path, long every);
+
+  void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
+  bool wants(long tick) const { return tick % every_ == 0; }
+  /// The error says why the file is not complete.
+  tl::expected<void, std::string> finish();
+
+ private:
+  void number(double value);
+  void flush();
+
+  std::ofstream out_;
+  long every_;
+  std::string buffer_;
+};
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,61 @@
+#include "runner/summary.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "supercoil/control/actuator/conversions.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+/// JSON has no infinity: null.
+ordered_json finite(double value) { return std::isfinite(value) ? ordered_json(value) : nullptr; }
+
+ordered_json physical_json(const control::PhysicalParameters& p) {
+  return {{"thermal_mass_J_per_K", p.thermal_mass_J_per_K},
+          {"heat_transfer_W_per_K", p.heat_transfer_W_per_K},
+          {"stiffness_N_per_m", p.stiffness_N_per_m},
+          {"damping_Ns_per_m", p.damping_Ns_per_m}};
+}
+
+ordered_json estimate_json(const control::Estimate& e, const control::PhysicalParameters& muscle) {
+  ordered_json result{{"theta", {e.theta[0], e.theta[1], e.theta[2], e.theta[3]}},
+                      {"trusted", e.trusted},
+                      {"relative_error_bound", finite(e.relative_error_bound)},
+                      {"excitation_W2s", e.excitation_W2s},
+                      {"physical", nullptr}};
+  const auto physical = control::physical_from(
+      e.theta, control::KnownParameters{muscle.force_per_kelvin_N_per_K, muscle.moving_mass_kg});
+  if (physical) result["physical"] = physical_json(*physical);
+  return result;
+}
+
+}  // namespace
+
+ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simulation,
+                              double wall_s) const {
+  const bool measured = tracking_.count() > 0;
+  ordered_json json;
+  json["scenario"] = scenario.name;
+  json["controller"] = control::name_of(control::controller_names, scenario.start.controller.kind);
+  json["arithmetic"] =
+      control::name_of(control::arithmetic_names, scenario.start.controller.arithmetic);
+  json["window_s"] = {window_.from_s, std::fmin(window_.to_s, scenario.duration_s)};
+  json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
+  json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
+  const auto estimate = simulation.estimate();
+  json["estimates"] =
+      estimate ? estimate_json(*estimate, simulation.conditions().muscle) : ordered_json();
+  json["faults"] = ordered_json::array();
+  json["hottest_temperature_rise_K"] = finite(hottest_K_);
+  json["limited_ticks"] = limited_ticks_;
+  json["ticks"] = ticks_;
+  json["wall_s"] = wall_s;
+  json["realtime_factor"] =
+      wall_s > 0.0 ? finite(static_cast<double>(ticks_) * scenario.step_s() / wall_s) : nullptr;
+  return json;
+}
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,62 @@
+// The figures by which a run is judged.
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json_fwd.hpp>
+
+#include "runner/simulation.hpp"
+
+namespace supercoil::host_sim {
+
+/// From from_s on, until before to_s.
+struct Window {
+  double from_s = 0.0;
+  double to_s = INFINITY;
+};
+
+/// Root mean square and largest value of what it is given.
+class ErrorMeter {
+ public:
+  void add(double error) {
+    square_sum_ += error * error;
+    largest_ = std::fmax(largest_, std::abs(error));
+    ++count_;
+  }
+  double rms() const { return std::sqrt(square_sum_ / static_cast<double>(count_)); }
+  double largest() const { return largest_; }
+  long count() const { return count_; }
+
+ private:
+  double square_sum_ = 0.0;
+  double largest_ = 0.0;
+  long count_ = 0;
+};
+
+/// Collects a run's figures as it goes. Tracking is the true position against the controller's own
+/// reference model, within the window.
+class Summary {
+ public:
+  explicit Summary(const Window& window) : window_(window) {}
+
+  void add(const TickRecord& record) {
+    ++ticks_;
+    limited_ticks_ += record.limited ? 1 : 0;
+    hottest_K_ = std::fmax(hottest_K_, record.temperature_rise_K);
+    if (record.open_loop || record.time_s < window_.from_s || record.time_s >= window_.to_s) return;
+    tracking_.add(record.position_m - record.model_m);
+  }
+  const ErrorMeter& tracking() const { return tracking_; }
+
+  /// summary.json; wall_s: how long the run took.
+  nlohmann::ordered_json to_json(const Scenario& scenario, const Simulation& simulation,
+                                 double wall_s) const;
+
+ private:
+  Window window_;
+  ErrorMeter tracking_;
+  long ticks_ = 0;
+  long limited_ticks_ = 0;
+  double hottest_K_ = 0.0;
+};
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,134 @@
+#include "scenario/read_conditions.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "config/section.hpp"
+#include "scenario/read_control.hpp"
+#include "supercoil/control/actuator/conversions.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+using config::Diagnostics;
+using config::Range;
+using config::Section;
+
+control::PhysicalParameters read_parameters(Section& section,
+                                            const control::PhysicalParameters& fallback) {
+  control::PhysicalParameters p;
+  p.thermal_mass_J_per_K =
+      section.number("thermal_mass_J_per_K", fallback.thermal_mass_J_per_K, {1e-4, 1e3});
+  p.heat_transfer_W_per_K =
+      section.number("heat_transfer_W_per_K", fallback.heat_transfer_W_per_K, {1e-5, 1e3});
+  p.stiffness_N_per_m =
+      section.number("stiffness_N_per_m", fallback.stiffness_N_per_m, {1e-2, 1e6});
+  p.damping_Ns_per_m = section.number("damping_Ns_per_m", fallback.damping_Ns_per_m, {1e-4, 1e5});
+  p.moving_mass_kg = section.number("moving_mass_kg", fallback.moving_mass_kg, {1e-5, 1e3});
+  p.force_per_kelvin_N_per_K =
+      section.number("force_per_kelvin_N_per_K", fallback.force_per_kelvin_N_per_K, {1e-6, 1e3});
+  return p;
+}
+
+PlantSettings read_plant(Section section) {
+  PlantSettings plant;
+  plant.parameters = read_parameters(section, {});
+  plant.load_N = section.number("load_N", 0.0, {-100.0, 100.0});
+  plant.resistance_Ohm = section.number("resistance_Ohm", plant.resistance_Ohm, {0.1, 1e4});
+  section.finish();
+  return plant;
+}
+
+PositionSensorSettings read_position_sensor(Section section) {
+  PositionSensorSettings sensor;
+  sensor.noise_rms_m = section.number("noise_rms_m", sensor.noise_rms_m, {0.0, 0.1});
+  sensor.resolution_bits =
+      static_cast<int>(section.integer("resolution_bits", sensor.resolution_bits, 0, 32));
+  sensor.range_m = section.number("range_m", sensor.range_m, {1e-4, 10.0});
+  section.finish();
+  return sensor;
+}
+
+PowerSettings read_power(Section section, double resistance_Ohm, double step_s) {
+  PowerSettings power;
+  power.max_W = section.number("max_W", power.max_W, {1e-3, 1e3});
+  power.min_W = section.number("min_W", power.min_W, {0.0, 1e3});
+  if (!(power.min_W < power.max_W)) section.wrong("min_W", "must be less than max_W");
+  power.pwm_bits = static_cast<int>(section.integer("pwm_bits", power.pwm_bits, 0, 24));
+  const double supply_V = section.number("supply_V", 12.0, {0.5, 60.0});
+  power.full_scale_W = supply_V * supply_V / resistance_Ohm;
+  if (power.pwm_bits > 0 && power.max_W > power.full_scale_W) {
+    std::ostringstream message;
+    message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
+            << power.full_scale_W << " W";
+    section.wrong("max_W", message.str());
+  }
+  power.error_feedback = section.flag("error_feedback", power.error_feedback);
+  const double longest_s = static_cast<double>(PowerOutput::longest_delay_ticks) * step_s;
+  power.delay_s = section.number("delay_s", power.delay_s, {0.0, longest_s});
+  power.gain = section.number("gain", power.gain, {0.0, 10.0});
+  section.finish();
+  return power;
+}
+
+/// A reference that the muscle cannot reach is refused before it is run, not found out afterwards.
+void check_reach(Section& section, const Conditions& c) {
+  if (c.reference.kind == ReferenceKind::power) return;
+  std::ostringstream message;
+  if (c.reference.lowest() < 0.0) {
+    message << "the reference goes down to " << c.reference.lowest() * 1e3
+            << " mm, and the muscle only contracts from 0";
+  } else if (c.reference.highest() > c.position_sensor.range_m) {
+    message << "the reference goes up to " << c.reference.highest() * 1e3
+            << " mm, and sensor.position.range_m is " << c.position_sensor.range_m * 1e3 << " mm";
+  } else {
+    return;
+  }
+  section.wrong("kind", message.str());
+}
+
+}  // namespace
+
+control::PhysicalParameters read_muscle(const toml::table& document, Diagnostics& diagnostics) {
+  Diagnostics plant_diagnostics(diagnostics.file());  // read again, and complained of, elsewhere
+  Section plant(document["plant"].as_table(), "plant", plant_diagnostics);
+  const auto fallback = read_parameters(plant, {});
+  Section muscle(document["muscle"].as_table(), "muscle", diagnostics);
+  const auto believed = read_parameters(muscle, fallback);
+  muscle.finish();
+  return believed;
+}
+
+Conditions read_conditions(const toml::table& document, const control::PhysicalParameters& believed,
+                           double step_s, Diagnostics& diagnostics) {
+  Section root(&document, "", diagnostics);
+  Conditions c;
+  c.muscle = believed;
+  root.section("simulation");
+  root.section("muscle");
+  c.plant = read_plant(root.section("plant"));
+  Section sensor = root.section("sensor");
+  c.position_sensor = read_position_sensor(sensor.section("position"));
+  sensor.finish();
+  c.power = read_power(root.section("power"), c.plant.resistance_Ohm, step_s);
+  Section reference = root.section("reference");
+  c.reference = read_reference(reference);
+  c.estimator = read_estimator(root.section("estimator"), believed);
+  const auto model = read_reference_model(root.section("reference_model"));
+  Section controller = root.section("controller");
+  c.controller = read_controller(controller, believed, model);
+  if (c.controller.kind == control::ControllerKind::power &&
+      c.reference.kind != ReferenceKind::power) {
+    controller.wrong("kind", "open loop needs [reference] kind = \"power\"");
+  }
+  if (c.controller.kind != control::ControllerKind::power &&
+      c.reference.kind == ReferenceKind::power) {
+    reference.wrong("kind", "needs [controller] kind = \"power\": a controller follows a position");
+  }
+  check_reach(reference, c);
+  root.finish();
+  return c;
+}
+
+}  // namespace supercoil::host_sim

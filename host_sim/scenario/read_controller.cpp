@@ -1,0 +1,121 @@
+#include "scenario/read_control.hpp"
+#include "supercoil/control/tracking/mrac_premises.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+using config::Section;
+using control::MracSettings;
+
+/// What q8.24 can hold of a gain.
+constexpr double fixed_point_limit = 127.0;
+
+MracSettings::Parameters read_six(Section& section, const char* key,
+                                  const MracSettings::Parameters& fallback, config::Range range) {
+  const std::vector<double> list = section.numbers(
+      key, std::vector<double>(fallback.data(), fallback.data() + fallback.size()), range, 6, 6);
+  return Eigen::Map<const MracSettings::Parameters>(list.data());
+}
+
+void read_mrac_constants(Section& section, MracSettings& m) {
+  const auto alpha = section.numbers("alpha", {m.alpha[0], m.alpha[1]}, {1e-6, 1e6}, 2, 2);
+  m.alpha = {alpha[0], alpha[1]};
+  const auto lambda = section.numbers("lambda", {m.lambda[1], m.lambda[0]}, {-1e6, 1e6}, 2, 2);
+  m.lambda = {lambda[1], lambda[0], 1.0};
+  m.p0_rad_per_s = section.number("p0_rad_per_s", m.p0_rad_per_s, {-1e3, 1e3});
+  m.p1_rad_per_s = section.number("p1_rad_per_s", m.p1_rad_per_s, {-1e3, 1e3});
+  m.q0_rad_per_s = section.number("q0_rad_per_s", m.q0_rad_per_s, {-1e3, 1e3});
+  m.gain = read_six(section, "gain", m.gain, {-1e9, 1e9});
+  m.sigma_gain = section.number("sigma_gain", m.sigma_gain, {-1e9, 1e9});
+  m.damping = section.number("damping", m.damping, {-1e6, 1e6});
+  m.initial = read_six(section, "initial", m.initial, {-1e6, 1e6});
+  m.initial_sigma = section.number("initial_sigma", m.initial_sigma, {-1e6, 1e6});
+  m.freeze_when_limited = section.flag("freeze_when_limited", m.freeze_when_limited);
+  m.sigma_modification = section.number("sigma_modification", m.sigma_modification, {0.0, 1e3});
+  m.dead_zone_W = section.number("dead_zone_W", m.dead_zone_W, {0.0, 1e3});
+  const MracSettings::Parameters wide = MracSettings::Parameters::Constant(1e6);
+  const bool bounded = section.has("lower") || section.has("upper");
+  const auto lower = read_six(section, "lower", -wide, {-1e6, 1e6});
+  const auto upper = read_six(section, "upper", wide, {-1e6, 1e6});
+  if ((lower.array() > upper.array()).any()) {
+    section.wrong(section.has("lower") ? "lower" : "upper", "lower must not exceed upper");
+  }
+  if (bounded) m.bounds = control::Box<double, 6>{lower, upper};
+}
+
+MracSettings read_mrac(Section& section, const control::ReferenceModelSettings& model) {
+  const std::string preset = section.text("preset", "a");
+  MracSettings m;
+  if (const auto named = control::mrac_preset(preset)) {
+    m = *named;
+  } else {
+    section.wrong("preset", "must be one of: printed, a");
+  }
+  m = m.scaled(section.number("adaptation_scale", 1.0, {1e-6, 1e6}));
+  read_mrac_constants(section, m);
+  const bool accepted = section.flag("accept_failed_premises", false);
+  if (!accepted) {
+    for (const char* failure : control::check_premises(m, model).failures()) {
+      if (failure == nullptr) continue;
+      section.wrong("kind", std::string("premise fails: ") + failure +
+                                " (accept_failed_premises = true runs it nevertheless)");
+    }
+  }
+  return m;
+}
+
+/// In watts at rest, where fixed point works.
+void check_fits(Section& section, const char* key, double gain, double dc_gain_m_per_W) {
+  if (std::abs(gain * dc_gain_m_per_W) <= fixed_point_limit) return;
+  section.wrong(key, "is too large for arithmetic = \"q8.24\": at most " +
+                         std::to_string(fixed_point_limit / dc_gain_m_per_W));
+}
+
+}  // namespace
+
+control::ControllerSettings read_controller(
+    Section& section, const control::PhysicalParameters& muscle,
+    const std::optional<control::ReferenceModelSettings>& model) {
+  using control::ControllerKind;
+  control::ControllerSettings c;
+  c.kind = section.choice("kind", c.kind, control::controller_names);
+  c.dc_gain_m_per_W = muscle.dc_gain_m_per_W();
+  c.model = model.value_or(c.kind == ControllerKind::mrac ? control::wm16_model()
+                                                          : control::design_model());
+  if (c.kind != ControllerKind::power) {
+    c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
+  }
+  const bool fixed = c.arithmetic == control::Arithmetic::q8_24;
+  if (c.kind == ControllerKind::pi) {
+    c.pi.proportional_W_per_m =
+        section.number("proportional_W_per_m", c.pi.proportional_W_per_m, {0.0, 1e7});
+    c.pi.integral_W_per_m_s =
+        section.number("integral_W_per_m_s", c.pi.integral_W_per_m_s, {0.0, 1e7});
+    if (fixed) {
+      check_fits(section, "proportional_W_per_m", c.pi.proportional_W_per_m, c.dc_gain_m_per_W);
+    }
+  } else if (c.kind == ControllerKind::pd_ff) {
+    control::PdFeedforwardSettings& pd = c.pd_ff;
+    pd.feedforward_W_per_m = 1.0 / c.dc_gain_m_per_W;
+    pd.proportional_W_per_m =
+        section.number("proportional_W_per_m", pd.proportional_W_per_m, {0.0, 1e7});
+    pd.derivative_Ws_per_m =
+        section.number("derivative_Ws_per_m", pd.derivative_Ws_per_m, {0.0, 1e7});
+    pd.feedforward_W_per_m =
+        section.number("feedforward_W_per_m", pd.feedforward_W_per_m, {0.0, 1e7});
+    pd.derivative_filter_rad_per_s =
+        section.number("derivative_filter_rad_per_s", pd.derivative_filter_rad_per_s, {0.1, 1e4});
+    if (fixed) {
+      check_fits(section, "proportional_W_per_m", pd.proportional_W_per_m, c.dc_gain_m_per_W);
+      check_fits(section, "derivative_Ws_per_m", pd.derivative_Ws_per_m, c.dc_gain_m_per_W);
+      check_fits(section, "feedforward_W_per_m", pd.feedforward_W_per_m, c.dc_gain_m_per_W);
+    }
+  } else if (c.kind == ControllerKind::mrac) {
+    c.mrac = read_mrac(section, c.model);
+  }
+  section.finish();
+  return c;
+}
+
+}  // namespace supercoil::host_sim

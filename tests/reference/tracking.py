@@ -1,0 +1,54 @@
+"""PI and PD with feedforward in closed loop, and what the reference models do."""
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.signal import TransferFunction, step
+
+import mrac_ode
+from muscle import Muscle
+
+TIMES = np.arange(0.5, 20.5, 0.5)
+
+
+def closed_loop(law, extra):
+    """Position for a step of 10 mm at t = 0. law(model, x, extra) gives power and extra's slopes."""
+    muscle = Muscle()
+    a, b = muscle.state_space()
+    denominator, gain = mrac_ode.MODELS["design"]
+    low = np.array(denominator[:0:-1])
+
+    def slope(t, state):
+        plant, model, more = state[:3], state[3:6], state[6:]
+        power, more_slopes = law(gain * model, plant[1], more)
+        return np.concatenate([a @ plant + b[:, 0] * power,
+                               [model[1], model[2], 0.010 - low @ model], more_slopes])
+
+    solution = solve_ivp(slope, (0.0, TIMES[-1]), np.zeros(6 + extra), method="LSODA", rtol=1e-10,
+                         atol=1e-14, t_eval=TIMES)
+    return {"time_s": TIMES.tolist(), "position_m": solution.y[1].tolist(),
+            "model_m": (gain * solution.y[3]).tolist()}
+
+
+def pi_law(model, x, more):
+    error = model[0] - x
+    return 2000.0 * error + 1100.0 * more[0], [error]
+
+
+def pd_law(model, x, more):
+    """more: x through 1/(s/60 + 1)^2 and its derivative."""
+    power = 2000.0 * (model[0] - x) + 300.0 * (model[1] - more[1]) + 165.58 * model[0]
+    return power, [more[1], 3600.0 * (x - more[0]) - 120.0 * more[1]]
+
+
+def model_case(name):
+    denominator, gain = mrac_ode.MODELS[name]
+    times, response = step(TransferFunction([gain], denominator), T=np.linspace(0.0, 100.0, 100001))
+    return {"name": name, "dc_gain": gain / denominator[-1],
+            "overshoot": float(np.max(response) - 1.0),
+            "time_s": times[1000:20001:1000].tolist(),
+            "response": response[1000:20001:1000].tolist()}
+
+
+def cases():
+    return {"pi": closed_loop(pi_law, 1), "pd_ff": closed_loop(pd_law, 2),
+            "models": [model_case(name) for name in mrac_ode.MODELS]}

@@ -1,0 +1,40 @@
+// The reference values that tests/reference/make.py computed with scipy.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "supercoil/control/scalar/scalar.hpp"
+
+#include "supercoil/control/actuator/parameters.hpp"
+
+namespace supercoil::test {
+
+/// The file of a topic ("linear", "mrac", …). Throws when there is none, which fails the test.
+nlohmann::json reference(const std::string& topic);
+
+control::PhysicalParameters parameters_from(const nlohmann::json& json);
+
+/// A matrix from a list of rows.
+template <class Result>
+Result matrix_from(const nlohmann::json& rows) {
+  Result result;
+  for (Eigen::Index i = 0; i < result.rows(); ++i) {
+    for (Eigen::Index j = 0; j < result.cols(); ++j) {
+      result(i, j) = rows.at(static_cast<std::size_t>(i)).at(static_cast<std::size_t>(j));
+    }
+  }
+  return result;
+}
+
+template <class Result>
+Result vector_from(const nlohmann::json& list) {
+  Result result;
+  for (Eigen::Index i = 0; i < result.size(); ++i)
+    result(i) = list.at(static_cast<std::size_t>(i));
+  return result;
+}
+
+}  // namespace supercoil::test

@@ -11,7 +11,8 @@ std::string Problem::text() const {
 
 std::string to_text(const std::vector<Problem>& problems) {
   std::string result;
-  for (const Problem& problem : problems) result += problem.text() + "\n";
+  for (const Problem& problem : problems)
+    result += problem.text() + "\n";
   return result;
 }
 

@@ -42,7 +42,8 @@ Nearest nearest_name(std::string_view written, const std::vector<std::string>& k
 
 std::string joined(const std::vector<std::string>& names) {
   std::string result;
-  for (const std::string& name : names) result += (result.empty() ? "" : ", ") + name;
+  for (const std::string& name : names)
+    result += (result.empty() ? "" : ", ") + name;
   return result;
 }
 

@@ -1,6 +1,8 @@
 #include "config/section.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -20,7 +22,18 @@ std::string shown(const Range& range) {
   return shown(range.lowest) + " to " + shown(range.highest);
 }
 
+/// The value as its author wrote it, near enough: toml++ prints 0.09 as 0.089999999999999997.
 std::string shown(const toml::node& node) {
+  if (const toml::array* list = node.as_array()) {
+    std::string text;
+    for (const toml::node& element : *list) text += (text.empty() ? "" : ", ") + shown(element);
+    return "[" + text + "]";
+  }
+  if (const auto number = node.as_floating_point()) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), number->get()).ptr;
+    return {text.data(), end};
+  }
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
   return out.str();
@@ -95,8 +108,8 @@ std::vector<double> Section::numbers(std::string_view key, std::vector<double> f
                                      Range range, std::size_t least, std::size_t most) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
-  const std::string count = least == most ? std::to_string(least)
-                                          : std::to_string(least) + " to " + std::to_string(most);
+  const std::string count =
+      least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
   const std::string rule = "must be a list of " + count + " numbers, each " + shown(range);
   const toml::array* list = node->as_array();
   if (list == nullptr || list->size() < least || list->size() > most) {

@@ -20,9 +20,9 @@ struct Range {
   double highest;
 };
 
-/// Reads keys by name. A key that is absent gives its default. A wrong type, a value out of range or
-/// a NaN is noted in the diagnostics, and the default is returned so that reading can go on. When
-/// all keys have been asked for, finish() notes each key that nobody asked for.
+/// Reads keys by name. A key that is absent gives its default. A wrong type, a value out of range
+/// or a NaN is noted in the diagnostics, and the default is returned so that reading can go on.
+/// When all keys have been asked for, finish() notes each key that nobody asked for.
 class Section {
  public:
   /// table may be null: every key is then absent. path: how the table is called in messages.

@@ -28,14 +28,15 @@ void add_run(CLI::App& app, RunOptions& options) {
 void add_reproduce(CLI::App& app, ReproduceOptions& options) {
   CLI::App* reproduce = app.add_subcommand(
       "reproduce", "Repeat the paper's figures and numbers; print them beside ours");
-  reproduce
-      ->add_option("--out", options.out, "Folder for the results [supercoil-out/reproduction]");
+  reproduce->add_option("--out", options.out,
+                        "Folder for the results [supercoil-out/reproduction]");
   reproduce->add_flag("!--no-plots", options.plots, "Write no plots and no report.html");
   reproduce->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
 int run_program(int count, char** arguments) {
-  CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.", "supercoil-sim"};
+  CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.",
+               "supercoil-sim"};
   app.set_version_flag("--version", SUPERCOIL_VERSION);
   app.require_subcommand(1);
   RunOptions run;

@@ -1,9 +1,9 @@
 #include "cli/progress.hpp"
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <utility>
+
+#include <unistd.h>
 
 namespace supercoil::host_sim {
 
@@ -24,8 +24,8 @@ void Progress::show(double done, const std::string& detail) {
   if (quiet_ || now < next_) return;
   next_ = now + (terminal_ ? Clock::duration(200ms) : Clock::duration(10s));
   shown_ = true;
-  std::fprintf(stderr, terminal_ ? "\r\033[K%s: %3.0f %%  %s" : "%s: %3.0f %%  %s\n",
-               what_.c_str(), done * 100.0, detail.c_str());
+  std::fprintf(stderr, terminal_ ? "\r\033[K%s: %3.0f %%  %s" : "%s: %3.0f %%  %s\n", what_.c_str(),
+               done * 100.0, detail.c_str());
   std::fflush(stderr);
 }
 

@@ -1,2 +1,65 @@
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
 #include "cli/commands.hpp"
-namespace supercoil::host_sim { int reproduce_command(const ReproduceOptions&){return 1;} }
+#include "cli/progress.hpp"
+#include "paper/reproduction.hpp"
+#include "report/output_folder.hpp"
+#include "report/reproduction_table.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+int fail(int status, const std::string& message) {
+  std::fprintf(stderr, "supercoil-sim: %s\n", message.c_str());
+  return status;
+}
+
+/// Draws every figure into the folder; the error is the first that gnuplot made.
+tl::expected<std::vector<std::string>, std::string> draw_all(const std::vector<paper::Part>& parts,
+                                                             OutputFolder& folder) {
+  std::vector<std::string> texts;
+  for (const paper::Part& part : parts) {
+    for (const paper::NamedFigure& figure : part.figures) {
+      const auto path = folder.temporary(figure.name + ".svg");
+      if (auto drawn = draw(figure.figure, path); !drawn) return tl::unexpected(drawn.error());
+      std::ifstream in(path, std::ios::binary);
+      texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    }
+  }
+  return texts;
+}
+
+}  // namespace
+
+int reproduce_command(const ReproduceOptions& options) {
+  auto folder = OutputFolder::open(options.out);
+  if (!folder) return fail(exit_wrong_input, folder.error());
+  Progress progress("reproducing the paper", options.quiet);
+  const auto parts = paper::reproduce([&](double done) { progress.show(done, ""); });
+
+  std::vector<std::string> pictures;
+  if (options.plots) {
+    auto drawn = draw_all(parts, *folder);
+    if (!drawn) return fail(exit_failed, drawn.error() + "; --no-plots does without");
+    pictures = std::move(*drawn);
+    if (auto page = folder->write("report.html", to_html(parts, pictures)); !page) {
+      return fail(exit_failed, page.error());
+    }
+  }
+  if (auto csv = folder->write("reproduction.csv", to_csv(parts)); !csv) {
+    return fail(exit_failed, csv.error());
+  }
+  if (auto done = folder->commit(); !done) return fail(exit_failed, done.error());
+  if (!options.quiet) {
+    std::fputs(to_terminal(parts).c_str(), stdout);
+    std::printf("\n%.1f s. Table: %s/reproduction.csv\n", progress.elapsed_s(),
+                options.out.c_str());
+    if (options.plots) std::printf("Page with plots: %s/report.html\n", options.out.c_str());
+  }
+  return exit_done;
+}
+
+}  // namespace supercoil::host_sim

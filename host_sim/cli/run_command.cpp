@@ -1,7 +1,8 @@
 #include <charconv>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <optional>
+
+#include <nlohmann/json.hpp>
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
@@ -80,7 +81,8 @@ int run_command(const RunOptions& options) {
   }
   const auto window = read_window(options.window, scenario->duration_s);
   if (!window) {
-    return fail(exit_wrong_input, "--window " + options.window + ": must be FROM:TO in seconds, 0 to " +
+    return fail(exit_wrong_input, "--window " + options.window +
+                                      ": must be FROM:TO in seconds, 0 to " +
                                       std::to_string(scenario->duration_s));
   }
   if (options.check) {

@@ -21,13 +21,14 @@ set linetype 6 lc rgb "#56B4E9" lw 1.6
 set linetype 7 lc rgb "#444444" lw 1.2
 )";
 
+/// In single quotes: gnuplot runs what stands between backquotes in double ones.
 std::string quoted(const std::string& text) {
-  std::string result = "\"";
+  std::string result = "'";
   for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += c;
+    if (c == '\'') result += '\'';
+    if (c != '\n') result += c;
   }
-  return result + "\"";
+  return result + "'";
 }
 
 void write_data(std::ostream& out, const Figure& figure) {
@@ -52,8 +53,7 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "set title " << quoted(panel.title) << "\n"
       << "set xlabel " << quoted(panel.x_label) << "\n"
       << "set ylabel " << quoted(panel.y_label) << "\n"
-      << (panel.logarithmic ? "set logscale y\nset format y '10^{%T}'\n"
-                            : "unset logscale\nset format y '%g'\n");
+      << "set format y '%g'\n";
   if (panel.y_low < panel.y_high) {
     out << "set yrange [" << panel.y_low << ":" << panel.y_high << "]\n";
   } else {
@@ -77,14 +77,16 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
   out.precision(7);
   write_data(out, figure);
   out << "set terminal svg size " << figure.width_px << "," << rows * figure.panel_height_px
-      << " font 'sans-serif,12' background '#ffffff'\n"
+      << " noenhanced font 'sans-serif,12' background '#ffffff'\n"
       << "set output " << quoted(svg.string()) << "\n"
       << line_styles
       << "set grid lc rgb '#dddddd'\nset border 3 lc rgb '#888888'\nset tics nomirror\n"
-      << "set key opaque samplen 2 top right\n"
+      << "set key bmargin center horizontal samplen 2\n"
+      << "set lmargin 9\nset rmargin 3\nset autoscale xfix\n"
       << "set multiplot layout " << rows << "," << figure.columns << "\n";
   std::size_t block = 0;
-  for (const Panel& panel : figure.panels) write_panel(out, panel, block);
+  for (const Panel& panel : figure.panels)
+    write_panel(out, panel, block);
   out << "unset multiplot\nunset output\n";
   return out.str();
 }
@@ -92,7 +94,9 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
 tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem::path& svg) {
   const std::filesystem::path script = svg.string() + ".gnuplot";
   const std::filesystem::path log = svg.string() + ".log";
-  std::ofstream(script) << gnuplot_script(figure, svg);
+  if (!(std::ofstream(script) << gnuplot_script(figure, svg))) {
+    return tl::unexpected(script.string() + ": cannot be written");
+  }
   // The paths go in by the environment: no shell reads them.
   const std::string command = "gnuplot \"$SUPERCOIL_PLOT\" 2>\"$SUPERCOIL_PLOT_LOG\"";
   setenv("SUPERCOIL_PLOT", script.c_str(), 1);
@@ -108,7 +112,8 @@ tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem
   if (status == 0) return {};
   constexpr int not_found = 127 << 8;
   if (status == not_found) {
-    return tl::unexpected(std::string("gnuplot is not installed (Debian: apt install gnuplot-nox)"));
+    return tl::unexpected(
+        std::string("gnuplot is not installed (Debian: apt install gnuplot-nox)"));
   }
   return tl::unexpected("gnuplot failed: " + first_line);
 }

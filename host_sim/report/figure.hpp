@@ -25,7 +25,6 @@ struct Panel {
   std::vector<Curve> curves;
   double y_low = 0.0;  ///< with y_high equal: chosen by gnuplot
   double y_high = 0.0;
-  bool logarithmic = false;
 };
 
 struct Figure {

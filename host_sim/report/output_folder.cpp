@@ -1,11 +1,11 @@
 #include "report/output_folder.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <fstream>
 #include <system_error>
 #include <utility>
+
+#include <unistd.h>
 
 namespace supercoil::host_sim {
 
@@ -13,7 +13,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string reason() { return std::generic_category().message(errno); }
+std::string reason() {
+  return std::generic_category().message(errno);
+}
 
 }  // namespace
 
@@ -44,7 +46,8 @@ OutputFolder::OutputFolder(OutputFolder&& other) noexcept
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
-  for (const std::string& name : names_) fs::remove(folder_ / (name + ".part"), ignored);
+  for (const std::string& name : names_)
+    fs::remove(folder_ / (name + ".part"), ignored);
   if (made_) fs::remove(folder_, ignored);  // only when it is empty
 }
 

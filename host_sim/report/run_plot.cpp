@@ -43,13 +43,17 @@ Figure RunPlot::figure() const {
       curve("position", 0, [](const TickRecord& r) { return r.position_m * mm; }));
   figure.panels.push_back(position);
   if (!open_loop) {
-    figure.panels.push_back({"error against the reference model", "", "µm",
+    figure.panels.push_back({"error against the reference model",
+                             "",
+                             "µm",
                              {curve("position − model", 0, [](const TickRecord& r) {
                                return (r.position_m - r.model_m) * um;
                              })}});
   }
   figure.panels.push_back(
-      {"power and temperature", "", "W, K",
+      {"power and temperature",
+       "",
+       "W, K",
        {curve("applied power (W)", 1, [](const TickRecord& r) { return r.applied_power_W; }),
         curve("temperature rise (K)", 2,
               [](const TickRecord& r) { return r.temperature_rise_K; })}});

@@ -29,10 +29,10 @@ void TraceWriter::number(double value) {
 
 void TraceWriter::add(const TickRecord& record, const std::optional<control::Estimate>& estimate) {
   number(record.time_s);
-  for (const double value : {record.open_loop ? NAN : record.reference,
-                             record.open_loop ? NAN : record.model_m, record.position_m,
-                             record.measured_m, record.power_W, record.applied_power_W,
-                             record.temperature_rise_K}) {
+  for (const double value :
+       {record.open_loop ? NAN : record.reference, record.open_loop ? NAN : record.model_m,
+        record.position_m, record.measured_m, record.power_W, record.applied_power_W,
+        record.temperature_rise_K}) {
     buffer_ += ',';
     if (!std::isnan(value)) number(value);
   }
@@ -57,8 +57,7 @@ tl::expected<void, std::string> TraceWriter::finish() {
   flush();
   out_.close();
   if (out_) return {};
-  return tl::unexpected("trace.csv: cannot be written: " +
-                        std::generic_category().message(errno));
+  return tl::unexpected("trace.csv: cannot be written: " + std::generic_category().message(errno));
 }
 
 }  // namespace supercoil::host_sim

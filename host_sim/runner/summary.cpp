@@ -11,7 +11,9 @@ namespace {
 using nlohmann::ordered_json;
 
 /// JSON has no infinity: null.
-ordered_json finite(double value) { return std::isfinite(value) ? ordered_json(value) : nullptr; }
+ordered_json finite(double value) {
+  return std::isfinite(value) ? ordered_json(value) : nullptr;
+}
 
 ordered_json physical_json(const control::PhysicalParameters& p) {
   return {{"thermal_mass_J_per_K", p.thermal_mass_J_per_K},

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+
 #include <nlohmann/json_fwd.hpp>
 
 #include "runner/simulation.hpp"

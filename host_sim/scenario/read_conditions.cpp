@@ -3,9 +3,10 @@
 #include <cmath>
 #include <sstream>
 
+#include "supercoil/control/actuator/conversions.hpp"
+
 #include "config/section.hpp"
 #include "scenario/read_control.hpp"
-#include "supercoil/control/actuator/conversions.hpp"
 
 namespace supercoil::host_sim {
 

@@ -13,8 +13,7 @@ control::PhysicalParameters read_muscle(const toml::table& document,
                                         config::Diagnostics& diagnostics);
 
 /// Every other table than [simulation] and [[event]], and the keys that no table has.
-Conditions read_conditions(const toml::table& document,
-                           const control::PhysicalParameters& believed, double step_s,
-                           config::Diagnostics& diagnostics);
+Conditions read_conditions(const toml::table& document, const control::PhysicalParameters& believed,
+                           double step_s, config::Diagnostics& diagnostics);
 
 }  // namespace supercoil::host_sim

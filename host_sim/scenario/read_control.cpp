@@ -29,13 +29,14 @@ std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, R
   frequencies = section.numbers("angular_frequencies_rad_per_s", frequencies, frequency_rad_per_s,
                                 1, most_terms);
   if (sizes.size() != frequencies.size()) {
-    section.wrong("angular_frequencies_rad_per_s",
-                  "must be as many as " + std::string(amplitudes_key) + " has: " +
-                      std::to_string(sizes.size()));
+    section.wrong("angular_frequencies_rad_per_s", "must be as many as " +
+                                                       std::string(amplitudes_key) +
+                                                       " has: " + std::to_string(sizes.size()));
     return fallback;
   }
   std::vector<Sinusoid> terms;
-  for (std::size_t i = 0; i < sizes.size(); ++i) terms.push_back({sizes[i], frequencies[i]});
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    terms.push_back({sizes[i], frequencies[i]});
   return terms;
 }
 
@@ -77,10 +78,8 @@ Reference read_reference(Section& section) {
 
 std::optional<control::ReferenceModelSettings> read_reference_model(Section section) {
   enum class Kind { design, eq8, wm16, poles };
-  static constexpr control::Names<Kind, 4> names{{{"design", Kind::design},
-                                                  {"eq8", Kind::eq8},
-                                                  {"wm16", Kind::wm16},
-                                                  {"poles", Kind::poles}}};
+  static constexpr control::Names<Kind, 4> names{
+      {{"design", Kind::design}, {"eq8", Kind::eq8}, {"wm16", Kind::wm16}, {"poles", Kind::poles}}};
   if (!section.has("kind") && !section.has("poles_rad_per_s")) {
     section.text("kind", "");
     section.finish();

@@ -1,5 +1,6 @@
-#include "scenario/read_control.hpp"
 #include "supercoil/control/tracking/mrac_premises.hpp"
+
+#include "scenario/read_control.hpp"
 
 namespace supercoil::host_sim {
 

@@ -23,9 +23,8 @@ void overlay(toml::table& into, toml::table&& from) {
     if (inner != nullptr && given != nullptr && !given->contains("kind")) {
       overlay(*inner, std::move(*given));
     } else {
-      node.visit([&, name = key.str()](auto& value) {
-        into.insert_or_assign(name, std::move(value));
-      });
+      node.visit(
+          [&, name = key.str()](auto& value) { into.insert_or_assign(name, std::move(value)); });
     }
   }
 }
@@ -112,13 +111,16 @@ std::vector<std::size_t> order_events(const toml::table& document, double durati
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<std::size_t> order;
   order.reserve(times.size());
-  for (const auto& [time, index] : times) order.push_back(index);
+  for (const auto& [time, index] : times)
+    order.push_back(index);
   return order;
 }
 
 }  // namespace
 
-long Scenario::ticks() const { return std::lround(duration_s * rate_Hz); }
+long Scenario::ticks() const {
+  return std::lround(duration_s * rate_Hz);
+}
 
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name) {
   config::Diagnostics diagnostics(name);
@@ -138,8 +140,7 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
   for (std::size_t count = 1; diagnostics.empty() && count <= order.size(); ++count) {
     const auto moment = timeline.after(order, count);
     Event event{moment.at_s, {}, moment.new_controller, moment.new_estimator};
-    event.conditions =
-        read_conditions(moment.document, believed, scenario.step_s(), diagnostics);
+    event.conditions = read_conditions(moment.document, believed, scenario.step_s(), diagnostics);
     scenario.events.push_back(std::move(event));
   }
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());

@@ -9,7 +9,8 @@ namespace {
 
 double reach(const std::vector<Sinusoid>& terms) {
   double sum = 0.0;
-  for (const Sinusoid& term : terms) sum += std::abs(term.amplitude);
+  for (const Sinusoid& term : terms)
+    sum += std::abs(term.amplitude);
   return sum;
 }
 

@@ -29,8 +29,8 @@ struct Reference {
   ReferenceKind kind = ReferenceKind::sine;
   double offset = 0.011;                       ///< sine, multisine, power
   std::vector<Sinusoid> terms{{0.009, 0.25}};  ///< sine, multisine, power
-  std::vector<double> levels;                  ///< step: before and after; steps: one after the other
-  double hold_s = 20.0;                        ///< step: when; steps: how long each
+  std::vector<double> levels;  ///< step: before and after; steps: one after the other
+  double hold_s = 20.0;        ///< step: when; steps: how long each
 
   friend bool operator==(const Reference&, const Reference&) = default;
 

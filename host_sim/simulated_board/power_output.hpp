@@ -9,11 +9,11 @@ namespace supercoil::host_sim {
 struct PowerSettings {
   double max_W = 4.5;
   double min_W = 0.0;
-  int pwm_bits = 0;             ///< 0: ideal
-  double full_scale_W = 14.4;   ///< power at a duty of 1: 12 V on 10 Ω
-  bool error_feedback = true;   ///< what rounding took from one duty is added to the next
-  double delay_s = 0.0;         ///< actuation delay, rounded to whole ticks
-  double gain = 1.0;            ///< power in the muscle over power reported, what nobody measures
+  int pwm_bits = 0;            ///< 0: ideal
+  double full_scale_W = 14.4;  ///< power at a duty of 1: 12 V on 10 Ω
+  bool error_feedback = true;  ///< what rounding took from one duty is added to the next
+  double delay_s = 0.0;        ///< actuation delay, rounded to whole ticks
+  double gain = 1.0;           ///< power in the muscle over power reported, what nobody measures
 
   friend bool operator==(const PowerSettings&, const PowerSettings&) = default;
 };

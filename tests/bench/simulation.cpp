@@ -1,9 +1,10 @@
 // The whole simulation, without a trace: ticks and simulated seconds a second.
+#include "runner/simulation.hpp"
+
 #include <string>
 
 #include <benchmark/benchmark.h>
 
-#include "runner/simulation.hpp"
 #include "scenario/read_scenario.hpp"
 
 namespace {
@@ -21,7 +22,8 @@ void scenario(benchmark::State& state, const std::string& name) {
   long ticks = 0;
   for (auto _ : state) {
     Simulation simulation(*read);
-    while (!simulation.done()) benchmark::DoNotOptimize(simulation.step());
+    while (!simulation.done())
+      benchmark::DoNotOptimize(simulation.step());
     simulated_s += read->duration_s;
     ticks += simulation.ticks();
   }

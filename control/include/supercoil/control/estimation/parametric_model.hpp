@@ -10,7 +10,7 @@ namespace supercoil::control {
 /// DC gain) and every regressor is multiplied by its nominal parameter, so that all unknowns are
 /// near 1 and fixed point has its whole resolution.
 struct RegressionScale {
-  Theta nominal{18.837, 38.608, 322.09, 165.58};  ///< the paper's θ*, docs/paper.md
+  Theta nominal{18.837, 38.606, 322.09, 165.58};  ///< the paper's θ*, docs/paper.md
   double dc_gain_m_per_W = 0.0060393;             ///< the paper's actuator
   double moving_mass_kg = 0.09;
 };

@@ -75,6 +75,9 @@ class Mrac {
 
   const WideParameters& theta() const { return theta_; }
   double sigma() const { return static_cast<double>(sigma_); }
+  /// The filtered signals that θ multiplies, and Eq. (16)'s r0 = u/((s+p0)(s+p1)) − θᵀφ.
+  const WideParameters& phi() const { return second_bank_.state(); }
+  double r0() const { return static_cast<double>(r0_); }
   /// ε1 is the difference between this and y − ym.
   double estimated_error() const { return static_cast<double>(estimated_error_); }
 

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+#include <nlohmann/json.hpp>
+
+#include "plant/linear_plant.hpp"
+#include "unit/control/support/reference.hpp"
+
+using namespace supercoil;
+using host_sim::LinearPlant;
+
+namespace {
+
+constexpr double step_s = 1e-3;
+
+/// The largest distance between two histories over the largest value of the true one.
+struct Deviation {
+  double largest = 0.0;
+  double scale = 0.0;
+  void add(double simulated, double truth) {
+    largest = std::max(largest, std::abs(simulated - truth));
+    scale = std::max(scale, std::abs(truth));
+  }
+  double relative() const { return largest / scale; }
+};
+
+}  // namespace
+
+TEST_GROUP(LinearPlant){};
+
+TEST(LinearPlant, AgreesWithAnIndependentSolverOver120Seconds) {
+  const nlohmann::json cases = test::reference("plant", "cases");
+  CHECK(cases.size() >= 10);
+  for (const auto& c : cases) {
+    LinearPlant plant(test::parameters_from(c.at("parameters")), step_s);
+    const double hold_s = c.at("hold_s");
+    const long ticks_per_hold = std::lround(hold_s / step_s);
+    Deviation temperature;
+    Deviation position;
+    Deviation velocity;
+    std::size_t sample = 0;
+    for (std::size_t hold = 0; hold < c.at("power_W").size(); ++hold) {
+      for (long tick = 0; tick < ticks_per_hold; ++tick) {
+        plant.step(c.at("power_W")[hold], c.at("load_N")[hold]);
+      }
+      const double now = static_cast<double>(hold + 1) * hold_s;
+      if (sample < c.at("time_s").size() &&
+          std::abs(c.at("time_s")[sample].get<double>() - now) < 1e-9) {
+        temperature.add(plant.temperature_rise_K(), c.at("temperature_rise_K")[sample]);
+        position.add(plant.position_m(), c.at("position_m")[sample]);
+        velocity.add(plant.velocity_m_per_s(), c.at("velocity_m_per_s")[sample]);
+        ++sample;
+      }
+    }
+    CHECK_EQUAL(c.at("time_s").size(), sample);
+    CHECK_COMPARE(temperature.relative(), <, 1e-6);
+    CHECK_COMPARE(position.relative(), <, 1e-6);
+    CHECK_COMPARE(velocity.relative(), <, 1e-6);
+  }
+}
+
+TEST(LinearPlant, GivesTheSameWithAnyNumberOfSubsteps) {
+  LinearPlant coarse({}, step_s, 1);
+  LinearPlant fine({}, step_s, 10);
+  for (int tick = 0; tick < 5000; ++tick) {
+    const double power = tick % 700 < 350 ? 4.0 : 0.5;
+    coarse.step(power);
+    fine.step(power);
+    DOUBLES_EQUAL(coarse.position_m(), fine.position_m(), 1e-13);
+  }
+  CHECK_COMPARE(fine.peak_temperature_rise_K(), >=, coarse.peak_temperature_rise_K() - 1e-9);
+}
+
+TEST(LinearPlant, SettlesWhereItsDcGainSays) {
+  const control::PhysicalParameters p;
+  LinearPlant plant(p, step_s);
+  for (int tick = 0; tick < 60000; ++tick)
+    plant.step(4.5);
+  DOUBLES_EQUAL(4.5 * p.dc_gain_m_per_W(), plant.position_m(), 1e-9);
+  DOUBLES_EQUAL(0.02718, plant.position_m(), 1e-5);
+  DOUBLES_EQUAL(50.56, plant.temperature_rise_K(), 0.01);
+}
+
+TEST(LinearPlant, KeepsTemperatureAndMotionWhenItsParametersChange) {
+  control::PhysicalParameters p;
+  LinearPlant plant(p, step_s);
+  for (int tick = 0; tick < 3000; ++tick)
+    plant.step(3.0);
+  const double temperature = plant.temperature_rise_K();
+  const double position = plant.position_m();
+  p.stiffness_N_per_m = 12.0;
+  plant.set_parameters(p);
+  DOUBLES_EQUAL(temperature, plant.temperature_rise_K(), 0.0);
+  DOUBLES_EQUAL(position, plant.position_m(), 0.0);
+  for (int tick = 0; tick < 60000; ++tick)
+    plant.step(3.0);
+  DOUBLES_EQUAL(3.0 * p.dc_gain_m_per_W(), plant.position_m(), 1e-9);
+}
+
+TEST(LinearPlant, IsPulledLongerByALoad) {
+  const control::PhysicalParameters p;
+  LinearPlant plant(p, step_s);
+  for (int tick = 0; tick < 60000; ++tick)
+    plant.step(2.0, 0.05);
+  DOUBLES_EQUAL(2.0 * p.dc_gain_m_per_W() - 0.05 / p.stiffness_N_per_m, plant.position_m(), 1e-9);
+}

@@ -1,0 +1,143 @@
+"""supercoil-sim as a user or a script meets it: exit status, messages, files."""
+
+import csv
+import json
+import os
+import pathlib
+import resource
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["SUPERCOIL_SIM"]
+SHORT = "simulation.duration_s = 2.0\n"
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        self.addCleanup(self.folder.cleanup)
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
+                              cwd=self.path, timeout=300, **options)
+
+    def scenario(self, text):
+        (self.path / "s.toml").write_text(text)
+        return "s.toml"
+
+    def test_run_writes_trace_summary_and_plot(self):
+        done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--window", "1:2")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
+                         ["plot.svg", "summary.json", "trace.csv"])
+        with open(self.path / "out/trace.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 2000)
+        summary = json.loads((self.path / "out/summary.json").read_text())
+        late = [(float(r["position_m"]) - float(r["model_m"])) ** 2 for r in rows[1000:]]
+        self.assertAlmostEqual(summary["tracking_rms_m"], (sum(late) / len(late)) ** 0.5, places=12)
+        self.assertEqual(summary["ticks"], 2000)
+        self.assertGreater(summary["realtime_factor"], 0)
+
+    def test_the_same_scenario_gives_the_same_trace(self):
+        for name in "ab":
+            self.run_program("run", self.scenario(SHORT), "--out", name, "--no-plot")
+        self.assertEqual((self.path / "a/trace.csv").read_bytes(),
+                         (self.path / "b/trace.csv").read_bytes())
+
+    def test_every_and_no_trace(self):
+        self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot", "--every", 10)
+        self.assertEqual(len((self.path / "out/trace.csv").read_text().splitlines()), 201)
+        self.run_program("run", self.scenario(SHORT), "--out", "none", "--no-plot", "--no-trace")
+        self.assertEqual([p.name for p in (self.path / "none").iterdir()], ["summary.json"])
+
+    def check_refused(self, message, *arguments):
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn(message, done.stderr)
+        self.assertFalse((self.path / "out").exists(), "something was written")
+
+    def test_wrong_scenarios_end_with_status_2_and_write_nothing(self):
+        for text, message in [
+                ("plant.stiffnes_N_per_m = 12.0", "s.toml:1: plant.stiffnes_N_per_m = 12: "),
+                ("\nplant.moving_mass_kg = -0.09", "s.toml:2: plant.moving_mass_kg = -0.09: must be"),
+                ("plant.damping_Ns_per_m = nan", "plant.damping_Ns_per_m = nan: must be"),
+                ("simulation.duration = 3.0", "did you mean duration_s (the unit is part"),
+                ("power.max_W = 'much'", "power.max_W = 'much': must be a number"),
+                ("[plant", "s.toml:1: is not valid TOML")]:
+            with self.subTest(text):
+                self.check_refused(message, "run", self.scenario(text), "--out", "out")
+
+    def test_a_scenario_that_is_not_there(self):
+        self.check_refused("none.toml: there is no such file", "run", "none.toml", "--out", "out")
+
+    def test_an_output_folder_that_cannot_be_written(self):
+        (self.path / "file").write_text("x")
+        self.check_refused("file: ", "run", self.scenario(SHORT), "--out", "file")
+        self.check_refused("/proc/none: cannot be made", "run", self.scenario(SHORT),
+                           "--out", "/proc/none")
+        self.check_refused("/proc/none: cannot be made", "reproduce", "--out", "/proc/none")
+
+    def test_a_window_outside_the_run(self):
+        for window in ["1:99", "2:1", "x:y", "5"]:
+            self.check_refused("must be FROM:TO", "run", self.scenario(SHORT), "--out", "out",
+                               "--window", window)
+
+    def test_unknown_options_and_commands(self):
+        self.assertEqual(self.run_program("run").returncode, 2)
+        self.assertEqual(self.run_program("fly").returncode, 2)
+        self.assertEqual(self.run_program().returncode, 2)
+        self.assertEqual(self.run_program("run", "sine", "--evry", "3").returncode, 2)
+
+    def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
+        def small_disk():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))
+        done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot",
+                                preexec_fn=small_disk, restore_signals=False)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("trace.csv: cannot be written", done.stderr)
+        self.assertFalse((self.path / "out").exists())
+
+    def test_without_gnuplot_the_results_are_kept_and_the_picture_is_missed(self):
+        done = self.run_program("run", self.scenario(SHORT), "--out", "out",
+                                env={"PATH": "/nowhere"})
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("plot.svg is not written: gnuplot is not installed", done.stderr)
+        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
+                         ["summary.json", "trace.csv"])
+
+    def test_check_and_list_write_nothing(self):
+        checked = self.run_program("run", self.scenario(SHORT), "--check")
+        self.assertEqual(checked.returncode, 0)
+        self.assertIn("in order", checked.stdout)
+        listed = self.run_program("list")
+        self.assertIn("sine", listed.stdout)
+        self.assertIn("printed", listed.stdout)
+        self.assertEqual([p.name for p in self.path.iterdir()], ["s.toml"])
+
+    def test_reproduce_writes_table_plots_and_page(self):
+        done = self.run_program("reproduce", "--out", "out")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
+                         ["figure2.svg", "figure3.svg", "figure4.svg", "physical.svg",
+                          "report.html", "reproduction.csv"])
+        with open(self.path / "out/reproduction.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(list(rows[0]),
+                         ["id", "case", "quantity", "unit", "paper", "measured", "remark"])
+        page = (self.path / "out/report.html").read_text()
+        self.assertEqual(page.count("<img "), 4)
+        for row in rows:
+            self.assertTrue(row["measured"], row)
+            self.assertIn(row["id"], page)
+
+    def test_help_and_version(self):
+        self.assertIn("reproduce", self.run_program("--help").stdout)
+        self.assertIn("--window", self.run_program("run", "--help").stdout)
+        self.assertRegex(self.run_program("--version").stdout, r"^\d+\.\d+\.\d+")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,110 @@
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "report/figure.hpp"
+#include "report/reproduction_table.hpp"
+#include "report/run_plot.hpp"
+#include "report/trace_writer.hpp"
+
+namespace fs = std::filesystem;
+using namespace supercoil;
+using namespace supercoil::host_sim;
+
+namespace {
+
+std::string content(const fs::path& path) {
+  std::ifstream in(path);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+Figure one_curve(const std::string& title) {
+  Figure figure;
+  figure.panels.push_back({title, "time (s)", "mm", {{"curve", {0.0, 1.0, 2.0}, {0.0, 1.0, 4.0}}}});
+  return figure;
+}
+
+}  // namespace
+
+TEST_GROUP(Report) {
+  fs::path folder;
+  void setup() override {
+    std::string name = (fs::temp_directory_path() / "supercoil-test-XXXXXX").string();
+    CHECK(mkdtemp(name.data()) != nullptr);
+    folder = name;
+  }
+  void teardown() override {
+    fs::remove_all(folder);
+  }
+};
+
+TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
+  TraceWriter writer(folder / "trace.csv", 2);
+  CHECK(writer.wants(0));
+  CHECK_FALSE(writer.wants(1));
+  TickRecord record;
+  record.time_s = 0.1 + 0.2;
+  record.reference = 0.011;
+  record.applied_power_W = 1.0 / 3.0;
+  record.limited = true;
+  control::Estimate estimate{control::Theta{1.0, 2.0, 3.0, 4.0}, 0.0, 0.0, 0.0, true};
+  writer.add(record, estimate);
+  record.open_loop = true;
+  writer.add(record, std::nullopt);
+  CHECK(writer.finish().has_value());
+  STRCMP_EQUAL(
+      "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,"
+      "temperature_rise_K,limited,theta1,theta2,theta3,theta4,trusted,reference_power_W\n"
+      "0.30000000000000004,0.011,0,0,0,0,0.3333333333333333,0,1,1,2,3,4,1,\n"
+      "0.30000000000000004,,,0,0,0,0.3333333333333333,0,1,,,,,,0.011\n",
+      content(folder / "trace.csv").c_str());
+}
+
+TEST(Report, TraceReportsADiskThatIsFull) {
+  TraceWriter writer("/dev/full", 1);
+  writer.add({}, std::nullopt);
+  const auto finished = writer.finish();
+  CHECK_FALSE(finished.has_value());
+  STRCMP_EQUAL("trace.csv: cannot be written: No space left on device", finished.error().c_str());
+}
+
+TEST(Report, FigureIsDrawnByGnuplotWhateverItsTitle) {
+  const auto drawn =
+      draw(one_curve("a \"quoted\" 'title' with \\, $HOME and `touch ran`"), folder / "a b.svg");
+  CHECK_TEXT(drawn.has_value(), drawn.has_value() ? "" : drawn.error().c_str());
+  const std::string svg = content(folder / "a b.svg");
+  STRCMP_CONTAINS("</svg>", svg.c_str());
+  STRCMP_CONTAINS("a \"quoted\" 'title' with \\, $HOME and `touch ran`", svg.c_str());
+  LONGS_EQUAL(1, std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(Report, FigureLeavesAGapWhereAValueIsNotFinite) {
+  Figure figure = one_curve("gap");
+  figure.panels[0].curves[0].y[1] = std::numeric_limits<double>::quiet_NaN();
+  STRCMP_CONTAINS("$d0 << EOD\n0 0\n\n2 4\nEOD\n", gnuplot_script(figure, "x.svg").c_str());
+}
+
+TEST(Report, FigureThatCannotBeWrittenIsAnError) {
+  CHECK_FALSE(draw(one_curve("nowhere"), folder / "no" / "where.svg").has_value());
+}
+
+TEST(Report, TableQuotesWhatCsvNeedsQuoted) {
+  const paper::Part part{"t", "i", {{"id", "a,b", "say \"x\"", "m", "1", "2", ""}}, {}};
+  STRCMP_EQUAL("id,case,quantity,unit,paper,measured,remark\nid,\"a,b\",\"say \"\"x\"\"\",m,1,2,\n",
+               to_csv({part}).c_str());
+}
+
+TEST(Report, PageIsSelfContained) {
+  paper::Part part{"Title <1>", "i", {{"id", "c", "q", "m", "< 5", "2", ""}}, {}};
+  part.figures.push_back({"f", "Figure", "caption", {}});
+  const std::string html = to_html({part}, {"<svg/>"});
+  STRCMP_CONTAINS("Title &lt;1&gt;", html.c_str());
+  STRCMP_CONTAINS("<td class=\"n\">&lt; 5</td>", html.c_str());
+  STRCMP_CONTAINS("src=\"data:image/svg+xml;base64,PHN2Zy8+\"", html.c_str());
+  CHECK(html.find("http") == std::string::npos);
+}

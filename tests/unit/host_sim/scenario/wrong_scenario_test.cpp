@@ -1,0 +1,184 @@
+// What a mistaken scenario is answered: file, line, key, value and what is allowed.
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "scenario/read_scenario.hpp"
+
+using namespace supercoil::host_sim;
+
+namespace {
+
+std::string problems(const std::string& text) {
+  const auto scenario = parse_scenario(text, "s.toml");
+  return scenario ? "in order" : supercoil::config::to_text(scenario.error());
+}
+
+void check_answer(const char* expected, const std::string& text) {
+  STRCMP_EQUAL((std::string(expected) + "\n").c_str(), problems(text).c_str());
+}
+
+}  // namespace
+
+TEST_GROUP(WrongScenario){};
+
+TEST(WrongScenario, UnknownKeyNamesTheNearestOne) {
+  check_answer(
+      "s.toml:2: plant.thermal_mas_J_per_K = 0.1: is not a key of [plant]; did you mean "
+      "thermal_mass_J_per_K?",
+      "[plant]\nthermal_mas_J_per_K = 0.1");
+}
+
+TEST(WrongScenario, UnknownTableNamesTheNearestOne) {
+  check_answer("s.toml:1: plan: is not a key of this file; did you mean plant?",
+               "[plan]\nstiffness_N_per_m = 12.0");
+}
+
+TEST(WrongScenario, UnknownKeyWithNothingNearListsWhatThereIs) {
+  check_answer(
+      "s.toml:2: sensor.position.colour = 'red': is not a key of [sensor.position]; its keys "
+      "are: "
+      "noise_rms_m, resolution_bits, range_m",
+      "[sensor.position]\ncolour = \"red\"");
+}
+
+TEST(WrongScenario, MissingUnitIsToldTheUnit) {
+  check_answer(
+      "s.toml:2: simulation.duration = 10: is not a key of [simulation]; did you mean duration_s "
+      "(the unit is part of the name)?",
+      "[simulation]\nduration = 10.0");
+}
+
+TEST(WrongScenario, NegativeMassIsToldTheRange) {
+  check_answer("s.toml:2: plant.moving_mass_kg = -0.09: must be 1e-05 to 1000",
+               "[plant]\nmoving_mass_kg = -0.09");
+}
+
+TEST(WrongScenario, NaNIsOutOfEveryRange) {
+  check_answer("s.toml:1: plant.stiffness_N_per_m = nan: must be 0.01 to 1e+06",
+               "plant.stiffness_N_per_m = nan");
+  check_answer("s.toml:1: power.max_W = inf: must be 0.001 to 1000", "power.max_W = inf");
+}
+
+TEST(WrongScenario, TextForANumber) {
+  check_answer("s.toml:1: power.max_W = '4.5 W': must be a number, 0.001 to 1000",
+               "power.max_W = '4.5 W'");
+}
+
+TEST(WrongScenario, FractionForAWholeNumber) {
+  check_answer("s.toml:1: power.pwm_bits = 12.5: must be a whole number, 0 to 24",
+               "power.pwm_bits = 12.5");
+}
+
+TEST(WrongScenario, NumberForAFlag) {
+  check_answer("s.toml:1: power.error_feedback = 1: must be true or false",
+               "power.error_feedback = 1");
+}
+
+TEST(WrongScenario, UnknownNameListsTheNames) {
+  check_answer("s.toml:1: controller.kind = 'fuzzy': must be one of: power, pi, pd_ff, mrac",
+               "controller.kind = 'fuzzy'");
+}
+
+TEST(WrongScenario, ValueForATable) {
+  check_answer("s.toml:1: plant = 3: must be a table: [plant]", "plant = 3");
+}
+
+TEST(WrongScenario, TableForAValue) {
+  check_answer("s.toml:1: power.max_W: must be a number, 0.001 to 1000", "[power.max_W]\na = 1");
+}
+
+TEST(WrongScenario, ListOfTheWrongLength) {
+  check_answer(
+      "s.toml:1: estimator.gain = [1, 2]: must be a list of 4 numbers, each 1e-06 to 1e+12",
+      "estimator.gain = [1.0, 2.0]");
+}
+
+TEST(WrongScenario, ListWithAWrongElement) {
+  check_answer(
+      "s.toml:1: estimator.gain = [1, 2, 3, 'x']: must be a list of 4 numbers, each 1e-06 "
+      "to "
+      "1e+12; 'x' is not",
+      "estimator.gain = [1.0, 2.0, 3.0, 'x']");
+}
+
+TEST(WrongScenario, SyntaxErrorHasItsLine) {
+  const std::string answer = problems("[plant]\nstiffness_N_per_m = = 3\n");
+  CHECK_TEXT(answer.starts_with("s.toml:2: is not valid TOML: "), answer.c_str());
+}
+
+TEST(WrongScenario, EveryMistakeIsReportedAtOnce) {
+  check_answer(
+      "s.toml:1: plant.moving_mass_kg = 0: must be 1e-05 to 1000\n"
+      "s.toml:2: power.max_W = 5000: must be 0.001 to 1000",
+      "plant.moving_mass_kg = 0\npower.max_W = 5000.0\n");
+}
+
+TEST(WrongScenario, ReferenceOutOfReach) {
+  check_answer(
+      "s.toml:1: reference.kind = 'sine': the reference goes up to 50 mm, and "
+      "sensor.position.range_m is 40 mm",
+      "reference = {kind = 'sine', offset_m = 0.025, amplitude_m = 0.025}");
+  check_answer(
+      "s.toml:1: reference.kind = 'sine': the reference goes down to -1 mm, and the muscle only "
+      "contracts from 0",
+      "reference = {kind = 'sine', offset_m = 0.004, amplitude_m = 0.005}");
+}
+
+TEST(WrongScenario, PowerBeyondTheSupply) {
+  check_answer(
+      "s.toml:1: power.max_W = 20: must not exceed what the supply gives at a duty of 1: "
+      "supply_V²/resistance_Ohm = 14.4 W",
+      "power = {max_W = 20.0, pwm_bits = 12}");
+}
+
+TEST(WrongScenario, OpenLoopAndPositionDoNotMix) {
+  check_answer("s.toml:1: controller.kind = 'power': open loop needs [reference] kind = \"power\"",
+               "controller.kind = 'power'");
+  check_answer(
+      "s.toml:1: reference.kind = 'power': needs [controller] kind = \"power\": a controller "
+      "follows "
+      "a position",
+      "reference.kind = 'power'");
+}
+
+TEST(WrongScenario, MracSaysWhichPremiseFails) {
+  check_answer(
+      "s.toml:2: controller.kind = 'mrac': premise fails: Wm(s)(s+p0)(s+p1) is not strictly "
+      "positive "
+      "real (accept_failed_premises = true runs it nevertheless)\n"
+      "s.toml:2: controller.kind = 'mrac': premise fails: Eq. (12) needs Wm = "
+      "k/((s+p0)(s+p1)(s+q0)) "
+      "(accept_failed_premises = true runs it nevertheless)",
+      "reference_model.kind = 'eq8'\ncontroller.kind = 'mrac'");
+  STRCMP_EQUAL("in order", problems("reference_model.kind = 'eq8'\n"
+                                    "controller = {kind = 'mrac', accept_failed_premises = true}")
+                               .c_str());
+}
+
+TEST(WrongScenario, GainThatFixedPointCannotHold) {
+  const std::string answer =
+      problems("controller = {kind = 'pi', arithmetic = 'q8.24', proportional_W_per_m = 50000.0}");
+  CHECK_TEXT(
+      answer.find("is too large for arithmetic = \"q8.24\": at most 21028") != std::string::npos,
+      answer.c_str());
+}
+
+TEST(WrongScenario, FileThatIsNotThere) {
+  const auto scenario = read_scenario("/nowhere/s.toml");
+  STRCMP_EQUAL("/nowhere/s.toml: there is no such file\n",
+               supercoil::config::to_text(scenario.error()).c_str());
+}
+
+TEST(WrongScenario, FolderInsteadOfAFile) {
+  const auto scenario = read_scenario("/tmp");
+  STRCMP_EQUAL("/tmp: is not a file\n", supercoil::config::to_text(scenario.error()).c_str());
+}
+
+TEST(WrongScenario, NameThatNoBuiltInScenarioHas) {
+  const auto scenario = read_scenario("sinus");
+  STRCMP_EQUAL(
+      "sinus: there is no such file\n"
+      "sinus: and no built-in scenario is called so (see supercoil-sim list)\n",
+      supercoil::config::to_text(scenario.error()).c_str());
+}

@@ -26,7 +26,8 @@ std::string shown(const Range& range) {
 std::string shown(const toml::node& node) {
   if (const toml::array* list = node.as_array()) {
     std::string text;
-    for (const toml::node& element : *list) text += (text.empty() ? "" : ", ") + shown(element);
+    for (const toml::node& element : *list)
+      text += (text.empty() ? "" : ", ") + shown(element);
     return "[" + text + "]";
   }
   if (const auto number = node.as_floating_point()) {

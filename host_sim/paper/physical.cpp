@@ -77,7 +77,9 @@ std::array<ErrorMeter, 3> track(Scenario scenario, const Contender& contender, P
 
 void add_reference(Panel& panel, const Scenario& scenario) {
   Curve curve{"reference", {}, {}, true, 6};
-  for (double t = 60.0; t < scenario.duration_s; t += 0.1) {
+  const long last = std::lround(scenario.duration_s * 10.0);
+  for (long tenth = 600; tenth < last; ++tenth) {
+    const double t = static_cast<double>(tenth) * 0.1;
     curve.x.push_back(t);
     curve.y.push_back(scenario.start.reference.at(t) * 1e3);
   }

@@ -74,7 +74,7 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
   const auto count = static_cast<int>(figure.panels.size());
   const int rows = (count + figure.columns - 1) / figure.columns;
   std::ostringstream out;
-  out.precision(7);
+  out.precision(6);
   write_data(out, figure);
   out << "set terminal svg size " << figure.width_px << "," << rows * figure.panel_height_px
       << " noenhanced font 'sans-serif,12' background '#ffffff'\n"
@@ -98,10 +98,10 @@ tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem
     return tl::unexpected(script.string() + ": cannot be written");
   }
   // The paths go in by the environment: no shell reads them.
-  const std::string command = "gnuplot \"$SUPERCOIL_PLOT\" 2>\"$SUPERCOIL_PLOT_LOG\"";
+  constexpr const char* command = R"(gnuplot "$SUPERCOIL_PLOT" 2>"$SUPERCOIL_PLOT_LOG")";
   setenv("SUPERCOIL_PLOT", script.c_str(), 1);
   setenv("SUPERCOIL_PLOT_LOG", log.c_str(), 1);
-  const int status = std::system(command.c_str());  // NOLINT(cert-env33-c)
+  const int status = std::system(command);  // NOLINT(cert-env33-c)
   std::ifstream said(log);
   std::string first_line;
   while (first_line.empty() && std::getline(said, first_line)) {

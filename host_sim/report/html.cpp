@@ -60,7 +60,7 @@ std::string escaped(const std::string& text) {
 
 /// RFC 4648; an SVG inside an <img> keeps its identifiers to itself.
 std::string base64(const std::string& bytes) {
-  static constexpr char digits[] =
+  static constexpr std::string_view digits =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   std::string result;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {

@@ -13,7 +13,6 @@ namespace supercoil::host_sim {
 namespace {
 
 using config::Diagnostics;
-using config::Range;
 using config::Section;
 
 control::PhysicalParameters read_parameters(Section& section,

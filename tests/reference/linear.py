@@ -69,12 +69,14 @@ def realness_cases(rng):
     result = []
     while len(result) < 60:
         numerator = rng.uniform(0.0, 3.0, size=3)
-        d = np.polymul([1.0, rng.uniform(0.1, 3.0)], [1.0, rng.uniform(0.1, 3.0), rng.uniform(0.1, 4.0)])
+        d = np.polymul([1.0, rng.uniform(0.1, 3.0)],
+                       [1.0, rng.uniform(0.1, 3.0), rng.uniform(0.1, 4.0)])
         value = (np.polyval(numerator, s) * np.conj(np.polyval(d, s))).real
         limit = numerator[0] * d[1] - numerator[1]  # of w^2 Re G for w -> infinity
-        if abs(np.min(value)) < 1e-3 or abs(limit) < 1e-2 or omega[np.argmin(value)] > 300.0:
-            if limit > 0:
-                continue
+        # Left out: where the sweep is too coarse or too short to decide.
+        too_close = abs(np.min(value)) < 1e-3 or abs(limit) < 1e-2
+        if limit > 0 and (too_close or omega[np.argmin(value)] > 300.0):
+            continue
         result.append({
             "numerator": numerator[::-1].tolist(), "denominator": d[::-1].tolist(),
             "lowest_real_part": float(np.min(value)) if limit > 0 else None,

@@ -11,7 +11,7 @@ TIMES = np.arange(0.5, 20.5, 0.5)
 
 
 def closed_loop(law, extra):
-    """Position for a step of 10 mm at t = 0. law(model, x, extra) gives power and extra's slopes."""
+    """Position for a step of 10 mm. law(model, x, extra) gives the power and the slopes of extra."""
     muscle = Muscle()
     a, b = muscle.state_space()
     denominator, gain = mrac_ode.MODELS["design"]

@@ -39,10 +39,9 @@ std::optional<double> slowest_real_root(double c3, double c2, double c1, double 
   for (int i = 0; i < 200; ++i) {
     const double at_root = value(root);
     (at_root > 0.0 ? high : low) = root;
-    const double derivative = slope(root);
-    double next = root - at_root / derivative;
+    double next = root - at_root / slope(root);
+    if (std::abs(next - root) <= 1e-15 * std::abs(root)) return root;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == root || std::abs(next - root) < 1e-15 * std::abs(next)) return next;
     root = next;
   }
   return root;

@@ -7,6 +7,7 @@ import pathlib
 import resource
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = os.environ["SUPERCOIL_SIM"]
@@ -99,6 +100,23 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("trace.csv: cannot be written", done.stderr)
         self.assertFalse((self.path / "out").exists())
+
+    def test_a_killed_run_leaves_an_earlier_result_whole_and_the_next_run_tidies_up(self):
+        self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
+        earlier = (self.path / "out/trace.csv").read_bytes()
+        self.scenario("simulation.duration_s = 20000.0\n")
+        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot"],
+                                   cwd=self.path)
+        part = self.path / "out/trace.csv.part"
+        while not (part.exists() and part.stat().st_size > 1000000):
+            self.assertIsNone(running.poll(), "it ended before it could be killed")
+            time.sleep(0.01)
+        running.kill()
+        running.wait()
+        self.assertEqual((self.path / "out/trace.csv").read_bytes(), earlier)
+        self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
+        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
+                         ["summary.json", "trace.csv"])
 
     def test_without_gnuplot_the_results_are_kept_and_the_picture_is_missed(self):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out",

@@ -1,12 +1,14 @@
+#include "supercoil/control/actuator/parameters.hpp"
+
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <CppUTest/TestHarness.h>
+#include <Eigen/LU>
 
 #include "supercoil/control/actuator/conversions.hpp"
-#include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/actuator/state_space.hpp"
 
 using namespace supercoil::control;
@@ -33,8 +35,8 @@ TEST(Parameters, ThePapersMuscleIsValid) {
 TEST(Parameters, CheckNamesTheOneThatIsWrong) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const auto& [name, member] : quantities) {
-    for (const double bad : {0.0, -1.0, infinity, -infinity, 1e9,
-                             std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double bad :
+         {0.0, -1.0, infinity, -infinity, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
       PhysicalParameters p;
       p.*member = bad;
       const auto violation = check(p);

@@ -1,6 +1,6 @@
-#include <CppUTest/TestHarness.h>
-
 #include "supercoil/control/linear/discretize.hpp"
+
+#include <CppUTest/TestHarness.h>
 
 #include "unit/control/support/reference.hpp"
 
@@ -21,7 +21,7 @@ double difference(const M& actual, const M& expected) {
 }  // namespace
 
 TEST_GROUP(Discretize) {
-  const nlohmann::json cases = supercoil::test::reference("linear").at("holds");
+  const nlohmann::json cases = supercoil::test::reference("linear", "holds");
 };
 
 TEST(Discretize, ZeroOrderHoldIsScipys) {
@@ -35,8 +35,8 @@ TEST(Discretize, ZeroOrderHoldIsScipys) {
 
 TEST(Discretize, FirstOrderHoldIsTheSolutionForAStraightLine) {
   for (const auto& c : cases) {
-    const auto result = first_order_hold<3, 2>(matrix_from<A>(c.at("a")),
-                                               matrix_from<B>(c.at("b")), c.at("step_s"));
+    const auto result = first_order_hold<3, 2>(matrix_from<A>(c.at("a")), matrix_from<B>(c.at("b")),
+                                               c.at("step_s"));
     const auto& foh = c.at("foh");
     CHECK(difference<A>(result.transition, matrix_from<A>(foh.at("transition"))) < 1e-9);
     CHECK(difference<B>(result.start, matrix_from<B>(foh.at("start"))) < 1e-9);

@@ -1,8 +1,8 @@
+#include "supercoil/control/linear/polynomial.hpp"
+
 #include <limits>
 
 #include <CppUTest/TestHarness.h>
-
-#include "supercoil/control/linear/polynomial.hpp"
 
 #include "unit/control/support/reference.hpp"
 
@@ -38,7 +38,7 @@ PositiveRealness realness_of(const nlohmann::json& c) {
 TEST_GROUP(Polynomials){};
 
 TEST(Polynomials, RouthsTestAgreesWithNumpysRoots) {
-  const auto cases = supercoil::test::reference("linear").at("hurwitz");
+  const auto cases = supercoil::test::reference("linear", "hurwitz");
   CHECK(cases.size() > 700);
   for (const auto& c : cases) {
     const bool expected = c.at("hurwitz");
@@ -62,7 +62,7 @@ TEST(Polynomials, MarginalStabilityANaNOrANegativeLeadIsNotHurwitz) {
 }
 
 TEST(Polynomials, PositiveRealnessAgreesWithASweepOverFrequency) {
-  for (const auto& c : supercoil::test::reference("linear").at("realness")) {
+  for (const auto& c : supercoil::test::reference("linear", "realness")) {
     const PositiveRealness result = realness_of(c);
     const bool expected = c.at("strict");
     CHECK_EQUAL_TEXT(expected, result.strict(), c.dump().c_str());

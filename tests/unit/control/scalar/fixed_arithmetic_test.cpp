@@ -1,9 +1,8 @@
 #include <algorithm>
 #include <string>
 
-#include <rapidcheck.h>
-
 #include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
 
 #include "supercoil/control/scalar/fixed.hpp"
 

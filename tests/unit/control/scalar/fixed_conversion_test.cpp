@@ -2,9 +2,8 @@
 #include <cmath>
 #include <limits>
 
-#include <rapidcheck.h>
-
 #include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
 
 #include "supercoil/control/scalar/fixed.hpp"
 

@@ -1,7 +1,6 @@
 // Fixed as the scalar of Eigen's vectors and matrices.
-#include <rapidcheck.h>
-
 #include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
 
 #include "supercoil/control/scalar/scalar.hpp"
 

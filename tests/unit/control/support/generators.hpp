@@ -18,10 +18,10 @@ rc::Gen<F> fixed_numbers() {
       rc::gen::apply([](Raw bits, int shift) { return static_cast<Raw>(bits >> shift); },
                      rc::gen::resize(100, rc::gen::arbitrary<Raw>()),
                      rc::gen::inRange(0, F::integer_bits + F::fraction_bits));
-  const auto edges = rc::gen::element<Raw>(
-      0, 1, -1, one, -one, one / 2, std::numeric_limits<Raw>::max(),
-      std::numeric_limits<Raw>::min(), std::numeric_limits<Raw>::max() - 1,
-      std::numeric_limits<Raw>::min() + 1);
+  const auto edges =
+      rc::gen::element<Raw>(0, 1, -1, one, -one, one / 2, std::numeric_limits<Raw>::max(),
+                            std::numeric_limits<Raw>::min(), std::numeric_limits<Raw>::max() - 1,
+                            std::numeric_limits<Raw>::min() + 1);
   return rc::gen::map(rc::gen::weightedOneOf<Raw>({{9, any_magnitude}, {1, edges}}),
                       [](Raw raw) { return F::from_raw(raw); });
 }
@@ -29,9 +29,8 @@ rc::Gen<F> fixed_numbers() {
 /// Evenly spread reals from low to high.
 inline rc::Gen<double> reals(double low, double high) {
   constexpr int steps = 1'000'000;
-  return rc::gen::map(rc::gen::inRange(0, steps + 1), [=](int i) {
-    return low + (high - low) * static_cast<double>(i) / steps;
-  });
+  return rc::gen::map(rc::gen::inRange(0, steps + 1),
+                      [=](int i) { return low + (high - low) * static_cast<double>(i) / steps; });
 }
 
 /// Evenly spread on a logarithmic scale; low > 0.
@@ -44,8 +43,8 @@ inline rc::Gen<double> magnitudes(double low, double high) {
 inline rc::Gen<control::PhysicalParameters> muscles() {
   const auto any = rc::gen::apply(
       [](double psi, double eta, double rho, double zeta, double mass, double gamma) {
-        return control::PhysicalParameters{
-            psi, eta, rho, 2.0 * zeta * std::sqrt(mass * rho), mass, gamma};
+        return control::PhysicalParameters{psi,  eta,  rho, 2.0 * zeta * std::sqrt(mass * rho),
+                                           mass, gamma};
       },
       magnitudes(0.04, 0.6), magnitudes(0.02, 0.4), magnitudes(4.0, 64.0), magnitudes(0.2, 3.0),
       magnitudes(0.02, 0.4), magnitudes(0.002, 0.04));

@@ -47,11 +47,10 @@ void run_closed_loop(Controller& controller, double step_s, double duration_s,
   for (long k = 0; k <= ticks; ++k) {
     const double time_s = static_cast<double>(k) * step_s;
     const double position = muscle.position_m();
-    const auto out =
-        controller.step({.reference_m = reference_m(time_s),
-                         .position_m = position,
-                         .applied_power_W = applied,
-                         .limited = limited});
+    const auto out = controller.step({.reference_m = reference_m(time_s),
+                                      .position_m = position,
+                                      .applied_power_W = applied,
+                                      .limited = limited});
     applied = range.clip(out.wanted_power_W);
     limited = applied != out.wanted_power_W;
     observe(Tick{time_s, position, out.model_m, out.wanted_power_W, applied});
@@ -60,7 +59,9 @@ void run_closed_loop(Controller& controller, double step_s, double duration_s,
 }
 
 /// 11 + 9 sin(0.25 t) mm: the sine of the paper's Sec. 5.2 at the physical scale.
-inline double paper_sine_m(double time_s) { return 0.011 + 0.009 * std::sin(0.25 * time_s); }
+inline double paper_sine_m(double time_s) {
+  return 0.011 + 0.009 * std::sin(0.25 * time_s);
+}
 
 /// Eq. (18), in watts.
 inline double paper_power_W(double time_s) {

@@ -6,14 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "supercoil/control/scalar/scalar.hpp"
-
 #include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/scalar/scalar.hpp"
 
 namespace supercoil::test {
 
-/// The file of a topic ("linear", "mrac", …). Throws when there is none, which fails the test.
-nlohmann::json reference(const std::string& topic);
+/// An entry of a topic's file, e.g. "runs" of mrac.json; a copy, so that loops may run over it.
+/// Throws when there is none, which ends the run.
+nlohmann::json reference(const std::string& topic, const std::string& entry);
 
 control::PhysicalParameters parameters_from(const nlohmann::json& json);
 

@@ -103,7 +103,7 @@ class Fixed {
   friend constexpr Fixed operator-(Fixed a, Fixed b) { return a -= b; }
   friend constexpr Fixed operator*(Fixed a, Fixed b) { return a *= b; }
   friend constexpr Fixed operator/(Fixed a, Fixed b) { return a /= b; }
-  friend constexpr auto operator<=>(Fixed, Fixed) = default;
+  friend constexpr auto operator<=>(Fixed, Fixed) = default;  // NOLINT(modernize-use-nullptr)
 
   friend constexpr Fixed abs(Fixed value) { return value.raw_ < 0 ? -value : value; }
   friend constexpr bool isfinite(Fixed) { return true; }
@@ -135,7 +135,7 @@ class Fixed {
   static constexpr Raw raw_from(double value) {
     if (value != value) return 0;
     const double scaled = value * scale;
-    constexpr double bound = static_cast<double>(std::numeric_limits<Raw>::max());
+    constexpr auto bound = static_cast<double>(std::numeric_limits<Raw>::max());
     if (scaled >= bound) return limit(false);
     if (scaled <= -bound - 1.0) return limit(true);
     // Nearest, ties away from zero; std::round is not constexpr in C++20.

@@ -1,0 +1,75 @@
+// How hot the muscle can be, given what is known of it.
+#pragma once
+
+#include <cmath>
+
+namespace supercoil::control {
+
+/// Bounds that are known to hold: ψ and η of the muscle, and true over reported power.
+struct ThermalBounds {
+  double lowest_mass_J_per_K;
+  double highest_mass_J_per_K;
+  double lowest_transfer_W_per_K;
+  double highest_transfer_W_per_K;
+  double lowest_power_part = 1.0;
+  double highest_power_part = 1.0;
+};
+
+/// An interval observer of ψφ̇ = −ηφ + P (paper, Eq. (1)). φ̇ lies between the least and the greatest
+/// of (P − ηφ)/ψ over the bounds, so by the comparison principle φ stays between the two solutions,
+/// also when ψ and η change with time inside their bounds. Simply taking both lower bounds is not
+/// enough: such an observer heats faster than the muscle and then cools faster as well, and while
+/// cooling it reports too little.
+class IntervalObserver {
+ public:
+  /// All bounds positive and in order; step_s > 0.
+  IntervalObserver(const ThermalBounds& bounds, double step_s)
+      : hot_{bounds.highest_power_part, bounds.lowest_transfer_W_per_K,
+             decay(bounds.lowest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s),
+             decay(bounds.lowest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s)},
+        cold_{bounds.lowest_power_part, bounds.highest_transfer_W_per_K,
+              decay(bounds.highest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s),
+              decay(bounds.highest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s)} {}
+
+  /// power_W ≥ 0: what was applied since the last tick.
+  void step(double power_W) {
+    highest_K_ = hot_.moved(highest_K_, power_W);
+    lowest_K_ = cold_.moved(lowest_K_, power_W);
+  }
+
+  /// Temperature rise over ambient.
+  double lowest_K() const { return lowest_K_; }
+  double highest_K() const { return highest_K_; }
+
+  /// After a start whose history is unknown: anything from 0 to at_most_K.
+  void reset(double at_most_K) {
+    lowest_K_ = 0.0;
+    highest_K_ = at_most_K;
+  }
+
+ private:
+  /// One end of the interval. Exact over the tick: it comes nearer to its rest value and never
+  /// passes it, so the heat flow keeps its sign.
+  struct End {
+    double power_part;
+    double transfer_W_per_K;
+    double heating_decay;
+    double cooling_decay;
+
+    double moved(double rise_K, double power_W) const {
+      const double rest_K = power_W * power_part / transfer_W_per_K;
+      return rest_K + (rise_K - rest_K) * (rest_K > rise_K ? heating_decay : cooling_decay);
+    }
+  };
+
+  static double decay(double transfer_W_per_K, double mass_J_per_K, double step_s) {
+    return std::exp(-transfer_W_per_K / mass_J_per_K * step_s);
+  }
+
+  End hot_;
+  End cold_;
+  double lowest_K_ = 0.0;
+  double highest_K_ = 0.0;
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,54 @@
+// From wanted watts to a PWM step, and back to the watts that it really gives.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace supercoil::board {
+
+/// P = D V²/R for a switch that is closed for the part D of each period, so D = P R/V². (Not √(P
+/// R)/V: that is the duty of a voltage whose mean, not whose power, is wanted: 1.5 W asked would
+/// give 4.6 W.)
+class PowerStage {
+ public:
+  struct Settings {
+    int steps = 4095;            ///< of the PWM's period, ≥ 1
+    bool error_feedback = true;  ///< what rounding took from one duty is added to the next
+  };
+  struct Output {
+    int step = 0;
+    double duty = 0.0;
+    double applied_W = 0.0;  ///< what controller and estimator are told
+    bool clipped = false;    ///< the supply cannot give what was wanted
+  };
+
+  explicit PowerStage(const Settings& settings) : settings_(settings) {}
+
+  /// wanted_W ≥ 0, resistance_Ohm and supply_V as measured. Anything that is not a positive number
+  /// where one is needed gives step 0.
+  Output step(double wanted_W, double resistance_Ohm, double supply_V) {
+    const double full_W = supply_V * supply_V / resistance_Ohm;
+    const bool usable =
+        std::isfinite(full_W) && full_W > 0.0 && resistance_Ohm > 0.0 && supply_V > 0.0;
+    if (!usable || !(wanted_W > 0.0)) return off(wanted_W > 0.0 || std::isnan(wanted_W));
+    const double exact = wanted_W / full_W * settings_.steps + rest_;
+    const double rounded =
+        std::clamp(std::nearbyint(exact), 0.0, static_cast<double>(settings_.steps));
+    rest_ = settings_.error_feedback ? std::clamp(exact - rounded, -1.0, 1.0) : 0.0;
+    const double duty = rounded / settings_.steps;
+    return {static_cast<int>(rounded), duty, duty * full_W, wanted_W > full_W};
+  }
+
+  void reset() { rest_ = 0.0; }
+
+ private:
+  Output off(bool clipped) {
+    rest_ = 0.0;
+    return {0, 0.0, 0.0, clipped};
+  }
+
+  Settings settings_;
+  double rest_ = 0.0;
+};
+
+}  // namespace supercoil::board

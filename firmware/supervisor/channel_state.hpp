@@ -1,0 +1,70 @@
+// The one place that decides whether a channel may be hot.
+#pragma once
+
+#include <cstdint>
+
+#include "supervisor/fault.hpp"
+
+namespace supercoil {
+
+/// A channel's state, and how each is left:
+///   disarmed  cold, enable low. To armed: arm().
+///   armed     cold, enable high. To active: activate(). To disarmed: disarm(none).
+///   active    may be hot. To armed: rest(). To disarmed: disarm(none).
+///   fault     cold, enable low. To disarmed: reset(), a rising edge of the reset command, after
+///   the
+///             cause is gone.
+/// From every state disarm(cause) leads to fault. It boots disarmed. Nothing restarts by itself.
+enum class State : std::uint8_t { disarmed, armed, active, fault };
+
+/// Why a command was not obeyed.
+enum class Refusal : std::uint8_t { none, wrong_state, cause_persists, no_edge };
+
+/// State and first cause of one channel. Every way of making it safe is disarm().
+class ChannelState {
+ public:
+  State state() const { return state_; }
+  /// What first led to `fault`; later causes do not replace it. None in every other state.
+  Fault first_cause() const { return first_cause_; }
+  /// The level that the enable line must have now.
+  bool enable() const { return state_ == State::armed || state_ == State::active; }
+  /// Whether any duty may be applied for the controller.
+  bool may_heat() const { return state_ == State::active; }
+
+  /// Makes the channel safe. Fault::none: an ordinary stop, which does not leave `fault`.
+  void disarm(Fault cause) {
+    if (state_ == State::fault) return;  // the first cause is kept
+    first_cause_ = cause;
+    state_ = cause == Fault::none ? State::disarmed : State::fault;
+  }
+
+  Refusal arm() { return move(State::disarmed, State::armed); }
+  Refusal activate() { return move(State::armed, State::active); }
+  Refusal rest() { return move(State::active, State::armed); }
+
+  /// Once a tick: the level of the reset command, and whether any detector still trips. Only a
+  /// rising edge resets: a level that is stuck high, or was high at boot, does nothing.
+  Refusal reset(bool level, bool cause_persists) {
+    const bool edge = level && !last_reset_;
+    last_reset_ = level;
+    if (!edge) return Refusal::no_edge;
+    if (state_ != State::fault) return Refusal::wrong_state;
+    if (cause_persists) return Refusal::cause_persists;
+    state_ = State::disarmed;
+    first_cause_ = Fault::none;
+    return Refusal::none;
+  }
+
+ private:
+  Refusal move(State from, State to) {
+    if (state_ != from) return Refusal::wrong_state;
+    state_ = to;
+    return Refusal::none;
+  }
+
+  State state_ = State::disarmed;
+  Fault first_cause_ = Fault::none;
+  bool last_reset_ = true;  ///< a level that is high at boot is no edge
+};
+
+}  // namespace supercoil

@@ -1,0 +1,147 @@
+// Does the heater do what it is told, and nothing else?
+#pragma once
+
+#include "supervisor/detectors/margin.hpp"
+
+namespace supercoil::detectors {
+
+/// Trips when duty is applied and the current stays below min_A for hold_s: a broken wire.
+class OpenLoad {
+ public:
+  struct Settings {
+    double min_duty;  ///< below it the current is too small to judge
+    double min_A_per_duty;
+    double hold_s;
+  };
+  OpenLoad(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
+
+  bool step(double duty, double current_A) {
+    const double least = settings_.min_A_per_duty * duty;
+    const bool judged = duty >= settings_.min_duty;
+    margin_ = {judged ? least / std::fmax(current_A, 1e-9) : 0.0, current_A, least};
+    return held_.step(judged && !(current_A >= least));
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  Margin margin_;
+};
+
+/// Trips when the current is above max_A for hold_s. Short in time: the switch's own protection is
+/// faster still.
+class Short {
+ public:
+  struct Settings {
+    double max_A;
+    double hold_s;
+  };
+  Short(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
+
+  bool step(double current_A) {
+    margin_ = rising(current_A, settings_.max_A);
+    return held_.step(!(current_A <= settings_.max_A));
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  Margin margin_;
+};
+
+/// Trips when current still flows hold_s after the channel was made safe. Only current proves that
+/// power is off: a duty that reads back as zero is the kernel's memory.
+class StuckOn {
+ public:
+  struct Settings {
+    double max_A;          ///< what a cold channel may show: offset and noise
+    double hold_s = 0.05;  ///< the sense filter's decay
+  };
+  StuckOn(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
+
+  /// off: the duty is 0 or the enable line low.
+  bool step(bool off, double current_A) {
+    margin_ = off ? rising(current_A, settings_.max_A) : Margin{0.0, current_A, settings_.max_A};
+    return held_.step(off && !(current_A <= settings_.max_A));
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  Margin margin_;
+};
+
+/// Power in, no motion: compares how far the muscle moved over a window with how far its model says
+/// that it must have. Trips when it moved less than a part of it. "Rose 0.3 of the 2.0 mm expected
+/// in 20 s."
+class NotResponding {
+ public:
+  struct Settings {
+    double window_s = 20.0;
+    double least_part = 0.3;          ///< of the expected motion
+    double least_expected_m = 0.001;  ///< an expected motion smaller than this is not judged
+  };
+  NotResponding(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
+
+  /// expected_m: where the model of the muscle is, driven by the applied power.
+  bool step(double position_m, double expected_m) {
+    if (elapsed_s_ == 0.0) {
+      low_ = high_ = position_m;
+      expected_low_ = expected_high_ = expected_m;
+    }
+    elapsed_s_ += step_s_;
+    widen(low_, high_, position_m);
+    widen(expected_low_, expected_high_, expected_m);
+    const double expected = expected_high_ - expected_low_;
+    const double moved = high_ - low_;
+    const bool judged = expected >= settings_.least_expected_m;
+    margin_ = {judged ? settings_.least_part * expected / std::fmax(moved, 1e-9) : 0.0, moved,
+               settings_.least_part * expected};
+    if (elapsed_s_ + 0.5 * step_s_ < settings_.window_s) return false;
+    elapsed_s_ = 0.0;
+    return judged && !(moved >= settings_.least_part * expected);
+  }
+  void reset() { elapsed_s_ = 0.0; }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  static void widen(double& low, double& high, double value) {
+    low = std::fmin(low, value);
+    high = std::fmax(high, value);
+  }
+
+  Settings settings_;
+  double step_s_;
+  double elapsed_s_ = 0.0;
+  double low_ = 0.0;
+  double high_ = 0.0;
+  double expected_low_ = 0.0;
+  double expected_high_ = 0.0;
+  Margin margin_;
+};
+
+/// Trips when the PWM reads back another step than was set, for hold_s (a buffered one lags).
+class WrongDuty {
+ public:
+  WrongDuty(double hold_s, double step_s) : held_(hold_s, step_s) {}
+
+  /// read_back: negative when the device cannot be read back; it is then not judged.
+  bool step(int set, int read_back) {
+    const bool wrong = read_back >= 0 && read_back != set;
+    margin_ = {wrong ? 1.0 : 0.0, static_cast<double>(read_back), static_cast<double>(set)};
+    return held_.step(wrong);
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  HeldFor held_;
+  Margin margin_;
+};
+
+}  // namespace supercoil::detectors

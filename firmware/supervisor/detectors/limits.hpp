@@ -1,0 +1,54 @@
+// Limits that must hold for a while before they trip: supply and power.
+#pragma once
+
+#include "supervisor/detectors/margin.hpp"
+
+namespace supercoil::detectors {
+
+/// Trips when a value is above its limit, or is no number, for hold_s.
+class Above {
+ public:
+  struct Settings {
+    double limit;
+    double hold_s;
+  };
+  Above(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
+
+  bool step(double value) {
+    margin_ = rising(value, settings_.limit);
+    return held_.step(!(value <= settings_.limit));
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  Margin margin_;
+};
+
+/// Trips when a value is below its limit, or is no number, for hold_s.
+class Below {
+ public:
+  struct Settings {
+    double limit;
+    double hold_s;
+  };
+  Below(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
+
+  bool step(double value) {
+    const bool holds = !(value >= settings_.limit);
+    margin_ = {holds && !(value > 0.0) ? INFINITY : settings_.limit / value, value,
+               settings_.limit};
+    return held_.step(holds);
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  Margin margin_;
+};
+
+}  // namespace supercoil::detectors

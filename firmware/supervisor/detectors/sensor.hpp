@@ -1,0 +1,132 @@
+// Is the position sensor telling the truth?
+#pragma once
+
+#include "supervisor/detectors/margin.hpp"
+
+namespace supercoil::detectors {
+
+/// Trips when readings are outside [low, high], or are no numbers, for hold_s (Klipper counts
+/// consecutive faults for the same reason: one wild conversion is no fault).
+class OutOfRange {
+ public:
+  struct Settings {
+    double low;
+    double high;
+    double hold_s;
+  };
+  OutOfRange(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
+
+  bool step(double reading) {
+    const double middle = 0.5 * (settings_.low + settings_.high);
+    margin_ = rising(std::abs(reading - middle), settings_.high - middle);
+    return held_.step(!(reading >= settings_.low && reading <= settings_.high));
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  Margin margin_;
+};
+
+/// Trips when the newest reading is older than max_age_s.
+class Stale {
+ public:
+  explicit Stale(double max_age_s) : max_age_s_(max_age_s) {}
+
+  bool step(double age_s) {
+    margin_ = rising(age_s, max_age_s_);
+    return !(age_s <= max_age_s_);
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  double max_age_s_;
+  Margin margin_;
+};
+
+/// Trips when, while hot, readings stay within a band narrower than the sensor's own noise for
+/// window_s. A live sensor shows its noise; one whose cable broke, or whose driver repeats its last
+/// value, does not.
+class Frozen {
+ public:
+  struct Settings {
+    double band;  ///< readings of a live sensor spread over more than this; > 0
+    double window_s;
+  };
+  Frozen(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.window_s, step_s) {}
+
+  bool step(double reading, bool hot) {
+    const bool outside = !(std::abs(reading - anchor_) <= settings_.band);
+    if (outside) anchor_ = reading;
+    const bool trips = held_.step(hot && !outside);
+    margin_ = rising(held_.held_s(), settings_.window_s);
+    return trips;
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  double anchor_ = INFINITY;
+  Margin margin_;
+};
+
+/// Trips when fresh readings differ by more than a muscle can move between them, twice running: one
+/// jump can be a glitch, and coming back from it is a jump as well.
+class Jump {
+ public:
+  struct Settings {
+    double speed;  ///< fastest credible motion, unit/s
+    double noise;  ///< what two readings may differ by at rest
+  };
+  explicit Jump(const Settings& settings) : settings_(settings) {}
+
+  /// elapsed_s: between the last fresh reading and this one.
+  bool step(double reading, double elapsed_s) {
+    const double allowed = settings_.speed * elapsed_s + settings_.noise;
+    const double change = started_ ? std::abs(reading - last_) : 0.0;
+    started_ = true;
+    margin_ = rising(change, allowed);
+    const bool jumped = !(change <= allowed);
+    count_ = jumped ? count_ + 1 : 0;
+    if (!jumped || count_ >= 2) last_ = reading;
+    return count_ >= 2;
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  bool started_ = false;
+  double last_ = 0.0;
+  int count_ = 0;
+  Margin margin_;
+};
+
+/// Trips when the temperature that resistance tells and the one that position tells lie further
+/// apart than both can be wrong, for hold_s.
+class Disagree {
+ public:
+  struct Settings {
+    double difference_K;
+    double hold_s;
+  };
+  Disagree(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
+
+  bool step(double from_resistance_K, double from_position_K) {
+    const double difference = std::abs(from_resistance_K - from_position_K);
+    margin_ = rising(difference, settings_.difference_K);
+    return held_.step(!(difference <= settings_.difference_K));
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  Settings settings_;
+  HeldFor held_;
+  Margin margin_;
+};
+
+}  // namespace supercoil::detectors

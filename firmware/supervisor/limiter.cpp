@@ -1,0 +1,28 @@
+#include "supervisor/limiter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supercoil {
+
+Limiter::Result Limiter::step(double wanted_W, double temperature_C) {
+  Result result{wanted_W, LimitedBy::nothing};
+  const auto cap = [&](double most_W, LimitedBy by) {
+    if (result.power_W > most_W) result = {most_W, by};
+  };
+  if (!std::isfinite(wanted_W) || std::isnan(temperature_C)) {
+    result = {0.0, LimitedBy::invalid};
+  } else if (wanted_W < 0.0) {
+    result = {0.0, LimitedBy::minimum};
+  } else {
+    const double span_C = settings_.derate_to_C - settings_.derate_from_C;
+    const double part = std::clamp((settings_.derate_to_C - temperature_C) / span_C, 0.0, 1.0);
+    cap(settings_.max_W, LimitedBy::maximum);
+    cap(settings_.max_W * part, LimitedBy::temperature);
+    cap(last_W_ + rise_W_, LimitedBy::slew);
+  }
+  last_W_ = result.power_W;
+  return result;
+}
+
+}  // namespace supercoil

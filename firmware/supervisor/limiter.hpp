@@ -1,0 +1,47 @@
+// What is left of the wanted power, and which limit took the rest.
+#pragma once
+
+#include <cstdint>
+
+namespace supercoil {
+
+/// Not faults: conditions under which less is given than was wanted.
+enum class LimitedBy : std::uint8_t {
+  nothing = 0,
+  minimum = 1,      ///< less than no power was wanted: a muscle cools at its own pace
+  maximum = 2,      ///< the channel's greatest power
+  slew = 3,         ///< power may not rise faster
+  temperature = 4,  ///< derated: the muscle is near its limit
+  invalid = 5,      ///< the wanted power was no number; none is given
+};
+
+struct LimiterSettings {
+  double max_W = 4.5;
+  double slew_W_per_s = 1e6;     ///< of rises; falls are never slowed
+  double derate_from_C = 130.0;  ///< full power up to here,
+  double derate_to_C = 160.0;  ///< none from here on (the trip's temperature); nylon softens above
+};
+
+class Limiter {
+ public:
+  struct Result {
+    double power_W = 0.0;
+    LimitedBy by = LimitedBy::nothing;
+  };
+
+  Limiter(const LimiterSettings& settings, double step_s)
+      : settings_(settings), rise_W_(settings.slew_W_per_s * step_s) {}
+
+  /// temperature_C: the hottest that the muscle may be. A temperature that is no number gives no
+  /// power.
+  Result step(double wanted_W, double temperature_C);
+  /// The channel was made safe: the next rise starts from nothing.
+  void reset() { last_W_ = 0.0; }
+
+ private:
+  LimiterSettings settings_;
+  double rise_W_;
+  double last_W_ = 0.0;
+};
+
+}  // namespace supercoil

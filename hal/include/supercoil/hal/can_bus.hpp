@@ -1,0 +1,37 @@
+// A CAN controller.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "supercoil/hal/clock.hpp"
+#include "supercoil/hal/status.hpp"
+
+namespace supercoil::hal {
+
+/// A classical frame with an 11-bit identifier.
+struct CanFrame {
+  std::uint16_t id = 0;     ///< 0 to 0x7FF
+  std::uint8_t length = 0;  ///< 0 to 8
+  std::array<std::uint8_t, 8> data{};
+  Time received{};
+};
+
+/// What the controller says of the bus.
+enum class CanState { active, error_passive, bus_off, down };
+
+/// Owned by the telemetry thread; never used in a tick. Nothing blocks: send() hands over or
+/// answers busy (a full queue: ENOBUFS), receive() answers not_ready when nothing has come.
+class CanBus {
+ public:
+  CanBus() = default;
+  CanBus(const CanBus&) = delete;
+  CanBus& operator=(const CanBus&) = delete;
+  virtual ~CanBus() = default;
+
+  virtual Status send(const CanFrame& frame) = 0;
+  virtual Status receive(CanFrame& frame) = 0;
+  virtual CanState state() const = 0;
+};
+
+}  // namespace supercoil::hal

@@ -1,0 +1,37 @@
+// Single wires: enable, heartbeat, status light, emergency stop.
+#pragma once
+
+#include "supercoil/hal/status.hpp"
+
+namespace supercoil::hal {
+
+/// An output. Always direct: it has its level within 20 µs when set() returns. Never blocks.
+class DigitalOutput {
+ public:
+  DigitalOutput() = default;
+  DigitalOutput(const DigitalOutput&) = delete;
+  DigitalOutput& operator=(const DigitalOutput&) = delete;
+  virtual ~DigitalOutput() = default;
+
+  virtual Status set(bool high) = 0;
+};
+
+/// An input's level, or why there is none. A caller whose safety hangs on it treats every status
+/// but ok as the dangerous level.
+struct Level {
+  bool high = false;
+  Status status = Status::not_ready;
+};
+
+/// An input. Direct; never blocks.
+class DigitalInput {
+ public:
+  DigitalInput() = default;
+  DigitalInput(const DigitalInput&) = delete;
+  DigitalInput& operator=(const DigitalInput&) = delete;
+  virtual ~DigitalInput() = default;
+
+  virtual Level read() = 0;
+};
+
+}  // namespace supercoil::hal

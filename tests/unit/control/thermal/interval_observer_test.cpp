@@ -1,0 +1,77 @@
+#include "supercoil/control/thermal/interval_observer.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
+
+#include "unit/control/support/generators.hpp"
+
+using namespace supercoil;
+using control::IntervalObserver;
+using control::ThermalBounds;
+
+namespace {
+
+constexpr double step_s = 0.01;
+constexpr ThermalBounds bounds{0.12, 0.20, 0.06, 0.20, 0.95, 1.05};
+
+double uniform(double low, double high) {
+  return *test::reals(low, high);
+}
+
+}  // namespace
+
+TEST_GROUP(IntervalObserver){};
+
+TEST(IntervalObserver, HoldsTheTruthThoughTheMuscleChangesUnderIt) {
+  CHECK(rc::check("random muscles, also changing ones, and random powers", [] {
+    IntervalObserver observer(bounds, step_s);
+    double truth_K = 0.0;
+    for (int stretch = 0; stretch < 12; ++stretch) {
+      const double mass = uniform(bounds.lowest_mass_J_per_K, bounds.highest_mass_J_per_K);
+      const double transfer =
+          uniform(bounds.lowest_transfer_W_per_K, bounds.highest_transfer_W_per_K);
+      const double part = uniform(bounds.lowest_power_part, bounds.highest_power_part);
+      const double power_W = *rc::gen::element(0.0, uniform(0.0, 4.5), 4.5);
+      for (int tick = 0; tick < 100; ++tick) {
+        const double rest_K = part * power_W / transfer;
+        truth_K = rest_K + (truth_K - rest_K) * std::exp(-transfer / mass * step_s);
+        observer.step(power_W);
+        RC_ASSERT(observer.lowest_K() <= truth_K + 1e-9);
+        RC_ASSERT(observer.highest_K() >= truth_K - 1e-9);
+      }
+    }
+  }));
+}
+
+TEST(IntervalObserver, OfAKnownMuscleIsItsTemperature) {
+  IntervalObserver observer({0.162, 0.162, 0.089, 0.089}, step_s);
+  for (int tick = 0; tick < 182; ++tick)
+    observer.step(4.5);
+  const double expected_K = 4.5 / 0.089 * (1.0 - std::exp(-0.089 / 0.162 * 1.82));
+  DOUBLES_EQUAL(expected_K, observer.highest_K(), 1e-9);
+  DOUBLES_EQUAL(expected_K, observer.lowest_K(), 1e-9);
+}
+
+TEST(IntervalObserver, IsHotterWhileCoolingThanAnObserverWithBothLowerBounds) {
+  // Why both lower bounds are not enough: after a pulse a heavier muscle stays hot for longer.
+  IntervalObserver observer({0.12, 0.20, 0.06, 0.06}, step_s);
+  double light_K = 0.0;
+  double heavy_K = 0.0;
+  for (int tick = 0; tick < 2000; ++tick) {
+    const double power_W = tick < 1000 ? 4.5 : 0.0;
+    observer.step(power_W);
+    light_K += (power_W / 0.06 - light_K) * (1.0 - std::exp(-0.06 / 0.12 * step_s));
+    heavy_K += (power_W / 0.06 - heavy_K) * (1.0 - std::exp(-0.06 / 0.20 * step_s));
+  }
+  CHECK_COMPARE(light_K, <, heavy_K);
+  CHECK_COMPARE(observer.highest_K(), >=, heavy_K);
+}
+
+TEST(IntervalObserver, AfterAnUnknownPastIsAnythingUpToWhatItIsTold) {
+  IntervalObserver observer(bounds, step_s);
+  observer.reset(140.0);
+  DOUBLES_EQUAL(0.0, observer.lowest_K(), 0.0);
+  DOUBLES_EQUAL(140.0, observer.highest_K(), 0.0);
+}

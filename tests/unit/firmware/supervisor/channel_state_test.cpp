@@ -1,0 +1,107 @@
+#include "supervisor/channel_state.hpp"
+
+#include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
+
+using namespace supercoil;
+
+namespace {
+
+ChannelState active() {
+  ChannelState channel;
+  channel.arm();
+  channel.activate();
+  return channel;
+}
+
+}  // namespace
+
+TEST_GROUP(ChannelState){};
+
+TEST(ChannelState, BootsDisarmedAndCold) {
+  const ChannelState channel;
+  CHECK(channel.state() == State::disarmed);
+  CHECK_FALSE(channel.enable());
+  CHECK_FALSE(channel.may_heat());
+}
+
+TEST(ChannelState, HeatsOnlyWhenActive) {
+  ChannelState channel;
+  CHECK(channel.activate() == Refusal::wrong_state);
+  CHECK(channel.arm() == Refusal::none);
+  CHECK(channel.enable());
+  CHECK_FALSE(channel.may_heat());
+  CHECK(channel.activate() == Refusal::none);
+  CHECK(channel.may_heat());
+  CHECK(channel.rest() == Refusal::none);
+  CHECK_FALSE(channel.may_heat());
+}
+
+TEST(ChannelState, KeepsItsFirstCause) {
+  ChannelState channel = active();
+  channel.disarm(Fault::over_temperature);
+  channel.disarm(Fault::heater_open);
+  channel.disarm(Fault::none);
+  CHECK(channel.state() == State::fault);
+  CHECK(channel.first_cause() == Fault::over_temperature);
+  CHECK_FALSE(channel.enable());
+}
+
+TEST(ChannelState, OrdinaryStopIsNoFault) {
+  ChannelState channel = active();
+  channel.disarm(Fault::none);
+  CHECK(channel.state() == State::disarmed);
+}
+
+TEST(ChannelState, LeavesFaultOnlyByAnEdgeAfterTheCauseIsGone) {
+  ChannelState channel = active();
+  channel.disarm(Fault::heater_short);
+  CHECK(channel.arm() == Refusal::wrong_state);
+  CHECK(channel.reset(true, false) == Refusal::no_edge);  // it was high from the start
+  CHECK(channel.reset(false, false) == Refusal::no_edge);
+  CHECK(channel.reset(true, true) == Refusal::cause_persists);
+  CHECK(channel.reset(true, false) == Refusal::no_edge);  // held, not pressed again
+  CHECK(channel.state() == State::fault);
+  channel.reset(false, false);
+  CHECK(channel.reset(true, false) == Refusal::none);
+  CHECK(channel.state() == State::disarmed);
+  CHECK(channel.first_cause() == Fault::none);
+}
+
+TEST(ChannelState, NeverGetsHotWithoutArmAndActivateWhateverHappens) {
+  CHECK(rc::check("random commands", [] {
+    ChannelState channel;
+    bool armed_since = false;  // by the commands alone, an independent account
+    bool active_since = false;
+    for (const int command : *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 7))) {
+      switch (command) {
+        case 0:
+          if (channel.arm() == Refusal::none) armed_since = true;
+          break;
+        case 1:
+          if (channel.activate() == Refusal::none) {
+            RC_ASSERT(armed_since);
+            active_since = true;
+          }
+          break;
+        case 2:
+          if (channel.rest() == Refusal::none) active_since = false;
+          break;
+        case 3:
+          channel.disarm(Fault::none);
+          armed_since = active_since = false;
+          break;
+        case 4:
+          channel.disarm(Fault::over_travel);
+          armed_since = active_since = false;
+          break;
+        default:
+          channel.reset(command == 5, false);
+          break;
+      }
+      RC_ASSERT(channel.may_heat() == active_since);
+      RC_ASSERT(channel.enable() == armed_since);
+      RC_ASSERT((channel.state() == State::fault) == (channel.first_cause() != Fault::none));
+    }
+  }));
+}

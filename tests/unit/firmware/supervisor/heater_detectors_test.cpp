@@ -1,0 +1,94 @@
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supervisor/detectors/heater.hpp"
+
+using namespace supercoil::detectors;
+
+namespace {
+
+constexpr double step_s = 1e-3;
+
+/// Ticks until a detector trips, or -1.
+template <class Step>
+int ticks_until(Step step, int most = 100000) {
+  for (int tick = 1; tick <= most; ++tick) {
+    if (step(tick)) return tick;
+  }
+  return -1;
+}
+
+}  // namespace
+
+TEST_GROUP(HeaterDetectors){};
+
+TEST(HeaterDetectors, OpenLoadTripsForDutyWithoutCurrent) {
+  OpenLoad detector({0.02, 0.5, 0.02}, step_s);
+  LONGS_EQUAL(20, ticks_until([&](int) { return detector.step(0.3, 0.01); }));
+}
+
+TEST(HeaterDetectors, OpenLoadDoesNotJudgeASmallDutyNorTripForAGoodHeater) {
+  OpenLoad detector({0.02, 0.5, 0.02}, step_s);
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.0); }, 1000));
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.3, 0.36); }, 1000));
+  DOUBLES_EQUAL(0.15 / 0.36, detector.margin().used, 1e-9);
+}
+
+TEST(HeaterDetectors, OpenLoadTripsForACurrentThatIsNoNumber) {
+  OpenLoad detector({0.02, 0.5, 0.002}, step_s);
+  LONGS_EQUAL(2, ticks_until([&](int) { return detector.step(0.3, std::nan("")); }));
+}
+
+TEST(HeaterDetectors, ShortTripsAboveItsCurrent) {
+  Short detector({3.0, 0.002}, step_s);
+  CHECK_FALSE(detector.step(3.0));
+  CHECK_FALSE(detector.step(5.0));
+  CHECK(detector.step(5.0));
+}
+
+TEST(HeaterDetectors, StuckOnTripsForCurrentWhileOff) {
+  StuckOn detector({0.02, 0.05}, step_s);
+  LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, 0.4); }));
+}
+
+TEST(HeaterDetectors, StuckOnAllowsTheSenseFilterToDecay) {
+  StuckOn detector({0.02, 0.05}, step_s);
+  LONGS_EQUAL(
+      -1, ticks_until(
+              [&](int tick) { return detector.step(true, 1.2 * std::exp(-tick * step_s / 0.01)); },
+              1000));
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(false, 1.2); }, 1000));
+}
+
+TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
+  NotResponding detector({20.0, 0.3, 0.001}, step_s);
+  const int ticks = ticks_until([&](int tick) {
+    const double t = tick * step_s;
+    return detector.step(0.0003 * t / 20.0, 0.002 * t / 20.0);
+  });
+  LONGS_EQUAL(20000, ticks);
+  DOUBLES_EQUAL(0.0003, detector.margin().measured, 1e-6);
+  DOUBLES_EQUAL(0.3 * 0.002, detector.margin().limit, 1e-6);
+}
+
+TEST(HeaterDetectors, NotRespondingIsContentWithAMuscleThatMoves) {
+  NotResponding detector({20.0, 0.3, 0.001}, step_s);
+  LONGS_EQUAL(-1, ticks_until([&](int tick) {
+    const double expected = 0.011 + 0.009 * std::sin(0.25 * tick * step_s);
+    return detector.step(0.8 * expected, expected);
+  }));
+}
+
+TEST(HeaterDetectors, NotRespondingDoesNotJudgeRest) {
+  NotResponding detector({20.0, 0.3, 0.001}, step_s);
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.011); }));
+}
+
+TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {
+  WrongDuty detector(0.003, step_s);
+  CHECK_FALSE(detector.step(100, 90));
+  CHECK_FALSE(detector.step(100, 100));
+  LONGS_EQUAL(3, ticks_until([&](int) { return detector.step(100, 90); }));
+  CHECK_FALSE(detector.step(100, -1));
+}

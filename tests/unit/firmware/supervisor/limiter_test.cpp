@@ -1,0 +1,71 @@
+#include "supervisor/limiter.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
+
+using namespace supercoil;
+
+namespace {
+
+constexpr double step_s = 1e-3;
+constexpr double cool_C = 30.0;
+
+void check(Limiter::Result result, double power_W, LimitedBy by) {
+  DOUBLES_EQUAL(power_W, result.power_W, 1e-9);
+  LONGS_EQUAL(static_cast<int>(by), static_cast<int>(result.by));
+}
+
+}  // namespace
+
+TEST_GROUP(Limiter){};
+
+TEST(Limiter, LetsPassWhatIsAllowed) {
+  Limiter limiter({}, step_s);
+  check(limiter.step(2.0, cool_C), 2.0, LimitedBy::nothing);
+}
+
+TEST(Limiter, SaysWhichLimitItWas) {
+  Limiter limiter({}, step_s);
+  check(limiter.step(9.0, cool_C), 4.5, LimitedBy::maximum);
+  check(limiter.step(-1.0, cool_C), 0.0, LimitedBy::minimum);
+  check(limiter.step(4.0, 145.0), 2.25, LimitedBy::temperature);
+  check(limiter.step(4.0, 160.0), 0.0, LimitedBy::temperature);
+  check(limiter.step(4.0, 500.0), 0.0, LimitedBy::temperature);
+}
+
+TEST(Limiter, SlowsRisesAndNeverFalls) {
+  LimiterSettings settings;
+  settings.slew_W_per_s = 100.0;
+  Limiter limiter(settings, step_s);
+  check(limiter.step(4.0, cool_C), 0.1, LimitedBy::slew);
+  check(limiter.step(4.0, cool_C), 0.2, LimitedBy::slew);
+  check(limiter.step(0.0, cool_C), 0.0, LimitedBy::nothing);
+  limiter.step(4.0, cool_C);
+  limiter.step(4.0, cool_C);
+  limiter.reset();
+  check(limiter.step(4.0, cool_C), 0.1, LimitedBy::slew);
+}
+
+TEST(Limiter, GivesNothingForWhatIsNoNumber) {
+  Limiter limiter({}, step_s);
+  check(limiter.step(std::nan(""), cool_C), 0.0, LimitedBy::invalid);
+  check(limiter.step(INFINITY, cool_C), 0.0, LimitedBy::invalid);
+  check(limiter.step(2.0, std::nan("")), 0.0, LimitedBy::invalid);
+}
+
+TEST(Limiter, NeverGivesMoreThanAskedNorMoreThanAllowed) {
+  CHECK(rc::check("limits", [] {
+    Limiter limiter({}, step_s);
+    for (int i = 0; i < 20; ++i) {
+      const double wanted = *rc::gen::inRange(-10000, 10000) * 1e-3;
+      const double temperature = *rc::gen::inRange(0, 200);
+      const Limiter::Result result = limiter.step(wanted, temperature);
+      RC_ASSERT(result.power_W >= 0.0 && result.power_W <= 4.5);
+      RC_ASSERT(result.power_W <= std::fmax(wanted, 0.0));
+      RC_ASSERT(temperature < 160 || result.power_W == 0.0);
+      RC_ASSERT((result.by == LimitedBy::nothing) == (result.power_W == wanted));
+    }
+  }));
+}

@@ -1,0 +1,47 @@
+#include <CppUTest/TestHarness.h>
+
+#include "supervisor/detectors/liveness.hpp"
+
+using namespace supercoil::detectors;
+
+namespace {
+constexpr double step_s = 1e-3;
+}
+
+TEST_GROUP(TimeDetectors){};
+
+TEST(TimeDetectors, InARowForgetsAtEachGoodOne) {
+  InARow detector(3);
+  CHECK_FALSE(detector.step(true));
+  CHECK_FALSE(detector.step(true));
+  CHECK_FALSE(detector.step(false));
+  CHECK_FALSE(detector.step(true));
+  CHECK_FALSE(detector.step(true));
+  CHECK(detector.step(true));
+}
+
+TEST(TimeDetectors, SilentTripsWhenTheCounterStands) {
+  Silent detector(0.01, step_s);
+  for (std::uint32_t i = 1; i < 100; ++i)
+    CHECK_FALSE(detector.step(i));
+  for (int i = 0; i < 9; ++i)
+    CHECK_FALSE(detector.step(99));
+  CHECK(detector.step(99));
+  CHECK_FALSE(detector.step(100));
+}
+
+TEST(TimeDetectors, ExpiredTripsForACommandThatIsNotRenewed) {
+  Expired detector(0.25, step_s);
+  CHECK_FALSE(detector.step(true, true));
+  for (int i = 0; i < 250; ++i)
+    CHECK_FALSE(detector.step(false, true));
+  CHECK(detector.step(false, true));
+}
+
+TEST(TimeDetectors, ExpiredDoesNotTripWhileRenewedOrCold) {
+  Expired detector(0.25, step_s);
+  for (int i = 0; i < 5000; ++i)
+    CHECK_FALSE(detector.step(i % 250 == 0, true));
+  for (int i = 0; i < 5000; ++i)
+    CHECK_FALSE(detector.step(false, false));
+}

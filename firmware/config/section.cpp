@@ -57,9 +57,11 @@ std::string Section::full(std::string_view key) const {
 
 void Section::wrong(std::string_view key, const std::string& message) {
   const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  const int line = node == nullptr ? 0 : static_cast<int>(node->source().begin.line);
+  const toml::node* place = node == nullptr ? table_ : node;
+  const int line = place == nullptr ? 0 : static_cast<int>(place->source().begin.line);
   const bool has_value = node != nullptr && !node->is_table() && !node->is_array_of_tables();
-  diagnostics_->add(line, full(key) + (has_value ? " = " + shown(*node) : ""), message);
+  const std::string value = has_value ? " = " + shown(*node) : "";
+  diagnostics_->add(line, full(key) + value + (node == nullptr ? " (its default)" : ""), message);
 }
 
 double Section::number(std::string_view key, double fallback, Range range) {

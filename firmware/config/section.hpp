@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -51,8 +52,14 @@ class Section {
   /// A table inside this one; absent is an empty one.
   Section section(std::string_view key);
 
+  /// Keys that somebody else reads.
+  void allow(std::initializer_list<std::string_view> keys) {
+    known_.insert(known_.end(), keys.begin(), keys.end());
+  }
+
   bool has(std::string_view key) const { return table_ != nullptr && table_->contains(key); }
-  /// Notes a mistake at the key: "path.key = value: message".
+  /// Notes a mistake at the key: "path.key = value: message". Where the key is absent, and its
+  /// default is what does not fit, at the table.
   void wrong(std::string_view key, const std::string& message);
   /// Notes each unknown key, with the known one that was probably meant.
   void finish();

@@ -1,5 +1,6 @@
 #include "config/toml_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -9,12 +10,32 @@
 namespace supercoil::config {
 
 namespace {
+
 constexpr std::uintmax_t largest_bytes = 1 << 20;
+/// A key of tens of thousands of parts would overflow the parser's stack.
+constexpr std::size_t longest_line = 4096;
+
+/// The number of the first line that is too long, or 0.
+int overlong_line(const std::string& text) {
+  int line = 1;
+  for (std::size_t start = 0; start < text.size(); ++line) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    if (end - start > longest_line) return line;
+    start = end + 1;
+  }
+  return 0;
 }
+
+}  // namespace
 
 std::string read_text(const std::string& path, Diagnostics& diagnostics) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
+  const bool exists = std::filesystem::exists(path, error);
+  if (error) {
+    diagnostics.add(0, "", "cannot be read: " + error.message());
+    return {};
+  }
+  if (!exists) {
     diagnostics.add(0, "", "there is no such file");
     return {};
   }
@@ -37,6 +58,10 @@ std::string read_text(const std::string& path, Diagnostics& diagnostics) {
 }
 
 toml::table parse(const std::string& text, Diagnostics& diagnostics) {
+  if (const int line = overlong_line(text)) {
+    diagnostics.add(line, "", "is longer than " + std::to_string(longest_line) + " characters");
+    return {};
+  }
   try {
     return toml::parse(text, diagnostics.file());
   } catch (const toml::parse_error& error) {

@@ -1,5 +1,5 @@
 // The commands of supercoil-sim. Each returns the program's exit status: 0 done, 1 failed while
-// running, 2 wrong input (nothing was written).
+// running, 2 wrong input (nothing was written), 130 interrupted.
 #pragma once
 
 #include <string>
@@ -9,6 +9,10 @@ namespace supercoil::host_sim {
 inline constexpr int exit_done = 0;
 inline constexpr int exit_failed = 1;
 inline constexpr int exit_wrong_input = 2;
+inline constexpr int exit_interrupted = 130;
+
+/// Prints the message to standard error and returns the status.
+int fail(int status, const std::string& message);
 
 struct RunOptions {
   std::string scenario;

@@ -1,5 +1,7 @@
 #include <cstdio>
 
+#include "supercoil/control/tracking/mrac_settings.hpp"
+
 #include "cli/commands.hpp"
 #include "scenario/builtin.hpp"
 
@@ -11,10 +13,12 @@ int list_command() {
     std::printf("  %-14.*s %.*s\n", static_cast<int>(scenario.name.size()), scenario.name.data(),
                 static_cast<int>(description(scenario).size()), description(scenario).data());
   }
+  std::puts("\nController presets ([controller] kind = \"mrac\", preset = ...):");
+  for (const auto& [name, text] : control::mrac_presets) {
+    std::printf("  %-14.*s %.*s\n", static_cast<int>(name.size()), name.data(),
+                static_cast<int>(text.size()), text.data());
+  }
   std::puts(
-      "\nController presets ([controller] kind = \"mrac\", preset = ...):\n"
-      "  printed        the paper's constants (Sec. 5.2); adaptation_scale = 10 tracks better\n"
-      "  a              the best of the paper's own laws: faster filters, gains x 20 (default)\n"
       "\nReference models ([reference_model] kind = ...):\n"
       "  design         what the paper's text asks for: wn = 1 rad/s, < 5 % overshoot, q0 = 0.8\n"
       "  eq8            what the paper prints as Eq. (8): 40 % overshoot\n"

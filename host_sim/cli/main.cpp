@@ -59,7 +59,9 @@ int run_program(int count, char** arguments) {
 
 int main(int count, char** arguments) {
   try {
-    return run_program(count, arguments);
+    const int status = run_program(count, arguments);
+    if (status != exit_done || std::fflush(stdout) == 0) return status;
+    return fail(exit_failed, "cannot write to standard output");
   } catch (const std::exception& error) {
     std::fprintf(stderr, "supercoil-sim: %s\n", error.what());
     return exit_failed;

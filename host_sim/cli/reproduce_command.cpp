@@ -12,19 +12,20 @@ namespace supercoil::host_sim {
 
 namespace {
 
-int fail(int status, const std::string& message) {
-  std::fprintf(stderr, "supercoil-sim: %s\n", message.c_str());
-  return status;
-}
-
-/// Draws every figure into the folder; the error is the first that gnuplot made.
-tl::expected<std::vector<std::string>, std::string> draw_all(const std::vector<paper::Part>& parts,
-                                                             OutputFolder& folder) {
+/// Draws every figure into the folder and returns their texts. One that cannot be drawn is left
+/// out, with a line that says why: the table is worth more than its pictures.
+std::vector<std::string> draw_all(const std::vector<paper::Part>& parts, OutputFolder& folder) {
   std::vector<std::string> texts;
   for (const paper::Part& part : parts) {
     for (const paper::NamedFigure& figure : part.figures) {
       const auto path = folder.temporary(figure.name + ".svg");
-      if (auto drawn = draw(figure.figure, path); !drawn) return tl::unexpected(drawn.error());
+      if (auto drawn = draw(figure.figure, path); !drawn) {
+        std::fprintf(stderr, "supercoil-sim: %s.svg is not written: %s\n", figure.name.c_str(),
+                     drawn.error().c_str());
+        folder.drop(figure.name + ".svg");
+        texts.emplace_back();
+        continue;
+      }
       std::ifstream in(path, std::ios::binary);
       texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
     }
@@ -42,9 +43,7 @@ int reproduce_command(const ReproduceOptions& options) {
 
   std::vector<std::string> pictures;
   if (options.plots) {
-    auto drawn = draw_all(parts, *folder);
-    if (!drawn) return fail(exit_failed, drawn.error() + "; --no-plots does without");
-    pictures = std::move(*drawn);
+    pictures = draw_all(parts, *folder);
     if (auto page = folder->write("report.html", to_html(parts, pictures)); !page) {
       return fail(exit_failed, page.error());
     }

@@ -1,4 +1,5 @@
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <optional>
 
@@ -25,23 +26,25 @@ std::optional<double> read_seconds(std::string_view text, double fallback) {
 }
 
 /// "FROM:TO", "FROM:" or ":TO" within the run; empty text is the whole of it.
-std::optional<Window> read_window(const std::string& text, double duration_s) {
+std::optional<Window> read_window(const std::string& text, double duration_s, double step_s) {
   if (text.empty()) return Window{0.0, duration_s};
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) return std::nullopt;
   const auto from = read_seconds(std::string_view(text).substr(0, colon), 0.0);
   const auto to = read_seconds(std::string_view(text).substr(colon + 1), duration_s);
-  if (!from || !to || !(*from >= 0.0 && *from < *to && *to <= duration_s)) return std::nullopt;
+  if (!from || !to || !(*from >= 0.0 && *from + step_s <= *to && *to <= duration_s))
+    return std::nullopt;
   return Window{*from, *to};
 }
 
-int fail(int status, const std::string& message) {
-  std::fprintf(stderr, "supercoil-sim: %s\n", message.c_str());
-  return status;
+volatile std::sig_atomic_t interrupted = 0;
+
+void interrupt(int) {
+  interrupted = 1;
 }
 
-/// Runs to the end with whatever of trace and plot is wanted.
-void simulate(Simulation& simulation, Summary& summary, TraceWriter* trace, RunPlot* plot,
+/// Runs with whatever of trace and plot is wanted. False when it was interrupted before its end.
+bool simulate(Simulation& simulation, Summary& summary, TraceWriter* trace, RunPlot* plot,
               Progress& progress) {
   constexpr long look_every = 16384;
   while (!simulation.done()) {
@@ -51,10 +54,12 @@ void simulate(Simulation& simulation, Summary& summary, TraceWriter* trace, RunP
     if (trace != nullptr && trace->wants(tick)) trace->add(record, simulation.estimate());
     if (plot != nullptr && plot->wants(tick)) plot->add(record, simulation.estimate());
     if (tick % look_every == 0) {
+      if (interrupted != 0) return false;
       const double done = static_cast<double>(tick) / static_cast<double>(simulation.ticks());
       progress.show(done, std::to_string(static_cast<long>(record.time_s)) + " s simulated");
     }
   }
+  return true;
 }
 
 void print_summary(const nlohmann::ordered_json& json, const std::string& folder) {
@@ -79,10 +84,10 @@ int run_command(const RunOptions& options) {
     std::fputs(config::to_text(scenario.error()).c_str(), stderr);
     return exit_wrong_input;
   }
-  const auto window = read_window(options.window, scenario->duration_s);
+  const auto window = read_window(options.window, scenario->duration_s, scenario->step_s());
   if (!window) {
     return fail(exit_wrong_input, "--window " + options.window +
-                                      ": must be FROM:TO in seconds, 0 to " +
+                                      ": must be FROM:TO in seconds, a tick or more within 0 to " +
                                       std::to_string(scenario->duration_s));
   }
   if (options.check) {
@@ -101,7 +106,19 @@ int run_command(const RunOptions& options) {
   if (options.trace) trace.emplace(folder->temporary("trace.csv"), options.every);
   std::optional<RunPlot> plot;
   if (options.plot) plot.emplace(*scenario);
-  simulate(simulation, summary, trace ? &*trace : nullptr, plot ? &*plot : nullptr, progress);
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  if (!simulate(simulation, summary, trace ? &*trace : nullptr, plot ? &*plot : nullptr,
+                progress)) {
+    return fail(exit_interrupted, "interrupted; nothing of this run is kept");
+  }
+  if (summary.not_finite_ticks() > 0) {
+    std::fprintf(
+        stderr,
+        "supercoil-sim: warning: the controller's power was no number in %ld ticks, first at %g s; "
+        "none was applied then\n",
+        summary.not_finite_ticks(), summary.first_not_finite_s());
+  }
   const auto json = summary.to_json(*scenario, simulation, progress.elapsed_s());
 
   if (trace) {
@@ -116,7 +133,10 @@ int run_command(const RunOptions& options) {
       std::fprintf(stderr, "supercoil-sim: plot.svg is not written: %s\n", drawn.error().c_str());
     }
   }
-  if (const auto written = folder->write("summary.json", json.dump(2) + "\n"); !written) {
+  if (const auto written =
+          folder->write("summary.json",
+                        json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+      !written) {
     return fail(exit_failed, written.error());
   }
   if (const auto done = folder->commit(); !done) return fail(exit_failed, done.error());

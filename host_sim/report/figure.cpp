@@ -103,8 +103,9 @@ tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem
   setenv("SUPERCOIL_PLOT_LOG", log.c_str(), 1);
   const int status = std::system(command);  // NOLINT(cert-env33-c)
   std::ifstream said(log);
-  std::string first_line;
-  while (first_line.empty() && std::getline(said, first_line)) {
+  std::string complaint;
+  for (std::string line; std::getline(said, line);) {
+    if (!line.empty() && line.find("arning:") == std::string::npos) complaint = line;
   }
   std::error_code ignored;
   std::filesystem::remove(script, ignored);
@@ -115,7 +116,7 @@ tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem
     return tl::unexpected(
         std::string("gnuplot is not installed (Debian: apt install gnuplot-nox)"));
   }
-  return tl::unexpected("gnuplot failed: " + first_line);
+  return tl::unexpected("gnuplot failed: " + complaint);
 }
 
 }  // namespace supercoil::host_sim

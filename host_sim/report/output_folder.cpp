@@ -1,10 +1,13 @@
 #include "report/output_folder.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <fstream>
 #include <system_error>
 #include <utility>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 namespace supercoil::host_sim {
@@ -20,35 +23,46 @@ std::string reason() {
 }  // namespace
 
 tl::expected<OutputFolder, std::string> OutputFolder::open(const fs::path& folder) {
+  const auto refuse = [&](const std::string& why) {
+    return tl::unexpected(folder.string() + ": " + why);
+  };
   OutputFolder result(folder);
   std::error_code error;
-  result.made_ = fs::create_directories(folder, error);
-  if (error) {
-    return tl::unexpected(folder.string() + ": cannot be made: " + error.message());
+  for (fs::path missing = fs::absolute(folder); !fs::exists(missing, error) && !error;
+       missing = missing.parent_path()) {
+    result.made_.push_back(missing);
   }
-  if (!fs::is_directory(folder, error)) {
-    return tl::unexpected(folder.string() + ": is not a folder");
-  }
-  // Root may write where the mode says otherwise, but not into a file system that is read-only.
-  const fs::path probe = result.temporary("probe");
-  result.names_.clear();
-  const bool writable = std::ofstream(probe).good();
-  const std::string why = reason();
+  fs::create_directories(folder, error);
+  if (error) return refuse("cannot be made: " + error.message());
+  if (!fs::is_directory(folder, error)) return refuse("is not a folder");
+  // Root may write where the mode says otherwise, but not into a file system that is read-only: try
+  // it.
+  std::string probe = (folder / ".supercoil-XXXXXX").string();
+  const int written = mkstemp(probe.data());
+  if (written < 0) return refuse("cannot be written to: " + reason());
+  close(written);
   fs::remove(probe, error);
-  if (!writable) return tl::unexpected(folder.string() + ": cannot be written to: " + why);
+  result.lock_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (result.lock_ < 0 || flock(result.lock_, LOCK_EX | LOCK_NB) != 0) {
+    result.made_.clear();
+    return refuse("another run is writing into it");
+  }
   return result;
 }
 
 OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : folder_(std::move(other.folder_)),
-      made_(std::exchange(other.made_, false)),
-      names_(std::exchange(other.names_, {})) {}
+      made_(std::exchange(other.made_, {})),
+      names_(std::exchange(other.names_, {})),
+      lock_(std::exchange(other.lock_, -1)) {}
 
 OutputFolder::~OutputFolder() {
   std::error_code ignored;
   for (const std::string& name : names_)
     fs::remove(folder_ / (name + ".part"), ignored);
-  if (made_) fs::remove(folder_, ignored);  // only when it is empty
+  for (const fs::path& folder : made_)
+    fs::remove(folder, ignored);  // only where it is empty
+  if (lock_ >= 0) close(lock_);
 }
 
 fs::path OutputFolder::temporary(const std::string& name) {
@@ -73,6 +87,12 @@ void OutputFolder::drop(const std::string& name) {
 }
 
 tl::expected<void, std::string> OutputFolder::commit() {
+  // What would fail is looked for before the first file has its name.
+  for (const std::string& name : names_) {
+    if (fs::is_directory(folder_ / name)) {
+      return tl::unexpected((folder_ / name).string() + ": cannot be written: is a folder");
+    }
+  }
   for (const std::string& name : names_) {
     std::error_code error;
     fs::rename(folder_ / (name + ".part"), folder_ / name, error);
@@ -81,7 +101,7 @@ tl::expected<void, std::string> OutputFolder::commit() {
     }
   }
   names_.clear();
-  made_ = false;
+  made_.clear();
   return {};
 }
 

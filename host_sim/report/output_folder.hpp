@@ -38,8 +38,9 @@ class OutputFolder {
   explicit OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   std::filesystem::path folder_;
-  bool made_ = false;  ///< this run made the folder, and takes it away when it fails
+  std::vector<std::filesystem::path> made_;  ///< folders made for this run, innermost first
   std::vector<std::string> names_;
+  int lock_ = -1;  ///< the folder itself, locked: two runs would mix their temporary files
 };
 
 }  // namespace supercoil::host_sim

@@ -29,12 +29,14 @@ void TraceWriter::number(double value) {
 
 void TraceWriter::add(const TickRecord& record, const std::optional<control::Estimate>& estimate) {
   number(record.time_s);
-  for (const double value :
-       {record.open_loop ? NAN : record.reference, record.open_loop ? NAN : record.model_m,
-        record.position_m, record.measured_m, record.power_W, record.applied_power_W,
-        record.temperature_rise_K}) {
+  for (const double value : {record.reference, record.model_m}) {
     buffer_ += ',';
-    if (!std::isnan(value)) number(value);
+    if (!record.open_loop) number(value);
+  }
+  for (const double value : {record.position_m, record.measured_m, record.power_W,
+                             record.applied_power_W, record.temperature_rise_K}) {
+    buffer_ += ',';
+    number(value);
   }
   buffer_ += record.limited ? ",1" : ",0";
   for (int i = 0; i < 4; ++i) {

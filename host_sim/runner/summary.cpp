@@ -44,6 +44,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["controller"] = control::name_of(control::controller_names, scenario.start.controller.kind);
   json["arithmetic"] =
       control::name_of(control::arithmetic_names, scenario.start.controller.arithmetic);
+  json["events"] = scenario.events.size();
   json["window_s"] = {window_.from_s, std::fmin(window_.to_s, scenario.duration_s)};
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
   json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
@@ -51,8 +52,9 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["estimates"] =
       estimate ? estimate_json(*estimate, simulation.conditions().muscle) : ordered_json();
   json["faults"] = ordered_json::array();
-  json["hottest_temperature_rise_K"] = finite(hottest_K_);
+  json["hottest_temperature_rise_K"] = finite(simulation.plant().peak_temperature_rise_K());
   json["limited_ticks"] = limited_ticks_;
+  json["not_finite_ticks"] = not_finite_ticks_;
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;
   json["realtime_factor"] =

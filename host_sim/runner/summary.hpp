@@ -42,11 +42,16 @@ class Summary {
   void add(const TickRecord& record) {
     ++ticks_;
     limited_ticks_ += record.limited ? 1 : 0;
-    hottest_K_ = std::fmax(hottest_K_, record.temperature_rise_K);
+    if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
+      first_not_finite_s_ = record.time_s;
+    }
     if (record.open_loop || record.time_s < window_.from_s || record.time_s >= window_.to_s) return;
     tracking_.add(record.position_m - record.model_m);
   }
   const ErrorMeter& tracking() const { return tracking_; }
+  /// Ticks at which the controller's power was no number, and the time of the first.
+  long not_finite_ticks() const { return not_finite_ticks_; }
+  double first_not_finite_s() const { return first_not_finite_s_; }
 
   /// summary.json; wall_s: how long the run took.
   nlohmann::ordered_json to_json(const Scenario& scenario, const Simulation& simulation,
@@ -57,7 +62,8 @@ class Summary {
   ErrorMeter tracking_;
   long ticks_ = 0;
   long limited_ticks_ = 0;
-  double hottest_K_ = 0.0;
+  long not_finite_ticks_ = 0;
+  double first_not_finite_s_ = 0.0;
 };
 
 }  // namespace supercoil::host_sim

@@ -18,16 +18,10 @@ using config::Section;
 control::PhysicalParameters read_parameters(Section& section,
                                             const control::PhysicalParameters& fallback) {
   control::PhysicalParameters p;
-  p.thermal_mass_J_per_K =
-      section.number("thermal_mass_J_per_K", fallback.thermal_mass_J_per_K, {1e-4, 1e3});
-  p.heat_transfer_W_per_K =
-      section.number("heat_transfer_W_per_K", fallback.heat_transfer_W_per_K, {1e-5, 1e3});
-  p.stiffness_N_per_m =
-      section.number("stiffness_N_per_m", fallback.stiffness_N_per_m, {1e-2, 1e6});
-  p.damping_Ns_per_m = section.number("damping_Ns_per_m", fallback.damping_Ns_per_m, {1e-4, 1e5});
-  p.moving_mass_kg = section.number("moving_mass_kg", fallback.moving_mass_kg, {1e-5, 1e3});
-  p.force_per_kelvin_N_per_K =
-      section.number("force_per_kelvin_N_per_K", fallback.force_per_kelvin_N_per_K, {1e-6, 1e3});
+  for (const control::PhysicalRange& range : control::physical_ranges) {
+    p.*range.member =
+        section.number(range.name, fallback.*range.member, {range.lowest, range.highest});
+  }
   return p;
 }
 
@@ -58,11 +52,19 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
   power.pwm_bits = static_cast<int>(section.integer("pwm_bits", power.pwm_bits, 0, 24));
   const double supply_V = section.number("supply_V", 12.0, {0.5, 60.0});
   power.full_scale_W = supply_V * supply_V / resistance_Ohm;
-  if (power.pwm_bits > 0 && power.max_W > power.full_scale_W) {
-    std::ostringstream message;
+  std::ostringstream message;
+  if (power.max_W > power.full_scale_W) {
     message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
             << power.full_scale_W << " W";
     section.wrong("max_W", message.str());
+  } else if (power.pwm_bits > 0) {
+    const double step_W = power.full_scale_W / (std::ldexp(1.0, power.pwm_bits) - 1.0);
+    if (std::ceil(power.min_W / step_W) > std::floor(power.max_W / step_W) ||
+        power.max_W < step_W) {
+      message << "has too few steps: one is " << step_W
+              << " W, and none lies within min_W to max_W";
+      section.wrong("pwm_bits", message.str());
+    }
   }
   power.error_feedback = section.flag("error_feedback", power.error_feedback);
   const double longest_s = static_cast<double>(PowerOutput::longest_delay_ticks) * step_s;
@@ -88,6 +90,14 @@ void check_reach(Section& section, const Conditions& c) {
   section.wrong("kind", message.str());
 }
 
+void refuse_misfit(Section& section, const std::optional<control::Violation>& violation) {
+  if (!violation) return;
+  std::ostringstream message;
+  message << "does not fit arithmetic = \"q8.24\": it is held as " << violation->value
+          << " there, and must be " << violation->lowest << " to " << violation->highest;
+  section.wrong(violation->quantity, message.str());
+}
+
 }  // namespace
 
 control::PhysicalParameters read_muscle(const toml::table& document, Diagnostics& diagnostics) {
@@ -105,8 +115,7 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   Section root(&document, "", diagnostics);
   Conditions c;
   c.muscle = believed;
-  root.section("simulation");
-  root.section("muscle");
+  root.allow({"simulation", "muscle", "event"});  // read elsewhere
   c.plant = read_plant(root.section("plant"));
   Section sensor = root.section("sensor");
   c.position_sensor = read_position_sensor(sensor.section("position"));
@@ -114,7 +123,8 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   c.power = read_power(root.section("power"), c.plant.resistance_Ohm, step_s);
   Section reference = root.section("reference");
   c.reference = read_reference(reference);
-  c.estimator = read_estimator(root.section("estimator"), believed);
+  Section estimator = root.section("estimator");
+  c.estimator = read_estimator(estimator, believed);
   const auto model = read_reference_model(root.section("reference_model"));
   Section controller = root.section("controller");
   c.controller = read_controller(controller, believed, model);
@@ -127,6 +137,11 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
     reference.wrong("kind", "needs [controller] kind = \"power\": a controller follows a position");
   }
   check_reach(reference, c);
+  const bool follows = c.reference.kind != ReferenceKind::power;
+  refuse_misfit(controller,
+                control::check_fit(c.controller, step_s, follows ? c.reference.highest() : 0.0,
+                                   c.power.max_W));
+  refuse_misfit(estimator, control::check_fit(c.estimator, step_s, c.power.max_W));
   root.finish();
   return c;
 }

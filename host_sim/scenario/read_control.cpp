@@ -87,6 +87,7 @@ std::optional<control::ReferenceModelSettings> read_reference_model(Section sect
   }
   const Kind kind = section.choice("kind", Kind::poles, names);
   if (kind == Kind::poles) {
+    if (!section.has("poles_rad_per_s")) section.wrong("kind", "needs poles_rad_per_s = [a, b, c]");
     const auto poles = section.numbers("poles_rad_per_s", {4.0, 5.0, 0.8}, {1e-3, 1e3}, 3, 3);
     section.finish();
     return control::poles_model({poles[0], poles[1], poles[2]});
@@ -95,7 +96,7 @@ std::optional<control::ReferenceModelSettings> read_reference_model(Section sect
   return control::reference_model_named(control::name_of(names, kind));
 }
 
-control::EstimatorSettings read_estimator(Section section,
+control::EstimatorSettings read_estimator(Section& section,
                                           const control::PhysicalParameters& muscle) {
   control::EstimatorSettings e;
   e.kind = section.choice("kind", e.kind, control::estimator_names);

@@ -12,7 +12,7 @@ std::optional<control::ReferenceModelSettings> read_reference_model(config::Sect
 control::ControllerSettings read_controller(
     config::Section& section, const control::PhysicalParameters& muscle,
     const std::optional<control::ReferenceModelSettings>& model);
-control::EstimatorSettings read_estimator(config::Section section,
+control::EstimatorSettings read_estimator(config::Section& section,
                                           const control::PhysicalParameters& muscle);
 
 }  // namespace supercoil::host_sim

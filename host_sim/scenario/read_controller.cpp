@@ -9,9 +9,6 @@ namespace {
 using config::Section;
 using control::MracSettings;
 
-/// What q8.24 can hold of a gain.
-constexpr double fixed_point_limit = 127.0;
-
 MracSettings::Parameters read_six(Section& section, const char* key,
                                   const MracSettings::Parameters& fallback, config::Range range) {
   const std::vector<double> list = section.numbers(
@@ -51,7 +48,11 @@ MracSettings read_mrac(Section& section, const control::ReferenceModelSettings& 
   if (const auto named = control::mrac_preset(preset)) {
     m = *named;
   } else {
-    section.wrong("preset", "must be one of: printed, a");
+    std::string names;
+    for (const auto& [name, text] : control::mrac_presets) {
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    }
+    section.wrong("preset", "must be one of: " + names);
   }
   m = m.scaled(section.number("adaptation_scale", 1.0, {1e-6, 1e6}));
   read_mrac_constants(section, m);
@@ -64,13 +65,6 @@ MracSettings read_mrac(Section& section, const control::ReferenceModelSettings& 
     }
   }
   return m;
-}
-
-/// In watts at rest, where fixed point works.
-void check_fits(Section& section, const char* key, double gain, double dc_gain_m_per_W) {
-  if (std::abs(gain * dc_gain_m_per_W) <= fixed_point_limit) return;
-  section.wrong(key, "is too large for arithmetic = \"q8.24\": at most " +
-                         std::to_string(fixed_point_limit / dc_gain_m_per_W));
 }
 
 }  // namespace
@@ -87,15 +81,11 @@ control::ControllerSettings read_controller(
   if (c.kind != ControllerKind::power) {
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
   }
-  const bool fixed = c.arithmetic == control::Arithmetic::q8_24;
   if (c.kind == ControllerKind::pi) {
     c.pi.proportional_W_per_m =
         section.number("proportional_W_per_m", c.pi.proportional_W_per_m, {0.0, 1e7});
     c.pi.integral_W_per_m_s =
         section.number("integral_W_per_m_s", c.pi.integral_W_per_m_s, {0.0, 1e7});
-    if (fixed) {
-      check_fits(section, "proportional_W_per_m", c.pi.proportional_W_per_m, c.dc_gain_m_per_W);
-    }
   } else if (c.kind == ControllerKind::pd_ff) {
     control::PdFeedforwardSettings& pd = c.pd_ff;
     pd.feedforward_W_per_m = 1.0 / c.dc_gain_m_per_W;
@@ -107,11 +97,6 @@ control::ControllerSettings read_controller(
         section.number("feedforward_W_per_m", pd.feedforward_W_per_m, {0.0, 1e7});
     pd.derivative_filter_rad_per_s =
         section.number("derivative_filter_rad_per_s", pd.derivative_filter_rad_per_s, {0.1, 1e4});
-    if (fixed) {
-      check_fits(section, "proportional_W_per_m", pd.proportional_W_per_m, c.dc_gain_m_per_W);
-      check_fits(section, "derivative_Ws_per_m", pd.derivative_Ws_per_m, c.dc_gain_m_per_W);
-      check_fits(section, "feedforward_W_per_m", pd.feedforward_W_per_m, c.dc_gain_m_per_W);
-    }
   } else if (c.kind == ControllerKind::mrac) {
     c.mrac = read_mrac(section, c.model);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 #include "config/section.hpp"
 #include "config/toml_file.hpp"
@@ -29,17 +28,22 @@ void overlay(toml::table& into, toml::table&& from) {
   }
 }
 
-void read_simulation(config::Section section, Scenario& scenario) {
+void read_simulation(const toml::table& document, Scenario& scenario,
+                     config::Diagnostics& diagnostics) {
+  config::Section section = config::Section(&document, "", diagnostics).section("simulation");
   scenario.duration_s = section.number("duration_s", scenario.duration_s, {1e-3, 1e6});
   scenario.rate_Hz = section.number("rate_Hz", scenario.rate_Hz, {100.0, 10e3});
   scenario.seed = static_cast<std::uint64_t>(section.integer("seed", 1, 0, 2147483647));
   scenario.substeps = static_cast<int>(section.integer("substeps", 1, 1, 1000));
   section.finish();
+  if (scenario.ticks() < 1) {
+    section.wrong("duration_s", "must be at least one tick: 1/rate_Hz");
+  }
 }
 
 /// What an event may name; [simulation] holds for the whole run.
 void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostics) {
-  for (const char* fixed : {"simulation", "muscle", "reference_model"}) {
+  for (const char* fixed : {"simulation", "muscle", "reference_model", "event"}) {
     const toml::node* node = event.get(fixed);
     if (node == nullptr) continue;
     const auto line = static_cast<int>(node->source().begin.line);
@@ -47,80 +51,43 @@ void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostic
   }
 }
 
-/// The document with the first `count` events laid over it, parsed anew so that lines are kept.
-/// Returns the time of the last one.
-class Timeline {
- public:
-  Timeline(std::string text, std::string name) : text_(std::move(text)), name_(std::move(name)) {}
-
-  struct Moment {
-    toml::table document;
-    double at_s = 0.0;
-    bool new_controller = false;
-    bool new_estimator = false;
-  };
-
-  /// order: indices of the events to lay over, earliest first.
-  Moment after(const std::vector<std::size_t>& order, std::size_t count) const {
-    config::Diagnostics ignored(name_);
-    Moment moment;
-    moment.document = config::parse(text_, ignored);
-    if (count > 0) {
-      toml::array& events = *moment.document.get_as<toml::array>("event");
-      for (std::size_t i = 0; i < count; ++i) {
-        toml::table& event = *events[order[i]].as_table();
-        moment.at_s = event["at_s"].value_or(0.0);
-        moment.new_controller = event.contains("controller");
-        moment.new_estimator = event.contains("estimator");
-        event.erase("at_s");
-        overlay(moment.document, std::move(event));
-      }
-    }
-    moment.document.erase("event");
-    return moment;
-  }
-
- private:
-  std::string text_;
-  std::string name_;
+/// An event as it is written, without its time.
+struct WrittenEvent {
+  double at_s;
+  toml::table changes;
 };
 
-/// The events' indices by time; notes each that is not a table, has no time or a wrong one.
-std::vector<std::size_t> order_events(const toml::table& document, double duration_s,
+/// Takes the events out of the document, earliest first; notes each that has no time or a wrong
+/// one.
+std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
                                       config::Diagnostics& diagnostics) {
-  std::vector<std::pair<double, std::size_t>> times;
-  const toml::node* node = document.get("event");
-  if (node == nullptr) return {};
+  std::vector<WrittenEvent> events;
+  toml::node* node = document.get("event");
+  if (node == nullptr) return events;
   if (!node->is_array_of_tables()) {
     diagnostics.add(static_cast<int>(node->source().begin.line), "event",
                     "must be written as [[event]], one for each");
-    return {};
-  }
-  const toml::array& events = *node->as_array();
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    const toml::table& event = *events[i].as_table();
-    config::Section section(&event, "event", diagnostics);
-    refuse_fixed_keys(event, diagnostics);
-    if (!event.contains("at_s")) {
-      diagnostics.add(static_cast<int>(event.source().begin.line), "event.at_s",
-                      "is missing: when does the event happen?");
+  } else {
+    for (toml::node& element : *node->as_array()) {
+      toml::table& event = *element.as_table();
+      refuse_fixed_keys(event, diagnostics);
+      if (!event.contains("at_s")) {
+        diagnostics.add(static_cast<int>(event.source().begin.line), "event.at_s",
+                        "is missing: when does the event happen?");
+      }
+      const double at_s =
+          config::Section(&event, "event", diagnostics).number("at_s", 0.0, {0.0, duration_s});
+      event.erase("at_s");
+      events.push_back({at_s, std::move(event)});
     }
-    times.emplace_back(section.number("at_s", 0.0, {0.0, duration_s}), i);
   }
-  std::stable_sort(times.begin(), times.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::size_t> order;
-  order.reserve(times.size());
-  for (const auto& [time, index] : times)
-    order.push_back(index);
-  return order;
+  document.erase("event");
+  std::stable_sort(events.begin(), events.end(),
+                   [](const auto& x, const auto& y) { return x.at_s < y.at_s; });
+  return events;
 }
 
 }  // namespace
-
-long Scenario::ticks() const {
-  return std::lround(duration_s * rate_Hz);
-}
 
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name) {
   config::Diagnostics diagnostics(name);
@@ -129,19 +96,24 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
 
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
-  config::Section root(&document, "", diagnostics);
-  read_simulation(root.section("simulation"), scenario);
-  const auto order = order_events(document, scenario.duration_s, diagnostics);
-  document.erase("event");
-
+  read_simulation(document, scenario, diagnostics);
+  std::vector<WrittenEvent> events = take_events(document, scenario.duration_s, diagnostics);
   const auto believed = read_muscle(document, diagnostics);
   scenario.start = read_conditions(document, believed, scenario.step_s(), diagnostics);
-  const Timeline timeline(text, name);
-  for (std::size_t count = 1; diagnostics.empty() && count <= order.size(); ++count) {
-    const auto moment = timeline.after(order, count);
-    Event event{moment.at_s, {}, moment.new_controller, moment.new_estimator};
-    event.conditions = read_conditions(moment.document, believed, scenario.step_s(), diagnostics);
-    scenario.events.push_back(std::move(event));
+  // Each event is laid over all before it, and the whole is read and checked again. Events at one
+  // time are one change: what the first alone would make impossible, the second may put right.
+  for (auto event = events.begin(); event != events.end() && diagnostics.empty(); ++event) {
+    if (scenario.events.empty() || scenario.events.back().at_s != event->at_s) {
+      scenario.events.push_back({event->at_s, {}, false, false});
+    }
+    Event& moment = scenario.events.back();
+    moment.new_controller |= event->changes.contains("controller");
+    moment.new_estimator |= event->changes.contains("estimator");
+    overlay(document, std::move(event->changes));
+    const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
+    if (last_of_its_time) {
+      moment.conditions = read_conditions(document, believed, scenario.step_s(), diagnostics);
+    }
   }
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
   return scenario;

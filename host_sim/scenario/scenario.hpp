@@ -1,6 +1,7 @@
 // A simulation run as its author wrote it, checked and complete.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -53,7 +54,7 @@ struct Scenario {
 
   double step_s() const { return 1.0 / rate_Hz; }
   /// Number of ticks, the one at time 0 included, the one at duration_s not.
-  long ticks() const;
+  long ticks() const { return std::lround(duration_s * rate_Hz); }
 };
 
 }  // namespace supercoil::host_sim

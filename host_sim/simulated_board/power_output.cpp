@@ -20,22 +20,22 @@ void PowerOutput::set(const PowerSettings& settings) {
 
 double PowerOutput::quantised(double power_W) {
   const double steps = std::ldexp(1.0, settings_.pwm_bits) - 1.0;
-  const double exact = power_W / settings_.full_scale_W * steps + rounding_error_;
-  const double duty = std::clamp(std::nearbyint(exact), 0.0, steps);
+  const double per_W = steps / settings_.full_scale_W;
+  // The limits hold for the power that is given, not only for the one that is asked for.
+  const double least = std::ceil(settings_.min_W * per_W);
+  const double most = std::floor(settings_.max_W * per_W);
+  const double exact = power_W * per_W + rounding_error_;
+  const double duty = std::clamp(std::nearbyint(exact), least, most);
   rounding_error_ = settings_.error_feedback ? std::clamp(exact - duty, -1.0, 1.0) : 0.0;
-  return duty / steps * settings_.full_scale_W;
+  return duty / per_W;
 }
 
 void PowerOutput::want(double power_W) {
   const double clipped = control::PowerRange{settings_.min_W, settings_.max_W}.clip(power_W);
-  limited_ = clipped != power_W;
-  const double commanded = settings_.pwm_bits > 0 ? quantised(clipped) : clipped;
-  if (delay_ticks_ == 0) {
-    applied_W_ = commanded;
-    return;
-  }
-  line_[head_] = commanded;
-  applied_W_ = line_[(head_ + line_.size() - delay_ticks_) % line_.size()];
+  Command& newest = line_[head_];
+  newest.limited = clipped != power_W;
+  newest.power_W = settings_.pwm_bits > 0 ? quantised(clipped) : clipped;
+  acting_ = line_[(head_ + line_.size() - delay_ticks_) % line_.size()];
   head_ = (head_ + 1) % line_.size();
 }
 

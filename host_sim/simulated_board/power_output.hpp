@@ -31,23 +31,27 @@ class PowerOutput {
   void want(double power_W);
 
   /// The power that acts until the next tick, as the board knows it.
-  double applied_W() const { return applied_W_; }
+  double applied_W() const { return acting_.power_W; }
   /// The same as it really is in the muscle.
-  double true_W() const { return applied_W_ * settings_.gain; }
-  /// Whether the last wanted power was outside the range.
-  bool limited() const { return limited_; }
+  double true_W() const { return acting_.power_W * settings_.gain; }
+  /// Whether the acting power is not the one that was wanted for it.
+  bool limited() const { return acting_.limited; }
 
  private:
+  struct Command {
+    double power_W = 0.0;
+    bool limited = false;
+  };
+
   double quantised(double power_W);
 
   PowerSettings settings_;
   double step_s_;
   std::size_t delay_ticks_ = 0;
-  std::array<double, longest_delay_ticks + 1> line_{};
+  std::array<Command, longest_delay_ticks + 1> line_{};
   std::size_t head_ = 0;
   double rounding_error_ = 0.0;
-  double applied_W_ = 0.0;
-  bool limited_ = false;
+  Command acting_;
 };
 
 }  // namespace supercoil::host_sim

@@ -16,9 +16,7 @@ Theta theta_from(const PhysicalParameters& p) {
 }
 
 TransferFunction transfer_function_from(const PhysicalParameters& p) {
-  const Theta theta = theta_from(p);
-  const double scale = 1.0 / (theta[0] * p.moving_mass_kg);
-  return {theta[3] * scale, theta[2] * scale, theta[1] * scale, scale};
+  return transfer_function_from(theta_from(p), p.moving_mass_kg).value();
 }
 
 std::optional<TransferFunction> transfer_function_from(const Theta& theta, double moving_mass_kg) {

@@ -27,7 +27,9 @@ void Estimator::step(double position_m, double applied_power_W) {
         if constexpr (!std::is_same_v<Kind, std::monostate>) {
           using Scalar = typename Kind::ScalarType;
           estimator.step(Scalar(position_m * to_watts_), Scalar(applied_power_W));
-          excitation_.step(estimator.model().phi().template cast<double>(), estimator.error());
+          const auto& model = estimator.model();
+          excitation_.step(model.phi().template cast<double>(), static_cast<double>(model.z()),
+                           estimator.scaled_theta());
         }
       },
       any_);

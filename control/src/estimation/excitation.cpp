@@ -13,7 +13,7 @@ ExcitationMonitor::ExcitationMonitor(const Settings& settings, double step_s)
       ticks_per_block_(
           std::max(1L, std::lround(settings.window_s / (step_s * static_cast<double>(blocks))))) {}
 
-void ExcitationMonitor::close_block() {
+void ExcitationMonitor::close_block(const Vector<double, 4>& theta) {
   history_[next_block_] = current_;
   next_block_ = (next_block_ + 1) % blocks;
   filled_ = std::min(filled_ + 1, blocks);
@@ -23,13 +23,17 @@ void ExcitationMonitor::close_block() {
   Block sum;
   for (const Block& block : history_) {
     sum.information += block.information;
-    sum.error_energy += block.error_energy;
+    sum.correlation += block.correlation;
+    sum.energy += block.energy;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix<double, 4>> solver(sum.information * step_s_,
+  const Matrix<double, 4> information = sum.information.selfadjointView<Eigen::Lower>();
+  const Eigen::SelfAdjointEigenSolver<Matrix<double, 4>> solver(information * step_s_,
                                                                 Eigen::EigenvaluesOnly);
   smallest_eigenvalue_ = std::max(0.0, solver.eigenvalues()[0]);
+  const double left =
+      sum.energy - 2.0 * theta.dot(sum.correlation) + theta.dot(information * theta);
   error_bound_ = smallest_eigenvalue_ > 0.0
-                     ? std::sqrt(sum.error_energy * step_s_ / smallest_eigenvalue_)
+                     ? std::sqrt(std::max(0.0, left) * step_s_ / smallest_eigenvalue_)
                      : std::numeric_limits<double>::infinity();
 }
 

@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import resource
+import signal
 import subprocess
 import tempfile
 import time
@@ -104,15 +105,9 @@ class Program(unittest.TestCase):
     def test_a_killed_run_leaves_an_earlier_result_whole_and_the_next_run_tidies_up(self):
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
         earlier = (self.path / "out/trace.csv").read_bytes()
-        self.scenario("simulation.duration_s = 20000.0\n")
-        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot"],
-                                   cwd=self.path)
-        part = self.path / "out/trace.csv.part"
-        while not (part.exists() and part.stat().st_size > 1000000):
-            self.assertIsNone(running.poll(), "it ended before it could be killed")
-            time.sleep(0.01)
+        running = self.start_long_run()
         running.kill()
-        running.wait()
+        running.communicate()
         self.assertEqual((self.path / "out/trace.csv").read_bytes(), earlier)
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
@@ -126,6 +121,67 @@ class Program(unittest.TestCase):
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
                          ["summary.json", "trace.csv"])
 
+    def test_reproduce_without_gnuplot_still_gives_the_table(self):
+        done = self.run_program("reproduce", "--out", "out", env={"PATH": "/nowhere"})
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("figure2.svg is not written: gnuplot is not installed", done.stderr)
+        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
+                         ["report.html", "reproduction.csv"])
+
+    def start_long_run(self):
+        """A run of minutes, once it has begun to write."""
+        self.scenario("simulation.duration_s = 20000.0\n")
+        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot"],
+                                   cwd=self.path, stderr=subprocess.PIPE, text=True)
+        part = self.path / "out/trace.csv.part"
+        while not (part.exists() and part.stat().st_size > 1000000):
+            self.assertIsNone(running.poll(), "it ended too early")
+            time.sleep(0.01)
+        return running
+
+    def test_an_interrupted_run_leaves_nothing(self):
+        for number in [signal.SIGINT, signal.SIGTERM]:
+            running = self.start_long_run()
+            running.send_signal(number)
+            errors = running.communicate()[1]
+            self.assertEqual(running.returncode, 130)
+            self.assertIn("interrupted; nothing of this run is kept", errors)
+            self.assertFalse((self.path / "out").exists())
+
+    def test_two_runs_do_not_write_into_one_folder(self):
+        running = self.start_long_run()
+        (self.path / "short.toml").write_text(SHORT)
+        done = self.run_program("run", "short.toml", "--out", "out")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("out: another run is writing into it", done.stderr)
+        self.assertTrue((self.path / "out/trace.csv.part").exists())
+        running.kill()
+        running.communicate()
+
+    def test_a_power_that_is_no_number_is_not_silent(self):
+        done = self.run_program("run", self.scenario(
+            SHORT + "controller = {p0_rad_per_s = -1000.0, accept_failed_premises = true}"),
+            "--out", "out", "--no-plot")
+        self.assertIn("power was no number in", done.stderr)
+        summary = json.loads((self.path / "out/summary.json").read_text())
+        self.assertGreater(summary["not_finite_ticks"], 0)
+        self.assertIn(",nan,", (self.path / "out/trace.csv").read_text().replace("-nan", "nan"))
+
+    def test_a_full_standard_output_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([PROGRAM, "list"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot write to standard output", done.stderr)
+
+    def test_a_name_that_is_not_utf8(self):
+        name = os.fsencode(self.path) + b"/\xff.toml"
+        with open(name, "w") as file:
+            file.write(SHORT)
+        done = subprocess.run([PROGRAM, "run", name, "--out", "out", "--no-plot"], cwd=self.path,
+                              capture_output=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        json.loads((self.path / "out/summary.json").read_text())
+
     def test_check_and_list_write_nothing(self):
         checked = self.run_program("run", self.scenario(SHORT), "--check")
         self.assertEqual(checked.returncode, 0)
@@ -137,7 +193,7 @@ class Program(unittest.TestCase):
 
     def test_reproduce_writes_table_plots_and_page(self):
         done = self.run_program("reproduce", "--out", "out")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
                          ["figure2.svg", "figure3.svg", "figure4.svg", "physical.svg",
                           "report.html", "reproduction.csv"])

@@ -1,5 +1,7 @@
 #include "runner/simulation.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -91,6 +93,7 @@ simulation.duration_s = 200.0
 power.max_W = 5.0
 reference.kind = "power"
 controller.kind = "power"
+muscle = {stiffness_N_per_m = 12.0, damping_Ns_per_m = 3.0, thermal_mass_J_per_K = 0.2}
 sensor.position = {noise_rms_m = 0.0, resolution_bits = 0}
 )");
   Simulation simulation(scenario);
@@ -111,6 +114,47 @@ TEST(Simulation, PiTracksAsTheTrialDid) {
 }
 
 TEST(Simulation, MracPresetATracksTenTimesBetterThanPi) {
-  const Scenario scenario = read("simulation.duration_s = 100.0\ncontroller.preset = 'a'");
-  CHECK_COMPARE(rms_um(scenario, 60.0, 100.0), <, 15.0);
+  const Scenario mrac = read("simulation.duration_s = 100.0\ncontroller.preset = 'a'");
+  const Scenario pi = read("simulation.duration_s = 100.0\ncontroller.kind = 'pi'");
+  CHECK_COMPARE(10.0 * rms_um(mrac, 60.0, 100.0), <, rms_um(pi, 60.0, 100.0));
+}
+
+TEST(Simulation, EstimateThatMovesWithItsErrorIsNotTrusted) {
+  // Two sines that leave θ1 30 % off for good: the running error alone is small all the time.
+  const Scenario scenario = read(R"(
+simulation.duration_s = 200.0
+power.max_W = 5.0
+reference = {kind = "power", offset_W = 2.5, amplitudes_W = [0.74, 0.87], angular_frequencies_rad_per_s = [1.489, 1.01]}
+controller.kind = "power"
+)");
+  const control::Theta& truth = scenario.start.estimator.gradient.scale.nominal;
+  Simulation simulation(scenario);
+  while (!simulation.done()) {
+    simulation.step();
+    const auto estimate = simulation.estimate();
+    const double error = (estimate->theta.cwiseQuotient(truth) - control::Theta::Ones()).norm();
+    CHECK_FALSE(estimate->trusted && error > 0.25);
+  }
+  CHECK_COMPARE(simulation.estimate()->relative_error_bound, >, 0.29);
+}
+
+TEST(Simulation, FixedPointFollowsDoubleAtEveryRateThatItAccepts) {
+  struct Case {
+    const char* rate;
+    double most_m;
+  };
+  // At 100 Hz preset a, made for 1 kHz, sits at the power limits half of the time, and each
+  // crossing of a limit that falls into another tick sets the two 10 µm apart for a while.
+  for (const Case& c : {Case{"100.0", 30e-6}, Case{"1000.0", 1e-6}, Case{"10000.0", 1e-6}}) {
+    const std::string start = std::string("simulation = {duration_s = 30.0, rate_Hz = ") + c.rate +
+                              "}\nestimator.kind = 'none'\n";
+    const auto in_double = records_of(read(start + "controller.preset = 'a'"));
+    const auto in_fixed =
+        records_of(read(start + "controller = {preset = 'a', arithmetic = 'q8.24'}"));
+    double largest_m = 0.0;
+    for (std::size_t i = 0; i < in_double.size(); ++i) {
+      largest_m = std::max(largest_m, std::abs(in_double[i].position_m - in_fixed[i].position_m));
+    }
+    CHECK_COMPARE(largest_m, <, c.most_m);
+  }
 }

@@ -101,3 +101,24 @@ TEST(Events, CannotChangeTheSimulationItself) {
   STRCMP_EQUAL("test.toml:3: event.simulation: cannot change during a run\n",
                problems("[[event]]\nat_s = 1.0\nsimulation.seed = 2\n").c_str());
 }
+
+TEST(Events, InsideAnEventAreRefused) {
+  STRCMP_EQUAL("test.toml:3: event.event: cannot change during a run\n",
+               problems("[[event]]\nat_s = 1.0\nevent = 3\n").c_str());
+  STRCMP_EQUAL("test.toml:3: event.event: cannot change during a run\n",
+               problems("[[event]]\nat_s = 1.0\n[[event.event]]\nat_s = 2.0\n").c_str());
+}
+
+TEST(Events, AtOneTimeAreOneChange) {
+  const Scenario s = read(R"(
+[[event]]
+at_s = 1.0
+reference.kind = "power"
+[[event]]
+at_s = 1.0
+controller.kind = "power"
+)");
+  LONGS_EQUAL(1, s.events.size());
+  CHECK(s.events[0].conditions.reference.kind == ReferenceKind::power);
+  CHECK(s.events[0].conditions.controller.kind == control::ControllerKind::power);
+}

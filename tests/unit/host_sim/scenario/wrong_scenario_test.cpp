@@ -156,12 +156,56 @@ TEST(WrongScenario, MracSaysWhichPremiseFails) {
                                .c_str());
 }
 
-TEST(WrongScenario, GainThatFixedPointCannotHold) {
-  const std::string answer =
-      problems("controller = {kind = 'pi', arithmetic = 'q8.24', proportional_W_per_m = 50000.0}");
-  CHECK_TEXT(
-      answer.find("is too large for arithmetic = \"q8.24\": at most 21028") != std::string::npos,
-      answer.c_str());
+TEST(WrongScenario, WhatFixedPointCannotHold) {
+  // What these were before they were refused: other controllers than in double, without a word.
+  for (const char* text : {
+           "controller = {kind = 'pi', arithmetic = 'q8.24', proportional_W_per_m = 50000.0}",
+           "controller = {kind = 'pd_ff', arithmetic = 'q8.24', derivative_filter_rad_per_s = "
+           "1000.0}",
+           "controller = {arithmetic = 'q8.24', alpha = [1e5, 400.0]}",
+           "controller = {arithmetic = 'q8.24', adaptation_scale = 2000.0}",
+           "controller = {arithmetic = 'q8.24', initial = [200.0, 0.0, 0.0, 0.0, 0.0, 0.0]}",
+           "controller.arithmetic = 'q8.24'\nplant.stiffness_N_per_m = 2000.0",
+           "estimator.arithmetic = 'q8.24'\nsimulation.rate_Hz = 100.0",
+           "estimator = {arithmetic = 'q8.24', initial = [1e6, 0.0, 0.0, 0.0]}",
+           "estimator = {arithmetic = 'q8.24', gain = [1e-6, 1.0, 1.0, 1.0]}",
+       }) {
+    const std::string answer = problems(text);
+    CHECK_TEXT(answer.find("does not fit arithmetic = \"q8.24\"") != std::string::npos,
+               (std::string(text) + " -> " + answer).c_str());
+  }
+}
+
+TEST(WrongScenario, DefaultThatDoesNotFitIsNamedAsOne) {
+  check_answer(
+      "s.toml:1: power.max_W (its default): must not exceed what the supply gives at a duty of 1: "
+      "supply_V²/resistance_Ohm = 0.9 W",
+      "power = {supply_V = 3.0}");
+}
+
+TEST(WrongScenario, RunWithoutATick) {
+  check_answer("s.toml:1: simulation.duration_s = 0.001: must be at least one tick: 1/rate_Hz",
+               "simulation = {duration_s = 0.001, rate_Hz = 100.0}");
+}
+
+TEST(WrongScenario, PwmWithoutAStepInsideTheLimits) {
+  check_answer(
+      "s.toml:1: power.pwm_bits = 1: has too few steps: one is 14.4 W, and none lies within min_W "
+      "to "
+      "max_W",
+      "power.pwm_bits = 1");
+}
+
+TEST(WrongScenario, KeyOfTensOfThousandsOfParts) {
+  std::string text = "a";
+  for (int i = 0; i < 40000; ++i)
+    text += ".a";
+  check_answer("s.toml:1: is longer than 4096 characters", text + " = 1");
+}
+
+TEST(WrongScenario, PolesThatAreNotGiven) {
+  check_answer("s.toml:1: reference_model.kind = 'poles': needs poles_rad_per_s = [a, b, c]",
+               "reference_model.kind = 'poles'\ncontroller.kind = 'pi'");
 }
 
 TEST(WrongScenario, FileThatIsNotThere) {

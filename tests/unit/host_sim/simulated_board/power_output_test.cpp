@@ -88,3 +88,46 @@ TEST(PowerOutput, GivesTheMuscleMoreThanItReportsWhenItsGainIsWrong) {
   DOUBLES_EQUAL(2.0, output.applied_W(), 0.0);
   DOUBLES_EQUAL(2.4, output.true_W(), 1e-15);
 }
+
+TEST(PowerOutput, KeepsItsLimitsWhateverItsSteps) {
+  for (const int bits : {4, 6, 8, 12}) {
+    for (const bool feedback : {false, true}) {
+      PowerSettings settings = quantised(bits, feedback);
+      settings.min_W = 1.0;
+      PowerOutput output(settings, step_s);
+      for (int tick = 0; tick < 2000; ++tick) {
+        output.want(tick % 2 == 0 ? 4.499 : 0.3 + 0.004 * tick);
+        CHECK(output.applied_W() <= 4.5 && output.applied_W() >= 1.0);
+      }
+    }
+  }
+}
+
+TEST(PowerOutput, ALongerDelayActsOnWhatWasAskedForThen) {
+  PowerOutput output({}, step_s);
+  for (int tick = 0; tick < 100; ++tick)
+    output.want(2.0);
+  PowerSettings delayed;
+  delayed.delay_s = 0.020;
+  output.set(delayed);
+  for (int tick = 0; tick < 20; ++tick) {
+    output.want(4.0);
+    DOUBLES_EQUAL(2.0, output.applied_W(), 0.0);
+  }
+  output.want(4.0);
+  DOUBLES_EQUAL(4.0, output.applied_W(), 0.0);
+}
+
+TEST(PowerOutput, LimitedBelongsToThePowerThatActs) {
+  PowerSettings settings;
+  settings.delay_s = 0.002;
+  PowerOutput output(settings, step_s);
+  output.want(9.0);
+  CHECK_FALSE(output.limited());
+  output.want(1.0);
+  CHECK_FALSE(output.limited());
+  output.want(1.0);
+  CHECK(output.limited());
+  output.want(1.0);
+  CHECK_FALSE(output.limited());
+}

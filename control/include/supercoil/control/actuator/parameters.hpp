@@ -1,6 +1,7 @@
 // The muscle's parameters in the three forms that the literature uses.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "supercoil/control/scalar/scalar.hpp"
@@ -47,8 +48,23 @@ struct TransferFunction {
   double b3;
 };
 
-/// Each parameter must be finite, positive and within a span that holds any muscle of thread, from
-/// a hair's to a rope's. Returns the first that is not.
+/// What each parameter may be: spans that hold any muscle of thread, from a hair's to a rope's.
+struct PhysicalRange {
+  const char* name;  ///< as in the code and in configurations
+  double PhysicalParameters::*member;
+  double lowest;
+  double highest;
+};
+inline constexpr std::array<PhysicalRange, 6> physical_ranges{{
+    {"thermal_mass_J_per_K", &PhysicalParameters::thermal_mass_J_per_K, 1e-4, 1e3},
+    {"heat_transfer_W_per_K", &PhysicalParameters::heat_transfer_W_per_K, 1e-5, 1e3},
+    {"stiffness_N_per_m", &PhysicalParameters::stiffness_N_per_m, 1e-2, 1e6},
+    {"damping_Ns_per_m", &PhysicalParameters::damping_Ns_per_m, 1e-4, 1e5},
+    {"moving_mass_kg", &PhysicalParameters::moving_mass_kg, 1e-5, 1e3},
+    {"force_per_kelvin_N_per_K", &PhysicalParameters::force_per_kelvin_N_per_K, 1e-6, 1e3},
+}};
+
+/// The first parameter that is not a number within its range.
 std::optional<Violation> check(const PhysicalParameters& parameters);
 
 }  // namespace supercoil::control

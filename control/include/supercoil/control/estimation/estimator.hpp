@@ -22,6 +22,9 @@ struct EstimatorSettings {
   ExcitationMonitor::Settings excitation;
 };
 
+/// What q8.24 cannot hold of the settings (see controller.hpp).
+std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W);
+
 struct Estimate {
   Theta theta;                  ///< in θ's own units
   double prediction_error_W;    ///< ε = z − θᵀφ, through 1/Λ

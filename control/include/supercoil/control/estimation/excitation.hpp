@@ -8,37 +8,40 @@
 
 namespace supercoil::control {
 
-/// Watches the smallest eigenvalue of ∫φφᵀdt over a sliding window (persistence of excitation), and
-/// what it says about the estimate: were the parameters off by θ̃, the prediction error would have
-/// at least the energy ∫ε²dt ≥ λmin |θ̃|². So |θ̃| ≤ √(∫ε²dt / λmin), in the units of the regressors'
-/// scale, where every nominal parameter is 1. Noise excites too, but it also enters ε in the same
-/// proportion: without motion the bound stays near 1 and nothing is trusted.
+/// Watches the smallest eigenvalue λmin of M = ∫φφᵀdt over a sliding window (persistence of
+/// excitation), and how well the *present* θ predicts the whole window: E = ∫(z − θᵀφ)²dt, from the
+/// window's ∫zφdt and ∫z²dt. Whatever θ° fits the window best, E ≥ (θ − θ°)ᵀM(θ − θ°), so |θ − θ°|
+/// ≤ √(E/λmin), in the units of the regressors' scale, where every nominal parameter is 1. (The
+/// running error ε = z − θᵀφ will not do in E's place: while θ moves, adaptation keeps ε small
+/// wherever θ is.) θ° is the muscle but for noise: noise excites too, but it enters E in the same
+/// proportion, so that without motion the bound stays near 1.
 class ExcitationMonitor {
  public:
   struct Settings {
     double window_s = 20.0;
-    /// With the paper's input and 10 µm of noise the bound falls below this when no parameter is
-    /// more than 2 % off (measured 2026-11: at 145 s); a sine of 0.25 rad/s alone stays above 1.
+    /// The bound below which an estimate is trusted.
     double trusted_error = 0.2;
   };
 
   /// step_s: the sampling period in seconds, > 0.
   ExcitationMonitor(const Settings& settings, double step_s);
 
-  /// One tick. Every window_s/16 one tick also solves a 4 × 4 eigenvalue problem (about 1 µs).
-  void step(const Vector<double, 4>& phi, double prediction_error) {
+  /// One tick: z = θᵀφ is the regression. Every window_s/16 one tick also solves a 4 × 4 eigenvalue
+  /// problem (about 1 µs), and judges theta, the estimate at that tick.
+  void step(const Vector<double, 4>& phi, double z, const Vector<double, 4>& theta) {
     for (int i = 0; i < 4; ++i) {
       for (int j = 0; j <= i; ++j)
         current_.information(i, j) += phi[i] * phi[j];
     }
-    current_.error_energy += prediction_error * prediction_error;
-    if (++ticks_in_block_ == ticks_per_block_) close_block();
+    current_.correlation += phi * z;
+    current_.energy += z * z;
+    if (++ticks_in_block_ == ticks_per_block_) close_block(theta);
   }
 
   /// λmin in W²s over the last whole window; 0 until one has passed.
   double smallest_eigenvalue() const { return smallest_eigenvalue_; }
-  /// The largest relative error that the parameters together can have; infinity until a window has
-  /// passed.
+  /// The largest distance of θ from the window's best fit, relative to the nominal parameters;
+  /// infinity until a window has passed. It judges θ as it was at the last sixteenth of a window.
   double error_bound() const { return error_bound_; }
   bool trusted() const { return error_bound_ <= trusted_error_; }
 
@@ -46,9 +49,10 @@ class ExcitationMonitor {
   static constexpr std::size_t blocks = 16;
   struct Block {
     Matrix<double, 4> information = Matrix<double, 4>::Zero();  // lower triangle
-    double error_energy = 0.0;
+    Vector<double, 4> correlation = Vector<double, 4>::Zero();
+    double energy = 0.0;
   };
-  void close_block();
+  void close_block(const Vector<double, 4>& theta);
 
   double step_s_;
   double trusted_error_;

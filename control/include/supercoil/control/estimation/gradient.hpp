@@ -58,6 +58,8 @@ class GradientEstimator {
 
   /// θ in its own units.
   Theta theta() const { return theta_.template cast<double>().cwiseProduct(nominal_); }
+  /// θ over its nominal values, as the regression has it.
+  Vector<double, 4> scaled_theta() const { return theta_.template cast<double>(); }
   /// ε = z − θᵀφ of this tick, in watts through 1/Λ.
   double error() const { return static_cast<double>(error_); }
   const ParametricModel<Scalar>& model() const { return model_; }

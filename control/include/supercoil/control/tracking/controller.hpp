@@ -1,6 +1,7 @@
 // Any controller in any arithmetic behind one call, in fixed storage.
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -28,6 +29,13 @@ struct ControllerSettings {
   PdFeedforwardSettings pd_ff;
   MracSettings mrac;
 };
+
+/// What q8.24 cannot hold of the settings; empty when all fits, and for other arithmetics. Fixed
+/// point saturates silently: this is asked before it runs. quantity is the setting's name in
+/// configurations, value what fixed point would have to hold for it. largest_reference_m: of the
+/// channel; max_W: its greatest power.
+std::optional<Violation> check_fit(const ControllerSettings& settings, double step_s,
+                                   double largest_reference_m, double max_W);
 
 /// One tick's inputs in SI units.
 struct ControllerInput {

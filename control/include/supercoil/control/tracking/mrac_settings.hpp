@@ -1,8 +1,10 @@
 // The design constants of the direct model reference adaptive controller, and named sets of them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "supercoil/control/estimation/projection.hpp"
 #include "supercoil/control/linear/polynomial.hpp"
@@ -33,6 +35,12 @@ struct MracSettings {
   /// Π and ν multiplied by a factor > 0.
   MracSettings scaled(double factor) const;
 };
+
+/// The presets' names, and what each is, for lists.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 2> mrac_presets{{
+    {"printed", "the paper's constants (Sec. 5.2); adaptation_scale = 10 tracks better"},
+    {"a", "the best of the paper's own laws: faster filters, gains x 20 (default)"},
+}};
 
 /// Presets: "printed", the paper's constants; "a", design A: α = [20 s, 400], λ = (s + 20)², Π and
 /// ν × 20, α0 = 1, c0(0) = 0.3, which tracks an order of magnitude better (docs/paper.md). Both are

@@ -1,0 +1,41 @@
+"""Every layer includes only what it may (docs/architecture.md).
+
+The build enforces this between our own layers and for libraries with CMake targets; header-only system libraries and
+the operating system's headers it cannot see, so their includes are read here.
+"""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+# What a step must not touch, in std.
+OS_IN_STD = {"thread", "mutex", "filesystem", "fstream", "iostream", "chrono", "future", "memory", "vector", "string",
+             "map", "condition_variable"}
+ALLOWED = {
+    "control": ["supercoil/control/", "Eigen/", "unsupported/Eigen/"],
+    "hal/include": ["supercoil/hal/"],
+    "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "config/", "loop/", "storage/", "supervisor/",
+                 "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
+}
+INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.M)
+
+
+def problems():
+    for layer, allowed in ALLOWED.items():
+        files = [f for f in (ROOT / layer).rglob("*") if f.suffix in {".hpp", ".cpp"}]
+        if not files:
+            yield f"{layer}: no files: has it moved?"
+        for file in files:
+            for include in INCLUDE.findall(file.read_text()):
+                of_std = "/" not in include and "." not in include
+                if of_std and not (layer == "control" and include in OS_IN_STD):
+                    continue
+                if not any(include.startswith(prefix) for prefix in allowed):
+                    yield f"{file.relative_to(ROOT)}: {layer} may not include {include}"
+
+
+if __name__ == "__main__":
+    found = list(problems())
+    print("\n".join(found) or "every include is allowed")
+    sys.exit(bool(found))

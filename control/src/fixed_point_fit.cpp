@@ -54,36 +54,40 @@ void check_mrac(Fit& fit, const MracSettings& m, double step_s, double largest_W
 
 }  // namespace
 
-std::optional<Violation> check_fit(const ControllerSettings& c, double step_s,
+std::optional<Violation> check_fit(const ControllerSettings& settings, double step_s,
                                    double largest_reference_m, double max_W) {
-  if (c.arithmetic != Arithmetic::q8_24 || c.kind == ControllerKind::power) return std::nullopt;
+  if (settings.arithmetic != Arithmetic::q8_24 || settings.kind == ControllerKind::power)
+    return std::nullopt;
   Fit fit;
-  const double reference_W = largest_reference_m / c.dc_gain_m_per_W;
+  const double reference_W = largest_reference_m / settings.dc_gain_m_per_W;
   fit.at_most("arithmetic", reference_W, signal);
   fit.at_most("arithmetic", max_W, signal);
-  for (const double coefficient : c.model.denominator)
+  for (const double coefficient : settings.model.denominator)
     fit.at_most("arithmetic", coefficient, state);
-  if (c.kind == ControllerKind::pi) {
-    fit.at_most("proportional_W_per_m", c.pi.proportional_W_per_m * c.dc_gain_m_per_W, signal);
-    fit.at_most("integral_W_per_m_s", c.pi.integral_W_per_m_s * c.dc_gain_m_per_W, signal);
-  } else if (c.kind == ControllerKind::pd_ff) {
-    const PdFeedforwardSettings& pd = c.pd_ff;
-    fit.at_most("proportional_W_per_m", pd.proportional_W_per_m * c.dc_gain_m_per_W, signal);
-    fit.at_most("derivative_Ws_per_m", pd.derivative_Ws_per_m * c.dc_gain_m_per_W, signal);
-    fit.at_most("feedforward_W_per_m", pd.feedforward_W_per_m * c.dc_gain_m_per_W, signal);
+  if (settings.kind == ControllerKind::pi) {
+    fit.at_most("proportional_W_per_m", settings.pi.proportional_W_per_m * settings.dc_gain_m_per_W,
+                signal);
+    fit.at_most("integral_W_per_m_s", settings.pi.integral_W_per_m_s * settings.dc_gain_m_per_W,
+                signal);
+  } else if (settings.kind == ControllerKind::pd_ff) {
+    const PdFeedforwardSettings& pd = settings.pd_ff;
+    fit.at_most("proportional_W_per_m", pd.proportional_W_per_m * settings.dc_gain_m_per_W, signal);
+    fit.at_most("derivative_Ws_per_m", pd.derivative_Ws_per_m * settings.dc_gain_m_per_W, signal);
+    fit.at_most("feedforward_W_per_m", pd.feedforward_W_per_m * settings.dc_gain_m_per_W, signal);
     fit.at_most("derivative_filter_rad_per_s",
                 pd.derivative_filter_rad_per_s * pd.derivative_filter_rad_per_s, state);
   } else {
-    check_mrac(fit, c.mrac, step_s, std::max(reference_W, max_W));
+    check_mrac(fit, settings.mrac, step_s, std::max(reference_W, max_W));
   }
   return fit.violation();
 }
 
-std::optional<Violation> check_fit(const EstimatorSettings& e, double step_s, double max_W) {
-  if (e.arithmetic != Arithmetic::q8_24 || e.kind == EstimatorKind::none) return std::nullopt;
+std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W) {
+  if (settings.arithmetic != Arithmetic::q8_24 || settings.kind == EstimatorKind::none)
+    return std::nullopt;
   Fit fit;
   fit.at_most("arithmetic", max_W, signal);
-  const GradientSettings& g = e.gradient;
+  const GradientSettings& g = settings.gradient;
   const Theta& nominal = g.scale.nominal;
   for (int i = 0; i < 4; ++i) {
     fit.gain("gain", g.gain[i] / (nominal[i] * nominal[i]) * step_s);

@@ -32,5 +32,6 @@ TEST(StageTimes, CountEachTimeInOneBinOfItsPowerOfTwo) {
   LONGS_EQUAL(1, time.histogram()[7]);
   LONGS_EQUAL(1, time.histogram()[8]);
   LONGS_EQUAL(1, time.histogram()[31]);
-  LONGS_EQUAL(6, std::accumulate(time.histogram().begin(), time.histogram().end(), 0L));
+  LONGS_EQUAL(6,
+              std::accumulate(time.histogram().begin(), time.histogram().end(), std::uint64_t{0}));
 }

@@ -160,8 +160,7 @@ TEST(WrongScenario, WhatFixedPointCannotHold) {
   // What these were before they were refused: other controllers than in double, without a word.
   for (const char* text : {
            "controller = {kind = 'pi', arithmetic = 'q8.24', proportional_W_per_m = 50000.0}",
-           "controller = {kind = 'pd_ff', arithmetic = 'q8.24', derivative_filter_rad_per_s = "
-           "1000.0}",
+           "controller = {kind='pd_ff', arithmetic='q8.24', derivative_filter_rad_per_s=1000.0}",
            "controller = {arithmetic = 'q8.24', alpha = [1e5, 400.0]}",
            "controller = {arithmetic = 'q8.24', adaptation_scale = 2000.0}",
            "controller = {arithmetic = 'q8.24', initial = [200.0, 0.0, 0.0, 0.0, 0.0, 0.0]}",

@@ -1,0 +1,37 @@
+// Every number of a stored set, with its place in the file: what writes and what reads it agree.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "storage/learned.hpp"
+
+namespace supercoil::storage {
+
+struct Field {
+  std::string_view table;
+  std::string_view key;
+  double& (*of)(Learned&);
+};
+
+/// In the order of the file; the fields of a table stand together.
+inline constexpr std::array<Field, 9> fields{{
+    {"muscle", "thermal_mass_J_per_K",
+     [](Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
+    {"muscle", "heat_transfer_W_per_K",
+     [](Learned& l) -> double& { return l.muscle.heat_transfer_W_per_K; }},
+    {"muscle", "stiffness_N_per_m",
+     [](Learned& l) -> double& { return l.muscle.stiffness_N_per_m; }},
+    {"muscle", "damping_Ns_per_m", [](Learned& l) -> double& { return l.muscle.damping_Ns_per_m; }},
+    {"muscle", "moving_mass_kg", [](Learned& l) -> double& { return l.muscle.moving_mass_kg; }},
+    {"muscle", "force_per_kelvin_N_per_K",
+     [](Learned& l) -> double& { return l.muscle.force_per_kelvin_N_per_K; }},
+    {"calibration", "position_offset_m",
+     [](Learned& l) -> double& { return l.calibration.position_offset_m; }},
+    {"calibration", "position_scale",
+     [](Learned& l) -> double& { return l.calibration.position_scale; }},
+    {"calibration", "cold_resistance_Ohm",
+     [](Learned& l) -> double& { return l.calibration.cold_resistance_Ohm; }},
+}};
+
+}  // namespace supercoil::storage

@@ -1,0 +1,35 @@
+// What a channel learns about its muscle and keeps over a power cut.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "supercoil/control/actuator/parameters.hpp"
+
+namespace supercoil::storage {
+
+/// How the channel's measurements relate to this muscle, as `calibrate` found it.
+struct Calibration {
+  double position_offset_m = 0.0;     ///< measured position of the muscle at rest, −1 to 1
+  double position_scale = 1.0;        ///< true displacement over the measured one, 0.1 to 10
+  double cold_resistance_Ohm = 10.0;  ///< of the muscle at ambient temperature, 0.01 to 10000
+
+  friend bool operator==(const Calibration&, const Calibration&) = default;
+};
+
+/// One whole set: parameters and calibration belong together, as one was found under the other.
+struct Learned {
+  control::PhysicalParameters muscle;
+  Calibration calibration;
+  std::uint32_t version = 0;  ///< counts the saves of a channel, from 1; LearnedStore sets it
+
+  friend bool operator==(const Learned&, const Learned&) = default;
+};
+
+/// The same muscle and calibration, whichever version they are.
+bool same_content(const Learned& a, const Learned& b);
+
+/// The first quantity that is NaN or out of its range; the muscle's ranges are control::check's.
+std::optional<control::Violation> check(const Learned& learned);
+
+}  // namespace supercoil::storage

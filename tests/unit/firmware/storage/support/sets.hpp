@@ -1,0 +1,71 @@
+// Learned sets for tests: any that is valid, and a row of different ones.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <ostream>
+#include <string>
+
+#include <rapidcheck.h>
+
+#include "storage/codec.hpp"
+
+namespace supercoil::test {
+
+/// The n-th of a row of valid sets; each differs from the others in every quantity. n >= 0.
+inline storage::Learned nth_set(int n) {
+  const double factor = 1.0 + 1e-3 * n;
+  storage::Learned set;
+  set.muscle = {0.162 * factor, 0.089 * factor, 16.0 * factor,
+                2.0 * factor,   0.09 * factor,  0.0086 * factor};
+  set.calibration = {1e-4 * n, 0.5 + 1e-4 * n, 10.0 * factor};
+  return set;
+}
+
+/// Which of the row a set is, whatever its version; −1 when it is none of them, or a mixture.
+inline int which(const storage::Learned& set) {
+  const int n = static_cast<int>(std::lround(set.calibration.position_offset_m * 1e4));
+  return n >= 0 && same_content(set, nth_set(n)) ? n : -1;
+}
+
+/// Doubles from lowest to highest with all their bits at random, of every magnitude in the range;
+/// lowest > 0.
+inline rc::Gen<double> any_magnitude(double lowest, double highest) {
+  return rc::gen::map(
+      rc::gen::resize(100, rc::gen::arbitrary<std::uint64_t>()), [=](std::uint64_t bits) {
+        const double share = static_cast<double>(bits >> 11) * 0x1p-53;
+        const double value = std::exp(std::log(lowest) + share * std::log(highest / lowest));
+        return std::min(std::max(value, lowest), highest);
+      });
+}
+
+/// Both signs, zeros, and numbers too small to be normal.
+inline rc::Gen<double> any_offset() {
+  const auto sign = rc::gen::element(-1.0, 1.0);
+  const auto size = rc::gen::oneOf(any_magnitude(1e-12, 1.0),
+                                   any_magnitude(std::numeric_limits<double>::denorm_min(), 1e-300),
+                                   rc::gen::element(0.0, 1.0, std::numeric_limits<double>::min()));
+  return rc::gen::apply([](double a, double b) { return a * b; }, sign, size);
+}
+
+/// Any set that passes check(), the ends of the ranges among them.
+inline rc::Gen<storage::Learned> learned_sets() {
+  return rc::gen::apply(
+      [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
+         double scale, double resistance, std::uint32_t version) {
+        return storage::Learned{
+            {psi, eta, rho, mu, mass, gamma}, {offset, scale, resistance}, version};
+      },
+      any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
+      any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),
+      any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4),
+      rc::gen::resize(100, rc::gen::arbitrary<std::uint32_t>()));
+}
+
+}  // namespace supercoil::test
+
+namespace supercoil::storage {
+inline void showValue(const Learned& set, std::ostream& out) {
+  out << encode(set);
+}
+}  // namespace supercoil::storage

@@ -78,8 +78,10 @@ Part repeat_estimation() {
   part.title = "Estimation (Section 5.1, Figure 2)";
   part.introduction =
       "The gradient estimator learns four combinations of the muscle's parameters from its power "
-      "and its position. The paper says that they converge within 69 s; three of four then are "
-      "within 5 %, and the first, the thermal mass, needs 2 s more.";
+      "and its position. The paper says that they converge within 69 s; three of four are "
+      "within 5 % then; the first, which is the thermal mass, needs 2 s more, and the second "
+      "leaves "
+      "once more until 89 s.";
   const Convergence c = converge();
   for (int i = 0; i < 4; ++i) {
     const std::string id = "fig2.theta" + std::to_string(i + 1);

@@ -1,7 +1,7 @@
 // Does the heater do what it is told, and nothing else?
 #pragma once
 
-#include "supervisor/detectors/margin.hpp"
+#include "supervisor/detectors/limits.hpp"
 
 namespace supercoil::detectors {
 
@@ -30,28 +30,9 @@ class OpenLoad {
   Margin margin_;
 };
 
-/// Trips when the current is above max_A for hold_s. Short in time: the switch's own protection is
-/// faster still.
-class Short {
- public:
-  struct Settings {
-    double max_A;
-    double hold_s;
-  };
-  Short(const Settings& settings, double step_s)
-      : settings_(settings), held_(settings.hold_s, step_s) {}
-
-  bool step(double current_A) {
-    margin_ = rising(current_A, settings_.max_A);
-    return held_.step(!(current_A <= settings_.max_A));
-  }
-  const Margin& margin() const { return margin_; }
-
- private:
-  Settings settings_;
-  HeldFor held_;
-  Margin margin_;
-};
+/// Trips when the current in A is above its limit for hold_s. Short in time: the switch's own
+/// protection is faster still.
+using Short = Above;
 
 /// Trips when current still flows hold_s after the channel was made safe. Only current proves that
 /// power is off: a duty that reads back as zero is the kernel's memory.

@@ -1,9 +1,26 @@
-// Limits that must hold for a while before they trip: supply and power.
+// Limits: those that trip at once, and those that must be passed for a while.
 #pragma once
 
 #include "supervisor/detectors/margin.hpp"
 
 namespace supercoil::detectors {
+
+/// Trips at once when a value that must not be passed is passed, or is no number. For temperature:
+/// the hottest of the observers; for travel: the position.
+class Limit {
+ public:
+  explicit Limit(double limit) : limit_(limit) {}
+
+  bool step(double value) {
+    margin_ = rising(value, limit_);
+    return !(value <= limit_);
+  }
+  const Margin& margin() const { return margin_; }
+
+ private:
+  double limit_;
+  Margin margin_;
+};
 
 /// Trips when a value is above its limit, or is no number, for hold_s.
 class Above {

@@ -1,26 +1,9 @@
 // Is the muscle being asked too much?
 #pragma once
 
-#include "supervisor/detectors/margin.hpp"
+#include "supervisor/detectors/limits.hpp"
 
 namespace supercoil::detectors {
-
-/// Trips at once when a value that must not be passed is passed, or is no number. For temperature:
-/// the hottest of the observers; for travel: the position.
-class Limit {
- public:
-  explicit Limit(double limit) : limit_(limit) {}
-
-  bool step(double value) {
-    margin_ = rising(value, limit_);
-    return !(value <= limit_);
-  }
-  const Margin& margin() const { return margin_; }
-
- private:
-  double limit_;
-  Margin margin_;
-};
 
 /// Trips when, within about window_s, more energy went in than the muscle may take. A leaky
 /// integral: energy leaves the account at the rate of energy_J/window_s in proportion to what is on

@@ -1,7 +1,7 @@
 // Is the position sensor telling the truth?
 #pragma once
 
-#include "supervisor/detectors/margin.hpp"
+#include "supervisor/detectors/limits.hpp"
 
 namespace supercoil::detectors {
 
@@ -30,21 +30,8 @@ class OutOfRange {
   Margin margin_;
 };
 
-/// Trips when the newest reading is older than max_age_s.
-class Stale {
- public:
-  explicit Stale(double max_age_s) : max_age_s_(max_age_s) {}
-
-  bool step(double age_s) {
-    margin_ = rising(age_s, max_age_s_);
-    return !(age_s <= max_age_s_);
-  }
-  const Margin& margin() const { return margin_; }
-
- private:
-  double max_age_s_;
-  Margin margin_;
-};
+/// Trips when the newest reading is older than its limit in seconds.
+using Stale = Limit;
 
 /// Trips when, while hot, readings stay within a band narrower than the sensor's own noise for
 /// window_s. A live sensor shows its noise; one whose cable broke, or whose driver repeats its last
@@ -109,24 +96,16 @@ class Jump {
 /// apart than both can be wrong, for hold_s.
 class Disagree {
  public:
-  struct Settings {
-    double difference_K;
-    double hold_s;
-  };
-  Disagree(const Settings& settings, double step_s)
-      : settings_(settings), held_(settings.hold_s, step_s) {}
+  /// limit: in K.
+  Disagree(const Above::Settings& settings, double step_s) : difference_(settings, step_s) {}
 
   bool step(double from_resistance_K, double from_position_K) {
-    const double difference = std::abs(from_resistance_K - from_position_K);
-    margin_ = rising(difference, settings_.difference_K);
-    return held_.step(!(difference <= settings_.difference_K));
+    return difference_.step(std::abs(from_resistance_K - from_position_K));
   }
-  const Margin& margin() const { return margin_; }
+  const Margin& margin() const { return difference_.margin(); }
 
  private:
-  Settings settings_;
-  HeldFor held_;
-  Margin margin_;
+  Above difference_;
 };
 
 }  // namespace supercoil::detectors

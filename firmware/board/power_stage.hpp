@@ -24,16 +24,16 @@ class PowerStage {
 
   explicit PowerStage(const Settings& settings) : settings_(settings) {}
 
-  /// wanted_W ≥ 0, resistance_Ohm and supply_V as measured. Anything that is not a positive number
-  /// where one is needed gives step 0.
-  Output step(double wanted_W, double resistance_Ohm, double supply_V) {
+  /// wanted_W ≥ 0, resistance_Ohm and supply_V as measured; what is given never exceeds most_W,
+  /// error feedback or not. Anything that is not a positive number where one is needed gives 0.
+  Output step(double wanted_W, double resistance_Ohm, double supply_V, double most_W) {
     const double full_W = supply_V * supply_V / resistance_Ohm;
     const bool usable =
         std::isfinite(full_W) && full_W > 0.0 && resistance_Ohm > 0.0 && supply_V > 0.0;
     if (!usable || !(wanted_W > 0.0)) return off(wanted_W > 0.0 || std::isnan(wanted_W));
     const double exact = wanted_W / full_W * settings_.steps + rest_;
-    const double rounded =
-        std::clamp(std::nearbyint(exact), 0.0, static_cast<double>(settings_.steps));
+    const double most = std::fmin(settings_.steps, std::floor(most_W / full_W * settings_.steps));
+    const double rounded = std::fmax(0.0, std::fmin(std::nearbyint(exact), most));
     rest_ = settings_.error_feedback ? std::clamp(exact - rounded, -1.0, 1.0) : 0.0;
     const double duty = rounded / settings_.steps;
     return {static_cast<int>(rounded), duty, duty * full_W, wanted_W > full_W};

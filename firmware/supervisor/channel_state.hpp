@@ -18,7 +18,16 @@ namespace supercoil {
 enum class State : std::uint8_t { disarmed, armed, active, fault };
 
 /// Why a command was not obeyed.
-enum class Refusal : std::uint8_t { none, wrong_state, cause_persists, no_edge };
+enum class Refusal : std::uint8_t {
+  none = 0,
+  wrong_state = 1,     ///< this state does not allow it
+  cause_persists = 2,  ///< reset: a detector still trips
+  no_edge = 3,         ///< reset: it was already asked for
+  not_ready = 4,       ///< the self-test, a fault of the board or a missing reading is in the way
+  busy = 5,            ///< a probe, identification or calibration is under way
+  out_of_range = 6,    ///< its value
+  no_such_channel = 7,
+};
 
 /// State and first cause of one channel. Every way of making it safe is disarm().
 class ChannelState {

@@ -2,11 +2,11 @@
 
 namespace supercoil {
 
-const std::array<FaultInfo, 29>& all_faults() {
+const std::array<FaultInfo, 30>& all_faults() {
   using enum Fault;
   static constexpr Scope channel = Scope::channel;
   static constexpr Scope board = Scope::board;
-  static constexpr std::array<FaultInfo, 29> faults{{
+  static constexpr std::array<FaultInfo, 30> faults{{
       {sensor_out_of_range, "sensor_out_of_range", "sensors", channel,
        "a reading lies outside what the sensor can give"},
       {sensor_stale, "sensor_stale", "sensors", channel, "no fresh reading within the allowed age"},
@@ -21,7 +21,8 @@ const std::array<FaultInfo, 29>& all_faults() {
       {heater_stuck_on, "heater_stuck_on", "heater", board, "current although the channel is off"},
       {heater_not_responding, "heater_not_responding", "heater", channel,
        "power goes in and the muscle does not move as it should"},
-      {duty_wrong, "duty_wrong", "heater", channel, "the PWM reads back another duty than was set"},
+      {duty_wrong, "duty_wrong", "heater", channel, "the PWM reads back another duty than was set, or refuses it"},
+      {line_failed, "line_failed", "heater", board, "an enable line or the heartbeat cannot be set"},
       {over_temperature, "over_temperature", "muscle", channel,
        "the estimated temperature passed its limit"},
       {over_travel, "over_travel", "muscle", channel, "the position passed its limit"},

@@ -23,6 +23,7 @@ enum class Fault : std::uint8_t {
   heater_stuck_on = 22,
   heater_not_responding = 23,
   duty_wrong = 24,
+  line_failed = 25,
   // Muscle
   over_temperature = 30,
   over_travel = 31,
@@ -65,7 +66,7 @@ struct FaultInfo {
 };
 
 /// All faults in the order of their numbers, `none` not among them.
-const std::array<FaultInfo, 29>& all_faults();
+const std::array<FaultInfo, 30>& all_faults();
 /// Empty for none and for a number that no fault has.
 std::optional<FaultInfo> info(Fault fault);
 /// "none" for none.

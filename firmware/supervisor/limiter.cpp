@@ -12,9 +12,8 @@ Limiter::Result Limiter::step(double wanted_W, double temperature_C) {
   };
   if (!std::isfinite(wanted_W) || std::isnan(temperature_C)) {
     result = {0.0, LimitedBy::invalid};
-  } else if (wanted_W < 0.0) {
-    result = {0.0, LimitedBy::minimum};
   } else {
+    if (wanted_W < settings_.min_W) result = {settings_.min_W, LimitedBy::minimum};
     const double span_C = settings_.derate_to_C - settings_.derate_from_C;
     const double part = std::clamp((settings_.derate_to_C - temperature_C) / span_C, 0.0, 1.0);
     cap(settings_.max_W, LimitedBy::maximum);

@@ -8,7 +8,7 @@ namespace supercoil {
 /// Not faults: conditions under which less is given than was wanted.
 enum class LimitedBy : std::uint8_t {
   nothing = 0,
-  minimum = 1,      ///< less than no power was wanted: a muscle cools at its own pace
+  minimum = 1,      ///< less than the least power was wanted: a muscle cools at its own pace
   maximum = 2,      ///< the channel's greatest power
   slew = 3,         ///< power may not rise faster
   temperature = 4,  ///< derated: the muscle is near its limit
@@ -17,6 +17,7 @@ enum class LimitedBy : std::uint8_t {
 
 struct LimiterSettings {
   double max_W = 4.5;
+  double min_W = 0.0;            ///< while active; more than 0 is for experiments only
   double slew_W_per_s = 1e6;     ///< of rises; falls are never slowed
   double derate_from_C = 130.0;  ///< full power up to here,
   double derate_to_C = 160.0;  ///< none from here on (the trip's temperature); nylon softens above
@@ -35,6 +36,11 @@ class Limiter {
   /// temperature_C: the hottest that the muscle may be. A temperature that is no number gives no
   /// power.
   Result step(double wanted_W, double temperature_C);
+  void set_range(double min_W, double max_W) {
+    settings_.min_W = min_W;
+    settings_.max_W = max_W;
+  }
+  double max_W() const { return settings_.max_W; }
   /// The channel was made safe: the next rise starts from nothing.
   void reset() { last_W_ = 0.0; }
 

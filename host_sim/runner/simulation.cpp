@@ -1,57 +1,151 @@
 #include "runner/simulation.hpp"
 
+#include "runner/board_of.hpp"
+
 namespace supercoil::host_sim {
+
+namespace {
+
+/// Arming probes the heater, which moves the muscle by some 40 µm; after so long it is at rest.
+constexpr double boot_s = 15.0;
+
+}  // namespace
 
 Simulation::Simulation(const Scenario& scenario)
     : scenario_(&scenario),
       conditions_(&scenario.start),
       ticks_(scenario.ticks()),
       step_s_(scenario.step_s()),
-      plant_(conditions_->plant.parameters, step_s_, scenario.substeps),
-      sensor_(conditions_->position_sensor, scenario.seed),
-      output_(conditions_->power, step_s_),
-      controller_(conditions_->controller, step_s_),
-      estimator_(conditions_->estimator, step_s_) {}
+      board_(simulated_board_of(scenario)),
+      loop_(firmware_of(scenario), board_.devices()),
+      executive_(loop_, board_, scenario.rate_Hz) {
+  boot();
+}
+
+void Simulation::boot() {
+  const long boot_ticks = std::lround(boot_s * scenario_->rate_Hz);
+  for (long i = 0; i < boot_ticks; ++i) {
+    // Asked for at the first tick after the self-test.
+    const bool ready = loop_.self_test() == SelfTest::Verdict::passed;
+    const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
+    if (ready && disarmed && conditions_->wish != Wish::disarm) send(Verb::arm);
+    executive_.run_tick();
+    housekeep();
+  }
+  break_things(conditions_->trouble);
+}
+
+/// What other threads do on a board.
+void Simulation::housekeep() {
+  loop_.health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
+  recorder::Row row;
+  while (loop_.take(row)) {
+  }
+  Answer answer;
+  while (loop_.answer(answer)) {
+  }
+  storage::Learned learned;
+  while (loop_.channel(0).take_learned(learned))
+    learned_ = learned;
+}
 
 void Simulation::happen(const Event& event) {
   conditions_ = &event.conditions;
-  plant_.set_parameters(conditions_->plant.parameters);
-  sensor_.set(conditions_->position_sensor);
-  output_.set(conditions_->power);
-  if (event.new_controller) controller_ = control::Controller(conditions_->controller, step_s_);
-  if (event.new_estimator) estimator_ = control::Estimator(conditions_->estimator, step_s_);
+  MuscleChannel& muscle = board_.channel(0);
+  const MuscleChannelSettings settings = muscle_channel_of(*scenario_, *conditions_);
+  muscle.set(settings);
+  muscle.position.set(settings.position);
+  board_.set_supply_V(conditions_->power.supply_V);
+  break_things(conditions_->trouble);
+  loop_.channel(0).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
+  if (event.new_controller) send(Verb::controller, static_cast<double>(++controllers_used_));
+  if (event.new_estimator) send(Verb::estimator, static_cast<double>(++estimators_used_));
+  resetting_ = resetting_ || event.reset;
+  if (event.reset) send(Verb::reset);
+}
+
+void Simulation::break_things(const Trouble& t) {
+  MuscleChannel& muscle = board_.channel(0);
+  muscle.trouble = {t.heater_open, t.heater_short ? 0.5 : 0.0, t.switch_stuck_on, false,
+                    t.muscle_slack};
+  muscle.position.set(ConverterTrouble{t.position_silent, t.position_frozen, t.position_loose, 0.0,
+                                       hal::Status::ok});
+  muscle.pwm.refuses = t.pwm_refuses ? hal::Status::io_error : hal::Status::ok;
+  board_.stop_circuit.level.high = !t.stop_pressed;
+}
+
+void Simulation::send(Verb verb, double value) {
+  loop_.send({0, verb, value});
+}
+
+/// As whoever holds the command does: renews it every tick.
+void Simulation::ask(double reference) {
+  if (conditions_->trouble.commands_stop) return;
+  const State state = loop_.channel(0).state().state();
+  if (resetting_ && state == State::disarmed) send(Verb::arm);
+  if (state == State::armed) resetting_ = false;
+  if (state != State::armed && state != State::active) return;
+  switch (conditions_->wish) {
+    case Wish::track:
+      send(conditions_->controller.kind == control::ControllerKind::power ? Verb::power
+                                                                          : Verb::position,
+           reference);
+      break;
+    case Wish::identify:
+    case Wish::calibrate: {
+      // Once: the mode ends by itself, and is then not asked for again.
+      const bool asked = fulfilled_ == conditions_->wish;
+      const Verb verb = conditions_->wish == Wish::identify ? Verb::identify : Verb::calibrate;
+      if (!asked) send(Verb::rest);
+      if (!asked) send(verb);
+      if (asked && state == State::active) send(Verb::renew);
+      break;
+    }
+    case Wish::rest:
+      if (state == State::active) send(Verb::rest);
+      break;
+    case Wish::disarm:
+      send(Verb::disarm);
+      break;
+  }
+  fulfilled_ = conditions_->wish;
 }
 
 TickRecord Simulation::step() {
-  TickRecord record;
-  record.time_s = static_cast<double>(tick_) * step_s_;
+  const double time_s = static_cast<double>(tick_) * step_s_;
+  board_.advance_to(executive_.next_wake());
   while (next_event_ < scenario_->events.size() &&
-         scenario_->events[next_event_].at_s <= record.time_s) {
+         scenario_->events[next_event_].at_s <= time_s) {
     happen(scenario_->events[next_event_++]);
   }
-  record.position_m = plant_.position_m();
-  record.temperature_rise_K = plant_.temperature_rise_K();
-  record.measured_m = sensor_.measure(record.position_m);
-  estimator_.step(record.measured_m, output_.applied_W());
-
-  record.reference = conditions_->reference.at(record.time_s);
-  control::ControllerInput input;
-  input.reference_m = record.reference;
-  input.reference_power_W = record.reference;
-  input.position_m = record.measured_m;
-  input.applied_power_W = output_.applied_W();
-  input.limited = output_.limited();
-  const control::ControllerOutput wanted = controller_.step(input);
-  record.model_m = wanted.model_m;
-  record.open_loop = conditions_->controller.kind == control::ControllerKind::power;
-  record.power_W = wanted.wanted_power_W;
-
-  output_.want(wanted.wanted_power_W);
-  record.applied_power_W = output_.applied_W();
-  record.limited = output_.limited();
-  plant_.step(output_.true_W(), conditions_->plant.load_N);
+  const double reference = conditions_->reference.at(time_s);
+  ask(reference);
+  executive_.run_tick();
+  housekeep();
   ++tick_;
-  return record;
+  return record(time_s, reference);
+}
+
+TickRecord Simulation::record(double time_s, double reference) const {
+  const Snapshot& s = loop_.channel(0).snapshot();
+  const double ambient_C = conditions_->thermal.ambient_C;
+  TickRecord r;
+  r.time_s = time_s;
+  r.reference = reference;
+  r.model_m = s.model_m;
+  r.position_m = plant().position_m();
+  r.measured_m = s.position_m;
+  r.power_W = s.wanted_W;
+  r.applied_power_W = s.applied_W;
+  r.temperature_rise_K = plant().temperature_rise_K();
+  r.coldest_K = s.coldest_C - ambient_C;
+  r.hottest_K = s.hottest_C - ambient_C;
+  r.limited = s.limited;
+  r.open_loop = s.mode != Mode::position;
+  r.state = s.state;
+  r.fault = s.fault;
+  r.limited_by = s.limited_by;
+  return r;
 }
 
 }  // namespace supercoil::host_sim

@@ -1,14 +1,16 @@
-// One scenario, tick by tick.
+// One scenario, tick by tick: the firmware over the simulated board.
 #pragma once
 
 #include <cstddef>
 
-#include "plant/linear_plant.hpp"
+#include "loop/executive.hpp"
 #include "scenario/scenario.hpp"
+#include "simulated_board/simulated_board.hpp"
 
 namespace supercoil::host_sim {
 
-/// What there is to see of one tick. Powers act from this tick to the next.
+/// What there is to see of one tick: the firmware's snapshot, and the truth beside it. Powers act
+/// from this tick to the next.
 struct TickRecord {
   double time_s = 0.0;
   double reference = 0.0;  ///< metres, or watts in open loop
@@ -18,29 +20,47 @@ struct TickRecord {
   double power_W = 0.0;          ///< as the controller wanted it
   double applied_power_W = 0.0;  ///< after limits, PWM and delay
   double temperature_rise_K = 0.0;
+  double coldest_K = 0.0;  ///< above the air: the firmware's bounds for it
+  double hottest_K = 0.0;
   bool limited = false;
   bool open_loop = false;  ///< there is no reference model, and the reference is a power
+  State state = State::disarmed;
+  Fault fault = Fault::none;
+  LimitedBy limited_by = LimitedBy::nothing;
 };
 
-/// Runs the controller and the estimator of a scenario against the simulated muscle. The same
-/// scenario gives the same records, to the bit.
+/// Boots the firmware, lets it arm, and commands it as the scenario says. The same scenario gives
+/// the same records, to the bit.
 class Simulation {
  public:
+  /// The boot is over when the scenario begins: the muscle is armed, cold and at rest.
   explicit Simulation(const Scenario& scenario);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   bool done() const { return tick_ >= ticks_; }
-  /// One tick: events, measure, estimate, control, apply, and the muscle moves on.
+  /// One tick: events, what is asked for, and the firmware's tick.
   TickRecord step();
 
   long tick() const { return tick_; }
   long ticks() const { return ticks_; }
   const Conditions& conditions() const { return *conditions_; }
   /// Empty when the scenario has no estimator.
-  std::optional<control::Estimate> estimate() const { return estimator_.estimate(); }
-  const LinearPlant& plant() const { return plant_; }
+  std::optional<control::Estimate> estimate() const { return loop_.channel(0).estimates(); }
+  const LinearPlant& plant() const { return board_.channel(0).plant(); }
+  Loop& loop() { return loop_; }
+  const Loop& loop() const { return loop_; }
+  /// What identify or calibrate found last; empty when nothing was.
+  const std::optional<storage::Learned>& learned() const { return learned_; }
 
  private:
+  void boot();
   void happen(const Event& event);
+  void break_things(const Trouble& trouble);
+  void ask(double reference);
+  void send(Verb verb, double value = 0.0);
+  void housekeep();
+  TickRecord record(double time_s, double reference) const;
 
   const Scenario* scenario_;
   const Conditions* conditions_;
@@ -48,11 +68,15 @@ class Simulation {
   double step_s_;
   long tick_ = 0;
   std::size_t next_event_ = 0;
-  LinearPlant plant_;
-  PositionSensor sensor_;
-  PowerOutput output_;
-  control::Controller controller_;
-  control::Estimator estimator_;
+  std::size_t controllers_used_ = 0;
+  std::size_t estimators_used_ = 0;
+  Wish fulfilled_ = Wish::rest;
+  bool resetting_ = false;
+  std::uint32_t beats_ = 0;
+  SimulatedBoard board_;
+  Loop loop_;
+  Executive executive_;
+  std::optional<storage::Learned> learned_;
 };
 
 }  // namespace supercoil::host_sim

@@ -5,6 +5,7 @@
 
 #include "supercoil/control/actuator/conversions.hpp"
 
+#include "board/applied_power.hpp"
 #include "config/section.hpp"
 #include "scenario/read_control.hpp"
 
@@ -30,6 +31,8 @@ PlantSettings read_plant(Section section) {
   plant.parameters = read_parameters(section, {});
   plant.load_N = section.number("load_N", 0.0, {-100.0, 100.0});
   plant.resistance_Ohm = section.number("resistance_Ohm", plant.resistance_Ohm, {0.1, 1e4});
+  plant.temperature_coefficient_per_K =
+      section.number("temperature_coefficient_per_K", 0.0, {0.0, 0.02});
   section.finish();
   return plant;
 }
@@ -50,15 +53,15 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
   power.min_W = section.number("min_W", power.min_W, {0.0, 1e3});
   if (!(power.min_W < power.max_W)) section.wrong("min_W", "must be less than max_W");
   power.pwm_bits = static_cast<int>(section.integer("pwm_bits", power.pwm_bits, 0, 24));
-  const double supply_V = section.number("supply_V", 12.0, {0.5, 60.0});
-  power.full_scale_W = supply_V * supply_V / resistance_Ohm;
+  power.supply_V = section.number("supply_V", power.supply_V, {0.5, 60.0});
+  const double full_scale_W = power.supply_V * power.supply_V / resistance_Ohm;
   std::ostringstream message;
-  if (power.max_W > power.full_scale_W) {
+  if (power.max_W > full_scale_W) {
     message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
-            << power.full_scale_W << " W";
+            << full_scale_W << " W";
     section.wrong("max_W", message.str());
   } else if (power.pwm_bits > 0) {
-    const double step_W = power.full_scale_W / (std::ldexp(1.0, power.pwm_bits) - 1.0);
+    const double step_W = full_scale_W / (std::ldexp(1.0, power.pwm_bits) - 1.0);
     if (std::ceil(power.min_W / step_W) > std::floor(power.max_W / step_W) ||
         power.max_W < step_W) {
       message << "has too few steps: one is " << step_W
@@ -67,11 +70,42 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
     }
   }
   power.error_feedback = section.flag("error_feedback", power.error_feedback);
-  const double longest_s = static_cast<double>(PowerOutput::longest_delay_ticks) * step_s;
+  const double longest_s = static_cast<double>(board::OutputDelay::longest_ticks) * step_s;
   power.delay_s = section.number("delay_s", power.delay_s, {0.0, longest_s});
   power.gain = section.number("gain", power.gain, {0.0, 10.0});
   section.finish();
   return power;
+}
+
+std::array<double, 2> read_span(Section& section, const char* key,
+                                const std::array<double, 2>& fallback) {
+  const auto span = section.numbers(key, {fallback[0], fallback[1]}, {0.01, 100.0}, 2, 2);
+  if (!(span[0] <= 1.0 && span[1] >= 1.0)) section.wrong(key, "must be [a, b] with a <= 1 <= b");
+  return {span[0], span[1]};
+}
+
+ThermalSpans read_thermal(Section section) {
+  ThermalSpans t;
+  t.mass_part = read_span(section, "mass_part", t.mass_part);
+  t.transfer_part = read_span(section, "transfer_part", t.transfer_part);
+  t.power_part = read_span(section, "power_part", t.power_part);
+  t.ambient_C = section.number("ambient_C", t.ambient_C, {-40.0, 60.0});
+  section.finish();
+  return t;
+}
+
+Trouble read_trouble(Section section) {
+  Trouble trouble;
+  for (const TroubleName& known : trouble_names)
+    trouble.*known.member = section.flag(known.name, false);
+  section.finish();
+  return trouble;
+}
+
+Wish read_wish(Section section) {
+  const Wish wish = section.choice("wish", Wish::track, wish_names);
+  section.finish();
+  return wish;
 }
 
 /// A reference that the muscle cannot reach is refused before it is run, not found out afterwards.
@@ -81,7 +115,7 @@ void check_reach(Section& section, const Conditions& c) {
   if (c.reference.lowest() < 0.0) {
     message << "the reference goes down to " << c.reference.lowest() * 1e3
             << " mm, and the muscle only contracts from 0";
-  } else if (c.reference.highest() > c.position_sensor.range_m) {
+  } else if (c.reference.highest() > Conditions::travel_part * c.position_sensor.range_m) {
     message << "the reference goes up to " << c.reference.highest() * 1e3
             << " mm, and sensor.position.range_m is " << c.position_sensor.range_m * 1e3 << " mm";
   } else {
@@ -121,6 +155,9 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   c.position_sensor = read_position_sensor(sensor.section("position"));
   sensor.finish();
   c.power = read_power(root.section("power"), c.plant.resistance_Ohm, step_s);
+  c.thermal = read_thermal(root.section("thermal"));
+  c.trouble = read_trouble(root.section("trouble"));
+  c.wish = read_wish(root.section("operator"));
   Section reference = root.section("reference");
   c.reference = read_reference(reference);
   Section estimator = root.section("estimator");

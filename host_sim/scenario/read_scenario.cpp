@@ -1,6 +1,7 @@
 #include "scenario/read_scenario.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -41,10 +42,17 @@ void read_simulation(const toml::table& document, Scenario& scenario,
   }
 }
 
-/// What an event may name; [simulation] holds for the whole run.
+/// What is soldered, or told to the firmware when it starts, holds for the whole run.
+constexpr std::array fixed_keys{
+    "simulation",     "muscle",
+    "reference_model", "event",
+    "thermal",        "power.pwm_bits",
+    "power.delay_s",  "power.error_feedback",
+    "sensor.position.range_m", "sensor.position.resolution_bits"};
+
 void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostics) {
-  for (const char* fixed : {"simulation", "muscle", "reference_model", "event"}) {
-    const toml::node* node = event.get(fixed);
+  for (const char* fixed : fixed_keys) {
+    const toml::node* node = event.at_path(fixed).node();
     if (node == nullptr) continue;
     const auto line = static_cast<int>(node->source().begin.line);
     diagnostics.add(line, std::string("event.") + fixed, "cannot change during a run");
@@ -54,6 +62,7 @@ void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostic
 /// An event as it is written, without its time.
 struct WrittenEvent {
   double at_s;
+  bool reset;
   toml::table changes;
 };
 
@@ -75,10 +84,12 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
         diagnostics.add(static_cast<int>(event.source().begin.line), "event.at_s",
                         "is missing: when does the event happen?");
       }
-      const double at_s =
-          config::Section(&event, "event", diagnostics).number("at_s", 0.0, {0.0, duration_s});
+      config::Section section(&event, "event", diagnostics);
+      const double at_s = section.number("at_s", 0.0, {0.0, duration_s});
+      const bool reset = section.flag("reset", false);
       event.erase("at_s");
-      events.push_back({at_s, std::move(event)});
+      event.erase("reset");
+      events.push_back({at_s, reset, std::move(event)});
     }
   }
   document.erase("event");
@@ -104,9 +115,10 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
   // time are one change: what the first alone would make impossible, the second may put right.
   for (auto event = events.begin(); event != events.end() && diagnostics.empty(); ++event) {
     if (scenario.events.empty() || scenario.events.back().at_s != event->at_s) {
-      scenario.events.push_back({event->at_s, {}, false, false});
+      scenario.events.push_back({event->at_s, {}, false, false, false});
     }
     Event& moment = scenario.events.back();
+    moment.reset |= event->reset;
     moment.new_controller |= event->changes.contains("controller");
     moment.new_estimator |= event->changes.contains("estimator");
     overlay(document, std::move(event->changes));

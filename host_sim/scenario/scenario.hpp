@@ -6,34 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "supercoil/control/estimation/estimator.hpp"
-#include "supercoil/control/tracking/controller.hpp"
-
-#include "scenario/reference.hpp"
-#include "simulated_board/position_sensor.hpp"
-#include "simulated_board/power_output.hpp"
+#include "scenario/conditions.hpp"
 
 namespace supercoil::host_sim {
-
-/// The simulated muscle and what hangs on it.
-struct PlantSettings {
-  control::PhysicalParameters parameters;
-  double resistance_Ohm = 10.0;  ///< of the heater
-  double load_N = 0.0;           ///< pulls the muscle longer, on top of the moving mass
-
-  friend bool operator==(const PlantSettings&, const PlantSettings&) = default;
-};
-
-/// Everything that an event can change.
-struct Conditions {
-  PlantSettings plant;
-  control::PhysicalParameters muscle;  ///< what the board believes the muscle to be
-  PositionSensorSettings position_sensor;
-  PowerSettings power;
-  Reference reference;
-  control::ControllerSettings controller;
-  control::EstimatorSettings estimator;
-};
 
 /// From at_s on, the scenario runs under other conditions.
 struct Event {
@@ -41,6 +16,7 @@ struct Event {
   Conditions conditions;
   bool new_controller;  ///< the event names [controller]: it starts anew with the new settings
   bool new_estimator;   ///< likewise [estimator]
+  bool reset;           ///< the operator resets a fault and arms again, where it is possible
 };
 
 struct Scenario {

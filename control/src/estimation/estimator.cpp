@@ -35,6 +35,16 @@ void Estimator::step(double position_m, double applied_power_W) {
       any_);
 }
 
+void Estimator::restart() {
+  std::visit(
+      [](auto& estimator) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(estimator)>, std::monostate>) {
+          estimator.restart();
+        }
+      },
+      any_);
+}
+
 std::optional<Estimate> Estimator::estimate() const {
   return std::visit(
       [&](const auto& estimator) -> std::optional<Estimate> {

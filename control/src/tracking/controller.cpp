@@ -38,4 +38,12 @@ ControllerOutput Controller::step(const ControllerInput& input) {
   return std::visit([&](auto& controller) { return controller.step(input); }, any_);
 }
 
+void Controller::start(const ControllerStart& at) {
+  std::visit([&](auto& controller) { controller.start(at); }, any_);
+}
+
+ModelMotion<double> Controller::motion() const {
+  return std::visit([](const auto& controller) { return controller.motion(); }, any_);
+}
+
 }  // namespace supercoil::control

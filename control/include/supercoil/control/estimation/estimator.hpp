@@ -39,6 +39,8 @@ class Estimator {
   Estimator(const EstimatorSettings& settings, double step_s);
   /// One tick: this tick's position, and the power really applied since the last one.
   void step(double position_m, double applied_power_W);
+  /// After a pause in which it was not stepped: signals start at rest, what was learned stays.
+  void restart();
   /// Empty for "none".
   std::optional<Estimate> estimate() const;
 

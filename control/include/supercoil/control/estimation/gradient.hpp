@@ -56,6 +56,12 @@ class GradientEstimator {
     if (bounds_) theta_ = project(theta_, *bounds_);
   }
 
+  /// The muscle is heated anew after a pause: the filters start at rest, θ stays.
+  void restart() {
+    model_.restart();
+    error_ = Scalar{};
+  }
+
   /// θ in its own units.
   Theta theta() const { return theta_.template cast<double>().cwiseProduct(nominal_); }
   /// θ over its nominal values, as the regression has it.

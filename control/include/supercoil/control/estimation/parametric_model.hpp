@@ -44,6 +44,14 @@ class ParametricModel {
     phi_[3] = to<Scalar>(x[0] * weights_[3]);
   }
 
+  /// All signals as if nothing had ever moved.
+  void restart() {
+    power_.settle(Scalar{});
+    position_.settle(Scalar{});
+    z_ = Scalar{};
+    phi_ = Regressors::Zero();
+  }
+
   Scalar z() const { return z_; }
   const Regressors& phi() const { return phi_; }
 

@@ -68,6 +68,18 @@ class StateVariableFilter {
   /// [X, sX, …, s^(Order−1) X]/Λ at this tick.
   const State& state() const { return state_; }
 
+  /// As after an endless time at this input.
+  void settle(Scalar input) {
+    last_ = Accumulator<Scalar>(input);
+    state_ = State::Zero();
+    state_[0] = last_ / lambda_[0];
+  }
+  /// Takes a state over, and the input that goes with it.
+  void set(const State& state, Scalar input) {
+    state_ = state;
+    last_ = Accumulator<Scalar>(input);
+  }
+
   /// s^Order X/Λ at this tick, for the given input of this tick.
   Accumulator<Scalar> highest(Scalar input) const {
     return Accumulator<Scalar>(input) - lambda_.dot(state_);
@@ -95,6 +107,7 @@ class OnePoleBank {
     const Matrix<double, 1> b{1.0};
     const auto zero = zero_order_hold<1, 1>(a, b, step_s);
     const auto first = first_order_hold<1, 1>(a, b, step_s);
+    pole_ = Accumulator<Scalar>(pole_rad_per_s);
     transition_ = Accumulator<Scalar>(zero.transition(0));
     for (int i = 0; i < N; ++i) {
       const bool is_held = held[static_cast<std::size_t>(i)];
@@ -110,7 +123,14 @@ class OnePoleBank {
   }
   const State& state() const { return state_; }
 
+  /// As after an endless time at these inputs.
+  void settle(const State& input) {
+    last_ = input;
+    state_ = input * (Accumulator<Scalar>(1) / pole_);
+  }
+
  private:
+  Accumulator<Scalar> pole_;
   Accumulator<Scalar> transition_;
   State start_;
   State end_;

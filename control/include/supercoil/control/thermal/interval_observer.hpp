@@ -31,11 +31,12 @@ class IntervalObserver {
               decay(bounds.highest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s),
               decay(bounds.highest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s)} {}
 
-  /// power_W ≥ 0: what was applied since the last tick.
-  void step(double power_W) {
-    highest_K_ = hot_.moved(highest_K_, power_W);
-    lowest_K_ = cold_.moved(lowest_K_, power_W);
+  /// least_W, most_W ≥ 0: what was applied since the last tick lies between them.
+  void step(double least_W, double most_W) {
+    highest_K_ = hot_.moved(highest_K_, most_W);
+    lowest_K_ = cold_.moved(lowest_K_, least_W);
   }
+  void step(double power_W) { step(power_W, power_W); }
 
   /// Temperature rise over ambient.
   double lowest_K() const { return lowest_K_; }

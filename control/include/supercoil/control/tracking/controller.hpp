@@ -1,6 +1,7 @@
 // Any controller in any arithmetic behind one call, in fixed storage.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -51,10 +52,21 @@ struct ControllerOutput {
   double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
 };
 
+/// Where a controller starts, or takes over from another while the muscle is hot.
+struct ControllerStart {
+  double reference_m = 0.0;
+  double position_m = 0.0;
+  double power_W = 0.0;               ///< that the muscle gets now
+  ModelMotion<double> motion{};       ///< of the reference model so far, in metres
+  bool hold = false;                  ///< the first wanted power is that power
+};
+
 /// Open loop: the reference is a power.
 class OpenLoopPower {
  public:
+  void start(const ControllerStart&) {}
   ControllerOutput step(const ControllerInput& in) const { return {in.reference_power_W, 0.0}; }
+  ModelMotion<double> motion() const { return {}; }
 };
 
 /// A law with its reference model; converts between SI and the law's scalar.
@@ -65,7 +77,20 @@ class ModelFollower {
       : model_(model, step_s),
         law_(std::move(law)),
         to_watts_(1.0 / dc_gain_m_per_W),
-        to_metres_(dc_gain_m_per_W) {}
+        to_metres_(dc_gain_m_per_W),
+        fading_(std::exp(-step_s / bridge_s)) {}
+
+  void start(const ControllerStart& at) {
+    model_.set({to<Scalar>(at.motion.position * to_watts_),
+                to<Scalar>(at.motion.velocity * to_watts_),
+                to<Scalar>(at.motion.acceleration * to_watts_)});
+    last_reference_ = to<Scalar>(at.reference_m * to_watts_);
+    law_.start({last_reference_, to<Scalar>(at.position_m * to_watts_), model_.motion().position,
+                to<Scalar>(at.power_W), at.hold});
+    bridge_W_ = 0.0;
+    bridging_ = at.hold;
+    held_W_ = at.power_W;
+  }
 
   ControllerOutput step(const ControllerInput& in) {
     model_.step(last_reference_);
@@ -77,7 +102,21 @@ class ModelFollower {
     input.limited = in.limited;
     last_reference_ = input.reference;
     const auto wanted = static_cast<double>(law_.step(input));
-    return {wanted, static_cast<double>(input.model.position) * to_metres_};
+    if (bridging_) {
+      // What the law itself could not take over is added, and fades.
+      bridge_W_ = held_W_ - wanted;
+      bridging_ = false;
+    }
+    const double bridged_W = wanted + bridge_W_;
+    bridge_W_ *= fading_;
+    return {bridged_W, static_cast<double>(input.model.position) * to_metres_};
+  }
+
+  ModelMotion<double> motion() const {
+    const ModelMotion<Scalar> m = model_.motion();
+    return {static_cast<double>(m.position) * to_metres_,
+            static_cast<double>(m.velocity) * to_metres_,
+            static_cast<double>(m.acceleration) * to_metres_};
   }
 
   const Law& law() const { return law_; }
@@ -85,9 +124,16 @@ class ModelFollower {
  private:
   ReferenceModel<Scalar> model_;
   Law law_;
+  /// Slower than every law here: the loop, not the fading, decides where the muscle is.
+  static constexpr double bridge_s = 10.0;
+
   Scalar last_reference_{};
   double to_watts_;
   double to_metres_;
+  double fading_;
+  double held_W_ = 0.0;
+  double bridge_W_ = 0.0;
+  bool bridging_ = false;
 };
 
 class Controller {
@@ -96,6 +142,10 @@ class Controller {
   Controller(const ControllerSettings& settings, double step_s);
   /// One tick: no heap, no exception, no operating system.
   ControllerOutput step(const ControllerInput& input);
+  /// Before the first step, and when it takes over: starts from there instead of from zero.
+  void start(const ControllerStart& at);
+  /// Of its reference model, in metres; zero in open loop.
+  ModelMotion<double> motion() const;
 
  private:
   template <class Scalar>

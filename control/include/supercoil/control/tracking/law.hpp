@@ -16,6 +16,16 @@ struct LawInput {
   bool limited = false;       ///< that power was not the one asked for
 };
 
+/// Where a law takes over from another, or starts: the state of the muscle in the law's units.
+template <class Scalar>
+struct LawStart {
+  Scalar reference{};
+  Scalar position{};
+  Scalar model{};
+  Scalar power{};     ///< that the muscle gets now
+  bool hold = false;  ///< the law's first power is to be that one; otherwise the law's own
+};
+
 /// The saturation of Eq. (19), in watts.
 struct PowerRange {
   double min_W = 0.0;

@@ -48,6 +48,23 @@ class Mrac {
     }
   }
 
+  /// The filters as if the muscle had long been where it is. To hold a power, θ is moved by as
+  /// little as makes θᵀω that power: adaptation then goes on from there.
+  void start(const LawStart<Scalar>& at) {
+    power_filter_.settle(at.power);
+    position_filter_.settle(at.position);
+    const WideParameters omega = regressors(at.position, at.reference);
+    omega_ = omega.template cast<Scalar>();
+    first_bank_.settle(omega);
+    second_bank_.settle(first_bank_.state());
+    theta_ = initial_;
+    r0_ = estimated_error_ = Wide{};
+    const Wide size = omega.squaredNorm();
+    if (at.hold && size > Wide(0.01)) {
+      theta_ += omega * ((Wide(at.power) - theta_.dot(omega)) / size);
+    }
+  }
+
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
     filter(in);
@@ -88,14 +105,20 @@ class Mrac {
   void filter(const LawInput<Scalar>& in) {
     power_filter_.step(in.applied);
     position_filter_.step(in.position);
+    const WideParameters omega = regressors(in.position, in.reference);
+    omega_ = omega.template cast<Scalar>();
+    first_bank_.step(omega);
+    second_bank_.step(first_bank_.state());
+  }
+
+  /// ω from the filters' states.
+  WideParameters regressors(Scalar position, Scalar reference) const {
     const auto& u = power_filter_.state();
     const auto& y = position_filter_.state();
     WideParameters omega;
     omega << u[1] * alpha_[0], u[0] * alpha_[1], y[1] * alpha_[0], y[0] * alpha_[1],
-        Wide(in.position), Wide(in.reference);
-    omega_ = omega.template cast<Scalar>();
-    first_bank_.step(omega);
-    second_bank_.step(first_bank_.state());
+        Wide(position), Wide(reference);
+    return omega;
   }
 
   /// The terms of Eq. (17) with α0.

@@ -19,6 +19,13 @@ class Pi {
       : proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
         integral_step_(settings.integral_W_per_m_s * dc_gain_m_per_W * step_s) {}
 
+  /// The integral is what the error leaves of the power.
+  void start(const LawStart<Scalar>& at) {
+    wanted_ = at.hold ? at.power : Scalar{};
+    integral_ = Accumulator<Scalar>(wanted_ - (at.model - at.position) * proportional_);
+    if (!at.hold) integral_ = {};
+  }
+
   /// Returns the wanted power. The integrator holds while the power is limited, unless the error
   /// leads out of the limit.
   Scalar step(const LawInput<Scalar>& in) {

@@ -42,6 +42,15 @@ class ReferenceModel {
   ReferenceModel(const ReferenceModelSettings& settings, double step_s)
       : filter_(settings.denominator, step_s), gain_(settings.gain) {}
 
+  /// Goes on from a motion that another model had.
+  void set(const ModelMotion<Scalar>& motion) {
+    using Wide = Accumulator<Scalar>;
+    const typename decltype(filter_)::State state{Wide(motion.position) / gain_,
+                                                  Wide(motion.velocity) / gain_,
+                                                  Wide(motion.acceleration) / gain_};
+    filter_.set(state, Scalar{});
+  }
+
   /// Advances to this tick; the reference is the one held since the last tick.
   void step(Scalar reference) { filter_.step(reference); }
 

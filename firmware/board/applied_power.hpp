@@ -1,0 +1,36 @@
+// Which power acts now, when a duty acts only some time after it was set.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace supercoil::board {
+
+struct AppliedPower {
+  double power_W = 0.0;
+  double duty = 0.0;
+  bool limited = false;  ///< it was not the one that was wanted
+};
+
+/// A delay line of whole ticks, up to 255.
+class OutputDelay {
+ public:
+  static constexpr std::size_t longest_ticks = 255;
+
+  explicit OutputDelay(std::size_t ticks) : ticks_(ticks < longest_ticks ? ticks : longest_ticks) {}
+
+  /// What was set at this tick in, what acts from now on out.
+  const AppliedPower& step(const AppliedPower& set) {
+    line_[head_] = set;
+    const AppliedPower& acting = line_[(head_ + line_.size() - ticks_) % line_.size()];
+    head_ = (head_ + 1) % line_.size();
+    return acting;
+  }
+
+ private:
+  std::size_t ticks_;
+  std::size_t head_ = 0;
+  std::array<AppliedPower, longest_ticks + 1> line_{};
+};
+
+}  // namespace supercoil::board

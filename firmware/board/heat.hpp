@@ -1,0 +1,50 @@
+// How hot the muscle may be, from everything that is known of it.
+#pragma once
+
+#include "supercoil/control/thermal/interval_observer.hpp"
+#include "supercoil/control/thermal/thermal_observer.hpp"
+
+#include "loop/settings.hpp"
+
+namespace supercoil::board {
+
+/// Protection uses the hottest of the interval observer (configured bounds) and of the observer
+/// with learned values: learning can only make it more cautious.
+class Heat {
+ public:
+  Heat(const ThermalSettings& settings, const control::PhysicalParameters& muscle, double step_s)
+      : settings_(settings),
+        interval_(settings.bounds, step_s),
+        learned_(settings.thermal_mass_J_per_K, step_s),
+        expected_(muscle.thermal_mass_J_per_K, step_s),
+        metres_per_K_(muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m) {
+    interval_.reset(settings.boot_rise_K);
+    expected_.learn(muscle.thermal_pole_rad_per_s());
+  }
+
+  /// What acted since the last tick lies between least_W and most_W, and was probably_W.
+  void step(double least_W, double most_W, double probably_W) {
+    interval_.step(least_W, most_W);
+    learned_.step(most_W);
+    expected_.step(probably_W);
+  }
+  /// The muscle's thermal pole, as estimated and trusted.
+  void learn(double pole_rad_per_s) { learned_.learn(pole_rad_per_s); }
+
+  double coldest_K() const { return interval_.lowest_K(); }
+  double hottest_K() const { return std::fmax(interval_.highest_K(), learned_.rise_K()); }
+  double coldest_C() const { return settings_.coldest_ambient_C + coldest_K(); }
+  double hottest_C() const { return settings_.ambient_C + hottest_K(); }
+  /// Where the muscle should be, by what is believed of it.
+  double expected_m() const { return expected_.rise_K() * metres_per_K_; }
+  double metres_per_K() const { return metres_per_K_; }
+
+ private:
+  ThermalSettings settings_;
+  control::IntervalObserver interval_;
+  control::ThermalObserver learned_;
+  control::ThermalObserver expected_;
+  double metres_per_K_;
+};
+
+}  // namespace supercoil::board

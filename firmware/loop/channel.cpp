@@ -1,0 +1,299 @@
+#include "loop/channel.hpp"
+
+#include <cmath>
+
+namespace supercoil {
+
+namespace {
+
+board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
+  return {h.sense_filter_s, h.resistance_filter_s, h.probe_duty, h.cold_resistance_Ohm};
+}
+
+std::size_t ticks_of(double time_s, double step_s) {
+  return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
+}
+
+}  // namespace
+
+Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
+                 const board::ChannelDevices& devices, std::uint8_t index)
+    : settings_(settings),
+      devices_(devices),
+      step_s_(board.step_s()),
+      index_(index),
+      supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
+                  board.supervision.lowest_supply_V, board.step_s()),
+      resistance_(resistance_settings(settings.heater), board.step_s()),
+      heat_(settings.thermal, settings.muscle, board.step_s()),
+      probe_(settings.heater.probe_s, board.step_s()),
+      limiter_(settings.limiter, board.step_s()),
+      power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
+      delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
+  calibration_.cold_resistance_Ohm = settings.heater.cold_resistance_Ohm;
+  for (const auto& controller : settings.controllers)
+    controllers_.emplace_back(controller, step_s_);
+  for (const auto& estimator : settings.estimators)
+    estimators_.emplace_back(estimator, step_s_);
+}
+
+void Channel::sample(hal::Time now) {
+  evidence_.renewed = evidence_.obeyed_command = evidence_.refused_command = false;
+  reset_asked_ = false;
+  sample_position(now);
+  const InputSettings& input = settings_.heater.current;
+  current_ = board::measure(devices_.current->latest(), input.scaling, now, input.max_age_s);
+  evidence_.current = current_;
+}
+
+void Channel::sample_position(hal::Time now) {
+  const hal::Sample sample = devices_.position->latest();
+  const InputSettings& input = settings_.position;
+  evidence_.position = board::measure(sample, input.scaling, now, input.max_age_s);
+  position_ = evidence_.position;
+  position_.value = (position_.value - calibration_.position_offset_m) * calibration_.position_scale;
+  const bool fresh = position_.present && sample.taken != position_taken_;
+  evidence_.position_elapsed_s = fresh ? hal::seconds(sample.taken - position_taken_) : 0.0;
+  if (fresh) position_taken_ = sample.taken;
+}
+
+void Channel::supervise(const BoardNow& board) {
+  supply_V_ = board.supply_V;
+  observe_heat(board.supply_V);
+  follow_probe(board.supply_V);
+
+  Evidence& e = evidence_;
+  e.supply_V = board.supply_V;
+  e.hot = hot();
+  e.heating = state_.may_heat();
+  e.off = acting_.duty == 0.0 || !state_.enable();
+  e.duty = resistance_.duty();
+  e.set_step = written_step_;
+  e.read_back = devices_.pwm->read_back();
+  e.devices_ok = writes_ok_;
+  e.expected_m = heat_.expected_m();
+  e.hottest_C = heat_.hottest_C();
+  e.applied_W = acting_.power_W;
+  e.wanted_W = wanted_.wanted_power_W;
+  e.limited = acting_.limited;
+  present_fault_ = supervisor_.step(e);
+  e.damaged_command = false;
+
+  const Fault cause = board.fault != Fault::none ? board.fault : present_fault_;
+  if (cause != Fault::none && !board.testing) {
+    if (state_.state() != State::fault) first_margin_ = supervisor_.verdict().margin(cause);
+    disarm(cause);
+  }
+  state_.reset(reset_asked_, cause != Fault::none);
+}
+
+/// The muscle's temperature, from the power that acted and the power that was measured: if a switch
+/// conducts by itself, only the current knows.
+void Channel::observe_heat(double supply_V) {
+  const bool measures = current_.present && supply_V > 0.0;
+  if (measures) resistance_.step(acting_.duty, supply_V, current_.value);
+  const double told_W = acting_.power_W;
+  const double noise_A = settings_.supervision.off_current_A;
+  const double measured_W = measures ? supply_V * current_.value : limiter_.max_W();
+  // A measured power takes part only where it differs by more than the sense's own error.
+  const double tolerance_W = supply_V * noise_A + 0.05 * told_W;
+  const bool differs = std::abs(measured_W - told_W) > tolerance_W;
+  const double least_W = differs ? std::fmin(told_W, measured_W) : told_W;
+  const double most_W = differs ? std::fmax(told_W, measured_W) : told_W;
+  heat_.step(std::fmax(least_W, 0.0), most_W, told_W);
+
+  const HeaterSettings& h = settings_.heater;
+  evidence_.tells_temperature = h.temperature_coefficient_per_K > 0.0 && resistance_.age_s() < 1.0;
+  evidence_.from_resistance_K =
+      evidence_.tells_temperature
+          ? (resistance_.value_Ohm() / calibration_.cold_resistance_Ohm - 1.0) /
+                h.temperature_coefficient_per_K
+          : 0.0;
+  evidence_.from_position_K = position_.value / heat_.metres_per_K();
+}
+
+void Channel::follow_probe(double supply_V) {
+  evidence_.probed_Ohm = 0.0;
+  evidence_.probe_failed = false;
+  const auto probed = probe_.step(resistance_.duty(), supply_V, current_.present ? current_.value : 0.0);
+  if (!probed.ended) return;
+  evidence_.probed_Ohm = probed.resistance_Ohm;
+  evidence_.probe_failed = probed.resistance_Ohm == 0.0;
+  // What it should be: the calibrated one, warmer by somewhere between the observer's bounds.
+  const double middle_K = 0.5 * (heat_.coldest_K() + std::fmin(heat_.hottest_K(), 20.0));
+  evidence_.calibrated_Ohm = calibration_.cold_resistance_Ohm *
+                             (1.0 + settings_.heater.temperature_coefficient_per_K * middle_K);
+  if (probed.resistance_Ohm > 0.0) resistance_.set(probed.resistance_Ohm);
+  if (mode_ == Mode::calibrate) {
+    if (calibrate_.probed(probed.resistance_Ohm) == modes::Calibrate::Outcome::found) {
+      calibration_.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
+      calibration_.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
+      store(settings_.muscle);
+    }
+    state_.rest();
+    rest();
+  }
+}
+
+void Channel::estimate() {
+  if (!state_.may_heat() || !position_.present) return;
+  estimator().step(position_.value, acting_.power_W);
+  if (++ticks_ % static_cast<long>(1.0 / step_s_) == 0) learn_heat();
+}
+
+/// Once a second: what the estimator knows of cooling, when it may be trusted.
+void Channel::learn_heat() {
+  const auto estimate = estimator().estimate();
+  if (!estimate || !estimate->trusted) return;
+  const control::PhysicalParameters& m = settings_.muscle;
+  const auto physical = control::physical_from(
+      estimate->theta, {m.force_per_kelvin_N_per_K, m.moving_mass_kg});
+  if (physical) heat_.learn(physical->thermal_pole_rad_per_s());
+}
+
+void Channel::control() {
+  wanted_ = {};
+  if (!state_.may_heat() || !position_.present) return;
+  switch (mode_) {
+    case Mode::position: {
+      control::ControllerInput input;
+      input.reference_m = reference_;
+      input.position_m = position_.value;
+      input.applied_power_W = acting_.power_W;
+      input.limited = acting_.limited;
+      wanted_ = controllers_[controller_].step(input);
+      break;
+    }
+    case Mode::power:
+      wanted_.wanted_power_W = reference_;
+      break;
+    case Mode::identify:
+      step_identify();
+      break;
+    case Mode::calibrate:
+      step_calibrate();
+      break;
+    case Mode::rest:
+      break;
+  }
+}
+
+void Channel::step_identify() {
+  wanted_.wanted_power_W = identify_.power_W(limiter_.max_W());
+  const auto outcome = identify_.step(estimator().estimate(), settings_.muscle, step_s_);
+  if (outcome == modes::Identify::Outcome::running) return;
+  if (outcome == modes::Identify::Outcome::found) store(identify_.found());
+  wanted_ = {};
+  state_.rest();
+  rest();
+}
+
+void Channel::step_calibrate() {
+  if (probe_.running()) return;
+  switch (calibrate_.step(heat_.hottest_K(), position_.value, step_s_)) {
+    case modes::Calibrate::Outcome::probe:
+      probe_.start();
+      break;
+    case modes::Calibrate::Outcome::failed:
+      state_.rest();
+      rest();
+      break;
+    case modes::Calibrate::Outcome::running:
+    case modes::Calibrate::Outcome::found:
+      break;
+  }
+}
+
+void Channel::limit() {
+  if (state_.may_heat()) {
+    allowed_ = limiter_.step(wanted_.wanted_power_W, heat_.hottest_C());
+  } else {
+    allowed_ = {};
+  }
+}
+
+void Channel::drive() {
+  const HeaterSettings& h = settings_.heater;
+  const double full_W = supply_V_ * supply_V_ / resistance_.value_Ohm();
+  board::PowerStage::Output out;
+  if (state_.may_heat()) {
+    const bool old = resistance_.age_s() > h.probe_every_s && heat_.coldest_K() > hot_K;
+    if (old && !probe_.running()) probe_.start();
+    out = power_stage_.step(allowed_.power_W, resistance_.value_Ohm(), supply_V_,
+                            limiter_.max_W());
+  }
+  if (state_.enable() && probe_.running() && out.duty < h.probe_duty) {
+    out.step = static_cast<int>(h.probe_duty * devices_.pwm->steps());
+    out.duty = static_cast<double>(out.step) / devices_.pwm->steps();
+    out.applied_W = out.duty * full_W;
+    out.clipped = true;
+  }
+  write_enable(state_.enable());
+  write_duty(state_.enable() ? out.step : 0);
+  set_ = {out.applied_W, out.duty, allowed_.by != LimitedBy::nothing || out.clipped};
+  acting_ = delay_.step(set_);
+}
+
+void Channel::disarm(Fault cause) {
+  state_.disarm(cause);
+  probe_.stop();
+  rest();
+  write_duty(0);
+  write_enable(false);
+}
+
+void Channel::test_drive(double duty, bool enable) {
+  write_enable(enable);
+  write_duty(static_cast<int>(duty * devices_.pwm->steps()));
+}
+
+void Channel::write_duty(int step) {
+  if (step == written_step_ && writes_ok_) return;
+  writes_ok_ = devices_.pwm->set(step) == hal::Status::ok;
+  written_step_ = step;
+}
+
+void Channel::write_enable(bool high) {
+  if (static_cast<int>(high) == written_enable_ && lines_ok_) return;
+  lines_ok_ = devices_.enable->set(high) == hal::Status::ok;
+  written_enable_ = static_cast<int>(high);
+}
+
+const Snapshot& Channel::publish() {
+  Snapshot& s = snapshot_;
+  s.channel = index_;
+  s.state = state_.state();
+  s.mode = mode_;
+  s.fault = state_.first_cause();
+  s.limited_by = allowed_.by;
+  s.controller = static_cast<std::uint8_t>(controller_);
+  s.probing = probe_.running();
+  s.reference = reference_;
+  s.model_m = wanted_.model_m;
+  s.position_m = position_.present ? position_.value : std::nan("");
+  s.wanted_W = wanted_.wanted_power_W;
+  s.applied_W = acting_.power_W;
+  s.limited = acting_.limited;
+  s.duty = set_.duty;
+  s.supply_V = supply_V_;
+  s.current_A = current_.present ? current_.value : std::nan("");
+  s.resistance_Ohm = resistance_.value_Ohm();
+  s.resistance_age_s = resistance_.age_s();
+  s.coldest_C = heat_.coldest_C();
+  s.hottest_C = heat_.hottest_C();
+  if (const auto estimate = estimator().estimate()) {
+    s.theta = estimate->theta;
+    s.error_bound = estimate->relative_error_bound;
+    s.trusted = estimate->trusted;
+  }
+  s.progress = mode_ == Mode::identify    ? identify_.progress()
+               : mode_ == Mode::calibrate ? calibrate_.progress()
+                                          : 0.0F;
+  const auto& faults = all_faults();
+  turn_ = (turn_ + 1) % faults.size();
+  s.turn = faults[turn_].fault;
+  s.margin = supervisor_.verdict().margin(s.turn);
+  return s;
+}
+
+}  // namespace supercoil

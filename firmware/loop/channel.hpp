@@ -1,0 +1,144 @@
+// One muscle: everything that happens to it in a tick, in the order of the loop's stages.
+#pragma once
+
+#include <boost/lockfree/spsc_queue.hpp>
+
+#include "board/applied_power.hpp"
+#include "board/devices.hpp"
+#include "board/heat.hpp"
+#include "board/power_stage.hpp"
+#include "board/probe.hpp"
+#include "board/resistance.hpp"
+#include "loop/command.hpp"
+#include "loop/settings.hpp"
+#include "loop/snapshot.hpp"
+#include "modes/calibrate.hpp"
+#include "modes/identify.hpp"
+#include "storage/learned.hpp"
+#include "supervisor/channel_supervisor.hpp"
+
+namespace supercoil {
+
+/// What the whole board tells its channels at a tick.
+struct BoardNow {
+  hal::Time time{};
+  double supply_V = 0.0;
+  Fault fault = Fault::none;  ///< latched by the board: every channel is made safe
+  bool testing = true;        ///< the self-test runs: nothing is latched, nothing can be armed
+};
+
+class Channel {
+ public:
+  /// index: from 0. Devices outlive the channel. Allocates; nothing after it does.
+  Channel(const ChannelSettings& settings, const BoardSettings& board,
+          const board::ChannelDevices& devices, std::uint8_t index);
+
+  // The stages of a tick, in this order.
+  void sample(hal::Time now);
+  Refusal obey(const Command& command, const BoardNow& board);
+  void supervise(const BoardNow& board);
+  void estimate();
+  void control();
+  void limit();
+  void drive();
+  const Snapshot& publish();
+
+  /// The one way of making the channel safe: duty 0 and enable low, at once. Fault::none is an
+  /// ordinary stop.
+  void disarm(Fault cause);
+  /// For the self-test: a duty and the enable line by hand. Only while disarmed.
+  void test_drive(double duty, bool enable);
+  double measured_current_A() const { return current_.present ? current_.value : INFINITY; }
+  /// A command was damaged on its way, and obeyed by nobody.
+  void note_damaged() { evidence_.damaged_command = true; }
+
+  void note_answer(Refusal refusal) {
+    (refusal == Refusal::wrong_state ? evidence_.refused_command : evidence_.obeyed_command) = true;
+  }
+
+  const ChannelState& state() const { return state_; }
+  const Snapshot& snapshot() const { return snapshot_; }
+  const Verdict& verdict() const { return supervisor_.verdict(); }
+  /// The margin of the detector that led to `fault`, as it was then.
+  const detectors::Margin& first_margin() const { return first_margin_; }
+  /// The fault that a detector sees now, latched or not.
+  Fault present_fault() const { return present_fault_; }
+  std::optional<control::Estimate> estimates() const { return estimator().estimate(); }
+  bool writes_ok() const { return writes_ok_; }
+  bool lines_ok() const { return lines_ok_; }
+  /// Between ticks only: what the limiter allows from now on.
+  void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
+  /// What identify or calibrate found; from one other thread.
+  bool take_learned(storage::Learned& learned) { return found_.pop(learned); }
+
+ private:
+  Refusal arm(const BoardNow& board);
+  Refusal heat(Mode mode, double value);
+  Refusal scale(double true_m);
+  Refusal choose_controller(double place);
+  Refusal choose_estimator(double place);
+  void enter(Mode mode);
+  void rest();
+  void sample_position(hal::Time now);
+  void observe_heat(double supply_V);
+  void follow_probe(double supply_V);
+  void learn_heat();
+  void step_identify();
+  void step_calibrate();
+  void store(const control::PhysicalParameters& muscle);
+  void write_duty(int step);
+  void write_enable(bool high);
+  control::Estimator& estimator() { return estimators_[estimator_]; }
+  const control::Estimator& estimator() const { return estimators_[estimator_]; }
+  bool hot() const { return heat_.coldest_K() > hot_K; }
+
+  /// Above it a muscle is hot enough for its sensor to be expected to be alive.
+  static constexpr double hot_K = 3.0;
+
+  ChannelSettings settings_;
+  board::ChannelDevices devices_;
+  double step_s_;
+  std::uint8_t index_;
+
+  ChannelState state_;
+  ChannelSupervisor supervisor_;
+  Evidence evidence_;
+  Fault present_fault_ = Fault::none;
+  detectors::Margin first_margin_;
+
+  board::Measured position_;
+  board::Measured current_;
+  hal::Time position_taken_{-1};
+  storage::Calibration calibration_;
+  board::Resistance resistance_;
+  board::Heat heat_;
+  board::Probe probe_;
+  double supply_V_ = 0.0;
+
+  std::vector<control::Controller> controllers_;
+  std::vector<control::Estimator> estimators_;
+  std::size_t controller_ = 0;
+  std::size_t estimator_ = 0;
+  Mode mode_ = Mode::rest;
+  double reference_ = 0.0;  ///< m, or W in open loop
+  modes::Identify identify_{{}};
+  modes::Calibrate calibrate_{{}};
+  control::ControllerOutput wanted_;
+  Limiter limiter_;
+  Limiter::Result allowed_;
+  board::PowerStage power_stage_;
+  board::OutputDelay delay_;
+  board::AppliedPower set_;     ///< at this tick
+  board::AppliedPower acting_;  ///< from this tick to the next
+  int written_step_ = -1;
+  int written_enable_ = -1;
+  bool writes_ok_ = true;
+  bool lines_ok_ = true;
+  bool reset_asked_ = false;
+  std::size_t turn_ = 0;
+  long ticks_ = 0;
+  Snapshot snapshot_;
+  boost::lockfree::spsc_queue<storage::Learned, boost::lockfree::capacity<4>> found_;
+};
+
+}  // namespace supercoil

@@ -1,0 +1,145 @@
+// What a channel does when it is told to.
+#include <cmath>
+
+#include "loop/channel.hpp"
+
+namespace supercoil {
+
+Refusal Channel::obey(const Command& command, const BoardNow& board) {
+  switch (command.verb) {
+    case Verb::arm:
+      return arm(board);
+    case Verb::disarm:
+      disarm(Fault::none);
+      return Refusal::none;
+    case Verb::reset:
+      reset_asked_ = true;  // answered by the state after the tick: an edge may be none
+      return state_.state() == State::fault ? Refusal::none : Refusal::wrong_state;
+    case Verb::position:
+      return heat(Mode::position, command.value);
+    case Verb::power:
+      return heat(Mode::power, command.value);
+    case Verb::identify:
+      return heat(Mode::identify, 0.0);
+    case Verb::calibrate:
+      return heat(Mode::calibrate, 0.0);
+    case Verb::renew:
+      if (state_.state() != State::active) return Refusal::wrong_state;
+      evidence_.renewed = true;
+      return Refusal::none;
+    case Verb::rest:
+      if (state_.rest() != Refusal::none) return Refusal::wrong_state;
+      rest();
+      return Refusal::none;
+    case Verb::scale:
+      return scale(command.value);
+    case Verb::controller:
+      return choose_controller(command.value);
+    case Verb::estimator:
+      return choose_estimator(command.value);
+    case Verb::none:
+      break;
+  }
+  return Refusal::out_of_range;
+}
+
+Refusal Channel::arm(const BoardNow& board) {
+  if (state_.state() != State::disarmed) return Refusal::wrong_state;
+  const bool measured = position_.present && current_.present;
+  const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
+  if (board.testing || !measured || !quiet) return Refusal::not_ready;
+  state_.arm();
+  supervisor_.restart();
+  probe_.start();
+  return Refusal::none;
+}
+
+Refusal Channel::heat(Mode mode, double value) {
+  const State state = state_.state();
+  if (state != State::armed && state != State::active) return Refusal::wrong_state;
+  if (state == State::armed && probe_.running()) return Refusal::busy;
+  if (mode == Mode::position) {
+    const bool reachable = value >= -settings_.supervision.max_travel_m &&
+                           value <= settings_.supervision.max_travel_m;
+    if (!reachable) return Refusal::out_of_range;  // a NaN as well
+  } else if (mode == Mode::power) {
+    if (!std::isfinite(value)) return Refusal::out_of_range;
+  } else if (state == State::active) {
+    return mode == mode_ ? Refusal::none : Refusal::busy;
+  }
+  if (state == State::armed) {
+    state_.activate();
+    estimator().restart();
+  }
+  reference_ = value;
+  if (mode != mode_) enter(mode);
+  evidence_.renewed = true;
+  return Refusal::none;
+}
+
+/// The channel becomes active in another mode, or changes it while hot.
+void Channel::enter(Mode mode) {
+  const bool was_hot = mode_ != Mode::rest;
+  mode_ = mode;
+  if (mode == Mode::position) {
+    control::ControllerStart at;
+    at.reference_m = reference_;
+    at.position_m = position_.value;
+    at.power_W = acting_.power_W;
+    at.motion.position = position_.value;
+    at.hold = was_hot;
+    controllers_[controller_].start(at);
+  } else if (mode == Mode::identify) {
+    identify_.start();
+  } else if (mode == Mode::calibrate) {
+    calibrate_.start();
+  }
+}
+
+void Channel::rest() {
+  mode_ = Mode::rest;
+  reference_ = 0.0;
+  limiter_.reset();
+  power_stage_.reset();
+}
+
+Refusal Channel::choose_controller(double place) {
+  if (!(place >= 0.0 && place < static_cast<double>(controllers_.size())))
+    return Refusal::out_of_range;
+  const auto chosen = static_cast<std::size_t>(place);
+  if (mode_ == Mode::position) {
+    control::ControllerStart at;
+    at.reference_m = reference_;
+    at.position_m = position_.value;
+    at.power_W = acting_.power_W;
+    at.motion = controllers_[controller_].motion();
+    at.hold = true;
+    controllers_[chosen].start(at);
+  }
+  controller_ = chosen;
+  return Refusal::none;
+}
+
+Refusal Channel::choose_estimator(double place) {
+  if (!(place >= 0.0 && place < static_cast<double>(estimators_.size())))
+    return Refusal::out_of_range;
+  estimator_ = static_cast<std::size_t>(place);
+  estimator().restart();
+  return Refusal::none;
+}
+
+Refusal Channel::scale(double true_m) {
+  const double measured_m = position_.value;
+  if (!position_.present) return Refusal::not_ready;
+  const double scale = calibration_.position_scale * true_m / measured_m;
+  if (!(true_m > 0.0 && scale >= 0.1 && scale <= 10.0)) return Refusal::out_of_range;
+  calibration_.position_scale = scale;
+  store(settings_.muscle);
+  return Refusal::none;
+}
+
+void Channel::store(const control::PhysicalParameters& muscle) {
+  found_.push({muscle, calibration_, 0});
+}
+
+}  // namespace supercoil

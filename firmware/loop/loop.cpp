@@ -1,0 +1,184 @@
+#include "loop/loop.hpp"
+
+#include <cmath>
+
+namespace supercoil {
+
+namespace {
+
+/// A stalled disk or a busy CPU may keep the recorder away for so long without a row being lost.
+constexpr double ring_s = 2.0;
+constexpr int most_commands_per_tick = 64;
+
+std::size_t ring_rows(const BoardSettings& s) {
+  return static_cast<std::size_t>(ring_s * s.rate_Hz) * s.channels.size();
+}
+
+}  // namespace
+
+Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
+    : settings_(settings),
+      devices_(devices),
+      supervisor_(settings.supervision, settings.step_s()),
+      self_test_({settings.supervision.charge_pump_decay_s}, settings.step_s()),
+      rows_(ring_rows(settings)) {
+  for (std::size_t i = 0; i < settings.channels.size(); ++i) {
+    channels_.emplace_back(settings.channels[i], settings, devices.channels[i],
+                           static_cast<std::uint8_t>(i));
+  }
+}
+
+void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
+  times_.late.add(woke - due);
+
+  // Sample: counts become volts, amperes and metres, each with its age.
+  for (Channel& channel : channels_)
+    channel.sample(woke);
+  const hal::Time sampled = devices_.clock->now();
+
+  // Decide: commands, and whether anything may be hot.
+  obey();
+  now_ = judge_board(woke, hal::seconds(woke - due), skipped);
+  for (Channel& channel : channels_)
+    channel.supervise(now_);
+  for (Channel& channel : channels_) {
+    const Fault fault = channel.present_fault();
+    if (fault != Fault::none && info(fault)->scope == Scope::board) latch(fault);
+  }
+  const hal::Time decided = devices_.clock->now();
+
+  // Compute: learn from the power that acted, and find the one that is wanted.
+  for (Channel& channel : channels_) {
+    channel.estimate();
+    channel.control();
+    channel.limit();
+  }
+  const hal::Time computed = devices_.clock->now();
+
+  // Drive: watts become duties.
+  if (now_.testing) {
+    run_self_test();
+  } else {
+    for (Channel& channel : channels_)
+      channel.drive();
+  }
+  beat();
+  const hal::Time driven = devices_.clock->now();
+
+  // Publish: rows for the recorder and for telemetry; then the light, which may wait.
+  for (Channel& channel : channels_) {
+    if (!rows_.push(recorder::row_of(channel.publish(), woke))) ++lost_rows_;
+  }
+  shine();
+  if (devices_.watchdog != nullptr) devices_.watchdog->feed();
+  const hal::Time published = devices_.clock->now();
+
+  times_.sample.add(sampled - woke);
+  times_.decide.add(decided - sampled);
+  times_.compute.add(computed - decided);
+  times_.drive.add(driven - computed);
+  times_.publish.add(published - driven);
+  times_.whole.add(published - woke);
+  ++ticks_;
+}
+
+void Loop::obey() {
+  reset_asked_ = false;
+  std::uint8_t damaged = 0;
+  while (damaged_.pop(damaged)) {
+    if (damaged < channels_.size()) channels_[damaged].note_damaged();
+  }
+  Command command;
+  for (int i = 0; i < most_commands_per_tick && commands_.pop(command); ++i) {
+    Refusal refusal = Refusal::no_such_channel;
+    if (command.channel < channels_.size()) {
+      Channel& channel = channels_[command.channel];
+      refusal = channel.obey(command, now_);
+      channel.note_answer(refusal);
+      reset_asked_ = reset_asked_ || command.verb == Verb::reset;
+    }
+    answers_.push({command, refusal});
+  }
+}
+
+BoardNow Loop::judge_board(hal::Time now, double late_s, long skipped) {
+  overruns_ += skipped;
+  BoardEvidence& e = evidence_;
+  e.supply = board::measure(devices_.supply->latest(), settings_.supply.scaling, now,
+                            settings_.supply.max_age_s);
+  e.stop_circuit = devices_.stop_circuit->read();
+  e.late_s = late_s;
+  e.skipped = skipped;
+  e.lines_ok = lines_ok_;
+  for (const Channel& channel : channels_)
+    e.lines_ok = e.lines_ok && channel.lines_ok();
+  e.telemetry_beats = health_.telemetry_beats.load(std::memory_order_relaxed);
+  e.bus = health_.bus.load(std::memory_order_relaxed);
+  e.configuration_changed = health_.configuration_changed.load(std::memory_order_relaxed);
+  e.self_test_failed = self_test_.verdict() == SelfTest::Verdict::pump_does_not_open ||
+                       self_test_.verdict() == SelfTest::Verdict::enable_does_not_cut;
+  const Fault fault = supervisor_.step(e);
+  const bool testing = self_test_.verdict() == SelfTest::Verdict::running;
+  if (fault != Fault::none && !testing) {
+    latch(fault);
+  } else if (reset_asked_ && fault == Fault::none) {
+    board_fault_ = Fault::none;
+  }
+  return {now, e.supply.present ? e.supply.value : 0.0, board_fault_, testing};
+}
+
+/// The first cause is kept. From the next tick on no channel of this board may be hot; those of
+/// this tick are made safe here.
+void Loop::latch(Fault cause) {
+  if (board_fault_ != Fault::none || now_.testing) return;
+  board_fault_ = cause;
+  for (Channel& channel : channels_)
+    channel.disarm(cause);
+}
+
+void Loop::run_self_test() {
+  double most_A = 0.0;
+  double idle_A = 1e9;
+  for (const Channel& channel : channels_)
+    most_A = std::fmax(most_A, channel.measured_current_A());
+  for (const ChannelSettings& channel : settings_.channels)
+    idle_A = std::fmin(idle_A, 0.3 * channel.heater.probe_duty * settings_.supervision.lowest_supply_V /
+                                   channel.heater.cold_resistance_Ohm);
+  self_test_.step(most_A, idle_A);
+  const SelfTest::Lines lines = self_test_.lines();
+  const bool running = self_test_.verdict() == SelfTest::Verdict::running;
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    const double duty = running && lines.pulse ? settings_.channels[i].heater.probe_duty : 0.0;
+    channels_[i].test_drive(duty, running && lines.enable);
+  }
+}
+
+/// The line's edges keep the supply's switch closed; when they stop, the charge pump opens it.
+void Loop::beat() {
+  const bool cut = board_fault_ != Fault::none && info(board_fault_)->scope == Scope::board;
+  if (cut || (now_.testing && !self_test_.lines().heartbeat)) return;
+  beat_ = !beat_;
+  lines_ok_ = devices_.heartbeat->set(beat_) == hal::Status::ok;
+}
+
+/// Off: disarmed. On: something is armed. Slow blinking: something is hot. Fast: a fault.
+void Loop::shine() {
+  if (devices_.light == nullptr) return;
+  bool fault = board_fault_ != Fault::none;
+  bool active = false;
+  bool armed = false;
+  for (const Channel& channel : channels_) {
+    fault = fault || channel.state().state() == State::fault;
+    active = active || channel.state().state() == State::active;
+    armed = armed || channel.state().state() == State::armed;
+  }
+  const double period_s = fault ? 0.2 : 1.0;
+  const double phase = std::fmod(static_cast<double>(ticks_) * settings_.step_s(), period_s);
+  const bool blinks = fault || active;
+  const bool lit = blinks ? phase < 0.5 * period_s : armed;
+  if (static_cast<int>(lit) == light_) return;
+  devices_.light->set(lit);
+  light_ = static_cast<int>(lit);
+}
+
+}  // namespace supercoil

@@ -1,0 +1,94 @@
+// The control loop of a board: one tick, read from top to bottom.
+#pragma once
+
+#include <atomic>
+#include <deque>
+
+#include <boost/lockfree/spsc_queue.hpp>
+
+#include "loop/channel.hpp"
+#include "loop/self_test.hpp"
+#include "loop/stage_times.hpp"
+#include "recorder/row.hpp"
+#include "supervisor/board_supervisor.hpp"
+
+namespace supercoil {
+
+/// What other threads tell the loop; written by them, read in a tick.
+struct Health {
+  std::atomic<std::uint32_t> telemetry_beats{0};
+  std::atomic<hal::CanState> bus{hal::CanState::active};
+  std::atomic<bool> configuration_changed{false};
+};
+
+/// How long each part of a tick takes, and how late ticks are.
+struct LoopTimes {
+  StageTime late;     ///< woke after its time
+  StageTime sample;
+  StageTime decide;   ///< commands and supervisor
+  StageTime compute;  ///< estimators and controllers
+  StageTime drive;
+  StageTime publish;
+  StageTime whole;
+};
+
+class Loop {
+ public:
+  /// settings must pass check(); devices outlive the loop, and have as many channels. Allocates;
+  /// nothing after it does.
+  Loop(const BoardSettings& settings, const board::Devices& devices);
+
+  /// One tick that was due at `due` and woke at `woke`, after `skipped` periods were left out.
+  void tick(hal::Time due, hal::Time woke, long skipped);
+
+  /// From one other thread (each): false when the ring is full.
+  bool send(const Command& command) { return commands_.push(command); }
+  bool answer(Answer& answer) { return answers_.pop(answer); }
+  /// A frame for this channel was damaged; as send().
+  bool send_damaged(std::uint8_t channel) { return damaged_.push(channel); }
+  bool take(recorder::Row& row) { return rows_.pop(row); }
+  Health& health() { return health_; }
+
+  /// In the loop's thread, or while it stands still.
+  std::size_t channels() const { return channels_.size(); }
+  Channel& channel(std::size_t i) { return channels_[i]; }
+  const Channel& channel(std::size_t i) const { return channels_[i]; }
+  Fault board_fault() const { return board_fault_; }
+  const BoardSupervisor& supervisor() const { return supervisor_; }
+  SelfTest::Verdict self_test() const { return self_test_.verdict(); }
+  const LoopTimes& times() const { return times_; }
+  long overruns() const { return overruns_; }
+  long lost_rows() const { return lost_rows_; }
+
+ private:
+  void obey();
+  BoardNow judge_board(hal::Time now, double late_s, long skipped);
+  void latch(Fault cause);
+  void run_self_test();
+  void beat();
+  void shine();
+
+  BoardSettings settings_;
+  board::Devices devices_;
+  std::deque<Channel> channels_;  // channels cannot move
+  BoardSupervisor supervisor_;
+  BoardEvidence evidence_;
+  SelfTest self_test_;
+  Fault board_fault_ = Fault::none;  ///< latched
+  BoardNow now_;
+  bool reset_asked_ = false;
+  bool beat_ = false;
+  bool lines_ok_ = true;
+  int light_ = -1;
+  long ticks_ = 0;
+  long overruns_ = 0;
+  long lost_rows_ = 0;
+  LoopTimes times_;
+  Health health_;
+  boost::lockfree::spsc_queue<Command, boost::lockfree::capacity<256>> commands_;
+  boost::lockfree::spsc_queue<Answer, boost::lockfree::capacity<256>> answers_;
+  boost::lockfree::spsc_queue<std::uint8_t, boost::lockfree::capacity<64>> damaged_;
+  boost::lockfree::spsc_queue<recorder::Row> rows_;
+};
+
+}  // namespace supercoil

@@ -1,0 +1,72 @@
+// All that the loop needs to know of a board, in SI units, checked before it starts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/thermal/interval_observer.hpp"
+#include "supercoil/control/tracking/controller.hpp"
+
+#include "board/measurement.hpp"
+#include "supervisor/limiter.hpp"
+#include "supervisor/supervision.hpp"
+
+namespace supercoil {
+
+/// A converter's input: what its counts mean, and how old a value may be.
+struct InputSettings {
+  board::Scaling scaling;
+  double max_age_s = 0.01;
+};
+
+/// The heater as the power stage and its measurement see it.
+struct HeaterSettings {
+  InputSettings current;
+  double sense_filter_s = 0.0;  ///< time constant of the averaging current sense; 0: a tick's mean
+  double resistance_filter_s = 0.2;  ///< smoothing of the measured resistance
+  double cold_resistance_Ohm = 10.0;
+  double temperature_coefficient_per_K = 0.0;  ///< of the resistance; 0: it tells no temperature
+  double probe_duty = 0.02;                    ///< at most 0.02
+  double probe_s = 0.05;                       ///< at most 0.05
+  double probe_every_s = 5.0;  ///< while hot below probe_duty: the age at which it probes again
+  bool error_feedback = true;  ///< of the duty's rounding
+  double delay_s = 0.0;        ///< from a duty's setting to its acting
+};
+
+/// What is known of the muscle's heat. Power parts: true power over measured power.
+struct ThermalSettings {
+  control::ThermalBounds bounds{0.13, 0.20, 0.045, 0.18, 0.95, 1.05};
+  double thermal_mass_J_per_K = 0.162;   ///< ψ0, weighed or by calorimetry
+  double boot_rise_K = 135.0;            ///< how hot it may be at boot: the history is unknown
+  double ambient_C = 25.0;               ///< the warmest that the air can be
+  double coldest_ambient_C = 15.0;
+};
+
+struct ChannelSettings {
+  control::PhysicalParameters muscle;  ///< as believed
+  InputSettings position;
+  HeaterSettings heater;
+  ThermalSettings thermal;
+  LimiterSettings limiter;
+  ChannelSupervision supervision;
+  /// At least one of each; commands choose among them by their place.
+  std::vector<control::ControllerSettings> controllers{1};
+  std::vector<control::EstimatorSettings> estimators{1};
+};
+
+struct BoardSettings {
+  double rate_Hz = 1000.0;
+  InputSettings supply;
+  BoardSupervision supervision;
+  double self_test_s = 0.25;  ///< after boot; nothing can be armed before it has passed
+  std::vector<ChannelSettings> channels{1};
+
+  double step_s() const { return 1.0 / rate_Hz; }
+};
+
+/// What makes settings unusable whoever wrote them; empty when they may run. (Ranges of single
+/// values are the configuration's to check.)
+std::string check(const BoardSettings& settings);
+
+}  // namespace supercoil

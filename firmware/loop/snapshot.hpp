@@ -1,0 +1,50 @@
+// What there is to know of one channel after one tick.
+#pragma once
+
+#include <cstdint>
+
+#include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/hal/clock.hpp"
+
+#include "supervisor/channel_state.hpp"
+#include "supervisor/detectors/margin.hpp"
+#include "supervisor/limiter.hpp"
+
+namespace supercoil {
+
+/// What an active channel does.
+enum class Mode : std::uint8_t { rest, position, power, identify, calibrate };
+
+/// Quantities that could not be measured are NaN. Powers act from this tick to the next.
+struct Snapshot {
+  hal::Time time{};
+  std::uint8_t channel = 0;  ///< from 0
+  State state = State::disarmed;
+  Mode mode = Mode::rest;
+  Fault fault = Fault::none;  ///< the first cause
+  LimitedBy limited_by = LimitedBy::nothing;
+  std::uint8_t controller = 0;  ///< place in the configuration
+  bool probing = false;
+  bool trusted = false;  ///< the estimates
+  bool limited = false;  ///< the acting power is not the one that was wanted
+  double reference = 0.0;  ///< in m, or in W in open loop
+  double model_m = 0.0;  ///< of the reference model: what tracking is measured against
+  double position_m = 0.0;
+  double wanted_W = 0.0;
+  double applied_W = 0.0;  ///< after limits and quantisation
+  double duty = 0.0;
+  double supply_V = 0.0;
+  double current_A = 0.0;
+  double resistance_Ohm = 0.0;
+  double resistance_age_s = 0.0;
+  double coldest_C = 0.0;  ///< the muscle's temperature lies between these
+  double hottest_C = 0.0;
+  control::Theta theta = control::Theta::Zero();
+  double error_bound = 0.0;  ///< of the estimates, relative
+  float progress = 0.0F;     ///< of identify and calibrate, 0 to 1
+  /// One detector's margin in turn, so that all are published within as many ticks.
+  Fault turn = Fault::none;
+  detectors::Margin margin;
+};
+
+}  // namespace supercoil

@@ -1,0 +1,65 @@
+// Finding where a cold muscle is, and what its cold resistance is.
+#pragma once
+
+#include <cmath>
+
+namespace supercoil::modes {
+
+/// Waits until the muscle must be cold, takes the mean position over a second as its zero, and asks
+/// for a probe. A zero that moves while it is taken, or a resistance out of range, is no result.
+class Calibrate {
+ public:
+  enum class Outcome { running, probe, found, failed };
+  struct Settings {
+    double cold_K = 1.0;
+    double longest_wait_s = 120.0;
+    double mean_s = 1.0;
+    double most_motion_m = 100e-6;  ///< between the two halves of the mean
+    double lowest_Ohm = 0.1;
+    double highest_Ohm = 1e4;
+  };
+  explicit Calibrate(const Settings& settings) : settings_(settings) {}
+
+  void start() { *this = Calibrate(settings_); }
+  float progress() const { return progress_; }
+  double zero_m() const { return sum_m_ / static_cast<double>(count_); }
+  double cold_resistance_Ohm() const { return resistance_Ohm_; }
+
+  /// One tick of waiting and averaging: probe once the zero is known.
+  Outcome step(double hottest_K, double position_m, double step_s) {
+    elapsed_s_ += step_s;
+    if (count_ == 0 && hottest_K > settings_.cold_K) {
+      progress_ = 0.5F * static_cast<float>(elapsed_s_ / settings_.longest_wait_s);
+      return elapsed_s_ > settings_.longest_wait_s ? Outcome::failed : Outcome::running;
+    }
+    const auto ticks = static_cast<long>(settings_.mean_s / step_s);
+    if (count_ < ticks / 2) first_half_m_ += position_m;
+    sum_m_ += position_m;
+    ++count_;
+    progress_ = 0.5F + 0.4F * static_cast<float>(count_) / static_cast<float>(ticks);
+    if (count_ < ticks) return Outcome::running;
+    const double first_m = first_half_m_ / static_cast<double>(ticks / 2);
+    return std::abs(first_m - zero_m()) > settings_.most_motion_m ? Outcome::failed
+                                                                  : Outcome::probe;
+  }
+
+  /// The probe's answer.
+  Outcome probed(double resistance_Ohm) {
+    resistance_Ohm_ = resistance_Ohm;
+    progress_ = 1.0F;
+    const bool plausible =
+        resistance_Ohm >= settings_.lowest_Ohm && resistance_Ohm <= settings_.highest_Ohm;
+    return plausible ? Outcome::found : Outcome::failed;
+  }
+
+ private:
+  Settings settings_;
+  double elapsed_s_ = 0.0;
+  double sum_m_ = 0.0;
+  double first_half_m_ = 0.0;
+  long count_ = 0;
+  double resistance_Ohm_ = 0.0;
+  float progress_ = 0.0F;
+};
+
+}  // namespace supercoil::modes

@@ -1,0 +1,47 @@
+#include "recorder/row.hpp"
+
+namespace supercoil::recorder {
+
+namespace {
+
+float narrow(double value) {
+  return static_cast<float>(value);
+}
+
+}  // namespace
+
+Row row_of(const Snapshot& s, hal::Time time) {
+  Row row{};
+  row.time_ns = time.count();
+  row.channel = s.channel;
+  row.state = static_cast<std::uint8_t>(s.state);
+  row.mode = static_cast<std::uint8_t>(s.mode);
+  row.fault = static_cast<std::uint8_t>(s.fault);
+  row.limited_by = static_cast<std::uint8_t>(s.limited_by);
+  row.controller = s.controller;
+  row.flags = static_cast<std::uint8_t>((s.probing ? 1 : 0) | (s.trusted ? 2 : 0) |
+                                        (s.limited ? 4 : 0));
+  row.turn = static_cast<std::uint8_t>(s.turn);
+  row.reference = narrow(s.reference);
+  row.model_m = narrow(s.model_m);
+  row.position_m = narrow(s.position_m);
+  row.wanted_W = narrow(s.wanted_W);
+  row.applied_W = narrow(s.applied_W);
+  row.duty = narrow(s.duty);
+  row.supply_V = narrow(s.supply_V);
+  row.current_A = narrow(s.current_A);
+  row.resistance_Ohm = narrow(s.resistance_Ohm);
+  row.resistance_age_s = narrow(s.resistance_age_s);
+  row.coldest_C = narrow(s.coldest_C);
+  row.hottest_C = narrow(s.hottest_C);
+  for (int i = 0; i < 4; ++i)
+    row.theta[i] = narrow(s.theta[i]);
+  row.error_bound = narrow(s.error_bound);
+  row.progress = narrow(s.progress);
+  row.margin_used = narrow(s.margin.used);
+  row.margin_measured = narrow(s.margin.measured);
+  row.margin_limit = narrow(s.margin.limit);
+  return row;
+}
+
+}  // namespace supercoil::recorder

@@ -1,0 +1,47 @@
+// One line of a flight recording.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "loop/snapshot.hpp"
+
+namespace supercoil::recorder {
+
+/// A snapshot in single precision. Written to recordings as it is in memory, little-endian; the
+/// layout is a format (docs/recorder.md): new fields take `reserved`, nothing moves.
+struct Row {
+  std::int64_t time_ns;
+  std::uint8_t channel;
+  std::uint8_t state;
+  std::uint8_t mode;
+  std::uint8_t fault;
+  std::uint8_t limited_by;
+  std::uint8_t controller;
+  std::uint8_t flags;  ///< 1 probing, 2 trusted, 4 limited
+  std::uint8_t turn;   ///< whose margin this row carries
+  float reference;     ///< m, or W in open loop
+  float model_m;
+  float position_m;
+  float wanted_W;
+  float applied_W;
+  float duty;
+  float supply_V;
+  float current_A;
+  float resistance_Ohm;
+  float resistance_age_s;
+  float coldest_C;
+  float hottest_C;
+  float theta[4];
+  float error_bound;
+  float progress;
+  float margin_used;
+  float margin_measured;
+  float margin_limit;
+  float reserved[3];
+};
+static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
+
+Row row_of(const Snapshot& snapshot, hal::Time time);
+
+}  // namespace supercoil::recorder

@@ -1,0 +1,53 @@
+// May this board be hot at all? What concerns every channel.
+#pragma once
+
+#include <cstdint>
+
+#include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal/digital_line.hpp"
+
+#include "board/measurement.hpp"
+#include "supervisor/detectors/limits.hpp"
+#include "supervisor/detectors/liveness.hpp"
+#include "supervisor/supervision.hpp"
+#include "supervisor/verdict.hpp"
+
+namespace supercoil {
+
+/// What a board knows at this tick.
+struct BoardEvidence {
+  board::Measured supply;  ///< in V
+  hal::Level stop_circuit;
+  double late_s = 0.0;     ///< how much after its time this tick woke
+  long skipped = 0;        ///< periods that the last tick overran
+  bool lines_ok = true;    ///< every line of the last tick was set
+  std::uint32_t telemetry_beats = 0;
+  hal::CanState bus = hal::CanState::active;
+  bool configuration_changed = false;
+  bool self_test_failed = false;
+};
+
+class BoardSupervisor {
+ public:
+  BoardSupervisor(const BoardSupervision& settings, double step_s);
+
+  /// One tick: the fault of this tick, or none.
+  Fault step(const BoardEvidence& e);
+  const Verdict& verdict() const { return verdict_; }
+
+ private:
+  Verdict verdict_;
+  detectors::Limit stop_;
+  detectors::Below under_;
+  detectors::Above over_;
+  detectors::InARow late_in_a_row_;
+  detectors::InARow overruns_;
+  detectors::Silent telemetry_;
+  detectors::HeldFor bus_off_;
+  detectors::HeldFor bus_passive_;
+  double late_s_;
+  double bus_off_s_;
+  double bus_passive_s_;
+};
+
+}  // namespace supercoil

@@ -1,0 +1,125 @@
+#include "supervisor/channel_supervisor.hpp"
+
+#include <cmath>
+
+namespace supercoil {
+
+namespace {
+
+/// A muscle at a quarter of its cold conductance is as good as broken.
+constexpr double open_part = 0.25;
+/// Frozen: a live sensor's readings spread over more than this part of its own noise.
+constexpr double frozen_part = 0.5;
+/// Jump: two readings of a resting muscle differ by less than this many times the noise.
+constexpr double jump_noises = 12.0;
+constexpr double quiet_sensor_m = 50e-6;  ///< a jump is more than this, however quiet the sensor
+
+double frozen_band_m(const ChannelSupervision& s) {
+  return s.position_noise_rms_m > 0.0 ? frozen_part * s.position_noise_rms_m : -1.0;
+}
+
+}  // namespace
+
+ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_resistance_Ohm,
+                                     double lowest_supply_V, double step_s)
+    : settings_(s),
+      cold_Ohm_(cold_resistance_Ohm),
+      stale_(0.0),
+      out_of_range_({s.lowest_position_m, s.highest_position_m, s.out_of_range_s}, step_s),
+      frozen_({frozen_band_m(s), s.frozen_s}, step_s),
+      jump_({s.fastest_m_per_s, quiet_sensor_m + jump_noises * s.position_noise_rms_m}),
+      disagree_({s.disagree_K, s.disagree_s}, step_s),
+      open_({s.open_min_duty, open_part * lowest_supply_V / cold_resistance_Ohm, s.open_s}, step_s),
+      short_({s.off_current_A, s.short_s}, step_s),
+      stuck_on_({s.off_current_A, s.stuck_on_s}, step_s),
+      not_responding_({s.responding_window_s, s.responding_part, s.responding_least_m}, step_s),
+      wrong_duty_(s.wrong_duty_s, step_s),
+      temperature_(s.trip_C),
+      travel_(s.max_travel_m),
+      energy_({s.energy_J, s.energy_window_s}, step_s),
+      drift_({cold_resistance_Ohm, s.resistance_part}),
+      power_({s.max_measured_W, s.over_power_s}, step_s),
+      expired_(s.command_timeout_s, step_s),
+      damaged_(s.damaged_in_a_row),
+      refused_(s.refused_in_a_row),
+      saturated_(s.saturated_s, step_s) {}
+
+Fault ChannelSupervisor::step(const Evidence& e) {
+  verdict_.begin();
+  judge_sensors(e);
+  judge_heater(e);
+  judge_muscle(e);
+  judge_commands(e);
+  return verdict_.fault();
+}
+
+void ChannelSupervisor::restart() {
+  not_responding_.reset();
+  saturated_.reset();
+}
+
+void ChannelSupervisor::judge_sensors(const Evidence& e) {
+  using enum Fault;
+  const bool absent = !e.position.present || !e.current.present;
+  verdict_.note(sensor_stale, stale_.step(absent ? 1.0 : 0.0), stale_.margin());
+  if (!e.position.present) return;  // nothing to judge, and stale already says so
+  const double position_m = e.position.value;
+  verdict_.note(sensor_out_of_range, out_of_range_.step(position_m), out_of_range_.margin());
+  if (e.position_elapsed_s > 0.0) {
+    verdict_.note(sensor_jump, jump_.step(position_m, e.position_elapsed_s), jump_.margin());
+  }
+  verdict_.note(sensor_frozen, frozen_.step(position_m, e.hot), frozen_.margin());
+  const double apart = e.tells_temperature ? e.from_position_K : e.from_resistance_K;
+  verdict_.note(sensors_disagree, disagree_.step(e.from_resistance_K, apart), disagree_.margin());
+}
+
+void ChannelSupervisor::judge_heater(const Evidence& e) {
+  using enum Fault;
+  const double current_A = e.current.present ? e.current.value : 0.0;
+  verdict_.note(duty_wrong, wrong_duty_.step(e.set_step, e.devices_ok ? e.read_back : 1 << 30),
+                wrong_duty_.margin());
+  if (!e.current.present) return;
+  verdict_.note(heater_stuck_on, stuck_on_.step(e.off, current_A), stuck_on_.margin());
+  verdict_.note(heater_open, open_.step(e.off ? 0.0 : e.duty, current_A), open_.margin());
+  // What is above the current of the least resistance that the muscle may have.
+  const double most_A = e.duty * e.supply_V / settings_.least_resistance_Ohm;
+  verdict_.note(heater_short, short_.step(e.off ? 0.0 : current_A - most_A), short_.margin());
+  const double measured_W = e.supply_V * current_A;
+  verdict_.note(power_limit_exceeded, power_.step(measured_W), power_.margin());
+  if (e.position.present) {
+    verdict_.note(heater_not_responding, not_responding_.step(e.position.value, e.expected_m),
+                  not_responding_.margin());
+  }
+}
+
+void ChannelSupervisor::judge_muscle(const Evidence& e) {
+  using enum Fault;
+  verdict_.note(over_temperature, temperature_.step(e.hottest_C), temperature_.margin());
+  if (e.position.present) {
+    verdict_.note(over_travel, travel_.step(e.position.value), travel_.margin());
+  }
+  verdict_.note(energy_budget_exceeded, energy_.step(e.applied_W), energy_.margin());
+  if (e.probed_Ohm > 0.0) {
+    // Compared at the calibration's temperature.
+    const double probed_cold_Ohm = e.probed_Ohm / e.calibrated_Ohm * cold_Ohm_;
+    verdict_.note(resistance_drift, drift_.step(probed_cold_Ohm), drift_.margin());
+  }
+  if (e.probe_failed) verdict_.note(heater_open, true, open_.margin());
+}
+
+void ChannelSupervisor::judge_commands(const Evidence& e) {
+  using enum Fault;
+  const bool number = std::isfinite(e.wanted_W);
+  const bool lost = saturated_.step(e.heating && e.limited);
+  verdict_.note(controller_invalid, !number || lost,
+                number ? detectors::rising(saturated_.held_s(), settings_.saturated_s)
+                       : detectors::rising(e.wanted_W, 1.0));
+  verdict_.note(command_timeout, expired_.step(e.renewed, e.heating), expired_.margin());
+  const bool heard = e.damaged_command || e.obeyed_command || e.refused_command;
+  if (heard) {
+    verdict_.note(command_damaged, damaged_.step(e.damaged_command), damaged_.margin());
+    verdict_.note(command_not_allowed, refused_.step(e.refused_command), refused_.margin());
+  }
+}
+
+}  // namespace supercoil

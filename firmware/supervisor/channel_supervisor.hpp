@@ -1,0 +1,86 @@
+// May this channel be hot? All of a channel's detectors, and nothing but they.
+#pragma once
+
+#include "board/measurement.hpp"
+#include "supervisor/detectors/heater.hpp"
+#include "supervisor/detectors/liveness.hpp"
+#include "supervisor/detectors/muscle.hpp"
+#include "supervisor/detectors/sensor.hpp"
+#include "supervisor/supervision.hpp"
+#include "supervisor/verdict.hpp"
+
+namespace supercoil {
+
+/// What a channel knows at this tick.
+struct Evidence {
+  board::Measured position;      ///< in m
+  double position_elapsed_s = 0.0;  ///< since the last fresh position; 0: this one is not fresh
+  board::Measured current;       ///< in A, averaged
+  double supply_V = 0.0;
+  bool hot = false;      ///< the muscle is clearly warmer than the air
+  bool heating = false;  ///< a command to heat is in force
+  bool off = true;       ///< no duty is set, or the enable line is low
+  double duty = 0.0;     ///< as the current sense averages it
+  int set_step = 0;
+  int read_back = -1;
+  bool devices_ok = true;  ///< every write of the last tick was taken
+  double expected_m = 0.0;   ///< where the model of the muscle is
+  double hottest_C = 0.0;
+  double applied_W = 0.0;
+  bool tells_temperature = false;    ///< the next two are known
+  double from_resistance_K = 0.0;
+  double from_position_K = 0.0;
+  double probed_Ohm = 0.0;  ///< of a probe that ended at this tick; 0: none did
+  double calibrated_Ohm = 10.0;  ///< what it should be, at this temperature
+  bool probe_failed = false;     ///< a probe ended without a resistance
+  bool renewed = false;
+  bool damaged_command = false;
+  bool refused_command = false;
+  bool obeyed_command = false;
+  double wanted_W = 0.0;  ///< by the controller, at the last tick
+  bool limited = false;
+};
+
+class ChannelSupervisor {
+ public:
+  /// cold_resistance_Ohm and lowest_supply_V say what current is too little.
+  ChannelSupervisor(const ChannelSupervision& settings, double cold_resistance_Ohm,
+                    double lowest_supply_V, double step_s);
+
+  /// One tick: the fault of this tick, or none.
+  Fault step(const Evidence& e);
+  const Verdict& verdict() const { return verdict_; }
+  /// The channel was made safe or armed anew: what accumulates while heating starts again.
+  void restart();
+
+ private:
+  void judge_sensors(const Evidence& e);
+  void judge_heater(const Evidence& e);
+  void judge_muscle(const Evidence& e);
+  void judge_commands(const Evidence& e);
+
+  ChannelSupervision settings_;
+  double cold_Ohm_;
+  Verdict verdict_;
+  detectors::Stale stale_;
+  detectors::OutOfRange out_of_range_;
+  detectors::Frozen frozen_;
+  detectors::Jump jump_;
+  detectors::Disagree disagree_;
+  detectors::OpenLoad open_;
+  detectors::Short short_;
+  detectors::StuckOn stuck_on_;
+  detectors::NotResponding not_responding_;
+  detectors::WrongDuty wrong_duty_;
+  detectors::Limit temperature_;
+  detectors::Limit travel_;
+  detectors::EnergyBudget energy_;
+  detectors::ResistanceDrift drift_;
+  detectors::Above power_;
+  detectors::Expired expired_;
+  detectors::InARow damaged_;
+  detectors::InARow refused_;
+  detectors::HeldFor saturated_;
+};
+
+}  // namespace supercoil

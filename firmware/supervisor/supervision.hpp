@@ -1,0 +1,59 @@
+// The thresholds of every detector.
+#pragma once
+
+namespace supercoil {
+
+/// Defaults suit the paper's muscle. Times are the detection times that docs/faults states.
+struct ChannelSupervision {
+  // Sensors
+  double lowest_position_m = -0.002;  ///< outside: the sensor's wire, not the muscle
+  double highest_position_m = 0.042;
+  double out_of_range_s = 0.005;
+  double position_noise_rms_m = 10e-6;   ///< 0: a frozen sensor cannot be told from a quiet one
+  double frozen_s = 1.0;
+  double fastest_m_per_s = 0.5;
+  double disagree_K = 30.0;  ///< between the temperatures from resistance and from position
+  double disagree_s = 2.0;
+  // Heater
+  double open_min_duty = 0.02;
+  double open_s = 0.02;
+  double least_resistance_Ohm = 5.0;  ///< below it: a short
+  double short_s = 0.002;
+  double off_current_A = 0.05;  ///< what the sense may show while the channel is off
+  double stuck_on_s = 0.05;
+  double responding_window_s = 20.0;
+  double responding_part = 0.3;
+  double responding_least_m = 0.001;
+  double wrong_duty_s = 0.005;
+  // Muscle
+  double trip_C = 160.0;
+  double max_travel_m = 0.035;
+  double energy_J = 300.0;  ///< within the window
+  double energy_window_s = 60.0;
+  double resistance_part = 0.3;  ///< drift of the cold resistance
+  // Supply, of the channel
+  double max_measured_W = 5.5;
+  double over_power_s = 0.1;
+  // Command
+  double command_timeout_s = 0.25;
+  int damaged_in_a_row = 10;
+  int refused_in_a_row = 10;
+  // Self
+  double saturated_s = 120.0;  ///< limited without a gap for so long: the controller is lost
+};
+
+struct BoardSupervision {
+  double lowest_supply_V = 10.8;
+  double highest_supply_V = 13.2;
+  double supply_s = 0.02;
+  double supply_max_age_s = 0.05;
+  double late_s = 0.0005;          ///< a tick that wakes later is late
+  int late_in_a_row = 5;
+  int overruns_in_a_row = 5;
+  double charge_pump_decay_s = 0.02;  ///< more than twice the tolerated overruns
+  double telemetry_silence_s = 0.5;
+  double bus_off_s = 0.0;
+  double bus_passive_s = 1.0;
+};
+
+}  // namespace supercoil

@@ -1,0 +1,134 @@
+#include "runner/board_of.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supercoil::host_sim {
+
+namespace {
+
+ConverterSettings converter_of(const PositionSensorSettings& s) {
+  return {0.0, s.range_m, s.resolution_bits, s.noise_rms_m};
+}
+
+board::Scaling scaling_of(const ConverterSettings& c) {
+  return {c.per_count(), c.low};
+}
+
+/// 12 ticks: more than twice the five overruns that are tolerated in a row.
+double pump_decay_s(const Scenario& scenario) {
+  return std::max(0.02, 12.0 * scenario.step_s());
+}
+
+double largest_max_W(const Scenario& scenario) {
+  double largest_W = scenario.start.power.max_W;
+  for (const Event& event : scenario.events)
+    largest_W = std::max(largest_W, event.conditions.power.max_W);
+  return largest_W;
+}
+
+double largest_noise_m(const Scenario& scenario) {
+  double largest_m = scenario.start.position_sensor.noise_rms_m;
+  for (const Event& event : scenario.events)
+    largest_m = std::max(largest_m, event.conditions.position_sensor.noise_rms_m);
+  return largest_m;
+}
+
+ChannelSupervision supervision_of(const Scenario& scenario) {
+  const Conditions& c = scenario.start;
+  const double range_m = c.position_sensor.range_m;
+  const double max_W = largest_max_W(scenario);
+  ChannelSupervision s;
+  s.lowest_position_m = -0.1 * range_m;
+  s.highest_position_m = 1.1 * range_m;
+  s.max_travel_m = Conditions::travel_part * range_m;
+  s.position_noise_rms_m = largest_noise_m(scenario);
+  // A sensor without noise that does not show its steps either looks frozen at rest.
+  if (c.position_sensor.noise_rms_m < s.position_noise_rms_m) s.frozen_s = INFINITY;
+  s.out_of_range_s = std::max(s.out_of_range_s, 2.0 * scenario.step_s());
+  s.least_resistance_Ohm = 0.5 * c.plant.resistance_Ohm;
+  s.max_measured_W = 1.25 * max_W + 0.3;
+  s.energy_J = 1.1 * max_W * s.energy_window_s;
+  return s;
+}
+
+ThermalSettings thermal_of(const Conditions& c) {
+  const ThermalSpans& spans = c.thermal;
+  const control::PhysicalParameters& m = c.muscle;
+  ThermalSettings t;
+  t.bounds = {m.thermal_mass_J_per_K * spans.mass_part[0],
+              m.thermal_mass_J_per_K * spans.mass_part[1],
+              m.heat_transfer_W_per_K * spans.transfer_part[0],
+              m.heat_transfer_W_per_K * spans.transfer_part[1],
+              spans.power_part[0],
+              spans.power_part[1]};
+  t.thermal_mass_J_per_K = m.thermal_mass_J_per_K;
+  t.ambient_C = t.coldest_ambient_C = spans.ambient_C;
+  return t;
+}
+
+}  // namespace
+
+MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& c) {
+  MuscleChannelSettings m;
+  m.plant = c.plant.parameters;
+  m.resistance_Ohm = c.plant.resistance_Ohm;
+  m.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
+  m.load_N = c.plant.load_N;
+  m.power_gain = c.power.gain;
+  if (c.power.pwm_bits > 0) m.pwm_steps = (1 << c.power.pwm_bits) - 1;
+  m.pwm_delay_s = std::nearbyint(c.power.delay_s * scenario.rate_Hz) / scenario.rate_Hz;
+  m.position = converter_of(c.position_sensor);
+  m.current.high = 20.0 * c.power.supply_V / c.plant.resistance_Ohm;
+  m.current.low = -0.1 * m.current.high;
+  return m;
+}
+
+SimulatedBoardSettings simulated_board_of(const Scenario& scenario) {
+  SimulatedBoardSettings s;
+  s.rate_Hz = scenario.rate_Hz;
+  s.substeps = scenario.substeps;
+  s.supply_V = scenario.start.power.supply_V;
+  s.supply.high = 2.0 * s.supply_V;
+  s.charge_pump_decay_s = pump_decay_s(scenario);
+  s.seed = scenario.seed;
+  s.channels = {muscle_channel_of(scenario, scenario.start)};
+  return s;
+}
+
+BoardSettings firmware_of(const Scenario& scenario) {
+  const SimulatedBoardSettings simulated = simulated_board_of(scenario);
+  const Conditions& c = scenario.start;
+  BoardSettings board;
+  board.rate_Hz = scenario.rate_Hz;
+  board.supply.scaling = scaling_of(simulated.supply);
+  board.supervision.lowest_supply_V = 0.6 * c.power.supply_V;
+  board.supervision.highest_supply_V = 1.25 * c.power.supply_V;
+  board.supervision.late_s = 0.5 * scenario.step_s();
+  board.supervision.charge_pump_decay_s = simulated.charge_pump_decay_s;
+
+  ChannelSettings& channel = board.channels[0];
+  channel.muscle = c.muscle;
+  channel.position.scaling = scaling_of(simulated.channels[0].position);
+  channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
+  const double max_age_s = std::max(0.01, 3.0 * scenario.step_s());
+  channel.position.max_age_s = channel.heater.current.max_age_s = board.supply.max_age_s =
+      max_age_s;
+  channel.heater.cold_resistance_Ohm = c.plant.resistance_Ohm;
+  channel.heater.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
+  channel.heater.error_feedback = c.power.error_feedback;
+  channel.heater.delay_s = c.power.delay_s;
+  channel.thermal = thermal_of(c);
+  channel.limiter.max_W = c.power.max_W;
+  channel.limiter.min_W = c.power.min_W;
+  channel.supervision = supervision_of(scenario);
+  channel.controllers = {c.controller};
+  channel.estimators = {c.estimator};
+  for (const Event& event : scenario.events) {
+    if (event.new_controller) channel.controllers.push_back(event.conditions.controller);
+    if (event.new_estimator) channel.estimators.push_back(event.conditions.estimator);
+  }
+  return board;
+}
+
+}  // namespace supercoil::host_sim

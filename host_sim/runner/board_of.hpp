@@ -1,0 +1,17 @@
+// The board that a scenario describes: the simulated one, and what its firmware is told of it.
+#pragma once
+
+#include "loop/settings.hpp"
+#include "scenario/scenario.hpp"
+#include "simulated_board/simulated_board.hpp"
+
+namespace supercoil::host_sim {
+
+SimulatedBoardSettings simulated_board_of(const Scenario& scenario);
+MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& conditions);
+
+/// One channel. Its controllers and estimators are those of the start and of each event that names
+/// one, in that order.
+BoardSettings firmware_of(const Scenario& scenario);
+
+}  // namespace supercoil::host_sim

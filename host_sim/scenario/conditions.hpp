@@ -1,0 +1,79 @@
+// Everything in a scenario that an event can change.
+#pragma once
+
+#include <array>
+
+#include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/tracking/controller.hpp"
+
+#include "scenario/reference.hpp"
+#include "scenario/trouble.hpp"
+
+namespace supercoil::host_sim {
+
+/// The simulated muscle and what hangs on it.
+struct PlantSettings {
+  control::PhysicalParameters parameters;
+  double resistance_Ohm = 10.0;                ///< of the cold heater
+  double temperature_coefficient_per_K = 0.0;  ///< of that resistance
+  double load_N = 0.0;  ///< pulls the muscle longer, on top of the moving mass
+
+  friend bool operator==(const PlantSettings&, const PlantSettings&) = default;
+};
+
+struct PositionSensorSettings {
+  double noise_rms_m = 10e-6;
+  int resolution_bits = 16;  ///< 0: as good as not quantised
+  double range_m = 0.040;    ///< readings are from 0 to this
+
+  friend bool operator==(const PositionSensorSettings&, const PositionSensorSettings&) = default;
+};
+
+struct PowerSettings {
+  double max_W = 4.5;
+  double min_W = 0.0;
+  int pwm_bits = 0;  ///< 0: ideal
+  double supply_V = 12.0;
+  bool error_feedback = true;  ///< what rounding took from one duty is added to the next
+  double delay_s = 0.0;        ///< actuation delay, rounded to whole ticks
+  double gain = 1.0;           ///< heat in the muscle over electrical power, what nobody measures
+
+  friend bool operator==(const PowerSettings&, const PowerSettings&) = default;
+};
+
+/// What the firmware knows of the muscle's heat: each quantity lies within these parts of what the
+/// board believes.
+struct ThermalSpans {
+  std::array<double, 2> mass_part{0.75, 1.35};
+  std::array<double, 2> transfer_part{0.45, 2.2};
+  std::array<double, 2> power_part{0.95, 1.05};
+  double ambient_C = 25.0;
+
+  friend bool operator==(const ThermalSpans&, const ThermalSpans&) = default;
+};
+
+/// What whoever commands the board wants of it.
+enum class Wish { track, rest, disarm, identify, calibrate };
+inline constexpr control::Names<Wish, 5> wish_names{{{"track", Wish::track},
+                                                     {"rest", Wish::rest},
+                                                     {"disarm", Wish::disarm},
+                                                     {"identify", Wish::identify},
+                                                     {"calibrate", Wish::calibrate}}};
+
+struct Conditions {
+  /// Of a sensor's range: the travel limit.
+  static constexpr double travel_part = 0.999;
+
+  PlantSettings plant;
+  control::PhysicalParameters muscle;  ///< what the board believes the muscle to be
+  PositionSensorSettings position_sensor;
+  PowerSettings power;
+  ThermalSpans thermal;
+  Trouble trouble;
+  Wish wish = Wish::track;
+  Reference reference;
+  control::ControllerSettings controller;
+  control::EstimatorSettings estimator;
+};
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,66 @@
+// A converter's input on the simulated board.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+
+#include "supercoil/hal/adc_channel.hpp"
+
+namespace supercoil::host_sim {
+
+struct ConverterSettings {
+  double low = 0.0;  ///< what counts 0 and full scale mean; readings are clipped to them
+  double high = 1.0;
+  int bits = 16;           ///< 0: as good as not quantised
+  double noise_rms = 0.0;  ///< white, of every conversion
+  double period_s = 0.0;   ///< between conversions; 0: it converts when it is asked (direct)
+  double latency_s = 0.0;  ///< from a conversion to when it can be read
+
+  long full_scale() const { return (1L << (bits == 0 ? 30 : bits)) - 1; }
+  double per_count() const { return (high - low) / static_cast<double>(full_scale()); }
+};
+
+/// What can go wrong with it.
+struct ConverterTrouble {
+  bool silent = false;   ///< no new conversions: the last one grows old
+  bool frozen = false;   ///< new conversions of the old value, without its noise
+  bool loose = false;    ///< the wire is off: far outside of the range
+  double offset = 0.0;   ///< added to the truth
+  hal::Status status = hal::Status::ok;
+
+  friend bool operator==(const ConverterTrouble&, const ConverterTrouble&) = default;
+};
+
+class SimulatedConverter final : public hal::AdcChannel {
+ public:
+  SimulatedConverter(const ConverterSettings& settings, std::uint64_t seed)
+      : settings_(settings), generator_(seed) {}
+
+  hal::Sample latest() override;
+
+  /// The board's time moved on to `now`, at which the truth is `value`.
+  void offer(double value, hal::Time now);
+  /// The noise goes on from where it was.
+  void set(const ConverterSettings& settings) { settings_ = settings; }
+  void set(const ConverterTrouble& trouble) { trouble_ = trouble; }
+  const ConverterSettings& settings() const { return settings_; }
+
+ private:
+  hal::Sample convert(double value, hal::Time when);
+
+  ConverterSettings settings_;
+  ConverterTrouble trouble_;
+  boost::random::mt19937_64 generator_;
+  boost::random::normal_distribution<double> normal_;
+  double value_ = 0.0;
+  hal::Time now_{};
+  bool converted_ = false;  ///< the truth at now_ has been converted
+  hal::Time next_{};
+  hal::Sample last_;
+  std::deque<hal::Sample> on_the_way_;
+};
+
+}  // namespace supercoil::host_sim

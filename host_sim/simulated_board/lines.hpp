@@ -1,0 +1,109 @@
+// PWM, wires and watchdog on the simulated board.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <utility>
+
+#include "supercoil/hal/digital_line.hpp"
+#include "supercoil/hal/pwm_output.hpp"
+#include "supercoil/hal/clock.hpp"
+#include "supercoil/hal/watchdog.hpp"
+
+namespace supercoil::host_sim {
+
+/// A duty that acts some time after it was set.
+class SimulatedPwm final : public hal::PwmOutput {
+ public:
+  SimulatedPwm(int steps, hal::Duration delay, const hal::Time& now)
+      : steps_(steps), delay_(delay), now_(&now) {}
+
+  hal::Status set(int step) override {
+    if (refuses != hal::Status::ok) return refuses;
+    if (step < 0 || step > steps_) return hal::Status::out_of_range;
+    set_ = step;
+    on_the_way_.emplace_back(*now_ + delay_, step);
+    return hal::Status::ok;
+  }
+  int read_back() const override { return reads_wrong ? set_ + 1 : set_; }
+  int steps() const override { return steps_; }
+
+  /// What the switch gets at `now`.
+  double duty(hal::Time now) {
+    while (!on_the_way_.empty() && on_the_way_.front().first <= now) {
+      acting_ = on_the_way_.front().second;
+      on_the_way_.pop_front();
+    }
+    return static_cast<double>(acting_) / steps_;
+  }
+
+  hal::Status refuses = hal::Status::ok;  ///< what a set answers instead of being obeyed
+  bool reads_wrong = false;
+
+ private:
+  int steps_;
+  hal::Duration delay_;
+  const hal::Time* now_;
+  int set_ = 0;
+  int acting_ = 0;
+  std::deque<std::pair<hal::Time, int>> on_the_way_;
+};
+
+class SimulatedOutput final : public hal::DigitalOutput {
+ public:
+  hal::Status set(bool high) override {
+    if (refuses != hal::Status::ok) return refuses;
+    edges_ += high != high_ ? 1U : 0U;
+    high_ = high;
+    return hal::Status::ok;
+  }
+  bool high() const { return high_; }
+  std::uint64_t edges() const { return edges_; }
+
+  hal::Status refuses = hal::Status::ok;
+
+ private:
+  bool high_ = false;
+  std::uint64_t edges_ = 0;
+};
+
+class SimulatedInput final : public hal::DigitalInput {
+ public:
+  hal::Level read() override { return level; }
+  hal::Level level{true, hal::Status::ok};
+};
+
+class SimulatedWatchdog final : public hal::Watchdog {
+ public:
+  hal::Status feed() override {
+    ++fed;
+    return hal::Status::ok;
+  }
+  hal::Status release() override { return hal::Status::ok; }
+  long fed = 0;
+};
+
+/// Closes the supply's switch while its input shows edges, and opens it by itself when they stop.
+class ChargePump {
+ public:
+  explicit ChargePump(hal::Duration decay) : decay_(decay) {}
+
+  bool closed(std::uint64_t edges, hal::Time now) {
+    if (edges != edges_) {
+      edges_ = edges;
+      last_edge_ = now;
+      pumped_ = true;
+    }
+    return stuck_closed || (pumped_ && now - last_edge_ < decay_);
+  }
+
+  bool stuck_closed = false;
+
+ private:
+  hal::Duration decay_;
+  hal::Time last_edge_{};
+  std::uint64_t edges_ = 0;
+  bool pumped_ = false;
+};
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,41 @@
+#include "simulated_board/muscle_channel.hpp"
+
+#include <cmath>
+
+namespace supercoil::host_sim {
+
+MuscleChannel::MuscleChannel(const MuscleChannelSettings& settings, hal::Duration step,
+                             const hal::Time& now, std::uint64_t seed)
+    : pwm(settings.pwm_steps, hal::duration_from(settings.pwm_delay_s), now),
+      position(settings.position, seed),
+      current(settings.current, seed + 1000003),
+      settings_(settings),
+      step_(step),
+      plant_(settings.plant, hal::seconds(step)),
+      sense_part_(settings.sense_filter_s > 0.0
+                      ? -std::expm1(-hal::seconds(step) / settings.sense_filter_s)
+                      : 1.0) {}
+
+void MuscleChannel::set(const MuscleChannelSettings& settings) {
+  if (!(settings.plant == settings_.plant)) plant_.set_parameters(settings.plant);
+  settings_ = settings;
+}
+
+void MuscleChannel::advance(hal::Time from, double supply_V) {
+  const bool enabled = enable.high() || trouble.enable_stuck_on;
+  const double duty = trouble.switch_stuck_on ? 1.0 : enabled ? pwm.duty(from) : 0.0;
+  const double warm =
+      1.0 + settings_.temperature_coefficient_per_K * plant_.temperature_rise_K();
+  const double resistance_Ohm = settings_.resistance_Ohm * warm;
+  const double through_A = trouble.wire_open ? 0.0 : duty * supply_V / resistance_Ohm;
+  const double beside_A = trouble.short_Ohm > 0.0 ? duty * supply_V / trouble.short_Ohm : 0.0;
+  power_W_ = supply_V * through_A * settings_.power_gain;
+  current_A_ = through_A + beside_A;
+  sense_A_ += sense_part_ * (current_A_ - sense_A_);
+  plant_.step(power_W_, settings_.load_N);
+  if (!trouble.slack) slack_at_m_ = plant_.position_m();
+  position.offer(trouble.slack ? slack_at_m_ : plant_.position_m(), from + step_);
+  current.offer(sense_A_, from + step_);
+}
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,63 @@
+// One muscle with its switch, its wires and its sensors.
+#pragma once
+
+#include "plant/linear_plant.hpp"
+#include "simulated_board/converter.hpp"
+#include "simulated_board/lines.hpp"
+
+namespace supercoil::host_sim {
+
+struct MuscleChannelSettings {
+  control::PhysicalParameters plant;
+  double resistance_Ohm = 10.0;                ///< of the cold heater
+  double temperature_coefficient_per_K = 0.0;  ///< of that resistance
+  double load_N = 0.0;
+  double power_gain = 1.0;  ///< heat in the muscle over electrical power, what nobody measures
+  double sense_filter_s = 0.0;
+  int pwm_steps = (1 << 30);
+  double pwm_delay_s = 0.0;
+  ConverterSettings position{0.0, 0.040, 16, 10e-6};
+  ConverterSettings current{-0.1, 6.0, 0, 0.0};
+};
+
+/// What can go wrong with it, besides its converters.
+struct MuscleTrouble {
+  bool wire_open = false;
+  double short_Ohm = 0.0;  ///< across the muscle; 0: none
+  bool switch_stuck_on = false;
+  bool enable_stuck_on = false;
+  bool slack = false;  ///< heat no longer moves the sensor's end
+};
+
+class MuscleChannel {
+ public:
+  MuscleChannel(const MuscleChannelSettings& settings, hal::Duration step, const hal::Time& now,
+                std::uint64_t seed);
+
+  /// One step of the board, which begins at `from`: supply_V is 0 while its switch is open.
+  void advance(hal::Time from, double supply_V);
+  /// Everything that may change under way; converters and PWM stay as they are.
+  void set(const MuscleChannelSettings& settings);
+
+  const LinearPlant& plant() const { return plant_; }
+  double true_power_W() const { return power_W_; }
+  double current_A() const { return current_A_; }
+
+  SimulatedPwm pwm;
+  SimulatedOutput enable;
+  SimulatedConverter position;
+  SimulatedConverter current;
+  MuscleTrouble trouble;
+
+ private:
+  MuscleChannelSettings settings_;
+  hal::Duration step_;
+  LinearPlant plant_;
+  double sense_part_;
+  double sense_A_ = 0.0;
+  double power_W_ = 0.0;
+  double current_A_ = 0.0;
+  double slack_at_m_ = 0.0;
+};
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,45 @@
+#include "simulated_board/simulated_board.hpp"
+
+namespace supercoil::host_sim {
+
+SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
+    : supply(settings.supply, settings.seed + 2000003),
+      pump(hal::duration_from(settings.charge_pump_decay_s)),
+      step_(hal::duration_from(1.0 / settings.rate_Hz / settings.substeps)),
+      supply_V_(settings.supply_V) {
+  std::uint64_t seed = settings.seed;
+  for (const MuscleChannelSettings& channel : settings.channels)
+    channels_.emplace_back(channel, step_, now_, seed++);
+  supply.offer(supply_V_, now_);
+}
+
+hal::Time SimulatedBoard::wait_until(hal::Time wake) {
+  lost_ = {};  // the next wake-up lies after it: for the muscles it passes on the way there
+  advance_to(wake + late_);
+  late_ = {};
+  return now_;
+}
+
+void SimulatedBoard::advance_to(hal::Time time) {
+  while (now_ + step_ <= time)
+    step();
+}
+
+void SimulatedBoard::step() {
+  closed_ = pump.closed(heartbeat.edges(), now_);
+  for (MuscleChannel& channel : channels_)
+    channel.advance(now_, closed_ ? supply_V_ : 0.0);
+  now_ += step_;
+  supply.offer(supply_V_, now_);
+}
+
+board::Devices SimulatedBoard::devices() {
+  board::Devices devices{this, &supply, &heartbeat, &stop_circuit, &light, &watchdog, {}};
+  for (MuscleChannel& channel : channels_) {
+    devices.channels.push_back(
+        {&channel.pwm, &channel.enable, &channel.position, &channel.current});
+  }
+  return devices;
+}
+
+}  // namespace supercoil::host_sim

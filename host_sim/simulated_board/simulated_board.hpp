@@ -1,0 +1,67 @@
+// A whole board with its muscles, on any PC.
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "board/devices.hpp"
+#include "simulated_board/muscle_channel.hpp"
+
+namespace supercoil::host_sim {
+
+struct SimulatedBoardSettings {
+  double rate_Hz = 1000.0;  ///< of the firmware; the board itself takes `substeps` steps a tick
+  int substeps = 1;
+  double supply_V = 12.0;
+  ConverterSettings supply{0.0, 30.0, 0, 0.0};
+  double charge_pump_decay_s = 0.02;
+  std::uint64_t seed = 1;
+  std::vector<MuscleChannelSettings> channels{1};
+};
+
+/// Is its own clock: waiting lets the muscles move on, and nothing else takes time unless it is
+/// told to. The firmware may stop at any point: the board can go on without it.
+class SimulatedBoard final : public hal::Clock {
+ public:
+  explicit SimulatedBoard(const SimulatedBoardSettings& settings);
+
+  hal::Time now() const override { return now_ + lost_; }
+  hal::Time wait_until(hal::Time wake) override;
+
+  /// What the firmware's loop is given. The board must outlive it.
+  board::Devices devices();
+
+  /// Lets time pass without any firmware.
+  void advance_to(hal::Time time);
+
+  /// The next wake-up comes so much too late.
+  void oversleep(double late_s) { late_ = hal::duration_from(late_s); }
+  /// The tick that runs now takes so much time (seen by now()).
+  void lose(double time_s) { lost_ += hal::duration_from(time_s); }
+
+  MuscleChannel& channel(std::size_t i) { return channels_[i]; }
+  const MuscleChannel& channel(std::size_t i) const { return channels_[i]; }
+  void set_supply_V(double supply_V) { supply_V_ = supply_V; }
+  bool supply_closed() const { return closed_; }
+  hal::Time true_time() const { return now_; }
+
+  SimulatedConverter supply;
+  SimulatedOutput heartbeat;
+  SimulatedOutput light;
+  SimulatedInput stop_circuit;
+  SimulatedWatchdog watchdog;
+  ChargePump pump;
+
+ private:
+  void step();
+
+  hal::Duration step_;
+  double supply_V_;
+  hal::Time now_{};
+  hal::Duration lost_{};
+  hal::Duration late_{};
+  bool closed_ = false;
+  std::deque<MuscleChannel> channels_;
+};
+
+}  // namespace supercoil::host_sim

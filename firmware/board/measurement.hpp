@@ -21,15 +21,14 @@ struct Scaling {
 };
 
 /// max_age_s > 0. A conversion from the future (a clock that went wrong) is absent as well.
-inline Measured measure(const hal::Sample& sample, const Scaling& scaling, hal::Time now,
-                        double max_age_s) {
-  Measured result;
+/// The result is written in place: it is read again within nanoseconds.
+inline void measure(const hal::Sample& sample, const Scaling& scaling, hal::Time now,
+                    double max_age_s, Measured& result) {
   result.status = sample.status;
-  if (sample.status != hal::Status::ok) return result;
   result.age_s = hal::seconds(now - sample.taken);
-  result.present = result.age_s >= 0.0 && result.age_s <= max_age_s;
-  if (result.present) result.value = sample.counts * scaling.per_count + scaling.offset;
-  return result;
+  result.present =
+      sample.status == hal::Status::ok && result.age_s >= 0.0 && result.age_s <= max_age_s;
+  result.value = result.present ? sample.counts * scaling.per_count + scaling.offset : 0.0;
 }
 
 }  // namespace supercoil::board

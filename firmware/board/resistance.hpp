@@ -13,9 +13,9 @@ class Resistance {
   struct Settings {
     double sense_filter_s = 0.0;  ///< of the averaging sense; 0: it gives the tick's mean
     double smoothing_s = 0.2;
-    double probe_duty = 0.02;     ///< below this the last value is held
-    double initial_Ohm = 10.0;    ///< until it is measured
-    double lowest_Ohm = 0.1;      ///< outside these a value is not taken over
+    double probe_duty = 0.02;   ///< below this the last value is held
+    double initial_Ohm = 10.0;  ///< until it is measured
+    double lowest_Ohm = 0.1;    ///< outside these a value is not taken over
     double highest_Ohm = 1e5;
   };
   Resistance(const Settings& settings, double step_s)
@@ -30,7 +30,8 @@ class Resistance {
   bool step(double duty, double supply_V, double current_A) {
     age_s_ += step_s_;
     duty_ += sense_part_ * (duty - duty_);
-    const bool measurable = duty_ >= 0.99 * settings_.probe_duty && current_A > 0.0 && supply_V > 0.0;
+    const bool measurable =
+        duty_ >= 0.99 * settings_.probe_duty && current_A > 0.0 && supply_V > 0.0;
     if (!measurable) return false;
     const double drive_V = duty_ * supply_V;
     const double weight = started_ ? smooth_part_ : 1.0;

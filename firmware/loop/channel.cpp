@@ -42,17 +42,18 @@ void Channel::sample(hal::Time now) {
   reset_asked_ = false;
   sample_position(now);
   const InputSettings& input = settings_.heater.current;
-  current_ = board::measure(devices_.current->latest(), input.scaling, now, input.max_age_s);
-  evidence_.current = current_;
+  board::measure(devices_.current->latest(), input.scaling, now, input.max_age_s,
+                 evidence_.current);
 }
 
 void Channel::sample_position(hal::Time now) {
   const hal::Sample sample = devices_.position->latest();
   const InputSettings& input = settings_.position;
-  evidence_.position = board::measure(sample, input.scaling, now, input.max_age_s);
-  position_ = evidence_.position;
-  position_.value = (position_.value - calibration_.position_offset_m) * calibration_.position_scale;
-  const bool fresh = position_.present && sample.taken != position_taken_;
+  board::Measured& position = evidence_.position;
+  board::measure(sample, input.scaling, now, input.max_age_s, position);
+  evidence_.sensor_m = position.value;
+  position.value = (position.value - calibration_.position_offset_m) * calibration_.position_scale;
+  const bool fresh = position.present && sample.taken != position_taken_;
   evidence_.position_elapsed_s = fresh ? hal::seconds(sample.taken - position_taken_) : 0.0;
   if (fresh) position_taken_ = sample.taken;
 }
@@ -90,11 +91,11 @@ void Channel::supervise(const BoardNow& board) {
 /// The muscle's temperature, from the power that acted and the power that was measured: if a switch
 /// conducts by itself, only the current knows.
 void Channel::observe_heat(double supply_V) {
-  const bool measures = current_.present && supply_V > 0.0;
-  if (measures) resistance_.step(acting_.duty, supply_V, current_.value);
+  const bool measures = evidence_.current.present && supply_V > 0.0;
+  if (measures) resistance_.step(acting_.duty, supply_V, evidence_.current.value);
   const double told_W = acting_.power_W;
   const double noise_A = settings_.supervision.off_current_A;
-  const double measured_W = measures ? supply_V * current_.value : limiter_.max_W();
+  const double measured_W = measures ? supply_V * evidence_.current.value : limiter_.max_W();
   // A measured power takes part only where it differs by more than the sense's own error.
   const double tolerance_W = supply_V * noise_A + 0.05 * told_W;
   const bool differs = std::abs(measured_W - told_W) > tolerance_W;
@@ -109,13 +110,14 @@ void Channel::observe_heat(double supply_V) {
           ? (resistance_.value_Ohm() / calibration_.cold_resistance_Ohm - 1.0) /
                 h.temperature_coefficient_per_K
           : 0.0;
-  evidence_.from_position_K = position_.value / heat_.metres_per_K();
+  evidence_.from_position_K = evidence_.position.value / heat_.metres_per_K();
 }
 
 void Channel::follow_probe(double supply_V) {
   evidence_.probed_Ohm = 0.0;
   evidence_.probe_failed = false;
-  const auto probed = probe_.step(resistance_.duty(), supply_V, current_.present ? current_.value : 0.0);
+  const auto probed = probe_.step(resistance_.duty(), supply_V,
+                                  evidence_.current.present ? evidence_.current.value : 0.0);
   if (!probed.ended) return;
   evidence_.probed_Ohm = probed.resistance_Ohm;
   evidence_.probe_failed = probed.resistance_Ohm == 0.0;
@@ -136,8 +138,8 @@ void Channel::follow_probe(double supply_V) {
 }
 
 void Channel::estimate() {
-  if (!state_.may_heat() || !position_.present) return;
-  estimator().step(position_.value, acting_.power_W);
+  if (!state_.may_heat() || !evidence_.position.present) return;
+  estimator().step(evidence_.position.value, acting_.power_W);
   if (++ticks_ % static_cast<long>(1.0 / step_s_) == 0) learn_heat();
 }
 
@@ -146,19 +148,19 @@ void Channel::learn_heat() {
   const auto estimate = estimator().estimate();
   if (!estimate || !estimate->trusted) return;
   const control::PhysicalParameters& m = settings_.muscle;
-  const auto physical = control::physical_from(
-      estimate->theta, {m.force_per_kelvin_N_per_K, m.moving_mass_kg});
+  const auto physical =
+      control::physical_from(estimate->theta, {m.force_per_kelvin_N_per_K, m.moving_mass_kg});
   if (physical) heat_.learn(physical->thermal_pole_rad_per_s());
 }
 
 void Channel::control() {
   wanted_ = {};
-  if (!state_.may_heat() || !position_.present) return;
+  if (!state_.may_heat() || !evidence_.position.present) return;
   switch (mode_) {
     case Mode::position: {
       control::ControllerInput input;
       input.reference_m = reference_;
-      input.position_m = position_.value;
+      input.position_m = evidence_.position.value;
       input.applied_power_W = acting_.power_W;
       input.limited = acting_.limited;
       wanted_ = controllers_[controller_].step(input);
@@ -190,7 +192,7 @@ void Channel::step_identify() {
 
 void Channel::step_calibrate() {
   if (probe_.running()) return;
-  switch (calibrate_.step(heat_.hottest_K(), position_.value, step_s_)) {
+  switch (calibrate_.step(heat_.hottest_K(), evidence_.position.value, step_s_)) {
     case modes::Calibrate::Outcome::probe:
       probe_.start();
       break;
@@ -219,8 +221,7 @@ void Channel::drive() {
   if (state_.may_heat()) {
     const bool old = resistance_.age_s() > h.probe_every_s && heat_.coldest_K() > hot_K;
     if (old && !probe_.running()) probe_.start();
-    out = power_stage_.step(allowed_.power_W, resistance_.value_Ohm(), supply_V_,
-                            limiter_.max_W());
+    out = power_stage_.step(allowed_.power_W, resistance_.value_Ohm(), supply_V_, limiter_.max_W());
   }
   if (state_.enable() && probe_.running() && out.duty < h.probe_duty) {
     out.step = static_cast<int>(h.probe_duty * devices_.pwm->steps());
@@ -270,13 +271,13 @@ const Snapshot& Channel::publish() {
   s.probing = probe_.running();
   s.reference = reference_;
   s.model_m = wanted_.model_m;
-  s.position_m = position_.present ? position_.value : std::nan("");
+  s.position_m = evidence_.position.present ? evidence_.position.value : std::nan("");
   s.wanted_W = wanted_.wanted_power_W;
   s.applied_W = acting_.power_W;
   s.limited = acting_.limited;
   s.duty = set_.duty;
   s.supply_V = supply_V_;
-  s.current_A = current_.present ? current_.value : std::nan("");
+  s.current_A = evidence_.current.present ? evidence_.current.value : std::nan("");
   s.resistance_Ohm = resistance_.value_Ohm();
   s.resistance_age_s = resistance_.age_s();
   s.coldest_C = heat_.coldest_C();

@@ -48,7 +48,9 @@ class Channel {
   void disarm(Fault cause);
   /// For the self-test: a duty and the enable line by hand. Only while disarmed.
   void test_drive(double duty, bool enable);
-  double measured_current_A() const { return current_.present ? current_.value : INFINITY; }
+  double measured_current_A() const {
+    return evidence_.current.present ? evidence_.current.value : INFINITY;
+  }
   /// A command was damaged on its way, and obeyed by nobody.
   void note_damaged() { evidence_.damaged_command = true; }
 
@@ -106,8 +108,6 @@ class Channel {
   Fault present_fault_ = Fault::none;
   detectors::Margin first_margin_;
 
-  board::Measured position_;
-  board::Measured current_;
   hal::Time position_taken_{-1};
   storage::Calibration calibration_;
   board::Resistance resistance_;

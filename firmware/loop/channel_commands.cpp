@@ -45,7 +45,7 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
 
 Refusal Channel::arm(const BoardNow& board) {
   if (state_.state() != State::disarmed) return Refusal::wrong_state;
-  const bool measured = position_.present && current_.present;
+  const bool measured = evidence_.position.present && evidence_.current.present;
   const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
   if (board.testing || !measured || !quiet) return Refusal::not_ready;
   state_.arm();
@@ -59,8 +59,8 @@ Refusal Channel::heat(Mode mode, double value) {
   if (state != State::armed && state != State::active) return Refusal::wrong_state;
   if (state == State::armed && probe_.running()) return Refusal::busy;
   if (mode == Mode::position) {
-    const bool reachable = value >= -settings_.supervision.max_travel_m &&
-                           value <= settings_.supervision.max_travel_m;
+    const bool reachable =
+        value >= -settings_.supervision.max_travel_m && value <= settings_.supervision.max_travel_m;
     if (!reachable) return Refusal::out_of_range;  // a NaN as well
   } else if (mode == Mode::power) {
     if (!std::isfinite(value)) return Refusal::out_of_range;
@@ -84,9 +84,9 @@ void Channel::enter(Mode mode) {
   if (mode == Mode::position) {
     control::ControllerStart at;
     at.reference_m = reference_;
-    at.position_m = position_.value;
+    at.position_m = evidence_.position.value;
     at.power_W = acting_.power_W;
-    at.motion.position = position_.value;
+    at.motion.position = evidence_.position.value;
     at.hold = was_hot;
     controllers_[controller_].start(at);
   } else if (mode == Mode::identify) {
@@ -110,7 +110,7 @@ Refusal Channel::choose_controller(double place) {
   if (mode_ == Mode::position) {
     control::ControllerStart at;
     at.reference_m = reference_;
-    at.position_m = position_.value;
+    at.position_m = evidence_.position.value;
     at.power_W = acting_.power_W;
     at.motion = controllers_[controller_].motion();
     at.hold = true;
@@ -129,8 +129,8 @@ Refusal Channel::choose_estimator(double place) {
 }
 
 Refusal Channel::scale(double true_m) {
-  const double measured_m = position_.value;
-  if (!position_.present) return Refusal::not_ready;
+  const double measured_m = evidence_.position.value;
+  if (!evidence_.position.present) return Refusal::not_ready;
   const double scale = calibration_.position_scale * true_m / measured_m;
   if (!(true_m > 0.0 && scale >= 0.1 && scale <= 10.0)) return Refusal::out_of_range;
   calibration_.position_scale = scale;

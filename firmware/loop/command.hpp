@@ -9,16 +9,16 @@ namespace supercoil {
 
 enum class Verb : std::uint8_t {
   none = 0,
-  arm = 1,         ///< probes the heater; armed when that went well
-  disarm = 2,      ///< cold, from everywhere, for everybody
-  reset = 3,       ///< leaves `fault` when its cause is gone
-  position = 4,    ///< follow a position: value in m; renews
-  power = 5,       ///< open loop: value in W; renews
-  renew = 6,       ///< the last command to heat still holds
-  rest = 7,        ///< active → armed
-  identify = 8,    ///< learn the muscle; renewed like every command to heat
-  calibrate = 9,   ///< cold zero and cold resistance
-  scale = 10,      ///< value: the true position now, in m
+  arm = 1,          ///< probes the heater; armed when that went well
+  disarm = 2,       ///< cold, from everywhere, for everybody
+  reset = 3,        ///< leaves `fault` when its cause is gone
+  position = 4,     ///< follow a position: value in m; renews
+  power = 5,        ///< open loop: value in W; renews
+  renew = 6,        ///< the last command to heat still holds
+  rest = 7,         ///< active → armed
+  identify = 8,     ///< learn the muscle; renewed like every command to heat
+  calibrate = 9,    ///< cold zero and cold resistance
+  scale = 10,       ///< value: the true position now, in m
   controller = 11,  ///< value: place in the configuration
   estimator = 12,   ///< value: place in the configuration
 };

@@ -38,7 +38,7 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
 
   // Decide: commands, and whether anything may be hot.
   obey();
-  now_ = judge_board(woke, hal::seconds(woke - due), skipped);
+  judge_board(woke, hal::seconds(woke - due), skipped);
   for (Channel& channel : channels_)
     channel.supervise(now_);
   for (Channel& channel : channels_) {
@@ -101,11 +101,11 @@ void Loop::obey() {
   }
 }
 
-BoardNow Loop::judge_board(hal::Time now, double late_s, long skipped) {
+void Loop::judge_board(hal::Time now, double late_s, long skipped) {
   overruns_ += skipped;
   BoardEvidence& e = evidence_;
-  e.supply = board::measure(devices_.supply->latest(), settings_.supply.scaling, now,
-                            settings_.supply.max_age_s);
+  board::measure(devices_.supply->latest(), settings_.supply.scaling, now,
+                 settings_.supply.max_age_s, e.supply);
   e.stop_circuit = devices_.stop_circuit->read();
   e.late_s = late_s;
   e.skipped = skipped;
@@ -124,7 +124,10 @@ BoardNow Loop::judge_board(hal::Time now, double late_s, long skipped) {
   } else if (reset_asked_ && fault == Fault::none) {
     board_fault_ = Fault::none;
   }
-  return {now, e.supply.present ? e.supply.value : 0.0, board_fault_, testing};
+  now_.time = now;
+  now_.supply_V = e.supply.present ? e.supply.value : 0.0;
+  now_.fault = board_fault_;
+  now_.testing = testing;
 }
 
 /// The first cause is kept. From the next tick on no channel of this board may be hot; those of
@@ -142,8 +145,9 @@ void Loop::run_self_test() {
   for (const Channel& channel : channels_)
     most_A = std::fmax(most_A, channel.measured_current_A());
   for (const ChannelSettings& channel : settings_.channels)
-    idle_A = std::fmin(idle_A, 0.3 * channel.heater.probe_duty * settings_.supervision.lowest_supply_V /
-                                   channel.heater.cold_resistance_Ohm);
+    idle_A =
+        std::fmin(idle_A, 0.3 * channel.heater.probe_duty * settings_.supervision.lowest_supply_V /
+                              channel.heater.cold_resistance_Ohm);
   self_test_.step(most_A, idle_A);
   const SelfTest::Lines lines = self_test_.lines();
   const bool running = self_test_.verdict() == SelfTest::Verdict::running;
@@ -172,10 +176,9 @@ void Loop::shine() {
     active = active || channel.state().state() == State::active;
     armed = armed || channel.state().state() == State::armed;
   }
-  const double period_s = fault ? 0.2 : 1.0;
-  const double phase = std::fmod(static_cast<double>(ticks_) * settings_.step_s(), period_s);
-  const bool blinks = fault || active;
-  const bool lit = blinks ? phase < 0.5 * period_s : armed;
+  const double blinks_per_s = fault ? 5.0 : 1.0;
+  const long half_period = static_cast<long>(0.5 * settings_.rate_Hz / blinks_per_s);
+  const bool lit = fault || active ? (ticks_ / half_period) % 2 == 0 : armed;
   if (static_cast<int>(lit) == light_) return;
   devices_.light->set(lit);
   light_ = static_cast<int>(lit);

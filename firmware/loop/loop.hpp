@@ -23,7 +23,7 @@ struct Health {
 
 /// How long each part of a tick takes, and how late ticks are.
 struct LoopTimes {
-  StageTime late;     ///< woke after its time
+  StageTime late;  ///< woke after its time
   StageTime sample;
   StageTime decide;   ///< commands and supervisor
   StageTime compute;  ///< estimators and controllers
@@ -62,7 +62,7 @@ class Loop {
 
  private:
   void obey();
-  BoardNow judge_board(hal::Time now, double late_s, long skipped);
+  void judge_board(hal::Time now, double late_s, long skipped);
   void latch(Fault cause);
   void run_self_test();
   void beat();

@@ -9,8 +9,8 @@ namespace supercoil {
 class SelfTest {
  public:
   struct Settings {
-    double pump_decay_s;      ///< the last life of this board may have pumped until just now
-    double settle_s = 0.05;   ///< of the current sense
+    double pump_decay_s;     ///< the last life of this board may have pumped until just now
+    double settle_s = 0.05;  ///< of the current sense
     double pulse_s = 0.03;
   };
   struct Lines {

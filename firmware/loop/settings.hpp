@@ -37,9 +37,9 @@ struct HeaterSettings {
 /// What is known of the muscle's heat. Power parts: true power over measured power.
 struct ThermalSettings {
   control::ThermalBounds bounds{0.13, 0.20, 0.045, 0.18, 0.95, 1.05};
-  double thermal_mass_J_per_K = 0.162;   ///< ψ0, weighed or by calorimetry
-  double boot_rise_K = 135.0;            ///< how hot it may be at boot: the history is unknown
-  double ambient_C = 25.0;               ///< the warmest that the air can be
+  double thermal_mass_J_per_K = 0.162;  ///< ψ0, weighed or by calorimetry
+  double boot_rise_K = 135.0;           ///< how hot it may be at boot: the history is unknown
+  double ambient_C = 25.0;              ///< the warmest that the air can be
   double coldest_ambient_C = 15.0;
 };
 

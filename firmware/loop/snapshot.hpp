@@ -25,10 +25,10 @@ struct Snapshot {
   LimitedBy limited_by = LimitedBy::nothing;
   std::uint8_t controller = 0;  ///< place in the configuration
   bool probing = false;
-  bool trusted = false;  ///< the estimates
-  bool limited = false;  ///< the acting power is not the one that was wanted
+  bool trusted = false;    ///< the estimates
+  bool limited = false;    ///< the acting power is not the one that was wanted
   double reference = 0.0;  ///< in m, or in W in open loop
-  double model_m = 0.0;  ///< of the reference model: what tracking is measured against
+  double model_m = 0.0;    ///< of the reference model: what tracking is measured against
   double position_m = 0.0;
   double wanted_W = 0.0;
   double applied_W = 0.0;  ///< after limits and quantisation

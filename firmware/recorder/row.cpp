@@ -19,8 +19,8 @@ Row row_of(const Snapshot& s, hal::Time time) {
   row.fault = static_cast<std::uint8_t>(s.fault);
   row.limited_by = static_cast<std::uint8_t>(s.limited_by);
   row.controller = s.controller;
-  row.flags = static_cast<std::uint8_t>((s.probing ? 1 : 0) | (s.trusted ? 2 : 0) |
-                                        (s.limited ? 4 : 0));
+  row.flags =
+      static_cast<std::uint8_t>((s.probing ? 1 : 0) | (s.trusted ? 2 : 0) | (s.limited ? 4 : 0));
   row.turn = static_cast<std::uint8_t>(s.turn);
   row.reference = narrow(s.reference);
   row.model_m = narrow(s.model_m);
@@ -38,7 +38,7 @@ Row row_of(const Snapshot& s, hal::Time time) {
     row.theta[i] = narrow(s.theta[i]);
   row.error_bound = narrow(s.error_bound);
   row.progress = narrow(s.progress);
-  row.margin_used = narrow(s.margin.used);
+  row.margin_used = narrow(s.margin.used());
   row.margin_measured = narrow(s.margin.measured);
   row.margin_limit = narrow(s.margin.limit);
   return row;

@@ -4,10 +4,11 @@
 
 namespace supercoil {
 
-using detectors::Margin;
-
 BoardSupervisor::BoardSupervisor(const BoardSupervision& s, double step_s)
     : stop_(0.0),
+      lines_(0.0),
+      configuration_(0.0),
+      self_test_(0.0),
       under_({s.lowest_supply_V, s.supply_s}, step_s),
       over_({s.highest_supply_V, s.supply_s}, step_s),
       late_in_a_row_(s.late_in_a_row),
@@ -34,15 +35,16 @@ Fault BoardSupervisor::step(const BoardEvidence& e) {
   const bool off = e.bus == hal::CanState::bus_off;
   const bool passive = off || e.bus == hal::CanState::error_passive;
   const bool off_too_long = bus_off_.step(off);
-  verdict_.note(bus_off, off_too_long,
-                {off ? 1.0 : 0.0, bus_off_.held_s(), bus_off_s_});
+  bus_off_margin_ = {bus_off_.held_s(), bus_off_s_, false, off};
+  verdict_.note(bus_off, off_too_long, bus_off_margin_);
   const bool passive_too_long = bus_passive_.step(passive);
-  verdict_.note(bus_error_passive, passive_too_long,
-                detectors::rising(bus_passive_.held_s(), bus_passive_s_));
-  const auto at_once = [](bool holds) { return Margin{holds ? 1.0 : 0.0, holds ? 1.0 : 0.0, 1.0}; };
-  verdict_.note(line_failed, !e.lines_ok, at_once(!e.lines_ok));
-  verdict_.note(configuration_invalid, e.configuration_changed, at_once(e.configuration_changed));
-  verdict_.note(self_test_failed, e.self_test_failed, at_once(e.self_test_failed));
+  bus_passive_margin_ = detectors::rising(bus_passive_.held_s(), bus_passive_s_);
+  verdict_.note(bus_error_passive, passive_too_long, bus_passive_margin_);
+  verdict_.note(line_failed, lines_.step(e.lines_ok ? 0.0 : 1.0), lines_.margin());
+  verdict_.note(configuration_invalid, configuration_.step(e.configuration_changed ? 1.0 : 0.0),
+                configuration_.margin());
+  verdict_.note(self_test_failed, self_test_.step(e.self_test_failed ? 1.0 : 0.0),
+                self_test_.margin());
   return verdict_.fault();
 }
 

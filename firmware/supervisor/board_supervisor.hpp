@@ -18,9 +18,9 @@ namespace supercoil {
 struct BoardEvidence {
   board::Measured supply;  ///< in V
   hal::Level stop_circuit;
-  double late_s = 0.0;     ///< how much after its time this tick woke
-  long skipped = 0;        ///< periods that the last tick overran
-  bool lines_ok = true;    ///< every line of the last tick was set
+  double late_s = 0.0;   ///< how much after its time this tick woke
+  long skipped = 0;      ///< periods that the last tick overran
+  bool lines_ok = true;  ///< every line of the last tick was set
   std::uint32_t telemetry_beats = 0;
   hal::CanState bus = hal::CanState::active;
   bool configuration_changed = false;
@@ -29,6 +29,8 @@ struct BoardEvidence {
 
 class BoardSupervisor {
  public:
+  BoardSupervisor(const BoardSupervisor&) = delete;
+  BoardSupervisor& operator=(const BoardSupervisor&) = delete;
   BoardSupervisor(const BoardSupervision& settings, double step_s);
 
   /// One tick: the fault of this tick, or none.
@@ -37,7 +39,11 @@ class BoardSupervisor {
 
  private:
   Verdict verdict_;
+  // Of a flag: 0 is well, 1 is not.
   detectors::Limit stop_;
+  detectors::Limit lines_;
+  detectors::Limit configuration_;
+  detectors::Limit self_test_;
   detectors::Below under_;
   detectors::Above over_;
   detectors::InARow late_in_a_row_;
@@ -45,6 +51,8 @@ class BoardSupervisor {
   detectors::Silent telemetry_;
   detectors::HeldFor bus_off_;
   detectors::HeldFor bus_passive_;
+  detectors::Margin bus_off_margin_;
+  detectors::Margin bus_passive_margin_;
   double late_s_;
   double bus_off_s_;
   double bus_passive_s_;

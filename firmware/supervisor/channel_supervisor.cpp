@@ -64,7 +64,7 @@ void ChannelSupervisor::judge_sensors(const Evidence& e) {
   verdict_.note(sensor_stale, stale_.step(absent ? 1.0 : 0.0), stale_.margin());
   if (!e.position.present) return;  // nothing to judge, and stale already says so
   const double position_m = e.position.value;
-  verdict_.note(sensor_out_of_range, out_of_range_.step(position_m), out_of_range_.margin());
+  verdict_.note(sensor_out_of_range, out_of_range_.step(e.sensor_m), out_of_range_.margin());
   if (e.position_elapsed_s > 0.0) {
     verdict_.note(sensor_jump, jump_.step(position_m, e.position_elapsed_s), jump_.margin());
   }
@@ -111,9 +111,9 @@ void ChannelSupervisor::judge_commands(const Evidence& e) {
   using enum Fault;
   const bool number = std::isfinite(e.wanted_W);
   const bool lost = saturated_.step(e.heating && e.limited);
-  verdict_.note(controller_invalid, !number || lost,
-                number ? detectors::rising(saturated_.held_s(), settings_.saturated_s)
-                       : detectors::rising(e.wanted_W, 1.0));
+  saturation_ = number ? detectors::rising(saturated_.held_s(), settings_.saturated_s)
+                       : detectors::rising(e.wanted_W, 1.0);
+  verdict_.note(controller_invalid, !number || lost, saturation_);
   verdict_.note(command_timeout, expired_.step(e.renewed, e.heating), expired_.margin());
   const bool heard = e.damaged_command || e.obeyed_command || e.refused_command;
   if (heard) {

@@ -13,9 +13,10 @@ namespace supercoil {
 
 /// What a channel knows at this tick.
 struct Evidence {
-  board::Measured position;      ///< in m
+  board::Measured position;         ///< in m, calibrated
+  double sensor_m = 0.0;            ///< the same as the sensor gives it
   double position_elapsed_s = 0.0;  ///< since the last fresh position; 0: this one is not fresh
-  board::Measured current;       ///< in A, averaged
+  board::Measured current;          ///< in A, averaged
   double supply_V = 0.0;
   bool hot = false;      ///< the muscle is clearly warmer than the air
   bool heating = false;  ///< a command to heat is in force
@@ -23,14 +24,14 @@ struct Evidence {
   double duty = 0.0;     ///< as the current sense averages it
   int set_step = 0;
   int read_back = -1;
-  bool devices_ok = true;  ///< every write of the last tick was taken
-  double expected_m = 0.0;   ///< where the model of the muscle is
+  bool devices_ok = true;   ///< every write of the last tick was taken
+  double expected_m = 0.0;  ///< where the model of the muscle is
   double hottest_C = 0.0;
   double applied_W = 0.0;
-  bool tells_temperature = false;    ///< the next two are known
+  bool tells_temperature = false;  ///< the next two are known
   double from_resistance_K = 0.0;
   double from_position_K = 0.0;
-  double probed_Ohm = 0.0;  ///< of a probe that ended at this tick; 0: none did
+  double probed_Ohm = 0.0;       ///< of a probe that ended at this tick; 0: none did
   double calibrated_Ohm = 10.0;  ///< what it should be, at this temperature
   bool probe_failed = false;     ///< a probe ended without a resistance
   bool renewed = false;
@@ -43,6 +44,8 @@ struct Evidence {
 
 class ChannelSupervisor {
  public:
+  ChannelSupervisor(const ChannelSupervisor&) = delete;
+  ChannelSupervisor& operator=(const ChannelSupervisor&) = delete;
   /// cold_resistance_Ohm and lowest_supply_V say what current is too little.
   ChannelSupervisor(const ChannelSupervision& settings, double cold_resistance_Ohm,
                     double lowest_supply_V, double step_s);
@@ -81,6 +84,7 @@ class ChannelSupervisor {
   detectors::InARow damaged_;
   detectors::InARow refused_;
   detectors::HeldFor saturated_;
+  detectors::Margin saturation_;
 };
 
 }  // namespace supercoil

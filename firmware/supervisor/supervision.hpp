@@ -9,7 +9,7 @@ struct ChannelSupervision {
   double lowest_position_m = -0.002;  ///< outside: the sensor's wire, not the muscle
   double highest_position_m = 0.042;
   double out_of_range_s = 0.005;
-  double position_noise_rms_m = 10e-6;   ///< 0: a frozen sensor cannot be told from a quiet one
+  double position_noise_rms_m = 10e-6;  ///< 0: a frozen sensor cannot be told from a quiet one
   double frozen_s = 1.0;
   double fastest_m_per_s = 0.5;
   double disagree_K = 30.0;  ///< between the temperatures from resistance and from position
@@ -47,7 +47,7 @@ struct BoardSupervision {
   double highest_supply_V = 13.2;
   double supply_s = 0.02;
   double supply_max_age_s = 0.05;
-  double late_s = 0.0005;          ///< a tick that wakes later is late
+  double late_s = 0.0005;  ///< a tick that wakes later is late
   int late_in_a_row = 5;
   int overruns_in_a_row = 5;
   double charge_pump_decay_s = 0.02;  ///< more than twice the tolerated overruns

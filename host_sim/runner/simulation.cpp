@@ -114,8 +114,7 @@ void Simulation::ask(double reference) {
 TickRecord Simulation::step() {
   const double time_s = static_cast<double>(tick_) * step_s_;
   board_.advance_to(executive_.next_wake());
-  while (next_event_ < scenario_->events.size() &&
-         scenario_->events[next_event_].at_s <= time_s) {
+  while (next_event_ < scenario_->events.size() && scenario_->events[next_event_].at_s <= time_s) {
     happen(scenario_->events[next_event_++]);
   }
   const double reference = conditions_->reference.at(time_s);

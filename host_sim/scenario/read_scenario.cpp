@@ -43,12 +43,16 @@ void read_simulation(const toml::table& document, Scenario& scenario,
 }
 
 /// What is soldered, or told to the firmware when it starts, holds for the whole run.
-constexpr std::array fixed_keys{
-    "simulation",     "muscle",
-    "reference_model", "event",
-    "thermal",        "power.pwm_bits",
-    "power.delay_s",  "power.error_feedback",
-    "sensor.position.range_m", "sensor.position.resolution_bits"};
+constexpr std::array fixed_keys{"simulation",
+                                "muscle",
+                                "reference_model",
+                                "event",
+                                "thermal",
+                                "power.pwm_bits",
+                                "power.delay_s",
+                                "power.error_feedback",
+                                "sensor.position.range_m",
+                                "sensor.position.resolution_bits"};
 
 void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostics) {
   for (const char* fixed : fixed_keys) {

@@ -6,16 +6,16 @@
 namespace supercoil::host_sim {
 
 struct Trouble {
-  bool heater_open = false;        ///< a wire of the muscle is broken
-  bool heater_short = false;       ///< half an ohm across the muscle
-  bool switch_stuck_on = false;    ///< the power switch conducts whatever it is told
-  bool position_loose = false;     ///< the sensor's wire is off
-  bool position_silent = false;    ///< no new readings
-  bool position_frozen = false;    ///< the same reading again and again
-  bool muscle_slack = false;       ///< heat no longer moves the sensor's end
-  bool pwm_refuses = false;        ///< the PWM device answers with an error
-  bool stop_pressed = false;       ///< the emergency stop's circuit is open
-  bool commands_stop = false;      ///< whoever commands falls silent
+  bool heater_open = false;      ///< a wire of the muscle is broken
+  bool heater_short = false;     ///< half an ohm across the muscle
+  bool switch_stuck_on = false;  ///< the power switch conducts whatever it is told
+  bool position_loose = false;   ///< the sensor's wire is off
+  bool position_silent = false;  ///< no new readings
+  bool position_frozen = false;  ///< the same reading again and again
+  bool muscle_slack = false;     ///< heat no longer moves the sensor's end
+  bool pwm_refuses = false;      ///< the PWM device answers with an error
+  bool stop_pressed = false;     ///< the emergency stop's circuit is open
+  bool commands_stop = false;    ///< whoever commands falls silent
 
   friend bool operator==(const Trouble&, const Trouble&) = default;
 };

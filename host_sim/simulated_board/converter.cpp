@@ -34,8 +34,10 @@ void SimulatedConverter::offer(double value, hal::Time now) {
 hal::Sample SimulatedConverter::latest() {
   if (trouble_.status != hal::Status::ok) return {0, now_, trouble_.status};
   if (settings_.period_s <= 0.0 && !converted_ && !trouble_.silent) {
-    last_ = convert(value_, now_);
+    const hal::Sample sample = convert(value_, now_);
+    last_ = sample;
     converted_ = true;
+    return sample;
   }
   const hal::Duration latency = hal::duration_from(settings_.latency_s);
   while (!on_the_way_.empty() && on_the_way_.front().taken + latency <= now_) {

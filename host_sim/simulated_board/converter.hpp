@@ -25,10 +25,10 @@ struct ConverterSettings {
 
 /// What can go wrong with it.
 struct ConverterTrouble {
-  bool silent = false;   ///< no new conversions: the last one grows old
-  bool frozen = false;   ///< new conversions of the old value, without its noise
-  bool loose = false;    ///< the wire is off: far outside of the range
-  double offset = 0.0;   ///< added to the truth
+  bool silent = false;  ///< no new conversions: the last one grows old
+  bool frozen = false;  ///< new conversions of the old value, without its noise
+  bool loose = false;   ///< the wire is off: far outside of the range
+  double offset = 0.0;  ///< added to the truth
   hal::Status status = hal::Status::ok;
 
   friend bool operator==(const ConverterTrouble&, const ConverterTrouble&) = default;

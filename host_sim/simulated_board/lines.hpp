@@ -5,9 +5,9 @@
 #include <deque>
 #include <utility>
 
+#include "supercoil/hal/clock.hpp"
 #include "supercoil/hal/digital_line.hpp"
 #include "supercoil/hal/pwm_output.hpp"
-#include "supercoil/hal/clock.hpp"
 #include "supercoil/hal/watchdog.hpp"
 
 namespace supercoil::host_sim {

@@ -19,7 +19,7 @@ class OpenLoad {
   bool step(double duty, double current_A) {
     const double least = settings_.min_A_per_duty * duty;
     const bool judged = duty >= settings_.min_duty;
-    margin_ = {judged ? least / std::fmax(current_A, 1e-9) : 0.0, current_A, least};
+    margin_ = {current_A, least, true, judged};
     return held_.step(judged && !(current_A >= least));
   }
   const Margin& margin() const { return margin_; }
@@ -47,7 +47,7 @@ class StuckOn {
 
   /// off: the duty is 0 or the enable line low.
   bool step(bool off, double current_A) {
-    margin_ = off ? rising(current_A, settings_.max_A) : Margin{0.0, current_A, settings_.max_A};
+    margin_ = {current_A, settings_.max_A, false, off};
     return held_.step(off && !(current_A <= settings_.max_A));
   }
   const Margin& margin() const { return margin_; }
@@ -82,8 +82,7 @@ class NotResponding {
     const double expected = expected_high_ - expected_low_;
     const double moved = high_ - low_;
     const bool judged = expected >= settings_.least_expected_m;
-    margin_ = {judged ? settings_.least_part * expected / std::fmax(moved, 1e-9) : 0.0, moved,
-               settings_.least_part * expected};
+    margin_ = {moved, settings_.least_part * expected, true, judged};
     if (elapsed_s_ + 0.5 * step_s_ < settings_.window_s) return false;
     elapsed_s_ = 0.0;
     return judged && !(moved >= settings_.least_part * expected);
@@ -115,7 +114,9 @@ class WrongDuty {
   /// read_back: negative when the device cannot be read back; it is then not judged.
   bool step(int set, int read_back) {
     const bool wrong = read_back >= 0 && read_back != set;
-    margin_ = {wrong ? 1.0 : 0.0, static_cast<double>(read_back), static_cast<double>(set)};
+    // Both are steps of the PWM: any difference is beyond the limit.
+    margin_ = {static_cast<double>(wrong ? read_back : set), static_cast<double>(set), false,
+               wrong};
     return held_.step(wrong);
   }
   const Margin& margin() const { return margin_; }

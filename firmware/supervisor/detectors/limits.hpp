@@ -55,10 +55,8 @@ class Below {
       : settings_(settings), held_(settings.hold_s, step_s) {}
 
   bool step(double value) {
-    const bool holds = !(value >= settings_.limit);
-    margin_ = {holds && !(value > 0.0) ? INFINITY : settings_.limit / value, value,
-               settings_.limit};
-    return held_.step(holds);
+    margin_ = falling(value, settings_.limit);
+    return held_.step(!(value >= settings_.limit));
   }
   const Margin& margin() const { return margin_; }
 

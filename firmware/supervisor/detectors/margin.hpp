@@ -5,17 +5,30 @@
 
 namespace supercoil::detectors {
 
-/// Published every tick, also when all is well: how much of the limit is used, what was measured
-/// and what the limit is, both in the detector's own unit. used ≥ 1 is beyond the limit.
+/// Kept every tick, also when all is well: what was measured and what the limit is, both in the
+/// detector's own unit.
 struct Margin {
-  double used = 0.0;
   double measured = 0.0;
   double limit = 0.0;
+  bool falls = false;  ///< the limit is a least value, not a greatest
+  bool judged = true;  ///< there was something to judge
+
+  /// How much of the limit is used; 1 or more is beyond it. A NaN uses more than all of it.
+  double used() const {
+    if (!judged) return 0.0;
+    if (std::isnan(measured)) return INFINITY;
+    if (!falls) return limit == 0.0 ? (measured > 0.0 ? INFINITY : 0.0) : measured / limit;
+    return measured > 0.0 ? limit / measured : INFINITY;
+  }
 };
 
-/// Of a value that may rise to a limit. A NaN uses more than all of it.
+/// Of a value that may rise to a limit.
 inline Margin rising(double measured, double limit) {
-  return {std::isnan(measured) ? INFINITY : measured / limit, measured, limit};
+  return {measured, limit, false, true};
+}
+/// Of a value that may fall to a limit.
+inline Margin falling(double measured, double limit) {
+  return {measured, limit, true, true};
 }
 
 /// Tells whether something has held for a whole time without a gap.

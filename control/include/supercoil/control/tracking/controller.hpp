@@ -56,9 +56,9 @@ struct ControllerOutput {
 struct ControllerStart {
   double reference_m = 0.0;
   double position_m = 0.0;
-  double power_W = 0.0;               ///< that the muscle gets now
-  ModelMotion<double> motion{};       ///< of the reference model so far, in metres
-  bool hold = false;                  ///< the first wanted power is that power
+  double power_W = 0.0;          ///< that the muscle gets now
+  ModelMotion<double> motion{};  ///< of the reference model so far, in metres
+  bool hold = false;             ///< the first wanted power is that power
 };
 
 /// Open loop: the reference is a power.

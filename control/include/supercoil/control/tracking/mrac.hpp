@@ -116,8 +116,8 @@ class Mrac {
     const auto& u = power_filter_.state();
     const auto& y = position_filter_.state();
     WideParameters omega;
-    omega << u[1] * alpha_[0], u[0] * alpha_[1], y[1] * alpha_[0], y[0] * alpha_[1],
-        Wide(position), Wide(reference);
+    omega << u[1] * alpha_[0], u[0] * alpha_[1], y[1] * alpha_[0], y[0] * alpha_[1], Wide(position),
+        Wide(reference);
     return omega;
   }
 

@@ -1,0 +1,117 @@
+// One tick of the whole firmware over devices that cost nothing: all detectors, estimator,
+// controller, limiter, power stage, snapshot and recorder row.
+#include <deque>
+
+#include <benchmark/benchmark.h>
+
+#include "loop/loop.hpp"
+
+namespace {
+
+using namespace supercoil;
+
+struct IdleClock final : hal::Clock {
+  hal::Time now() const override { return time; }
+  hal::Time wait_until(hal::Time wake) override { return time = wake; }
+  hal::Time time{};
+};
+struct Input final : hal::AdcChannel {
+  hal::Sample latest() override { return {counts, clock->time, hal::Status::ok}; }
+  const IdleClock* clock = nullptr;
+  std::int32_t counts = 0;
+};
+struct Pwm final : hal::PwmOutput {
+  hal::Status set(int step) override {
+    last = step;
+    return hal::Status::ok;
+  }
+  int read_back() const override { return last; }
+  int steps() const override { return 4095; }
+  int last = 0;
+};
+struct Line final : hal::DigitalOutput {
+  hal::Status set(bool) override { return hal::Status::ok; }
+};
+struct Closed final : hal::DigitalInput {
+  hal::Level read() override { return {true, hal::Status::ok}; }
+};
+
+/// A board whose muscles answer like 10 Ω and follow their reference by magic: what counts here is
+/// that every stage runs.
+class Bench {
+ public:
+  explicit Bench(std::size_t channels) {
+    BoardSettings settings;
+    settings.supply.scaling.per_count = 1e-3;
+    settings.channels.resize(channels);
+    for (ChannelSettings& channel : settings.channels) {
+      channel.position.scaling.per_count = 1e-6;
+      channel.heater.current.scaling.per_count = 1e-6;
+      channel.supervision.frozen_s = INFINITY;
+      channel.supervision.responding_part = 0.0;
+      channel.supervision.stuck_on_s = INFINITY;
+      channel.supervision.open_s = INFINITY;
+      channel.supervision.saturated_s = INFINITY;
+    }
+    board::Devices devices{&clock_, &supply_, &heartbeat_, &stop_, nullptr, nullptr, {}};
+    supply_.clock = &clock_;
+    supply_.counts = 12000;
+    for (std::size_t i = 0; i < channels; ++i) {
+      Input& position = inputs_.emplace_back();
+      Input& current = inputs_.emplace_back();
+      position.clock = current.clock = &clock_;
+      devices.channels.push_back({&pwms_.emplace_back(), &heartbeat_, &position, &current});
+    }
+    loop_.emplace(settings, devices);
+    for (int i = 0; i < 1000; ++i) tick(Verb::none);
+    powered_ = true;  // the self-test must see no current
+    tick(Verb::arm);
+    for (int i = 0; i < 200; ++i) tick(Verb::none);
+  }
+
+  void tick(Verb verb) {
+    clock_.time += std::chrono::milliseconds(1);
+    for (std::size_t i = 0; i < pwms_.size(); ++i) {
+      inputs_[2 * i].counts = 5000 + static_cast<int>(clock_.time.count() / 1000000 % 64);
+      inputs_[2 * i + 1].counts = powered_ ? static_cast<int>(1.2e6 * pwms_[i].last / 4095) : 0;
+      if (verb != Verb::none) loop_->send({static_cast<std::uint8_t>(i), verb, 0.005});
+    }
+    loop_->health().telemetry_beats.fetch_add(1);
+    loop_->tick(clock_.time, clock_.time, 0);
+    recorder::Row row;
+    while (loop_->take(row)) {
+    }
+    Answer answer;
+    while (loop_->answer(answer)) {
+    }
+  }
+  bool active() const { return loop_->channel(0).state().state() == State::active; }
+  Fault fault() const { return loop_->channel(0).state().first_cause(); }
+
+ private:
+  bool powered_ = false;
+  IdleClock clock_;
+  Input supply_;
+  Line heartbeat_;
+  Closed stop_;
+  std::deque<Input> inputs_;
+  std::deque<Pwm> pwms_;
+  std::optional<Loop> loop_;
+};
+
+/// The budget: 300 ns a channel.
+void firmware_tick(benchmark::State& state) {
+  const auto channels = static_cast<std::size_t>(state.range(0));
+  Bench bench(channels);
+  for (auto _ : state) bench.tick(Verb::position);
+  if (!bench.active()) {
+    state.SkipWithError(std::string(name(bench.fault())).c_str());
+    return;
+  }
+  state.counters["per_channel"] =
+      benchmark::Counter(static_cast<double>(channels),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(firmware_tick)->Arg(1)->Arg(4)->Arg(16);
+
+}  // namespace

@@ -24,7 +24,7 @@ class Probe {
   Result step(double duty, double supply_V, double current_A) {
     if (!running_) return {};
     elapsed_s_ += step_s_;
-    if (elapsed_s_ > 0.5 * duration_s_) {
+    if (elapsed_s_ > 0.5 * (duration_s_ + step_s_)) {
       drive_V_s_ += duty * supply_V;
       current_A_s_ += current_A;
     }

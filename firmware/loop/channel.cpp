@@ -10,6 +10,9 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
   return {h.sense_filter_s, h.resistance_filter_s, h.probe_duty, h.cold_resistance_Ohm};
 }
 
+/// A resistance of so many times the cold one is a broken wire and the sense's own offset.
+constexpr double as_good_as_open = 4.0;
+
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
@@ -65,7 +68,7 @@ void Channel::supervise(const BoardNow& board) {
 
   Evidence& e = evidence_;
   e.supply_V = board.supply_V;
-  e.hot = hot();
+  e.hot = heat_.hottest_K() > hot_K;
   e.heating = state_.may_heat();
   e.off = acting_.duty == 0.0 || !state_.enable();
   e.duty = resistance_.duty();
@@ -79,6 +82,7 @@ void Channel::supervise(const BoardNow& board) {
   e.limited = acting_.limited;
   present_fault_ = supervisor_.step(e);
   e.damaged_command = false;
+  if (!supervisor_.inside(e.sensor_m)) e.position.present = false;
 
   const Fault cause = board.fault != Fault::none ? board.fault : present_fault_;
   if (cause != Fault::none && !board.testing) {
@@ -119,15 +123,16 @@ void Channel::follow_probe(double supply_V) {
   const auto probed = probe_.step(resistance_.duty(), supply_V,
                                   evidence_.current.present ? evidence_.current.value : 0.0);
   if (!probed.ended) return;
-  evidence_.probed_Ohm = probed.resistance_Ohm;
-  evidence_.probe_failed = probed.resistance_Ohm == 0.0;
+  const double most_Ohm = as_good_as_open * calibration_.cold_resistance_Ohm;
+  evidence_.probe_failed = !(probed.resistance_Ohm > 0.0 && probed.resistance_Ohm < most_Ohm);
+  evidence_.probed_Ohm = evidence_.probe_failed ? 0.0 : probed.resistance_Ohm;
   // What it should be: the calibrated one, warmer by somewhere between the observer's bounds.
   const double middle_K = 0.5 * (heat_.coldest_K() + std::fmin(heat_.hottest_K(), 20.0));
   evidence_.calibrated_Ohm = calibration_.cold_resistance_Ohm *
                              (1.0 + settings_.heater.temperature_coefficient_per_K * middle_K);
-  if (probed.resistance_Ohm > 0.0) resistance_.set(probed.resistance_Ohm);
+  if (!evidence_.probe_failed) resistance_.set(probed.resistance_Ohm);
   if (mode_ == Mode::calibrate) {
-    if (calibrate_.probed(probed.resistance_Ohm) == modes::Calibrate::Outcome::found) {
+    if (calibrate_.probed(evidence_.probed_Ohm) == modes::Calibrate::Outcome::found) {
       calibration_.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
       calibration_.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
       store(settings_.muscle);
@@ -219,7 +224,7 @@ void Channel::drive() {
   const double full_W = supply_V_ * supply_V_ / resistance_.value_Ohm();
   board::PowerStage::Output out;
   if (state_.may_heat()) {
-    const bool old = resistance_.age_s() > h.probe_every_s && heat_.coldest_K() > hot_K;
+    const bool old = resistance_.age_s() > h.probe_every_s;
     if (old && !probe_.running()) probe_.start();
     out = power_stage_.step(allowed_.power_W, resistance_.value_Ohm(), supply_V_, limiter_.max_W());
   }

@@ -92,10 +92,9 @@ class Channel {
   void write_enable(bool high);
   control::Estimator& estimator() { return estimators_[estimator_]; }
   const control::Estimator& estimator() const { return estimators_[estimator_]; }
-  bool hot() const { return heat_.coldest_K() > hot_K; }
 
-  /// Above it a muscle is hot enough for its sensor to be expected to be alive.
-  static constexpr double hot_K = 3.0;
+  /// A muscle that may be warmer than this has a sensor that shows at least its own noise.
+  static constexpr double hot_K = 5.0;
 
   ChannelSettings settings_;
   board::ChannelDevices devices_;

@@ -65,7 +65,8 @@ void ChannelSupervisor::judge_sensors(const Evidence& e) {
   if (!e.position.present) return;  // nothing to judge, and stale already says so
   const double position_m = e.position.value;
   verdict_.note(sensor_out_of_range, out_of_range_.step(e.sensor_m), out_of_range_.margin());
-  if (e.position_elapsed_s > 0.0) {
+  // A reading from outside is no position: coming and going it would look like a jump.
+  if (e.position_elapsed_s > 0.0 && inside(e.sensor_m)) {
     verdict_.note(sensor_jump, jump_.step(position_m, e.position_elapsed_s), jump_.margin());
   }
   verdict_.note(sensor_frozen, frozen_.step(position_m, e.hot), frozen_.margin());

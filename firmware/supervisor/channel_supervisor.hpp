@@ -18,7 +18,7 @@ struct Evidence {
   double position_elapsed_s = 0.0;  ///< since the last fresh position; 0: this one is not fresh
   board::Measured current;          ///< in A, averaged
   double supply_V = 0.0;
-  bool hot = false;      ///< the muscle is clearly warmer than the air
+  bool hot = false;      ///< the muscle may be warmer than the air
   bool heating = false;  ///< a command to heat is in force
   bool off = true;       ///< no duty is set, or the enable line is low
   double duty = 0.0;     ///< as the current sense averages it
@@ -53,6 +53,10 @@ class ChannelSupervisor {
   /// One tick: the fault of this tick, or none.
   Fault step(const Evidence& e);
   const Verdict& verdict() const { return verdict_; }
+  /// Whether a sensor that is well can give this.
+  bool inside(double sensor_m) const {
+    return sensor_m >= settings_.lowest_position_m && sensor_m <= settings_.highest_position_m;
+  }
   /// The channel was made safe or armed anew: what accumulates while heating starts again.
   void restart();
 

@@ -14,9 +14,10 @@ SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
 }
 
 hal::Time SimulatedBoard::wait_until(hal::Time wake) {
-  lost_ = {};  // the next wake-up lies after it: for the muscles it passes on the way there
   advance_to(wake + late_);
   late_ = {};
+  lost_ = to_lose_;
+  to_lose_ = {};
   return now_;
 }
 

@@ -36,8 +36,8 @@ class SimulatedBoard final : public hal::Clock {
 
   /// The next wake-up comes so much too late.
   void oversleep(double late_s) { late_ = hal::duration_from(late_s); }
-  /// The tick that runs now takes so much time (seen by now()).
-  void lose(double time_s) { lost_ += hal::duration_from(time_s); }
+  /// The next tick takes so much time, as now() tells.
+  void lose_in_tick(double time_s) { to_lose_ = hal::duration_from(time_s); }
 
   MuscleChannel& channel(std::size_t i) { return channels_[i]; }
   const MuscleChannel& channel(std::size_t i) const { return channels_[i]; }
@@ -58,7 +58,8 @@ class SimulatedBoard final : public hal::Clock {
   hal::Duration step_;
   double supply_V_;
   hal::Time now_{};
-  hal::Duration lost_{};
+  hal::Duration to_lose_{};
+  hal::Duration lost_{};  ///< of this tick; for the muscles it passes on the way to the next
   hal::Duration late_{};
   bool closed_ = false;
   std::deque<MuscleChannel> channels_;

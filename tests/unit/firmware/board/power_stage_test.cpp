@@ -11,7 +11,7 @@ TEST_GROUP(PowerStage){};
 TEST(PowerStage, DutyIsPowerTimesResistanceOverVoltageSquared) {
   PowerStage stage({1000000, false});
   // The mistake that others made: √(1.5·10)/12 = 0.323 would give 4.6 W.
-  const auto out = stage.step(1.5, 10.0, 12.0);
+  const auto out = stage.step(1.5, 10.0, 12.0, 1e3);
   DOUBLES_EQUAL(1.5 * 10.0 / 144.0, out.duty, 1e-6);
   DOUBLES_EQUAL(1.5, out.applied_W, 1e-5);
   CHECK_FALSE(out.clipped);
@@ -19,14 +19,14 @@ TEST(PowerStage, DutyIsPowerTimesResistanceOverVoltageSquared) {
 
 TEST(PowerStage, ReportsThePowerThatItsStepsReallyGive) {
   PowerStage stage({255, false});
-  const auto out = stage.step(1.0, 10.0, 12.0);
+  const auto out = stage.step(1.0, 10.0, 12.0, 1e3);
   LONGS_EQUAL(18, out.step);
   DOUBLES_EQUAL(18.0 / 255.0 * 14.4, out.applied_W, 1e-12);
 }
 
 TEST(PowerStage, CannotGiveMoreThanTheSupply) {
   PowerStage stage({4095, true});
-  const auto out = stage.step(20.0, 10.0, 12.0);
+  const auto out = stage.step(20.0, 10.0, 12.0, 1e3);
   LONGS_EQUAL(4095, out.step);
   DOUBLES_EQUAL(14.4, out.applied_W, 1e-12);
   CHECK(out.clipped);
@@ -38,8 +38,8 @@ TEST(PowerStage, ErrorFeedbackGivesTheWantedPowerOnAverage) {
   double sum_with = 0.0;
   double sum_without = 0.0;
   for (int i = 0; i < 5000; ++i) {
-    sum_with += with.step(1.0, 10.0, 12.0).applied_W;
-    sum_without += without.step(1.0, 10.0, 12.0).applied_W;
+    sum_with += with.step(1.0, 10.0, 12.0, 1e3).applied_W;
+    sum_without += without.step(1.0, 10.0, 12.0, 1e3).applied_W;
   }
   DOUBLES_EQUAL(1.0, sum_with / 5000.0, 1e-4);
   CHECK_COMPARE(std::abs(sum_without / 5000.0 - 1.0), >, 0.01);
@@ -53,7 +53,7 @@ TEST(PowerStage, GivesNothingForWhatIsNotAPositiveNumber) {
                               {1.0, 10.0, -12.0},    {1.0, 1e-320, 12.0}, {-1.0, 10.0, 12.0},
                               {1.0, 10.0, INFINITY}, {0.0, 10.0, 12.0}};
   for (const auto& in : inputs) {
-    const auto out = stage.step(in[0], in[1], in[2]);
+    const auto out = stage.step(in[0], in[1], in[2], 1e3);
     LONGS_EQUAL(0, out.step);
     DOUBLES_EQUAL(0.0, out.applied_W, 0.0);
   }

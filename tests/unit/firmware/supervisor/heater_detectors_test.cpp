@@ -32,7 +32,7 @@ TEST(HeaterDetectors, OpenLoadDoesNotJudgeASmallDutyNorTripForAGoodHeater) {
   OpenLoad detector({0.02, 0.5, 0.02}, step_s);
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.0); }, 1000));
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.3, 0.36); }, 1000));
-  DOUBLES_EQUAL(0.15 / 0.36, detector.margin().used, 1e-9);
+  DOUBLES_EQUAL(0.15 / 0.36, detector.margin().used(), 1e-9);
 }
 
 TEST(HeaterDetectors, OpenLoadTripsForACurrentThatIsNoNumber) {

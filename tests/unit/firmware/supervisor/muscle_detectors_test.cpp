@@ -16,7 +16,7 @@ TEST_GROUP(MuscleDetectors){};
 TEST(MuscleDetectors, LimitTripsAtOnceAndForWhatIsNoNumber) {
   Limit detector(160.0);
   CHECK_FALSE(detector.step(160.0));
-  DOUBLES_EQUAL(1.0, detector.margin().used, 1e-12);
+  DOUBLES_EQUAL(1.0, detector.margin().used(), 1e-12);
   CHECK(detector.step(160.1));
   CHECK(detector.step(std::nan("")));
 }
@@ -25,7 +25,7 @@ TEST(MuscleDetectors, EnergyBudgetAllowsItsMeanPowerForEver) {
   EnergyBudget detector({60.0, 30.0}, step_s);
   for (int i = 0; i < 500000; ++i)
     CHECK_FALSE(detector.step(1.999));
-  DOUBLES_EQUAL(0.9995, detector.margin().used, 1e-3);
+  DOUBLES_EQUAL(0.9995, detector.margin().used(), 1e-3);
 }
 
 TEST(MuscleDetectors, EnergyBudgetTripsForABurstThatIsTooLong) {
@@ -55,8 +55,8 @@ TEST(MuscleDetectors, SupplyTripsAboveAndBelowItsLimitsAfterTheirTime) {
   CHECK_FALSE(under.step(9.0));
   CHECK_FALSE(under.step(9.0));
   CHECK(under.step(9.0));
-  DOUBLES_EQUAL(10.0 / 9.0, under.margin().used, 1e-12);
+  DOUBLES_EQUAL(10.0 / 9.0, under.margin().used(), 1e-12);
   CHECK_FALSE(under.step(10.0));
   CHECK_FALSE(under.step(0.0));
-  CHECK(std::isinf(under.margin().used));
+  CHECK(std::isinf(under.margin().used()));
 }

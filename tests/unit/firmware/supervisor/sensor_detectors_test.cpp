@@ -25,14 +25,14 @@ TEST(SensorDetectors, OutOfRangeTripsAfterItsTimeAndNotForOneWildReading) {
 TEST(SensorDetectors, OutOfRangeTripsForWhatIsNoNumber) {
   OutOfRange detector({0.0, 0.04, 0.002}, step_s);
   CHECK_FALSE(detector.step(nan_value));
-  CHECK(std::isinf(detector.margin().used));
+  CHECK(std::isinf(detector.margin().used()));
   CHECK(detector.step(nan_value));
 }
 
 TEST(SensorDetectors, OutOfRangeMarginIsHowNearTheEndIs) {
   OutOfRange detector({0.0, 0.04, 0.005}, step_s);
   detector.step(0.03);
-  DOUBLES_EQUAL(0.5, detector.margin().used, 1e-9);
+  DOUBLES_EQUAL(0.5, detector.margin().used(), 1e-9);
 }
 
 TEST(SensorDetectors, StaleTripsBeyondItsAge) {
@@ -79,7 +79,7 @@ TEST(SensorDetectors, JumpAllowsWhatAMuscleCanMoveBetweenReadings) {
   Jump detector({0.5, 1e-4});
   detector.step(0.010, step_s);
   CHECK_FALSE(detector.step(0.0149, 0.01));
-  DOUBLES_EQUAL(0.0049 / 0.0051, detector.margin().used, 1e-9);
+  DOUBLES_EQUAL(0.0049 / 0.0051, detector.margin().used(), 1e-9);
 }
 
 TEST(SensorDetectors, DisagreeTripsAfterItsTime) {

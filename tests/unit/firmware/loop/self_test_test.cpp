@@ -1,0 +1,71 @@
+#include "loop/self_test.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+using supercoil::SelfTest;
+
+namespace {
+
+constexpr double step_s = 1e-3;
+constexpr double idle_A = 0.007;
+
+/// Runs it on a board whose current depends on what the lines are.
+template <class Current>
+SelfTest::Verdict verdict(Current current) {
+  SelfTest test({0.02}, step_s);
+  for (int i = 0; i < 10000 && test.verdict() == SelfTest::Verdict::running; ++i) {
+    test.step(current(test.lines()), idle_A);
+  }
+  return test.verdict();
+}
+
+}  // namespace
+
+TEST_GROUP(SelfTest){};
+
+TEST(SelfTest, PassesWhenNothingEverFlows) {
+  CHECK(verdict([](SelfTest::Lines) { return 0.001; }) == SelfTest::Verdict::passed);
+}
+
+TEST(SelfTest, FindsASupplySwitchThatIsStuckClosed) {
+  const auto current = [](SelfTest::Lines l) { return l.pulse && l.enable ? 0.024 : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::pump_does_not_open);
+}
+
+TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
+  const auto current = [](SelfTest::Lines l) { return l.pulse && l.heartbeat ? 0.024 : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::enable_does_not_cut);
+}
+
+TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
+  SelfTest test({0.02}, step_s);
+  int pulses = 0;
+  while (test.verdict() == SelfTest::Verdict::running) {
+    const auto lines = test.lines();
+    CHECK_FALSE(lines.pulse && lines.enable && lines.heartbeat);
+    pulses += lines.pulse ? 1 : 0;
+    test.step(0.0, idle_A);
+  }
+  LONGS_EQUAL(60, pulses);
+}
+
+TEST(SelfTest, WaitsForTheLastLifesChargePumpToDecayFirst) {
+  SelfTest test({0.02}, step_s);
+  for (int i = 0; i < 20; ++i) {
+    CHECK_FALSE(test.lines().pulse);
+    test.step(0.0, idle_A);
+  }
+}
+
+TEST(SelfTest, IsNotFailedByASingleNoisyReading) {
+  int tick = 0;
+  const auto current = [&](SelfTest::Lines l) { return l.pulse && ++tick % 7 == 0 ? 0.024 : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::passed);
+}
+
+TEST(SelfTest, FailsOnACurrentThatIsNoNumber) {
+  const auto current = [](SelfTest::Lines l) { return l.pulse ? NAN : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::pump_does_not_open);
+}

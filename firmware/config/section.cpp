@@ -4,9 +4,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <sstream>
-
-#include "config/nearest.hpp"
 
 namespace supercoil::config {
 
@@ -20,6 +19,10 @@ std::string shown(double value) {
 
 std::string shown(const Range& range) {
   return shown(range.lowest) + " to " + shown(range.highest);
+}
+
+std::string joined_path(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : path + "." + std::string(key);
 }
 
 /// The value as its author wrote it, near enough: toml++ prints 0.09 as 0.089999999999999997.
@@ -46,22 +49,32 @@ bool within(double value, const Range& range) {
 
 }  // namespace
 
+Section::Found Section::look(std::string_view key) const {
+  const toml::node* own = table_ == nullptr ? nullptr : table_->get(key);
+  if (own != nullptr || under_ == nullptr) return {own, false};
+  const toml::node* below = under_->get(key);
+  return {below, below != nullptr};
+}
+
 const toml::node* Section::find(std::string_view key) {
   known_.emplace_back(key);
-  return table_ == nullptr ? nullptr : table_->get(key);
+  return look(key).node;
 }
 
 std::string Section::full(std::string_view key) const {
-  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+  return joined_path(look(key).under ? under_path_ : path_, key);
+}
+
+int Section::line() const {
+  return table_ == nullptr ? line_ : static_cast<int>(table_->source().begin.line);
 }
 
 void Section::wrong(std::string_view key, const std::string& message) {
-  const toml::node* node = table_ == nullptr ? nullptr : table_->get(key);
-  const toml::node* place = node == nullptr ? table_ : node;
-  const int line = place == nullptr ? 0 : static_cast<int>(place->source().begin.line);
+  const toml::node* node = look(key).node;
+  const int place = node == nullptr ? line() : static_cast<int>(node->source().begin.line);
   const bool has_value = node != nullptr && !node->is_table() && !node->is_array_of_tables();
   const std::string value = has_value ? " = " + shown(*node) : "";
-  diagnostics_->add(line, full(key) + value + (node == nullptr ? " (its default)" : ""), message);
+  diagnostics_->add(place, full(key) + value + (node == nullptr ? " (its default)" : ""), message);
 }
 
 double Section::number(std::string_view key, double fallback, Range range) {
@@ -130,31 +143,27 @@ std::vector<double> Section::numbers(std::string_view key, std::vector<double> f
   return values;
 }
 
-Section Section::section(std::string_view key) {
-  const toml::node* node = find(key);
-  if (node != nullptr && !node->is_table()) {
-    wrong(key, "must be a table: [" + full(key) + "]");
-    node = nullptr;
-  }
-  return {node == nullptr ? nullptr : node->as_table(), full(key), *diagnostics_};
+double Section::required_number(std::string_view key, Range range) {
+  if (!has(key)) missing_.push_back({std::string(key), "a number, " + shown(range)});
+  return number(key, std::numeric_limits<double>::quiet_NaN(), range);
 }
 
-void Section::finish() {
-  if (table_ == nullptr) return;
-  for (const auto& [key, node] : *table_) {
-    const std::string name(key.str());
-    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    std::string message = "is not a key of " + (path_.empty() ? "this file" : "[" + path_ + "]");
-    const Nearest nearest = nearest_name(name, known_);
-    if (nearest.lacks_unit) {
-      message += "; did you mean " + nearest.name + " (the unit is part of the name)?";
-    } else if (!nearest.name.empty()) {
-      message += "; did you mean " + nearest.name + "?";
-    } else {
-      message += "; its keys are: " + joined(known_);
-    }
-    wrong(name, message);
+long Section::required_integer(std::string_view key, long lowest, long highest) {
+  if (!has(key)) {
+    missing_.push_back({std::string(key), "a whole number, " + std::to_string(lowest) + " to " +
+                                              std::to_string(highest)});
   }
+  return integer(key, lowest, lowest, highest);
+}
+
+std::string Section::required_text(std::string_view key) {
+  if (!has(key)) missing_.push_back({std::string(key), "text in quotes"});
+  std::string given = text(key, "");
+  const Found found = look(key);
+  if (given.empty() && found.node != nullptr && found.node->is_string()) {
+    wrong(key, "must not be empty");
+  }
+  return given;
 }
 
 }  // namespace supercoil::config

@@ -23,12 +23,18 @@ struct Range {
 
 /// Reads keys by name. A key that is absent gives its default. A wrong type, a value out of range
 /// or a NaN is noted in the diagnostics, and the default is returned so that reading can go on.
-/// When all keys have been asked for, finish() notes each key that nobody asked for.
+/// When all keys have been asked for, finish() notes each key that nobody asked for, and each
+/// required one that is absent.
 class Section {
  public:
-  /// table may be null: every key is then absent. path: how the table is called in messages.
-  Section(const toml::table* table, std::string path, Diagnostics& diagnostics)
-      : table_(table), path_(std::move(path)), diagnostics_(&diagnostics) {}
+  /// table may be null: every key is then absent. path: how the table is called in messages. line:
+  /// where a null table would stand, for messages.
+  Section(const toml::table* table, std::string path, Diagnostics& diagnostics, int line = 0)
+      : table_(table), path_(std::move(path)), line_(line), diagnostics_(&diagnostics) {}
+
+  /// The same with another table laid under this one: a key that this one lacks is looked up there,
+  /// table by table. A list is not mixed.
+  Section over(const toml::table* under, std::string under_path) const;
 
   double number(std::string_view key, double fallback, Range range);
   long integer(std::string_view key, long fallback, long lowest, long highest);
@@ -51,13 +57,24 @@ class Section {
   }
   /// A table inside this one; absent is an empty one.
   Section section(std::string_view key);
+  /// Each of [[key]], named key[1], key[2], …; a single table counts as one. Empty when absent.
+  std::vector<Section> sections(std::string_view key);
+
+  /// As number(), integer() and text(), for keys without a default. NaN, the lowest or empty when
+  /// it is absent or wrong.
+  double required_number(std::string_view key, Range range);
+  long required_integer(std::string_view key, long lowest, long highest);
+  std::string required_text(std::string_view key);
 
   /// Keys that somebody else reads.
   void allow(std::initializer_list<std::string_view> keys) {
     known_.insert(known_.end(), keys.begin(), keys.end());
   }
 
-  bool has(std::string_view key) const { return table_ != nullptr && table_->contains(key); }
+  bool has(std::string_view key) const { return look(key).node != nullptr; }
+  const toml::table* table() const { return table_; }
+  /// Of the table; of the one around it when it is absent; 0 at the top.
+  int line() const;
   /// Notes a mistake at the key: "path.key = value: message". Where the key is absent, and its
   /// default is what does not fit, at the table.
   void wrong(std::string_view key, const std::string& message);
@@ -65,13 +82,29 @@ class Section {
   void finish();
 
  private:
+  struct Found {
+    const toml::node* node;
+    bool under;
+  };
+  struct Missing {
+    std::string key;
+    std::string rule;
+  };
+  Found look(std::string_view key) const;
   const toml::node* find(std::string_view key);
   std::string full(std::string_view key) const;
+  /// Notes unknown keys; returns the names that were probably meant.
+  std::vector<std::string> refuse_unknown(const toml::table* table, const std::string& path);
+  void refuse_missing(const std::vector<std::string>& meant);
 
   const toml::table* table_;
   std::string path_;
+  int line_;
+  const toml::table* under_ = nullptr;
+  std::string under_path_;
   Diagnostics* diagnostics_;
   std::vector<std::string> known_;
+  std::vector<Missing> missing_;
 };
 
 }  // namespace supercoil::config

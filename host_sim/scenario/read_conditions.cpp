@@ -6,25 +6,18 @@
 #include "supercoil/control/actuator/conversions.hpp"
 
 #include "board/applied_power.hpp"
+#include "config/read_control.hpp"
 #include "config/section.hpp"
-#include "scenario/read_control.hpp"
+#include "scenario/read_reference.hpp"
 
 namespace supercoil::host_sim {
 
 namespace {
 
 using config::Diagnostics;
+using config::read_parameters;
+using config::refuse_misfit;
 using config::Section;
-
-control::PhysicalParameters read_parameters(Section& section,
-                                            const control::PhysicalParameters& fallback) {
-  control::PhysicalParameters p;
-  for (const control::PhysicalRange& range : control::physical_ranges) {
-    p.*range.member =
-        section.number(range.name, fallback.*range.member, {range.lowest, range.highest});
-  }
-  return p;
-}
 
 PlantSettings read_plant(Section section) {
   PlantSettings plant;
@@ -124,14 +117,6 @@ void check_reach(Section& section, const Conditions& c) {
   section.wrong("kind", message.str());
 }
 
-void refuse_misfit(Section& section, const std::optional<control::Violation>& violation) {
-  if (!violation) return;
-  std::ostringstream message;
-  message << "does not fit arithmetic = \"q8.24\": it is held as " << violation->value
-          << " there, and must be " << violation->lowest << " to " << violation->highest;
-  section.wrong(violation->quantity, message.str());
-}
-
 }  // namespace
 
 control::PhysicalParameters read_muscle(const toml::table& document, Diagnostics& diagnostics) {
@@ -161,10 +146,10 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   Section reference = root.section("reference");
   c.reference = read_reference(reference);
   Section estimator = root.section("estimator");
-  c.estimator = read_estimator(estimator, believed);
-  const auto model = read_reference_model(root.section("reference_model"));
+  c.estimator = config::read_estimator(estimator, believed);
+  const auto model = config::read_reference_model(root.section("reference_model"));
   Section controller = root.section("controller");
-  c.controller = read_controller(controller, believed, model);
+  c.controller = config::read_controller(controller, believed, model);
   if (c.controller.kind == control::ControllerKind::power &&
       c.reference.kind != ReferenceKind::power) {
     controller.wrong("kind", "open loop needs [reference] kind = \"power\"");

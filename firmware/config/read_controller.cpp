@@ -1,16 +1,15 @@
 #include "supercoil/control/tracking/mrac_premises.hpp"
 
-#include "scenario/read_control.hpp"
+#include "config/read_control.hpp"
 
-namespace supercoil::host_sim {
+namespace supercoil::config {
 
 namespace {
 
-using config::Section;
 using control::MracSettings;
 
 MracSettings::Parameters read_six(Section& section, const char* key,
-                                  const MracSettings::Parameters& fallback, config::Range range) {
+                                  const MracSettings::Parameters& fallback, Range range) {
   const std::vector<double> list = section.numbers(
       key, std::vector<double>(fallback.data(), fallback.data() + fallback.size()), range, 6, 6);
   return Eigen::Map<const MracSettings::Parameters>(list.data());
@@ -104,4 +103,4 @@ control::ControllerSettings read_controller(
   return c;
 }
 
-}  // namespace supercoil::host_sim
+}  // namespace supercoil::config

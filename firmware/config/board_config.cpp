@@ -1,0 +1,104 @@
+#include "config/board_config.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "config/read_board.hpp"
+#include "config/read_channel.hpp"
+#include "config/toml_file.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+constexpr std::size_t most_channels = 16;
+
+/// In the order of the file; what [every_channel] has wrong is told once, not for each channel.
+std::vector<Problem> in_order(std::vector<Problem> problems) {
+  std::stable_sort(problems.begin(), problems.end(),
+                   [](const Problem& a, const Problem& b) { return a.line < b.line; });
+  std::vector<Problem> result;
+  for (Problem& problem : problems) {
+    const auto same = [&](const Problem& other) { return other.text() == problem.text(); };
+    if (std::none_of(result.begin(), result.end(), same)) result.push_back(std::move(problem));
+  }
+  return result;
+}
+
+void read_channels(std::vector<Section> sections, Section& every, const BoardContext& context,
+                   BoardConfig& config) {
+  for (std::size_t i = 0; i < std::min(sections.size(), most_channels); ++i) {
+    ReadChannel channel = read_channel(sections[i].over(every.table(), "every_channel"),
+                                       static_cast<int>(i + 1), context);
+    config.settings.channels.push_back(std::move(channel.settings));
+    config.wiring.channels.push_back(std::move(channel.wiring));
+    config.labels.push_back(std::move(channel.label));
+  }
+}
+
+/// 0, or more than a board can have.
+bool refuse_number(const std::vector<Section>& channels, Diagnostics& diagnostics) {
+  if (!channels.empty() && channels.size() <= most_channels) return false;
+  const int line = channels.empty() ? 0 : channels[most_channels].line();
+  diagnostics.add(line, "channel",
+                  "a board has 1 to 16 [[channel]], not " + std::to_string(channels.size()));
+  return true;
+}
+
+/// What check() refuses, said at the key that it begins with.
+void refuse_settings(Section& board, const BoardSettings& settings, Diagnostics& diagnostics) {
+  if (std::isnan(settings.supervision.charge_pump_decay_s)) return;  // said already
+  const std::string message = check(settings);
+  const std::string key = message.substr(0, message.find(' '));
+  if (board.has(key)) {
+    board.wrong(key, message.substr(key.size() + 1));
+  } else if (!message.empty()) {
+    diagnostics.add(board.line(), "board", message);
+  }
+}
+
+}  // namespace
+
+BoardConfigOrProblems parse_board_config(const std::string& text, const std::string& name) {
+  Diagnostics diagnostics(name);
+  const toml::table document = parse(text, diagnostics);
+  if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
+  Section root(&document, "", diagnostics);
+  BoardConfig config;
+  config.name = std::filesystem::path(name).stem().string();
+  config.settings.channels.clear();
+  std::vector<Section> buses = root.sections("bus");
+  config.wiring.buses = read_buses(buses);
+
+  Section board = root.section("board");
+  read_board(board, config);
+  Section lines = root.section("lines");
+  const std::string chip = lines.text("chip", "");
+  WiringReader wiring(config.wiring.buses, chip, config.settings.step_s());
+  read_lines(lines, wiring, config.wiring);
+  read_supply(root.section("supply"), wiring, config);
+  const Ambient ambient = read_ambient(root.section("ambient"));
+  const CommandRules rules = read_command(root.section("command"), config.settings.step_s());
+
+  Section every = root.section("every_channel");
+  const BoardContext context{config.settings,       wiring,          ambient.warmest_C,
+                             ambient.coldest_C,     rules.timeout_s, rules.damaged_in_a_row,
+                             rules.refused_in_a_row};
+  const std::vector<Section> channels = root.sections("channel");
+  read_channels(channels, every, context, config);
+  root.finish();
+  if (!refuse_number(channels, diagnostics)) refuse_settings(board, config.settings, diagnostics);
+  refuse_slow_buses(buses, config.wiring, config.settings.step_s());
+  if (!diagnostics.empty()) return tl::unexpected(in_order(diagnostics.problems()));
+  return config;
+}
+
+BoardConfigOrProblems read_board_config(const std::string& path) {
+  Diagnostics diagnostics(path);
+  const std::string text = read_text(path, diagnostics);
+  if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
+  return parse_board_config(text, path);
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,40 @@
+// A board as its owner describes it: what the loop needs, and what it is wired to.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "config/diagnostics.hpp"
+#include "config/wiring.hpp"
+#include "loop/settings.hpp"
+
+namespace supercoil::config {
+
+enum class Preset { nylon, skin };
+
+/// What describes a channel and the loop does not need.
+struct ChannelLabel {
+  std::string name;
+  Preset preset = Preset::nylon;
+};
+
+struct BoardConfig {
+  std::string name;
+  BoardSettings settings;  ///< passes check()
+  BoardWiring wiring;      ///< as many channels as the settings
+  std::vector<ChannelLabel> labels;
+  std::string storage_folder;  ///< what was learned is kept here
+};
+
+/// A configuration, or everything that is wrong with it, in the order of the file.
+using BoardConfigOrProblems = tl::expected<BoardConfig, std::vector<Problem>>;
+
+/// path: a .toml file.
+BoardConfigOrProblems read_board_config(const std::string& path);
+
+/// The same from text; name: how messages call it.
+BoardConfigOrProblems parse_board_config(const std::string& text, const std::string& name);
+
+}  // namespace supercoil::config

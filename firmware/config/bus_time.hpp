@@ -1,0 +1,29 @@
+// How long the devices of a bus keep it busy in a tick.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/wiring.hpp"
+
+namespace supercoil::config {
+
+/// Of a tick; more is refused: the rest is for retries and for a kernel that is busy.
+inline constexpr double most_bus_part = 0.7;
+
+struct BusUser {
+  std::string what;  ///< e.g. "channel 1 position"
+  double time_s;     ///< of one access
+};
+
+struct BusTime {
+  std::vector<BusUser> users;
+  double total_s = 0.0;  ///< every device served once
+};
+
+/// One transaction of so many bytes, in s.
+double transaction_s(const BusAddress& bus, int bytes);
+
+BusTime bus_time(const BoardWiring& wiring, const BusAddress& bus);
+
+}  // namespace supercoil::config

@@ -1,0 +1,123 @@
+#include "config/describe.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "config/bus_time.hpp"
+#include "loop/loop.hpp"
+#include "recorder/flight_recorder.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+/// Of the ring between loop and recorder (loop.cpp).
+constexpr double ring_s = 2.0;
+
+/// To a few digits: times and parts are for people.
+double rounded(double value, double to) {
+  return std::nearbyint(value / to) * to;
+}
+
+void describe_board(std::ostream& out, const BoardConfig& config) {
+  const BoardSettings& s = config.settings;
+  const BoardWiring& w = config.wiring;
+  const BoardSupervision& v = s.supervision;
+  out << "heartbeat      " << shown(w.heartbeat) << "; when it stops, the charge pump opens the "
+      << "supply within " << 1e3 * v.charge_pump_decay_s << " ms\n"
+      << "stop circuit   " << shown(w.stop_circuit) << "\n"
+      << "light          " << (w.light ? shown(*w.light) : "none") << "\n";
+  out << "watchdog       ";
+  if (w.watchdog) {
+    out << w.watchdog->device << ", resets the board after " << w.watchdog->timeout_s << " s\n";
+  } else {
+    out << "none\n";
+  }
+  out << "supply         " << shown(w.supply) << "\n               " << v.lowest_supply_V << " to "
+      << v.highest_supply_V << " V; outside for " << 1e3 * v.supply_s << " ms is a fault\n"
+      << "air            " << s.channels.front().thermal.coldest_ambient_C << " to "
+      << s.channels.front().thermal.ambient_C << " °C\n"
+      << "commands       to heat expire after "
+      << 1e3 * s.channels.front().supervision.command_timeout_s << " ms\n"
+      << "lateness       " << v.overruns_in_a_row << " overruns in a row are a fault, and "
+      << v.late_in_a_row << " ticks in a row that wake more than " << 1e3 * v.late_s << " ms late\n"
+      << "kept in        " << config.storage_folder << "\n";
+}
+
+void describe_buses(std::ostream& out, const BoardConfig& config) {
+  const double tick_s = config.settings.step_s();
+  out << "\nbus time, of a tick of " << 1e3 * tick_s << " ms (at most " << 100.0 * most_bus_part
+      << " %)\n";
+  if (config.wiring.buses.empty()) out << "  no bus: every device is direct\n";
+  for (const BusAddress& bus : config.wiring.buses) {
+    const BusTime time = bus_time(config.wiring, bus);
+    out << "  " << bus.name << ": " << rounded(1e3 * time.total_s, 1e-3) << " ms, "
+        << rounded(100.0 * time.total_s / tick_s, 0.1) << " %, at " << 1e-3 * bus.clock_Hz
+        << " kHz\n";
+    for (const BusUser& user : time.users)
+      out << "    " << user.what << " " << rounded(1e3 * user.time_s, 1e-3) << " ms\n";
+  }
+}
+
+void describe_memory(std::ostream& out, const BoardSettings& settings) {
+  const Memory memory = memory_of(settings);
+  const auto kib = [](std::size_t bytes) { return (bytes + 1023) / 1024; };
+  const recorder::RecorderSettings recorder;
+  out << "\nmemory, beside program and stacks\n"
+      << "  recorder " << kib(memory.recorder)
+      << " KiB: " << recorder.before_s + recorder.after_s + recorder.retry_s << " s of ticks, "
+      << sizeof(recorder::Row) << " bytes a channel and tick\n"
+      << "  ring     " << kib(memory.ring) << " KiB: " << ring_s << " s of them\n"
+      << "  loop     " << kib(memory.loop) << " KiB, " << settings.channels.size()
+      << (settings.channels.size() == 1 ? " channel" : " channels") << " in it\n"
+      << "  together " << kib(memory.total()) << " KiB\n";
+}
+
+}  // namespace
+
+std::string shown(const LineAddress& line) {
+  return line.line + " of " + line.chip;
+}
+
+std::string shown(const ConverterAddress& converter) {
+  const std::string way = converter.access.buffered() ? ", buffered on " + converter.access.bus
+                                                      : std::string(", direct");
+  return converter.input + " of " + converter.device + way;
+}
+
+Memory memory_of(const BoardSettings& settings) {
+  const recorder::RecorderSettings recorder;
+  const double rows_per_s = settings.rate_Hz * static_cast<double>(settings.channels.size());
+  const auto bytes = [&](double time_s) {
+    return static_cast<std::size_t>(time_s * rows_per_s) * sizeof(recorder::Row);
+  };
+  Memory memory;
+  memory.ring = bytes(ring_s);
+  memory.recorder = bytes(recorder.before_s + recorder.after_s + recorder.retry_s);
+  memory.loop = sizeof(Loop);
+  for (const ChannelSettings& channel : settings.channels) {
+    memory.loop += sizeof(Channel) + sizeof(ChannelSettings) +
+                   channel.controllers.size() * sizeof(control::Controller) +
+                   channel.estimators.size() * sizeof(control::Estimator);
+  }
+  return memory;
+}
+
+std::string describe(const BoardConfig& config) {
+  std::ostringstream out;
+  const std::size_t channels = config.settings.channels.size();
+  out << config.name << ": " << channels << (channels == 1 ? " channel" : " channels") << " at "
+      << config.settings.rate_Hz << " Hz\n\n";
+  describe_board(out, config);
+  for (std::size_t i = 0; i < channels; ++i)
+    out << "\n" << describe_channel(config, i);
+  describe_buses(out, config);
+  describe_memory(out, config.settings);
+  const auto weak = weaknesses(config);
+  out << "\ndetectors that cannot work, or not well" << (weak.empty() ? ": none\n" : "\n");
+  for (const std::string& line : weak)
+    out << "  " << line << "\n";
+  return out.str();
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,35 @@
+// What was understood of a configuration, in words.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "config/board_config.hpp"
+
+namespace supercoil::config {
+
+/// What `supercoild --check` prints: the board, each channel, bus time, memory, and which detectors
+/// cannot work.
+std::string describe(const BoardConfig& config);
+
+/// Its parts.
+std::string describe_channel(const BoardConfig& config, std::size_t index);
+/// One line for each detector that this configuration leaves blind, whose it is, and why.
+std::vector<std::string> weaknesses(const BoardConfig& config);
+
+/// Bytes that are locked for a board's data: programs, libraries and stacks come on top.
+struct Memory {
+  std::size_t ring = 0;      ///< of the loop: rows that wait for the recorder
+  std::size_t recorder = 0;  ///< the flight recorder's rows
+  std::size_t loop = 0;      ///< the loop with its channels, controllers and estimators
+  std::size_t total() const { return ring + recorder + loop; }
+};
+Memory memory_of(const BoardSettings& settings);
+
+/// "GPIO17 of pinctrl-bcm2711".
+std::string shown(const LineAddress& line);
+/// "voltage0 of ads1115, buffered on i2c-1".
+std::string shown(const ConverterAddress& converter);
+
+}  // namespace supercoil::config

@@ -1,0 +1,85 @@
+#include <cmath>
+#include <sstream>
+
+#include "config/describe.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+double mm(double metres) {
+  return std::nearbyint(1e6 * metres) / 1e3;
+}
+
+void describe_wiring(std::ostream& out, const ChannelWiring& w, const ChannelSettings& c) {
+  out << "  enable      " << shown(w.enable) << "\n"
+      << "  PWM         output " << w.pwm.number << " of " << w.pwm.device << ", " << w.pwm.steps
+      << " steps of a period of " << 1e-6 * static_cast<double>(w.pwm.period_ns) << " ms, "
+      << (w.pwm.access.buffered() ? "buffered on " + w.pwm.access.bus : std::string("direct"));
+  if (c.heater.delay_s > 0.0) out << ", acts after " << 1e3 * c.heater.delay_s << " ms";
+  out << "\n  position    " << shown(w.position) << "; "
+      << 1e6 * std::abs(c.position.scaling.per_count) << " um a count, noise "
+      << 1e6 * c.supervision.position_noise_rms_m << " um rms\n"
+      << "              reads " << mm(c.supervision.lowest_position_m) << " to "
+      << mm(c.supervision.highest_position_m) << " mm; older than " << 1e3 * c.position.max_age_s
+      << " ms is stale\n"
+      << "  current     " << shown(w.current) << "; " << 1e3 * c.heater.current.scaling.per_count
+      << " mA a count; up to " << 1e3 * c.supervision.off_current_A << " mA counts as none\n";
+}
+
+void describe_limits(std::ostream& out, const ChannelSettings& c, const ChannelLabel& label) {
+  const ChannelSupervision& s = c.supervision;
+  out << "  heater      " << c.heater.cold_resistance_Ohm << " Ohm when cold; probed with "
+      << 100.0 * c.heater.probe_duty << " % for " << 1e3 * c.heater.probe_s << " ms\n"
+      << "  power       " << c.limiter.min_W << " to " << c.limiter.max_W << " W; more than "
+      << s.max_measured_W << " W measured is a fault, and more than " << s.energy_J << " J in "
+      << s.energy_window_s << " s\n"
+      << "  travel      up to " << mm(s.max_travel_m) << " mm\n"
+      << "  temperature " << (label.preset == Preset::skin ? "near skin: " : "")
+      << "full power up to " << c.limiter.derate_from_C << " °C, none from " << s.trip_C
+      << " °C on, where it trips\n";
+  const control::ThermalBounds& b = c.thermal.bounds;
+  const double rest_K = c.limiter.max_W * b.highest_power_part / b.lowest_transfer_W_per_K;
+  out << "              from " << b.lowest_mass_J_per_K << " to " << b.highest_mass_J_per_K
+      << " J/K and " << b.lowest_transfer_W_per_K << " to " << b.highest_transfer_W_per_K
+      << " W/K; " << c.limiter.max_W << " W for good may heat it to "
+      << std::nearbyint(c.thermal.ambient_C + rest_K) << " °C\n"
+      << "              taken to be at up to "
+      << std::nearbyint(c.thermal.ambient_C + c.thermal.boot_rise_K) << " °C at boot\n";
+}
+
+void describe_control(std::ostream& out, const ChannelSettings& c) {
+  out << "  controllers ";
+  for (std::size_t i = 0; i < c.controllers.size(); ++i) {
+    const control::ControllerSettings& k = c.controllers[i];
+    out << (i == 0 ? "" : ", ") << i << ": " << control::name_of(control::controller_names, k.kind);
+    if (k.kind != control::ControllerKind::power) {
+      out << " in " << control::name_of(control::arithmetic_names, k.arithmetic);
+    }
+  }
+  out << "\n  estimators  ";
+  for (std::size_t i = 0; i < c.estimators.size(); ++i) {
+    const control::EstimatorSettings& e = c.estimators[i];
+    out << (i == 0 ? "" : ", ") << i << ": " << control::name_of(control::estimator_names, e.kind);
+    if (e.kind != control::EstimatorKind::none) {
+      out << " in " << control::name_of(control::arithmetic_names, e.arithmetic);
+    }
+  }
+  out << "\n";
+}
+
+}  // namespace
+
+std::string describe_channel(const BoardConfig& config, std::size_t index) {
+  std::ostringstream out;
+  const ChannelSettings& c = config.settings.channels[index];
+  const ChannelLabel& label = config.labels[index];
+  const std::string title = "channel " + std::to_string(index + 1);
+  out << title << (label.name == title ? "" : ": " + label.name) << "\n";
+  describe_wiring(out, config.wiring.channels[index], c);
+  describe_limits(out, c, label);
+  describe_control(out, c);
+  return out.str();
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,94 @@
+#include "config/read_board.hpp"
+
+#include <algorithm>
+
+namespace supercoil::config {
+
+namespace {
+
+void read_time(Section& section, BoardSettings& settings) {
+  BoardSupervision& s = settings.supervision;
+  settings.rate_Hz = section.number("rate_Hz", settings.rate_Hz, {100.0, 10e3});
+  const double tick_ms = 1e3 * settings.step_s();
+  s.late_s = 1e-3 * section.number("late_ms", 0.5 * tick_ms, {1e-3, tick_ms});
+  s.late_in_a_row = static_cast<int>(section.integer("late_in_a_row", s.late_in_a_row, 1, 1000));
+  s.overruns_in_a_row =
+      static_cast<int>(section.integer("overruns_in_a_row", s.overruns_in_a_row, 1, 100));
+  // Longer than a second would be no cut.
+  s.charge_pump_decay_s = 1e-3 * section.required_number("charge_pump_decay_ms", {0.1, 1000.0});
+}
+
+}  // namespace
+
+void read_board(Section& section, BoardConfig& config) {
+  BoardSupervision& s = config.settings.supervision;
+  config.name = section.text("name", config.name);
+  read_time(section, config.settings);
+  s.telemetry_silence_s =
+      1e-3 * section.number("telemetry_silence_ms", 1e3 * s.telemetry_silence_s, {10.0, 60e3});
+  s.bus_off_s = 1e-3 * section.number("can_off_ms", 1e3 * s.bus_off_s, {0.0, 60e3});
+  s.bus_passive_s = 1e-3 * section.number("can_passive_ms", 1e3 * s.bus_passive_s, {0.0, 60e3});
+  config.storage_folder = section.text("storage_folder", "/var/lib/supercoil");
+  if (config.storage_folder.empty() || config.storage_folder.front() != '/') {
+    section.wrong("storage_folder", "must be an absolute path");
+  }
+  Section watchdog = section.section("watchdog");
+  if (section.has("watchdog")) {
+    WatchdogAddress address;
+    address.device = watchdog.text("device", "/dev/watchdog");
+    address.timeout_s = watchdog.number("timeout_s", address.timeout_s, {1.0, 600.0});
+    config.wiring.watchdog = address;
+    watchdog.finish();
+  }
+  section.finish();
+}
+
+void read_lines(Section& section, WiringReader& reader, BoardWiring& wiring) {
+  wiring.heartbeat = reader.line(section.section("heartbeat"), "the heartbeat");
+  wiring.stop_circuit = reader.line(section.section("stop_circuit"), "the stop circuit");
+  Section light = section.section("light");
+  if (section.has("light")) wiring.light = reader.line(light, "the light");
+  section.finish();
+}
+
+void read_supply(Section section, WiringReader& reader, BoardConfig& config) {
+  BoardSettings& settings = config.settings;
+  BoardSupervision& s = settings.supervision;
+  config.wiring.supply = reader.converter(section, "the supply");
+  settings.supply.scaling.per_count = section.required_number("V_per_count", {1e-9, 10.0});
+  settings.supply.scaling.offset = section.number("offset_V", 0.0, {-100.0, 100.0});
+  settings.supply.max_age_s = s.supply_max_age_s = reader.max_age_s(section, config.wiring.supply);
+  s.lowest_supply_V = section.required_number("lowest_V", {0.5, 60.0});
+  s.highest_supply_V = section.required_number("highest_V", {0.5, 60.0});
+  if (s.lowest_supply_V >= s.highest_supply_V) {
+    section.wrong("lowest_V", "must be less than highest_V");
+  }
+  const double hold_s = std::max(s.supply_s, 3.0 * settings.step_s());
+  s.supply_s = 1e-3 * section.number("hold_ms", 1e3 * hold_s, {1.0, 1000.0});
+  section.finish();
+}
+
+Ambient read_ambient(Section section) {
+  Ambient a{};
+  a.coldest_C = section.required_number("coldest_C", {-40.0, 80.0});
+  a.warmest_C = section.required_number("warmest_C", {-40.0, 80.0});
+  if (a.coldest_C > a.warmest_C) section.wrong("coldest_C", "must not exceed warmest_C");
+  section.finish();
+  return a;
+}
+
+CommandRules read_command(Section section, double step_s) {
+  const ChannelSupervision usual;
+  CommandRules rules{};
+  const double least_ms = std::max(10.0, 2e3 * step_s);
+  rules.timeout_s =
+      1e-3 * section.number("timeout_ms", 1e3 * usual.command_timeout_s, {least_ms, 5000.0});
+  rules.damaged_in_a_row =
+      static_cast<int>(section.integer("damaged_in_a_row", usual.damaged_in_a_row, 1, 1000));
+  rules.refused_in_a_row =
+      static_cast<int>(section.integer("refused_in_a_row", usual.refused_in_a_row, 1, 1000));
+  section.finish();
+  return rules;
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,31 @@
+// The tables that a board has once. Each finishes its section.
+#pragma once
+
+#include "config/board_config.hpp"
+#include "config/read_wiring.hpp"
+
+namespace supercoil::config {
+
+/// [board] with [board.watchdog]: rate, borne lateness, charge pump, where things are kept.
+void read_board(Section& section, BoardConfig& config);
+/// [lines]: heartbeat, stop circuit, light.
+void read_lines(Section& section, WiringReader& reader, BoardWiring& wiring);
+/// [supply].
+void read_supply(Section section, WiringReader& reader, BoardConfig& config);
+
+struct Ambient {
+  double warmest_C;
+  double coldest_C;
+};
+/// [ambient]: the air around the muscles, a constant with bounds.
+Ambient read_ambient(Section section);
+
+struct CommandRules {
+  double timeout_s;
+  int damaged_in_a_row;
+  int refused_in_a_row;
+};
+/// [command].
+CommandRules read_command(Section section, double step_s);
+
+}  // namespace supercoil::config

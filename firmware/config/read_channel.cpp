@@ -1,0 +1,88 @@
+#include "config/read_channel.hpp"
+
+#include "config/read_control.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+/// [channel.position]: where the sensor is, what its counts mean, what it can read.
+void read_position(Section section, const std::string& owner, const BoardContext& context,
+                   ReadChannel& channel) {
+  ChannelSupervision& s = channel.settings.supervision;
+  InputSettings& input = channel.settings.position;
+  channel.wiring.position = context.wiring.converter(section, owner + "'s position");
+  input.scaling.per_count = section.required_number("m_per_count", {-0.01, 0.01});
+  if (input.scaling.per_count == 0.0) section.wrong("m_per_count", "must not be 0");
+  input.scaling.offset = section.number("offset_m", 0.0, {-10.0, 10.0});
+  input.max_age_s = context.wiring.max_age_s(section, channel.wiring.position);
+  s.lowest_position_m = section.required_number("lowest_m", {-10.0, 10.0});
+  s.highest_position_m = section.required_number("highest_m", {-10.0, 10.0});
+  if (s.lowest_position_m >= s.highest_position_m) {
+    section.wrong("lowest_m", "must be less than highest_m");
+  }
+  s.position_noise_rms_m = section.number("noise_rms_m", s.position_noise_rms_m, {0.0, 0.01});
+  section.finish();
+}
+
+/// [channel.current].
+void read_current(Section section, const std::string& owner, const BoardContext& context,
+                  ReadChannel& channel) {
+  HeaterSettings& h = channel.settings.heater;
+  channel.wiring.current = context.wiring.converter(section, owner + "'s current");
+  h.current.scaling.per_count = section.required_number("A_per_count", {1e-9, 1.0});
+  h.current.scaling.offset = section.number("offset_A", 0.0, {-100.0, 100.0});
+  h.current.max_age_s = context.wiring.max_age_s(section, channel.wiring.current);
+  h.sense_filter_s = 1e-3 * section.number("sense_filter_ms", 0.0, {0.0, 100.0});
+  channel.settings.supervision.off_current_A =
+      section.number("off_A", channel.settings.supervision.off_current_A, {1e-4, 10.0});
+  section.finish();
+}
+
+/// [[channel.controller]], [[channel.estimator]], [channel.reference_model].
+void read_control(Section& section, double step_s, ChannelSettings& c) {
+  const auto model = read_reference_model(section.section("reference_model"));
+  const auto tables = [&section](const char* key) {
+    std::vector<Section> found = section.sections(key);
+    if (found.empty()) found.push_back(section.section(key));
+    return found;
+  };
+  c.controllers.clear();
+  for (Section& table : tables("controller")) {
+    const auto controller = read_controller(table, c.muscle, model);
+    refuse_misfit(
+        table, control::check_fit(controller, step_s, c.supervision.max_travel_m, c.limiter.max_W));
+    c.controllers.push_back(controller);
+  }
+  c.estimators.clear();
+  for (Section& table : tables("estimator")) {
+    const auto estimator = read_estimator(table, c.muscle);
+    refuse_misfit(table, control::check_fit(estimator, step_s, c.limiter.max_W));
+    c.estimators.push_back(estimator);
+  }
+}
+
+}  // namespace
+
+ReadChannel read_channel(Section section, int number, const BoardContext& context) {
+  const std::string owner = "channel " + std::to_string(number);
+  ReadChannel channel;
+  ChannelSettings& c = channel.settings;
+  c.supervision.command_timeout_s = context.command_timeout_s;
+  c.supervision.damaged_in_a_row = context.damaged_in_a_row;
+  c.supervision.refused_in_a_row = context.refused_in_a_row;
+  channel.label.name = section.text("name", owner);
+  channel.wiring.enable = context.wiring.line(section.section("enable"), owner + "'s enable");
+  channel.wiring.pwm = context.wiring.pwm(section.section("pwm"), owner + "'s PWM");
+  read_position(section.section("position"), owner, context, channel);
+  read_current(section.section("current"), owner, context, channel);
+  read_heater(section.section("heater"), context, channel.wiring.pwm, c);
+  read_limits(section.section("limits"), context, c, channel.label);
+  read_muscle(section.section("muscle"), section.section("thermal"), context, c);
+  read_detectors(section.section("detectors"), context, channel.wiring.pwm, c);
+  read_control(section, context.board.step_s(), c);
+  section.finish();
+  return channel;
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,45 @@
+// One [[channel]], with what [every_channel] says laid under it.
+#pragma once
+
+#include <vector>
+
+#include "config/board_config.hpp"
+#include "config/read_wiring.hpp"
+
+namespace supercoil::config {
+
+/// What a channel is read with and checked against.
+struct BoardContext {
+  const BoardSettings& board;  ///< complete but for its channels
+  WiringReader& wiring;
+  double ambient_C;
+  double coldest_ambient_C;
+  double command_timeout_s;
+  int damaged_in_a_row;
+  int refused_in_a_row;
+};
+
+struct ReadChannel {
+  ChannelSettings settings;
+  ChannelWiring wiring;
+  ChannelLabel label;
+};
+
+/// number: from 1, as messages call it.
+ReadChannel read_channel(Section section, int number, const BoardContext& context);
+
+// Its tables; each finishes its section.
+
+/// [channel.muscle] and [channel.thermal]. After the limits.
+void read_muscle(Section muscle, Section thermal, const BoardContext& context, ChannelSettings& c);
+/// [channel.limits]: power, temperature, travel, energy. After heater and position.
+void read_limits(Section section, const BoardContext& context, ChannelSettings& c,
+                 ChannelLabel& label);
+/// [channel.heater]. After the current.
+void read_heater(Section section, const BoardContext& context, const PwmAddress& pwm,
+                 ChannelSettings& c);
+/// [channel.detectors]. After everything else but control.
+void read_detectors(Section section, const BoardContext& context, const PwmAddress& pwm,
+                    ChannelSettings& c);
+
+}  // namespace supercoil::config

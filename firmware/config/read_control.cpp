@@ -1,0 +1,45 @@
+#include "config/read_control.hpp"
+
+#include <sstream>
+
+namespace supercoil::config {
+
+control::PhysicalParameters read_parameters(Section& section,
+                                            const control::PhysicalParameters& fallback) {
+  control::PhysicalParameters p;
+  for (const control::PhysicalRange& range : control::physical_ranges) {
+    p.*range.member =
+        section.number(range.name, fallback.*range.member, {range.lowest, range.highest});
+  }
+  return p;
+}
+
+std::optional<control::ReferenceModelSettings> read_reference_model(Section section) {
+  enum class Kind { design, eq8, wm16, poles };
+  static constexpr control::Names<Kind, 4> names{
+      {{"design", Kind::design}, {"eq8", Kind::eq8}, {"wm16", Kind::wm16}, {"poles", Kind::poles}}};
+  if (!section.has("kind") && !section.has("poles_rad_per_s")) {
+    section.text("kind", "");
+    section.finish();
+    return std::nullopt;
+  }
+  const Kind kind = section.choice("kind", Kind::poles, names);
+  if (kind == Kind::poles) {
+    if (!section.has("poles_rad_per_s")) section.wrong("kind", "needs poles_rad_per_s = [a, b, c]");
+    const auto poles = section.numbers("poles_rad_per_s", {4.0, 5.0, 0.8}, {1e-3, 1e3}, 3, 3);
+    section.finish();
+    return control::poles_model({poles[0], poles[1], poles[2]});
+  }
+  section.finish();
+  return control::reference_model_named(control::name_of(names, kind));
+}
+
+void refuse_misfit(Section& section, const std::optional<control::Violation>& violation) {
+  if (!violation) return;
+  std::ostringstream message;
+  message << "does not fit arithmetic = \"q8.24\": it is held as " << violation->value
+          << " there, and must be " << violation->lowest << " to " << violation->highest;
+  section.wrong(violation->quantity, message.str());
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,33 @@
+// The tables that describe control, the same in scenarios and in boards' configurations: the
+// muscle, reference models, controllers, estimators.
+#pragma once
+
+#include <optional>
+
+#include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/tracking/controller.hpp"
+
+#include "config/section.hpp"
+
+namespace supercoil::config {
+
+/// The six physical parameters, each within control::physical_ranges. Does not finish the section.
+control::PhysicalParameters read_parameters(Section& section,
+                                            const control::PhysicalParameters& fallback);
+
+/// Empty when the table is absent: the controller's own default is then taken.
+std::optional<control::ReferenceModelSettings> read_reference_model(Section section);
+
+/// Finishes the section. MRAC's premises are checked here, with the model that it will follow.
+control::ControllerSettings read_controller(
+    Section& section, const control::PhysicalParameters& muscle,
+    const std::optional<control::ReferenceModelSettings>& model);
+
+/// Finishes the section.
+control::EstimatorSettings read_estimator(Section& section,
+                                          const control::PhysicalParameters& muscle);
+
+/// Notes what q8.24 cannot hold (see control::check_fit).
+void refuse_misfit(Section& section, const std::optional<control::Violation>& violation);
+
+}  // namespace supercoil::config

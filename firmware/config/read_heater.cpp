@@ -1,0 +1,47 @@
+#include <sstream>
+
+#include "board/applied_power.hpp"
+#include "config/read_channel.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+/// A probe's second half is what is measured: one tick at least.
+constexpr double least_probe_ticks = 2.0;
+
+void read_probe(Section& section, double step_s, const PwmAddress& pwm, HeaterSettings& h) {
+  h.probe_duty = section.number("probe_duty", h.probe_duty, {1e-4, 0.02});
+  if (h.probe_duty * pwm.steps < 1.0) {
+    std::ostringstream message;
+    message << "is less than one of the PWM's " << pwm.steps << " steps: a probe would be nothing";
+    section.wrong("probe_duty", message.str());
+  }
+  h.probe_s = 1e-3 * section.number("probe_ms", 1e3 * h.probe_s, {1.0, 50.0});
+  if (h.probe_s < least_probe_ticks * step_s) {
+    std::ostringstream message;
+    message << "must be two ticks at least: " << 1e3 * least_probe_ticks * step_s << " ms";
+    section.wrong("probe_ms", message.str());
+  }
+  h.probe_every_s = section.number("probe_every_s", h.probe_every_s, {0.5, 600.0});
+}
+
+}  // namespace
+
+void read_heater(Section section, const BoardContext& context, const PwmAddress& pwm,
+                 ChannelSettings& c) {
+  HeaterSettings& h = c.heater;
+  const double step_s = context.board.step_s();
+  h.cold_resistance_Ohm = section.required_number("cold_resistance_Ohm", {0.1, 1e4});
+  h.temperature_coefficient_per_K =
+      section.number("temperature_coefficient_per_K", 0.0, {0.0, 0.02});
+  h.resistance_filter_s =
+      1e-3 * section.number("resistance_filter_ms", 1e3 * h.resistance_filter_s, {0.0, 10e3});
+  read_probe(section, step_s, pwm, h);
+  h.error_feedback = section.flag("error_feedback", h.error_feedback);
+  const double longest_ms = 1e3 * step_s * static_cast<double>(board::OutputDelay::longest_ticks);
+  h.delay_s = 1e-3 * section.number("delay_ms", 0.0, {0.0, longest_ms});
+  section.finish();
+}
+
+}  // namespace supercoil::config

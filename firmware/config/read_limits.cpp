@@ -1,0 +1,89 @@
+// What a muscle may be asked for: power, temperature, travel, energy.
+#include <cmath>
+#include <sstream>
+
+#include "config/read_channel.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+constexpr control::Names<Preset, 2> preset_names{
+    {{"nylon", Preset::nylon}, {"skin", Preset::skin}}};
+
+struct Temperatures {
+  double derate_C;
+  double trip_C;
+  double highest_C;  ///< that the trip may be set to
+};
+
+Temperatures temperatures_of(Preset preset) {
+  // ISO 13732-1: skin that stays in contact is burnt from 43 °C on within 8 hours, from 48 °C
+  // within 10 minutes, whatever the material. So it trips at 43 °C, and power falls from 38 °C on,
+  // just above the body's own temperature. What is between muscle and skin only makes it cooler.
+  if (preset == Preset::skin) return {38.0, 43.0, 43.0};
+  // Nylon 6,6 softens well below its melting point of about 260 °C; coils lose their training
+  // there.
+  return {130.0, 160.0, 180.0};
+}
+
+void read_power(Section& section, const BoardContext& context, ChannelSettings& c) {
+  LimiterSettings& l = c.limiter;
+  ChannelSupervision& s = c.supervision;
+  l.max_W = section.required_number("max_W", {1e-3, 1e3});
+  l.min_W = section.number("min_W", l.min_W, {0.0, 1e3});
+  if (l.min_W >= l.max_W) section.wrong("min_W", "must be less than max_W");
+  l.slew_W_per_s = section.number("slew_W_per_s", l.slew_W_per_s, {1e-3, 1e6});
+  const double supply_V = context.board.supervision.lowest_supply_V;
+  const double full_W = supply_V * supply_V / c.heater.cold_resistance_Ohm;
+  if (l.max_W > full_W) {
+    std::ostringstream message;
+    message << "must not exceed what the supply gives at a duty of 1: "
+               "lowest_V²/cold_resistance_Ohm = "
+            << full_W << " W";
+    section.wrong("max_W", message.str());
+  }
+  // Absent keys follow max_W; while that is missing any number will do.
+  const double max_W = std::isfinite(l.max_W) ? l.max_W : 1.0;
+  s.max_measured_W = section.number("max_measured_W", 1.25 * max_W + 0.3, {1e-3, 1e4});
+  if (s.max_measured_W <= l.max_W) {
+    section.wrong("max_measured_W", "must exceed max_W: it is where too much power is a fault");
+  }
+  s.energy_window_s = section.number("energy_window_s", s.energy_window_s, {0.1, 3600.0});
+  s.energy_J = section.number("energy_J", 1.1 * max_W * s.energy_window_s, {1e-3, 1e6});
+}
+
+void read_temperatures(Section& section, const BoardContext& context, ChannelSettings& c,
+                       Preset preset) {
+  const Temperatures t = temperatures_of(preset);
+  LimiterSettings& l = c.limiter;
+  l.derate_from_C = section.number("derate_from_C", t.derate_C, {0.0, t.highest_C});
+  l.derate_to_C = c.supervision.trip_C = section.number("trip_C", t.trip_C, {0.0, t.highest_C});
+  if (l.derate_from_C >= l.derate_to_C) {
+    section.wrong("derate_from_C", "must be less than trip_C");
+  }
+  if (l.derate_from_C <= context.ambient_C) {
+    section.wrong("derate_from_C",
+                  "must exceed ambient.warmest_C: else a cold muscle counts as a hot one");
+  }
+}
+
+}  // namespace
+
+void read_limits(Section section, const BoardContext& context, ChannelSettings& c,
+                 ChannelLabel& label) {
+  label.preset = section.choice("preset", Preset::nylon, preset_names);
+  read_power(section, context, c);
+  read_temperatures(section, context, c, label.preset);
+  ChannelSupervision& s = c.supervision;
+  s.max_travel_m = section.required_number("max_travel_m", {1e-5, 10.0});
+  if (s.max_travel_m > s.highest_position_m) {
+    std::ostringstream message;
+    message << "must be within what the sensor can read: position.highest_m = "
+            << s.highest_position_m;
+    section.wrong("max_travel_m", message.str());
+  }
+  section.finish();
+}
+
+}  // namespace supercoil::config

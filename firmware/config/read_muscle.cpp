@@ -1,0 +1,89 @@
+// The muscle as it is believed to be, and what it is known to lie between.
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "config/read_channel.hpp"
+#include "config/read_control.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+struct Bound {
+  const char* lowest_key;
+  const char* highest_key;
+  double control::ThermalBounds::*lowest;
+  double control::ThermalBounds::*highest;
+  double control::PhysicalParameters::*believed;
+  const char* believed_key;
+};
+
+constexpr std::array<Bound, 2> thermal_bounds{{
+    {"lowest_mass_J_per_K", "highest_mass_J_per_K", &control::ThermalBounds::lowest_mass_J_per_K,
+     &control::ThermalBounds::highest_mass_J_per_K,
+     &control::PhysicalParameters::thermal_mass_J_per_K, "muscle.thermal_mass_J_per_K"},
+    {"lowest_transfer_W_per_K", "highest_transfer_W_per_K",
+     &control::ThermalBounds::lowest_transfer_W_per_K,
+     &control::ThermalBounds::highest_transfer_W_per_K,
+     &control::PhysicalParameters::heat_transfer_W_per_K, "muscle.heat_transfer_W_per_K"},
+}};
+
+void read_bound(Section& section, const Bound& bound, const control::PhysicalParameters& muscle,
+                control::ThermalBounds& b) {
+  const double lowest = b.*bound.lowest = section.required_number(bound.lowest_key, {1e-5, 1e3});
+  const double highest = b.*bound.highest = section.required_number(bound.highest_key, {1e-5, 1e3});
+  const double believed = muscle.*bound.believed;
+  const auto wrong = [&](const char* key, const char* side) {
+    std::ostringstream message;
+    message << "must not " << side << " what is believed: " << bound.believed_key << " = "
+            << believed;
+    section.wrong(key, message.str());
+  };
+  if (lowest >= highest) {
+    section.wrong(bound.lowest_key, std::string("must be less than ") + bound.highest_key);
+  } else if (lowest > believed) {
+    wrong(bound.lowest_key, "exceed");
+  } else if (highest < believed) {
+    wrong(bound.highest_key, "be less than");
+  }
+}
+
+}  // namespace
+
+void read_muscle(Section muscle, Section thermal, const BoardContext& context, ChannelSettings& c) {
+  c.muscle = read_parameters(muscle, {});
+  muscle.finish();
+  ThermalSettings& t = c.thermal;
+  for (const Bound& bound : thermal_bounds)
+    read_bound(thermal, bound, c.muscle, t.bounds);
+  const auto part = thermal.numbers(
+      "power_part", {t.bounds.lowest_power_part, t.bounds.highest_power_part}, {0.1, 10.0}, 2, 2);
+  if (part[0] > 1.0 || part[1] < 1.0) {
+    thermal.wrong("power_part", "must be [a, b] with a <= 1 <= b");
+  }
+  t.bounds.lowest_power_part = part[0];
+  t.bounds.highest_power_part = part[1];
+  t.thermal_mass_J_per_K =
+      thermal.number("weighed_mass_J_per_K", c.muscle.thermal_mass_J_per_K, {1e-4, 1e3});
+  const bool weighed = thermal.has("weighed_mass_J_per_K");  // else said above
+  if (weighed && (t.thermal_mass_J_per_K < t.bounds.lowest_mass_J_per_K ||
+                  t.thermal_mass_J_per_K > t.bounds.highest_mass_J_per_K)) {
+    thermal.wrong("weighed_mass_J_per_K",
+                  "must lie between lowest_mass_J_per_K and highest_mass_J_per_K");
+  }
+  t.ambient_C = context.ambient_C;
+  t.coldest_ambient_C = context.coldest_ambient_C;
+  // The last life of this board may have ended a moment ago, just below the trip.
+  const double below_trip_K = std::fmax(0.0, c.supervision.trip_C - t.ambient_C);
+  const double boot_K = std::isfinite(below_trip_K) ? below_trip_K : 0.0;
+  t.boot_rise_K = thermal.number("boot_rise_K", boot_K, {0.0, 300.0});
+  if (t.boot_rise_K > boot_K) {
+    thermal.wrong("boot_rise_K",
+                  "must not exceed trip_C - ambient.warmest_C: the board would boot "
+                  "into a fault");
+  }
+  thermal.finish();
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,121 @@
+#include "config/read_wiring.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supercoil::config {
+
+namespace {
+
+/// Driving 4 output registers of a PCA9685 one by one and reading its prescaler.
+constexpr int pwm_transactions = 5;
+constexpr int pwm_bytes = 3;
+/// An ADS1115: its address, the register, the address again, two bytes.
+constexpr int converter_transactions = 1;
+constexpr int converter_bytes = 5;
+/// A converter is read once a tick, and its value may be missed twice.
+constexpr double age_ticks = 3.0;
+constexpr double least_max_age_s = 0.01;
+
+}  // namespace
+
+void WiringReader::claim(Section& section, const char* key, const std::string& address,
+                         const std::string& owner) {
+  const auto same = [&](const auto& given) { return given.first == address; };
+  const auto first = std::find_if(claims_.begin(), claims_.end(), same);
+  if (first == claims_.end()) {
+    claims_.emplace_back(address, owner);
+  } else {
+    section.wrong(key, "is already " + first->second + ": " + address);
+  }
+}
+
+LineAddress WiringReader::line(Section section, const std::string& owner) {
+  LineAddress address;
+  address.chip = chip_.empty() || section.has("chip") ? section.required_text("chip")
+                                                      : section.text("chip", chip_);
+  address.line = section.required_text("line");
+  if (section.flag("buffered", false)) {
+    section.wrong("buffered",
+                  "must be false: lines are direct (20 us or less), because they, not the duty, "
+                  "are the timed cut");
+  }
+  section.finish();
+  if (!address.chip.empty() && !address.line.empty()) {
+    claim(section, "line", "line " + address.line + " of " + address.chip, owner);
+  }
+  return address;
+}
+
+Access WiringReader::access(Section& section, int transactions, int bytes) {
+  Access access;
+  access.bus = section.text("bus", "");
+  const bool buffered = section.flag("buffered", access.buffered());
+  if (access.buffered() && !buffered) {
+    section.wrong("buffered", "must be true: what hangs on a bus is served by the bus's thread");
+  }
+  if (buffered && !access.buffered()) section.wrong("buffered", "needs bus = \"…\"");
+  if (access.buffered()) {
+    const auto same = [&](const BusAddress& bus) { return bus.name == access.bus; };
+    if (std::none_of(buses_.begin(), buses_.end(), same)) {
+      section.wrong("bus", "is not the name of a [[bus]]");
+    }
+    access.transactions = static_cast<int>(section.integer("transactions", transactions, 1, 1000));
+    access.bytes = static_cast<int>(section.integer("bytes", bytes, 1, 4096));
+    access.wait_s = 1e-3 * section.number("wait_ms", 0.0, {0.0, 1000.0});
+  } else {
+    for (const char* key : {"transactions", "bytes", "wait_ms"}) {
+      if (section.has(key)) section.wrong(key, "is for buffered devices: needs bus = \"…\"");
+    }
+    section.allow({"transactions", "bytes", "wait_ms"});
+  }
+  return access;
+}
+
+PwmAddress WiringReader::pwm(Section section, const std::string& owner) {
+  PwmAddress address;
+  address.device = section.required_text("device");
+  address.number = static_cast<int>(section.required_integer("number", 0, 255));
+  address.period_ns = section.integer("period_ns", 1000000, 1000, 100000000);
+  if (section.has("bits") && section.has("steps")) {
+    section.wrong("bits", "and steps say the same: give one of them");
+  }
+  if (section.has("bits")) {
+    address.steps = (1 << section.integer("bits", 12, 4, 24)) - 1;
+    section.allow({"steps"});
+  } else {
+    address.steps = static_cast<int>(section.integer("steps", address.steps, 15, 1 << 24));
+    section.allow({"bits"});
+  }
+  address.access = access(section, pwm_transactions, pwm_bytes);
+  section.finish();
+  if (!address.device.empty() && section.has("number")) {
+    claim(section, "number", "output " + std::to_string(address.number) + " of " + address.device,
+          owner);
+  }
+  return address;
+}
+
+ConverterAddress WiringReader::converter(Section& section, const std::string& owner) {
+  ConverterAddress address;
+  address.device = section.required_text("device");
+  address.input = section.required_text("input");
+  address.access = access(section, converter_transactions, converter_bytes);
+  if (!address.device.empty() && !address.input.empty()) {
+    claim(section, "input", "input " + address.input + " of " + address.device, owner);
+  }
+  return address;
+}
+
+double WiringReader::max_age_s(Section& section, const ConverterAddress& converter) const {
+  const double fallback_s = std::max(least_max_age_s, age_ticks * step_s_);
+  const double age_s = 1e-3 * section.number("max_age_ms", 1e3 * fallback_s, {0.1, 1000.0});
+  if (converter.access.buffered() && age_s < step_s_) {
+    section.wrong("max_age_ms",
+                  "must be at least a tick: a buffered value is older than that "
+                  "before the next one comes");
+  }
+  return age_s;
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,46 @@
+// Addresses, each read from its own table, none given twice.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "config/section.hpp"
+#include "config/wiring.hpp"
+
+namespace supercoil::config {
+
+/// Reads addresses and remembers to whom each was given.
+class WiringReader {
+ public:
+  WiringReader(std::vector<BusAddress> buses, std::string chip, double step_s)
+      : buses_(std::move(buses)), chip_(std::move(chip)), step_s_(step_s) {}
+
+  /// {line, chip}. owner: how messages call it. Finishes the section.
+  LineAddress line(Section section, const std::string& owner);
+  /// {device, number, period_ns, steps or bits, …}. Finishes the section.
+  PwmAddress pwm(Section section, const std::string& owner);
+  /// {device, input, …} of a table that holds more: the caller finishes it.
+  ConverterAddress converter(Section& section, const std::string& owner);
+  /// max_age_ms of a converter, in s.
+  double max_age_s(Section& section, const ConverterAddress& converter) const;
+
+ private:
+  Access access(Section& section, int transactions, int bytes);
+  /// Notes at the key when the address has an owner already.
+  void claim(Section& section, const char* key, const std::string& address,
+             const std::string& owner);
+
+  std::vector<BusAddress> buses_;
+  std::string chip_;
+  double step_s_;
+  std::vector<std::pair<std::string, std::string>> claims_;
+};
+
+/// [[bus]], and names that are given twice.
+std::vector<BusAddress> read_buses(std::vector<Section> sections);
+
+/// Notes each bus that would be busy for more than most_bus_part of a tick.
+void refuse_slow_buses(std::vector<Section> sections, const BoardWiring& wiring, double step_s);
+
+}  // namespace supercoil::config

@@ -1,0 +1,121 @@
+// Which detectors a configuration leaves blind: better read before the muscle is heated than after.
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "config/describe.hpp"
+#include "supervisor/fault.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+/// Counts of current below which a probe says little.
+constexpr double least_probe_counts = 10.0;
+
+/// One finding, with the channels that share it.
+struct Finding {
+  std::string text;
+  std::vector<std::size_t> channels;  ///< from 1
+};
+
+class Findings {
+ public:
+  void enter(std::size_t channel) { channel_ = channel; }
+
+  void add(Fault fault, const std::string& reason) {
+    const std::string text = std::string(name(fault)) + ": " + reason;
+    const auto same = [&](const Finding& finding) { return finding.text == text; };
+    const auto found = std::find_if(findings_.begin(), findings_.end(), same);
+    if (found == findings_.end()) {
+      findings_.push_back({text, {channel_}});
+    } else {
+      found->channels.push_back(channel_);
+    }
+  }
+  std::vector<std::string> lines() const {
+    std::vector<std::string> result;
+    for (const Finding& finding : findings_) {
+      std::string whose = finding.channels.size() == 1 ? "channel" : "channels";
+      for (std::size_t i = 0; i < finding.channels.size(); ++i)
+        whose += (i == 0 ? " " : ", ") + std::to_string(finding.channels[i]);
+      result.push_back(whose + ": " + finding.text);
+    }
+    return result;
+  }
+
+ private:
+  std::size_t channel_ = 0;
+  std::vector<Finding> findings_;
+};
+
+void judge_sensors(const ChannelSettings& c, Findings& findings) {
+  if (c.supervision.position_noise_rms_m == 0.0) {
+    findings.add(Fault::sensor_frozen,
+                 "position.noise_rms_m is 0, and a frozen sensor cannot be told from a quiet one");
+  } else if (c.supervision.position_noise_rms_m < 0.3 * std::abs(c.position.scaling.per_count)) {
+    findings.add(Fault::sensor_frozen,
+                 "one count is more than the noise: a resting sensor may look frozen, and trip");
+  }
+  if (c.heater.temperature_coefficient_per_K == 0.0) {
+    findings.add(Fault::sensors_disagree,
+                 "heater.temperature_coefficient_per_K is 0: the resistance tells no temperature");
+  }
+}
+
+void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
+  const HeaterSettings& h = c.heater;
+  const ChannelSupervision& s = c.supervision;
+  const double probe_A = h.probe_duty * board.supervision.lowest_supply_V / h.cold_resistance_Ohm;
+  if (probe_A < least_probe_counts * h.current.scaling.per_count) {
+    std::ostringstream reason;
+    reason << "a probe's " << 1e3 * probe_A << " mA are only "
+           << probe_A / h.current.scaling.per_count << " counts: the resistance is hardly measured";
+    findings.add(Fault::resistance_drift, reason.str());
+  }
+  // What run_self_test() takes for current that flows.
+  const double idle_A = 0.3 * probe_A;
+  if (s.off_current_A > idle_A) {
+    std::ostringstream reason;
+    reason << "more than " << 1e3 * idle_A << " mA fail it, and current.off_A is "
+           << 1e3 * s.off_current_A << " mA: what you call no current may be too much";
+    findings.add(Fault::self_test_failed, reason.str());
+  }
+  const double furthest_m = c.limiter.max_W * c.muscle.dc_gain_m_per_W();
+  if (furthest_m < s.responding_least_m) {
+    findings.add(Fault::heater_not_responding,
+                 "max_W moves the muscle less than detectors.responding_least_m: never judged");
+  }
+}
+
+void judge_muscle(const ChannelSettings& c, Findings& findings) {
+  const ChannelSupervision& s = c.supervision;
+  if (s.energy_J >= c.limiter.max_W * s.energy_window_s) {
+    findings.add(Fault::energy_budget_exceeded,
+                 "max_W for the whole window is within energy_J: it trips only when more is "
+                 "measured than was asked for");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> weaknesses(const BoardConfig& config) {
+  Findings findings;
+  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
+    const ChannelSettings& c = config.settings.channels[i];
+    findings.enter(i + 1);
+    judge_sensors(c, findings);
+    judge_heater(c, config.settings, findings);
+    judge_muscle(c, findings);
+  }
+  std::vector<std::string> lines = findings.lines();
+  lines.push_back("board: " + std::string(name(Fault::duty_wrong)) +
+                  ": a duty read back from sysfs is the kernel's memory of it; only current proves "
+                  "power");
+  if (!config.wiring.watchdog) {
+    lines.emplace_back("board: no watchdog: a hung kernel is cut by the charge pump alone");
+  }
+  return lines;
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,77 @@
+// Which device of the operating system is which part of the board: addresses only, nothing is
+// opened here.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace supercoil::config {
+
+/// A GPIO line, by names that do not change with the kernel. Always direct: set within 20 µs.
+struct LineAddress {
+  std::string chip;  ///< label, as gpiodetect shows it
+  std::string line;  ///< name, as gpioinfo shows it
+
+  friend bool operator==(const LineAddress&, const LineAddress&) = default;
+};
+
+/// What one access to a buffered device costs its bus; all 0 for a direct one.
+struct Access {
+  std::string bus;  ///< empty: direct, called in the tick
+  int transactions = 0;
+  int bytes = 0;        ///< of each transaction, addresses included
+  double wait_s = 0.0;  ///< beside them, the bus's thread is blocked (a conversion)
+
+  bool buffered() const { return !bus.empty(); }
+};
+
+/// One output of a PWM chip.
+struct PwmAddress {
+  std::string device;  ///< the chip's name, or the end of its device path when it holds a slash
+  int number = 0;      ///< of the output on its chip
+  long period_ns = 0;
+  int steps = 4095;  ///< of a period
+  Access access;
+};
+
+/// One input of an IIO converter.
+struct ConverterAddress {
+  std::string device;  ///< IIO name, or the end of its device path when it holds a slash
+  std::string input;   ///< e.g. voltage0
+  Access access;
+};
+
+enum class BusKind { i2c, spi };
+
+/// A bus has a thread of its own that serves every device on it once a tick.
+struct BusAddress {
+  std::string name;  ///< e.g. i2c-1
+  BusKind kind = BusKind::i2c;
+  double clock_Hz = 100e3;
+  double overhead_s = 20e-6;  ///< of a transaction, beside its bits: the kernel's and the driver's
+};
+
+struct WatchdogAddress {
+  std::string device;
+  double timeout_s = 5.0;
+};
+
+struct ChannelWiring {
+  LineAddress enable;
+  PwmAddress pwm;
+  ConverterAddress position;
+  ConverterAddress current;
+};
+
+struct BoardWiring {
+  LineAddress heartbeat;
+  LineAddress stop_circuit;
+  std::optional<LineAddress> light;
+  std::optional<WatchdogAddress> watchdog;
+  ConverterAddress supply;
+  std::vector<BusAddress> buses;
+  std::vector<ChannelWiring> channels;
+};
+
+}  // namespace supercoil::config

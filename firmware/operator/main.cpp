@@ -1,0 +1,61 @@
+// supercoil: the operator's tool beside the daemon.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "operator/commands.hpp"
+
+namespace {
+
+using namespace supercoil::operating;
+
+void add_log(CLI::App& app, LogOptions& options) {
+  CLI::App* log = app.add_subcommand(
+      "log", "Read a flight recording: its rows as CSV, or what happened in words");
+  log->add_option("FILE", options.file, "A recording, flight-NUMBER.scfr")->required();
+  CLI::Option* out =
+      log->add_option("--out", options.out, "Write the CSV to this file [standard output]");
+  CLI::Option* from = log->add_option("--from", options.from_s,
+                                      "First time in s, relative to the fault [the first row]");
+  CLI::Option* to =
+      log->add_option("--to", options.to_s, "Last time in s, relative to the fault [the last row]");
+  CLI::Option* channel =
+      log->add_option("--channel", options.channel, "Only this channel, 1 to 16 [all]")
+          ->check(CLI::Range(1, 16));
+  log->add_flag("--damaged", options.damaged, "Read what can be read of a damaged file");
+  CLI::Option* summary =
+      log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
+  for (CLI::Option* of_csv : {out, from, to, channel})
+    summary->excludes(of_csv);
+}
+
+int run_program(int count, char** arguments) {
+  CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
+  app.set_version_flag("--version", SUPERCOIL_VERSION);
+  app.require_subcommand(1);
+  LogOptions log;
+  add_log(app, log);
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? exit_done : exit_wrong_input;
+  }
+  return log_command(log);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  // A reader that closes the pipe early is an error of writing, with its message and status.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    const int status = run_program(count, arguments);
+    if (status != exit_done || std::fflush(stdout) == 0) return status;
+    return fail(exit_failed, "cannot write to standard output");
+  } catch (const std::exception& error) {
+    return fail(exit_failed, error.what());
+  }
+}

@@ -1,0 +1,40 @@
+// A file that is never half written.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "storage/files.hpp"
+
+namespace supercoil::operating {
+
+/// Written as "PATH.part" and renamed when it is complete. Without commit() nothing remains of it,
+/// and a file that was there before stays as it was.
+class OutputFile {
+ public:
+  /// The error says why it cannot be written there. files must outlive it.
+  static tl::expected<OutputFile, std::string> open(const std::string& path, storage::Files& files);
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+  ~OutputFile();
+
+  tl::expected<void, std::string> write(std::string_view part);
+  /// Gives it its name. Once; nothing can be written after it.
+  tl::expected<void, std::string> commit();
+
+ private:
+  OutputFile(std::string path, storage::NewFile file, storage::Files& files)
+      : path_(std::move(path)), file_(std::move(file)), files_(&files) {}
+
+  std::string path_;
+  storage::NewFile file_;
+  storage::Files* files_;  ///< null: moved from
+  bool open_ = true;
+  bool kept_ = false;
+};
+
+}  // namespace supercoil::operating

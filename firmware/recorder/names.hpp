@@ -1,0 +1,38 @@
+// The names that states, modes and limits have in CSV files and summaries.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "supervisor/fault.hpp"
+
+namespace supercoil::recorder {
+
+/// A number that this program has no name for (a newer firmware's, or damage) is shown as it is.
+template <std::size_t N>
+std::string named(const std::array<std::string_view, N>& names, std::uint8_t number) {
+  return number < N ? std::string(names[number]) : std::to_string(number);
+}
+
+inline std::string state_name(std::uint8_t number) {
+  return named(std::array<std::string_view, 4>{"disarmed", "armed", "active", "fault"}, number);
+}
+inline std::string mode_name(std::uint8_t number) {
+  return named(
+      std::array<std::string_view, 5>{"rest", "position", "power", "identify", "calibrate"},
+      number);
+}
+inline std::string limit_name(std::uint8_t number) {
+  return named(std::array<std::string_view, 6>{"nothing", "minimum", "maximum", "slew",
+                                               "temperature", "invalid"},
+               number);
+}
+inline std::string fault_name(std::uint8_t number) {
+  if (number == 0) return "none";
+  const auto known = info(static_cast<Fault>(number));
+  return known ? std::string(known->name) : std::to_string(number);
+}
+
+}  // namespace supercoil::recorder

@@ -1,0 +1,85 @@
+#include "recorder/recording.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include "recorder/header.hpp"
+
+namespace supercoil::recorder {
+
+namespace {
+
+/// From the rows, where the header cannot be trusted.
+Header header_from(const std::vector<Row>& rows) {
+  Header header;
+  header.rows = rows.size();
+  std::array<std::uint8_t, 256> last{};
+  for (const Row& row : rows) {
+    header.channels = std::max(header.channels, std::min(row.channel + 1, 16));
+    const bool latches = row.fault != 0 && std::exchange(last[row.channel], row.fault) == 0;
+    if (latches && header.fault == 0) {
+      header.fault = row.fault;
+      header.fault_channel = row.channel;
+      header.fault_time_ns = row.time_ns;
+    }
+  }
+  if (header.fault == 0 && !rows.empty()) header.fault_time_ns = rows.back().time_ns;
+  return header;
+}
+
+/// What is wrong with the rows; empty when they are what the header says.
+std::string fault_of_rows(const Header& header, std::string_view bytes) {
+  const std::uint64_t whole = bytes.size() / sizeof(Row);
+  if (whole < header.rows) {
+    return "is cut off: " + std::to_string(whole) + " of " + std::to_string(header.rows) +
+           " rows are there";
+  }
+  if (bytes.size() > header.rows * sizeof(Row)) {
+    return "has " + std::to_string(bytes.size() - header.rows * sizeof(Row)) +
+           " bytes more than were written";
+  }
+  const std::uint32_t crc = rows_crc32(bytes);
+  if (crc == header.rows_crc32) return {};
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(),
+                "is damaged: its rows have the CRC-32 %08x, not %08x as when they were written",
+                static_cast<unsigned>(crc), static_cast<unsigned>(header.rows_crc32));
+  return text.data();
+}
+
+}  // namespace
+
+tl::expected<Recording, std::string> decode(std::string_view file, Damaged damaged) {
+  if (auto foreign = not_ours(file); !foreign.empty()) return tl::unexpected(std::move(foreign));
+  const std::string_view bytes = file.substr(header_bytes);
+  Recording recording;
+  auto header = decode_header(file.substr(0, header_bytes));
+  if (header) {
+    recording.header = std::move(*header);
+    recording.damage = fault_of_rows(recording.header, bytes);
+  } else {
+    if (header.error().final) return tl::unexpected(std::move(header.error().text));
+    recording.damage = std::move(header.error().text);
+  }
+  if (damaged == Damaged::refuse && !recording.damage.empty())
+    return tl::unexpected(std::move(recording.damage));
+  std::uint64_t rows = bytes.size() / sizeof(Row);
+  if (header) rows = std::min(rows, recording.header.rows);
+  if (rows == 0) return tl::unexpected("has no whole row: it " + recording.damage);
+  recording.rows.resize(rows);
+  std::memcpy(recording.rows.data(), bytes.data(), rows * sizeof(Row));
+  if (!header) recording.header = header_from(recording.rows);
+  return recording;
+}
+
+void select(Recording& recording, double from_s, double to_s, int channel) {
+  std::erase_if(recording.rows, [&](const Row& row) {
+    const double time_s = recording.time_s(row);
+    return time_s < from_s || time_s > to_s || (channel >= 0 && row.channel != channel);
+  });
+}
+
+}  // namespace supercoil::recorder

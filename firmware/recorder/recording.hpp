@@ -1,0 +1,76 @@
+// A flight recording: the file's format, and the same as CSV (docs/recorder.md).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "recorder/row.hpp"
+
+namespace supercoil::recorder {
+
+/// Grows when a program that reads the format before could no longer read it.
+inline constexpr unsigned recording_format = 1;
+/// The rows start here whatever the header says, so that they are found when it is damaged.
+inline constexpr std::size_t header_bytes = 512;
+
+static_assert(std::endian::native == std::endian::little, "rows are written as they are in memory");
+
+/// What the file says of its rows.
+struct Header {
+  std::uint64_t rows = 0;
+  int channels = 1;        ///< 1 to 16
+  double rate_Hz = 0.0;    ///< 0: not known, the header is damaged
+  std::uint8_t fault = 0;  ///< its number; this program may not know it
+  std::string fault_name;  ///< as the firmware called it that wrote the file
+  int fault_channel = 0;   ///< from 0
+  std::int64_t fault_time_ns = 0;
+  std::uint32_t rows_crc32 = 0;
+
+  bool operator==(const Header&) const = default;
+};
+
+struct Recording {
+  Header header;
+  std::vector<Row> rows;
+  /// What is wrong with the file, where it was read all the same; empty for a whole one.
+  std::string damage;
+
+  /// Relative to the fault; negative before it.
+  double time_s(const Row& row) const {
+    // Unsigned, because the times of a damaged file may lie further apart than fits.
+    const auto apart =
+        static_cast<std::uint64_t>(row.time_ns) - static_cast<std::uint64_t>(header.fault_time_ns);
+    return static_cast<double>(static_cast<std::int64_t>(apart)) / 1e9;
+  }
+};
+
+/// The first header_bytes of a file. fault_name must be letters, digits and '_', at most 40.
+std::string encode(const Header& header);
+/// CRC-32 (IEEE) of bytes that lie in two places, one after the other.
+std::uint32_t rows_crc32(std::string_view first, std::string_view second = {});
+
+enum class Damaged { refuse, read };
+
+/// The error says in which way it is no whole recording: empty, not ours, of another format, of
+/// another size of rows, cut off, with more at its end, changed. Damaged::read gives as many whole
+/// rows as there are, and `damage` says what is wrong; an error remains where no row can be told
+/// from anything else.
+tl::expected<Recording, std::string> decode(std::string_view file, Damaged damaged);
+
+/// Only the rows with from_s <= time_s <= to_s and of this channel (from 0; -1: all).
+void select(Recording& recording, double from_s, double to_s, int channel);
+
+/// Takes a part of a text; the error says why it could not be written.
+using Sink = std::function<tl::expected<void, std::string>(std::string_view)>;
+
+/// The rows as CSV with a line of column names. Numbers have as many digits as it takes to read the
+/// same float back; NaN is an empty field. Ends with the sink's first error.
+tl::expected<void, std::string> to_csv(const Recording& recording, const Sink& sink);
+
+}  // namespace supercoil::recorder

@@ -1,0 +1,57 @@
+// The folder of flight recordings: their numbers, how many are kept, and writing one whole.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "storage/files.hpp"
+
+namespace supercoil::recorder {
+
+/// The names of everything in a folder, in any order.
+using ListFolder =
+    std::function<storage::Result<std::vector<std::string>>(const std::string& folder)>;
+/// Asks the operating system.
+storage::Result<std::vector<std::string>> list_folder(const std::string& folder);
+
+/// The number of "flight-12.scfr"; 0 for a name that is none of ours.
+std::uint64_t number_of(std::string_view name);
+
+class RecordingFolder {
+ public:
+  /// most: recordings that may be there after one was written, 1 or more.
+  RecordingFolder(std::string folder, std::size_t most, ListFolder list, storage::Files& files)
+      : folder_(std::move(folder)), most_(most), list_(std::move(list)), files_(&files) {}
+
+  struct Written {
+    std::string path;
+    /// What went wrong all the same: an old file that could not be removed, for one.
+    std::vector<std::string> problems;
+  };
+  /// Writes a recording that consists of these parts under a number greater than every one that is
+  /// there, and than every one given before. Old ones go first: a full disk needs their room. After
+  /// an error nothing half-written is left, where it can be removed. Blocks for as long as the disk
+  /// takes.
+  tl::expected<Written, std::string> write(std::span<const std::string_view> parts);
+
+ private:
+  storage::Result<void> write_file(const std::string& path,
+                                   std::span<const std::string_view> parts);
+  void remove_left_over(const std::vector<std::string>& names);
+  std::vector<std::string> make_room(const std::vector<std::uint64_t>& numbers);
+  std::string path_of(std::uint64_t number) const;
+
+  std::string folder_;
+  std::size_t most_;
+  ListFolder list_;
+  storage::Files* files_;
+  std::uint64_t last_ = 0;
+};
+
+}  // namespace supercoil::recorder

@@ -1,0 +1,99 @@
+"""The documentation of faults matches firmware/supervisor/fault.{hpp,cpp}, and links lead somewhere.
+
+Every fault has a page of its name, headed by its number, and a row in docs/faults/README.md with its number, group and
+scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not.
+"""
+
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+FAULTS = ROOT / "docs" / "faults"
+SUPERVISOR = ROOT / "firmware" / "supervisor"
+
+NUMBER = re.compile(r"^\s*(\w+) = (\d+),", re.M)
+ENTRY = re.compile(r'\{\s*(\w+),\s*"(\w+)",\s*"(\w+)",\s*(channel|board),')
+ROW = re.compile(r"^\|\s*(\d+)\s*\|\s*\[(\w+)\](?:\([^)]*\))?\s*\|\s*(\w+)\s*\|\s*(\w+)\s*\|", re.M)
+CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.M | re.S)
+INLINE_LINK = re.compile(r"\[[^\]]*\]\(\s*<?([^)\s>]+)")
+LINK_DEFINITION = re.compile(r"^\[([^\]]+)\]:\s*(\S+)", re.M)
+HEADING = re.compile(r"^#+\s+(.*?)\s*$", re.M)
+
+
+def faults_in_code():
+    """(name → (number, group, scope)), and what is wrong with the sources themselves."""
+    enumeration = re.search(r"enum class Fault\b.*?\{(.*?)\};", (SUPERVISOR / "fault.hpp").read_text(), re.S)
+    numbers = {name: int(number) for name, number in NUMBER.findall(enumeration.group(1) if enumeration else "")}
+    numbers.pop("none", None)
+    entries = ENTRY.findall((SUPERVISOR / "fault.cpp").read_text())
+    found = {name: (numbers.get(member), group, scope) for member, name, group, scope in entries}
+    wrong = []
+    if not found:
+        wrong.append("fault.cpp: no fault found: has it moved, or its form changed?")
+    for name in numbers.keys() - found.keys():
+        wrong.append(f"fault.cpp: {name} of fault.hpp is not described")
+    for name, (number, _, _) in found.items():
+        if number is None:
+            wrong.append(f"fault.hpp: {name} of fault.cpp has no number")
+    return found, wrong
+
+
+def problems_of_faults():
+    faults, wrong = faults_in_code()
+    yield from wrong
+    readme = (FAULTS / "README.md").read_text()
+    rows = ROW.findall(readme)
+    listed = [name for _, name, _, _ in rows]
+    for name in sorted({name for name in listed if listed.count(name) > 1}):
+        yield f"docs/faults/README.md: {name} has more than one row"
+    for number, name, group, scope in rows:
+        if name not in faults:
+            yield f"docs/faults/README.md: {name} is no fault"
+        elif (int(number), group, scope) != faults[name]:
+            yield f"docs/faults/README.md: {name} is {number}, {group}, {scope}; in the code {faults[name]}"
+    for name, (number, _, _) in faults.items():
+        page = FAULTS / f"{name}.md"
+        if name not in listed:
+            yield f"docs/faults/README.md: no row for {name}"
+        if not page.is_file():
+            yield f"docs/faults/{name}.md: missing"
+        elif not page.read_text().startswith(f"# {number} {name}\n"):
+            yield f"docs/faults/{name}.md: is not headed '# {number} {name}'"
+    for page in sorted(FAULTS.glob("*.md")):
+        if page.name != "README.md" and page.stem not in faults:
+            yield f"docs/faults/{page.name}: there is no such fault"
+
+
+def anchors(text):
+    """As GitHub makes them of headings."""
+    for heading in HEADING.findall(CODE.sub(lambda code: code.group().strip("`"), text)):
+        plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).lower()
+        yield re.sub(r"[^\w\- ]", "", plain).replace(" ", "-")
+
+
+def problems_of_links():
+    for file in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]:
+        text = CODE.sub("", file.read_text())
+        definitions = LINK_DEFINITION.findall(text)
+        for target in INLINE_LINK.findall(text) + [target for _, target in definitions]:
+            if re.match(r"[a-z][a-z0-9+.-]*:", target):
+                continue
+            path, _, anchor = target.partition("#")
+            there = (file.parent / path) if path else file
+            where = file.relative_to(ROOT)
+            if not there.exists():
+                yield f"{where}: {target} does not exist"
+            elif anchor and there.suffix == ".md" and anchor not in anchors(there.read_text()):
+                yield f"{where}: {target}: no such heading"
+        if file == FAULTS / "README.md":
+            defined = {name for name, _ in definitions}
+            for _, name, _, _ in ROW.findall(text):
+                if name not in defined and f"[{name}](" not in text:
+                    yield f"docs/faults/README.md: the row of {name} leads nowhere"
+
+
+if __name__ == "__main__":
+    found = [*problems_of_faults(), *problems_of_links()]
+    print("\n".join(found) or "every fault has its page and its row, and every link leads to a file")
+    sys.exit(bool(found))

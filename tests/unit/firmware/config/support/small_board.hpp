@@ -1,0 +1,67 @@
+// The smallest board that is in order, and what becomes of it when a part of its text is replaced.
+#pragma once
+
+#include <string>
+
+#include "config/board_config.hpp"
+
+namespace supercoil::test {
+
+inline const std::string small_board = R"([board]
+charge_pump_decay_ms = 20
+[lines]
+chip = "gpio"
+heartbeat = {line = "BEAT"}
+stop_circuit = {line = "STOP"}
+[ambient]
+coldest_C = 15
+warmest_C = 30
+[[bus]]
+name = "i2c-1"
+clock_Hz = 400000
+[supply]
+device = "adc"
+input = "voltage0"
+V_per_count = 0.001
+lowest_V = 10.8
+highest_V = 13.2
+[[channel]]
+enable = {line = "EN1"}
+pwm = {device = "pwm", number = 0}
+[channel.position]
+device = "adc"
+input = "voltage1"
+m_per_count = 1e-6
+lowest_m = -0.001
+highest_m = 0.041
+[channel.current]
+device = "adc"
+input = "voltage2"
+A_per_count = 0.0001
+[channel.heater]
+cold_resistance_Ohm = 10.0
+[channel.thermal]
+lowest_mass_J_per_K = 0.13
+highest_mass_J_per_K = 0.20
+lowest_transfer_W_per_K = 0.045
+highest_transfer_W_per_K = 0.18
+[channel.limits]
+max_W = 4.5
+max_travel_m = 0.025
+)";
+
+/// The small board with the first `old` in it replaced.
+inline std::string small_board_with(const std::string& old, const std::string& replacement) {
+  std::string text = small_board;
+  const std::size_t at = text.find(old);
+  return at == std::string::npos ? "no such text: " + old
+                                 : text.replace(at, old.size(), replacement);
+}
+
+/// Every problem of the text, a line each; empty when it is in order.
+inline std::string problems_of(const std::string& text) {
+  const auto config = config::parse_board_config(text, "b.toml");
+  return config ? "" : config::to_text(config.error());
+}
+
+}  // namespace supercoil::test

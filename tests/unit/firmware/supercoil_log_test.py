@@ -1,0 +1,203 @@
+"""supercoil log as an operator or a script meets it: exit status, messages, files."""
+
+import csv
+import io
+import os
+import pathlib
+import resource
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["SUPERCOIL"]
+WRITE_SAMPLE = os.environ["WRITE_SAMPLE"]
+HEADER, ROW = 512, 112
+COLUMNS = ("time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,model_m,"
+           "position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,resistance_age_s,coldest_C,"
+           "hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,margin_of,margin_used,margin_measured,"
+           "margin_limit").split(",")
+
+
+class Log(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([WRITE_SAMPLE, folder], check=True, capture_output=True)
+            cls.recording = (pathlib.Path(folder) / "flight-1.scfr").read_bytes()
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        self.addCleanup(self.folder.cleanup)
+        (self.path / "r.scfr").write_bytes(self.recording)
+
+    def log(self, *arguments, **options):
+        return subprocess.run([PROGRAM, "log", *map(str, arguments)], capture_output=True, text=True,
+                              cwd=self.path, timeout=60, **options)
+
+    def rows(self, *arguments):
+        done = self.log("r.scfr", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return list(csv.DictReader(io.StringIO(done.stdout)))
+
+    def names(self):
+        return sorted(p.name for p in self.path.iterdir())
+
+    def test_every_row_is_printed_with_its_columns(self):
+        rows = self.rows()
+        self.assertEqual(list(rows[0]), COLUMNS)
+        self.assertEqual(len(rows), 2 * (1101 - 50))
+        self.assertEqual((rows[0]["time_s"], rows[-1]["time_s"]), ("-10", "1"))
+        self.assertEqual([r["channel"] for r in rows[:4]], ["1", "2", "1", "2"])
+        fault = next(r for r in rows if r["fault"] != "none")
+        self.assertEqual((fault["time_s"], fault["channel"], fault["fault"], fault["state"], fault["mode"]),
+                         ("0", "2", "over_temperature", "fault", "rest"))
+        self.assertEqual(fault["resistance_Ohm"], "")
+        self.assertEqual(rows[0]["mode"], "position")
+        self.assertEqual(float(fault["hottest_C"]), 160.0)
+
+    def test_times_and_channel_are_chosen(self):
+        rows = self.rows("--from", "-0.5", "--to", "0.25", "--channel", "2")
+        self.assertEqual({r["channel"] for r in rows}, {"2"})
+        self.assertEqual([float(r["time_s"]) for r in rows], [round(i / 100, 2) for i in range(-50, 26)])
+
+    def test_the_gap_is_in_the_times(self):
+        times = [float(r["time_s"]) for r in self.rows("--channel", 1)]
+        self.assertEqual([(a, b) for a, b in zip(times, times[1:]) if b - a > 0.011], [(-4.51, -4.0)])
+
+    def test_a_file_gets_the_same(self):
+        printed = self.log("r.scfr").stdout
+        done = self.log("r.scfr", "--out", "r.csv")
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+        self.assertEqual((self.path / "r.csv").read_text(), printed)
+        (self.path / "r.csv.part").write_text("of a run that was killed")
+        self.assertEqual(self.log("r.scfr", "--out", "r.csv").returncode, 0)
+        self.assertEqual(self.names(), ["r.csv", "r.scfr"])
+
+    def test_the_summary_says_what_happened(self):
+        done = self.log("r.scfr", "--summary")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for text in [
+                "over_temperature (fault 30) on channel 2\n",
+                "meaning: the estimated temperature passed its limit\n",
+                "when: 20.000000 s after the board's clock began",
+                "recorded: -10.000 s to 1.000 s, 2102 rows\n",
+                "2 channels at 100 Hz\n",
+                "ticks are missing: 1 gap, the longest of 0.510 s from -4.510 s on\n",
+                "+0.500 s: channel 1: emergency_stop\n",
+                "just before: active, position, limited by nothing; position 0.001999 m, reference 0.011 m\n",
+                "supply 12 V",
+                "power: 4 W on average before the fault, 4 W at most\n",
+                "hottest: at most 165.0 C, at 1.000 s\n"]:
+            self.assertIn(text, done.stdout)
+        margins = done.stdout.split("the fullest first:\n")[1].splitlines()
+        self.assertEqual([line.split()[0] for line in margins],
+                         ["over_temperature", "under_voltage", "over_travel"])
+        self.assertIn("99 % used: 159 of 160, at -0.020 s", margins[0])
+
+    def refused(self, message, *arguments):
+        done = self.log(*arguments)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        self.assertIn(message, done.stderr)
+        self.assertFalse((self.path / "out.csv").exists(), "something was written")
+
+    def test_damaged_files_are_refused_with_the_reason(self):
+        whole = self.recording
+        for content, message in [
+                (b"", "d.scfr: is empty"),
+                (b"time_s,channel\n", "d.scfr: is not a flight recording"),
+                (b"\0" * 9999, "d.scfr: is not a flight recording"),
+                (whole[:20], "d.scfr: is cut off in its first line"),
+                (whole[:200], "d.scfr: is cut off in its header: 200 of 512 bytes are there"),
+                (whole[:-1], "d.scfr: is cut off: 2101 of 2102 rows are there"),
+                (whole + b"x", "d.scfr: has 1 bytes more than were written"),
+                (whole[:99] + b"\0" + whole[100:], "d.scfr: is damaged: its header is not as it was written"),
+                (whole[:999] + b"\x55" + whole[1000:], "d.scfr: is damaged: its rows have the CRC-32"),
+                (whole.replace(b"format 1", b"format 7", 1), "d.scfr: is of format 7; this program reads")]:
+            with self.subTest(message):
+                (self.path / "d.scfr").write_bytes(content)
+                self.refused(message, "d.scfr", "--out", "out.csv")
+
+    def test_with_damaged_what_can_be_read_is_read(self):
+        for content, count, message in [
+                (self.recording[:HEADER + 10 * ROW + 5], 10, "is cut off: 10 of 2102 rows are there; 10 rows"),
+                (self.recording[:99] + b"\0" + self.recording[100:], 2102, "its header is not as it was"),
+                (self.recording[:-5] + b"12345", 2102, "its rows have the CRC-32")]:
+            with self.subTest(message):
+                (self.path / "d.scfr").write_bytes(content)
+                done = self.log("d.scfr", "--damaged")
+                self.assertEqual(done.returncode, 0)
+                self.assertIn(message, done.stderr)
+                self.assertEqual(len(done.stdout.splitlines()), count + 1)
+                self.assertEqual(self.log("d.scfr", "--damaged", "--summary").returncode, 0)
+        (self.path / "d.scfr").write_bytes(self.recording[:HEADER + 7])
+        self.refused("d.scfr: has no whole row", "d.scfr", "--damaged")
+        (self.path / "d.scfr").write_bytes(b"something else")
+        self.refused("d.scfr: is not a flight recording", "d.scfr", "--damaged")
+
+    def test_wrong_input_ends_with_status_2(self):
+        self.refused("none.scfr: there is no such file", "none.scfr")
+        self.refused(".: is not a file", ".")
+        self.refused("/dev/null: is not a file", "/dev/null")
+        self.refused("the recording has channels 1 to 2", "r.scfr", "--channel", 3)
+        self.refused("--channel", "r.scfr", "--channel", 0)
+        self.refused("--from must not be later than --to", "r.scfr", "--from", 1, "--to", 0)
+        self.refused("--from must not be later than --to", "r.scfr", "--from", "nan")
+        self.refused("--from", "r.scfr", "--from", "soon")
+        self.refused("has no rows of that time and channel", "r.scfr", "--from", 5)
+        self.refused("excludes", "r.scfr", "--summary", "--out", "out.csv")
+        self.refused("FILE is required")
+        self.assertEqual(subprocess.run([PROGRAM], capture_output=True).returncode, 2)
+        self.assertEqual(subprocess.run([PROGRAM, "fly"], capture_output=True).returncode, 2)
+
+    def test_the_recording_itself_and_what_is_no_file_are_not_overwritten(self):
+        os.link(self.path / "r.scfr", self.path / "again.scfr")
+        for name in ["r.scfr", "./r.scfr", "again.scfr"]:
+            self.refused(f"{name}: is the recording itself", "r.scfr", "--out", name)
+        self.assertEqual((self.path / "r.scfr").read_bytes(), self.recording)
+        (self.path / "folder").mkdir()
+        self.refused("folder: is not a file", "r.scfr", "--out", "folder")
+        self.refused("/dev/full: is not a file", "r.scfr", "--out", "/dev/full")
+        self.refused("none/x.csv.part: cannot be made", "r.scfr", "--out", "none/x.csv")
+
+    def test_a_full_disk_ends_with_status_1_and_leaves_what_was_there(self):
+        (self.path / "out.csv").write_text("earlier")
+
+        def small_disk():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))
+        done = self.log("r.scfr", "--out", "out.csv", preexec_fn=small_disk, restore_signals=False)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("out.csv.part: cannot be written", done.stderr)
+        self.assertEqual((self.path / "out.csv").read_text(), "earlier")
+        self.assertEqual(self.names(), ["out.csv", "r.scfr"])
+
+    def test_a_standard_output_that_cannot_be_written_ends_with_status_1(self):
+        for option in [[], ["--summary"]]:
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([PROGRAM, "log", "r.scfr", *option], cwd=self.path, stdout=full,
+                                      stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("standard output: cannot be written: No space left on device", done.stderr)
+
+    def test_a_closed_pipe_ends_with_status_1(self):
+        running = subprocess.Popen([PROGRAM, "log", "r.scfr"], cwd=self.path, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        running.stdout.read(10)
+        running.stdout.close()
+        errors = running.stderr.read().decode()
+        running.stderr.close()
+        self.assertEqual(running.wait(), 1)
+        self.assertIn("standard output: cannot be written: Broken pipe", errors)
+
+    def test_help_and_version(self):
+        self.assertIn("log", subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout)
+        done = self.log("--help")
+        self.assertEqual(done.returncode, 0)
+        for option in ["--out", "--from", "--to", "--channel", "--damaged", "--summary"]:
+            self.assertIn(option, done.stdout)
+        self.assertRegex(subprocess.run([PROGRAM, "--version"], capture_output=True, text=True).stdout,
+                         r"^\d+\.\d+\.\d+")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,89 @@
+"""supercoild as its owner or a script meets it: exit status and messages."""
+
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["SUPERCOILD"]
+EXAMPLES = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"])
+SLOW = EXAMPLES / "raspberry-pi-pca9685-ads1115.toml"
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        self.addCleanup(self.folder.cleanup)
+
+    def run_program(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], stderr=subprocess.PIPE, text=True,
+                              cwd=self.path, timeout=60, **{"stdout": subprocess.PIPE, **options})
+
+    def changed(self, old, new):
+        text = SLOW.read_text()
+        self.assertIn(old, text)
+        (self.path / "b.toml").write_text(text.replace(old, new, 1))
+        return "b.toml", text[:text.index(old)].count("\n") + 1
+
+    def test_examples_are_in_order(self):
+        examples = sorted(EXAMPLES.glob("*.toml"))
+        self.assertEqual(len(examples), 2)
+        for example in examples:
+            with self.subTest(example.name):
+                done = self.run_program("--check", example)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertIn("\nbus time, of a tick of", done.stdout)
+                self.assertIn("\nmemory, beside program and stacks\n", done.stdout)
+                self.assertIn("\ndetectors that cannot work", done.stdout)
+
+    def test_check_prints_bus_time_and_memory(self):
+        done = self.run_program("--check", SLOW)
+        self.assertIn("  i2c-1: 1.988 ms, 19.9 %, at 400 kHz\n", done.stdout)
+        self.assertRegex(done.stdout, r"\n  together \d+ KiB\n")
+
+    def test_a_misspelt_key(self):
+        file, line = self.changed("off_A = 0.01", "of_A = 0.01")
+        done = self.run_program("--check", file)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr,
+                         f"b.toml:{line}: every_channel.current.of_A = 0.01: is not a key of "
+                         "[every_channel.current]; did you mean off_A?\n")
+
+    def test_one_converter_for_everything_is_too_slow(self):
+        file, line = self.changed('[every_channel.position]      #',
+                                  '[every_channel.position]\nwait_ms = 2.6 #')
+        done = self.run_program("--check", file)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("bus[2].name = 'i2c-3': the bus would be busy for 10.95 ms of a tick of 10 ms "
+                      "(110 %), and 70 % is the most", done.stderr)
+
+    def test_a_file_that_is_not_there(self):
+        done = self.run_program("--check", "none.toml")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr, "none.toml: there is no such file\n")
+
+    def test_without_arguments_it_says_that_it_drives_no_board_yet(self):
+        done = self.run_program()
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("no hardware layer yet", done.stderr)
+        self.assertIn("supercoil-sim", done.stderr)
+
+    def test_unknown_options(self):
+        self.assertEqual(self.run_program("--chek", SLOW).returncode, 2)
+        self.assertEqual(self.run_program("--check").returncode, 2)
+
+    def test_a_full_standard_output_is_an_error(self):
+        with open("/dev/full", "w") as full:
+            done = self.run_program("--check", SLOW, stdout=full)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot write to standard output", done.stderr)
+
+    def test_help_and_version(self):
+        self.assertIn("--check", self.run_program("--help").stdout)
+        self.assertRegex(self.run_program("--version").stdout, r"^\d+\.\d+\.\d+")
+
+
+if __name__ == "__main__":
+    unittest.main()

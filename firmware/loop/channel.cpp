@@ -30,6 +30,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       resistance_(resistance_settings(settings.heater), board.step_s()),
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
+      identify_({}, settings.muscle, board.step_s()),
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
@@ -133,9 +134,10 @@ void Channel::follow_probe(double supply_V) {
   if (!evidence_.probe_failed) resistance_.set(probed.resistance_Ohm);
   if (mode_ == Mode::calibrate) {
     if (calibrate_.probed(evidence_.probed_Ohm) == modes::Calibrate::Outcome::found) {
-      calibration_.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
-      calibration_.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
-      store(settings_.muscle);
+      storage::Calibration found = calibration_;
+      found.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
+      found.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
+      keep(settings_.muscle, found);
     }
     state_.rest();
     rest();
@@ -187,9 +189,9 @@ void Channel::control() {
 
 void Channel::step_identify() {
   wanted_.wanted_power_W = identify_.power_W(limiter_.max_W());
-  const auto outcome = identify_.step(estimator().estimate(), settings_.muscle, step_s_);
+  const auto outcome = identify_.step(evidence_.position.value, acting_.power_W);
   if (outcome == modes::Identify::Outcome::running) return;
-  if (outcome == modes::Identify::Outcome::found) store(identify_.found());
+  if (outcome == modes::Identify::Outcome::found) keep(identify_.found(), calibration_);
   wanted_ = {};
   state_.rest();
   rest();
@@ -224,7 +226,8 @@ void Channel::drive() {
   const double full_W = supply_V_ * supply_V_ / resistance_.value_Ohm();
   board::PowerStage::Output out;
   if (state_.may_heat()) {
-    const bool old = resistance_.age_s() > h.probe_every_s;
+    // Calibration probes when it has found the zero, and not before.
+    const bool old = resistance_.age_s() > h.probe_every_s && mode_ != Mode::calibrate;
     if (old && !probe_.running()) probe_.start();
     out = power_stage_.step(allowed_.power_W, resistance_.value_Ohm(), supply_V_, limiter_.max_W());
   }

@@ -87,7 +87,7 @@ class Channel {
   void learn_heat();
   void step_identify();
   void step_calibrate();
-  void store(const control::PhysicalParameters& muscle);
+  bool keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
   void write_duty(int step);
   void write_enable(bool high);
   control::Estimator& estimator() { return estimators_[estimator_]; }
@@ -120,7 +120,7 @@ class Channel {
   std::size_t estimator_ = 0;
   Mode mode_ = Mode::rest;
   double reference_ = 0.0;  ///< m, or W in open loop
-  modes::Identify identify_{{}};
+  modes::Identify identify_;
   modes::Calibrate calibrate_{{}};
   control::ControllerOutput wanted_;
   Limiter limiter_;

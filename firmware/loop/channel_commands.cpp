@@ -131,15 +131,17 @@ Refusal Channel::choose_estimator(double place) {
 Refusal Channel::scale(double true_m) {
   const double measured_m = evidence_.position.value;
   if (!evidence_.position.present) return Refusal::not_ready;
-  const double scale = calibration_.position_scale * true_m / measured_m;
-  if (!(true_m > 0.0 && scale >= 0.1 && scale <= 10.0)) return Refusal::out_of_range;
-  calibration_.position_scale = scale;
-  store(settings_.muscle);
-  return Refusal::none;
+  storage::Calibration found = calibration_;
+  found.position_scale *= true_m / measured_m;
+  return true_m > 0.0 && keep(settings_.muscle, found) ? Refusal::none : Refusal::out_of_range;
 }
 
-void Channel::store(const control::PhysicalParameters& muscle) {
-  found_.push({muscle, calibration_, 0});
+/// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
+bool Channel::keep(const control::PhysicalParameters& muscle, const storage::Calibration& found) {
+  const storage::Learned learned{muscle, found, 0};
+  if (storage::check(learned)) return false;
+  calibration_ = found;
+  return found_.push(learned);
 }
 
 }  // namespace supercoil

@@ -48,8 +48,9 @@ class Mrac {
     }
   }
 
-  /// The filters as if the muscle had long been where it is. To hold a power, θ is moved by as
-  /// little as makes θᵀω that power: adaptation then goes on from there.
+  /// The filters as if the muscle had long been where it is. To hold a power, c0 becomes what makes
+  /// θᵀω that power: a pure feedforward. (Moving all of θ by as little as that takes adds positive
+  /// feedback, and rings for half a minute.)
   void start(const LawStart<Scalar>& at) {
     power_filter_.settle(at.power);
     position_filter_.settle(at.position);
@@ -59,9 +60,9 @@ class Mrac {
     second_bank_.settle(first_bank_.state());
     theta_ = initial_;
     r0_ = estimated_error_ = Wide{};
-    const Wide size = omega.squaredNorm();
-    if (at.hold && size > Wide(0.01)) {
-      theta_ += omega * ((Wide(at.power) - theta_.dot(omega)) / size);
+    if (at.hold && at.reference > to<Scalar>(0.05)) {
+      const Wide c0 = theta_[5] + (Wide(at.power) - theta_.dot(omega)) / Wide(at.reference);
+      if (c0 > Wide(0) && c0 < Wide(3)) theta_[5] = c0;
     }
   }
 

@@ -23,8 +23,11 @@ namespace supercoil {
 struct BoardNow {
   hal::Time time{};
   double supply_V = 0.0;
-  Fault fault = Fault::none;  ///< latched by the board: every channel is made safe
-  bool testing = true;        ///< the self-test runs: nothing is latched, nothing can be armed
+  Fault fault = Fault::none;  ///< of the board, latched or present: every channel is made safe
+  detectors::Margin margin;   ///< of that fault
+  bool testing = true;        ///< the self-test runs: nothing is latched
+  bool proven = false;        ///< it has passed: both ways of cutting cut
+  long periods = 1;           ///< since the last tick
 };
 
 class Channel {
@@ -41,7 +44,7 @@ class Channel {
   void control();
   void limit();
   void drive();
-  const Snapshot& publish();
+  const Snapshot& publish(const BoardNow& board, const Verdict& board_verdict);
 
   /// The one way of making the channel safe: duty 0 and enable low, at once. Fault::none is an
   /// ordinary stop.
@@ -63,10 +66,11 @@ class Channel {
   const Verdict& verdict() const { return supervisor_.verdict(); }
   /// The margin of the detector that led to `fault`, as it was then.
   const detectors::Margin& first_margin() const { return first_margin_; }
+  /// The fault of the whole board that one of this channel's detectors sees now.
+  Fault present_board_fault() const { return supervisor_.verdict().board_fault(); }
   /// The fault that a detector sees now, latched or not.
   Fault present_fault() const { return present_fault_; }
   std::optional<control::Estimate> estimates() const { return estimator().estimate(); }
-  bool writes_ok() const { return writes_ok_; }
   bool lines_ok() const { return lines_ok_; }
   /// Between ticks only: what the limiter allows from now on.
   void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
@@ -82,7 +86,7 @@ class Channel {
   void enter(Mode mode);
   void rest();
   void sample_position(hal::Time now);
-  void observe_heat(double supply_V);
+  void observe_heat(double supply_V, long periods);
   void follow_probe(double supply_V);
   void learn_heat();
   void step_identify();
@@ -134,6 +138,7 @@ class Channel {
   bool writes_ok_ = true;
   bool lines_ok_ = true;
   bool reset_asked_ = false;
+  bool heat_known_ = false;  ///< the muscle has been cool since boot, whatever was before
   std::size_t turn_ = 0;
   long ticks_ = 0;
   Snapshot snapshot_;

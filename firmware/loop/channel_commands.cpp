@@ -13,8 +13,8 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
       disarm(Fault::none);
       return Refusal::none;
     case Verb::reset:
-      reset_asked_ = true;  // answered by the state after the tick: an edge may be none
-      return state_.state() == State::fault ? Refusal::none : Refusal::wrong_state;
+      reset_asked_ = true;
+      return state_.reset(true, present_fault_ != Fault::none || board.fault != Fault::none);
     case Verb::position:
       return heat(Mode::position, command.value);
     case Verb::power:
@@ -47,7 +47,7 @@ Refusal Channel::arm(const BoardNow& board) {
   if (state_.state() != State::disarmed) return Refusal::wrong_state;
   const bool measured = evidence_.position.present && evidence_.current.present;
   const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
-  if (board.testing || !measured || !quiet) return Refusal::not_ready;
+  if (!board.proven || !measured || !quiet || !heat_known_) return Refusal::not_ready;
   state_.arm();
   supervisor_.restart();
   probe_.start();
@@ -141,6 +141,7 @@ bool Channel::keep(const control::PhysicalParameters& muscle, const storage::Cal
   const storage::Learned learned{muscle, found, 0};
   if (storage::check(learned)) return false;
   calibration_ = found;
+  supervisor_.restart();  // every position moves with it
   return found_.push(learned);
 }
 

@@ -14,6 +14,9 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
 /// A resistance of so many times the cold one is a broken wire and the sense's own offset.
 constexpr double as_good_as_open = 4.0;
 
+/// Long against the sensor's noise, short against the muscle's motion.
+constexpr double smoothing_s = 0.2;
+
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
@@ -32,6 +35,8 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
       identify_({}, settings.muscle, board.step_s()),
+      smooth_power_W_(smoothing_s, board.step_s()),
+      smooth_error_m_(smoothing_s, board.step_s()),
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
@@ -144,9 +149,9 @@ void Channel::follow_probe(double supply_V) {
   // What it should be: the calibrated one at whichever temperature of the interval suits it best.
   const double per_K = settings_.heater.temperature_coefficient_per_K;
   const double cold_Ohm = calibration_.cold_resistance_Ohm;
-  evidence_.calibrated_Ohm = std::clamp(probed.resistance_Ohm,
-                                        cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
-                                        cold_Ohm * (1.0 + per_K * heat_.hottest_K()));
+  evidence_.calibrated_Ohm =
+      std::clamp(probed.resistance_Ohm, cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
+                 cold_Ohm * (1.0 + per_K * heat_.hottest_K()));
   if (!evidence_.probe_failed) resistance_.set(probed.resistance_Ohm);
   if (mode_ == Mode::calibrate) {
     if (calibrate_.probed(evidence_.probed_Ohm) == modes::Calibrate::Outcome::found) {
@@ -187,10 +192,13 @@ void Channel::control() {
       input.applied_power_W = acting_.power_W;
       input.limited = acting_.limited;
       wanted_ = controllers_[controller_].step(input);
+      smooth_power_W_.step(acting_.power_W);
+      smooth_error_m_.step(evidence_.position.value - wanted_.model_m);
       break;
     }
     case Mode::power:
       wanted_.wanted_power_W = reference_;
+      smooth_power_W_.set(acting_.power_W);
       break;
     case Mode::identify:
       step_identify();

@@ -11,6 +11,7 @@
 #include "board/resistance.hpp"
 #include "loop/command.hpp"
 #include "loop/settings.hpp"
+#include "loop/smoothed.hpp"
 #include "loop/snapshot.hpp"
 #include "modes/calibrate.hpp"
 #include "modes/identify.hpp"
@@ -84,6 +85,7 @@ class Channel {
   Refusal choose_controller(double place);
   Refusal choose_estimator(double place);
   void enter(Mode mode);
+  control::ControllerStart start_here() const;
   void rest();
   void sample_position(hal::Time now);
   void observe_heat(double supply_V, long periods);
@@ -127,6 +129,8 @@ class Channel {
   modes::Identify identify_;
   modes::Calibrate calibrate_{{}};
   control::ControllerOutput wanted_;
+  Smoothed smooth_power_W_;
+  Smoothed smooth_error_m_;  ///< position over the reference model
   Limiter limiter_;
   Limiter::Result allowed_;
   board::PowerStage power_stage_;

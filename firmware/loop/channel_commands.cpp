@@ -82,11 +82,9 @@ void Channel::enter(Mode mode) {
   const bool was_hot = mode_ != Mode::rest;
   mode_ = mode;
   if (mode == Mode::position) {
-    control::ControllerStart at;
-    at.reference_m = reference_;
+    control::ControllerStart at = start_here();
+    at.motion = {evidence_.position.value, 0.0, 0.0};
     at.position_m = evidence_.position.value;
-    at.power_W = acting_.power_W;
-    at.motion.position = evidence_.position.value;
     at.hold = was_hot;
     controllers_[controller_].start(at);
   } else if (mode == Mode::identify) {
@@ -94,6 +92,17 @@ void Channel::enter(Mode mode) {
   } else if (mode == Mode::calibrate) {
     calibrate_.start();
   }
+}
+
+/// Where the controller that is at work leaves off. Power and error are smoothed alike: a single
+/// tick's carry the sensor's noise times the controller's gain.
+control::ControllerStart Channel::start_here() const {
+  control::ControllerStart at;
+  at.reference_m = reference_;
+  at.motion = controllers_[controller_].motion();
+  at.position_m = at.motion.position + smooth_error_m_.value();
+  at.power_W = smooth_power_W_.value();
+  return at;
 }
 
 void Channel::rest() {
@@ -108,11 +117,7 @@ Refusal Channel::choose_controller(double place) {
     return Refusal::out_of_range;
   const auto chosen = static_cast<std::size_t>(place);
   if (mode_ == Mode::position) {
-    control::ControllerStart at;
-    at.reference_m = reference_;
-    at.position_m = evidence_.position.value;
-    at.power_W = acting_.power_W;
-    at.motion = controllers_[controller_].motion();
+    control::ControllerStart at = start_here();
     at.hold = true;
     controllers_[chosen].start(at);
   }

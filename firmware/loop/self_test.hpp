@@ -48,8 +48,8 @@ class SelfTest {
     elapsed_s_ += step_s_;
     // Noise is no failure; a third of a pulse of current is. The sense may show the last life's
     // current until the pump has decayed.
-    const bool over = elapsed_s_ > settings_.pump_decay_s + settings_.settle_s &&
-                      !(current_A <= idle_A);
+    const bool over =
+        elapsed_s_ > settings_.pump_decay_s + settings_.settle_s && !(current_A <= idle_A);
     over_s_ = over ? over_s_ + step_s_ : 0.0;
     if (over_s_ > 0.3 * settings_.pulse_s) {
       verdict_ = pumping ? Verdict::enable_does_not_cut : Verdict::pump_does_not_open;

@@ -27,8 +27,8 @@ struct Evidence {
   bool devices_ok = true;   ///< every write of the last tick was taken
   double expected_m = 0.0;  ///< where the model of the muscle is
   double hottest_C = 0.0;
-  double applied_W = 0.0;        ///< as it was set
-  double most_W = 0.0;           ///< as it may have been, the measured current considered
+  double applied_W = 0.0;          ///< as it was set
+  double most_W = 0.0;             ///< as it may have been, the measured current considered
   bool tells_temperature = false;  ///< the next two are known
   double from_resistance_K = 0.0;
   double from_position_K = 0.0;

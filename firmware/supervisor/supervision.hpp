@@ -49,7 +49,7 @@ struct BoardSupervision {
   double supply_s = 0.02;
   double late_s = 0.0005;  ///< a tick that wakes later is late
   int late_in_a_row = 5;
-  int overruns_in_a_row = 5;  ///< periods left out, in one stall or in several on end
+  int overruns_in_a_row = 5;          ///< periods left out, in one stall or in several on end
   double charge_pump_decay_s = 0.02;  ///< more than twice the tolerated overruns
   double telemetry_silence_s = 0.5;
   double bus_off_s = 0.0;

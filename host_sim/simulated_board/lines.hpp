@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "supercoil/hal/clock.hpp"
 #include <boost/circular_buffer.hpp>
 
+#include "supercoil/hal/clock.hpp"
 #include "supercoil/hal/digital_line.hpp"
 #include "supercoil/hal/pwm_output.hpp"
 #include "supercoil/hal/watchdog.hpp"

@@ -71,7 +71,8 @@ ssize_t write(int file, const void* data, std::size_t size) {
 }
 std::size_t fwrite(const void* data, std::size_t size, std::size_t count, FILE* file) {
   ++calls.files;
-  static auto* const real = next<std::size_t(const void*, std::size_t, std::size_t, FILE*)>("fwrite");
+  static auto* const real =
+      next<std::size_t(const void*, std::size_t, std::size_t, FILE*)>("fwrite");
   return real(data, size, count, file);
 }
 int open(const char* path, int flags, ...) {

@@ -30,8 +30,8 @@ Heat heat_of(const Scenario& scenario) {
   Heat heat;
   while (!simulation.done()) {
     const TickRecord r = simulation.step();
-    const bool inside = r.temperature_rise_K >= r.coldest_K - 1e-9 &&
-                        r.temperature_rise_K <= r.hottest_K + 1e-9;
+    const bool inside =
+        r.temperature_rise_K >= r.coldest_K - 1e-9 && r.temperature_rise_K <= r.hottest_K + 1e-9;
     heat.outside_ticks += inside ? 0 : 1;
     heat.widest_K = std::fmax(heat.widest_K, r.hottest_K - r.coldest_K);
     if (r.fault != Fault::none) heat.fault = r.fault;
@@ -96,7 +96,7 @@ TEST(Heat, StaysBelowTheLimitWhenFarTooMuchIsAskedFor) {
 
 TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {
   for (const char* trouble : {"switch_stuck_on", "heater_open", "heater_short", "pwm_refuses"}) {
-    check_contained(trouble, read(sine + std::string("[[event]]\nat_s = 60.0\ntrouble.") +
-                                  trouble + " = true\n"));
+    check_contained(trouble, read(sine + std::string("[[event]]\nat_s = 60.0\ntrouble.") + trouble +
+                                  " = true\n"));
   }
 }

@@ -42,8 +42,8 @@ TEST(Modes, IdentifyFindsTheMuscleWithinAMinute) {
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesUnderway) {
-  CHECK_FALSE(learned(identify + "[[event]]\nat_s = 50.0\nplant.stiffness_N_per_m = 11.0\n")
-                  .has_value());
+  CHECK_FALSE(
+      learned(identify + "[[event]]\nat_s = 50.0\nplant.stiffness_N_per_m = 11.0\n").has_value());
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsNotTheOneThatWasConfigured) {
@@ -53,12 +53,13 @@ TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsNotTheOneThatWasConfigured) {
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheSensorIsTooNoisy) {
-  CHECK_FALSE(
-      learned(identify + "[sensor.position]\nnoise_rms_m = 2e-3\nresolution_bits = 10\n").has_value());
+  CHECK_FALSE(learned(identify + "[sensor.position]\nnoise_rms_m = 2e-3\nresolution_bits = 10\n")
+                  .has_value());
 }
 
 TEST(Modes, IdentifyStoresNothingWhenCommandsStop) {
-  CHECK_FALSE(learned(identify + "[[event]]\nat_s = 30.0\ntrouble.commands_stop = true\n").has_value());
+  CHECK_FALSE(
+      learned(identify + "[[event]]\nat_s = 30.0\ntrouble.commands_stop = true\n").has_value());
 }
 
 TEST(Modes, CalibrateFindsZeroAndColdResistance) {
@@ -70,7 +71,5 @@ TEST(Modes, CalibrateFindsZeroAndColdResistance) {
 }
 
 TEST(Modes, CalibrateStoresNothingWhileTheMuscleMoves) {
-  CHECK_FALSE(learned(calibrate + "[[event]]\nat_s = 12.9\nplant.load_N = -0.05\n").has_value() &&
-              learned(calibrate + "[[event]]\nat_s = 13.2\nplant.load_N = -0.05\n").has_value() &&
-              learned(calibrate + "[[event]]\nat_s = 13.5\nplant.load_N = -0.05\n").has_value());
+  CHECK_FALSE(learned(calibrate + "[[event]]\nat_s = 12.3\nplant.load_N = -0.05\n").has_value());
 }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double noise_rms_m = 10e-6;
 
-/// How far the muscle is, over a second after a switch, from where it would have been without.
-double moved_m(int from, int to, bool sine) {
+/// How far the muscle is, within a time after a switch, from where it would have been without.
+double moved_m(int from, int to, bool sine, int ticks) {
   const auto prepared = [&](Rig& rig) {
     rig.boot();
     rig.arm();
@@ -33,7 +33,7 @@ double moved_m(int from, int to, bool sine) {
   prepared(switches);
   switches.send(Verb::controller, to);
   double furthest_m = 0.0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < ticks; ++i) {
     if (!sine) stays.send(Verb::position, 0.010);
     if (!sine) switches.send(Verb::position, 0.010);
     stays.tick();
@@ -52,19 +52,20 @@ TEST_GROUP(Takeover){};
 TEST(Takeover, AtRestMovesTheMuscleByLessThanTheNoise) {
   for (int from = 0; from < 3; ++from) {
     for (int to = 0; to < 3; ++to) {
-      const double moved = moved_m(from, to, false);
+      const double moved = moved_m(from, to, false, 1000);
       if (from != to) printf("%d -> %d at rest: %.2f um\n", from, to, moved * 1e6);
       CHECK_COMPARE(moved, <, noise_rms_m);
     }
   }
 }
 
-TEST(Takeover, InMotionMovesTheMuscleByLittle) {
+/// Later it goes where the other controller leads it: their errors in motion differ by 200 µm.
+TEST(Takeover, InMotionDoesNotJerkTheMuscle) {
   for (int from = 0; from < 3; ++from) {
     for (int to = 0; to < 3; ++to) {
-      const double moved = moved_m(from, to, true);
+      const double moved = moved_m(from, to, true, 100);
       if (from != to) printf("%d -> %d in motion: %.2f um\n", from, to, moved * 1e6);
-      CHECK_COMPARE(moved, <, 300e-6);
+      CHECK_COMPARE(moved, <, noise_rms_m);
     }
   }
 }

@@ -1,5 +1,6 @@
 #include "loop/channel.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace supercoil {
@@ -12,6 +13,9 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
 
 /// A resistance of so many times the cold one is a broken wire and the sense's own offset.
 constexpr double as_good_as_open = 4.0;
+
+/// Long against the sensor's noise, short against the muscle's motion.
+constexpr double smoothing_s = 0.2;
 
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
@@ -30,6 +34,9 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       resistance_(resistance_settings(settings.heater), board.step_s()),
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
+      identify_({}, settings.muscle, board.step_s()),
+      smooth_power_W_(smoothing_s, board.step_s()),
+      smooth_error_m_(smoothing_s, board.step_s()),
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
@@ -63,7 +70,7 @@ void Channel::sample_position(hal::Time now) {
 
 void Channel::supervise(const BoardNow& board) {
   supply_V_ = board.supply_V;
-  observe_heat(board.supply_V);
+  observe_heat(board.supply_V, board.periods);
   follow_probe(board.supply_V);
 
   Evidence& e = evidence_;
@@ -76,29 +83,38 @@ void Channel::supervise(const BoardNow& board) {
   e.read_back = devices_.pwm->read_back();
   e.devices_ok = writes_ok_;
   e.expected_m = heat_.expected_m();
-  e.hottest_C = heat_.hottest_C();
+  // How hot it was before boot is not known: nothing is armed before it must have cooled.
+  heat_known_ = heat_known_ || heat_.hottest_C() < settings_.limiter.derate_from_C;
+  e.hottest_C = heat_known_ ? heat_.hottest_C() : settings_.thermal.ambient_C;
   e.applied_W = acting_.power_W;
   e.wanted_W = wanted_.wanted_power_W;
   e.limited = acting_.limited;
   present_fault_ = supervisor_.step(e);
-  e.damaged_command = false;
+  // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.
+  e.renewed = e.damaged_command = e.refused_command = e.obeyed_command = false;
+  e.position_elapsed_s = 0.0;
+  for (long i = 1; i < board.periods && present_fault_ == Fault::none; ++i)
+    present_fault_ = supervisor_.step(e);
   if (!supervisor_.inside(e.sensor_m)) e.position.present = false;
 
   const Fault cause = board.fault != Fault::none ? board.fault : present_fault_;
   if (cause != Fault::none && !board.testing) {
-    if (state_.state() != State::fault) first_margin_ = supervisor_.verdict().margin(cause);
+    if (state_.state() != State::fault) {
+      first_margin_ =
+          board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause);
+    }
     disarm(cause);
   }
-  state_.reset(reset_asked_, cause != Fault::none);
+  if (!reset_asked_) state_.reset(false, true);
 }
 
 /// The muscle's temperature, from the power that acted and the power that was measured: if a switch
 /// conducts by itself, only the current knows.
-void Channel::observe_heat(double supply_V) {
+void Channel::observe_heat(double supply_V, long periods) {
   const bool measures = evidence_.current.present && supply_V > 0.0;
   if (measures) resistance_.step(acting_.duty, supply_V, evidence_.current.value);
   const double told_W = acting_.power_W;
-  const double noise_A = settings_.supervision.off_current_A;
+  const double noise_A = settings_.supervision.current_noise_A;
   const double measured_W = measures ? supply_V * evidence_.current.value : limiter_.max_W();
   // A measured power takes part only where it differs by more than the sense's own error.
   const double tolerance_W = supply_V * noise_A + 0.05 * told_W;
@@ -106,6 +122,10 @@ void Channel::observe_heat(double supply_V) {
   const double least_W = differs ? std::fmin(told_W, measured_W) : told_W;
   const double most_W = differs ? std::fmax(told_W, measured_W) : told_W;
   heat_.step(std::fmax(least_W, 0.0), most_W, told_W);
+  // In periods that were left out the power may have gone on, or the charge pump have cut it.
+  for (long i = 1; i < periods; ++i)
+    heat_.step(0.0, most_W, told_W);
+  evidence_.most_W = most_W;
 
   const HeaterSettings& h = settings_.heater;
   evidence_.tells_temperature = h.temperature_coefficient_per_K > 0.0 && resistance_.age_s() < 1.0;
@@ -126,16 +146,19 @@ void Channel::follow_probe(double supply_V) {
   const double most_Ohm = as_good_as_open * calibration_.cold_resistance_Ohm;
   evidence_.probe_failed = !(probed.resistance_Ohm > 0.0 && probed.resistance_Ohm < most_Ohm);
   evidence_.probed_Ohm = evidence_.probe_failed ? 0.0 : probed.resistance_Ohm;
-  // What it should be: the calibrated one, warmer by somewhere between the observer's bounds.
-  const double middle_K = 0.5 * (heat_.coldest_K() + std::fmin(heat_.hottest_K(), 20.0));
-  evidence_.calibrated_Ohm = calibration_.cold_resistance_Ohm *
-                             (1.0 + settings_.heater.temperature_coefficient_per_K * middle_K);
+  // What it should be: the calibrated one at whichever temperature of the interval suits it best.
+  const double per_K = settings_.heater.temperature_coefficient_per_K;
+  const double cold_Ohm = calibration_.cold_resistance_Ohm;
+  evidence_.calibrated_Ohm =
+      std::clamp(probed.resistance_Ohm, cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
+                 cold_Ohm * (1.0 + per_K * heat_.hottest_K()));
   if (!evidence_.probe_failed) resistance_.set(probed.resistance_Ohm);
   if (mode_ == Mode::calibrate) {
     if (calibrate_.probed(evidence_.probed_Ohm) == modes::Calibrate::Outcome::found) {
-      calibration_.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
-      calibration_.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
-      store(settings_.muscle);
+      storage::Calibration found = calibration_;
+      found.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
+      found.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
+      keep(settings_.muscle, found);
     }
     state_.rest();
     rest();
@@ -169,10 +192,13 @@ void Channel::control() {
       input.applied_power_W = acting_.power_W;
       input.limited = acting_.limited;
       wanted_ = controllers_[controller_].step(input);
+      smooth_power_W_.step(acting_.power_W);
+      smooth_error_m_.step(evidence_.position.value - wanted_.model_m);
       break;
     }
     case Mode::power:
       wanted_.wanted_power_W = reference_;
+      smooth_power_W_.set(acting_.power_W);
       break;
     case Mode::identify:
       step_identify();
@@ -187,9 +213,9 @@ void Channel::control() {
 
 void Channel::step_identify() {
   wanted_.wanted_power_W = identify_.power_W(limiter_.max_W());
-  const auto outcome = identify_.step(estimator().estimate(), settings_.muscle, step_s_);
+  const auto outcome = identify_.step(evidence_.position.value, acting_.power_W);
   if (outcome == modes::Identify::Outcome::running) return;
-  if (outcome == modes::Identify::Outcome::found) store(identify_.found());
+  if (outcome == modes::Identify::Outcome::found) keep(identify_.found(), calibration_);
   wanted_ = {};
   state_.rest();
   rest();
@@ -224,7 +250,8 @@ void Channel::drive() {
   const double full_W = supply_V_ * supply_V_ / resistance_.value_Ohm();
   board::PowerStage::Output out;
   if (state_.may_heat()) {
-    const bool old = resistance_.age_s() > h.probe_every_s;
+    // Calibration probes when it has found the zero, and not before.
+    const bool old = resistance_.age_s() > h.probe_every_s && mode_ != Mode::calibrate;
     if (old && !probe_.running()) probe_.start();
     out = power_stage_.step(allowed_.power_W, resistance_.value_Ohm(), supply_V_, limiter_.max_W());
   }
@@ -265,8 +292,9 @@ void Channel::write_enable(bool high) {
   written_enable_ = static_cast<int>(high);
 }
 
-const Snapshot& Channel::publish() {
+const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_verdict) {
   Snapshot& s = snapshot_;
+  s.time = board.time;
   s.channel = index_;
   s.state = state_.state();
   s.mode = mode_;
@@ -298,7 +326,8 @@ const Snapshot& Channel::publish() {
   const auto& faults = all_faults();
   turn_ = (turn_ + 1) % faults.size();
   s.turn = faults[turn_].fault;
-  s.margin = supervisor_.verdict().margin(s.turn);
+  const Verdict& judge = board_verdict.judges(s.turn) ? board_verdict : supervisor_.verdict();
+  s.margin = judge.margin(s.turn);
   return s;
 }
 

@@ -11,6 +11,7 @@
 #include "board/resistance.hpp"
 #include "loop/command.hpp"
 #include "loop/settings.hpp"
+#include "loop/smoothed.hpp"
 #include "loop/snapshot.hpp"
 #include "modes/calibrate.hpp"
 #include "modes/identify.hpp"
@@ -23,8 +24,11 @@ namespace supercoil {
 struct BoardNow {
   hal::Time time{};
   double supply_V = 0.0;
-  Fault fault = Fault::none;  ///< latched by the board: every channel is made safe
-  bool testing = true;        ///< the self-test runs: nothing is latched, nothing can be armed
+  Fault fault = Fault::none;  ///< of the board, latched or present: every channel is made safe
+  detectors::Margin margin;   ///< of that fault
+  bool testing = true;        ///< the self-test runs: nothing is latched
+  bool proven = false;        ///< it has passed: both ways of cutting cut
+  long periods = 1;           ///< since the last tick
 };
 
 class Channel {
@@ -41,7 +45,7 @@ class Channel {
   void control();
   void limit();
   void drive();
-  const Snapshot& publish();
+  const Snapshot& publish(const BoardNow& board, const Verdict& board_verdict);
 
   /// The one way of making the channel safe: duty 0 and enable low, at once. Fault::none is an
   /// ordinary stop.
@@ -63,10 +67,11 @@ class Channel {
   const Verdict& verdict() const { return supervisor_.verdict(); }
   /// The margin of the detector that led to `fault`, as it was then.
   const detectors::Margin& first_margin() const { return first_margin_; }
+  /// The fault of the whole board that one of this channel's detectors sees now.
+  Fault present_board_fault() const { return supervisor_.verdict().board_fault(); }
   /// The fault that a detector sees now, latched or not.
   Fault present_fault() const { return present_fault_; }
   std::optional<control::Estimate> estimates() const { return estimator().estimate(); }
-  bool writes_ok() const { return writes_ok_; }
   bool lines_ok() const { return lines_ok_; }
   /// Between ticks only: what the limiter allows from now on.
   void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
@@ -80,14 +85,15 @@ class Channel {
   Refusal choose_controller(double place);
   Refusal choose_estimator(double place);
   void enter(Mode mode);
+  control::ControllerStart start_here() const;
   void rest();
   void sample_position(hal::Time now);
-  void observe_heat(double supply_V);
+  void observe_heat(double supply_V, long periods);
   void follow_probe(double supply_V);
   void learn_heat();
   void step_identify();
   void step_calibrate();
-  void store(const control::PhysicalParameters& muscle);
+  bool keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
   void write_duty(int step);
   void write_enable(bool high);
   control::Estimator& estimator() { return estimators_[estimator_]; }
@@ -120,9 +126,11 @@ class Channel {
   std::size_t estimator_ = 0;
   Mode mode_ = Mode::rest;
   double reference_ = 0.0;  ///< m, or W in open loop
-  modes::Identify identify_{{}};
+  modes::Identify identify_;
   modes::Calibrate calibrate_{{}};
   control::ControllerOutput wanted_;
+  Smoothed smooth_power_W_;
+  Smoothed smooth_error_m_;  ///< position over the reference model
   Limiter limiter_;
   Limiter::Result allowed_;
   board::PowerStage power_stage_;
@@ -134,6 +142,7 @@ class Channel {
   bool writes_ok_ = true;
   bool lines_ok_ = true;
   bool reset_asked_ = false;
+  bool heat_known_ = false;  ///< the muscle has been cool since boot, whatever was before
   std::size_t turn_ = 0;
   long ticks_ = 0;
   Snapshot snapshot_;

@@ -13,8 +13,8 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
       disarm(Fault::none);
       return Refusal::none;
     case Verb::reset:
-      reset_asked_ = true;  // answered by the state after the tick: an edge may be none
-      return state_.state() == State::fault ? Refusal::none : Refusal::wrong_state;
+      reset_asked_ = true;
+      return state_.reset(true, present_fault_ != Fault::none || board.fault != Fault::none);
     case Verb::position:
       return heat(Mode::position, command.value);
     case Verb::power:
@@ -47,7 +47,7 @@ Refusal Channel::arm(const BoardNow& board) {
   if (state_.state() != State::disarmed) return Refusal::wrong_state;
   const bool measured = evidence_.position.present && evidence_.current.present;
   const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
-  if (board.testing || !measured || !quiet) return Refusal::not_ready;
+  if (!board.proven || !measured || !quiet || !heat_known_) return Refusal::not_ready;
   state_.arm();
   supervisor_.restart();
   probe_.start();
@@ -82,11 +82,9 @@ void Channel::enter(Mode mode) {
   const bool was_hot = mode_ != Mode::rest;
   mode_ = mode;
   if (mode == Mode::position) {
-    control::ControllerStart at;
-    at.reference_m = reference_;
+    control::ControllerStart at = start_here();
+    at.motion = {evidence_.position.value, 0.0, 0.0};
     at.position_m = evidence_.position.value;
-    at.power_W = acting_.power_W;
-    at.motion.position = evidence_.position.value;
     at.hold = was_hot;
     controllers_[controller_].start(at);
   } else if (mode == Mode::identify) {
@@ -94,6 +92,17 @@ void Channel::enter(Mode mode) {
   } else if (mode == Mode::calibrate) {
     calibrate_.start();
   }
+}
+
+/// Where the controller that is at work leaves off. Power and error are smoothed alike: a single
+/// tick's carry the sensor's noise times the controller's gain.
+control::ControllerStart Channel::start_here() const {
+  control::ControllerStart at;
+  at.reference_m = reference_;
+  at.motion = controllers_[controller_].motion();
+  at.position_m = at.motion.position + smooth_error_m_.value();
+  at.power_W = smooth_power_W_.value();
+  return at;
 }
 
 void Channel::rest() {
@@ -108,11 +117,7 @@ Refusal Channel::choose_controller(double place) {
     return Refusal::out_of_range;
   const auto chosen = static_cast<std::size_t>(place);
   if (mode_ == Mode::position) {
-    control::ControllerStart at;
-    at.reference_m = reference_;
-    at.position_m = evidence_.position.value;
-    at.power_W = acting_.power_W;
-    at.motion = controllers_[controller_].motion();
+    control::ControllerStart at = start_here();
     at.hold = true;
     controllers_[chosen].start(at);
   }
@@ -131,15 +136,18 @@ Refusal Channel::choose_estimator(double place) {
 Refusal Channel::scale(double true_m) {
   const double measured_m = evidence_.position.value;
   if (!evidence_.position.present) return Refusal::not_ready;
-  const double scale = calibration_.position_scale * true_m / measured_m;
-  if (!(true_m > 0.0 && scale >= 0.1 && scale <= 10.0)) return Refusal::out_of_range;
-  calibration_.position_scale = scale;
-  store(settings_.muscle);
-  return Refusal::none;
+  storage::Calibration found = calibration_;
+  found.position_scale *= true_m / measured_m;
+  return true_m > 0.0 && keep(settings_.muscle, found) ? Refusal::none : Refusal::out_of_range;
 }
 
-void Channel::store(const control::PhysicalParameters& muscle) {
-  found_.push({muscle, calibration_, 0});
+/// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
+bool Channel::keep(const control::PhysicalParameters& muscle, const storage::Calibration& found) {
+  const storage::Learned learned{muscle, found, 0};
+  if (storage::check(learned)) return false;
+  calibration_ = found;
+  supervisor_.restart();  // every position moves with it
+  return found_.push(learned);
 }
 
 }  // namespace supercoil

@@ -1,5 +1,6 @@
 #include "loop/loop.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace supercoil {
@@ -9,6 +10,10 @@ namespace {
 /// A stalled disk or a busy CPU may keep the recorder away for so long without a row being lost.
 constexpr double ring_s = 2.0;
 constexpr int most_commands_per_tick = 64;
+/// Buffered converters need so long to have their first values, and filters to settle.
+constexpr double settling_s = 0.1;
+/// After a longer stall the board has a fault anyway, and the muscles had time to cool.
+constexpr long most_periods = 1000;
 
 std::size_t ring_rows(const BoardSettings& s) {
   return static_cast<std::size_t>(ring_s * s.rate_Hz) * s.channels.size();
@@ -42,8 +47,7 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
   for (Channel& channel : channels_)
     channel.supervise(now_);
   for (Channel& channel : channels_) {
-    const Fault fault = channel.present_fault();
-    if (fault != Fault::none && info(fault)->scope == Scope::board) latch(fault);
+    if (channel.present_board_fault() != Fault::none) latch(channel.present_board_fault());
   }
   const hal::Time decided = devices_.clock->now();
 
@@ -56,7 +60,7 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
   const hal::Time computed = devices_.clock->now();
 
   // Drive: watts become duties.
-  if (now_.testing) {
+  if (!now_.proven) {
     run_self_test();
   } else {
     for (Channel& channel : channels_)
@@ -67,7 +71,7 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
 
   // Publish: rows for the recorder and for telemetry; then the light, which may wait.
   for (Channel& channel : channels_) {
-    if (!rows_.push(recorder::row_of(channel.publish(), woke))) ++lost_rows_;
+    if (!rows_.push(recorder::row_of(channel.publish(now_, supervisor_.verdict())))) ++lost_rows_;
   }
   shine();
   if (devices_.watchdog != nullptr) devices_.watchdog->feed();
@@ -83,6 +87,7 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
 }
 
 void Loop::obey() {
+  reset_asked_before_ = reset_asked_;
   reset_asked_ = false;
   std::uint8_t damaged = 0;
   while (damaged_.pop(damaged)) {
@@ -92,13 +97,25 @@ void Loop::obey() {
   for (int i = 0; i < most_commands_per_tick && commands_.pop(command); ++i) {
     Refusal refusal = Refusal::no_such_channel;
     if (command.channel < channels_.size()) {
+      if (command.verb == Verb::reset) reset_board();
       Channel& channel = channels_[command.channel];
       refusal = channel.obey(command, now_);
       channel.note_answer(refusal);
-      reset_asked_ = reset_asked_ || command.verb == Verb::reset;
     }
     answers_.push({command, refusal});
   }
+}
+
+/// A rising edge of the reset of any channel, while no detector of the board trips. Before the
+/// heartbeat may beat again, both ways of cutting have to be proven again: a switch that is stuck
+/// shows no current while the supply is open.
+void Loop::reset_board() {
+  const bool edge = !reset_asked_ && !reset_asked_before_;
+  reset_asked_ = true;
+  if (!edge || board_fault_ == Fault::none || supervisor_.verdict().fault() != Fault::none) return;
+  board_fault_ = Fault::none;
+  now_.fault = Fault::none;
+  self_test_.restart();
 }
 
 void Loop::judge_board(hal::Time now, double late_s, long skipped) {
@@ -115,19 +132,19 @@ void Loop::judge_board(hal::Time now, double late_s, long skipped) {
   e.telemetry_beats = health_.telemetry_beats.load(std::memory_order_relaxed);
   e.bus = health_.bus.load(std::memory_order_relaxed);
   e.configuration_changed = health_.configuration_changed.load(std::memory_order_relaxed);
-  e.self_test_failed = self_test_.verdict() == SelfTest::Verdict::pump_does_not_open ||
-                       self_test_.verdict() == SelfTest::Verdict::enable_does_not_cut;
-  const Fault fault = supervisor_.step(e);
-  const bool testing = self_test_.verdict() == SelfTest::Verdict::running;
-  if (fault != Fault::none && !testing) {
-    latch(fault);
-  } else if (reset_asked_ && fault == Fault::none) {
-    board_fault_ = Fault::none;
-  }
+  e.self_test_failed = self_test_.failed();
+  const Fault present = supervisor_.step(e);
+  const Verdict& verdict = supervisor_.verdict();
+
+  const bool settling = ticks_ < static_cast<long>(settling_s * settings_.rate_Hz);
   now_.time = now;
   now_.supply_V = e.supply.present ? e.supply.value : 0.0;
-  now_.fault = board_fault_;
-  now_.testing = testing;
+  now_.testing = self_test_.under_way() || (settling && !self_test_.failed());
+  now_.proven = self_test_.passed();
+  now_.periods = 1 + std::min(skipped, most_periods);
+  if (verdict.board_fault() != Fault::none) latch(verdict.board_fault());
+  now_.fault = board_fault_ != Fault::none ? board_fault_ : present;
+  now_.margin = verdict.margin(now_.fault);
 }
 
 /// The first cause is kept. From the next tick on no channel of this board may be hot; those of
@@ -139,29 +156,39 @@ void Loop::latch(Fault cause) {
     channel.disarm(cause);
 }
 
+/// The test lets the supply close for a moment, and proves nothing without a supply: it waits for a
+/// closed stop circuit, a good supply, and a board without a fault.
+bool Loop::may_test() const {
+  bool quiet = board_fault_ == Fault::none && supervisor_.verdict().fault() == Fault::none &&
+               evidence_.supply.present;
+  for (const Channel& channel : channels_)
+    quiet = quiet && std::isfinite(channel.measured_current_A());
+  return quiet;
+}
+
 void Loop::run_self_test() {
   double most_A = 0.0;
   double idle_A = 1e9;
-  for (const Channel& channel : channels_)
-    most_A = std::fmax(most_A, channel.measured_current_A());
-  for (const ChannelSettings& channel : settings_.channels)
-    idle_A =
-        std::fmin(idle_A, 0.3 * channel.heater.probe_duty * settings_.supervision.lowest_supply_V /
-                              channel.heater.cold_resistance_Ohm);
-  self_test_.step(most_A, idle_A);
-  const SelfTest::Lines lines = self_test_.lines();
-  const bool running = self_test_.verdict() == SelfTest::Verdict::running;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    const double duty = running && lines.pulse ? settings_.channels[i].heater.probe_duty : 0.0;
-    channels_[i].test_drive(duty, running && lines.enable);
+    const ChannelSettings& channel = settings_.channels[i];
+    const double probe_A = channel.heater.probe_duty * settings_.supervision.lowest_supply_V /
+                           channel.heater.cold_resistance_Ohm;
+    most_A = std::fmax(most_A, channels_[i].measured_current_A());
+    idle_A = std::fmin(idle_A, std::fmin(channel.supervision.off_current_A, 0.5 * probe_A));
+  }
+  self_test_.step(may_test(), most_A, idle_A);
+  const SelfTest::Lines lines = self_test_.lines();
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
+    channels_[i].test_drive(lines.pulse ? settings_.channels[i].heater.probe_duty : 0.0,
+                            lines.enable);
   }
 }
 
 /// The line's edges keep the supply's switch closed; when they stop, the charge pump opens it.
 void Loop::beat() {
-  const bool cut = board_fault_ != Fault::none && info(board_fault_)->scope == Scope::board;
+  const bool cut = board_fault_ != Fault::none || !(now_.proven || self_test_.lines().heartbeat);
   // Without an edge the pump does not pump, but the line still shows whether it can be set.
-  if (!cut && !(now_.testing && !self_test_.lines().heartbeat)) beat_ = !beat_;
+  if (!cut) beat_ = !beat_;
   lines_ok_ = devices_.heartbeat->set(beat_) == hal::Status::ok;
 }
 

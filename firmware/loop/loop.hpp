@@ -55,7 +55,7 @@ class Loop {
   const Channel& channel(std::size_t i) const { return channels_[i]; }
   Fault board_fault() const { return board_fault_; }
   const BoardSupervisor& supervisor() const { return supervisor_; }
-  SelfTest::Verdict self_test() const { return self_test_.verdict(); }
+  const SelfTest& self_test() const { return self_test_; }
   const LoopTimes& times() const { return times_; }
   long overruns() const { return overruns_; }
   long lost_rows() const { return lost_rows_; }
@@ -64,6 +64,8 @@ class Loop {
   void obey();
   void judge_board(hal::Time now, double late_s, long skipped);
   void latch(Fault cause);
+  void reset_board();
+  bool may_test() const;
   void run_self_test();
   void beat();
   void shine();
@@ -77,6 +79,7 @@ class Loop {
   Fault board_fault_ = Fault::none;  ///< latched
   BoardNow now_;
   bool reset_asked_ = false;
+  bool reset_asked_before_ = true;
   bool beat_ = false;
   bool lines_ok_ = true;
   int light_ = -1;

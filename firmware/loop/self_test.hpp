@@ -4,8 +4,8 @@
 namespace supercoil {
 
 /// A probe's duty is set twice: once while the charge pump stands still and the enable line is
-/// high, once while the pump runs and the line is low. Current in either is a failure. A board that
-/// is well never carries any.
+/// high, once while the pump runs and the line is low. A board that is well never carries any
+/// current while it is tested: current at any time is a failure.
 class SelfTest {
  public:
   struct Settings {
@@ -18,38 +18,57 @@ class SelfTest {
     bool enable = false;
     bool pulse = false;  ///< the probe's duty is on
   };
-  enum class Verdict { running, passed, pump_does_not_open, enable_does_not_cut };
+  enum class Verdict { waiting, running, passed, pump_does_not_open, enable_does_not_cut };
 
   SelfTest(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
 
-  /// Of this tick.
+  /// Of this tick; all low when it neither runs nor has passed.
   Lines lines() const {
+    if (verdict_ != Verdict::running) return {passed(), false, false};
     const double pump_at_s = settings_.pump_decay_s + settings_.settle_s;
     const double enable_at_s = pump_at_s + settings_.pulse_s + settings_.settle_s;
     const bool pump = within(pump_at_s);
-    const bool enable = within(enable_at_s);
-    return {elapsed_s_ >= pump_at_s + settings_.pulse_s, pump, pump || enable};
+    return {elapsed_s_ >= pump_at_s + settings_.pulse_s, pump, pump || within(enable_at_s)};
   }
   double duration_s() const {
     return settings_.pump_decay_s + 3.0 * settings_.settle_s + 2.0 * settings_.pulse_s;
   }
 
-  /// One tick: the most current that any channel shows, and what an idle channel may show.
-  void step(double current_A, double idle_A) {
-    if (verdict_ != Verdict::running) return;
-    const Lines now = lines();
-    elapsed_s_ += step_s_;
-    if (now.pulse && !(current_A <= idle_A)) {
-      over_ += step_s_;
-      // Noise is no failure; half a pulse of current is.
-      if (over_ > 0.3 * settings_.pulse_s) {
-        verdict_ = now.enable ? Verdict::pump_does_not_open : Verdict::enable_does_not_cut;
-      }
+  /// One tick. may_run: without it the test stops, cold, and begins again when it may. Then the
+  /// most current that any channel shows, and what an idle channel may show.
+  void step(bool may_run, double current_A, double idle_A) {
+    if (passed() || failed()) return;
+    if (!may_run) {
+      restart();
+      return;
     }
-    if (!now.pulse) over_ = 0.0;
-    if (verdict_ == Verdict::running && elapsed_s_ >= duration_s()) verdict_ = Verdict::passed;
+    // In force while that current flowed.
+    const bool pumping = lines().heartbeat;
+    verdict_ = Verdict::running;
+    elapsed_s_ += step_s_;
+    // Noise is no failure; a third of a pulse of current is. The sense may show the last life's
+    // current until the pump has decayed.
+    const bool over =
+        elapsed_s_ > settings_.pump_decay_s + settings_.settle_s && !(current_A <= idle_A);
+    over_s_ = over ? over_s_ + step_s_ : 0.0;
+    if (over_s_ > 0.3 * settings_.pulse_s) {
+      verdict_ = pumping ? Verdict::enable_does_not_cut : Verdict::pump_does_not_open;
+    } else if (elapsed_s_ >= duration_s()) {
+      verdict_ = Verdict::passed;
+    }
   }
+  /// Nothing is proven any more.
+  void restart() {
+    verdict_ = Verdict::waiting;
+    elapsed_s_ = over_s_ = 0.0;
+  }
+
   Verdict verdict() const { return verdict_; }
+  bool under_way() const { return verdict_ == Verdict::running; }
+  bool passed() const { return verdict_ == Verdict::passed; }
+  bool failed() const {
+    return verdict_ == Verdict::pump_does_not_open || verdict_ == Verdict::enable_does_not_cut;
+  }
 
  private:
   bool within(double from_s) const {
@@ -59,8 +78,8 @@ class SelfTest {
   Settings settings_;
   double step_s_;
   double elapsed_s_ = 0.0;
-  double over_ = 0.0;
-  Verdict verdict_ = Verdict::running;
+  double over_s_ = 0.0;
+  Verdict verdict_ = Verdict::waiting;
 };
 
 }  // namespace supercoil

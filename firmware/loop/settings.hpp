@@ -59,7 +59,6 @@ struct BoardSettings {
   double rate_Hz = 1000.0;
   InputSettings supply;
   BoardSupervision supervision;
-  double self_test_s = 0.25;  ///< after boot; nothing can be armed before it has passed
   std::vector<ChannelSettings> channels{1};
 
   double step_s() const { return 1.0 / rate_Hz; }

@@ -45,6 +45,7 @@ class Calibrate {
 
   /// The probe's answer.
   Outcome probed(double resistance_Ohm) {
+    if (count_ == 0) return Outcome::failed;
     resistance_Ohm_ = resistance_Ohm;
     progress_ = 1.0F;
     const bool plausible =

@@ -1,57 +1,76 @@
 // Learning a muscle's parameters on command.
 #pragma once
 
-#include <optional>
-
 #include "supercoil/control/actuator/conversions.hpp"
-#include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/estimation/batch_least_squares.hpp"
 
 #include "modes/excitation.hpp"
 
 namespace supercoil::modes {
 
-/// Excites the muscle until the estimates deserve trust, and hands them over only if they pass
-/// their own validation: the present θ explains the whole last window to within error, the physical
-/// parameters exist, and each lies within its span of what the configuration believes.
+/// Excites the muscle for a minute, fits it, and hands the result over only if it passes its own
+/// validation: it explains the last third of the experiment, which was not fitted; the physical
+/// parameters exist; and each lies within its span of what the configuration believes.
 class Identify {
  public:
   enum class Outcome { running, found, failed };
   struct Settings {
-    double longest_s = 300.0;
-    double error = 0.1;       ///< relative bound on all parameters together
-    double least_part = 0.2;  ///< each θ within these parts of the configured muscle's
+    double duration_s = 60.0;
+    double most_unexplained = 0.01;  ///< of the unseen third's energy
+    double most_error = 0.2;         ///< relative bound on all parameters together
+    double least_part = 0.2;         ///< each θ within these parts of the believed muscle's
     double most_part = 5.0;
   };
-  explicit Identify(const Settings& settings) : settings_(settings) {}
+  Identify(const Settings& settings, const control::PhysicalParameters& believed, double step_s)
+      : settings_(settings), believed_(believed), step_s_(step_s), fit_(fresh_fit()) {}
 
-  void start() { elapsed_s_ = 0.0; }
+  void start() {
+    elapsed_s_ = 0.0;
+    fit_ = fresh_fit();
+  }
   double power_W(double max_W) const { return excitation_W(elapsed_s_, max_W); }
-  float progress() const { return static_cast<float>(elapsed_s_ / settings_.longest_s); }
+  float progress() const { return static_cast<float>(elapsed_s_ / settings_.duration_s); }
   const control::PhysicalParameters& found() const { return found_; }
 
-  /// One tick. estimate is empty when the channel has no estimator: nothing can then be learned.
-  Outcome step(const std::optional<control::Estimate>& estimate,
-               const control::PhysicalParameters& believed, double step_s) {
-    elapsed_s_ += step_s;
-    const bool late = elapsed_s_ >= settings_.longest_s;
-    if (!estimate || !(estimate->relative_error_bound <= settings_.error)) {
-      return late || !estimate ? Outcome::failed : Outcome::running;
-    }
-    const auto physical = control::physical_from(
-        estimate->theta, {believed.force_per_kelvin_N_per_K, believed.moving_mass_kg});
-    const control::Theta nominal = control::theta_from(believed);
-    for (int i = 0; i < 4; ++i) {
-      const double part = estimate->theta[i] / nominal[i];
-      if (!(part >= settings_.least_part && part <= settings_.most_part)) return Outcome::failed;
-    }
-    if (!physical || control::check(*physical)) return Outcome::failed;
-    found_ = *physical;
-    return Outcome::found;
+  /// One tick: this tick's position, and the power applied since the last one.
+  Outcome step(double position_m, double applied_power_W) {
+    elapsed_s_ += step_s_;
+    fit_.step(position_m, applied_power_W);
+    if (elapsed_s_ < settings_.duration_s) return Outcome::running;
+    return accept() ? Outcome::found : Outcome::failed;
   }
 
  private:
+  control::BatchLeastSquares fresh_fit() const {
+    control::BatchLeastSquares::Settings s;
+    s.scale = {control::theta_from(believed_), believed_.dc_gain_m_per_W(),
+               believed_.moving_mass_kg};
+    return {s, settings_.duration_s, step_s_};
+  }
+
+  bool accept() {
+    const auto fit = fit_.fit();
+    if (!fit || !(fit->unexplained_part <= settings_.most_unexplained) ||
+        !(fit->relative_error_bound <= settings_.most_error)) {
+      return false;
+    }
+    const control::Theta nominal = control::theta_from(believed_);
+    for (int i = 0; i < 4; ++i) {
+      const double part = fit->theta[i] / nominal[i];
+      if (!(part >= settings_.least_part && part <= settings_.most_part)) return false;
+    }
+    const auto physical = control::physical_from(
+        fit->theta, {believed_.force_per_kelvin_N_per_K, believed_.moving_mass_kg});
+    if (!physical || control::check(*physical)) return false;
+    found_ = *physical;
+    return true;
+  }
+
   Settings settings_;
+  control::PhysicalParameters believed_;
+  double step_s_;
   double elapsed_s_ = 0.0;
+  control::BatchLeastSquares fit_;
   control::PhysicalParameters found_;
 };
 

@@ -10,9 +10,9 @@ float narrow(double value) {
 
 }  // namespace
 
-Row row_of(const Snapshot& s, hal::Time time) {
+Row row_of(const Snapshot& s) {
   Row row{};
-  row.time_ns = time.count();
+  row.time_ns = s.time.count();
   row.channel = s.channel;
   row.state = static_cast<std::uint8_t>(s.state);
   row.mode = static_cast<std::uint8_t>(s.mode);

@@ -42,6 +42,6 @@ struct Row {
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 
-Row row_of(const Snapshot& snapshot, hal::Time time);
+Row row_of(const Snapshot& snapshot);
 
 }  // namespace supercoil::recorder

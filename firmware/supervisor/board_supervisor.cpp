@@ -29,10 +29,10 @@ Fault BoardSupervisor::step(const BoardEvidence& e) {
   const double supply_V = e.supply.present ? e.supply.value : std::nan("");
   verdict_.note(under_voltage, under_.step(supply_V), under_.margin());
   verdict_.note(over_voltage, over_.step(e.supply.present ? supply_V : 0.0), over_.margin());
-  verdict_.note(overrun, overruns_.step(e.skipped > 0), overruns_.margin());
+  verdict_.note(overrun, overruns_.step(e.skipped), overruns_.margin());
   verdict_.note(tick_late, late_in_a_row_.step(e.late_s > late_s_), late_in_a_row_.margin());
   verdict_.note(telemetry_dead, telemetry_.step(e.telemetry_beats), telemetry_.margin());
-  const bool off = e.bus == hal::CanState::bus_off;
+  const bool off = e.bus == hal::CanState::bus_off || e.bus == hal::CanState::down;
   const bool passive = off || e.bus == hal::CanState::error_passive;
   const bool off_too_long = bus_off_.step(off);
   bus_off_margin_ = {bus_off_.held_s(), bus_off_s_, false, off};

@@ -1,7 +1,9 @@
 // The one place that decides whether a channel may be hot.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "supervisor/fault.hpp"
 
@@ -16,6 +18,11 @@ namespace supercoil {
 ///             cause is gone.
 /// From every state disarm(cause) leads to fault. It boots disarmed. Nothing restarts by itself.
 enum class State : std::uint8_t { disarmed, armed, active, fault };
+
+constexpr std::string_view name(State state) {
+  constexpr std::array<std::string_view, 4> names{"disarmed", "armed", "active", "fault"};
+  return names[static_cast<std::size_t>(state)];
+}
 
 /// Why a command was not obeyed.
 enum class Refusal : std::uint8_t {

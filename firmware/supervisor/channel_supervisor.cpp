@@ -66,8 +66,9 @@ void ChannelSupervisor::judge_sensors(const Evidence& e) {
   const double position_m = e.position.value;
   verdict_.note(sensor_out_of_range, out_of_range_.step(e.sensor_m), out_of_range_.margin());
   // A reading from outside is no position: coming and going it would look like a jump.
+  // Judged as the sensor gives it: a new calibration moves every position.
   if (e.position_elapsed_s > 0.0 && inside(e.sensor_m)) {
-    verdict_.note(sensor_jump, jump_.step(position_m, e.position_elapsed_s), jump_.margin());
+    verdict_.note(sensor_jump, jump_.step(e.sensor_m, e.position_elapsed_s), jump_.margin());
   }
   verdict_.note(sensor_frozen, frozen_.step(position_m, e.hot), frozen_.margin());
   const double apart = e.tells_temperature ? e.from_position_K : e.from_resistance_K;
@@ -79,8 +80,10 @@ void ChannelSupervisor::judge_heater(const Evidence& e) {
   const double current_A = e.current.present ? e.current.value : 0.0;
   verdict_.note(duty_wrong, wrong_duty_.step(e.set_step, e.devices_ok ? e.read_back : 1 << 30),
                 wrong_duty_.margin());
+  // Without a reading nothing proves that the heat is off: the board is cut, to be sure.
+  verdict_.note(heater_stuck_on, stuck_on_.step(e.off, e.current.present ? current_A : INFINITY),
+                stuck_on_.margin());
   if (!e.current.present) return;
-  verdict_.note(heater_stuck_on, stuck_on_.step(e.off, current_A), stuck_on_.margin());
   verdict_.note(heater_open, open_.step(e.off ? 0.0 : e.duty, current_A), open_.margin());
   // What is above the current of the least resistance that the muscle may have.
   const double most_A = e.duty * e.supply_V / settings_.least_resistance_Ohm;
@@ -96,14 +99,14 @@ void ChannelSupervisor::judge_heater(const Evidence& e) {
 void ChannelSupervisor::judge_muscle(const Evidence& e) {
   using enum Fault;
   verdict_.note(over_temperature, temperature_.step(e.hottest_C), temperature_.margin());
-  if (e.position.present) {
+  if (e.position.present && inside(e.sensor_m)) {
     verdict_.note(over_travel, travel_.step(e.position.value), travel_.margin());
   }
-  verdict_.note(energy_budget_exceeded, energy_.step(e.applied_W), energy_.margin());
+  verdict_.note(energy_budget_exceeded, energy_.step(e.most_W), energy_.margin());
   if (e.probed_Ohm > 0.0) {
-    // Compared at the calibration's temperature.
-    const double probed_cold_Ohm = e.probed_Ohm / e.calibrated_Ohm * cold_Ohm_;
-    verdict_.note(resistance_drift, drift_.step(probed_cold_Ohm), drift_.margin());
+    // Brought to the calibration's temperature.
+    const double cold_Ohm = e.probed_Ohm / e.calibrated_Ohm * cold_Ohm_;
+    verdict_.note(resistance_drift, drift_.step(cold_Ohm), drift_.margin());
   }
   if (e.probe_failed) verdict_.note(heater_open, true, open_.margin());
 }
@@ -111,7 +114,8 @@ void ChannelSupervisor::judge_muscle(const Evidence& e) {
 void ChannelSupervisor::judge_commands(const Evidence& e) {
   using enum Fault;
   const bool number = std::isfinite(e.wanted_W);
-  const bool lost = saturated_.step(e.heating && e.limited);
+  // Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
+  const bool lost = saturated_.step(e.heating && e.limited && e.wanted_W > e.applied_W);
   saturation_ = number ? detectors::rising(saturated_.held_s(), settings_.saturated_s)
                        : detectors::rising(e.wanted_W, 1.0);
   verdict_.note(controller_invalid, !number || lost, saturation_);

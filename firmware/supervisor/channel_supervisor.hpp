@@ -27,7 +27,8 @@ struct Evidence {
   bool devices_ok = true;   ///< every write of the last tick was taken
   double expected_m = 0.0;  ///< where the model of the muscle is
   double hottest_C = 0.0;
-  double applied_W = 0.0;
+  double applied_W = 0.0;          ///< as it was set
+  double most_W = 0.0;             ///< as it may have been, the measured current considered
   bool tells_temperature = false;  ///< the next two are known
   double from_resistance_K = 0.0;
   double from_position_K = 0.0;
@@ -51,6 +52,7 @@ class ChannelSupervisor {
                     double lowest_supply_V, double step_s);
 
   /// One tick: the fault of this tick, or none.
+  /// After an overrun it is called once for each period that passed.
   Fault step(const Evidence& e);
   const Verdict& verdict() const { return verdict_; }
   /// Whether a sensor that is well can give this.

@@ -1,7 +1,9 @@
 // What is left of the wanted power, and which limit took the rest.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace supercoil {
 
@@ -14,6 +16,12 @@ enum class LimitedBy : std::uint8_t {
   temperature = 4,  ///< derated: the muscle is near its limit
   invalid = 5,      ///< the wanted power was no number; none is given
 };
+
+constexpr std::string_view name(LimitedBy limit) {
+  constexpr std::array<std::string_view, 6> names{"nothing", "minimum",     "maximum",
+                                                  "slew",    "temperature", "invalid"};
+  return names[static_cast<std::size_t>(limit)];
+}
 
 struct LimiterSettings {
   double max_W = 4.5;

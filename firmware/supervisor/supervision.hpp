@@ -19,7 +19,8 @@ struct ChannelSupervision {
   double open_s = 0.02;
   double least_resistance_Ohm = 5.0;  ///< below it: a short
   double short_s = 0.002;
-  double off_current_A = 0.05;  ///< what the sense may show while the channel is off
+  double off_current_A = 0.05;    ///< what the sense may show while the channel is off
+  double current_noise_A = 0.01;  ///< between the sense and the truth, besides 5 %
   double stuck_on_s = 0.05;
   double responding_window_s = 20.0;
   double responding_part = 0.3;
@@ -28,7 +29,7 @@ struct ChannelSupervision {
   // Muscle
   double trip_C = 160.0;
   double max_travel_m = 0.035;
-  double energy_J = 300.0;  ///< within the window
+  double energy_J = 240.0;  ///< within the window
   double energy_window_s = 60.0;
   double resistance_part = 0.3;  ///< drift of the cold resistance
   // Supply, of the channel
@@ -46,10 +47,9 @@ struct BoardSupervision {
   double lowest_supply_V = 10.8;
   double highest_supply_V = 13.2;
   double supply_s = 0.02;
-  double supply_max_age_s = 0.05;
   double late_s = 0.0005;  ///< a tick that wakes later is late
   int late_in_a_row = 5;
-  int overruns_in_a_row = 5;
+  int overruns_in_a_row = 5;          ///< periods left out, in one stall or in several on end
   double charge_pump_decay_s = 0.02;  ///< more than twice the tolerated overruns
   double telemetry_silence_s = 0.5;
   double bus_off_s = 0.0;

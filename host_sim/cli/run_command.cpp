@@ -72,6 +72,11 @@ void print_summary(const nlohmann::ordered_json& json, const std::string& folder
                 json["tracking_max_m"].get<double>() * 1e6, json["window_s"][0].get<double>(),
                 json["window_s"][1].get<double>());
   }
+  for (const auto& fault : json["faults"]) {
+    std::printf("fault %d %s at %.3f s (docs/faults/%s.md)\n", fault["number"].get<int>(),
+                fault["name"].get<std::string>().c_str(), fault["at_s"].get<double>(),
+                fault["name"].get<std::string>().c_str());
+  }
   std::printf("hottest %.1f K above ambient\nwritten to %s\n",
               json["hottest_temperature_rise_K"].get<double>(), folder.c_str());
 }

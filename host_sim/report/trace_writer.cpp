@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t flush_bytes = 1 << 20;
 constexpr const char* header =
     "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,temperature_rise_K,"
-    "limited,theta1,theta2,theta3,theta4,trusted,reference_power_W\n";
+    "limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,coldest_K,hottest_K,state,"
+    "fault,limited_by\n";
 
 }  // namespace
 
@@ -46,6 +47,15 @@ void TraceWriter::add(const TickRecord& record, const std::optional<control::Est
   buffer_ += !estimate ? "," : estimate->trusted ? ",1" : ",0";
   buffer_ += ',';
   if (record.open_loop) number(record.reference);
+  for (const double value : {record.coldest_K, record.hottest_K}) {
+    buffer_ += ',';
+    number(value);
+  }
+  for (const std::string_view word :
+       {name(record.state), name(record.fault), name(record.limited_by)}) {
+    buffer_ += ',';
+    buffer_ += word;
+  }
   buffer_ += '\n';
   if (buffer_.size() >= flush_bytes) flush();
 }

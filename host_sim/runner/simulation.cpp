@@ -26,7 +26,7 @@ void Simulation::boot() {
   const long boot_ticks = std::lround(boot_s * scenario_->rate_Hz);
   for (long i = 0; i < boot_ticks; ++i) {
     // Asked for at the first tick after the self-test.
-    const bool ready = loop_.self_test() == SelfTest::Verdict::passed;
+    const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
     if (ready && disarmed && conditions_->wish != Wish::disarm) send(Verb::arm);
     executive_.run_tick();

@@ -22,6 +22,14 @@ ordered_json physical_json(const control::PhysicalParameters& p) {
           {"damping_Ns_per_m", p.damping_Ns_per_m}};
 }
 
+ordered_json learned_json(const storage::Learned& learned) {
+  ordered_json json = physical_json(learned.muscle);
+  json["position_offset_m"] = learned.calibration.position_offset_m;
+  json["position_scale"] = learned.calibration.position_scale;
+  json["cold_resistance_Ohm"] = learned.calibration.cold_resistance_Ohm;
+  return json;
+}
+
 ordered_json estimate_json(const control::Estimate& e, const control::PhysicalParameters& muscle) {
   ordered_json result{{"theta", {e.theta[0], e.theta[1], e.theta[2], e.theta[3]}},
                       {"trusted", e.trusted},
@@ -52,6 +60,14 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["estimates"] =
       estimate ? estimate_json(*estimate, simulation.conditions().muscle) : ordered_json();
   json["faults"] = ordered_json::array();
+  for (const FaultAt& f : faults_) {
+    json["faults"].push_back({{"at_s", f.time_s},
+                              {"number", static_cast<int>(f.fault)},
+                              {"name", std::string(name(f.fault))}});
+  }
+  const auto& learned = simulation.learned();
+  json["learned"] = learned ? learned_json(*learned) : ordered_json();
+  json["ticks_outside_temperature_interval"] = outside_interval_ticks_;
   json["hottest_temperature_rise_K"] = finite(simulation.plant().peak_temperature_rise_K());
   json["limited_ticks"] = limited_ticks_;
   json["not_finite_ticks"] = not_finite_ticks_;

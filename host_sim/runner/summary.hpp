@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -41,6 +42,10 @@ class Summary {
 
   void add(const TickRecord& record) {
     ++ticks_;
+    note_fault(record);
+    const bool outside = !(record.temperature_rise_K >= record.coldest_K - temperature_rounding_K &&
+                           record.temperature_rise_K <= record.hottest_K + temperature_rounding_K);
+    outside_interval_ticks_ += outside ? 1 : 0;
     limited_ticks_ += record.limited ? 1 : 0;
     if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
       first_not_finite_s_ = record.time_s;
@@ -49,6 +54,14 @@ class Summary {
     tracking_.add(record.position_m - record.model_m);
   }
   const ErrorMeter& tracking() const { return tracking_; }
+  /// Ticks at which the muscle was not within the firmware's bounds of its temperature.
+  long outside_interval_ticks() const { return outside_interval_ticks_; }
+  struct FaultAt {
+    Fault fault;
+    double time_s;
+  };
+  /// In the order in which they latched.
+  const std::vector<FaultAt>& faults() const { return faults_; }
   /// Ticks at which the controller's power was no number, and the time of the first.
   long not_finite_ticks() const { return not_finite_ticks_; }
   double first_not_finite_s() const { return first_not_finite_s_; }
@@ -58,7 +71,19 @@ class Summary {
                                  double wall_s) const;
 
  private:
+  static constexpr double temperature_rounding_K = 1e-9;
+
+  void note_fault(const TickRecord& record) {
+    if (record.fault != fault_ && record.fault != Fault::none) {
+      faults_.push_back({record.fault, record.time_s});
+    }
+    fault_ = record.fault;
+  }
+
   Window window_;
+  Fault fault_ = Fault::none;
+  std::vector<FaultAt> faults_;
+  long outside_interval_ticks_ = 0;
   ErrorMeter tracking_;
   long ticks_ = 0;
   long limited_ticks_ = 0;

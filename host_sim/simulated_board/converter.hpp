@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 
+#include <boost/circular_buffer.hpp>
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 
@@ -60,7 +60,7 @@ class SimulatedConverter final : public hal::AdcChannel {
   bool converted_ = false;  ///< the truth at now_ has been converted
   hal::Time next_{};
   hal::Sample last_;
-  std::deque<hal::Sample> on_the_way_;
+  boost::circular_buffer<hal::Sample> on_the_way_{4096};
 };
 
 }  // namespace supercoil::host_sim

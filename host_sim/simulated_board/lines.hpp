@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <utility>
+
+#include <boost/circular_buffer.hpp>
 
 #include "supercoil/hal/clock.hpp"
 #include "supercoil/hal/digital_line.hpp"
@@ -22,7 +23,7 @@ class SimulatedPwm final : public hal::PwmOutput {
     if (refuses != hal::Status::ok) return refuses;
     if (step < 0 || step > steps_) return hal::Status::out_of_range;
     set_ = step;
-    on_the_way_.emplace_back(*now_ + delay_, step);
+    on_the_way_.push_back({*now_ + delay_, step});
     return hal::Status::ok;
   }
   int read_back() const override { return reads_wrong ? set_ + 1 : set_; }
@@ -46,7 +47,7 @@ class SimulatedPwm final : public hal::PwmOutput {
   const hal::Time* now_;
   int set_ = 0;
   int acting_ = 0;
-  std::deque<std::pair<hal::Time, int>> on_the_way_;
+  boost::circular_buffer<std::pair<hal::Time, int>> on_the_way_{4096};
 };
 
 class SimulatedOutput final : public hal::DigitalOutput {

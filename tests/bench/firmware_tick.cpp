@@ -63,10 +63,12 @@ class Bench {
       devices.channels.push_back({&pwms_.emplace_back(), &heartbeat_, &position, &current});
     }
     loop_.emplace(settings, devices);
-    for (int i = 0; i < 1000; ++i) tick(Verb::none);
+    for (int i = 0; i < 1000; ++i)
+      tick(Verb::none);
     powered_ = true;  // the self-test must see no current
     tick(Verb::arm);
-    for (int i = 0; i < 200; ++i) tick(Verb::none);
+    for (int i = 0; i < 200; ++i)
+      tick(Verb::none);
   }
 
   void tick(Verb verb) {
@@ -103,14 +105,15 @@ class Bench {
 void firmware_tick(benchmark::State& state) {
   const auto channels = static_cast<std::size_t>(state.range(0));
   Bench bench(channels);
-  for (auto _ : state) bench.tick(Verb::position);
+  for (auto _ : state)
+    bench.tick(Verb::position);
   if (!bench.active()) {
     state.SkipWithError(std::string(name(bench.fault())).c_str());
     return;
   }
-  state.counters["per_channel"] =
-      benchmark::Counter(static_cast<double>(channels),
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["per_channel"] = benchmark::Counter(
+      static_cast<double>(channels),
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(firmware_tick)->Arg(1)->Arg(4)->Arg(16);
 

@@ -114,9 +114,8 @@ class WrongDuty {
   /// read_back: negative when the device cannot be read back; it is then not judged.
   bool step(int set, int read_back) {
     const bool wrong = read_back >= 0 && read_back != set;
-    // Both are steps of the PWM: any difference is beyond the limit.
-    margin_ = {static_cast<double>(wrong ? read_back : set), static_cast<double>(set), false,
-               wrong};
+    // The steps between them: any is beyond the limit.
+    margin_ = {wrong ? std::abs(static_cast<double>(read_back) - set) : 0.0, 0.0, false, true};
     return held_.step(wrong);
   }
   const Margin& margin() const { return margin_; }

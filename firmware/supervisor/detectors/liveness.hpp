@@ -7,21 +7,23 @@
 
 namespace supercoil::detectors {
 
-/// Trips at `most` events in a row (overruns of the tick; damaged commands).
+/// Trips at `most` events in a row (periods left out; damaged commands).
 class InARow {
  public:
   explicit InARow(int most) : most_(most) {}
 
-  bool step(bool happened) {
-    count_ = happened ? count_ + 1 : 0;
-    margin_ = rising(count_, most_);
+  bool step(bool happened) { return step(happened ? 1L : 0L); }
+  /// Several at once; none ends the row.
+  bool step(long happened) {
+    count_ = happened > 0 ? count_ + happened : 0;
+    margin_ = rising(static_cast<double>(count_), static_cast<double>(most_));
     return count_ >= most_;
   }
   const Margin& margin() const { return margin_; }
 
  private:
   int most_;
-  int count_ = 0;
+  long count_ = 0;
   Margin margin_;
 };
 

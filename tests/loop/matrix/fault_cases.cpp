@@ -105,7 +105,7 @@ std::vector<FaultCase> muscle_and_supply() {
          s.firmware.channels[0].supervision.energy_window_s = 10.0;
        }},
       {Fault::resistance_drift, 0.06, not_probing, "measured by the probe while cold",
-       [](Rig& r) { resistance(r, 14.5); }, [](Rig& r) { resistance(r, 10.0); }},
+       [](Rig& r) { resistance(r, 17.0); }, [](Rig& r) { resistance(r, 10.0); }},
       {Fault::under_voltage, 0.025, none, "", [](Rig& r) { r.board.set_supply_V(10.0); },
        [](Rig& r) { r.board.set_supply_V(12.0); }},
       {Fault::over_voltage, 0.025, none, "", [](Rig& r) { r.board.set_supply_V(14.5); },

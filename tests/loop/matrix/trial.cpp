@@ -42,6 +42,7 @@ std::string afterwards(const FaultCase& c, Rig& rig, Fault first) {
   const bool persists =
       rig.loop.channel(0).present_fault() != Fault::none || rig.loop.board_fault() != Fault::none;
   if (persists && rig.state() != State::fault) return "it was reset while its cause was there";
+  rig.board.stop_circuit.level.high = rig.board.stop_circuit.level.high || closes;
   c.remove(rig);
   rig.commands_flow = true;
   // A reset that is held from before is no edge.
@@ -63,12 +64,12 @@ std::string afterwards(const FaultCase& c, Rig& rig, Fault first) {
            text(rig.loop.board_fault());
   }
   for (int i = 0; i < 500; ++i) {
-    rig.send(Verb::position, 0.01);
+    // Refused commands in a row would be a fault of their own.
+    rig.send(i % 2 == 0 ? Verb::position : Verb::disarm, 0.01);
     rig.tick();
-    if (rig.muscle().true_power_W() > 0.0 || rig.muscle().enable.high()) {
+    if (rig.muscle().true_power_W() > 0.0 || rig.state() != State::disarmed) {
       return "it restarted by itself";
     }
-    if (i % 5 == 4) rig.send(Verb::disarm);  // refused commands in a row are a fault of their own
   }
   return "";
 }

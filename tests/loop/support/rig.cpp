@@ -111,7 +111,9 @@ bool Rig::run_until(const std::function<bool()>& holds, double most_s) {
 }
 
 void Rig::boot() {
-  run_until([&] { return loop.self_test() != SelfTest::Verdict::running; }, 2.0);
+  run_until([&] { return loop.self_test().passed() || loop.self_test().failed(); }, 2.0);
+  // Until then the muscle may be hot from before, and nothing is armed.
+  run_until([&] { return snapshot().hottest_C < 120.0; }, 10.0);
   run(0.1);
 }
 

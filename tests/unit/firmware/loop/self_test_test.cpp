@@ -15,8 +15,8 @@ constexpr double idle_A = 0.007;
 template <class Current>
 SelfTest::Verdict verdict(Current current) {
   SelfTest test({0.02}, step_s);
-  for (int i = 0; i < 10000 && test.verdict() == SelfTest::Verdict::running; ++i) {
-    test.step(current(test.lines()), idle_A);
+  for (int i = 0; i < 10000 && !test.passed() && !test.failed(); ++i) {
+    test.step(true, current(test.lines()), idle_A);
   }
   return test.verdict();
 }
@@ -42,11 +42,11 @@ TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
 TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
   SelfTest test({0.02}, step_s);
   int pulses = 0;
-  while (test.verdict() == SelfTest::Verdict::running) {
+  while (!test.passed()) {
     const auto lines = test.lines();
     CHECK_FALSE(lines.pulse && lines.enable && lines.heartbeat);
     pulses += lines.pulse ? 1 : 0;
-    test.step(0.0, idle_A);
+    test.step(true, 0.0, idle_A);
   }
   LONGS_EQUAL(60, pulses);
 }
@@ -55,7 +55,7 @@ TEST(SelfTest, WaitsForTheLastLifesChargePumpToDecayFirst) {
   SelfTest test({0.02}, step_s);
   for (int i = 0; i < 20; ++i) {
     CHECK_FALSE(test.lines().pulse);
-    test.step(0.0, idle_A);
+    test.step(true, 0.0, idle_A);
   }
 }
 
@@ -63,6 +63,31 @@ TEST(SelfTest, IsNotFailedByASingleNoisyReading) {
   int tick = 0;
   const auto current = [&](SelfTest::Lines l) { return l.pulse && ++tick % 7 == 0 ? 0.024 : 0.0; };
   CHECK(verdict(current) == SelfTest::Verdict::passed);
+}
+
+TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
+  SelfTest test({0.02}, step_s);
+  int hot_ticks = 0;
+  while (!test.passed() && !test.failed()) {
+    const bool hot = test.lines().heartbeat;
+    hot_ticks += hot ? 1 : 0;
+    test.step(true, hot ? 1.2 : 0.0, idle_A);
+  }
+  CHECK(test.verdict() == SelfTest::Verdict::enable_does_not_cut);
+  CHECK_COMPARE(hot_ticks, <=, 10);
+}
+
+TEST(SelfTest, WaitsColdWhileItMayNotRunAndBeginsAgain) {
+  SelfTest test({0.02}, step_s);
+  for (int i = 0; i < 90; ++i)
+    test.step(true, 0.0, idle_A);
+  CHECK(test.lines().pulse);
+  test.step(false, 0.0, idle_A);
+  CHECK_FALSE(test.lines().pulse || test.lines().enable || test.lines().heartbeat);
+  int ticks = 0;
+  for (; !test.passed(); ++ticks)
+    test.step(true, 0.0, idle_A);
+  DOUBLES_EQUAL(test.duration_s(), ticks * step_s, 2e-3);
 }
 
 TEST(SelfTest, FailsOnACurrentThatIsNoNumber) {

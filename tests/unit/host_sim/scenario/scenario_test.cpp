@@ -60,6 +60,15 @@ supply_V = 10.0
 error_feedback = false
 delay_s = 0.004
 gain = 0.9
+[thermal]
+mass_part = [0.8, 1.2]
+transfer_part = [0.5, 2.0]
+power_part = [0.9, 1.1]
+ambient_C = 20.0
+[trouble]
+heater_open = true
+[operator]
+wish = "identify"
 [reference]
 kind = "multisine"
 offset_m = 0.010
@@ -95,7 +104,10 @@ trusted_error = 0.1
   DOUBLES_EQUAL(18.0, c.muscle.stiffness_N_per_m, 0.0);
   DOUBLES_EQUAL(0.2, c.muscle.thermal_mass_J_per_K, 0.0);
   CHECK(c.position_sensor == (PositionSensorSettings{5e-6, 12, 0.030}));
-  CHECK(c.power == (PowerSettings{4.0, 0.1, 12, 12.5, false, 0.004, 0.9}));
+  CHECK(c.power == (PowerSettings{4.0, 0.1, 12, 10.0, false, 0.004, 0.9}));
+  CHECK(c.thermal == (ThermalSpans{{0.8, 1.2}, {0.5, 2.0}, {0.9, 1.1}, 20.0}));
+  CHECK(c.trouble == Trouble{.heater_open = true});
+  CHECK(c.wish == Wish::identify);
   CHECK(c.reference.kind == ReferenceKind::multisine);
   DOUBLES_EQUAL(0.013, c.reference.highest(), 1e-15);
   DOUBLES_EQUAL(36.0, c.controller.model.gain, 1e-12);

@@ -68,11 +68,13 @@ class StateVariableFilter {
   /// [X, sX, …, s^(Order−1) X]/Λ at this tick.
   const State& state() const { return state_; }
 
-  /// As after an endless time at this input.
-  void settle(Scalar input) {
+  /// As after a long time of an input that moves steadily, rate in its unit per second.
+  void settle(Scalar input, Scalar rate = Scalar{}) {
     last_ = Accumulator<Scalar>(input);
+    const Accumulator<Scalar> slope = Accumulator<Scalar>(rate) / lambda_[0];
     state_ = State::Zero();
-    state_[0] = last_ / lambda_[0];
+    state_[0] = last_ / lambda_[0] - slope * lambda_[1] / lambda_[0];
+    state_[1] = slope;
   }
   /// Takes a state over, and the input that goes with it.
   void set(const State& state, Scalar input) {
@@ -123,10 +125,11 @@ class OnePoleBank {
   }
   const State& state() const { return state_; }
 
-  /// As after an endless time at these inputs.
-  void settle(const State& input) {
+  /// As after a long time of inputs that move steadily, rates in their units per second.
+  void settle(const State& input, const State& rate) {
+    const Accumulator<Scalar> time_s = Accumulator<Scalar>(1) / pole_;
     last_ = input;
-    state_ = input * (Accumulator<Scalar>(1) / pole_);
+    state_ = (input - rate * time_s) * time_s;
   }
 
  private:

@@ -85,7 +85,7 @@ class ModelFollower {
                 to<Scalar>(at.motion.velocity * to_watts_),
                 to<Scalar>(at.motion.acceleration * to_watts_)});
     last_reference_ = to<Scalar>(at.reference_m * to_watts_);
-    law_.start({last_reference_, to<Scalar>(at.position_m * to_watts_), model_.motion().position,
+    law_.start({last_reference_, to<Scalar>(at.position_m * to_watts_), model_.motion(),
                 to<Scalar>(at.power_W), at.hold});
     bridge_W_ = 0.0;
     bridging_ = at.hold;

@@ -21,7 +21,7 @@ template <class Scalar>
 struct LawStart {
   Scalar reference{};
   Scalar position{};
-  Scalar model{};
+  ModelMotion<Scalar> model;
   Scalar power{};     ///< that the muscle gets now
   bool hold = false;  ///< the law's first power is to be that one; otherwise the law's own
 };

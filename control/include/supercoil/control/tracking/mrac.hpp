@@ -26,6 +26,8 @@ class Mrac {
         position_filter_(settings.lambda, step_s),
         first_bank_(settings.p1_rad_per_s, step_s, inputs_held),
         second_bank_(settings.p0_rad_per_s, step_s, none_held),
+        first_gain_(1.0 / settings.p1_rad_per_s),
+        lambda_part_(1.0 / settings.lambda[0]),
         alpha_{Wide(settings.alpha[0]), Wide(settings.alpha[1])},
         step_(step_s),
         rate_(1.0 / step_s),
@@ -48,20 +50,26 @@ class Mrac {
     }
   }
 
-  /// The filters as if the muscle had long been where it is. To hold a power, θ is moved by as
-  /// little as makes θᵀω that power: adaptation then goes on from there.
+  /// The filters as if the muscle had long moved as it does. To hold a power, c0 becomes what makes
+  /// θᵀω that power: a pure feedforward. (Moving all of θ by as little as that takes adds positive
+  /// feedback, and rings for half a minute.)
   void start(const LawStart<Scalar>& at) {
-    power_filter_.settle(at.power);
-    position_filter_.settle(at.position);
+    // Power, position and reference are in watts at rest: on a steady way they move alike.
+    const Scalar rate = at.model.velocity;
+    power_filter_.settle(at.power, rate);
+    position_filter_.settle(at.position, rate);
     const WideParameters omega = regressors(at.position, at.reference);
     omega_ = omega.template cast<Scalar>();
-    first_bank_.settle(omega);
-    second_bank_.settle(first_bank_.state());
+    const Wide filtered = Wide(rate) * alpha_[1] * lambda_part_;
+    WideParameters rates;
+    rates << Wide{}, filtered, Wide{}, filtered, Wide(rate), Wide(rate);
+    first_bank_.settle(omega, rates);
+    second_bank_.settle(first_bank_.state(), rates * first_gain_);
     theta_ = initial_;
     r0_ = estimated_error_ = Wide{};
-    const Wide size = omega.squaredNorm();
-    if (at.hold && size > Wide(0.01)) {
-      theta_ += omega * ((Wide(at.power) - theta_.dot(omega)) / size);
+    if (at.hold && at.reference > to<Scalar>(0.05)) {
+      const Wide c0 = theta_[5] + (Wide(at.power) - theta_.dot(omega)) / Wide(at.reference);
+      if (c0 > Wide(0) && c0 < Wide(3)) theta_[5] = c0;
     }
   }
 
@@ -142,6 +150,8 @@ class Mrac {
   StateVariableFilter<Scalar, 2, Hold::first_order> position_filter_;
   OnePoleBank<Scalar, 6> first_bank_;
   OnePoleBank<Scalar, 6> second_bank_;
+  Wide first_gain_;
+  Wide lambda_part_;
   std::array<Wide, 2> alpha_;
   Wide step_;
   Wide rate_;

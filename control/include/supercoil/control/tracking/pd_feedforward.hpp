@@ -25,7 +25,8 @@ class PdFeedforward {
         derivative_(to<Scalar>(settings.derivative_Ws_per_m * dc_gain_m_per_W)),
         feedforward_(to<Scalar>(settings.feedforward_W_per_m * dc_gain_m_per_W)) {}
 
-  void start(const LawStart<Scalar>& at) { filter_.settle(at.position); }
+  /// The muscle moves as its model does: a filter that started at rest would see a jump of speed.
+  void start(const LawStart<Scalar>& at) { filter_.settle(at.position, at.model.velocity); }
 
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {

@@ -22,7 +22,7 @@ class Pi {
   /// The integral is what the error leaves of the power.
   void start(const LawStart<Scalar>& at) {
     wanted_ = at.hold ? at.power : Scalar{};
-    integral_ = Accumulator<Scalar>(wanted_ - (at.model - at.position) * proportional_);
+    integral_ = Accumulator<Scalar>(wanted_ - (at.model.position - at.position) * proportional_);
     if (!at.hold) integral_ = {};
   }
 

@@ -1,0 +1,25 @@
+// A value without its noise and without lag while it moves steadily.
+#pragma once
+
+namespace supercoil {
+
+/// Two equal low-passes in a row: twice the first less the second has no lag on a ramp.
+class Smoothed {
+ public:
+  Smoothed(double time_constant_s, double step_s) : part_(step_s / (time_constant_s + step_s)) {}
+
+  void step(double value) {
+    once_ += part_ * (value - once_);
+    twice_ += part_ * (once_ - twice_);
+  }
+  /// As if it had long been there.
+  void set(double value) { once_ = twice_ = value; }
+  double value() const { return 2.0 * once_ - twice_; }
+
+ private:
+  double part_;
+  double once_ = 0.0;
+  double twice_ = 0.0;
+};
+
+}  // namespace supercoil

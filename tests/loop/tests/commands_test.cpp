@@ -1,0 +1,143 @@
+#include <cmath>
+#include <limits>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+TEST_GROUP(Commands) {
+  Rig rig{rough_board()};
+
+  Refusal answer_to(Verb verb, double value = 0.0) {
+    rig.last_refusal = Refusal::none;
+    rig.send(verb, value);
+    rig.tick();
+    return rig.last_refusal;
+  }
+  void arm() {
+    rig.boot();
+    rig.arm();
+    rig.run(0.2);
+  }
+};
+
+TEST(Commands, ABoardBootsDisarmedWithPowerOff) {
+  for (int i = 0; i < 1000; ++i) {
+    rig.tick();
+    CHECK(rig.state() == State::disarmed);
+    DOUBLES_EQUAL(0.0, rig.muscle().true_power_W(), 0.0);
+  }
+}
+
+TEST(Commands, NothingIsArmedBeforeTheSelfTestHasPassed) {
+  rig.run(0.01);
+  CHECK(answer_to(Verb::arm) == Refusal::not_ready);
+  CHECK(rig.state() == State::disarmed);
+}
+
+TEST(Commands, NothingIsArmedWhileTheMuscleMayBeHotFromBefore) {
+  rig.run_until([&] { return rig.loop.self_test().passed(); }, 2.0);
+  CHECK(answer_to(Verb::arm) == Refusal::not_ready);
+  rig.boot();
+  CHECK(answer_to(Verb::arm) == Refusal::none);
+}
+
+TEST(Commands, ArmingProbesTheHeaterAndMeasuresItsResistance) {
+  arm();
+  CHECK(rig.state() == State::armed);
+  DOUBLES_EQUAL(10.0, rig.snapshot().resistance_Ohm, 0.5);
+}
+
+TEST(Commands, HeatingWhileTheProbeRunsIsRefusedAsBusy) {
+  rig.boot();
+  rig.arm();
+  CHECK(answer_to(Verb::position, 0.01) == Refusal::busy);
+}
+
+TEST(Commands, AreRefusedInAStateThatDoesNotAllowThem) {
+  rig.boot();
+  for (const Verb verb :
+       {Verb::position, Verb::power, Verb::identify, Verb::renew, Verb::rest, Verb::reset}) {
+    CHECK(answer_to(verb, 0.01) == Refusal::wrong_state);
+    answer_to(Verb::disarm);
+  }
+}
+
+TEST(Commands, WithAValueThatIsNoneOrOutOfRangeAreRefused) {
+  arm();
+  for (const double wrong : {std::nan(""), 0.026, -0.1, std::numeric_limits<double>::infinity()}) {
+    CHECK(answer_to(Verb::position, wrong) == Refusal::out_of_range);
+  }
+  CHECK(answer_to(Verb::power, std::nan("")) == Refusal::out_of_range);
+  CHECK(answer_to(Verb::controller, 3) == Refusal::out_of_range);
+  CHECK(answer_to(Verb::controller, std::nan("")) == Refusal::out_of_range);
+  CHECK(answer_to(Verb::scale, -1.0) == Refusal::out_of_range);
+  CHECK(rig.state() == State::armed);
+}
+
+TEST(Commands, ToAChannelThatIsNotThereAreRefused) {
+  rig.boot();
+  rig.last_refusal = Refusal::none;
+  rig.loop.send({7, Verb::arm, 0.0});
+  rig.tick();
+  CHECK(rig.last_refusal == Refusal::no_such_channel);
+}
+
+TEST(Commands, ThatAreNotRenewedExpire) {
+  arm();
+  rig.heat(Task::position);
+  rig.run(1.0);
+  rig.commands_flow = false;
+  rig.run(0.24);
+  CHECK(rig.state() == State::active);
+  rig.run(0.02);
+  CHECK(rig.fault() == Fault::command_timeout);
+  rig.run(0.05);
+  DOUBLES_EQUAL(0.0, rig.muscle().true_power_W(), 0.0);
+}
+
+TEST(Commands, RenewKeepsTheLastOneInForce) {
+  arm();
+  rig.heat(Task::power);
+  rig.task = Task::nothing;
+  for (int i = 0; i < 20; ++i) {
+    rig.send(Verb::renew);
+    rig.run(0.2);
+  }
+  CHECK(rig.state() == State::active);
+  DOUBLES_EQUAL(1.8, rig.snapshot().applied_W, 0.01);
+}
+
+TEST(Commands, DisarmIsObeyedFromEverywhere) {
+  arm();
+  rig.heat(Task::position);
+  rig.run(1.0);
+  rig.task = Task::nothing;
+  CHECK(answer_to(Verb::disarm) == Refusal::none);
+  CHECK(rig.state() == State::disarmed);
+  rig.run(0.002);
+  DOUBLES_EQUAL(0.0, rig.muscle().true_power_W(), 0.0);
+  CHECK_FALSE(rig.muscle().enable.high());
+}
+
+TEST(Commands, AResetOnAnEdgeTellsWhyItDidNot) {
+  rig.boot();
+  rig.board.stop_circuit.level.high = false;
+  rig.run(0.01);
+  CHECK(answer_to(Verb::reset) == Refusal::cause_persists);
+  rig.board.stop_circuit.level.high = true;
+  CHECK(answer_to(Verb::reset) == Refusal::no_edge);
+  rig.run(0.01);
+  CHECK(answer_to(Verb::reset) == Refusal::none);
+  CHECK(rig.state() == State::disarmed);
+}
+
+TEST(Commands, AStopCircuitThatCannotBeReadIsAPressedOne) {
+  arm();
+  rig.board.stop_circuit.level = {true, hal::Status::gone};
+  rig.run(0.002);
+  CHECK(rig.fault() == Fault::emergency_stop);
+}

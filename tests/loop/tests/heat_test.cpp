@@ -1,0 +1,102 @@
+// The interval that the firmware publishes contains the muscle's temperature, and no muscle passes
+// the limit.
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "runner/simulation.hpp"
+#include "scenario/builtin.hpp"
+#include "scenario/read_scenario.hpp"
+
+using namespace supercoil;
+using namespace supercoil::host_sim;
+
+namespace {
+
+constexpr double trip_C = 160.0;
+/// From the crossing of the limit to the heater being off, a muscle that may be heated with 4.5 W
+/// becomes warmer by less.
+constexpr double overshoot_K = 0.1;
+
+struct Heat {
+  long outside_ticks = 0;
+  double widest_K = 0.0;
+  double hottest_C = 0.0;
+  Fault fault = Fault::none;
+};
+
+Heat heat_of(const Scenario& scenario) {
+  Simulation simulation(scenario);
+  Heat heat;
+  while (!simulation.done()) {
+    const TickRecord r = simulation.step();
+    const bool inside =
+        r.temperature_rise_K >= r.coldest_K - 1e-9 && r.temperature_rise_K <= r.hottest_K + 1e-9;
+    heat.outside_ticks += inside ? 0 : 1;
+    heat.widest_K = std::fmax(heat.widest_K, r.hottest_K - r.coldest_K);
+    if (r.fault != Fault::none) heat.fault = r.fault;
+  }
+  heat.hottest_C = scenario.start.thermal.ambient_C + simulation.plant().peak_temperature_rise_K();
+  return heat;
+}
+
+Scenario read(const std::string& text) {
+  auto scenario = parse_scenario(text, "heat.toml");
+  if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
+  return *scenario;
+}
+
+void check_contained(const std::string& what, const Scenario& scenario) {
+  const Heat heat = heat_of(scenario);
+  printf("%-28s hottest %6.1f C, interval at most %5.1f K wide, outside %ld ticks\n", what.c_str(),
+         heat.hottest_C, heat.widest_K, heat.outside_ticks);
+  LONGS_EQUAL(0, heat.outside_ticks);
+  CHECK_COMPARE(heat.hottest_C, <, trip_C + overshoot_K);
+}
+
+const char* sine = "simulation.duration_s = 120.0\ncontroller.kind = 'mrac'\n";
+
+}  // namespace
+
+TEST_GROUP(Heat){};
+
+TEST(Heat, IsContainedInEveryBuiltInScenario) {
+  for (const BuiltinScenario& builtin : builtin_scenarios()) {
+    check_contained(std::string(builtin.name),
+                    parse_scenario(std::string(builtin.text), std::string(builtin.name)).value());
+  }
+}
+
+TEST(Heat, IsContainedWhenTheMuscleChangesUnderway) {
+  const std::string event = "[[event]]\nat_s = 60.0\n";
+  check_contained("gamma halved", read(sine + event + "plant.force_per_kelvin_N_per_K = 0.0043\n"));
+  check_contained("load mass doubled", read(sine + event + "plant.moving_mass_kg = 0.18\n"));
+  check_contained("both", read(sine + event +
+                               "plant.force_per_kelvin_N_per_K = 0.0043\n"
+                               "plant.moving_mass_kg = 0.18\n"));
+  check_contained("eta x 2", read(sine + event + "plant.heat_transfer_W_per_K = 0.178\n"));
+  check_contained("eta x 0.5", read(sine + event + "plant.heat_transfer_W_per_K = 0.0445\n"));
+  check_contained("psi x 1.3", read(sine + event + "plant.thermal_mass_J_per_K = 0.21\n"));
+  check_contained("psi x 0.8", read(sine + event + "plant.thermal_mass_J_per_K = 0.13\n"));
+  check_contained("power + 5 %", read(sine + event + "power.gain = 1.05\n"));
+  check_contained("load -0.05 N", read(sine + event + "plant.load_N = 0.05\n"));
+  check_contained("stiffness 16 -> 12", read(sine + event + "plant.stiffness_N_per_m = 12.0\n"));
+}
+
+TEST(Heat, StaysBelowTheLimitWhenFarTooMuchIsAskedFor) {
+  const std::string greedy =
+      "simulation.duration_s = 120.0\npower.max_W = 14.0\ncontroller.kind = 'power'\n"
+      "reference = {kind = 'power', offset_W = 14.0, amplitudes_W = [0.0], "
+      "angular_frequencies_rad_per_s = [1.0]}\nsensor.position.range_m = 0.2\n";
+  check_contained("14 W asked for", read(greedy));
+  check_contained("14 W, badly cooled",
+                  read(greedy + "[plant]\nheat_transfer_W_per_K = 0.0445\n[muscle]\n"
+                                "heat_transfer_W_per_K = 0.089\n"));
+}
+
+TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {
+  for (const char* trouble : {"switch_stuck_on", "heater_open", "heater_short", "pwm_refuses"}) {
+    check_contained(trouble, read(sine + std::string("[[event]]\nat_s = 60.0\ntrouble.") + trouble +
+                                  " = true\n"));
+  }
+}

@@ -1,0 +1,71 @@
+// A NaN from anywhere cools.
+#include <cmath>
+#include <limits>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/situations.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+void check_cools(Rig& rig, Fault expected) {
+  CHECK(rig.run_until([&] { return rig.state() == State::fault; }, 5.0));
+  if (rig.fault() != expected) FAIL(std::string(name(rig.fault())).c_str());
+  rig.run(0.002);
+  for (int i = 0; i < 1000; ++i) {
+    rig.tick();
+    DOUBLES_EQUAL(0.0, rig.muscle().true_power_W(), 0.0);
+  }
+}
+
+}  // namespace
+
+TEST_GROUP(NotANumber){};
+
+TEST(NotANumber, FromAController) {
+  for (const double gain : {std::nan(""), std::numeric_limits<double>::max()}) {
+    RigSettings settings = rough_board();
+    settings.firmware.channels[0].controllers[0].pi.proportional_W_per_m = gain;
+    settings.firmware.channels[0].controllers[0].dc_gain_m_per_W = 1e3;
+    Rig rig(settings);
+    rig.boot();
+    rig.arm();
+    rig.run(0.2);
+    rig.heat(Task::position);
+    check_cools(rig, Fault::controller_invalid);
+  }
+}
+
+TEST(NotANumber, FromAScalingThatIsNone) {
+  for (auto spoil :
+       {+[](RigSettings& s) { s.firmware.channels[0].position.scaling.per_count = std::nan(""); },
+        +[](RigSettings& s) { s.firmware.supply.scaling.offset = std::nan(""); },
+        +[](RigSettings& s) {
+          s.firmware.channels[0].heater.current.scaling.per_count = std::nan("");
+        }}) {
+    RigSettings settings = rough_board();
+    spoil(settings);
+    Rig rig(settings);
+    rig.run(1.0);
+    rig.arm();
+    rig.run(1.0);
+    CHECK(rig.state() == State::fault || rig.state() == State::disarmed);
+    DOUBLES_EQUAL(0.0, rig.muscle().true_power_W(), 0.0);
+  }
+}
+
+TEST(NotANumber, FromAnEstimatorDoesNotReachTheHeater) {
+  RigSettings settings = rough_board();
+  settings.firmware.channels[0].estimators[0].gradient.gain *= 1e9;
+  settings.firmware.channels[0].estimators[0].gradient.bounds.reset();
+  Rig rig(settings);
+  bring_to(Situation::pi, rig);
+  rig.run(10.0);
+  CHECK(rig.state() == State::active);
+  CHECK_FALSE(rig.snapshot().trusted);
+  CHECK_FALSE(rig.interval_missed);
+  CHECK(std::isfinite(rig.snapshot().applied_W));
+}

@@ -1,0 +1,91 @@
+// Counts what a tick allocates, locks, writes or throws, with every detector on and every mode,
+// switch and fault passed through: nothing is allowed.
+#include <cstdio>
+#include <string>
+
+#include "loop/matrix/fault_case.hpp"
+#include "support/watched_calls.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+struct Seen {
+  long ticks = 0;
+  WatchedCalls calls;
+};
+
+void add(WatchedCalls& sum, const WatchedCalls& part) {
+  sum.heap += part.heap;
+  sum.news += part.news;
+  sum.locks += part.locks;
+  sum.files += part.files;
+  sum.throws += part.throws;
+}
+
+void run(Rig& rig, double time_s, Seen& seen) {
+  const long ticks = std::lround(time_s * 1000.0);
+  add(seen.calls, counted([&] {
+        for (long i = 0; i < ticks; ++i)
+          rig.tick();
+      }));
+  seen.ticks += ticks;
+}
+
+/// A whole life: boot, calibrate, identify, every controller, hot switches, fault, reset.
+void live(Seen& seen) {
+  RigSettings settings = rough_board();
+  settings.firmware.channels[0].thermal.boot_rise_K = 2.0;
+  Rig rig(settings);
+  run(rig, 1.0, seen);
+  rig.send(Verb::arm);
+  run(rig, 0.2, seen);
+  rig.heat(Task::calibrate);
+  run(rig, 8.0, seen);
+  rig.heat(Task::identify);
+  run(rig, 40.0, seen);
+  rig.send(Verb::rest);
+  run(rig, 0.1, seen);
+  rig.heat(Task::position);
+  for (int i = 0; i < 9; ++i) {
+    rig.send(Verb::controller, i % 3);
+    rig.send(Verb::estimator, 0);
+    run(rig, 5.0, seen);
+  }
+  rig.heat(Task::power);
+  run(rig, 5.0, seen);
+  rig.board.stop_circuit.level.high = false;
+  run(rig, 0.2, seen);
+  rig.board.stop_circuit.level.high = true;
+  rig.send(Verb::reset);
+  run(rig, 0.2, seen);
+  if (rig.state() != State::disarmed) std::printf("the life ended in another state\n");
+}
+
+void break_everything(Seen& seen) {
+  for (const FaultCase& c : fault_cases()) {
+    RigSettings settings = rough_board();
+    c.tune(settings);
+    Rig rig(settings);
+    bring_to(Situation::mrac, rig);
+    c.inject(rig);
+    run(rig, std::fmin(c.within_s, 3.0), seen);
+    c.remove(rig);
+    rig.send(Verb::reset);
+    run(rig, 0.1, seen);
+  }
+}
+
+}  // namespace
+
+int main() {
+  if (prove_the_counters() != 0) return 1;
+  Seen seen;
+  live(seen);
+  break_everything(seen);
+  const WatchedCalls& c = seen.calls;
+  std::printf("%ld ticks: malloc %ld, new %ld, locks %ld, files %ld, exceptions %ld\n", seen.ticks,
+              c.heap, c.news, c.locks, c.files, c.throws);
+  return c.all() == 0 ? 0 : 1;
+}

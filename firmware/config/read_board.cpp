@@ -57,7 +57,7 @@ void read_supply(Section section, WiringReader& reader, BoardConfig& config) {
   config.wiring.supply = reader.converter(section, "the supply");
   settings.supply.scaling.per_count = section.required_number("V_per_count", {1e-9, 10.0});
   settings.supply.scaling.offset = section.number("offset_V", 0.0, {-100.0, 100.0});
-  settings.supply.max_age_s = s.supply_max_age_s = reader.max_age_s(section, config.wiring.supply);
+  settings.supply.max_age_s = reader.max_age_s(section, config.wiring.supply);
   s.lowest_supply_V = section.required_number("lowest_V", {0.5, 60.0});
   s.highest_supply_V = section.required_number("highest_V", {0.5, 60.0});
   if (s.lowest_supply_V >= s.highest_supply_V) {

@@ -1,6 +1,7 @@
 #include "supercoil/control/thermal/thermal_observer.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <CppUTest/TestHarness.h>
 
@@ -26,7 +27,7 @@ TEST(ThermalObserver, SaysNothingBeforeItHasLearned) {
 TEST(ThermalObserver, DoesNotLearnAnUnstableOrAnAbsentPole) {
   ThermalObserver observer(0.162, 1e-3);
   observer.learn(-0.5);
-  for (const double wrong : {0.0, 0.5, std::nan(""), -INFINITY})
+  for (const double wrong : {0.0, 0.5, std::nan(""), -std::numeric_limits<double>::infinity()})
     observer.learn(wrong);
   for (int i = 0; i < 100000; ++i)
     observer.step(1.0);

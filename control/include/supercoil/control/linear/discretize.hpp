@@ -1,10 +1,6 @@
 // Exact discretisation of small linear systems.
 #pragma once
 
-#include <unsupported/Eigen/MatrixFunctions>
-
-#include <Eigen/LU>
-
 #include "supercoil/control/scalar/scalar.hpp"
 
 namespace supercoil::control {
@@ -25,32 +21,15 @@ struct FirstOrderHold {
 };
 
 /// ẋ = A x + B u, step in seconds (> 0). The exponential of [[A, B], [0, 0]] (Van Loan 1978).
+/// For the sizes that discretize.cpp names: the matrix exponential takes half a minute to compile,
+/// and would be compiled by everybody who filters anything.
 template <int N, int Inputs>
 ZeroOrderHold<N, Inputs> zero_order_hold(const Matrix<double, N>& a,
-                                         const Matrix<double, N, Inputs>& b, double step_s) {
-  Matrix<double, N + Inputs> block = Matrix<double, N + Inputs>::Zero();
-  block.template topLeftCorner<N, N>() = a * step_s;
-  block.template topRightCorner<N, Inputs>() = b * step_s;
-  const Matrix<double, N + Inputs> exponential = block.exp();
-  return {exponential.template topLeftCorner<N, N>(),
-          exponential.template topRightCorner<N, Inputs>()};
-}
+                                         const Matrix<double, N, Inputs>& b, double step_s);
 
 /// The same with u a straight line from sample to sample.
 template <int N, int Inputs>
 FirstOrderHold<N, Inputs> first_order_hold(const Matrix<double, N>& a,
-                                           const Matrix<double, N, Inputs>& b, double step_s) {
-  constexpr int size = N + 2 * Inputs;
-  Matrix<double, size> block = Matrix<double, size>::Zero();
-  block.template topLeftCorner<N, N>() = a * step_s;
-  block.template block<N, Inputs>(0, N) = b * step_s;
-  block.template block<Inputs, Inputs>(N, N + Inputs).setIdentity();
-  const Matrix<double, size> exponential = block.exp();
-  FirstOrderHold<N, Inputs> result;
-  result.transition = exponential.template topLeftCorner<N, N>();
-  result.end = exponential.template block<N, Inputs>(0, N + Inputs);
-  result.start = exponential.template block<N, Inputs>(0, N) - result.end;
-  return result;
-}
+                                           const Matrix<double, N, Inputs>& b, double step_s);
 
 }  // namespace supercoil::control

@@ -1,0 +1,53 @@
+#include "supercoil/control/linear/discretize.hpp"
+
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include <Eigen/LU>
+
+namespace supercoil::control {
+
+template <int N, int Inputs>
+ZeroOrderHold<N, Inputs> zero_order_hold(const Matrix<double, N>& a,
+                                         const Matrix<double, N, Inputs>& b, double step_s) {
+  Matrix<double, N + Inputs> block = Matrix<double, N + Inputs>::Zero();
+  block.template topLeftCorner<N, N>() = a * step_s;
+  block.template topRightCorner<N, Inputs>() = b * step_s;
+  const Matrix<double, N + Inputs> exponential = block.exp();
+  return {exponential.template topLeftCorner<N, N>(),
+          exponential.template topRightCorner<N, Inputs>()};
+}
+
+template <int N, int Inputs>
+FirstOrderHold<N, Inputs> first_order_hold(const Matrix<double, N>& a,
+                                           const Matrix<double, N, Inputs>& b, double step_s) {
+  constexpr int size = N + 2 * Inputs;
+  Matrix<double, size> block = Matrix<double, size>::Zero();
+  block.template topLeftCorner<N, N>() = a * step_s;
+  block.template block<N, Inputs>(0, N) = b * step_s;
+  block.template block<Inputs, Inputs>(N, N + Inputs).setIdentity();
+  const Matrix<double, size> exponential = block.exp();
+  FirstOrderHold<N, Inputs> result;
+  result.transition = exponential.template topLeftCorner<N, N>();
+  result.end = exponential.template block<N, Inputs>(0, N + Inputs);
+  result.start = exponential.template block<N, Inputs>(0, N) - result.end;
+  return result;
+}
+
+template ZeroOrderHold<1, 1> zero_order_hold<1, 1>(const Matrix<double, 1>&,
+                                                   const Matrix<double, 1, 1>&, double);
+template ZeroOrderHold<2, 1> zero_order_hold<2, 1>(const Matrix<double, 2>&,
+                                                   const Matrix<double, 2, 1>&, double);
+template ZeroOrderHold<3, 1> zero_order_hold<3, 1>(const Matrix<double, 3>&,
+                                                   const Matrix<double, 3, 1>&, double);
+template ZeroOrderHold<3, 2> zero_order_hold<3, 2>(const Matrix<double, 3>&,
+                                                   const Matrix<double, 3, 2>&, double);
+template FirstOrderHold<1, 1> first_order_hold<1, 1>(const Matrix<double, 1>&,
+                                                     const Matrix<double, 1, 1>&, double);
+template FirstOrderHold<2, 1> first_order_hold<2, 1>(const Matrix<double, 2>&,
+                                                     const Matrix<double, 2, 1>&, double);
+template FirstOrderHold<3, 1> first_order_hold<3, 1>(const Matrix<double, 3>&,
+                                                     const Matrix<double, 3, 1>&, double);
+template FirstOrderHold<3, 2> first_order_hold<3, 2>(const Matrix<double, 3>&,
+                                                     const Matrix<double, 3, 2>&, double);
+
+}  // namespace supercoil::control

@@ -33,6 +33,7 @@ void read_heater(Section section, const BoardContext& context, const PwmAddress&
   HeaterSettings& h = c.heater;
   const double step_s = context.board.step_s();
   h.cold_resistance_Ohm = section.required_number("cold_resistance_Ohm", {0.1, 1e4});
+  c.calibration.cold_resistance_Ohm = h.cold_resistance_Ohm;
   h.temperature_coefficient_per_K =
       section.number("temperature_coefficient_per_K", 0.0, {0.0, 0.02});
   h.resistance_filter_s =

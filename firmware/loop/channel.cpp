@@ -29,6 +29,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       devices_(devices),
       step_s_(board.step_s()),
       index_(index),
+      calibration_(settings.calibration),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
                   board.supervision.lowest_supply_V, board.step_s()),
       resistance_(resistance_settings(settings.heater), board.step_s()),
@@ -40,7 +41,6 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
-  calibration_.cold_resistance_Ohm = settings.heater.cold_resistance_Ohm;
   for (const auto& controller : settings.controllers)
     controllers_.emplace_back(controller, step_s_);
   for (const auto& estimator : settings.estimators)

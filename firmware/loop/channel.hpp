@@ -107,6 +107,7 @@ class Channel {
   double step_s_;
   std::uint8_t index_;
 
+  storage::Calibration calibration_;
   ChannelState state_;
   ChannelSupervisor supervisor_;
   Evidence evidence_;
@@ -114,7 +115,6 @@ class Channel {
   detectors::Margin first_margin_;
 
   hal::Time position_taken_{-1};
-  storage::Calibration calibration_;
   board::Resistance resistance_;
   board::Heat heat_;
   board::Probe probe_;

@@ -9,6 +9,7 @@
 #include "supercoil/control/tracking/controller.hpp"
 
 #include "board/measurement.hpp"
+#include "storage/learned.hpp"
 #include "supervisor/limiter.hpp"
 #include "supervisor/supervision.hpp"
 
@@ -44,7 +45,8 @@ struct ThermalSettings {
 };
 
 struct ChannelSettings {
-  control::PhysicalParameters muscle;  ///< as believed
+  control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
+  storage::Calibration calibration;    ///< its cold resistance is HeaterSettings' when not learned
   InputSettings position;
   HeaterSettings heater;
   ThermalSettings thermal;

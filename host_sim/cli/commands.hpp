@@ -23,6 +23,7 @@ struct RunOptions {
   bool plot = true;
   bool check = false;  ///< only read the scenario
   bool quiet = false;
+  std::string learned;  ///< folder; empty: nothing is remembered
 };
 int run_command(const RunOptions& options);
 

@@ -19,6 +19,8 @@ void add_run(CLI::App& app, RunOptions& options) {
                   "FROM:TO in seconds, for the tracking error [the whole run]");
   run->add_option("--every", options.every, "One row of trace.csv for so many ticks [1]")
       ->check(CLI::Range(1L, 1000000L));
+  run->add_option("--learned", options.learned,
+                  "Folder of what the board learned: used at its start, and renewed");
   run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
   run->add_flag("--check", options.check, "Only say whether the scenario is in order");

@@ -12,6 +12,8 @@
 #include "report/trace_writer.hpp"
 #include "runner/summary.hpp"
 #include "scenario/read_scenario.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
 
 namespace supercoil::host_sim {
 
@@ -84,7 +86,17 @@ void print_summary(const nlohmann::ordered_json& json, const std::string& folder
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const auto scenario = read_scenario(options.scenario);
+  storage::PosixFiles files;
+  storage::LearnedStore store(options.learned, 1, files);
+  std::optional<storage::Learned> learned;
+  if (!options.learned.empty()) {
+    const auto loaded = store.load();
+    if (!loaded) return fail(exit_wrong_input, loaded.error());
+    for (const std::string& problem : loaded->problems)
+      std::fprintf(stderr, "supercoil-sim: %s\n", problem.c_str());
+    learned = loaded->learned;
+  }
+  const auto scenario = read_scenario(options.scenario, learned);
   if (!scenario) {
     std::fputs(config::to_text(scenario.error()).c_str(), stderr);
     return exit_wrong_input;
@@ -106,6 +118,8 @@ int run_command(const RunOptions& options) {
 
   Progress progress(scenario->name, options.quiet);
   Simulation simulation(*scenario);
+  recorder::FlightRecorder recorder(folder->path().string(), 1, scenario->rate_Hz, files);
+  simulation.record_to(recorder);
   Summary summary(*window);
   std::optional<TraceWriter> trace;
   if (options.trace) trace.emplace(folder->temporary("trace.csv"), options.every);
@@ -123,6 +137,16 @@ int run_command(const RunOptions& options) {
         "supercoil-sim: warning: the controller's power was no number in %ld ticks, first at %g s; "
         "none was applied then\n",
         summary.not_finite_ticks(), summary.first_not_finite_s());
+  }
+  recorder.finish();
+  for (const recorder::RecorderNote& note : recorder.take_notes()) {
+    if (note.problem || !options.quiet)
+      std::fprintf(note.problem ? stderr : stdout, "%s\n", note.text.c_str());
+  }
+  if (!options.learned.empty() && simulation.learned()) {
+    if (const auto saved = store.save(*simulation.learned()); !saved) {
+      return fail(exit_failed, saved.error());
+    }
   }
   const auto json = summary.to_json(*scenario, simulation, progress.elapsed_s());
 

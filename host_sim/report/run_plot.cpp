@@ -1,6 +1,7 @@
 #include "report/run_plot.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace supercoil::host_sim {
 
@@ -9,6 +10,11 @@ namespace {
 constexpr long points = 2000;
 constexpr double mm = 1e3;
 constexpr double um = 1e6;
+
+/// Only while there is a reference model to follow.
+double followed(const TickRecord& record, double value) {
+  return record.open_loop ? NAN : value;
+}
 
 }  // namespace
 
@@ -31,13 +37,15 @@ Figure RunPlot::figure() const {
   };
   Figure figure;
   Panel position{scenario_->name + ": position", "", "mm", {}};
-  const bool open_loop = !records_.empty() && records_.front().open_loop;
+  bool open_loop = true;
+  for (const TickRecord& record : records_)
+    open_loop = open_loop && record.open_loop;
   if (!open_loop) {
     position.curves.push_back(
-        curve("reference", 6, [](const TickRecord& r) { return r.reference * mm; }));
+        curve("reference", 6, [](const TickRecord& r) { return followed(r, r.reference * mm); }));
     position.curves.back().dashed = true;
-    position.curves.push_back(
-        curve("reference model", 1, [](const TickRecord& r) { return r.model_m * mm; }));
+    position.curves.push_back(curve(
+        "reference model", 1, [](const TickRecord& r) { return followed(r, r.model_m * mm); }));
   }
   position.curves.push_back(
       curve("position", 0, [](const TickRecord& r) { return r.position_m * mm; }));
@@ -47,16 +55,26 @@ Figure RunPlot::figure() const {
                              "",
                              "µm",
                              {curve("position − model", 0, [](const TickRecord& r) {
-                               return (r.position_m - r.model_m) * um;
+                               return followed(r, (r.position_m - r.model_m) * um);
                              })}});
   }
+  figure.panels.push_back({"power", "", "W", {curve("applied power", 1, [](const TickRecord& r) {
+                             return r.applied_power_W;
+                           })}});
   figure.panels.push_back(
-      {"power and temperature",
+      {"temperature above the air, and the firmware's bounds",
        "",
-       "W, K",
-       {curve("applied power (W)", 1, [](const TickRecord& r) { return r.applied_power_W; }),
-        curve("temperature rise (K)", 2,
-              [](const TickRecord& r) { return r.temperature_rise_K; })}});
+       "K",
+       {curve("at most", 3, [](const TickRecord& r) { return r.hottest_K; }),
+        curve("muscle", 2, [](const TickRecord& r) { return r.temperature_rise_K; }),
+        curve("at least", 0, [](const TickRecord& r) { return r.coldest_K; })}});
+  figure.panels.push_back(
+      {"state: 0 disarmed, 1 armed, 2 active, 3 fault",
+       "",
+       "",
+       {curve("state", 1, [](const TickRecord& r) { return static_cast<double>(r.state); })},
+       -0.2,
+       3.2});
   if (!theta_.empty()) {
     Panel estimates{"estimates over the muscle's own at the start", "", "1", {}, -0.5, 2.5};
     const control::Theta& nominal = scenario_->start.estimator.gradient.scale.nominal;

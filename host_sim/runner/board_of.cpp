@@ -116,6 +116,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
       max_age_s;
   channel.heater.cold_resistance_Ohm = c.plant.resistance_Ohm;
   channel.heater.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
+  channel.calibration = scenario.calibration;
   channel.heater.error_feedback = c.power.error_feedback;
   channel.heater.delay_s = c.power.delay_s;
   channel.thermal = thermal_of(c);

@@ -1,5 +1,6 @@
 #include "runner/simulation.hpp"
 
+#include "recorder/pump.hpp"
 #include "runner/board_of.hpp"
 
 namespace supercoil::host_sim {
@@ -8,6 +9,8 @@ namespace {
 
 /// Arming probes the heater, which moves the muscle by some 40 µm; after so long it is at rest.
 constexpr double boot_s = 15.0;
+/// Ticks between two looks into the recorder's ring, which holds 2 s.
+constexpr std::uint32_t rows_every = 32;
 
 }  // namespace
 
@@ -38,8 +41,13 @@ void Simulation::boot() {
 /// What other threads do on a board.
 void Simulation::housekeep() {
   loop_.health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
-  recorder::Row row;
-  while (loop_.take(row)) {
+  if (beats_ % rows_every == 0) {
+    if (recorder_ != nullptr) {
+      recorder::pump(loop_, *recorder_, board_.true_time());
+    } else {
+      for (recorder::Row row; loop_.take(row);) {
+      }
+    }
   }
   Answer answer;
   while (loop_.answer(answer)) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "loop/executive.hpp"
+#include "recorder/flight_recorder.hpp"
 #include "scenario/scenario.hpp"
 #include "simulated_board/simulated_board.hpp"
 
@@ -49,6 +50,8 @@ class Simulation {
   std::optional<control::Estimate> estimate() const { return loop_.channel(0).estimates(); }
   const LinearPlant& plant() const { return board_.channel(0).plant(); }
   Loop& loop() { return loop_; }
+  /// Keeps what happens from now on; must outlive the simulation's steps.
+  void record_to(recorder::FlightRecorder& recorder) { recorder_ = &recorder; }
   const Loop& loop() const { return loop_; }
   /// What identify or calibrate found last; empty when nothing was.
   const std::optional<storage::Learned>& learned() const { return learned_; }
@@ -73,6 +76,7 @@ class Simulation {
   Wish fulfilled_ = Wish::rest;
   bool resetting_ = false;
   std::uint32_t beats_ = 0;
+  recorder::FlightRecorder* recorder_ = nullptr;
   SimulatedBoard board_;
   Loop loop_;
   Executive executive_;

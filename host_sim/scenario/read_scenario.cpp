@@ -104,7 +104,8 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
 
 }  // namespace
 
-ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name) {
+ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
+                                  const std::optional<storage::Learned>& learned) {
   config::Diagnostics diagnostics(name);
   toml::table document = config::parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
@@ -113,8 +114,11 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
   scenario.name = std::filesystem::path(name).stem().string();
   read_simulation(document, scenario, diagnostics);
   std::vector<WrittenEvent> events = take_events(document, scenario.duration_s, diagnostics);
-  const auto believed = read_muscle(document, diagnostics);
+  const auto configured = read_muscle(document, diagnostics);
+  const auto believed = learned ? learned->muscle : configured;
   scenario.start = read_conditions(document, believed, scenario.step_s(), diagnostics);
+  scenario.calibration.cold_resistance_Ohm = scenario.start.plant.resistance_Ohm;
+  if (learned) scenario.calibration = learned->calibration;
   // Each event is laid over all before it, and the whole is read and checked again. Events at one
   // time are one change: what the first alone would make impossible, the second may put right.
   for (auto event = events.begin(); event != events.end() && diagnostics.empty(); ++event) {
@@ -135,8 +139,11 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
   return scenario;
 }
 
-ScenarioOrProblems read_scenario(const std::string& path) {
-  if (const auto text = builtin_scenario(path)) return parse_scenario(std::string(*text), path);
+ScenarioOrProblems read_scenario(const std::string& path,
+                                 const std::optional<storage::Learned>& learned) {
+  if (const auto text = builtin_scenario(path)) {
+    return parse_scenario(std::string(*text), path, learned);
+  }
   config::Diagnostics diagnostics(path);
   const std::string text = config::read_text(path, diagnostics);
   if (!diagnostics.empty()) {
@@ -145,7 +152,7 @@ ScenarioOrProblems read_scenario(const std::string& path) {
     }
     return tl::unexpected(diagnostics.problems());
   }
-  return parse_scenario(text, path);
+  return parse_scenario(text, path, learned);
 }
 
 }  // namespace supercoil::host_sim

@@ -1,6 +1,7 @@
 // Scenarios from TOML.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,12 @@ namespace supercoil::host_sim {
 using ScenarioOrProblems = tl::expected<Scenario, std::vector<config::Problem>>;
 
 /// path: a .toml file, or the name of a built-in scenario.
-ScenarioOrProblems read_scenario(const std::string& path);
+/// learned: what a board learned before takes the place of [muscle].
+ScenarioOrProblems read_scenario(const std::string& path,
+                                 const std::optional<storage::Learned>& learned = {});
 
 /// The same from text; name: how messages call it.
-ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name);
+ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
+                                  const std::optional<storage::Learned>& learned = {});
 
 }  // namespace supercoil::host_sim

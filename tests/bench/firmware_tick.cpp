@@ -63,7 +63,7 @@ class Bench {
       devices.channels.push_back({&pwms_.emplace_back(), &heartbeat_, &position, &current});
     }
     loop_.emplace(settings, devices);
-    for (int i = 0; i < 1000; ++i)
+    for (int i = 0; i < 4000; ++i)
       tick(Verb::none);
     powered_ = true;  // the self-test must see no current
     tick(Verb::arm);

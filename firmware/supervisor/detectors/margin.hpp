@@ -17,7 +17,8 @@ struct Margin {
   double used() const {
     if (!judged) return 0.0;
     if (std::isnan(measured)) return INFINITY;
-    if (!falls) return limit == 0.0 ? (measured > 0.0 ? INFINITY : 0.0) : measured / limit;
+    if (!falls && measured <= 0.0) return 0.0;
+    if (!falls) return limit > 0.0 ? measured / limit : INFINITY;
     return measured > 0.0 ? limit / measured : INFINITY;
   }
 };

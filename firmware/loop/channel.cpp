@@ -32,6 +32,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       calibration_(settings.calibration),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
                   board.supervision.lowest_supply_V, board.step_s()),
+      muscle_(settings.muscle),
       resistance_(resistance_settings(settings.heater), board.step_s()),
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
@@ -99,11 +100,8 @@ void Channel::supervise(const BoardNow& board) {
 
   const Fault cause = board.fault != Fault::none ? board.fault : present_fault_;
   if (cause != Fault::none && !board.testing) {
-    if (state_.state() != State::fault) {
-      first_margin_ =
-          board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause);
-    }
-    disarm(cause);
+    disarm(cause,
+           board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause));
   }
   if (!reset_asked_) state_.reset(false, true);
 }
@@ -158,7 +156,7 @@ void Channel::follow_probe(double supply_V) {
       storage::Calibration found = calibration_;
       found.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
       found.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
-      keep(settings_.muscle, found);
+      keep(muscle_, found);
     }
     state_.rest();
     rest();
@@ -267,7 +265,8 @@ void Channel::drive() {
   acting_ = delay_.step(set_);
 }
 
-void Channel::disarm(Fault cause) {
+void Channel::disarm(Fault cause, const detectors::Margin& margin) {
+  if (state_.state() != State::fault) first_margin_ = margin;
   state_.disarm(cause);
   probe_.stop();
   rest();

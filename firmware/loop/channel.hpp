@@ -49,7 +49,7 @@ class Channel {
 
   /// The one way of making the channel safe: duty 0 and enable low, at once. Fault::none is an
   /// ordinary stop.
-  void disarm(Fault cause);
+  void disarm(Fault cause, const detectors::Margin& margin = {});
   /// For the self-test: a duty and the enable line by hand. Only while disarmed.
   void test_drive(double duty, bool enable);
   double measured_current_A() const {
@@ -115,6 +115,7 @@ class Channel {
   detectors::Margin first_margin_;
 
   hal::Time position_taken_{-1};
+  control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
   board::Resistance resistance_;
   board::Heat heat_;
   board::Probe probe_;

@@ -138,13 +138,14 @@ Refusal Channel::scale(double true_m) {
   if (!evidence_.position.present) return Refusal::not_ready;
   storage::Calibration found = calibration_;
   found.position_scale *= true_m / measured_m;
-  return true_m > 0.0 && keep(settings_.muscle, found) ? Refusal::none : Refusal::out_of_range;
+  return true_m > 0.0 && keep(muscle_, found) ? Refusal::none : Refusal::out_of_range;
 }
 
 /// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
 bool Channel::keep(const control::PhysicalParameters& muscle, const storage::Calibration& found) {
   const storage::Learned learned{muscle, found, 0};
   if (storage::check(learned)) return false;
+  muscle_ = muscle;
   calibration_ = found;
   supervisor_.restart();  // every position moves with it
   return found_.push(learned);

@@ -47,7 +47,8 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
   for (Channel& channel : channels_)
     channel.supervise(now_);
   for (Channel& channel : channels_) {
-    if (channel.present_board_fault() != Fault::none) latch(channel.present_board_fault());
+    const Fault fault = channel.present_board_fault();
+    if (fault != Fault::none) latch(fault, channel.verdict().margin(fault));
   }
   const hal::Time decided = devices_.clock->now();
 
@@ -142,18 +143,19 @@ void Loop::judge_board(hal::Time now, double late_s, long skipped) {
   now_.testing = self_test_.under_way() || (settling && !self_test_.failed());
   now_.proven = self_test_.passed();
   now_.periods = 1 + std::min(skipped, most_periods);
-  if (verdict.board_fault() != Fault::none) latch(verdict.board_fault());
+  if (verdict.board_fault() != Fault::none)
+    latch(verdict.board_fault(), verdict.margin(verdict.board_fault()));
   now_.fault = board_fault_ != Fault::none ? board_fault_ : present;
   now_.margin = verdict.margin(now_.fault);
 }
 
 /// The first cause is kept. From the next tick on no channel of this board may be hot; those of
 /// this tick are made safe here.
-void Loop::latch(Fault cause) {
+void Loop::latch(Fault cause, const detectors::Margin& margin) {
   if (board_fault_ != Fault::none || now_.testing) return;
   board_fault_ = cause;
   for (Channel& channel : channels_)
-    channel.disarm(cause);
+    channel.disarm(cause, margin);
 }
 
 /// The test lets the supply close for a moment, and proves nothing without a supply: it waits for a

@@ -63,7 +63,7 @@ class Loop {
  private:
   void obey();
   void judge_board(hal::Time now, double late_s, long skipped);
-  void latch(Fault cause);
+  void latch(Fault cause, const detectors::Margin& margin);
   void reset_board();
   bool may_test() const;
   void run_self_test();

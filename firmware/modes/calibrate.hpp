@@ -33,12 +33,13 @@ class Calibrate {
       return elapsed_s_ > settings_.longest_wait_s ? Outcome::failed : Outcome::running;
     }
     const auto ticks = static_cast<long>(settings_.mean_s / step_s);
-    if (count_ < ticks / 2) first_half_m_ += position_m;
+    const long half = ticks / 2;
+    if (count_ < half) first_half_m_ += position_m;
     sum_m_ += position_m;
     ++count_;
     progress_ = 0.5F + 0.4F * static_cast<float>(count_) / static_cast<float>(ticks);
     if (count_ < ticks) return Outcome::running;
-    const double first_m = first_half_m_ / static_cast<double>(ticks / 2);
+    const double first_m = first_half_m_ / static_cast<double>(half);
     return std::abs(first_m - zero_m()) > settings_.most_motion_m ? Outcome::failed
                                                                   : Outcome::probe;
   }

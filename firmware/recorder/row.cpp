@@ -34,8 +34,8 @@ Row row_of(const Snapshot& s) {
   row.resistance_age_s = narrow(s.resistance_age_s);
   row.coldest_C = narrow(s.coldest_C);
   row.hottest_C = narrow(s.hottest_C);
-  for (int i = 0; i < 4; ++i)
-    row.theta[i] = narrow(s.theta[i]);
+  for (std::size_t i = 0; i < row.theta.size(); ++i)
+    row.theta[i] = narrow(s.theta[static_cast<Eigen::Index>(i)]);
   row.error_bound = narrow(s.error_bound);
   row.progress = narrow(s.progress);
   row.margin_used = narrow(s.margin.used());

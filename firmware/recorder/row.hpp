@@ -1,6 +1,7 @@
 // One line of a flight recording.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
@@ -32,13 +33,13 @@ struct Row {
   float resistance_age_s;
   float coldest_C;
   float hottest_C;
-  float theta[4];
+  std::array<float, 4> theta;
   float error_bound;
   float progress;
   float margin_used;
   float margin_measured;
   float margin_limit;
-  float reserved[3];
+  std::array<float, 3> reserved;
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 

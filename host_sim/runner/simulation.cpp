@@ -150,7 +150,9 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.limited = s.limited;
   r.open_loop = s.mode != Mode::position;
   r.state = s.state;
+  r.asks_power = conditions_->controller.kind == control::ControllerKind::power;
   r.fault = s.fault;
+  r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
   return r;
 }

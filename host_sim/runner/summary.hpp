@@ -77,11 +77,17 @@ class Summary {
     if (record.fault != fault_ && record.fault != Fault::none) {
       faults_.push_back({record.fault, record.time_s});
     }
+    const bool of_board = record.board_fault != board_fault_ && record.board_fault != Fault::none;
+    if (of_board && record.board_fault != record.fault) {
+      faults_.push_back({record.board_fault, record.time_s});
+    }
     fault_ = record.fault;
+    board_fault_ = record.board_fault;
   }
 
   Window window_;
   Fault fault_ = Fault::none;
+  Fault board_fault_ = Fault::none;
   std::vector<FaultAt> faults_;
   long outside_interval_ticks_ = 0;
   ErrorMeter tracking_;

@@ -54,7 +54,7 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
   record.limited = true;
   control::Estimate estimate{control::Theta{1.0, 2.0, 3.0, 4.0}, 0.0, 0.0, 0.0, true};
   writer.add(record, estimate);
-  record.open_loop = true;
+  record.open_loop = record.asks_power = true;
   record.state = State::fault;
   record.fault = Fault::heater_open;
   record.limited_by = LimitedBy::temperature;

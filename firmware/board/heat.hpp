@@ -29,7 +29,13 @@ class Heat {
     expected_.step(probably_W);
   }
   /// The muscle's thermal pole, as estimated and trusted.
-  void learn(double pole_rad_per_s) { learned_.learn(pole_rad_per_s); }
+  /// Beyond what the configured bounds allow it is not believed.
+  void learn(double pole_rad_per_s) {
+    const control::ThermalBounds& b = settings_.bounds;
+    learned_.learn(
+        std::fmax(-b.highest_transfer_W_per_K / b.lowest_mass_J_per_K,
+                  std::fmin(-b.lowest_transfer_W_per_K / b.highest_mass_J_per_K, pole_rad_per_s)));
+  }
 
   double coldest_K() const { return interval_.lowest_K(); }
   double hottest_K() const { return std::fmax(interval_.highest_K(), learned_.rise_K()); }

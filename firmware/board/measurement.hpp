@@ -1,6 +1,8 @@
 // The only place where raw counts become units.
 #pragma once
 
+#include <cmath>
+
 #include "supercoil/hal/adc_channel.hpp"
 
 namespace supercoil::board {
@@ -25,9 +27,11 @@ struct Scaling {
 inline void measure(const hal::Sample& sample, const Scaling& scaling, hal::Time now,
                     double max_age_s, Measured& result) {
   result.status = sample.status;
-  result.age_s = hal::seconds(now - sample.taken);
-  result.present =
-      sample.status == hal::Status::ok && result.age_s >= 0.0 && result.age_s <= max_age_s;
+  // Converted a moment after the tick's time was read: fresh. Much later is a clock that went
+  // wrong.
+  const double age_s = hal::seconds(now - sample.taken);
+  result.age_s = std::fmax(0.0, age_s);
+  result.present = sample.status == hal::Status::ok && std::abs(age_s) <= max_age_s;
   result.value = result.present ? sample.counts * scaling.per_count + scaling.offset : 0.0;
 }
 

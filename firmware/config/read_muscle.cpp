@@ -78,11 +78,6 @@ void read_muscle(Section muscle, Section thermal, const BoardContext& context, C
   const double below_trip_K = std::fmax(0.0, c.supervision.trip_C - t.ambient_C);
   const double boot_K = std::isfinite(below_trip_K) ? below_trip_K : 0.0;
   t.boot_rise_K = thermal.number("boot_rise_K", boot_K, {0.0, 300.0});
-  if (t.boot_rise_K > boot_K) {
-    thermal.wrong("boot_rise_K",
-                  "must not exceed trip_C - ambient.warmest_C: the board would boot "
-                  "into a fault");
-  }
   thermal.finish();
 }
 

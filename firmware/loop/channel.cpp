@@ -14,6 +14,10 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
 /// A resistance of so many times the cold one is a broken wire and the sense's own offset.
 constexpr double as_good_as_open = 4.0;
 
+/// Longer than every hold time at 1 kHz but the slowest; so many overruns are a fault by
+/// themselves.
+constexpr long most_repeats = 1000;
+
 /// Long against the sensor's noise, short against the muscle's motion.
 constexpr double smoothing_s = 0.2;
 
@@ -88,20 +92,26 @@ void Channel::supervise(const BoardNow& board) {
   heat_known_ = heat_known_ || heat_.hottest_C() < settings_.limiter.derate_from_C;
   e.hottest_C = heat_known_ ? heat_.hottest_C() : settings_.thermal.ambient_C;
   e.applied_W = acting_.power_W;
+  const double cold_Ohm = calibration_.cold_resistance_Ohm;
+  e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
+  e.resistance_Ohm = resistance_.value_Ohm();
+  e.least_Ohm = cold_Ohm;
+  e.most_Ohm =
+      cold_Ohm * (1.0 + settings_.heater.temperature_coefficient_per_K * heat_.hottest_K());
   e.wanted_W = wanted_.wanted_power_W;
   e.limited = acting_.limited;
   present_fault_ = supervisor_.step(e);
   // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.
   e.renewed = e.damaged_command = e.refused_command = e.obeyed_command = false;
   e.position_elapsed_s = 0.0;
-  for (long i = 1; i < board.periods && present_fault_ == Fault::none; ++i)
+  const long more = std::min(board.periods, most_repeats);
+  for (long i = 1; i < more && present_fault_ == Fault::none; ++i)
     present_fault_ = supervisor_.step(e);
   if (!supervisor_.inside(e.sensor_m)) e.position.present = false;
 
   const Fault cause = board.fault != Fault::none ? board.fault : present_fault_;
   if (cause != Fault::none && !board.testing) {
-    disarm(cause,
-           board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause));
+    disarm(cause, board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause));
   }
   if (!reset_asked_) state_.reset(false, true);
 }
@@ -117,7 +127,8 @@ void Channel::observe_heat(double supply_V, long periods) {
   // A measured power takes part only where it differs by more than the sense's own error.
   const double tolerance_W = supply_V * noise_A + 0.05 * told_W;
   const bool differs = std::abs(measured_W - told_W) > tolerance_W;
-  const double least_W = differs ? std::fmin(told_W, measured_W) : told_W;
+  // The cold end may as well be too cold: nothing is protected by it.
+  const double least_W = std::fmin(told_W, measured_W) - supply_V * noise_A;
   const double most_W = differs ? std::fmax(told_W, measured_W) : told_W;
   heat_.step(std::fmax(least_W, 0.0), most_W, told_W);
   // In periods that were left out the power may have gone on, or the charge pump have cut it.
@@ -277,6 +288,8 @@ void Channel::disarm(Fault cause, const detectors::Margin& margin) {
 void Channel::test_drive(double duty, bool enable) {
   write_enable(enable);
   write_duty(static_cast<int>(duty * devices_.pwm->steps()));
+  // Of a board that is well, none of it reaches the muscle.
+  acting_ = delay_.step({});
 }
 
 void Channel::write_duty(int step) {

@@ -80,7 +80,7 @@ class Channel {
 
  private:
   Refusal arm(const BoardNow& board);
-  Refusal heat(Mode mode, double value);
+  Refusal heat(Mode mode, double value, const BoardNow& board);
   Refusal scale(double true_m);
   Refusal choose_controller(double place);
   Refusal choose_estimator(double place);

@@ -16,13 +16,13 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
       reset_asked_ = true;
       return state_.reset(true, present_fault_ != Fault::none || board.fault != Fault::none);
     case Verb::position:
-      return heat(Mode::position, command.value);
+      return heat(Mode::position, command.value, board);
     case Verb::power:
-      return heat(Mode::power, command.value);
+      return heat(Mode::power, command.value, board);
     case Verb::identify:
-      return heat(Mode::identify, 0.0);
+      return heat(Mode::identify, 0.0, board);
     case Verb::calibrate:
-      return heat(Mode::calibrate, 0.0);
+      return heat(Mode::calibrate, 0.0, board);
     case Verb::renew:
       if (state_.state() != State::active) return Refusal::wrong_state;
       evidence_.renewed = true;
@@ -54,9 +54,10 @@ Refusal Channel::arm(const BoardNow& board) {
   return Refusal::none;
 }
 
-Refusal Channel::heat(Mode mode, double value) {
+Refusal Channel::heat(Mode mode, double value, const BoardNow& board) {
   const State state = state_.state();
   if (state != State::armed && state != State::active) return Refusal::wrong_state;
+  if (!board.proven) return Refusal::not_ready;
   if (state == State::armed && probe_.running()) return Refusal::busy;
   if (mode == Mode::position) {
     const bool reachable =
@@ -65,6 +66,7 @@ Refusal Channel::heat(Mode mode, double value) {
   } else if (mode == Mode::power) {
     if (!std::isfinite(value)) return Refusal::out_of_range;
   } else if (state == State::active) {
+    evidence_.renewed = mode == mode_;
     return mode == mode_ ? Refusal::none : Refusal::busy;
   }
   if (state == State::armed) {
@@ -79,13 +81,15 @@ Refusal Channel::heat(Mode mode, double value) {
 
 /// The channel becomes active in another mode, or changes it while hot.
 void Channel::enter(Mode mode) {
-  const bool was_hot = mode_ != Mode::rest;
+  const bool was_driven = mode_ == Mode::power || mode_ == Mode::position;
+  if (!was_driven) smooth_power_W_.set(acting_.power_W);
+  smooth_error_m_.set(0.0);
   mode_ = mode;
   if (mode == Mode::position) {
     control::ControllerStart at = start_here();
     at.motion = {evidence_.position.value, 0.0, 0.0};
     at.position_m = evidence_.position.value;
-    at.hold = was_hot;
+    at.hold = was_driven;
     controllers_[controller_].start(at);
   } else if (mode == Mode::identify) {
     identify_.start();
@@ -135,6 +139,8 @@ Refusal Channel::choose_estimator(double place) {
 
 Refusal Channel::scale(double true_m) {
   const double measured_m = evidence_.position.value;
+  // A controller would jump at the new scale.
+  if (mode_ == Mode::position) return Refusal::wrong_state;
   if (!evidence_.position.present) return Refusal::not_ready;
   storage::Calibration found = calibration_;
   found.position_scale *= true_m / measured_m;

@@ -12,8 +12,16 @@ constexpr double ring_s = 2.0;
 constexpr int most_commands_per_tick = 64;
 /// Buffered converters need so long to have their first values, and filters to settle.
 constexpr double settling_s = 0.1;
-/// After a longer stall the board has a fault anyway, and the muscles had time to cool.
-constexpr long most_periods = 1000;
+/// After a longer stall the muscles are cold.
+constexpr long most_periods = 200'000;
+
+SelfTest::Settings self_test_settings(const BoardSettings& s) {
+  double filter_s = 0.0;
+  for (const ChannelSettings& channel : s.channels)
+    filter_s = std::max(filter_s, channel.heater.sense_filter_s);
+  return {s.supervision.charge_pump_decay_s, std::max(0.05, 5.0 * filter_s),
+          std::max(0.03, 8.0 * filter_s)};
+}
 
 std::size_t ring_rows(const BoardSettings& s) {
   return static_cast<std::size_t>(ring_s * s.rate_Hz) * s.channels.size();
@@ -25,7 +33,7 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
     : settings_(settings),
       devices_(devices),
       supervisor_(settings.supervision, settings.step_s()),
-      self_test_({settings.supervision.charge_pump_decay_s}, settings.step_s()),
+      self_test_(self_test_settings(settings), settings.step_s()),
       rows_(ring_rows(settings)) {
   for (std::size_t i = 0; i < settings.channels.size(); ++i) {
     channels_.emplace_back(settings.channels[i], settings, devices.channels[i],
@@ -116,6 +124,7 @@ void Loop::reset_board() {
   if (!edge || board_fault_ == Fault::none || supervisor_.verdict().fault() != Fault::none) return;
   board_fault_ = Fault::none;
   now_.fault = Fault::none;
+  now_.proven = false;  // also for what is asked for in this tick
   self_test_.restart();
 }
 
@@ -152,7 +161,9 @@ void Loop::judge_board(hal::Time now, double late_s, long skipped) {
 /// The first cause is kept. From the next tick on no channel of this board may be hot; those of
 /// this tick are made safe here.
 void Loop::latch(Fault cause, const detectors::Margin& margin) {
-  if (board_fault_ != Fault::none || now_.testing) return;
+  // While it is tested a board may look wrong; an emergency stop is one at any time.
+  const bool judged = !now_.testing || cause == Fault::emergency_stop;
+  if (board_fault_ != Fault::none || !judged) return;
   board_fault_ = cause;
   for (Channel& channel : channels_)
     channel.disarm(cause, margin);

@@ -10,8 +10,8 @@ class SelfTest {
  public:
   struct Settings {
     double pump_decay_s;     ///< the last life of this board may have pumped until just now
-    double settle_s = 0.05;  ///< of the current sense
-    double pulse_s = 0.03;
+    double settle_s = 0.05;  ///< of the current sense: five of its time constants at least
+    double pulse_s = 0.03;   ///< four of them at least
   };
   struct Lines {
     bool heartbeat = false;
@@ -42,25 +42,36 @@ class SelfTest {
       restart();
       return;
     }
-    // In force while that current flowed.
-    const bool pumping = lines().heartbeat;
+    const Lines before = lines();  // in force while that current flowed
     verdict_ = Verdict::running;
     elapsed_s_ += step_s_;
-    // Noise is no failure; a third of a pulse of current is. The sense may show the last life's
-    // current until the pump has decayed.
-    const bool over =
-        elapsed_s_ > settings_.pump_decay_s + settings_.settle_s && !(current_A <= idle_A);
-    over_s_ = over ? over_s_ + step_s_ : 0.0;
-    if (over_s_ > 0.3 * settings_.pulse_s) {
-      verdict_ = pumping ? Verdict::enable_does_not_cut : Verdict::pump_does_not_open;
+    // The sense may show the last life's current until the pump has decayed.
+    if (elapsed_s_ <= settings_.pump_decay_s + settings_.settle_s) return;
+    // A mean over the pulse's second half: single readings are noise. A switch that is stuck on
+    // carries far more than a probe, and is not given the time of a mean.
+    if (before.pulse && pulse_elapsed_s_ > 0.5 * settings_.pulse_s) {
+      sum_A_ += current_A;
+      ++count_;
+    }
+    pulse_elapsed_s_ = before.pulse ? pulse_elapsed_s_ + step_s_ : 0.0;
+    over_s_ = !(current_A <= far_more * idle_A) ? over_s_ + step_s_ : 0.0;
+    const bool pulse_ends = before.pulse && !lines().pulse;
+    const bool mean_over = pulse_ends && !(count_ > 0 && sum_A_ <= idle_A * count_);
+    if (mean_over || over_s_ > 0.3 * settings_.pulse_s) {
+      verdict_ = before.heartbeat ? Verdict::enable_does_not_cut : Verdict::pump_does_not_open;
     } else if (elapsed_s_ >= duration_s()) {
       verdict_ = Verdict::passed;
+    }
+    if (pulse_ends) {
+      sum_A_ = 0.0;
+      count_ = 0;
     }
   }
   /// Nothing is proven any more.
   void restart() {
     verdict_ = Verdict::waiting;
-    elapsed_s_ = over_s_ = 0.0;
+    elapsed_s_ = pulse_elapsed_s_ = over_s_ = sum_A_ = 0.0;
+    count_ = 0;
   }
 
   Verdict verdict() const { return verdict_; }
@@ -71,6 +82,8 @@ class SelfTest {
   }
 
  private:
+  static constexpr double far_more = 4.0;
+
   bool within(double from_s) const {
     return elapsed_s_ >= from_s && elapsed_s_ < from_s + settings_.pulse_s;
   }
@@ -79,6 +92,9 @@ class SelfTest {
   double step_s_;
   double elapsed_s_ = 0.0;
   double over_s_ = 0.0;
+  double pulse_elapsed_s_ = 0.0;
+  double sum_A_ = 0.0;
+  int count_ = 0;
   Verdict verdict_ = Verdict::waiting;
 };
 

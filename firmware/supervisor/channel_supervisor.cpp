@@ -12,6 +12,8 @@ constexpr double open_part = 0.25;
 constexpr double frozen_part = 0.5;
 /// Jump: two readings of a resting muscle differ by less than this many times the noise.
 constexpr double jump_noises = 12.0;
+/// The resistance is smoothed; outside its span for so long it is no noise.
+constexpr double drifting_s = 0.5;
 constexpr double quiet_sensor_m = 50e-6;  ///< a jump is more than this, however quiet the sensor
 
 double frozen_band_m(const ChannelSupervision& s) {
@@ -38,6 +40,7 @@ ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_re
       travel_(s.max_travel_m),
       energy_({s.energy_J, s.energy_window_s}, step_s),
       drift_({cold_resistance_Ohm, s.resistance_part}),
+      drifting_(drifting_s, step_s),
       power_({s.max_measured_W, s.over_power_s}, step_s),
       expired_(s.command_timeout_s, step_s),
       damaged_(s.damaged_in_a_row),
@@ -108,6 +111,11 @@ void ChannelSupervisor::judge_muscle(const Evidence& e) {
     const double cold_Ohm = e.probed_Ohm / e.calibrated_Ohm * cold_Ohm_;
     verdict_.note(resistance_drift, drift_.step(cold_Ohm), drift_.margin());
   }
+  // While heating as well: a sense that tells too little current makes the power stage give more.
+  const bool outside = e.resistance_Ohm < e.least_Ohm * (1.0 - settings_.resistance_part) ||
+                       e.resistance_Ohm > e.most_Ohm * (1.0 + settings_.resistance_part);
+  const bool drifts = drifting_.step(e.resistance_fresh && outside);
+  if (drifts) verdict_.note(resistance_drift, true, drift_.margin());
   if (e.probe_failed) verdict_.note(heater_open, true, open_.margin());
 }
 
@@ -120,9 +128,11 @@ void ChannelSupervisor::judge_commands(const Evidence& e) {
                        : detectors::rising(e.wanted_W, 1.0);
   verdict_.note(controller_invalid, !number || lost, saturation_);
   verdict_.note(command_timeout, expired_.step(e.renewed, e.heating), expired_.margin());
-  const bool heard = e.damaged_command || e.obeyed_command || e.refused_command;
-  if (heard) {
+  // Only an obeyed command ends a row: damaged and refused ones may alternate.
+  if (e.damaged_command || e.obeyed_command) {
     verdict_.note(command_damaged, damaged_.step(e.damaged_command), damaged_.margin());
+  }
+  if (e.refused_command || e.obeyed_command) {
     verdict_.note(command_not_allowed, refused_.step(e.refused_command), refused_.margin());
   }
 }

@@ -32,9 +32,13 @@ struct Evidence {
   bool tells_temperature = false;  ///< the next two are known
   double from_resistance_K = 0.0;
   double from_position_K = 0.0;
-  double probed_Ohm = 0.0;       ///< of a probe that ended at this tick; 0: none did
-  double calibrated_Ohm = 10.0;  ///< what it should be, at this temperature
-  bool probe_failed = false;     ///< a probe ended without a resistance
+  double probed_Ohm = 0.0;        ///< of a probe that ended at this tick; 0: none did
+  double calibrated_Ohm = 10.0;   ///< what it should be, at this temperature
+  bool resistance_fresh = false;  ///< measured at this tick, while heating
+  double resistance_Ohm = 0.0;
+  double least_Ohm = 0.0;  ///< between these it should be, at whichever temperature
+  double most_Ohm = 0.0;
+  bool probe_failed = false;  ///< a probe ended without a resistance
   bool renewed = false;
   bool damaged_command = false;
   bool refused_command = false;
@@ -85,6 +89,7 @@ class ChannelSupervisor {
   detectors::Limit travel_;
   detectors::EnergyBudget energy_;
   detectors::ResistanceDrift drift_;
+  detectors::HeldFor drifting_;
   detectors::Above power_;
   detectors::Expired expired_;
   detectors::InARow damaged_;

@@ -129,7 +129,8 @@ int run_command(const RunOptions& options) {
   std::signal(SIGTERM, interrupt);
   if (!simulate(simulation, summary, trace ? &*trace : nullptr, plot ? &*plot : nullptr,
                 progress)) {
-    return fail(exit_interrupted, "interrupted; nothing of this run is kept but recordings of faults");
+    return fail(exit_interrupted,
+                "interrupted; nothing of this run is kept but recordings of faults");
   }
   if (summary.not_finite_ticks() > 0) {
     std::fprintf(

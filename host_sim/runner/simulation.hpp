@@ -24,7 +24,7 @@ struct TickRecord {
   double coldest_K = 0.0;  ///< above the air: the firmware's bounds for it
   double hottest_K = 0.0;
   bool limited = false;
-  bool open_loop = false;  ///< no reference model is followed
+  bool open_loop = false;   ///< no reference model is followed
   bool asks_power = false;  ///< the reference is a power
   State state = State::disarmed;
   Fault fault = Fault::none;        ///< the channel's first cause

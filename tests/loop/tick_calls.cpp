@@ -59,6 +59,7 @@ void live(Seen& seen) {
   rig.board.stop_circuit.level.high = false;
   run(rig, 0.2, seen);
   rig.board.stop_circuit.level.high = true;
+  run(rig, 0.01, seen);
   rig.send(Verb::reset);
   run(rig, 1.0, seen);
   rig.send(Verb::arm);

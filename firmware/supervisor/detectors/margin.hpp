@@ -32,15 +32,17 @@ inline Margin falling(double measured, double limit) {
   return {measured, limit, true, true};
 }
 
-/// Tells whether something has held for a whole time without a gap.
+/// Tells whether something has held for a whole time.
 class HeldFor {
  public:
-  /// hold_s: 0 means at once.
-  HeldFor(double hold_s, double step_s) : hold_s_(hold_s), step_s_(step_s) {}
+  /// hold_s: 0 means at once. forgets: how many times as fast it is forgotten as it was held; by
+  /// default any gap ends it. With less than 1 something that comes and goes adds up.
+  HeldFor(double hold_s, double step_s, double forgets = 1e12)
+      : hold_s_(hold_s), step_s_(step_s), forgets_s_(forgets * step_s) {}
 
   /// One tick. True from the tick on at which it has held for hold_s.
   bool step(bool holds) {
-    held_s_ = holds ? held_s_ + step_s_ : 0.0;
+    held_s_ = holds ? held_s_ + step_s_ : std::fmax(0.0, held_s_ - forgets_s_);
     // Half a step of tolerance: sums of steps are not exact.
     return holds && held_s_ + 0.5 * step_s_ > hold_s_;
   }
@@ -50,6 +52,7 @@ class HeldFor {
  private:
   double hold_s_;
   double step_s_;
+  double forgets_s_;
   double held_s_ = 0.0;
 };
 

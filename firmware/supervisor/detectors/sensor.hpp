@@ -14,8 +14,9 @@ class OutOfRange {
     double high;
     double hold_s;
   };
+  /// A loose wire comes and goes: good readings take back only a quarter.
   OutOfRange(const Settings& settings, double step_s)
-      : settings_(settings), held_(settings.hold_s, step_s) {}
+      : settings_(settings), held_(settings.hold_s, step_s, 0.25) {}
 
   bool step(double reading) {
     const double middle = 0.5 * (settings_.low + settings_.high);
@@ -78,9 +79,10 @@ class Jump {
     started_ = true;
     margin_ = rising(change, allowed);
     const bool jumped = !(change <= allowed);
-    count_ = jumped ? count_ + 1 : 0;
-    if (!jumped || count_ >= 2) last_ = reading;
-    return count_ >= 2;
+    // A reading that is where it was takes back only a quarter: a bad contact comes and goes.
+    count_ = jumped ? count_ + 1.0 : std::fmax(0.0, count_ - 0.25);
+    if (!jumped || count_ >= 2.0) last_ = reading;
+    return jumped && count_ >= 2.0;
   }
   const Margin& margin() const { return margin_; }
 
@@ -88,7 +90,7 @@ class Jump {
   Settings settings_;
   bool started_ = false;
   double last_ = 0.0;
-  int count_ = 0;
+  double count_ = 0.0;
   Margin margin_;
 };
 

@@ -120,6 +120,7 @@ std::vector<FaultCase> muscle_and_supply() {
        [](RigSettings& s) {
          // The measured resistance lags: else the power stage corrects itself within 0.2 s.
          s.firmware.channels[0].heater.resistance_filter_s = 10.0;
+         s.firmware.channels[0].supervision.resistance_part = 0.9;
          s.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
          s.firmware.channels[0].limiter.max_W = 4.0;
          s.firmware.channels[0].supervision.max_measured_W = 4.4;

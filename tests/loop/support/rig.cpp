@@ -44,6 +44,8 @@ RigSettings rough_board() {
   channel.heater.sense_filter_s = sense_filter_s;
   channel.heater.temperature_coefficient_per_K = coefficient_per_K;
   channel.supervision.max_travel_m = 0.025;
+  // The simulated air is as the firmware believes: no slack for the interval.
+  channel.thermal.coldest_ambient_C = channel.thermal.ambient_C;
   channel.controllers = {controller(control::ControllerKind::pi),
                          controller(control::ControllerKind::pd_ff),
                          controller(control::ControllerKind::mrac)};

@@ -141,3 +141,23 @@ TEST(Commands, AStopCircuitThatCannotBeReadIsAPressedOne) {
   rig.run(0.002);
   CHECK(rig.fault() == Fault::emergency_stop);
 }
+
+TEST(Commands, ArmingInTheTickOfAResetWaitsForTheNewSelfTest) {
+  rig.boot();
+  rig.board.stop_circuit.level.high = false;
+  rig.run(0.01);
+  rig.board.stop_circuit.level.high = true;
+  rig.run(0.01);
+  rig.send(Verb::reset);
+  CHECK(answer_to(Verb::arm) == Refusal::not_ready);
+  CHECK(rig.state() == State::disarmed);
+  rig.run(0.5);
+  CHECK(answer_to(Verb::arm) == Refusal::none);
+}
+
+TEST(Commands, ScaleIsRefusedWhileAControllerFollowsAPosition) {
+  arm();
+  rig.heat(Task::position);
+  rig.run(1.0);
+  CHECK(answer_to(Verb::scale, 0.005) == Refusal::wrong_state);
+}

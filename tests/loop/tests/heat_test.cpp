@@ -4,6 +4,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "loop/support/situations.hpp"
 #include "runner/simulation.hpp"
 #include "scenario/builtin.hpp"
 #include "scenario/read_scenario.hpp"
@@ -92,6 +93,21 @@ TEST(Heat, StaysBelowTheLimitWhenFarTooMuchIsAskedFor) {
   check_contained("14 W, badly cooled",
                   read(greedy + "[plant]\nheat_transfer_W_per_K = 0.0445\n[muscle]\n"
                                 "heat_transfer_W_per_K = 0.089\n"));
+}
+
+TEST(Heat, OfASenseThatTellsTooLittleCurrentIsCutBeforeItGrows) {
+  // The sense's gain falls to a third: unnoticed, the power stage would give three times as much.
+  test::RigSettings settings = test::rough_board();
+  settings.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
+  settings.board.channels[0].temperature_coefficient_per_K = 0.0;
+  test::Rig rig(settings);
+  test::bring_to(test::Situation::power, rig);
+  ConverterSettings weak = rig.muscle().current.settings();
+  weak.high = weak.low + 3.0 * (weak.high - weak.low);
+  weak.low *= 3.0;
+  rig.muscle().current.set(weak);
+  CHECK(rig.run_until([&] { return rig.state() == State::fault; }, 2.0));
+  CHECK(rig.fault() == Fault::resistance_drift);
 }
 
 TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {

@@ -180,7 +180,7 @@ class Program(unittest.TestCase):
             running.send_signal(number)
             errors = running.communicate()[1]
             self.assertEqual(running.returncode, 130)
-            self.assertIn("interrupted; nothing of this run is kept", errors)
+            self.assertIn("interrupted; nothing of this run is kept but recordings of faults", errors)
             self.assertFalse((self.path / "out").exists())
 
     def test_two_runs_do_not_write_into_one_folder(self):

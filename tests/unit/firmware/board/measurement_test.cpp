@@ -32,8 +32,14 @@ TEST(Measurement, TooOldIsAbsentAndNotTheOldNumber) {
   DOUBLES_EQUAL(0.0, m.value, 0.0);
 }
 
+TEST(Measurement, AMomentAfterTheTickBeganIsFresh) {
+  const Measured m = measured({1, 8ms, hal::Status::ok}, {}, 7ms, 0.01);
+  CHECK(m.present);
+  DOUBLES_EQUAL(0.0, m.age_s, 0.0);
+}
+
 TEST(Measurement, FromTheFutureIsAbsent) {
-  CHECK_FALSE(measured({1, 8ms, hal::Status::ok}, {}, 7ms, 0.01).present);
+  CHECK_FALSE(measured({1, 18ms, hal::Status::ok}, {}, 7ms, 0.01).present);
 }
 
 TEST(Measurement, WithAnErrorIsAbsentAndSaysWhy) {

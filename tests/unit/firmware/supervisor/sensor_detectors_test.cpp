@@ -16,10 +16,27 @@ TEST_GROUP(SensorDetectors){};
 TEST(SensorDetectors, OutOfRangeTripsAfterItsTimeAndNotForOneWildReading) {
   OutOfRange detector({0.0, 0.04, 0.005}, step_s);
   CHECK_FALSE(detector.step(0.05));
-  CHECK_FALSE(detector.step(0.02));
+  for (int i = 0; i < 4; ++i)
+    CHECK_FALSE(detector.step(0.02));
   for (int i = 0; i < 4; ++i)
     CHECK_FALSE(detector.step(-0.001));
   CHECK(detector.step(-0.001));
+}
+
+TEST(SensorDetectors, OutOfRangeTripsForALooseWireThatComesAndGoes) {
+  OutOfRange detector({0.0, 0.04, 0.005}, step_s);
+  bool tripped = false;
+  for (int i = 0; i < 20; ++i)
+    tripped = detector.step(i % 2 == 0 ? -0.001 : 0.02) || tripped;
+  CHECK(tripped);
+}
+
+TEST(SensorDetectors, JumpTripsForABadContactThatComesAndGoes) {
+  Jump detector({0.5, 100e-6});
+  bool tripped = false;
+  for (int i = 0; i < 10; ++i)
+    tripped = detector.step(i % 2 == 0 ? 0.010 : 0.018, 1e-3) || tripped;
+  CHECK(tripped);
 }
 
 TEST(SensorDetectors, OutOfRangeTripsForWhatIsNoNumber) {

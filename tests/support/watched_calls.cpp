@@ -1,7 +1,6 @@
 #include "support/watched_calls.hpp"
 
 #include <cerrno>
-#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -75,14 +74,10 @@ std::size_t fwrite(const void* data, std::size_t size, std::size_t count, FILE* 
       next<std::size_t(const void*, std::size_t, std::size_t, FILE*)>("fwrite");
   return real(data, size, count, file);
 }
-int open(const char* path, int flags, ...) {
+FILE* fopen(const char* path, const char* mode) {
   ++calls.files;
-  std::va_list list;
-  va_start(list, flags);
-  const auto mode = (flags & O_CREAT) != 0 ? va_arg(list, mode_t) : mode_t{};
-  va_end(list);
-  static auto* const real = next<int(const char*, int, ...)>("open");
-  return real(path, flags, mode);
+  static auto* const real = next<FILE*(const char*, const char*)>("fopen");
+  return real(path, mode);
 }
 [[noreturn]] void __cxa_throw(void* object, void* type, void (*destructor)(void*)) {
   ++calls.throws;
@@ -151,7 +146,9 @@ int prove_the_counters() {
   });
   std::mutex mutex;
   expect("a mutex", &WatchedCalls::locks, [&] { const std::lock_guard lock(mutex); });
-  expect("open", &WatchedCalls::files, [] { close(open("/dev/null", O_WRONLY)); });
+  FILE* opened = nullptr;
+  expect("fopen", &WatchedCalls::files, [&] { opened = std::fopen("/dev/null", "w"); });
+  if (opened != nullptr) std::fclose(opened);
   const int null = open("/dev/null", O_WRONLY);
   expect("write", &WatchedCalls::files, [&] { keep(&missed), (void)!write(null, "x", 1); });
   close(null);

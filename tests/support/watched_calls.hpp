@@ -11,7 +11,7 @@ struct WatchedCalls {
   long heap = 0;    ///< malloc, calloc, realloc, aligned_alloc, posix_memalign
   long news = 0;    ///< operator new
   long locks = 0;   ///< pthread mutexes
-  long files = 0;   ///< open, write, fwrite
+  long files = 0;   ///< fopen, fwrite, write
   long throws = 0;  ///< exceptions
 
   long all() const { return heap + news + locks + files + throws; }

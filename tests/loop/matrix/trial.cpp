@@ -97,9 +97,9 @@ std::string try_fault(const FaultCase& c, Situation situation, double* seen_afte
   *seen_after_s = rig.time_s() - injected_s;
   if (rig.state() != State::fault) return "not detected";
   if (rig.fault() != first) return "detected as " + text(rig.fault());
-  if (const std::string wrong = still_hot(rig); !wrong.empty()) return wrong;
+  if (std::string wrong = still_hot(rig); !wrong.empty()) return wrong;
   const bool stuck = rig.muscle().trouble.switch_stuck_on;
-  if (const std::string wrong = still_heated(rig, stuck); !wrong.empty()) return wrong;
+  if (std::string wrong = still_heated(rig, stuck); !wrong.empty()) return wrong;
   if (info(c.fault)->scope == Scope::board) {
     if (rig.loop.board_fault() == Fault::none) return "the board has no fault";
     if (rig.board.supply_closed()) return "the supply is still closed";

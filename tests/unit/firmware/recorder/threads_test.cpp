@@ -88,7 +88,7 @@ TEST(Threads, RowsThatAFullRingLostAreAGapAndTheRestIsInOrder) {
   }
   LONGS_EQUAL(202, lost);  // from 9 s on, and the tick at which the recorder comes back
   const auto rows = recording(1).rows;
-  LONGS_EQUAL(2 * 1101 - lost, rows.size());
+  LONGS_EQUAL(2L * 1101 - lost, rows.size());
   std::int64_t longest = 0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     CHECK(rows[i].time_ns >= rows[i - 1].time_ns);

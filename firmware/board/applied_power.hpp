@@ -12,7 +12,7 @@ struct AppliedPower {
   bool limited = false;  ///< it was not the one that was wanted
 };
 
-/// A delay line of whole ticks, up to 255.
+/// A delay line of whole ticks, up to 255. No longer than it must be: it stays in the cache.
 class OutputDelay {
  public:
   static constexpr std::size_t longest_ticks = 255;
@@ -22,9 +22,8 @@ class OutputDelay {
   /// What was set at this tick in, what acts from now on out.
   const AppliedPower& step(const AppliedPower& set) {
     line_[head_] = set;
-    const AppliedPower& acting = line_[(head_ + line_.size() - ticks_) % line_.size()];
-    head_ = (head_ + 1) % line_.size();
-    return acting;
+    head_ = head_ == ticks_ ? 0 : head_ + 1;
+    return line_[head_];
   }
 
  private:

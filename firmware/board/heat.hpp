@@ -1,12 +1,23 @@
 // How hot the muscle may be, from everything that is known of it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
+#include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/thermal/interval_observer.hpp"
 #include "supercoil/control/thermal/thermal_observer.hpp"
 
-#include "loop/settings.hpp"
-
 namespace supercoil::board {
+
+/// What is known of the muscle's heat. Power parts: true power over measured power.
+struct ThermalSettings {
+  control::ThermalBounds bounds{0.13, 0.20, 0.045, 0.18, 0.95, 1.05};
+  double thermal_mass_J_per_K = 0.162;  ///< ψ0, weighed or by calorimetry
+  double boot_rise_K = 135.0;           ///< how hot it may be at boot: the history is unknown
+  double ambient_C = 25.0;              ///< the warmest that the air can be
+  double coldest_ambient_C = 15.0;
+};
 
 /// Protection uses the hottest of the interval observer (configured bounds) and of the observer
 /// with learned values: learning can only make it more cautious.
@@ -38,7 +49,7 @@ class Heat {
   }
 
   double coldest_K() const { return interval_.lowest_K(); }
-  double hottest_K() const { return std::fmax(interval_.highest_K(), learned_.rise_K()); }
+  double hottest_K() const { return std::max(interval_.highest_K(), learned_.rise_K()); }
   double coldest_C() const { return settings_.coldest_ambient_C + coldest_K(); }
   double hottest_C() const { return settings_.ambient_C + hottest_K(); }
   /// Where the muscle should be, by what is believed of it.

@@ -30,7 +30,7 @@ inline void measure(const hal::Sample& sample, const Scaling& scaling, hal::Time
   // Converted a moment after the tick's time was read: fresh. Much later is a clock that went
   // wrong.
   const double age_s = hal::seconds(now - sample.taken);
-  result.age_s = std::fmax(0.0, age_s);
+  result.age_s = age_s > 0.0 ? age_s : 0.0;
   result.present = sample.status == hal::Status::ok && std::abs(age_s) <= max_age_s;
   result.value = result.present ? sample.counts * scaling.per_count + scaling.offset : 0.0;
 }

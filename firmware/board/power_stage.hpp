@@ -31,17 +31,23 @@ class PowerStage {
     const bool usable =
         std::isfinite(full_W) && full_W > 0.0 && resistance_Ohm > 0.0 && supply_V > 0.0;
     if (!usable || !(wanted_W > 0.0)) return off(wanted_W > 0.0 || std::isnan(wanted_W));
-    const double exact = wanted_W / full_W * settings_.steps + rest_;
-    const double most = std::fmin(settings_.steps, std::floor(most_W / full_W * settings_.steps));
-    const double rounded = std::fmax(0.0, std::fmin(std::nearbyint(exact), most));
-    rest_ = settings_.error_feedback ? std::clamp(exact - rounded, -1.0, 1.0) : 0.0;
-    const double duty = rounded / settings_.steps;
-    return {static_cast<int>(rounded), duty, duty * full_W, wanted_W > full_W};
+    const double steps_per_W = settings_.steps / full_W;
+    const double exact = wanted_W * steps_per_W + rest_;
+    const int most = whole(most_W * steps_per_W);
+    const int step = std::min(whole(exact + 0.5), most);
+    rest_ = settings_.error_feedback ? std::clamp(exact - step, -1.0, 1.0) : 0.0;
+    const double duty = static_cast<double>(step) / settings_.steps;
+    return {step, duty, duty * full_W, wanted_W > full_W};
   }
 
   void reset() { rest_ = 0.0; }
 
  private:
+  /// Whole steps, of those that there are; of a NaN none. (std::floor would be a call.)
+  int whole(double steps) const {
+    return steps > 0.0 ? static_cast<int>(std::min(steps, static_cast<double>(settings_.steps)))
+                       : 0;
+  }
   Output off(bool clipped) {
     rest_ = 0.0;
     return {0, 0.0, 0.0, clipped};

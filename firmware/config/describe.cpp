@@ -66,7 +66,7 @@ void describe_memory(std::ostream& out, const BoardSettings& settings) {
   out << "\nmemory, beside program and stacks\n"
       << "  recorder " << kib(memory.recorder)
       << " KiB: " << recorder.before_s + recorder.after_s + recorder.retry_s << " s of ticks, "
-      << sizeof(recorder::Row) << " bytes a channel and tick\n"
+      << sizeof(Row) << " bytes a channel and tick\n"
       << "  ring     " << kib(memory.ring) << " KiB: " << ring_s << " s of them\n"
       << "  loop     " << kib(memory.loop) << " KiB, " << settings.channels.size()
       << (settings.channels.size() == 1 ? " channel" : " channels") << " in it\n"
@@ -89,7 +89,7 @@ Memory memory_of(const BoardSettings& settings) {
   const recorder::RecorderSettings recorder;
   const double rows_per_s = settings.rate_Hz * static_cast<double>(settings.channels.size());
   const auto bytes = [&](double time_s) {
-    return static_cast<std::size_t>(time_s * rows_per_s) * sizeof(recorder::Row);
+    return static_cast<std::size_t>(time_s * rows_per_s) * sizeof(Row);
   };
   Memory memory;
   memory.ring = bytes(ring_s);

@@ -54,7 +54,7 @@ void read_bound(Section& section, const Bound& bound, const control::PhysicalPar
 void read_muscle(Section muscle, Section thermal, const BoardContext& context, ChannelSettings& c) {
   c.muscle = read_parameters(muscle, {});
   muscle.finish();
-  ThermalSettings& t = c.thermal;
+  board::ThermalSettings& t = c.thermal;
   for (const Bound& bound : thermal_bounds)
     read_bound(thermal, bound, c.muscle, t.bounds);
   const auto part = thermal.numbers(

@@ -11,9 +11,6 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
   return {h.sense_filter_s, h.resistance_filter_s, h.probe_duty, h.cold_resistance_Ohm};
 }
 
-/// A resistance of so many times the cold one is a broken wire and the sense's own offset.
-constexpr double as_good_as_open = 4.0;
-
 /// Longer than every hold time at 1 kHz but the slowest; so many overruns are a fault by
 /// themselves.
 constexpr long most_repeats = 1000;
@@ -32,6 +29,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
     : settings_(settings),
       devices_(devices),
       step_s_(board.step_s()),
+      ticks_per_s_(std::lround(board.rate_Hz)),
       index_(index),
       calibration_(settings.calibration),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
@@ -50,27 +48,6 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
     controllers_.emplace_back(controller, step_s_);
   for (const auto& estimator : settings.estimators)
     estimators_.emplace_back(estimator, step_s_);
-}
-
-void Channel::sample(hal::Time now) {
-  evidence_.renewed = evidence_.obeyed_command = evidence_.refused_command = false;
-  reset_asked_ = false;
-  sample_position(now);
-  const InputSettings& input = settings_.heater.current;
-  board::measure(devices_.current->latest(), input.scaling, now, input.max_age_s,
-                 evidence_.current);
-}
-
-void Channel::sample_position(hal::Time now) {
-  const hal::Sample sample = devices_.position->latest();
-  const InputSettings& input = settings_.position;
-  board::Measured& position = evidence_.position;
-  board::measure(sample, input.scaling, now, input.max_age_s, position);
-  evidence_.sensor_m = position.value;
-  position.value = (position.value - calibration_.position_offset_m) * calibration_.position_scale;
-  const bool fresh = position.present && sample.taken != position_taken_;
-  evidence_.position_elapsed_s = fresh ? hal::seconds(sample.taken - position_taken_) : 0.0;
-  if (fresh) position_taken_ = sample.taken;
 }
 
 void Channel::supervise(const BoardNow& board) {
@@ -93,11 +70,11 @@ void Channel::supervise(const BoardNow& board) {
   e.hottest_C = heat_known_ ? heat_.hottest_C() : settings_.thermal.ambient_C;
   e.applied_W = acting_.power_W;
   const double cold_Ohm = calibration_.cold_resistance_Ohm;
+  const double per_K = settings_.heater.temperature_coefficient_per_K;
   e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
   e.resistance_Ohm = resistance_.value_Ohm();
-  e.least_Ohm = cold_Ohm;
-  e.most_Ohm =
-      cold_Ohm * (1.0 + settings_.heater.temperature_coefficient_per_K * heat_.hottest_K());
+  e.least_Ohm = cold_Ohm * (1.0 + per_K * heat_.coldest_K());
+  e.most_Ohm = cold_Ohm * (1.0 + per_K * heat_.hottest_K());
   e.wanted_W = wanted_.wanted_power_W;
   e.limited = acting_.limited;
   present_fault_ = supervisor_.step(e);
@@ -114,80 +91,19 @@ void Channel::supervise(const BoardNow& board) {
     disarm(cause, board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause));
   }
   if (!reset_asked_) state_.reset(false, true);
-}
-
-/// The muscle's temperature, from the power that acted and the power that was measured: if a switch
-/// conducts by itself, only the current knows.
-void Channel::observe_heat(double supply_V, long periods) {
-  const bool measures = evidence_.current.present && supply_V > 0.0;
-  if (measures) resistance_.step(acting_.duty, supply_V, evidence_.current.value);
-  const double told_W = acting_.power_W;
-  const double noise_A = settings_.supervision.current_noise_A;
-  const double measured_W = measures ? supply_V * evidence_.current.value : limiter_.max_W();
-  // A measured power takes part only where it differs by more than the sense's own error.
-  const double tolerance_W = supply_V * noise_A + 0.05 * told_W;
-  const bool differs = std::abs(measured_W - told_W) > tolerance_W;
-  // The cold end may as well be too cold: nothing is protected by it.
-  const double least_W = std::fmin(told_W, measured_W) - supply_V * noise_A;
-  const double most_W = differs ? std::fmax(told_W, measured_W) : told_W;
-  heat_.step(std::fmax(least_W, 0.0), most_W, told_W);
-  // In periods that were left out the power may have gone on, or the charge pump have cut it.
-  for (long i = 1; i < periods; ++i)
-    heat_.step(0.0, most_W, told_W);
-  evidence_.most_W = most_W;
-
-  const HeaterSettings& h = settings_.heater;
-  evidence_.tells_temperature = h.temperature_coefficient_per_K > 0.0 && resistance_.age_s() < 1.0;
-  evidence_.from_resistance_K =
-      evidence_.tells_temperature
-          ? (resistance_.value_Ohm() / calibration_.cold_resistance_Ohm - 1.0) /
-                h.temperature_coefficient_per_K
-          : 0.0;
-  evidence_.from_position_K = evidence_.position.value / heat_.metres_per_K();
-}
-
-void Channel::follow_probe(double supply_V) {
-  evidence_.probed_Ohm = 0.0;
-  evidence_.probe_failed = false;
-  const auto probed = probe_.step(resistance_.duty(), supply_V,
-                                  evidence_.current.present ? evidence_.current.value : 0.0);
-  if (!probed.ended) return;
-  const double most_Ohm = as_good_as_open * calibration_.cold_resistance_Ohm;
-  evidence_.probe_failed = !(probed.resistance_Ohm > 0.0 && probed.resistance_Ohm < most_Ohm);
-  evidence_.probed_Ohm = evidence_.probe_failed ? 0.0 : probed.resistance_Ohm;
-  // What it should be: the calibrated one at whichever temperature of the interval suits it best.
-  const double per_K = settings_.heater.temperature_coefficient_per_K;
-  const double cold_Ohm = calibration_.cold_resistance_Ohm;
-  evidence_.calibrated_Ohm =
-      std::clamp(probed.resistance_Ohm, cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
-                 cold_Ohm * (1.0 + per_K * heat_.hottest_K()));
-  if (!evidence_.probe_failed) resistance_.set(probed.resistance_Ohm);
-  if (mode_ == Mode::calibrate) {
-    if (calibrate_.probed(evidence_.probed_Ohm) == modes::Calibrate::Outcome::found) {
-      storage::Calibration found = calibration_;
-      found.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
-      found.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
-      keep(muscle_, found);
-    }
-    state_.rest();
-    rest();
+  // A probe whose value is judged to be no muscle's has made the channel safe by now.
+  if (mode_ == Mode::calibrate && (e.probed || e.probe_failed)) {
+    end_calibrate(e.probed ? e.resistance_Ohm : 0.0);
   }
 }
 
 void Channel::estimate() {
   if (!state_.may_heat() || !evidence_.position.present) return;
   estimator().step(evidence_.position.value, acting_.power_W);
-  if (++ticks_ % static_cast<long>(1.0 / step_s_) == 0) learn_heat();
-}
-
-/// Once a second: what the estimator knows of cooling, when it may be trusted.
-void Channel::learn_heat() {
-  const auto estimate = estimator().estimate();
-  if (!estimate || !estimate->trusted) return;
-  const control::PhysicalParameters& m = settings_.muscle;
-  const auto physical =
-      control::physical_from(estimate->theta, {m.force_per_kelvin_N_per_K, m.moving_mass_kg});
-  if (physical) heat_.learn(physical->thermal_pole_rad_per_s());
+  // Once a second: what the estimator knows of cooling, when it may be trusted.
+  if (++ticks_ < ticks_per_s_) return;
+  ticks_ = 0;
+  learn_heat();
 }
 
 void Channel::control() {
@@ -220,32 +136,6 @@ void Channel::control() {
   }
 }
 
-void Channel::step_identify() {
-  wanted_.wanted_power_W = identify_.power_W(limiter_.max_W());
-  const auto outcome = identify_.step(evidence_.position.value, acting_.power_W);
-  if (outcome == modes::Identify::Outcome::running) return;
-  if (outcome == modes::Identify::Outcome::found) keep(identify_.found(), calibration_);
-  wanted_ = {};
-  state_.rest();
-  rest();
-}
-
-void Channel::step_calibrate() {
-  if (probe_.running()) return;
-  switch (calibrate_.step(heat_.hottest_K(), evidence_.position.value, step_s_)) {
-    case modes::Calibrate::Outcome::probe:
-      probe_.start();
-      break;
-    case modes::Calibrate::Outcome::failed:
-      state_.rest();
-      rest();
-      break;
-    case modes::Calibrate::Outcome::running:
-    case modes::Calibrate::Outcome::found:
-      break;
-  }
-}
-
 void Channel::limit() {
   if (state_.may_heat()) {
     allowed_ = limiter_.step(wanted_.wanted_power_W, heat_.hottest_C());
@@ -256,7 +146,6 @@ void Channel::limit() {
 
 void Channel::drive() {
   const HeaterSettings& h = settings_.heater;
-  const double full_W = supply_V_ * supply_V_ / resistance_.value_Ohm();
   board::PowerStage::Output out;
   if (state_.may_heat()) {
     // Calibration probes when it has found the zero, and not before.
@@ -267,7 +156,7 @@ void Channel::drive() {
   if (state_.enable() && probe_.running() && out.duty < h.probe_duty) {
     out.step = static_cast<int>(h.probe_duty * devices_.pwm->steps());
     out.duty = static_cast<double>(out.step) / devices_.pwm->steps();
-    out.applied_W = out.duty * full_W;
+    out.applied_W = out.duty * supply_V_ * supply_V_ / resistance_.value_Ohm();
     out.clipped = true;
   }
   write_enable(state_.enable());

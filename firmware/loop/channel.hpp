@@ -58,8 +58,10 @@ class Channel {
   /// A command was damaged on its way, and obeyed by nobody.
   void note_damaged() { evidence_.damaged_command = true; }
 
+  /// Only an obeyed command ends a row of damaged or refused ones.
   void note_answer(Refusal refusal) {
-    (refusal == Refusal::wrong_state ? evidence_.refused_command : evidence_.obeyed_command) = true;
+    if (refusal == Refusal::wrong_state) evidence_.refused_command = true;
+    if (refusal == Refusal::none) evidence_.obeyed_command = true;
   }
 
   const ChannelState& state() const { return state_; }
@@ -93,6 +95,7 @@ class Channel {
   void learn_heat();
   void step_identify();
   void step_calibrate();
+  void end_calibrate(double cold_Ohm);
   bool keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
   void write_duty(int step);
   void write_enable(bool high);
@@ -105,6 +108,7 @@ class Channel {
   ChannelSettings settings_;
   board::ChannelDevices devices_;
   double step_s_;
+  long ticks_per_s_;
   std::uint8_t index_;
 
   storage::Calibration calibration_;
@@ -145,7 +149,7 @@ class Channel {
   bool reset_asked_ = false;
   bool heat_known_ = false;  ///< the muscle has been cool since boot, whatever was before
   std::size_t turn_ = 0;
-  long ticks_ = 0;
+  long ticks_ = 0;  ///< of learning, in this second
   Snapshot snapshot_;
   boost::lockfree::spsc_queue<storage::Learned, boost::lockfree::capacity<4>> found_;
 };

@@ -147,14 +147,4 @@ Refusal Channel::scale(double true_m) {
   return true_m > 0.0 && keep(muscle_, found) ? Refusal::none : Refusal::out_of_range;
 }
 
-/// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
-bool Channel::keep(const control::PhysicalParameters& muscle, const storage::Calibration& found) {
-  const storage::Learned learned{muscle, found, 0};
-  if (storage::check(learned)) return false;
-  muscle_ = muscle;
-  calibration_ = found;
-  supervisor_.restart();  // every position moves with it
-  return found_.push(learned);
-}
-
 }  // namespace supercoil

@@ -34,10 +34,11 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
       devices_(devices),
       supervisor_(settings.supervision, settings.step_s()),
       self_test_(self_test_settings(settings), settings.step_s()),
+      settling_ticks_(std::lround(settling_s * settings.rate_Hz)),
       rows_(ring_rows(settings)) {
   for (std::size_t i = 0; i < settings.channels.size(); ++i) {
-    channels_.emplace_back(settings.channels[i], settings, devices.channels[i],
-                           static_cast<std::uint8_t>(i));
+    channels_.push_back(std::make_unique<Channel>(
+        settings.channels[i], settings, devices.channels[i], static_cast<std::uint8_t>(i)));
   }
 }
 
@@ -45,26 +46,26 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
   times_.late.add(woke - due);
 
   // Sample: counts become volts, amperes and metres, each with its age.
-  for (Channel& channel : channels_)
-    channel.sample(woke);
+  for (const auto& channel : channels_)
+    channel->sample(woke);
   const hal::Time sampled = devices_.clock->now();
 
   // Decide: commands, and whether anything may be hot.
   obey();
   judge_board(woke, hal::seconds(woke - due), skipped);
-  for (Channel& channel : channels_)
-    channel.supervise(now_);
-  for (Channel& channel : channels_) {
-    const Fault fault = channel.present_board_fault();
-    if (fault != Fault::none) latch(fault, channel.verdict().margin(fault));
+  for (const auto& channel : channels_)
+    channel->supervise(now_);
+  for (const auto& channel : channels_) {
+    const Fault fault = channel->present_board_fault();
+    if (fault != Fault::none) latch(fault, channel->verdict().margin(fault));
   }
   const hal::Time decided = devices_.clock->now();
 
   // Compute: learn from the power that acted, and find the one that is wanted.
-  for (Channel& channel : channels_) {
-    channel.estimate();
-    channel.control();
-    channel.limit();
+  for (const auto& channel : channels_) {
+    channel->estimate();
+    channel->control();
+    channel->limit();
   }
   const hal::Time computed = devices_.clock->now();
 
@@ -72,15 +73,15 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
   if (!now_.proven) {
     run_self_test();
   } else {
-    for (Channel& channel : channels_)
-      channel.drive();
+    for (const auto& channel : channels_)
+      channel->drive();
   }
   beat();
   const hal::Time driven = devices_.clock->now();
 
   // Publish: rows for the recorder and for telemetry; then the light, which may wait.
-  for (Channel& channel : channels_) {
-    if (!rows_.push(recorder::row_of(channel.publish(now_, supervisor_.verdict())))) ++lost_rows_;
+  for (const auto& channel : channels_) {
+    if (!rows_.push(row_of(channel->publish(now_, supervisor_.verdict())))) ++lost_rows_;
   }
   shine();
   if (devices_.watchdog != nullptr) devices_.watchdog->feed();
@@ -100,14 +101,14 @@ void Loop::obey() {
   reset_asked_ = false;
   std::uint8_t damaged = 0;
   while (damaged_.pop(damaged)) {
-    if (damaged < channels_.size()) channels_[damaged].note_damaged();
+    if (damaged < channels_.size()) channels_[damaged]->note_damaged();
   }
   Command command;
   for (int i = 0; i < most_commands_per_tick && commands_.pop(command); ++i) {
     Refusal refusal = Refusal::no_such_channel;
     if (command.channel < channels_.size()) {
       if (command.verb == Verb::reset) reset_board();
-      Channel& channel = channels_[command.channel];
+      Channel& channel = *channels_[command.channel];
       refusal = channel.obey(command, now_);
       channel.note_answer(refusal);
     }
@@ -137,8 +138,8 @@ void Loop::judge_board(hal::Time now, double late_s, long skipped) {
   e.late_s = late_s;
   e.skipped = skipped;
   e.lines_ok = lines_ok_;
-  for (const Channel& channel : channels_)
-    e.lines_ok = e.lines_ok && channel.lines_ok();
+  for (const auto& channel : channels_)
+    e.lines_ok = e.lines_ok && channel->lines_ok();
   e.telemetry_beats = health_.telemetry_beats.load(std::memory_order_relaxed);
   e.bus = health_.bus.load(std::memory_order_relaxed);
   e.configuration_changed = health_.configuration_changed.load(std::memory_order_relaxed);
@@ -146,7 +147,7 @@ void Loop::judge_board(hal::Time now, double late_s, long skipped) {
   const Fault present = supervisor_.step(e);
   const Verdict& verdict = supervisor_.verdict();
 
-  const bool settling = ticks_ < static_cast<long>(settling_s * settings_.rate_Hz);
+  const bool settling = ticks_ < settling_ticks_;
   now_.time = now;
   now_.supply_V = e.supply.present ? e.supply.value : 0.0;
   now_.testing = self_test_.under_way() || (settling && !self_test_.failed());
@@ -165,8 +166,8 @@ void Loop::latch(Fault cause, const detectors::Margin& margin) {
   const bool judged = !now_.testing || cause == Fault::emergency_stop;
   if (board_fault_ != Fault::none || !judged) return;
   board_fault_ = cause;
-  for (Channel& channel : channels_)
-    channel.disarm(cause, margin);
+  for (const auto& channel : channels_)
+    channel->disarm(cause, margin);
 }
 
 /// The test lets the supply close for a moment, and proves nothing without a supply: it waits for a
@@ -174,8 +175,8 @@ void Loop::latch(Fault cause, const detectors::Margin& margin) {
 bool Loop::may_test() const {
   bool quiet = board_fault_ == Fault::none && supervisor_.verdict().fault() == Fault::none &&
                evidence_.supply.present;
-  for (const Channel& channel : channels_)
-    quiet = quiet && std::isfinite(channel.measured_current_A());
+  for (const auto& channel : channels_)
+    quiet = quiet && std::isfinite(channel->measured_current_A());
   return quiet;
 }
 
@@ -186,14 +187,14 @@ void Loop::run_self_test() {
     const ChannelSettings& channel = settings_.channels[i];
     const double probe_A = channel.heater.probe_duty * settings_.supervision.lowest_supply_V /
                            channel.heater.cold_resistance_Ohm;
-    most_A = std::fmax(most_A, channels_[i].measured_current_A());
+    most_A = std::fmax(most_A, channels_[i]->measured_current_A());
     idle_A = std::fmin(idle_A, std::fmin(channel.supervision.off_current_A, 0.5 * probe_A));
   }
   self_test_.step(may_test(), most_A, idle_A);
   const SelfTest::Lines lines = self_test_.lines();
   for (std::size_t i = 0; i < channels_.size(); ++i) {
-    channels_[i].test_drive(lines.pulse ? settings_.channels[i].heater.probe_duty : 0.0,
-                            lines.enable);
+    channels_[i]->test_drive(lines.pulse ? settings_.channels[i].heater.probe_duty : 0.0,
+                             lines.enable);
   }
 }
 
@@ -211,14 +212,18 @@ void Loop::shine() {
   bool fault = board_fault_ != Fault::none;
   bool active = false;
   bool armed = false;
-  for (const Channel& channel : channels_) {
-    fault = fault || channel.state().state() == State::fault;
-    active = active || channel.state().state() == State::active;
-    armed = armed || channel.state().state() == State::armed;
+  for (const auto& channel : channels_) {
+    fault = fault || channel->state().state() == State::fault;
+    active = active || channel->state().state() == State::active;
+    armed = armed || channel->state().state() == State::armed;
   }
-  const double blinks_per_s = fault ? 5.0 : 1.0;
-  const long half_period = static_cast<long>(0.5 * settings_.rate_Hz / blinks_per_s);
-  const bool lit = fault || active ? (ticks_ / half_period) % 2 == 0 : armed;
+  const double half_period_s = fault ? 0.1 : 0.5;
+  const long half_period = static_cast<long>(half_period_s * settings_.rate_Hz);
+  if (++blink_ticks_ >= half_period) {
+    blink_ticks_ = 0;
+    blink_ = !blink_;
+  }
+  const bool lit = fault || active ? blink_ : armed;
   if (static_cast<int>(lit) == light_) return;
   devices_.light->set(lit);
   light_ = static_cast<int>(lit);

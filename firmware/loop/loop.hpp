@@ -2,14 +2,15 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
+#include <memory>
+#include <vector>
 
 #include <boost/lockfree/spsc_queue.hpp>
 
 #include "loop/channel.hpp"
+#include "loop/row.hpp"
 #include "loop/self_test.hpp"
 #include "loop/stage_times.hpp"
-#include "recorder/row.hpp"
 #include "supervisor/board_supervisor.hpp"
 
 namespace supercoil {
@@ -46,13 +47,13 @@ class Loop {
   bool answer(Answer& answer) { return answers_.pop(answer); }
   /// A frame for this channel was damaged; as send().
   bool send_damaged(std::uint8_t channel) { return damaged_.push(channel); }
-  bool take(recorder::Row& row) { return rows_.pop(row); }
+  bool take(Row& row) { return rows_.pop(row); }
   Health& health() { return health_; }
 
   /// In the loop's thread, or while it stands still.
   std::size_t channels() const { return channels_.size(); }
-  Channel& channel(std::size_t i) { return channels_[i]; }
-  const Channel& channel(std::size_t i) const { return channels_[i]; }
+  Channel& channel(std::size_t i) { return *channels_[i]; }
+  const Channel& channel(std::size_t i) const { return *channels_[i]; }
   Fault board_fault() const { return board_fault_; }
   const BoardSupervisor& supervisor() const { return supervisor_; }
   const SelfTest& self_test() const { return self_test_; }
@@ -72,7 +73,7 @@ class Loop {
 
   BoardSettings settings_;
   board::Devices devices_;
-  std::deque<Channel> channels_;  // channels cannot move
+  std::vector<std::unique_ptr<Channel>> channels_;  ///< they cannot move
   BoardSupervisor supervisor_;
   BoardEvidence evidence_;
   SelfTest self_test_;
@@ -83,15 +84,18 @@ class Loop {
   bool beat_ = false;
   bool lines_ok_ = true;
   int light_ = -1;
+  bool blink_ = false;
+  long blink_ticks_ = 0;
   long ticks_ = 0;
   long overruns_ = 0;
   long lost_rows_ = 0;
   LoopTimes times_;
+  long settling_ticks_;
   Health health_;
   boost::lockfree::spsc_queue<Command, boost::lockfree::capacity<256>> commands_;
   boost::lockfree::spsc_queue<Answer, boost::lockfree::capacity<256>> answers_;
   boost::lockfree::spsc_queue<std::uint8_t, boost::lockfree::capacity<64>> damaged_;
-  boost::lockfree::spsc_queue<recorder::Row> rows_;
+  boost::lockfree::spsc_queue<Row> rows_;
 };
 
 }  // namespace supercoil

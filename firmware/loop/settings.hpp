@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "supercoil/control/estimation/estimator.hpp"
-#include "supercoil/control/thermal/interval_observer.hpp"
 #include "supercoil/control/tracking/controller.hpp"
 
+#include "board/heat.hpp"
 #include "board/measurement.hpp"
 #include "storage/learned.hpp"
 #include "supervisor/limiter.hpp"
@@ -35,21 +35,12 @@ struct HeaterSettings {
   double delay_s = 0.0;        ///< from a duty's setting to its acting
 };
 
-/// What is known of the muscle's heat. Power parts: true power over measured power.
-struct ThermalSettings {
-  control::ThermalBounds bounds{0.13, 0.20, 0.045, 0.18, 0.95, 1.05};
-  double thermal_mass_J_per_K = 0.162;  ///< ψ0, weighed or by calorimetry
-  double boot_rise_K = 135.0;           ///< how hot it may be at boot: the history is unknown
-  double ambient_C = 25.0;              ///< the warmest that the air can be
-  double coldest_ambient_C = 15.0;
-};
-
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
   storage::Calibration calibration;    ///< its cold resistance is HeaterSettings' when not learned
   InputSettings position;
   HeaterSettings heater;
-  ThermalSettings thermal;
+  board::ThermalSettings thermal;
   LimiterSettings limiter;
   ChannelSupervision supervision;
   /// At least one of each; commands choose among them by their place.

@@ -1,7 +1,9 @@
 // What there is to know of one channel after one tick.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/hal/clock.hpp"
@@ -14,6 +16,9 @@ namespace supercoil {
 
 /// What an active channel does.
 enum class Mode : std::uint8_t { rest, position, power, identify, calibrate };
+
+inline constexpr std::array<std::string_view, 5> mode_names{"rest", "position", "power", "identify",
+                                                            "calibrate"};
 
 /// Quantities that could not be measured are NaN. Powers act from this tick to the next.
 struct Snapshot {

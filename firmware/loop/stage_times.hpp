@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <numeric>
 
 #include "supercoil/hal/clock.hpp"
 
@@ -19,7 +20,6 @@ class StageTime {
     last_ = taken;
     largest_ = taken > largest_ ? taken : largest_;
     sum_ns_ += nanoseconds;
-    ++count_;
     const auto bin = static_cast<std::size_t>(std::bit_width(nanoseconds));
     ++histogram_[bin < bins ? bin : bins - 1];
   }
@@ -27,9 +27,12 @@ class StageTime {
   hal::Duration last() const { return last_; }
   hal::Duration largest() const { return largest_; }
   double mean_ns() const {
-    return count_ == 0 ? 0.0 : static_cast<double>(sum_ns_) / static_cast<double>(count_);
+    const std::uint64_t times = count();
+    return times == 0 ? 0.0 : static_cast<double>(sum_ns_) / static_cast<double>(times);
   }
-  std::uint64_t count() const { return count_; }
+  std::uint64_t count() const {
+    return std::accumulate(histogram_.begin(), histogram_.end(), std::uint64_t{0});
+  }
   /// Bin i holds times from 2^(i−1) to 2^i − 1 ns; bin 0 holds 0; the last one all that is longer.
   const std::array<std::uint64_t, bins>& histogram() const { return histogram_; }
 
@@ -37,7 +40,6 @@ class StageTime {
   hal::Duration last_{};
   hal::Duration largest_{};
   std::uint64_t sum_ns_ = 0;
-  std::uint64_t count_ = 0;
   std::array<std::uint64_t, bins> histogram_{};
 };
 

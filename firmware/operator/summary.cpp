@@ -14,7 +14,6 @@ namespace supercoil::operating {
 namespace {
 
 using recorder::Recording;
-using recorder::Row;
 
 class Lines {
  public:

@@ -9,8 +9,8 @@
 
 #include "supercoil/hal/clock.hpp"
 
+#include "loop/row.hpp"
 #include "recorder/recording_folder.hpp"
-#include "recorder/row.hpp"
 #include "storage/files.hpp"
 
 namespace supercoil::recorder {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "supervisor/fault.hpp"
+#include "loop/snapshot.hpp"
 
 namespace supercoil::recorder {
 
@@ -17,17 +17,13 @@ std::string named(const std::array<std::string_view, N>& names, std::uint8_t num
 }
 
 inline std::string state_name(std::uint8_t number) {
-  return named(std::array<std::string_view, 4>{"disarmed", "armed", "active", "fault"}, number);
+  return named(state_names, number);
 }
 inline std::string mode_name(std::uint8_t number) {
-  return named(
-      std::array<std::string_view, 5>{"rest", "position", "power", "identify", "calibrate"},
-      number);
+  return named(mode_names, number);
 }
 inline std::string limit_name(std::uint8_t number) {
-  return named(std::array<std::string_view, 6>{"nothing", "minimum", "maximum", "slew",
-                                               "temperature", "invalid"},
-               number);
+  return named(limit_names, number);
 }
 inline std::string fault_name(std::uint8_t number) {
   if (number == 0) return "none";

@@ -10,7 +10,7 @@
 
 #include <tl/expected.hpp>
 
-#include "recorder/row.hpp"
+#include "loop/row.hpp"
 
 namespace supercoil::recorder {
 

@@ -14,14 +14,14 @@ namespace supercoil {
 ///   armed     cold, enable high. To active: activate(). To disarmed: disarm(none).
 ///   active    may be hot. To armed: rest(). To disarmed: disarm(none).
 ///   fault     cold, enable low. To disarmed: reset(), a rising edge of the reset command, after
-///   the
-///             cause is gone.
+///             the cause is gone.
 /// From every state disarm(cause) leads to fault. It boots disarmed. Nothing restarts by itself.
 enum class State : std::uint8_t { disarmed, armed, active, fault };
 
+inline constexpr std::array<std::string_view, 4> state_names{"disarmed", "armed", "active",
+                                                             "fault"};
 constexpr std::string_view name(State state) {
-  constexpr std::array<std::string_view, 4> names{"disarmed", "armed", "active", "fault"};
-  return names[static_cast<std::size_t>(state)];
+  return state_names[static_cast<std::size_t>(state)];
 }
 
 /// Why a command was not obeyed.

@@ -25,7 +25,6 @@ double frozen_band_m(const ChannelSupervision& s) {
 ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_resistance_Ohm,
                                      double lowest_supply_V, double step_s)
     : settings_(s),
-      cold_Ohm_(cold_resistance_Ohm),
       stale_(0.0),
       out_of_range_({s.lowest_position_m, s.highest_position_m, s.out_of_range_s}, step_s),
       frozen_({frozen_band_m(s), s.frozen_s}, step_s),
@@ -39,8 +38,7 @@ ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_re
       temperature_(s.trip_C),
       travel_(s.max_travel_m),
       energy_({s.energy_J, s.energy_window_s}, step_s),
-      drift_({cold_resistance_Ohm, s.resistance_part}),
-      drifting_(drifting_s, step_s),
+      drift_({s.resistance_part, drifting_s}, step_s),
       power_({s.max_measured_W, s.over_power_s}, step_s),
       expired_(s.command_timeout_s, step_s),
       damaged_(s.damaged_in_a_row),
@@ -106,16 +104,14 @@ void ChannelSupervisor::judge_muscle(const Evidence& e) {
     verdict_.note(over_travel, travel_.step(e.position.value), travel_.margin());
   }
   verdict_.note(energy_budget_exceeded, energy_.step(e.most_W), energy_.margin());
-  if (e.probed_Ohm > 0.0) {
-    // Brought to the calibration's temperature.
-    const double cold_Ohm = e.probed_Ohm / e.calibrated_Ohm * cold_Ohm_;
-    verdict_.note(resistance_drift, drift_.step(cold_Ohm), drift_.margin());
-  }
   // While heating as well: a sense that tells too little current makes the power stage give more.
-  const bool outside = e.resistance_Ohm < e.least_Ohm * (1.0 - settings_.resistance_part) ||
-                       e.resistance_Ohm > e.most_Ohm * (1.0 + settings_.resistance_part);
-  const bool drifts = drifting_.step(e.resistance_fresh && outside);
-  if (drifts) verdict_.note(resistance_drift, true, drift_.margin());
+  if (e.resistance_fresh) {
+    verdict_.note(resistance_drift,
+                  drift_.step(e.resistance_Ohm, e.least_Ohm, e.most_Ohm, e.probed),
+                  drift_.margin());
+  } else {
+    drift_.skip();
+  }
   if (e.probe_failed) verdict_.note(heater_open, true, open_.margin());
 }
 

@@ -32,9 +32,8 @@ struct Evidence {
   bool tells_temperature = false;  ///< the next two are known
   double from_resistance_K = 0.0;
   double from_position_K = 0.0;
-  double probed_Ohm = 0.0;        ///< of a probe that ended at this tick; 0: none did
-  double calibrated_Ohm = 10.0;   ///< what it should be, at this temperature
-  bool resistance_fresh = false;  ///< measured at this tick, while heating
+  bool probed = false;            ///< a probe ended at this tick with the next value
+  bool resistance_fresh = false;  ///< it was measured at this tick, by a probe or while heating
   double resistance_Ohm = 0.0;
   double least_Ohm = 0.0;  ///< between these it should be, at whichever temperature
   double most_Ohm = 0.0;
@@ -73,7 +72,6 @@ class ChannelSupervisor {
   void judge_commands(const Evidence& e);
 
   ChannelSupervision settings_;
-  double cold_Ohm_;
   Verdict verdict_;
   detectors::Stale stale_;
   detectors::OutOfRange out_of_range_;
@@ -89,7 +87,6 @@ class ChannelSupervisor {
   detectors::Limit travel_;
   detectors::EnergyBudget energy_;
   detectors::ResistanceDrift drift_;
-  detectors::HeldFor drifting_;
   detectors::Above power_;
   detectors::Expired expired_;
   detectors::InARow damaged_;

@@ -17,10 +17,10 @@ enum class LimitedBy : std::uint8_t {
   invalid = 5,      ///< the wanted power was no number; none is given
 };
 
+inline constexpr std::array<std::string_view, 6> limit_names{"nothing", "minimum",     "maximum",
+                                                             "slew",    "temperature", "invalid"};
 constexpr std::string_view name(LimitedBy limit) {
-  constexpr std::array<std::string_view, 6> names{"nothing", "minimum",     "maximum",
-                                                  "slew",    "temperature", "invalid"};
-  return names[static_cast<std::size_t>(limit)];
+  return limit_names[static_cast<std::size_t>(limit)];
 }
 
 struct LimiterSettings {

@@ -52,10 +52,10 @@ ChannelSupervision supervision_of(const Scenario& scenario) {
   return s;
 }
 
-ThermalSettings thermal_of(const Conditions& c) {
+board::ThermalSettings thermal_of(const Conditions& c) {
   const ThermalSpans& spans = c.thermal;
   const control::PhysicalParameters& m = c.muscle;
-  ThermalSettings t;
+  board::ThermalSettings t;
   t.bounds = {m.thermal_mass_J_per_K * spans.mass_part[0],
               m.thermal_mass_J_per_K * spans.mass_part[1],
               m.heat_transfer_W_per_K * spans.transfer_part[0],

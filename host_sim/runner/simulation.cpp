@@ -45,7 +45,7 @@ void Simulation::housekeep() {
     if (recorder_ != nullptr) {
       recorder::pump(loop_, *recorder_, board_.true_time());
     } else {
-      for (recorder::Row row; loop_.take(row);) {
+      for (Row row; loop_.take(row);) {
       }
     }
   }

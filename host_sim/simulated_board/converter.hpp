@@ -36,15 +36,22 @@ struct ConverterTrouble {
 
 class SimulatedConverter final : public hal::AdcChannel {
  public:
-  SimulatedConverter(const ConverterSettings& settings, std::uint64_t seed)
-      : settings_(settings), generator_(seed) {}
+  SimulatedConverter(const ConverterSettings& settings, std::uint64_t seed) : generator_(seed) {
+    set(settings);
+  }
 
   hal::Sample latest() override;
 
   /// The board's time moved on to `now`, at which the truth is `value`.
   void offer(double value, hal::Time now);
   /// The noise goes on from where it was.
-  void set(const ConverterSettings& settings) { settings_ = settings; }
+  void set(const ConverterSettings& settings) {
+    settings_ = settings;
+    full_scale_ = static_cast<double>(settings.full_scale());
+    counts_per_unit_ = full_scale_ / (settings.high - settings.low);
+    period_ = hal::duration_from(settings.period_s);
+    latency_ = hal::duration_from(settings.latency_s);
+  }
   void set(const ConverterTrouble& trouble) { trouble_ = trouble; }
   const ConverterSettings& settings() const { return settings_; }
 
@@ -52,6 +59,10 @@ class SimulatedConverter final : public hal::AdcChannel {
   hal::Sample convert(double value, hal::Time when);
 
   ConverterSettings settings_;
+  double full_scale_ = 1.0;
+  double counts_per_unit_ = 1.0;
+  hal::Duration period_{};
+  hal::Duration latency_{};
   ConverterTrouble trouble_;
   boost::random::mt19937_64 generator_;
   boost::random::normal_distribution<double> normal_;

@@ -23,7 +23,11 @@ class SimulatedPwm final : public hal::PwmOutput {
     if (refuses != hal::Status::ok) return refuses;
     if (step < 0 || step > steps_) return hal::Status::out_of_range;
     set_ = step;
-    on_the_way_.push_back({*now_ + delay_, step});
+    if (delay_ > hal::Duration{}) {
+      on_the_way_.push_back({*now_ + delay_, step});
+    } else {
+      acting_ = step;
+    }
     return hal::Status::ok;
   }
   int read_back() const override { return reads_wrong ? set_ + 1 : set_; }

@@ -9,7 +9,7 @@ SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
       supply_V_(settings.supply_V) {
   std::uint64_t seed = settings.seed;
   for (const MuscleChannelSettings& channel : settings.channels)
-    channels_.emplace_back(channel, step_, now_, seed++);
+    channels_.push_back(std::make_unique<MuscleChannel>(channel, step_, now_, seed++));
   supply.offer(supply_V_, now_);
 }
 
@@ -28,17 +28,17 @@ void SimulatedBoard::advance_to(hal::Time time) {
 
 void SimulatedBoard::step() {
   closed_ = pump.closed(heartbeat.edges(), now_);
-  for (MuscleChannel& channel : channels_)
-    channel.advance(now_, closed_ ? supply_V_ : 0.0);
+  for (const auto& channel : channels_)
+    channel->advance(now_, closed_ ? supply_V_ : 0.0);
   now_ += step_;
   supply.offer(supply_V_, now_);
 }
 
 board::Devices SimulatedBoard::devices() {
   board::Devices devices{this, &supply, &heartbeat, &stop_circuit, &light, &watchdog, {}};
-  for (MuscleChannel& channel : channels_) {
+  for (const auto& channel : channels_) {
     devices.channels.push_back(
-        {&channel.pwm, &channel.enable, &channel.position, &channel.current});
+        {&channel->pwm, &channel->enable, &channel->position, &channel->current});
   }
   return devices;
 }

@@ -1,7 +1,7 @@
 // A whole board with its muscles, on any PC.
 #pragma once
 
-#include <deque>
+#include <memory>
 #include <vector>
 
 #include "board/devices.hpp"
@@ -39,8 +39,8 @@ class SimulatedBoard final : public hal::Clock {
   /// The next tick takes so much time, as now() tells.
   void lose_in_tick(double time_s) { to_lose_ = hal::duration_from(time_s); }
 
-  MuscleChannel& channel(std::size_t i) { return channels_[i]; }
-  const MuscleChannel& channel(std::size_t i) const { return channels_[i]; }
+  MuscleChannel& channel(std::size_t i) { return *channels_[i]; }
+  const MuscleChannel& channel(std::size_t i) const { return *channels_[i]; }
   void set_supply_V(double supply_V) { supply_V_ = supply_V; }
   bool supply_closed() const { return closed_; }
   hal::Time true_time() const { return now_; }
@@ -62,7 +62,7 @@ class SimulatedBoard final : public hal::Clock {
   hal::Duration lost_{};  ///< of this tick; for the muscles it passes on the way to the next
   hal::Duration late_{};
   bool closed_ = false;
-  std::deque<MuscleChannel> channels_;
+  std::vector<std::unique_ptr<MuscleChannel>> channels_;
 };
 
 }  // namespace supercoil::host_sim

@@ -78,9 +78,9 @@ class Bench {
       inputs_[2 * i + 1].counts = powered_ ? static_cast<int>(1.2e6 * pwms_[i].last / 4095) : 0;
       if (verb != Verb::none) loop_->send({static_cast<std::uint8_t>(i), verb, 0.005});
     }
-    loop_->health().telemetry_beats.fetch_add(1);
+    loop_->health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
     loop_->tick(clock_.time, clock_.time, 0);
-    recorder::Row row;
+    Row row;
     while (loop_->take(row)) {
     }
     Answer answer;
@@ -92,6 +92,7 @@ class Bench {
 
  private:
   bool powered_ = false;
+  std::uint32_t beats_ = 0;
   IdleClock clock_;
   Input supply_;
   Line heartbeat_;

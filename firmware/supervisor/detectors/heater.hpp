@@ -92,8 +92,8 @@ class NotResponding {
 
  private:
   static void widen(double& low, double& high, double value) {
-    low = std::fmin(low, value);
-    high = std::fmax(high, value);
+    low = std::min(low, value);
+    high = std::max(high, value);
   }
 
   Settings settings_;

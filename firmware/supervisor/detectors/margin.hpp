@@ -1,6 +1,7 @@
 // What every detector has in common: how near it is to tripping, and for how long.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace supercoil::detectors {
@@ -42,7 +43,7 @@ class HeldFor {
 
   /// One tick. True from the tick on at which it has held for hold_s.
   bool step(bool holds) {
-    held_s_ = holds ? held_s_ + step_s_ : std::fmax(0.0, held_s_ - forgets_s_);
+    held_s_ = holds ? held_s_ + step_s_ : std::max(0.0, held_s_ - forgets_s_);
     // Half a step of tolerance: sums of steps are not exact.
     return holds && held_s_ + 0.5 * step_s_ > hold_s_;
   }

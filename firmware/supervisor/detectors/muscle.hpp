@@ -14,10 +14,11 @@ class EnergyBudget {
     double energy_J;
     double window_s;
   };
-  EnergyBudget(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
+  EnergyBudget(const Settings& settings, double step_s)
+      : settings_(settings), step_s_(step_s), forgotten_(step_s / settings.window_s) {}
 
   bool step(double power_W) {
-    spent_J_ += (power_W - spent_J_ / settings_.window_s) * step_s_;
+    spent_J_ += power_W * step_s_ - spent_J_ * forgotten_;
     margin_ = rising(spent_J_, settings_.energy_J);
     return !(spent_J_ <= settings_.energy_J);
   }
@@ -26,31 +27,39 @@ class EnergyBudget {
  private:
   Settings settings_;
   double step_s_;
+  double forgotten_;  ///< in a step, of what was spent
   double spent_J_ = 0.0;
   Margin margin_;
 };
 
-/// Trips when the cold resistance, measured by a probe while the muscle is cold, is further from
-/// its calibration than `part` of it.
+/// Trips when the heater's resistance is further than `part` outside of what it can be at any
+/// temperature that the muscle may have: at once when a probe measured it, after hold_s when it is
+/// the smoothed one of a heating muscle.
 class ResistanceDrift {
  public:
   struct Settings {
-    double calibrated_Ohm;
     double part;
+    double hold_s;
   };
-  explicit ResistanceDrift(const Settings& settings) : settings_(settings) {}
+  ResistanceDrift(const Settings& settings, double step_s)
+      : settings_(settings), held_(settings.hold_s, step_s) {}
 
-  /// At each probe of a cold muscle.
-  bool step(double cold_Ohm) {
-    const double change_Ohm = std::abs(cold_Ohm - settings_.calibrated_Ohm);
-    const double allowed_Ohm = settings_.part * settings_.calibrated_Ohm;
-    margin_ = rising(change_Ohm, allowed_Ohm);
-    return !(change_Ohm <= allowed_Ohm);
+  /// least_Ohm and most_Ohm: between these a muscle lies that is as it was calibrated.
+  bool step(double measured_Ohm, double least_Ohm, double most_Ohm, bool probed) {
+    const double low_Ohm = least_Ohm * (1.0 - settings_.part);
+    const double high_Ohm = most_Ohm * (1.0 + settings_.part);
+    const bool outside = !(measured_Ohm >= low_Ohm && measured_Ohm <= high_Ohm);
+    const bool falls = measured_Ohm < least_Ohm;
+    margin_ = falls ? falling(measured_Ohm, low_Ohm) : rising(measured_Ohm, high_Ohm);
+    return held_.step(outside) || (probed && outside);
   }
+  /// Nothing was measured at this tick.
+  void skip() { held_.step(false); }
   const Margin& margin() const { return margin_; }
 
  private:
   Settings settings_;
+  HeldFor held_;
   Margin margin_;
 };
 

@@ -80,7 +80,7 @@ class Jump {
     margin_ = rising(change, allowed);
     const bool jumped = !(change <= allowed);
     // A reading that is where it was takes back only a quarter: a bad contact comes and goes.
-    count_ = jumped ? count_ + 1.0 : std::fmax(0.0, count_ - 0.25);
+    count_ = jumped ? count_ + 1.0 : std::max(0.0, count_ - 0.25);
     if (!jumped || count_ >= 2.0) last_ = reading;
     return jumped && count_ >= 2.0;
   }

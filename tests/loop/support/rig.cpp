@@ -83,7 +83,7 @@ void Rig::tick() {
   if (state() == State::active) ask();
   executive.run_tick();
   if (telemetry_lives) loop.health().telemetry_beats.store(++beats_);
-  recorder::Row row;
+  Row row;
   while (loop.take(row)) {
   }
   Answer answer;

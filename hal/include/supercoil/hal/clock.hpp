@@ -10,7 +10,7 @@ using Time = std::chrono::nanoseconds;
 using Duration = std::chrono::nanoseconds;
 
 constexpr double seconds(Duration duration) {
-  return std::chrono::duration<double>(duration).count();
+  return 1e-9 * static_cast<double>(duration.count());
 }
 constexpr Duration duration_from(double seconds_) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds_));

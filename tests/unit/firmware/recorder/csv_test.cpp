@@ -10,7 +10,6 @@
 
 using namespace supercoil;
 using namespace supercoil::test;
-using recorder::Row;
 
 namespace {
 

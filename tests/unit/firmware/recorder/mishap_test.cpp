@@ -23,7 +23,7 @@ constexpr int calls_of_a_recording = 9;
 
 /// Two recordings of which two may be kept, and an interrupted one.
 Content start() {
-  std::vector<recorder::Row> rows{row(5 * second_ns, 1, Fault::over_temperature)};
+  std::vector<Row> rows{row(5 * second_ns, 1, Fault::over_temperature)};
   const std::string whole = file_of(rows);
   return {{"/d/flight-4.scfr", whole},
           {"/d/flight-5.scfr", whole},

@@ -14,7 +14,6 @@ using namespace supercoil::test;
 using recorder::Damaged;
 using recorder::decode;
 using recorder::header_bytes;
-using recorder::Row;
 
 TEST_GROUP(Recording) {
   std::vector<Row> rows{row(4 * second_ns, 0), row(4 * second_ns, 1), row(5 * second_ns, 0),

@@ -21,11 +21,11 @@ namespace {
 
 /// The loop's ring and its way of filling it.
 struct Ring {
-  boost::lockfree::spsc_queue<recorder::Row> rows{400};  // 2 s of two channels
+  boost::lockfree::spsc_queue<Row> rows{400};  // 2 s of two channels
   std::atomic<bool> done{false};
 
-  bool take(recorder::Row& row) { return rows.pop(row); }
-  void push(const recorder::Row& row) {
+  bool take(Row& row) { return rows.pop(row); }
+  void push(const Row& row) {
     while (!rows.push(row))
       std::this_thread::yield();  // the loop would lose it; here none may be missing
   }

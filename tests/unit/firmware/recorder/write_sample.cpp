@@ -12,12 +12,12 @@ namespace {
 
 using namespace supercoil;
 
-recorder::Row sample(std::int64_t tick, int channel) {
+Row sample(std::int64_t tick, int channel) {
   const bool hot = channel == 1;
   const std::int64_t fault_tick = hot ? 2000 : 2050;
   const bool faulty = tick >= fault_tick;
   const Fault cause = hot ? Fault::over_temperature : Fault::emergency_stop;
-  recorder::Row row = test::row(tick * test::tick_ns, channel, faulty ? cause : Fault::none);
+  Row row = test::row(tick * test::tick_ns, channel, faulty ? cause : Fault::none);
   row.mode = static_cast<std::uint8_t>(faulty ? Mode::rest : Mode::position);
   row.flags = 2;
   row.reference = 0.011F;

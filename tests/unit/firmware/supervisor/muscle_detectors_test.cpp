@@ -38,11 +38,30 @@ TEST(MuscleDetectors, EnergyBudgetTripsForABurstThatIsTooLong) {
 }
 
 TEST(MuscleDetectors, ResistanceDriftTripsBothWays) {
-  ResistanceDrift detector({10.0, 0.2});
-  CHECK_FALSE(detector.step(11.9));
-  CHECK(detector.step(12.1));
-  CHECK(detector.step(7.9));
-  CHECK(detector.step(std::nan("")));
+  ResistanceDrift detector({0.2, 0.003}, step_s);
+  const auto probed = [&](double measured_Ohm) {
+    return detector.step(measured_Ohm, 10.0, 11.0, true);
+  };
+  CHECK_FALSE(probed(13.1));
+  CHECK(probed(13.3));
+  DOUBLES_EQUAL(13.3 / 13.2, detector.margin().used(), 1e-12);
+  CHECK_FALSE(probed(8.1));
+  CHECK(probed(7.9));
+  DOUBLES_EQUAL(8.0 / 7.9, detector.margin().used(), 1e-12);
+  CHECK(probed(std::nan("")));
+}
+
+TEST(MuscleDetectors, ResistanceOfAHeatingMuscleMustDriftForAWhile) {
+  ResistanceDrift detector({0.2, 0.003}, step_s);
+  const auto heating = [&](double measured_Ohm) {
+    return detector.step(measured_Ohm, 10.0, 11.0, false);
+  };
+  CHECK_FALSE(heating(20.0));
+  CHECK_FALSE(heating(20.0));
+  detector.skip();
+  CHECK_FALSE(heating(20.0));
+  CHECK_FALSE(heating(20.0));
+  CHECK(heating(20.0));
 }
 
 TEST(MuscleDetectors, SupplyTripsAboveAndBelowItsLimitsAfterTheirTime) {

@@ -24,10 +24,10 @@ class IntervalObserver {
  public:
   /// All bounds positive and in order; step_s > 0.
   IntervalObserver(const ThermalBounds& bounds, double step_s)
-      : hot_{bounds.highest_power_part, bounds.lowest_transfer_W_per_K,
+      : hot_{bounds.highest_power_part / bounds.lowest_transfer_W_per_K,
              decay(bounds.lowest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s),
              decay(bounds.lowest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s)},
-        cold_{bounds.lowest_power_part, bounds.highest_transfer_W_per_K,
+        cold_{bounds.lowest_power_part / bounds.highest_transfer_W_per_K,
               decay(bounds.highest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s),
               decay(bounds.highest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s)} {}
 
@@ -52,13 +52,12 @@ class IntervalObserver {
   /// One end of the interval. Exact over the tick: it comes nearer to its rest value and never
   /// passes it, so the heat flow keeps its sign.
   struct End {
-    double power_part;
-    double transfer_W_per_K;
+    double rest_K_per_W;
     double heating_decay;
     double cooling_decay;
 
     double moved(double rise_K, double power_W) const {
-      const double rest_K = power_W * power_part / transfer_W_per_K;
+      const double rest_K = power_W * rest_K_per_W;
       return rest_K + (rise_K - rest_K) * (rest_K > rise_K ? heating_decay : cooling_decay);
     }
   };

@@ -73,7 +73,7 @@ struct RecorderOnADisk : Utest {
 };
 
 /// Every tick of both channels from one time to another, in order and whole.
-inline void check_rows(const std::vector<recorder::Row>& rows, double from_s, double to_s) {
+inline void check_rows(const std::vector<Row>& rows, double from_s, double to_s) {
   const std::int64_t from_ns = std::llround(from_s * 1e9);
   const std::int64_t to_ns = std::llround(to_s * 1e9);
   LONGS_EQUAL(2 * ((to_ns - from_ns) / tick_ns + 1), static_cast<long>(rows.size()));

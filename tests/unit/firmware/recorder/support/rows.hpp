@@ -13,8 +13,8 @@ inline constexpr double rate_Hz = 100.0;
 inline constexpr std::int64_t tick_ns = 10'000'000;
 inline constexpr std::int64_t second_ns = 1'000'000'000;
 
-inline recorder::Row row(std::int64_t time_ns, int channel, Fault fault = Fault::none) {
-  recorder::Row made{};
+inline Row row(std::int64_t time_ns, int channel, Fault fault = Fault::none) {
+  Row made{};
   made.time_ns = time_ns;
   made.channel = static_cast<std::uint8_t>(channel);
   made.fault = static_cast<std::uint8_t>(fault);
@@ -24,12 +24,12 @@ inline recorder::Row row(std::int64_t time_ns, int channel, Fault fault = Fault:
   return made;
 }
 
-inline std::string_view bytes_of(const std::vector<recorder::Row>& rows) {
-  return {reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(recorder::Row)};
+inline std::string_view bytes_of(const std::vector<Row>& rows) {
+  return {reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)};
 }
 
 /// A whole file of these rows of two channels, with a fault on channel 2 at 5 s.
-inline std::string file_of(const std::vector<recorder::Row>& rows) {
+inline std::string file_of(const std::vector<Row>& rows) {
   recorder::Header header;
   header.rows = rows.size();
   header.channels = 2;

@@ -7,7 +7,7 @@
 
 #include "loop/snapshot.hpp"
 
-namespace supercoil::recorder {
+namespace supercoil {
 
 /// A snapshot in single precision. Written to recordings as it is in memory, little-endian; the
 /// layout is a format (docs/recorder.md): new fields take `reserved`, nothing moves.
@@ -45,4 +45,4 @@ static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 
 Row row_of(const Snapshot& snapshot);
 
-}  // namespace supercoil::recorder
+}  // namespace supercoil

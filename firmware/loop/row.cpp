@@ -1,6 +1,6 @@
-#include "recorder/row.hpp"
+#include "loop/row.hpp"
 
-namespace supercoil::recorder {
+namespace supercoil {
 
 namespace {
 
@@ -44,4 +44,4 @@ Row row_of(const Snapshot& s) {
   return row;
 }
 
-}  // namespace supercoil::recorder
+}  // namespace supercoil

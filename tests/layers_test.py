@@ -15,6 +15,8 @@ OS_IN_STD = {"thread", "mutex", "filesystem", "fstream", "iostream", "chrono", "
 ALLOWED = {
     "control": ["supercoil/control/", "Eigen/", "unsupported/Eigen/"],
     "hal/include": ["supercoil/hal/"],
+    "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "pthread.h", "sched.h",
+                  "sys/", "unistd.h"],
     "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "config/", "loop/", "modes/", "recorder/", "storage/",
                  "supervisor/", "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
 }

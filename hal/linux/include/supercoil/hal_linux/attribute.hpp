@@ -1,0 +1,59 @@
+// One value of a driver, as sysfs shows it: a small text file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "supercoil/hal/status.hpp"
+#include "supercoil/hal_linux/descriptor.hpp"
+#include "supercoil/hal_linux/problem.hpp"
+
+namespace supercoil::hal_linux {
+
+/// A whole number as an attribute gives it, or why there is none.
+struct Number {
+  std::int64_t value = 0;
+  hal::Status status = hal::Status::not_ready;
+};
+
+/// A decimal number, perhaps with a minus, and at most a newline behind it; nothing else.
+/// Anything else, and what 64 bits do not hold, is an io_error.
+Number parse_number(std::string_view text) noexcept;
+
+/// An attribute held open, so that a tick neither looks up a path nor allocates. Move-only.
+class Attribute {
+ public:
+  enum class Use { read, write, both };
+
+  /// Anything but a regular file is refused: a pipe would hold up the reader.
+  static Result<Attribute> open(const std::string& path, Use use);
+
+  /// For ticks: never allocate; a read or write costs what the driver makes of it.
+  Number number() const noexcept;
+  hal::Status write(std::int64_t value) const noexcept;
+  hal::Status write(std::string_view text) const noexcept;
+
+  /// For set-up: the text without its newline. Longer than a page, or with a byte that is no
+  /// printable text, is an error.
+  Result<std::string> text() const;
+  /// For set-up: as write() and number(), and the error names the path and what was written.
+  Result<void> set(std::string_view text) const;
+  Result<std::int64_t> whole() const;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  Attribute(Descriptor file, std::string path) : file_(std::move(file)), path_(std::move(path)) {}
+
+  Descriptor file_;
+  std::string path_;
+};
+
+/// An attribute that is read once.
+Result<std::string> read_text(const std::string& path);
+Result<std::int64_t> read_whole(const std::string& path);
+/// An attribute that is written once.
+Result<void> write_text(const std::string& path, std::string_view text);
+
+}  // namespace supercoil::hal_linux

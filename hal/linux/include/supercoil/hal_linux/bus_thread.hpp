@@ -1,0 +1,57 @@
+// Serves every device of a slow bus, beside the loop.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "supercoil/hal/clock.hpp"
+#include "supercoil/hal_linux/problem.hpp"
+#include "supercoil/hal_linux/served.hpp"
+#include "supercoil/hal_linux/thread.hpp"
+
+namespace supercoil::hal_linux {
+
+/// How a bus's rounds go; written by its thread, read by any.
+struct BusHealth {
+  std::atomic<std::uint64_t> rounds{0};           ///< finished
+  std::atomic<std::uint64_t> skipped{0};          ///< periods left out since a round took too long
+  std::atomic<std::int64_t> last_round_ns{0};     ///< how long it took
+  std::atomic<std::int64_t> longest_round_ns{0};  ///< of all
+  std::atomic<std::int64_t> last_finished_ns{0};  ///< on the clock; how a stalled bus is noticed
+};
+
+/// Once a period it serves the devices, one after the other, in their order. One that fails is
+/// served again in the next round like all others; one that blocks holds up those behind it. A
+/// round that takes longer than the period leaves whole periods out.
+class BusThread {
+ public:
+  /// devices: not null; they outlive this. Put PWM outputs first: a duty should not wait for
+  /// conversions.
+  static Result<std::unique_ptr<BusThread>> start(const ThreadWish& wish, hal::Duration period,
+                                                  std::vector<Served*> devices);
+  BusThread(const BusThread&) = delete;
+  BusThread& operator=(const BusThread&) = delete;
+  /// Waits for the round under way, and for at most a period more.
+  ~BusThread();
+
+  const BusHealth& health() const { return health_; }
+  /// How setting the thread's priority and CPU went.
+  const std::vector<SetupStep>& steps() const { return thread_->steps(); }
+
+ private:
+  BusThread(hal::Duration period, std::vector<Served*> devices)
+      : period_(period), devices_(std::move(devices)) {}
+
+  void run();
+  void serve_all(hal::Time started);
+
+  hal::Duration period_;
+  std::vector<Served*> devices_;
+  BusHealth health_;
+  std::atomic<bool> ending_{false};
+  std::unique_ptr<Thread> thread_;
+};
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,42 @@
+// Finds a device of sysfs by a name that does not change with the kernel.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "supercoil/hal_linux/problem.hpp"
+
+namespace supercoil::hal_linux {
+
+/// A device as sysfs shows it.
+struct DeviceFolder {
+  std::string folder;              ///< /sys/class/pwm/pwmchip0
+  std::vector<std::string> names;  ///< what it may be called; the first is the usual one
+  std::string device_path;         ///< of the hardware: /sys/devices/…/i2c-1/1-0040
+
+  /// "pwmchip0 'pca9685' at /sys/devices/…/i2c-1/1-0040".
+  std::string describe() const;
+};
+
+/// Every folder of `root` whose name is `prefix` and a number, in the order of numbers.
+Result<std::vector<DeviceFolder>> numbered_folders(const std::string& root,
+                                                   std::string_view prefix);
+
+/// The one of `all` that `wanted` means: one of its names, or, when it holds a slash, the end of
+/// its device path. None, and more than one, is an error that lists what there is. kind: "PWM
+/// chip".
+Result<DeviceFolder> choose(const std::vector<DeviceFolder>& all, std::string_view wanted,
+                            std::string_view kind, const std::string& root);
+
+/// The path behind all links; empty when there is none.
+std::string real_path(const std::string& path);
+/// The part behind the last slash; the part before it.
+std::string last_part(const std::string& path);
+std::string parent_of(const std::string& path);
+/// "a, b, c"; of more than 12 the rest is counted.
+std::string listed(const std::vector<std::string>& items);
+/// The names in a folder, sorted.
+Result<std::vector<std::string>> names_in(const std::string& folder);
+
+}  // namespace supercoil::hal_linux

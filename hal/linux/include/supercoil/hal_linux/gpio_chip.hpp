@@ -1,0 +1,66 @@
+// A GPIO chip and lines of it, by libgpiod; its versions 1 and 2 are two files behind this.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "supercoil/hal/digital_line.hpp"
+#include "supercoil/hal_linux/problem.hpp"
+
+namespace supercoil::hal_linux {
+
+/// What a line is asked to be.
+enum class Direction { input, output };
+
+/// A line that this process holds: nobody else can take it. Released when it ends; what level it
+/// has then is the chip's affair, so set it low before. Move-only. set() and get() are one system
+/// call and allocate nothing.
+class HeldLine {
+ public:
+  struct Handle;
+  struct Release {
+    void operator()(Handle* handle) const noexcept;
+  };
+  using Owned = std::unique_ptr<Handle, Release>;
+
+  explicit HeldLine(Owned handle) : handle_(std::move(handle)) {}
+
+  hal::Status set(bool high) noexcept;
+  hal::Level get() noexcept;
+
+ private:
+  Owned handle_;
+};
+
+/// A line as the kernel tells of it.
+struct LineAbout {
+  std::string name;      ///< empty: none
+  std::string consumer;  ///< who holds it; empty: nobody
+};
+
+/// An opened chip. Move-only.
+class GpioChip {
+ public:
+  /// path: /dev/gpiochip0
+  static Result<GpioChip> open(const std::string& path);
+
+  std::string name() const;   ///< gpiochip0
+  std::string label() const;  ///< pinctrl-bcm2711
+  unsigned line_count() const;
+  LineAbout about(unsigned offset) const;
+  /// An output is low from the first moment. EBUSY when somebody holds the line. Ends the chip, on
+  /// which the line hangs in libgpiod 1.
+  Result<HeldLine> request(unsigned offset, Direction direction) &&;
+
+ private:
+  struct Handle;
+  struct Close {
+    void operator()(Handle* handle) const noexcept;
+  };
+  explicit GpioChip(std::unique_ptr<Handle, Close> handle) : handle_(std::move(handle)) {}
+
+  std::unique_ptr<Handle, Close> handle_;
+};
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,27 @@
+// A converter's input, read at the moment when it is asked.
+#pragma once
+
+#include <memory>
+
+#include "supercoil/hal/adc_channel.hpp"
+#include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/iio_device.hpp"
+
+namespace supercoil::hal_linux {
+
+/// in_<input>_raw. A read takes as long as the driver makes it: over I²C it blocks for a
+/// millisecond, and belongs into a BusThread. busy while a buffer of the same device is enabled.
+class IioAdc final : public hal::AdcChannel {
+ public:
+  /// Reads once, so that a device that does not answer is known before anything is hot.
+  static Result<std::unique_ptr<IioAdc>> open(const ConverterPlace& place);
+  explicit IioAdc(Attribute raw) : raw_(std::move(raw)) {}
+
+  /// The time is that before the read: a conversion is never younger than it seems.
+  hal::Sample latest() override;
+
+ private:
+  Attribute raw_;
+};
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,37 @@
+// Converters of the kernel's Industrial I/O.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "supercoil/hal_linux/device_folder.hpp"
+#include "supercoil/hal_linux/problem.hpp"
+
+namespace supercoil::hal_linux {
+
+/// Where a converter's input is.
+struct ConverterPlace {
+  std::string device;  ///< IIO name, or the end of its device path when it holds a slash
+  std::string input;   ///< e.g. voltage0, or voltage0-voltage1
+  std::string root = "/sys/bus/iio/devices";
+};
+
+/// The converters in root.
+Result<std::vector<DeviceFolder>> iio_devices(const std::string& root);
+/// The one that is meant.
+Result<DeviceFolder> find_iio_device(const std::string& device, const std::string& root);
+
+/// How the kernel turns counts into its unit (millivolts for a voltage): (counts + offset) * scale.
+struct Scaling {
+  double scale = 1.0;
+  double offset_counts = 0.0;
+};
+
+/// The input's own scale and offset, or those of all inputs of its kind; a device without an offset
+/// has 0. For a check of the configuration: the firmware scales by what the configuration says.
+Result<Scaling> kernel_scaling(const ConverterPlace& place);
+
+/// Whether `input` may be part of a file's name: letters, digits, '-' and '_'.
+bool is_input_name(const std::string& input);
+
+}  // namespace supercoil::hal_linux

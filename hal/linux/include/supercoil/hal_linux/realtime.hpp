@@ -1,0 +1,54 @@
+// What makes a thread wake in time, each step with its outcome.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <pthread.h>
+
+#include "supercoil/hal_linux/descriptor.hpp"
+
+namespace supercoil::hal_linux {
+
+/// One step of the set-up. A step that fails leaves the firmware working, only less punctual.
+struct SetupStep {
+  std::string step;  ///< what was tried, e.g. "priority 80 of SCHED_FIFO"
+  bool worked = false;
+  std::string reason;  ///< empty when it worked
+  std::string remedy;  ///< empty when it worked
+};
+
+/// Keeps the process's memory, also what it will get, in RAM. Call it before threads are started:
+/// their whole stacks are locked as well.
+SetupStep lock_memory();
+
+/// Touches so much of the calling thread's stack that it is in RAM before it is needed.
+SetupStep prefault_stack(std::size_t bytes);
+
+/// 1 to 99, above all ordinary threads; checked by reading it back.
+SetupStep set_fifo_priority(pthread_t thread, int priority);
+
+/// The thread runs on this CPU alone; checked by reading it back.
+SetupStep pin_to_cpu(pthread_t thread, int cpu);
+
+/// While it lives, CPUs do not sleep so deeply that waking them takes time. Move-only.
+class WakefulCpus {
+ public:
+  SetupStep hold(const std::string& path = "/dev/cpu_dma_latency");
+
+ private:
+  Descriptor file_;
+};
+
+/// How the loop's thread should run.
+struct RealtimeWish {
+  int priority = 80;
+  int cpu = -1;  ///< negative: any
+  std::size_t stack_bytes = std::size_t{128} * 1024;
+};
+
+/// All steps, for the calling thread. Keep `cpus` for as long as the loop runs.
+std::vector<SetupStep> set_up_realtime(const RealtimeWish& wish, WakefulCpus& cpus);
+
+}  // namespace supercoil::hal_linux

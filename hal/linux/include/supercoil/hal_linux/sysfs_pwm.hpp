@@ -1,0 +1,61 @@
+// A PWM output by the kernel's sysfs.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "supercoil/hal/pwm_output.hpp"
+#include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/device_folder.hpp"
+#include "supercoil/hal_linux/problem.hpp"
+
+namespace supercoil::hal_linux {
+
+/// Where a PWM output is, and what it shall be.
+struct PwmPlace {
+  std::string device;  ///< the chip's name, or the end of its device path when it holds a slash
+  int number = 0;      ///< of the output on its chip
+  std::int64_t period_ns = 0;  ///< steps or more
+  int steps = 4095;            ///< of a period
+  std::string root = "/sys/class/pwm";
+};
+
+/// The files of one exported output.
+struct PwmFiles {
+  Attribute period;
+  Attribute duty;
+  Attribute enable;
+  Attribute polarity;
+};
+
+/// The PWM chips in root.
+Result<std::vector<DeviceFolder>> pwm_chips(const std::string& root);
+
+/// Finds the output, exports it when nobody has, and opens its files. Writes nothing else.
+Result<PwmFiles> open_pwm_files(const PwmPlace& place);
+
+/// Brings an output from whatever state it was left in to: duty 0, not inversed, its period,
+/// enabled; and reads back that it is so. The order is one that the kernel refuses in no state.
+Result<void> prepare_pwm(const PwmFiles& files, std::int64_t period_ns);
+
+/// A prepared output. Its duty is 0 when it is opened and again when it ends. It stays exported.
+class SysfsPwm final : public hal::PwmOutput {
+ public:
+  static Result<std::unique_ptr<SysfsPwm>> open(const PwmPlace& place);
+  SysfsPwm(PwmFiles files, std::int64_t period_ns, int steps);
+  /// Duty 0 first: what a disabled output's pin does is the chip's affair.
+  ~SysfsPwm() override;
+
+  hal::Status set(int step) override;
+  /// The kernel's duty in whole steps; negative also when it is longer than the period.
+  int read_back() const override;
+  int steps() const override { return steps_; }
+
+ private:
+  PwmFiles files_;
+  std::int64_t period_ns_;
+  int steps_;
+};
+
+}  // namespace supercoil::hal_linux

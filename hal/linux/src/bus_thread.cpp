@@ -1,0 +1,49 @@
+#include "supercoil/hal_linux/bus_thread.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "supercoil/hal_linux/monotonic_clock.hpp"
+
+namespace supercoil::hal_linux {
+
+Result<std::unique_ptr<BusThread>> BusThread::start(const ThreadWish& wish, hal::Duration period,
+                                                    std::vector<Served*> devices) {
+  if (period <= hal::Duration::zero()) return problem("a bus's period must be above 0");
+  std::unique_ptr<BusThread> bus(new BusThread(period, std::move(devices)));
+  auto thread = Thread::start(wish, [bus = bus.get()] { bus->run(); });
+  if (!thread) return tl::unexpected(thread.error());
+  bus->thread_ = std::make_unique<Thread>(std::move(*thread));
+  return bus;
+}
+
+BusThread::~BusThread() {
+  ending_.store(true, std::memory_order_relaxed);
+  thread_.reset();
+}
+
+void BusThread::run() {
+  MonotonicClock clock;
+  hal::Time wake = clock.now();
+  while (!ending_.load(std::memory_order_relaxed)) {
+    serve_all(clock.wait_until(wake));
+    const auto periods = std::max<std::int64_t>(1, (clock.now() - wake) / period_ + 1);
+    health_.skipped.fetch_add(static_cast<std::uint64_t>(periods - 1), std::memory_order_relaxed);
+    wake += periods * period_;
+  }
+}
+
+void BusThread::serve_all(hal::Time started) {
+  for (Served* device : devices_)
+    device->serve();
+  const hal::Time finished = MonotonicClock::time();
+  const std::int64_t took_ns = (finished - started).count();
+  health_.last_round_ns.store(took_ns, std::memory_order_relaxed);
+  if (took_ns > health_.longest_round_ns.load(std::memory_order_relaxed)) {
+    health_.longest_round_ns.store(took_ns, std::memory_order_relaxed);
+  }
+  health_.last_finished_ns.store(finished.count(), std::memory_order_relaxed);
+  health_.rounds.fetch_add(1, std::memory_order_release);
+}
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,118 @@
+// libgpiod 2: Debian 13. A request lives apart from its chip.
+#include <cerrno>
+
+#include <gpiod.h>
+
+#include "supercoil/hal_linux/gpio_chip.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+/// Frees one of libgpiod's objects.
+template <auto free>
+struct Free {
+  template <class Object>
+  void operator()(Object* object) const noexcept {
+    free(object);
+  }
+};
+
+using ChipInfo = std::unique_ptr<gpiod_chip_info, Free<gpiod_chip_info_free>>;
+using LineInfo = std::unique_ptr<gpiod_line_info, Free<gpiod_line_info_free>>;
+using Settings = std::unique_ptr<gpiod_line_settings, Free<gpiod_line_settings_free>>;
+using LineConfig = std::unique_ptr<gpiod_line_config, Free<gpiod_line_config_free>>;
+using RequestConfig = std::unique_ptr<gpiod_request_config, Free<gpiod_request_config_free>>;
+
+std::string text_or_empty(const char* text) {
+  return text == nullptr ? std::string{} : std::string{text};
+}
+
+bool settle(gpiod_line_settings* settings, Direction direction) {
+  if (direction == Direction::input) {
+    return gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_INPUT) == 0;
+  }
+  return gpiod_line_settings_set_direction(settings, GPIOD_LINE_DIRECTION_OUTPUT) == 0 &&
+         gpiod_line_settings_set_output_value(settings, GPIOD_LINE_VALUE_INACTIVE) == 0;
+}
+
+}  // namespace
+
+struct GpioChip::Handle {
+  gpiod_chip* chip;
+  ChipInfo info;
+};
+
+struct HeldLine::Handle {
+  gpiod_line_request* request;
+  unsigned offset;
+};
+
+void GpioChip::Close::operator()(Handle* handle) const noexcept {
+  gpiod_chip_close(handle->chip);
+  delete handle;
+}
+
+void HeldLine::Release::operator()(Handle* handle) const noexcept {
+  gpiod_line_request_release(handle->request);
+  delete handle;
+}
+
+Result<GpioChip> GpioChip::open(const std::string& path) {
+  gpiod_chip* const chip = gpiod_chip_open(path.c_str());
+  if (chip == nullptr) return problem("cannot open " + path, errno);
+  std::unique_ptr<Handle, Close> handle(new Handle{chip, ChipInfo(gpiod_chip_get_info(chip))});
+  if (!handle->info) return problem("cannot ask " + path + " what it is", errno);
+  return GpioChip(std::move(handle));
+}
+
+std::string GpioChip::name() const {
+  return gpiod_chip_info_get_name(handle_->info.get());
+}
+
+std::string GpioChip::label() const {
+  return gpiod_chip_info_get_label(handle_->info.get());
+}
+
+unsigned GpioChip::line_count() const {
+  return static_cast<unsigned>(gpiod_chip_info_get_num_lines(handle_->info.get()));
+}
+
+LineAbout GpioChip::about(unsigned offset) const {
+  const LineInfo info(gpiod_chip_get_line_info(handle_->chip, offset));
+  if (!info) return {};
+  return {text_or_empty(gpiod_line_info_get_name(info.get())),
+          text_or_empty(gpiod_line_info_get_consumer(info.get()))};
+}
+
+Result<HeldLine> GpioChip::request(unsigned offset, Direction direction) && {
+  const std::string what = "cannot request line " + std::to_string(offset);
+  const Settings settings(gpiod_line_settings_new());
+  const LineConfig lines(gpiod_line_config_new());
+  const RequestConfig config(gpiod_request_config_new());
+  if (!settings || !lines || !config) return problem(what, ENOMEM);
+  gpiod_request_config_set_consumer(config.get(), "supercoil");
+  if (!settle(settings.get(), direction) ||
+      gpiod_line_config_add_line_settings(lines.get(), &offset, 1, settings.get()) != 0) {
+    return problem(what, errno);
+  }
+  gpiod_line_request* const request =
+      gpiod_chip_request_lines(handle_->chip, config.get(), lines.get());
+  if (request == nullptr) return problem(what, errno);
+  return HeldLine(HeldLine::Owned(new HeldLine::Handle{request, offset}));
+}
+
+hal::Status HeldLine::set(bool high) noexcept {
+  const auto value = high ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE;
+  return gpiod_line_request_set_value(handle_->request, handle_->offset, value) == 0
+             ? hal::Status::ok
+             : status_of(errno);
+}
+
+hal::Level HeldLine::get() noexcept {
+  const auto value = gpiod_line_request_get_value(handle_->request, handle_->offset);
+  if (value == GPIOD_LINE_VALUE_ERROR) return {false, status_of(errno)};
+  return {value == GPIOD_LINE_VALUE_ACTIVE, hal::Status::ok};
+}
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,104 @@
+#include "supercoil/hal_linux/gpio_line.hpp"
+
+#include <cerrno>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "supercoil/hal_linux/device_folder.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+std::string described(const GpioChip& chip) {
+  return chip.name() + " '" + chip.label() + "'";
+}
+
+/// The chips in dev, and why others could not be opened.
+struct Chips {
+  std::vector<GpioChip> open;
+  std::vector<std::string> described;
+};
+
+Result<Chips> open_chips(const std::string& dev) {
+  const auto folders = numbered_folders(dev, "gpiochip");
+  if (!folders) return tl::unexpected(folders.error());
+  Chips chips;
+  for (const DeviceFolder& node : *folders) {
+    // Some systems keep a chip's former number as a link to it.
+    if (real_path(node.folder) != real_path(dev) + "/" + last_part(node.folder)) continue;
+    auto chip = GpioChip::open(node.folder);
+    chips.described.push_back(chip ? described(*chip) : chip.error().text);
+    if (chip) chips.open.push_back(std::move(*chip));
+  }
+  return chips;
+}
+
+Result<GpioChip> find_chip(const std::string& label, const std::string& dev) {
+  auto chips = open_chips(dev);
+  if (!chips) return tl::unexpected(chips.error());
+  const std::string what = "chip with the label '" + label + "' in " + dev;
+  std::optional<GpioChip> found;
+  for (GpioChip& chip : chips->open) {
+    if (chip.label() != label) continue;
+    if (found) return problem("more than one " + what + ": " + listed(chips->described));
+    found = std::move(chip);
+  }
+  if (found) return std::move(*found);
+  if (chips->described.empty()) return problem("no " + what + ": there is no chip at all");
+  return problem("no " + what + ": there are " + listed(chips->described));
+}
+
+Result<unsigned> find_line(const GpioChip& chip, const std::string& name) {
+  std::optional<unsigned> found;
+  std::vector<std::string> names;
+  for (unsigned offset = 0; offset < chip.line_count(); ++offset) {
+    const std::string line = chip.about(offset).name;
+    if (!line.empty()) names.push_back("'" + line + "'");
+    if (line != name || line.empty()) continue;
+    if (found) {
+      return problem("more than one line '" + name + "' on " + described(chip) + ": " +
+                     std::to_string(*found) + " and " + std::to_string(offset));
+    }
+    found = offset;
+  }
+  if (found) return *found;
+  const std::string what = "no line '" + name + "' on " + described(chip);
+  if (names.empty()) return problem(what + ": none of its lines has a name");
+  return problem(what + ": there are " + listed(names));
+}
+
+}  // namespace
+
+Result<HeldLine> hold_line(const LineName& name, Direction direction, const std::string& dev) {
+  auto chip = find_chip(name.chip, dev);
+  if (!chip) return tl::unexpected(chip.error());
+  const auto offset = find_line(*chip, name.line);
+  if (!offset) return tl::unexpected(offset.error());
+  const std::string consumer = chip->about(*offset).consumer;
+  const std::string what = "cannot take line '" + name.line + "' of " + described(*chip);
+  auto line = std::move(*chip).request(*offset, direction);
+  if (line) return line;
+  const bool held = line.error().code == EBUSY && !consumer.empty();
+  return problem(held ? what + ", which '" + consumer + "' holds" : what, line.error().code);
+}
+
+Result<std::unique_ptr<GpioOutput>> GpioOutput::open(const LineName& name, const std::string& dev) {
+  return hold_line(name, Direction::output, dev).map([](HeldLine&& line) {
+    return std::make_unique<GpioOutput>(std::move(line));
+  });
+}
+
+GpioOutput::~GpioOutput() {
+  // Chips differ in whether a line keeps its level when it is released.
+  static_cast<void>(line_.set(false));
+}
+
+Result<std::unique_ptr<GpioInput>> GpioInput::open(const LineName& name, const std::string& dev) {
+  return hold_line(name, Direction::input, dev).map([](HeldLine&& line) {
+    return std::make_unique<GpioInput>(std::move(line));
+  });
+}
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,136 @@
+#include "supercoil/hal_linux/realtime.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+std::string message(int error) {
+  return std::generic_category().message(error);
+}
+
+SetupStep outcome(std::string step, const std::string& reason, const std::string& remedy) {
+  const bool worked = reason.empty();
+  return {std::move(step), worked, reason, worked ? std::string{} : remedy};
+}
+
+std::string limit_text(__rlimit_resource resource) {
+  rlimit limit{};
+  if (::getrlimit(resource, &limit) != 0) return "unknown";
+  return limit.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(limit.rlim_cur);
+}
+
+/// Bytes of the calling thread's stack that are certainly below this call.
+std::size_t stack_left() {
+  pthread_attr_t attributes{};
+  if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return 0;
+  void* lowest = nullptr;
+  std::size_t bytes = 0;
+  ::pthread_attr_getstack(&attributes, &lowest, &bytes);
+  ::pthread_attr_destroy(&attributes);
+  const char here = 0;
+  return static_cast<std::size_t>(&here - static_cast<const char*>(lowest));
+}
+
+/// Writes into its own frame and those below. Not one big array: no compiler may leave it out.
+[[gnu::noinline]] char touch(std::size_t bytes) {
+  constexpr std::size_t frame = 2048;  // less than a page: none is stepped over
+  std::array<volatile char, frame> mine;
+  mine.front() = static_cast<char>(bytes);
+  mine.back() = bytes > frame ? touch(bytes - frame) : '\0';
+  return static_cast<char>(mine.front() + mine.back());
+}
+
+}  // namespace
+
+SetupStep lock_memory() {
+  const int done = ::mlockall(MCL_CURRENT | MCL_FUTURE);
+  const std::string reason = done == 0 ? ""
+                                       : message(errno) + "; the limit of locked memory is " +
+                                             limit_text(RLIMIT_MEMLOCK) + " bytes";
+  return outcome("memory locked", reason, "run as root, or LimitMEMLOCK=infinity in the service");
+}
+
+SetupStep prefault_stack(std::size_t bytes) {
+  constexpr std::size_t for_others = std::size_t{16} * 1024;
+  const std::string step = std::to_string(bytes / 1024) + " KiB of stack in memory";
+  const std::size_t left = stack_left();
+  if (left < bytes + for_others) {
+    return outcome(step, "the stack has only " + std::to_string(left / 1024) + " KiB left",
+                   "give the thread a larger stack");
+  }
+  static_cast<void>(touch(bytes));
+  return outcome(step, "", "");
+}
+
+SetupStep set_fifo_priority(pthread_t thread, int priority) {
+  const std::string step = "priority " + std::to_string(priority) + " of SCHED_FIFO";
+  sched_param wanted{};
+  wanted.sched_priority = priority;
+  const int error = ::pthread_setschedparam(thread, SCHED_FIFO, &wanted);
+  if (error == EINVAL) return outcome(step, message(error), "choose a priority of 1 to 99");
+  const std::string remedy = "run as root, or LimitRTPRIO=99 in the service";
+  if (error != 0) {
+    return outcome(step, message(error) + "; the limit of priority is " + limit_text(RLIMIT_RTPRIO),
+                   remedy);
+  }
+  // Some sandboxes accept it and do nothing.
+  int policy = 0;
+  sched_param now{};
+  const bool taken = ::pthread_getschedparam(thread, &policy, &now) == 0 && policy == SCHED_FIFO &&
+                     now.sched_priority == priority;
+  return outcome(step, taken ? "" : "accepted, but the thread does not have it", remedy);
+}
+
+SetupStep pin_to_cpu(pthread_t thread, int cpu) {
+  const std::string step = "on CPU " + std::to_string(cpu) + " alone";
+  const std::string remedy =
+      "choose one of the " + std::to_string(::sysconf(_SC_NPROCESSORS_ONLN)) +
+      " CPUs that run, counted from 0, and that the service's AllowedCPUs= leaves";
+  if (cpu < 0 || cpu >= CPU_SETSIZE) return outcome(step, message(EINVAL), remedy);
+  cpu_set_t wanted;
+  CPU_ZERO(&wanted);
+  CPU_SET(static_cast<std::size_t>(cpu), &wanted);
+  const int error = ::pthread_setaffinity_np(thread, sizeof(wanted), &wanted);
+  if (error != 0) return outcome(step, message(error), remedy);
+  cpu_set_t now;
+  const bool taken =
+      ::pthread_getaffinity_np(thread, sizeof(now), &now) == 0 && CPU_EQUAL(&now, &wanted) != 0;
+  return outcome(step, taken ? "" : "accepted, but the thread may run elsewhere", remedy);
+}
+
+SetupStep WakefulCpus::hold(const std::string& path) {
+  const std::string step = "CPUs kept from deep sleep";
+  const std::string remedy = "run as root, or allow writing to " + path;
+  auto opened = open_file(path, O_WRONLY | O_NONBLOCK);
+  if (!opened) return outcome(step, opened.error().text, remedy);
+  // A binary number of microseconds; it holds for as long as the file is open.
+  const std::array<char, sizeof(std::int32_t)> zero{};
+  const auto written = write_next(*opened, zero.data(), zero.size());
+  if (written != hal::Status::ok) {
+    return outcome(step, "cannot write to " + path + ": " + text(written), remedy);
+  }
+  file_ = std::move(*opened);
+  return outcome(step, "", "");
+}
+
+std::vector<SetupStep> set_up_realtime(const RealtimeWish& wish, WakefulCpus& cpus) {
+  std::vector<SetupStep> steps{lock_memory(), prefault_stack(wish.stack_bytes),
+                               set_fifo_priority(::pthread_self(), wish.priority)};
+  if (wish.cpu >= 0) steps.push_back(pin_to_cpu(::pthread_self(), wish.cpu));
+  steps.push_back(cpus.hold());
+  return steps;
+}
+
+}  // namespace supercoil::hal_linux

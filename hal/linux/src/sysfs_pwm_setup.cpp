@@ -1,0 +1,139 @@
+// Finding a PWM output and bringing it into a known state.
+#include <algorithm>
+#include <cerrno>
+#include <string>
+
+#include "supercoil/hal_linux/sysfs_pwm.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+Result<void> export_output(const DeviceFolder& chip, int number) {
+  const auto count = read_whole(chip.folder + "/npwm");
+  if (!count) return tl::unexpected(count.error());
+  if (number < 0 || number >= *count) {
+    return problem(chip.describe() + " has " + std::to_string(*count) +
+                   " outputs, counted from 0; there is no " + std::to_string(number));
+  }
+  if (!real_path(chip.folder + "/pwm" + std::to_string(number)).empty()) return {};
+  auto written = write_text(chip.folder + "/export", std::to_string(number));
+  if (!written && written.error().code == EBUSY) {
+    return problem("output " + std::to_string(number) + " of " + chip.describe() +
+                       " is used by a driver of the kernel (see /sys/kernel/debug/pwm)",
+                   EBUSY);
+  }
+  return written;
+}
+
+Result<PwmFiles> open_files(const std::string& folder) {
+  const auto open = [&](const char* name) {
+    return Attribute::open(folder + "/" + name, Attribute::Use::both);
+  };
+  auto period = open("period");
+  if (!period) return tl::unexpected(period.error());
+  auto duty = open("duty_cycle");
+  if (!duty) return tl::unexpected(duty.error());
+  auto enable = open("enable");
+  if (!enable) return tl::unexpected(enable.error());
+  auto polarity = open("polarity");
+  if (!polarity) return tl::unexpected(polarity.error());
+  return PwmFiles{std::move(*period), std::move(*duty), std::move(*enable), std::move(*polarity)};
+}
+
+/// What was left behind.
+struct PwmState {
+  std::int64_t period_ns;
+  std::int64_t duty_ns;
+  bool enabled;
+  bool inversed;
+};
+
+Result<PwmState> state_of(const PwmFiles& files) {
+  const auto period = files.period.whole();
+  if (!period) return tl::unexpected(period.error());
+  const auto duty = files.duty.whole();
+  if (!duty) return tl::unexpected(duty.error());
+  const auto enabled = files.enable.whole();
+  if (!enabled) return tl::unexpected(enabled.error());
+  const auto polarity = files.polarity.text();
+  if (!polarity) return tl::unexpected(polarity.error());
+  if (*period < 0 || *duty < 0) return problem(files.period.path() + " or its duty is negative");
+  return PwmState{*period, *duty, *enabled != 0, *polarity == "inversed"};
+}
+
+/// One after the other, until one fails.
+class Writes {
+ public:
+  void set(const Attribute& attribute, std::string_view text) {
+    if (result_) result_ = attribute.set(text);
+  }
+  void set(const Attribute& attribute, std::int64_t value) {
+    set(attribute, std::to_string(value));
+  }
+  Result<void> result() const { return result_; }
+
+ private:
+  Result<void> result_;
+};
+
+}  // namespace
+
+Result<std::vector<DeviceFolder>> pwm_chips(const std::string& root) {
+  auto chips = numbered_folders(root, "pwmchip");
+  if (!chips) return chips;
+  for (DeviceFolder& chip : *chips) {
+    chip.device_path = real_path(chip.folder + "/device");
+    // On I²C and SPI the device has the part's name ("pca9685"); others only that of their folder.
+    if (const auto name = read_text(chip.folder + "/device/name"); name && !name->empty()) {
+      chip.names.push_back(*name);
+    }
+    if (!chip.device_path.empty()) chip.names.push_back(last_part(chip.device_path));
+  }
+  return chips;
+}
+
+Result<PwmFiles> open_pwm_files(const PwmPlace& place) {
+  return pwm_chips(place.root)
+      .and_then(
+          [&](const auto& chips) { return choose(chips, place.device, "PWM chip", place.root); })
+      .and_then([&](const DeviceFolder& chip) -> Result<PwmFiles> {
+        if (auto exported = export_output(chip, place.number); !exported) {
+          return tl::unexpected(exported.error());
+        }
+        return open_files(chip.folder + "/pwm" + std::to_string(place.number));
+      });
+}
+
+// The kernel judges the whole state after each write: it refuses any that leaves the period 0 or
+// the duty above it (6.1; from 6.8 only of an enabled output), and a new polarity while enabled.
+Result<void> prepare_pwm(const PwmFiles& files, std::int64_t period_ns) {
+  const auto left = state_of(files);
+  if (!left) return tl::unexpected(left.error());
+  Writes writes;
+  // Without a period nothing else is accepted, and no period shorter than the duty. A driver may
+  // also report a duty above its period; then only a new duty or a longer period is taken.
+  const bool stuck = left->period_ns == 0 || (left->inversed && left->duty_ns > left->period_ns);
+  if (stuck) writes.set(files.period, std::max(period_ns, left->duty_ns));
+  if (left->inversed) {
+    // Inversed, a duty of 0 is always on: so not yet. The polarity changes only while disabled.
+    writes.set(files.enable, 0);
+    writes.set(files.polarity, "normal");
+  }
+  writes.set(files.duty, 0);
+  writes.set(files.period, period_ns);
+  writes.set(files.enable, 1);
+  if (!writes.result()) return writes.result();
+  const auto now = state_of(files);
+  if (!now) return tl::unexpected(now.error());
+  if (now->period_ns != period_ns || now->duty_ns != 0 || !now->enabled || now->inversed) {
+    return problem(parent_of(files.period.path()) + " took every write and now shows period " +
+                   std::to_string(now->period_ns) + " ns, duty " + std::to_string(now->duty_ns) +
+                   " ns, enable " + std::to_string(now->enabled ? 1 : 0) +
+                   (now->inversed ? ", inversed" : ", normal") + ": wanted period " +
+                   std::to_string(period_ns) + " ns, duty 0, enable 1, normal");
+  }
+  return {};
+}
+
+}  // namespace supercoil::hal_linux

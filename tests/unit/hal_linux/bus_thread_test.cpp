@@ -1,0 +1,129 @@
+// Real threads; also run under ThreadSanitizer. No test depends on how fast they are.
+#include "supercoil/hal_linux/bus_thread.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal_linux/buffered_adc.hpp"
+#include "supercoil/hal_linux/buffered_pwm.hpp"
+#include "supercoil/hal_linux/monotonic_clock.hpp"
+
+#include "unit/hal_linux/support/fakes.hpp"
+
+using namespace supercoil;
+using namespace supercoil::hal_linux;
+using namespace supercoil::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Blocks for a time, as a bus does.
+struct Slow final : Served {
+  void serve() override { std::this_thread::sleep_for(wait); }
+  std::chrono::nanoseconds wait{};
+};
+
+}  // namespace
+
+TEST_GROUP(ABus) {
+  FakeAdc* good_device = new FakeAdc;
+  FakeAdc* bad_device = new FakeAdc;
+  FakePwm* pwm_device = new FakePwm;
+  BufferedAdc good{std::unique_ptr<hal::AdcChannel>(good_device)};
+  BufferedAdc bad{std::unique_ptr<hal::AdcChannel>(bad_device)};
+  BufferedPwm pwm{std::unique_ptr<hal::PwmOutput>(pwm_device)};
+  Slow slow;
+
+  std::unique_ptr<BusThread> started(hal::Duration period) {
+    auto bus = BusThread::start({"i2c-1"}, period, {&pwm, &bad, &good, &slow});
+    if (!bus) FAIL(bus.error().text.c_str());
+    return std::move(*bus);
+  }
+  static void wait_for_rounds(const BusThread& bus, std::uint64_t rounds) {
+    const auto until = bus.health().rounds.load() + rounds;
+    while (bus.health().rounds.load() < until)
+      std::this_thread::sleep_for(100us);
+  }
+};
+
+TEST(ABus, ServesEveryDeviceWhileAnotherFails) {
+  bad_device->status = hal::Status::io_error;
+  const auto bus = started(200us);
+  for (int step = 1; step < 200; ++step) {
+    static_cast<void>(pwm.set(step));
+    const hal::Sample sample = good.latest();
+    CHECK(sample.counts == sample.taken.count());
+    const auto status = bad.latest().status;
+    CHECK(status == hal::Status::io_error || status == hal::Status::not_ready);
+    static_cast<void>(pwm.read_back());
+    std::this_thread::sleep_for(50us);
+  }
+  wait_for_rounds(*bus, 2);
+  LONGS_EQUAL(199, pwm_device->written);
+  LONGS_EQUAL(199, pwm.read_back());
+  CHECK(good.latest().status == hal::Status::ok);
+}
+
+TEST(ABus, SeesADeviceComeBack) {
+  const auto bus = started(200us);
+  wait_for_rounds(*bus, 2);
+  bad_device->status = hal::Status::gone;
+  wait_for_rounds(*bus, 2);
+  CHECK(bad.latest().status == hal::Status::gone);
+  bad_device->status = hal::Status::ok;
+  wait_for_rounds(*bus, 2);
+  CHECK(bad.latest().status == hal::Status::ok);
+}
+
+TEST(ABus, ThatIsTooSlowLeavesPeriodsOutAndCountsThem) {
+  slow.wait = 3ms;
+  const auto bus = started(1ms);
+  wait_for_rounds(*bus, 3);
+  CHECK(bus->health().skipped.load() >= 6);
+  CHECK(bus->health().last_round_ns.load() >= 3'000'000);
+  CHECK(bus->health().longest_round_ns.load() >= bus->health().last_round_ns.load() ||
+        bus->health().rounds.load() > 3);
+}
+
+TEST(ABus, DoesNotRunFasterThanItsPeriod) {
+  const hal::Time start = MonotonicClock::time();
+  const auto bus = started(2ms);
+  wait_for_rounds(*bus, 5);
+  CHECK(MonotonicClock::time() - start >= 4 * 2ms);
+}
+
+TEST(ABus, TellsWhenItsLastRoundFinished) {
+  const auto bus = started(500us);
+  const hal::Time before = MonotonicClock::time();
+  wait_for_rounds(*bus, 2);
+  CHECK(bus->health().last_finished_ns.load() >= before.count());
+}
+
+TEST(ABus, IsServedNoMoreWhenItHasEnded) {
+  auto bus = started(200us);
+  wait_for_rounds(*bus, 2);
+  bus.reset();
+  const int reads = good_device->reads;
+  std::this_thread::sleep_for(5ms);
+  LONGS_EQUAL(reads, good_device->reads);
+}
+
+TEST(ABus, CanBeStartedAndEndedAtOnce) {
+  for (int i = 0; i < 50; ++i)
+    started(1ms).reset();
+}
+
+TEST(ABus, OfAPeriodThatIsNoneIsAnError) {
+  const auto bus = BusThread::start({"i2c-1"}, 0ns, {});
+  STRCMP_EQUAL("a bus's period must be above 0", bus.error().text.c_str());
+}
+
+TEST(ABus, TellsHowItsPrioritySettingWent) {
+  const auto bus = BusThread::start({"i2c-1", 50, 0}, 1ms, {});
+  LONGS_EQUAL(2, (*bus)->steps().size());
+}

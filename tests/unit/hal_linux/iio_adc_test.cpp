@@ -1,0 +1,153 @@
+#include "supercoil/hal_linux/iio_adc.hpp"
+
+#include <cerrno>
+#include <cstdint>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal_linux/monotonic_clock.hpp"
+
+#include "unit/hal_linux/support/system_calls.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil;
+using namespace supercoil::hal_linux;
+using namespace supercoil::test;
+
+TEST_GROUP(IioAdc) {
+  TemporaryFolder tree;
+  const std::string at_48 = "devices/i2c-1/1-0048/iio:device0";
+  const std::string at_49 = "devices/i2c-1/1-0049/iio:device1";
+  const std::string raw = at_48 + "/in_voltage0_raw";
+
+  void setup() override {
+    for (const std::string& device : {at_48, at_49}) {
+      tree.write(device + "/name", "ads1115\n");
+      tree.write(device + "/in_voltage0_raw", "-1234\n");
+      tree.write(device + "/in_voltage0-voltage1_raw", "5\n");
+      tree.link("bus/" + device.substr(device.rfind('/') + 1), device);
+    }
+    tree.make_folder("bus/trigger0");
+  }
+  void teardown() override {
+    reset_calls();
+  }
+
+  ConverterPlace place(const std::string& input = "voltage0") const {
+    return {"i2c-1/1-0048", input, tree / "bus"};
+  }
+  std::string answer(const ConverterPlace& where) const {
+    const auto adc = hal_linux::IioAdc::open(where);
+    return adc ? "open" : adc.error().text;
+  }
+  std::unique_ptr<hal_linux::IioAdc> opened() const {
+    auto adc = hal_linux::IioAdc::open(place());
+    if (!adc) FAIL(adc.error().text.c_str());
+    return std::move(*adc);
+  }
+  void check_latest(hal::Status expected) const {
+    STRCMP_EQUAL(hal::text(expected), hal::text(opened()->latest().status));
+  }
+};
+
+TEST(IioAdc, GivesCountsAndTheTimeBeforeTheConversion) {
+  const auto adc = opened();
+  const hal::Time before = MonotonicClock::time();
+  const hal::Sample sample = adc->latest();
+  CHECK(sample.status == hal::Status::ok);
+  LONGS_EQUAL(-1234, sample.counts);
+  CHECK(sample.taken >= before && sample.taken <= MonotonicClock::time());
+}
+
+TEST(IioAdc, ReadsDifferentialInputs) {
+  const auto adc = hal_linux::IioAdc::open(place("voltage0-voltage1"));
+  LONGS_EQUAL(5, (*adc)->latest().counts);
+}
+
+TEST(IioAdc, SeesEachNewValue) {
+  const auto adc = opened();
+  for (const std::int32_t counts : {0, 32767, -32768, INT32_MAX, INT32_MIN}) {
+    tree.write(raw, std::to_string(counts) + "\n");
+    LONGS_EQUAL(counts, adc->latest().counts);
+  }
+}
+
+TEST(IioAdc, IsNotAmbiguous) {
+  ConverterPlace where = place();
+  where.device = "ads1115";
+  STRCMP_EQUAL(("more than one converter with the name 'ads1115' in " + tree / "bus" +
+                ": iio:device0 'ads1115' at " + tree / "devices/i2c-1/1-0048" +
+                ", iio:device1 'ads1115' at " + tree / "devices/i2c-1/1-0049" +
+                "; say which by the end of its path")
+                   .c_str(),
+               answer(where).c_str());
+}
+
+TEST(IioAdc, NamesTheInputsThatThereAre) {
+  STRCMP_EQUAL(("no input 'voltage7' on iio:device0 'ads1115' at " + tree / "devices/i2c-1/1-0048" +
+                ": there are voltage0, voltage0-voltage1")
+                   .c_str(),
+               answer(place("voltage7")).c_str());
+  STRCMP_EQUAL("'../../etc/x' is not an input's name", answer(place("../../etc/x")).c_str());
+  STRCMP_EQUAL("'' is not an input's name", answer(place("")).c_str());
+}
+
+TEST(IioAdc, IsRefusedWhenItDoesNotAnswerAtOnce) {
+  fail_next(Call::pread, "_raw", EREMOTEIO);
+  STRCMP_CONTAINS("in_voltage0_raw: Remote I/O error", answer(place()).c_str());
+  tree.write(raw, "nothing\n");
+  STRCMP_CONTAINS("holds 'nothing', which is not a whole number", answer(place()).c_str());
+}
+
+TEST(IioAdc, PassesOnWhyThereIsNoValue) {
+  const auto adc = opened();
+  for (const int error : {EAGAIN, EBUSY, EIO, ENODEV, ETIMEDOUT, EREMOTEIO}) {
+    fail_next(Call::pread, "_raw", error);
+    STRCMP_EQUAL(hal::text(status_of(error)), hal::text(adc->latest().status));
+  }
+  fail_next(Call::pread, "_raw", EINTR, 2);
+  CHECK(adc->latest().status == hal::Status::ok);
+}
+
+TEST(IioAdc, CallsWhatIsNoValueAnError) {
+  const auto adc = opened();
+  for (const std::string& content :
+       {std::string(), std::string("\n"), std::string("abc"), std::string("2147483648\n"),
+        std::string("-2147483649\n"), std::string("1.5\n"), std::string("\0\x01", 2),
+        std::string(4096, '9')}) {
+    tree.write(raw, content);
+    CHECK(adc->latest().status == hal::Status::io_error);
+  }
+}
+
+TEST(IioAdc, DoesNotHangOnAPipeOrAFolder) {
+  tree.remove(raw);
+  tree.make_pipe(raw);
+  STRCMP_CONTAINS("is not a file", answer(place()).c_str());
+  tree.remove(raw);
+  tree.make_folder(raw);
+  STRCMP_CONTAINS("is not a file", answer(place()).c_str());
+}
+
+TEST(IioAdc, TellsTheKernelsScale) {
+  tree.write(at_48 + "/in_voltage0_scale", "0.125000000\n");
+  tree.write(at_48 + "/in_voltage_offset", "-12.5\n");
+  const auto own = kernel_scaling(place());
+  DOUBLES_EQUAL(0.125, own->scale, 1e-12);
+  DOUBLES_EQUAL(-12.5, own->offset_counts, 1e-12);
+  tree.remove(at_48 + "/in_voltage0_scale");
+  tree.write(at_48 + "/in_voltage_scale", "2e-3\n");
+  tree.remove(at_48 + "/in_voltage_offset");
+  const auto shared = kernel_scaling(place());
+  DOUBLES_EQUAL(2e-3, shared->scale, 1e-12);
+  DOUBLES_EQUAL(0.0, shared->offset_counts, 1e-12);
+}
+
+TEST(IioAdc, SaysWhyThereIsNoScale) {
+  STRCMP_CONTAINS("tells no scale of voltage0", kernel_scaling(place()).error().text.c_str());
+  for (const char* scale : {"nan\n", "inf\n", "0.1 V\n", "x\n"}) {
+    tree.write(at_48 + "/in_voltage0_scale", scale);
+    STRCMP_CONTAINS("which is not a number", kernel_scaling(place()).error().text.c_str());
+  }
+}

@@ -1,0 +1,135 @@
+#include "supercoil/hal_linux/realtime.hpp"
+
+#include <cerrno>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal_linux/thread.hpp"
+
+#include "unit/hal_linux/support/system_calls.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil::hal_linux;
+using namespace supercoil::test;
+
+namespace {
+
+void check_failed(const SetupStep& step, const std::string& reason) {
+  CHECK_FALSE(step.worked);
+  STRCMP_CONTAINS(reason.c_str(), step.reason.c_str());
+  CHECK_FALSE(step.remedy.empty());
+}
+
+void check_worked(const SetupStep& step) {
+  CHECK_TEXT(step.worked, step.reason.c_str());
+  CHECK(step.reason.empty());
+  CHECK(step.remedy.empty());
+}
+
+}  // namespace
+
+TEST_GROUP(Realtime) {
+  TemporaryFolder dev;
+  void teardown() override {
+    reset_calls();
+  }
+};
+
+TEST(Realtime, LocksMemoryOrSaysWhyNot) {
+  next(Call::mlockall, "", [] { return 0; });
+  check_worked(lock_memory());
+  fail_next(Call::mlockall, "", ENOMEM);
+  check_failed(lock_memory(), "Cannot allocate memory; the limit of locked memory is ");
+  fail_next(Call::mlockall, "", EPERM);
+  STRCMP_EQUAL("run as root, or LimitMEMLOCK=infinity in the service",
+               lock_memory().remedy.c_str());
+}
+
+TEST(Realtime, PrefaultsAsMuchStackAsThereIs) {
+  check_worked(prefault_stack(std::size_t{256} * 1024));
+  check_worked(prefault_stack(0));
+  check_failed(prefault_stack(std::size_t{1} << 40), "the stack has only ");
+}
+
+TEST(Realtime, PrefaultsTheStackOfAThread) {
+  constexpr std::size_t stack = std::size_t{128} * 1024;
+  SetupStep half;
+  SetupStep whole;
+  {
+    const auto thread = Thread::start({"stack", 0, -1, stack}, [&] {
+      half = prefault_stack(stack / 2);
+      whole = prefault_stack(stack);
+    });
+    CHECK(thread.has_value());
+  }
+  check_worked(half);
+  check_failed(whole, "the stack has only ");
+}
+
+TEST(Realtime, SaysWhyThereIsNoPriority) {
+  fail_next(Call::set_scheduling, "", EPERM);
+  const SetupStep step = set_fifo_priority(::pthread_self(), 80);
+  STRCMP_EQUAL("priority 80 of SCHED_FIFO", step.step.c_str());
+  check_failed(step, "Operation not permitted; the limit of priority is ");
+  fail_next(Call::set_scheduling, "", EINVAL);
+  STRCMP_EQUAL("choose a priority of 1 to 99",
+               set_fifo_priority(::pthread_self(), 100).remedy.c_str());
+}
+
+TEST(Realtime, DoesNotBelieveASystemThatOnlySaysYes) {
+  next(Call::set_scheduling, "", [] { return 0; });
+  check_failed(set_fifo_priority(::pthread_self(), 80),
+               "accepted, but the thread does not have it");
+  next(Call::set_affinity, "", [] { return 0; });
+  check_failed(pin_to_cpu(::pthread_self(), 700), "accepted, but the thread may run elsewhere");
+}
+
+TEST(Realtime, PinsToACpuThatThereIs) {
+  SetupStep first;
+  SetupStep none;
+  {
+    const auto thread = Thread::start({"pinned"}, [&] {
+      first = pin_to_cpu(::pthread_self(), 0);
+      none = pin_to_cpu(::pthread_self(), 900);
+    });
+  }
+  check_worked(first);
+  check_failed(none, "Invalid argument");
+  check_failed(pin_to_cpu(::pthread_self(), -1), "Invalid argument");
+  check_failed(pin_to_cpu(::pthread_self(), 1 << 20), "Invalid argument");
+}
+
+TEST(Realtime, HoldsTheCpusWakefulWithABinaryZero) {
+  dev.write("cpu_dma_latency", "");
+  WakefulCpus cpus;
+  check_worked(cpus.hold(dev / "cpu_dma_latency"));
+  CHECK(dev.read("cpu_dma_latency") == std::string(4, '\0'));
+}
+
+TEST(Realtime, SaysWhyTheCpusMaySleep) {
+  WakefulCpus cpus;
+  check_failed(cpus.hold(dev / "cpu_dma_latency"), "cpu_dma_latency: No such file or directory");
+  dev.write("cpu_dma_latency", "");
+  next(Call::write, "/cpu_dma_latency", [] { return 2; });
+  check_failed(cpus.hold(dev / "cpu_dma_latency"), "cpu_dma_latency: input/output error");
+}
+
+TEST(Realtime, TellsEveryStepAlsoAfterOneThatFailed) {
+  fail_next(Call::mlockall, "", EPERM);
+  fail_next(Call::set_scheduling, "", EPERM);
+  fail_next(Call::set_affinity, "", EINVAL);
+  fail_next(Call::open, "/dev/cpu_dma_latency", EACCES);
+  WakefulCpus cpus;
+  const auto steps = set_up_realtime({80, 1, std::size_t{64} * 1024}, cpus);
+  LONGS_EQUAL(5, steps.size());
+  LONGS_EQUAL(0, waiting());
+  for (const SetupStep& step : steps)
+    CHECK(step.worked == (step.step.find("stack") != std::string::npos));
+}
+
+TEST(Realtime, AThreadsStackThatIsTooSmallIsAnError) {
+  const auto thread = Thread::start({"small", 0, -1, 1}, [] {});
+  STRCMP_EQUAL("cannot start the thread 'small' with 1 bytes of stack: Invalid argument",
+               thread.error().text.c_str());
+}

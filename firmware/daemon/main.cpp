@@ -7,14 +7,12 @@
 
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
+#include "daemon/run_command.hpp"
+#include "program/exit_status.hpp"
 
 namespace {
 
 using namespace supercoil;
-
-constexpr int exit_done = 0;
-constexpr int exit_failed = 1;
-constexpr int exit_wrong_input = 2;
 
 int check_file(const std::string& path) {
   const auto config = config::read_board_config(path);
@@ -27,11 +25,28 @@ int check_file(const std::string& path) {
 }
 
 int run_program(int count, char** arguments) {
-  CLI::App app{"The firmware of a board that drives super-coiled polymer muscles.", "supercoild"};
+  CLI::App app{
+      "The firmware of a board that drives super-coiled polymer muscles.\n"
+      "Drives the board until SIGTERM or SIGINT, which cool first. It starts disarmed.",
+      "supercoild"};
   app.set_version_flag("--version", SUPERCOIL_VERSION);
   std::string file;
-  app.add_option("--check", file, "Read a board's configuration and say what was understood")
+  daemon::RunOptions options;
+  app.add_option("--check", file, "Read a board's configuration, say what was understood, and end")
       ->type_name("FILE");
+  app.add_option("--config", options.config, "The board's configuration")
+      ->type_name("FILE")
+      ->capture_default_str();
+  app.add_option("--run-folder", options.run_folder,
+                 "Where the lock and the socket for local commands are")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_option("--priority", options.priority,
+                 "Of the loop, in SCHED_FIFO; 0 runs without real time")
+      ->check(CLI::Range(0, 99))
+      ->capture_default_str();
+  app.add_option("--cpu", options.cpu, "The loop's own CPU; any if not given")
+      ->check(CLI::Range(0, 1023));
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
@@ -39,12 +54,7 @@ int run_program(int count, char** arguments) {
     return status == 0 ? exit_done : exit_wrong_input;
   }
   if (app.count("--check") > 0) return check_file(file);
-  std::fputs(
-      "supercoild: this build has no hardware layer yet and drives no board; it can only check a "
-      "configuration: supercoild --check FILE. To run the firmware over a simulated muscle: "
-      "supercoil-sim\n",
-      stderr);
-  return exit_wrong_input;
+  return daemon::run_command(options);
 }
 
 }  // namespace

@@ -1,15 +1,12 @@
-// The commands of supercoil. Each returns the program's exit status: 0 done, 1 failed while
-// running, 2 wrong input (nothing was written).
+// The commands of supercoil. Each returns the program's exit status.
 #pragma once
 
 #include <limits>
 #include <string>
 
-namespace supercoil::operating {
+#include "program/exit_status.hpp"
 
-inline constexpr int exit_done = 0;
-inline constexpr int exit_failed = 1;
-inline constexpr int exit_wrong_input = 2;
+namespace supercoil::operating {
 
 /// Prints the message to standard error and returns the status.
 int fail(int status, const std::string& message);

@@ -4,12 +4,11 @@
 
 #include <string>
 
+#include "program/exit_status.hpp"
+
 namespace supercoil::host_sim {
 
-inline constexpr int exit_done = 0;
-inline constexpr int exit_failed = 1;
-inline constexpr int exit_wrong_input = 2;
-inline constexpr int exit_interrupted = 130;
+inline constexpr int exit_interrupted = 130;  ///< by a signal; nothing is kept
 
 /// Prints the message to standard error and returns the status.
 int fail(int status, const std::string& message);

@@ -1,0 +1,20 @@
+// Commands as a person or a script writes them.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "loop/command.hpp"
+
+namespace supercoil::daemon {
+
+/// "1 position 0.01": a channel from 1, a verb, and a value where the verb has one, in SI units.
+/// channels: how many the board has. The error says what is wrong and what is allowed.
+tl::expected<Command, std::string> parse_command(std::string_view text, std::size_t channels);
+
+/// "ok", or "refused: wrong_state".
+std::string answer_text(Refusal refusal);
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,101 @@
+#include "daemon/keeper.hpp"
+
+#include <algorithm>
+
+#include "daemon/log.hpp"
+#include "recorder/names.hpp"
+#include "recorder/pump.hpp"
+
+namespace supercoil::daemon {
+
+tl::expected<void, std::string> remember(config::BoardConfig& config,
+                                         std::vector<storage::LearnedStore>& stores) {
+  for (std::size_t i = 0; i < stores.size(); ++i) {
+    const auto loaded = stores[i].load();
+    if (!loaded) return tl::unexpected(loaded.error());
+    for (const std::string& problem : loaded->problems)
+      log(Level::warning, problem);
+    if (!loaded->learned) continue;
+    ChannelSettings& channel = config.settings.channels[i];
+    channel.muscle = loaded->learned->muscle;
+    channel.calibration = loaded->learned->calibration;
+    log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +
+                         ") knows its muscle from version " +
+                         std::to_string(loaded->learned->version));
+  }
+  return {};
+}
+
+Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
+               storage::Files& files)
+    : config_(&config),
+      stores_(&stores),
+      recorder_(config.storage_folder, static_cast<int>(config.settings.channels.size()),
+                config.settings.rate_Hz, files),
+      newest_(config.settings.channels.size()),
+      last_(config.settings.channels.size()) {}
+
+void Keeper::poll(Loop& loop, hal::Time now) {
+  struct Tee {
+    bool take(Row& row) {
+      if (!loop->take(row)) return false;
+      keeper->watch(row);
+      return true;
+    }
+    Loop* loop;
+    Keeper* keeper;
+  } tee{&loop, this};
+  recorder::pump(tee, recorder_, now);
+  tell_notes();
+  for (std::size_t i = 0; i < stores_->size(); ++i) {
+    storage::Learned learned;
+    while (loop.channel(i).take_learned(learned)) {
+      const auto saved = (*stores_)[i].save(learned);
+      const std::string who = "channel " + std::to_string(i + 1);
+      if (saved) {
+        log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
+      } else {
+        log(Level::problem, who + " learned, but it is not stored: " + saved.error());
+      }
+    }
+  }
+}
+
+void Keeper::finish() {
+  recorder_.finish();
+  tell_notes();
+}
+
+bool Keeper::all_off() const {
+  return std::none_of(last_.begin(), last_.end(), [](const Row& row) {
+    const auto state = static_cast<State>(row.state);
+    return state == State::armed || state == State::active;
+  });
+}
+
+void Keeper::watch(const Row& row) {
+  ++rows_;
+  if (row.channel >= last_.size()) return;
+  Row& before = last_[row.channel];
+  if (row.state != before.state || row.mode != before.mode) {
+    const bool fault = static_cast<State>(row.state) == State::fault;
+    std::string text = "channel " + std::to_string(row.channel + 1) + " (" +
+                       config_->labels[row.channel].name + ") is " +
+                       recorder::state_name(row.state);
+    if (fault) {
+      text += ": " + recorder::fault_name(row.fault) + " (" + std::to_string(row.fault) + ")";
+    } else if (row.mode != 0) {
+      text += ", " + recorder::mode_name(row.mode);
+    }
+    log(fault ? Level::problem : Level::info, text);
+  }
+  before = row;
+  newest_.put(row);
+}
+
+void Keeper::tell_notes() {
+  for (const recorder::RecorderNote& note : recorder_.take_notes())
+    log(note.problem ? Level::problem : Level::info, note.text);
+}
+
+}  // namespace supercoil::daemon

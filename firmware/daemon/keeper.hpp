@@ -1,0 +1,53 @@
+// Keeps what the loop tells: recordings, what was learned, and the log.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "config/board_config.hpp"
+#include "daemon/newest_rows.hpp"
+#include "loop/loop.hpp"
+#include "recorder/flight_recorder.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
+
+namespace supercoil::daemon {
+
+/// What channels learned before, into the settings. The error says what cannot be read; a board
+/// does not start without what it knew, for a lost zero is a wrong position.
+tl::expected<void, std::string> remember(config::BoardConfig& config,
+                                         std::vector<storage::LearnedStore>& stores);
+
+/// The one thread that may wait for the disk. Everything of it is taken when it is made, before
+/// memory is locked.
+class Keeper {
+ public:
+  /// Both outlive it.
+  Keeper(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
+         storage::Files& files);
+
+  /// Takes what has come since. now: on the loop's clock, read before.
+  void poll(Loop& loop, hal::Time now);
+  /// Writes at once what would be written later.
+  void finish();
+
+  NewestRows& newest() { return newest_; }
+  /// How many rows have come: a loop that is alive makes them.
+  std::uint64_t rows() const { return rows_; }
+  /// No channel is armed or active, as far as rows tell.
+  bool all_off() const;
+
+ private:
+  void watch(const Row& row);
+  void tell_notes();
+
+  const config::BoardConfig* config_;
+  std::vector<storage::LearnedStore>* stores_;
+  recorder::FlightRecorder recorder_;
+  NewestRows newest_;
+  std::vector<Row> last_;  ///< of each channel
+  std::uint64_t rows_ = 0;
+};
+
+}  // namespace supercoil::daemon

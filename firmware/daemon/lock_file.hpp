@@ -1,0 +1,23 @@
+// One daemon a board.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal_linux/descriptor.hpp"
+
+namespace supercoil::daemon {
+
+/// Holds a lock for as long as it lives. The kernel drops it with the process, however that ends.
+class LockFile {
+ public:
+  /// Makes the file. The error names who holds it.
+  static tl::expected<LockFile, std::string> take(const std::string& path);
+
+ private:
+  explicit LockFile(hal_linux::Descriptor file) : file_(std::move(file)) {}
+  hal_linux::Descriptor file_;
+};
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,35 @@
+// The thread of the control loop.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal_linux/thread.hpp"
+
+#include "loop/executive.hpp"
+
+namespace supercoil::daemon {
+
+class LoopThread {
+ public:
+  /// Both outlive it. Starts at once.
+  static tl::expected<std::unique_ptr<LoopThread>, std::string> start(
+      Loop& loop, hal::Clock& clock, double rate_Hz, const hal_linux::ThreadWish& wish);
+
+  /// After the tick that is under way; the destructor waits for that.
+  void stop() { ending_.store(true, std::memory_order_relaxed); }
+  const std::vector<hal_linux::SetupStep>& steps() const { return thread_->steps(); }
+
+ private:
+  LoopThread(Loop& loop, hal::Clock& clock, double rate_Hz) : executive_(loop, clock, rate_Hz) {}
+  void run();
+
+  Executive executive_;
+  std::atomic<bool> ending_{false};
+  std::unique_ptr<hal_linux::Thread> thread_;
+};
+
+}  // namespace supercoil::daemon

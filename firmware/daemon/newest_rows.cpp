@@ -1,0 +1,20 @@
+#include "daemon/newest_rows.hpp"
+
+#include <sstream>
+
+#include "recorder/names.hpp"
+
+namespace supercoil::daemon {
+
+std::string NewestRows::describe() {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const Row& r = boxes_[i]->newest();
+    text << i + 1 << ' ' << recorder::state_name(r.state) << ' ' << recorder::mode_name(r.mode)
+         << ' ' << recorder::fault_name(r.fault) << ' ' << r.reference << ' ' << r.position_m << ' '
+         << r.applied_W << ' ' << r.coldest_C << ' ' << r.hottest_C << ' ' << r.progress << '\n';
+  }
+  return text.str();
+}
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,191 @@
+#include "daemon/run_command.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include "supercoil/hal_linux/realtime.hpp"
+
+#include "daemon/keeper.hpp"
+#include "daemon/linux_board.hpp"
+#include "daemon/lock_file.hpp"
+#include "daemon/log.hpp"
+#include "daemon/loop_thread.hpp"
+#include "daemon/service.hpp"
+#include "daemon/telemetry.hpp"
+#include "program/exit_status.hpp"
+
+namespace supercoil::daemon {
+
+namespace {
+
+constexpr long round_ns = 20'000'000;
+/// A loop that made no row for so long hangs.
+constexpr hal::Duration hangs_after = std::chrono::seconds(1);
+/// Duties and enable lines are off a tick after the command; so long is far more than that.
+constexpr hal::Duration cool_within = std::chrono::seconds(2);
+/// Buses must not hold up the loop.
+constexpr int below_the_loop = 10;
+
+int fail(const std::string& why) {
+  log(Level::problem, why);
+  return exit_failed;
+}
+
+/// Signals that end the program are waited for, by the main thread alone.
+sigset_t ending_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  return set;
+}
+
+void report(const std::vector<hal_linux::SetupStep>& steps) {
+  for (const hal_linux::SetupStep& step : steps) {
+    if (step.worked) {
+      log(Level::info, step.step);
+    } else {
+      log(Level::warning, "not " + step.step + ": " + step.reason + "; " + step.remedy);
+    }
+  }
+}
+
+/// The daemon's parts, in the order in which they are made; they end in the opposite one.
+struct Parts {
+  storage::PosixFiles files;
+  std::vector<storage::LearnedStore> stores;
+  std::optional<LockFile> lock;
+  std::unique_ptr<LinuxBoard> board;
+  hal_linux::WakefulCpus wakeful;
+  std::unique_ptr<Loop> loop;
+  std::unique_ptr<Keeper> keeper;
+  std::unique_ptr<Telemetry> telemetry;
+  std::unique_ptr<LoopThread> thread;
+};
+
+/// Buses, watchdog, commands, and at last the loop.
+tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& config,
+                                      const RunOptions& options, LocalCommands commands) {
+  const double rate_Hz = config.settings.rate_Hz;
+  const bool realtime = options.priority > 0;
+  if (realtime) report({hal_linux::lock_memory(), parts.wakeful.hold()});
+  const int bus_priority = realtime ? std::max(1, options.priority - below_the_loop) : 0;
+  if (const auto started = parts.board->start(rate_Hz, bus_priority); !started) return started;
+  const board::Devices devices = parts.board->devices();
+  parts.loop = std::make_unique<Loop>(config.settings, devices);
+  parts.telemetry =
+      std::make_unique<Telemetry>(*parts.loop, parts.keeper->newest(), std::move(commands));
+  if (const auto started = parts.telemetry->start(); !started) return started;
+  auto thread = LoopThread::start(*parts.loop, *devices.clock, rate_Hz,
+                                  {"loop", options.priority, options.cpu});
+  if (!thread) return tl::unexpected(thread.error());
+  parts.thread = std::move(*thread);
+  if (realtime) {
+    report(parts.board->steps());
+    report(parts.thread->steps());
+  }
+  return {};
+}
+
+/// Rows keep coming, or the signal has come. Returns false when the loop hangs.
+bool keep_until_signal(Parts& parts, Service& service) {
+  const sigset_t signals = ending_signals();
+  const timespec round{0, round_ns};
+  hal_linux::MonotonicClock clock;
+  std::uint64_t rows = 0;
+  hal::Time last_row = clock.now();
+  while (sigtimedwait(&signals, nullptr, &round) < 0) {
+    const hal::Time now = clock.now();
+    parts.keeper->poll(*parts.loop, now);
+    if (parts.keeper->rows() != rows) {
+      rows = parts.keeper->rows();
+      last_row = now;
+      service.alive(now);
+    } else if (now - last_row > hangs_after) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Every channel is off, and the loop stands still. Returns false when that could not be had.
+bool cool(Parts& parts) {
+  parts.telemetry->cool();
+  hal_linux::MonotonicClock clock;
+  const hal::Time asked = clock.now();
+  const timespec round{0, round_ns};
+  do {
+    nanosleep(&round, nullptr);
+    parts.keeper->poll(*parts.loop, clock.now());
+    if (clock.now() - asked > cool_within) return false;
+  } while (!parts.keeper->all_off());
+  parts.thread->stop();
+  parts.thread.reset();
+  parts.keeper->poll(*parts.loop, clock.now());
+  parts.keeper->finish();
+  return true;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  auto config = config::read_board_config(options.config);
+  if (!config) {
+    std::fputs(config::to_text(config.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  const sigset_t signals = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  // An arena for each thread would be locked in memory as well.
+  mallopt(M_ARENA_MAX, 1);
+
+  Parts parts;
+  auto lock = LockFile::take(options.run_folder + "/lock");
+  if (!lock) return fail(lock.error());
+  parts.lock.emplace(std::move(*lock));
+  for (std::size_t i = 0; i < config->settings.channels.size(); ++i)
+    parts.stores.emplace_back(config->storage_folder, static_cast<int>(i + 1), parts.files);
+  if (const auto known = remember(*config, parts.stores); !known) {
+    return fail(options.config + ": board.storage_folder: " + known.error());
+  }
+  auto board = LinuxBoard::open(config->wiring);
+  if (!board) {
+    for (const std::string& problem : board.error())
+      log(Level::problem, options.config + ": " + problem);
+    return fail("nothing was started");
+  }
+  parts.board = std::move(*board);
+  auto commands = LocalCommands::open(options.run_folder + "/commands");
+  if (!commands) return fail(commands.error());
+  parts.keeper = std::make_unique<Keeper>(*config, parts.stores, parts.files);
+
+  if (const auto started = start(parts, *config, options, std::move(*commands)); !started) {
+    // No loop runs that would feed it, and nothing was ever on.
+    parts.board->release();
+    return fail(started.error());
+  }
+  log(Level::info, config->name + ": " + std::to_string(config->settings.channels.size()) +
+                       " channels, disarmed");
+
+  Service service;
+  service.tell("READY=1\nSTATUS=disarmed at start");
+  const bool alive = keep_until_signal(parts, service);
+  service.tell("STOPPING=1");
+  if (alive && cool(parts)) {
+    parts.board->release();
+    log(Level::info, "everything is off; ended");
+    return exit_done;
+  }
+  // The thread cannot be waited for. Its heartbeat has stopped, and the charge pump has opened the
+  // supply; the kernel closes the rest, and the watchdog, not being fed, bites.
+  log(Level::problem, "the loop hangs: ended without it");
+  std::_Exit(exit_failed);
+}
+
+}  // namespace supercoil::daemon

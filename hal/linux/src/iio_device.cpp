@@ -39,7 +39,7 @@ Result<std::optional<double>> shared_value(const std::string& folder, const std:
   const std::string before = folder + "/in_";
   const std::string behind = "_" + what;
   for (const std::string& name : {input, kind_of(input)}) {
-    const auto value = read_decimal(before + name + behind);
+    const auto value = read_decimal(std::string(before).append(name).append(behind));
     if (value) return *value;
     if (value.error().code != ENOENT) return tl::unexpected(value.error());
   }

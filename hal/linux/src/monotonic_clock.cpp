@@ -12,11 +12,12 @@ hal::Time MonotonicClock::time() noexcept {
 }
 
 hal::Time MonotonicClock::wait_until(hal::Time wake) {
+  // The kernel goes to sleep even for a time that is past, and gives the CPU to others.
+  if (const hal::Time now = time(); now >= wake) return now;
   const auto whole = std::chrono::floor<std::chrono::seconds>(wake);
   timespec until{};
   until.tv_sec = static_cast<std::time_t>(whole.count());
   until.tv_nsec = static_cast<long>((wake - whole).count());
-  // A time before 0 is refused with EINVAL: it is past, and this returns at once as it should.
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
   return time();

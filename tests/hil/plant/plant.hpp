@@ -1,0 +1,61 @@
+// The physics between the firmware's outputs and its inputs: the simulated board's own, only that
+// duties and levels come from the kernel's drivers and counts go to them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "chips.hpp"
+#include "lines.hpp"
+#include "simulated_board/simulated_board.hpp"
+
+namespace supercoil::rig {
+
+struct PlantSettings {
+  std::string i2c_bus = "/dev/i2c-0";
+  std::string lines = "/run/rig/lines";  ///< one folder for each line, by its name
+  int channels = 2;                      ///< 1 to 4
+  double rate_Hz = 1000.0;
+  double supply_V = 12.0;
+  double charge_pump_decay_ms = 20.0;
+  double sense_filter_ms = 10.0;
+  double position_noise_m = 5e-6;
+  std::uint64_t seed = 1;
+};
+
+class Plant {
+ public:
+  explicit Plant(const PlantSettings& settings);
+
+  /// The muscles move on to `now` with what was latched before, the converters show it, and the
+  /// firmware's outputs are latched anew. `slow`: also the supply's converter and the
+  /// lines that are not urgent.
+  void step(hal::Time now, bool slow);
+
+  host_sim::SimulatedBoard& board() { return board_; }
+  const host_sim::SimulatedBoard& board() const { return board_; }
+  std::size_t channels() const { return enable_lines_.size(); }
+
+  // What is latched, beside what the board itself tells.
+  bool stop_closed() const { return stop_closed_; }
+  bool light() const { return light_; }
+  int duty_4096(std::size_t channel) const { return duties_[channel]; }
+  bool enabled(std::size_t channel) const { return board_.channel(channel).enable.high(); }
+
+ private:
+  host_sim::SimulatedBoard board_;
+  Chip pwm_;
+  ConversionRegister supply_;
+  std::vector<ConversionRegister> positions_;
+  std::vector<ConversionRegister> currents_;
+  LineLevel heartbeat_line_;
+  LineLevel stop_line_;
+  LineLevel light_line_;
+  std::vector<LineLevel> enable_lines_;
+  std::vector<int> duties_;
+  bool stop_closed_ = false;
+  bool light_ = false;
+};
+
+}  // namespace supercoil::rig

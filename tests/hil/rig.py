@@ -1,0 +1,150 @@
+"""Boots the emulated board and runs a script on it (boot is the command; tests import this).
+
+The shared folder is /share on the board. In its .rig the host puts what the board needs to begin (command, functions)
+and finds what comes of it: status, console, witness.
+"""
+
+import contextlib
+import dataclasses
+import fcntl
+import os
+import pathlib
+import selectors
+import shlex
+import shutil
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+BUILD = ROOT / "build" / "hil"
+PROGRAMS = ROOT / "build" / "arm64" / "bin"
+
+# How a run ended, when not by its script.
+TIMED_OUT = 124
+DIED = 125
+
+
+@dataclasses.dataclass
+class Settings:
+    """What the board is, beside its script."""
+
+    share: pathlib.Path = BUILD / "share"
+    time_out_s: float = 120.0  # of the host's time; of the guest's nothing is known
+    watchdog: bool = False  # an i6300esb: /dev/watchdog; not fed, it switches the board off
+    can: bool = False  # can0 and can1, on one bus
+    free_running: bool = False  # the guest's time is the host's: latencies then mean nothing
+    instruction_shift: int = 3  # an instruction lasts 2^shift ns of the guest's time
+    kernel_options: str = ""
+    echo: bool = False  # the console on standard output too
+
+
+@dataclasses.dataclass
+class Run:
+    status: int  # of the script; TIMED_OUT; DIED: the board went off before the script's end
+    console: str
+    witness: list  # lines of the plant (plant/witness.hpp), as text
+    wall_s: float
+
+
+def qemu_command(settings):
+    clock = [] if settings.free_running else [
+        # Time is counted in instructions, so that it does not depend on the host's load; it jumps
+        # when the board sleeps. The guest's date begins at the same moment in every run.
+        "-icount", f"shift={settings.instruction_shift},align=off,sleep=off", "-rtc", "base=2026-01-01,clock=vm"]
+    exchange = settings.share / ".rig"
+    command = [
+        "qemu-system-aarch64", "-M", "virt,gic-version=3", "-accel", "tcg", "-cpu", "cortex-a53", "-smp", "1",
+        "-m", "512", "-nodefaults", "-no-user-config", "-nographic", "-monitor", "none", "-no-reboot", "-net", "none",
+        *clock, "-serial", "stdio", "-kernel", str(BUILD / "vmlinuz"), "-initrd", str(BUILD / "initramfs.cpio"),
+        # Without kaslr the kernel keeps its own page tables in system calls, and QEMU its cache of them:
+        # a run costs this machine half, and repeats.
+        "-append", f"console=ttyAMA0 quiet panic=-1 nokaslr mitigations=off {settings.kernel_options}",
+        "-fsdev", f"local,id=share,path={settings.share},security_model=none",
+        "-device", "virtio-9p-pci,fsdev=share,mount_tag=share",
+        "-fsdev", f"local,id=programs,path={PROGRAMS},security_model=none,readonly=on",
+        "-device", "virtio-9p-pci,fsdev=programs,mount_tag=programs",
+        # Without an event loop between the board's write and the file: it costs the board no waiting,
+        # and a line that was written is there whatever the board does next.
+        "-chardev", f"file,id=witness,path={exchange / 'witness'}",
+        "-device", "virtio-serial-pci,ioeventfd=off", "-device", "virtserialport,chardev=witness,name=witness"]
+    if settings.watchdog:
+        command += ["-device", "i6300esb", "-watchdog-action", "poweroff"]
+    if settings.can:
+        command += ["-object", "can-bus,id=bus", "-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
+    return command
+
+
+def fill_share(settings, script, arguments):
+    exchange = settings.share / ".rig"
+    for old in ("status", "witness", "console"):
+        (exchange / old).unlink(missing_ok=True)
+    for file in (HERE / "guest").iterdir():
+        shutil.copy(file, exchange)
+    shutil.copy(script, exchange / "script")
+    (exchange / "command").write_text("exec sh /share/.rig/script " + shlex.join(arguments) + "\n")
+
+
+@contextlib.contextmanager
+def alone_in(share):
+    """Two boards in one folder would read each other's orders."""
+    (share / ".rig").mkdir(parents=True, exist_ok=True)
+    with open(share / ".rig" / "lock", "w") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise BlockingIOError(f"another board runs in {share}: choose another folder (--share)") from None
+        yield
+
+
+def follow(process, deadline, echo):
+    """The console until the board is off, and whether that was before the deadline."""
+    text = bytearray()
+    with selectors.DefaultSelector() as selector:
+        selector.register(process.stdout, selectors.EVENT_READ)
+        while (left := deadline - time.monotonic()) > 0:
+            if not selector.select(left):
+                continue
+            block = os.read(process.stdout.fileno(), 65536)
+            if not block:
+                return bytes(text), True
+            text += block
+            if echo:
+                sys.stdout.buffer.write(block)
+                sys.stdout.buffer.flush()
+    return bytes(text), False
+
+
+def run(script, arguments=(), settings=None):
+    settings = settings or Settings()
+    for needed in (BUILD / "vmlinuz", BUILD / "initramfs.cpio", PROGRAMS):
+        if not needed.exists():
+            raise FileNotFoundError(f"{needed} is missing: run tests/hil/prepare")
+    with alone_in(settings.share):
+        fill_share(settings, pathlib.Path(script), [str(argument) for argument in arguments])
+        return boot(settings)
+
+
+def boot(settings):
+    exchange = settings.share / ".rig"
+    start = time.monotonic()
+    with subprocess.Popen(qemu_command(settings), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT) as process:
+        try:
+            console, ended = follow(process, start + settings.time_out_s, settings.echo)
+        finally:
+            if process.poll() is None:
+                process.kill()
+    wall_s = time.monotonic() - start
+    (exchange / "console").write_bytes(console)
+    if not ended:
+        status = TIMED_OUT
+    else:
+        try:
+            status = int((exchange / "status").read_text())
+        except (FileNotFoundError, ValueError):
+            status = DIED
+    witness = exchange / "witness"
+    lines = witness.read_text(errors="replace").splitlines() if witness.exists() else []
+    return Run(status, console.decode(errors="replace"), lines, wall_s)

@@ -74,7 +74,7 @@ void break_everything(Seen& seen) {
     Rig rig(settings);
     bring_to(Situation::mrac, rig);
     c.inject(rig);
-    run(rig, std::fmin(c.within_s, 3.0), seen);
+    run(rig, std::fmin(c.within.at(rig.period_s()), 3.0), seen);
     c.remove(rig);
     rig.send(Verb::reset);
     run(rig, 0.1, seen);

@@ -10,15 +10,24 @@
 
 namespace supercoil::test {
 
+/// The rule for every rate: a time that does not depend on it, and so many periods. The time is how
+/// long the detector holds, and the board's filters and the muscle need. The periods are 2, one
+/// until a tick reads it and one for the rounding to whole ticks; or, where a detector counts ticks
+/// instead, what it counts and one.
+struct Within {
+  double time_s;
+  int periods = 2;
+  double at(double period_s) const { return time_s + periods * period_s; }
+};
+
 struct FaultCase {
   Fault fault;
-  double within_s;                   ///< from the injection to heater off
+  Within within;                     ///< from the injection to heater off
   std::vector<Situation> elsewhere;  ///< where it cannot come about,
   std::string why_not;               ///< and why
   std::function<void(Rig&)> inject;
   std::function<void(Rig&)> remove;
   std::function<void(RigSettings&)> tune = [](RigSettings&) {};  ///< thresholds for the test
-  bool can_be_reset = true;
   /// Where another detector is as right and faster: the first cause is then this one.
   std::function<Fault(Situation)> first = nullptr;
 };

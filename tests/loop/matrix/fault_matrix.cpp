@@ -39,13 +39,13 @@ void try_case(const FaultCase& c, Count& count) {
       continue;
     }
     double seen_after_s = 0.0;
-    report(count, c.fault, s.name, try_fault(c, s.situation, &seen_after_s));
+    report(count, c.fault, s.name, try_fault(c, s.situation, board_for(c), &seen_after_s));
     if (s.situation != Situation::fault) slowest_s = std::fmax(slowest_s, seen_after_s);
   }
   std::printf("%2d %-24s tried %2d, failed %d, off within %7.1f of %7.1f ms%s%s\n",
               static_cast<int>(c.fault), std::string(name(c.fault)).c_str(),
               count.tried - before.tried, count.failed - before.failed, 1e3 * slowest_s,
-              1e3 * c.within_s, c.why_not.empty() ? "" : "; elsewhere: ", c.why_not.c_str());
+              1e3 * c.within.at(1e-3), c.why_not.empty() ? "" : "; elsewhere: ", c.why_not.c_str());
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ int main() {
   for (const FaultInfo& fault : all_faults()) {
     if (fault.fault == Fault::self_test_failed) {
       double seen_after_s = 0.0;
-      report(count, fault.fault, "boot", try_self_test(&seen_after_s));
+      report(count, fault.fault, "boot", try_self_test(rough_board(), &seen_after_s));
       std::printf("%2d %-24s tried at boot, twice\n", static_cast<int>(fault.fault),
                   std::string(fault.name).c_str());
       continue;

@@ -17,7 +17,7 @@ namespace {
 /// What the matrix says first about a board with this detector disabled.
 std::string noticed(Fault fault) {
   double unused_s = 0.0;
-  if (fault == Fault::self_test_failed) return try_self_test(&unused_s);
+  if (fault == Fault::self_test_failed) return try_self_test(rough_board(), &unused_s);
   for (const FaultCase& c : fault_cases()) {
     if (c.fault != fault) continue;
     for (const SituationName& s : situations) {
@@ -25,7 +25,7 @@ std::string noticed(Fault fault) {
       for (const Situation elsewhere : c.elsewhere)
         possible = possible && elsewhere != s.situation;
       if (!possible) continue;
-      const std::string wrong = try_fault(c, s.situation, &unused_s);
+      const std::string wrong = try_fault(c, s.situation, board_for(c), &unused_s);
       const bool for_lack_of_it =
           wrong.starts_with("not detected") || wrong.starts_with("detected as");
       if (for_lack_of_it) return std::string(s.name) + ": " + wrong;

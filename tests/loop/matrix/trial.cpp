@@ -1,6 +1,7 @@
 #include "loop/matrix/trial.hpp"
 
-#include <sstream>
+#include "loop/matrix/aftermath.hpp"
+#include "loop/matrix/neighbour.hpp"
 
 namespace supercoil::test {
 
@@ -10,120 +11,116 @@ std::string text(Fault fault) {
   return std::string(name(fault));
 }
 
-/// What is wrong with a rig that should be off since the last tick.
-std::string still_hot(Rig& rig) {
-  if (rig.muscle().enable.high()) return "the enable line is high";
-  if (rig.muscle().pwm.read_back() > 1) return "the duty is not 0";
+/// Both ways of cutting, at the tick of the fault.
+std::string lines_wrong(Rig& rig, std::uint8_t channel) {
+  const host_sim::MuscleChannel& muscle = rig.board.channel(channel);
+  const std::string which = channel == Rig::tested ? "" : "of the neighbour ";
+  if (muscle.enable.high()) return which + "the enable line is high";
+  // One that reads back wrongly is one step off.
+  if (muscle.pwm.read_back() > 1) return which + "the duty is not 0";
   return "";
 }
 
-/// The power in the muscle, one tick later and from then on; a switch that conducts by itself is
-/// cut with the supply, within the stuck switch's own detection time and the charge pump's decay.
-std::string still_heated(Rig& rig, bool stuck) {
-  rig.run(stuck ? 0.05 + 0.02 + 0.005 : 0.002);
-  for (int i = 0; i < 200; ++i) {
+/// A fault of the whole board: the neighbour with it, and the supply open when the pump has
+/// decayed.
+std::string board_wrong(Rig& rig, Fault fault, double decay_s) {
+  if (rig.loop.board_fault() != fault)
+    return "the board's fault is " + text(rig.loop.board_fault());
+  if (std::string wrong = neighbour_wrong(rig, fault); !wrong.empty()) return wrong;
+  if (std::string wrong = lines_wrong(rig, Rig::neighbour); !wrong.empty()) return wrong;
+  // The heartbeat's last edge was a tick before; the board takes its steps after it looked.
+  rig.run(decay_s + rig.period_s());
+  return rig.board.supply_closed() ? "the supply is still closed" : "";
+}
+
+/// From now on, for a while: no power in the muscle, and the neighbour either goes on or is cold.
+std::string heated(Rig& rig, Fault neighbours) {
+  const double end_s = rig.time_s() + 0.2;
+  while (rig.time_s() < end_s) {
     rig.tick();
     if (rig.muscle().true_power_W() > 0.0) return "the muscle is still heated";
-  }
-  return "";
-}
-
-/// First cause, reset by an edge only, and no restart.
-std::string afterwards(const FaultCase& c, Rig& rig, Fault first) {
-  // A second fault does not replace the first.
-  rig.board.stop_circuit.level.high = false;
-  rig.run(0.01);
-  if (rig.fault() != first) return "the first cause became " + text(rig.fault());
-  const bool closes = c.fault != Fault::emergency_stop;
-  if (closes) rig.board.stop_circuit.level.high = true;
-  // A reset while the cause is there does nothing. (Of some, nothing is seen once power is off.)
-  rig.send(Verb::reset);
-  rig.tick();
-  const bool persists =
-      rig.loop.channel(0).present_fault() != Fault::none || rig.loop.board_fault() != Fault::none;
-  if (persists && rig.state() != State::fault) return "it was reset while its cause was there";
-  rig.board.stop_circuit.level.high = rig.board.stop_circuit.level.high || closes;
-  c.remove(rig);
-  rig.commands_flow = true;
-  // A reset that is held from before is no edge.
-  for (int i = 0; i < 1500 && rig.state() == State::fault; ++i) {
-    rig.send(Verb::reset);
-    rig.tick();
-    if (persists && rig.state() != State::fault) return "it was reset by a held command";
-  }
-  rig.run(1.0);
-  if (rig.state() == State::fault) {
-    rig.send(Verb::reset);
-    rig.run(0.01);
-    // One edge for the board, one for the channel: the board's own fault is a cause as well.
-    rig.send(Verb::reset);
-    rig.run(0.01);
-  }
-  if (rig.state() != State::disarmed) {
-    return "it cannot be reset: " + text(rig.loop.channel(0).present_fault()) + ", board " +
-           text(rig.loop.board_fault());
-  }
-  for (int i = 0; i < 500; ++i) {
-    // Refused commands in a row would be a fault of their own.
-    rig.send(i % 2 == 0 ? Verb::position : Verb::disarm, 0.01);
-    rig.tick();
-    if (rig.muscle().true_power_W() > 0.0 || rig.state() != State::disarmed) {
-      return "it restarted by itself";
-    }
+    if (std::string wrong = neighbour_wrong(rig, neighbours); !wrong.empty()) return wrong;
+    const bool neighbour_heated = rig.board.channel(Rig::neighbour).true_power_W() > 0.0;
+    if (neighbours != Fault::none && neighbour_heated) return "the neighbour is still heated";
   }
   return "";
 }
 
 }  // namespace
 
-std::string try_fault(const FaultCase& c, Situation situation, double* seen_after_s) {
-  RigSettings settings = rough_board();
+RigSettings board_for(const FaultCase& c, double rate_Hz) {
+  RigSettings settings = rough_board(rate_Hz);
   c.tune(settings);
-  Rig rig(settings);
-  bring_to(situation, rig);
-  if (situation != Situation::fault && rig.fault() != Fault::none) {
-    return "before the injection there was " + text(rig.fault());
-  }
-  const Fault first = situation == Situation::fault ? Fault::emergency_stop
-                      : c.first                     ? c.first(situation)
-                                                    : c.fault;
-  const double injected_s = rig.time_s();
-  c.inject(rig);
-  if (situation == Situation::fault) {
-    rig.run(c.within_s);
-  } else {
-    rig.run_until([&] { return rig.state() == State::fault; }, c.within_s);
-  }
-  *seen_after_s = rig.time_s() - injected_s;
-  if (rig.state() != State::fault) return "not detected";
-  if (rig.fault() != first) return "detected as " + text(rig.fault());
-  if (std::string wrong = still_hot(rig); !wrong.empty()) return wrong;
-  const bool stuck = rig.muscle().trouble.switch_stuck_on;
-  if (std::string wrong = still_heated(rig, stuck); !wrong.empty()) return wrong;
-  if (info(c.fault)->scope == Scope::board) {
-    if (rig.loop.board_fault() == Fault::none) return "the board has no fault";
-    if (rig.board.supply_closed()) return "the supply is still closed";
-  }
-  if (rig.interval_missed) return "the temperature left its interval";
-  return afterwards(c, rig, first);
+  return settings;
 }
 
-std::string try_self_test(double* seen_after_s) {
+std::string try_fault(const FaultCase& c, Situation situation, const RigSettings& settings,
+                      double* seen_after_s) {
+  Rig rig(settings);
+  bring_to(situation, rig);
+  const bool before = situation == Situation::fault;
+  if (!before && rig.fault() != Fault::none) {
+    return "before the injection there was " + text(rig.fault());
+  }
+  if (std::string wrong = neighbour_wrong(rig, before ? Fault::emergency_stop : Fault::none);
+      !wrong.empty()) {
+    return "before the injection " + wrong;
+  }
+  const double within_s = c.within.at(rig.period_s());
+  const double injected_s = rig.time_s();
+  c.inject(rig);
+  if (before) {
+    rig.run(within_s);
+  } else {
+    rig.run_until([&] { return rig.state() == State::fault; }, within_s);
+  }
+  *seen_after_s = rig.time_s() - injected_s;
+  const Fault first = before ? Fault::emergency_stop : c.first ? c.first(situation) : c.fault;
+  if (rig.state() != State::fault) return "not detected";
+  if (rig.fault() != first) return "detected as " + text(rig.fault());
+  if (std::string wrong = lines_wrong(rig, Rig::tested); !wrong.empty()) return wrong;
+
+  // Where the fault of the channel comes first, the board's follows as soon as it would have alone.
+  const FaultInfo fault = *info(c.fault);
+  const bool of_board = fault.scope == Scope::board;
+  if (of_board && first != c.fault && !before) {
+    rig.run_until([&] { return rig.loop.board_fault() != Fault::none; }, within_s);
+  }
+  const Fault boards = before ? Fault::emergency_stop : c.fault;
+  if (of_board || before) {
+    const double decay_s = settings.firmware.supervision.charge_pump_decay_s;
+    if (std::string wrong = board_wrong(rig, boards, decay_s); !wrong.empty()) return wrong;
+  } else {
+    rig.run_ticks(2);
+  }
+  // The bus is everybody's, but nothing is wrong with the board: its heartbeat goes on.
+  const bool everybody = of_board || before || fault.group == "bus";
+  const Fault neighbours = everybody ? boards : Fault::none;
+  if (std::string wrong = heated(rig, neighbours); !wrong.empty()) return wrong;
+  if (rig.interval_missed) return "the temperature left its interval";
+  return aftermath(c, rig, first, neighbours);
+}
+
+std::string try_self_test(const RigSettings& settings, double* seen_after_s) {
   for (const bool pump : {true, false}) {
-    Rig rig(rough_board());
+    Rig rig(settings);
     rig.board.pump.stuck_closed = pump;
     rig.muscle().trouble.enable_stuck_on = !pump;
     rig.boot();
     rig.run(0.2);
     *seen_after_s = rig.time_s();
-    const char* what = pump ? "stuck supply switch: " : "stuck enable: ";
-    if (rig.fault() != Fault::self_test_failed) return what + ("it is " + text(rig.fault()));
+    const std::string what = pump ? "stuck supply switch: " : "stuck enable: ";
+    if (rig.fault() != Fault::self_test_failed) return what + "it is " + text(rig.fault());
+    if (std::string wrong = neighbour_wrong(rig, Fault::self_test_failed); !wrong.empty()) {
+      return what + wrong;
+    }
     rig.send(Verb::reset);
-    rig.run(0.01);
-    if (rig.state() != State::fault) return what + std::string("it was reset");
+    rig.run_ticks(10);
+    if (rig.state() != State::fault) return what + "it was reset";
     rig.arm();
-    rig.run(0.1);
-    if (rig.muscle().enable.high()) return what + std::string("it was armed");
+    rig.start_neighbour();
+    if (rig.muscle().enable.high()) return what + "it was armed";
+    if (rig.board.channel(Rig::neighbour).enable.high()) return what + "the neighbour was armed";
   }
   return "";
 }

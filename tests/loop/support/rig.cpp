@@ -1,11 +1,14 @@
 #include "loop/support/rig.hpp"
 
+#include <algorithm>
+
 namespace supercoil::test {
 
 namespace {
 
 constexpr double coefficient_per_K = 0.002;
 constexpr double sense_filter_s = 0.005;
+constexpr double board_steps_per_s = 5000.0;  ///< of the simulated board, at least
 
 control::ControllerSettings controller(control::ControllerKind kind) {
   control::ControllerSettings c;
@@ -23,22 +26,17 @@ control::EstimatorSettings gradient() {
   return e;
 }
 
-}  // namespace
-
-RigSettings rough_board() {
-  RigSettings s;
-  host_sim::MuscleChannelSettings& muscle = s.board.channels[0];
+/// One muscle with its sensors, and what the firmware knows of it.
+void add_channel(RigSettings& s) {
+  host_sim::MuscleChannelSettings muscle;
   muscle.temperature_coefficient_per_K = coefficient_per_K;
   muscle.sense_filter_s = sense_filter_s;
   muscle.pwm_steps = 4095;
   muscle.position = {0.0, 0.060, 16, 10e-6};
   muscle.current = {-0.5, 30.0, 16, 0.002};
-  s.board.supply = {0.0, 30.0, 14, 0.005};
-  s.board.substeps = 5;
+  s.board.channels.push_back(muscle);
 
-  BoardSettings& board = s.firmware;
-  board.supply.scaling = {s.board.supply.per_count(), s.board.supply.low};
-  ChannelSettings& channel = board.channels[0];
+  ChannelSettings channel;
   channel.position.scaling = {muscle.position.per_count(), muscle.position.low};
   channel.heater.current.scaling = {muscle.current.per_count(), muscle.current.low};
   channel.heater.sense_filter_s = sense_filter_s;
@@ -50,6 +48,30 @@ RigSettings rough_board() {
                          controller(control::ControllerKind::pd_ff),
                          controller(control::ControllerKind::mrac)};
   channel.estimators = {gradient()};
+  s.firmware.channels.push_back(channel);
+}
+
+}  // namespace
+
+RigSettings rough_board(double rate_Hz) {
+  RigSettings s;
+  s.board.rate_Hz = rate_Hz;
+  s.board.substeps = std::max(1, static_cast<int>(std::lround(board_steps_per_s / rate_Hz)));
+  s.board.supply = {0.0, 30.0, 14, 0.005};
+  s.board.channels.clear();
+
+  BoardSettings& board = s.firmware;
+  board.rate_Hz = rate_Hz;
+  board.supply.scaling = {s.board.supply.per_count(), s.board.supply.low};
+  board.supervision.late_s = 0.5 * board.step_s();
+  // The pump must outlive the overruns that are borne, twice.
+  const double borne_s = board.supervision.overruns_in_a_row * board.step_s();
+  board.supervision.charge_pump_decay_s =
+      std::max(board.supervision.charge_pump_decay_s, 2.4 * borne_s);
+  s.board.charge_pump_decay_s = board.supervision.charge_pump_decay_s;
+  board.channels.clear();
+  for (int i = 0; i < 2; ++i)
+    add_channel(s);
   return s;
 }
 
@@ -57,7 +79,8 @@ Rig::Rig(const RigSettings& settings)
     : board(settings.board),
       loop(settings.firmware, board.devices()),
       executive(loop, board, settings.firmware.rate_Hz),
-      ambient_C_(settings.firmware.channels[0].thermal.ambient_C) {}
+      period_s_(settings.firmware.step_s()),
+      ambient_C_(settings.firmware.channels[tested].thermal.ambient_C) {}
 
 void Rig::ask() {
   if (!commands_flow) return;
@@ -78,9 +101,15 @@ void Rig::ask() {
   }
 }
 
+void Rig::ask_neighbour() {
+  if (loop.channel(neighbour).state().state() != State::active) return;
+  loop.send({neighbour, Verb::position, 0.008 + 0.003 * std::sin(0.6 * time_s())});
+}
+
 void Rig::tick() {
   before_tick();
   if (state() == State::active) ask();
+  ask_neighbour();
   executive.run_tick();
   if (telemetry_lives) loop.health().telemetry_beats.store(++beats_);
   Row row;
@@ -88,25 +117,35 @@ void Rig::tick() {
   }
   Answer answer;
   while (loop.answer(answer)) {
-    if (answer.refusal != Refusal::none) last_refusal = answer.refusal;
+    const bool refused = answer.refusal != Refusal::none;
+    if (refused && answer.command.channel != neighbour) last_refusal = answer.refusal;
   }
-  const double rise_K = muscle().plant().temperature_rise_K();
-  const Snapshot& s = snapshot();
-  interval_missed = interval_missed || ambient_C_ + rise_K > s.hottest_C + 1e-9 ||
-                    ambient_C_ + rise_K < s.coldest_C - 1e-9;
-  hottest_C = std::fmax(hottest_C, ambient_C_ + muscle().plant().peak_temperature_rise_K());
+  watch_heat();
+}
+
+void Rig::watch_heat() {
+  for (std::size_t i = 0; i < loop.channels(); ++i) {
+    const double true_C = ambient_C_ + board.channel(i).plant().temperature_rise_K();
+    const Snapshot& s = loop.channel(i).snapshot();
+    interval_missed = interval_missed || true_C > s.hottest_C + 1e-9 || true_C < s.coldest_C - 1e-9;
+  }
 }
 
 void Rig::run(double time_s) {
   const double end_s = this->time_s() + time_s;
-  while (this->time_s() + 0.25e-3 < end_s)
+  while (this->time_s() + 0.25 * period_s_ < end_s)
+    tick();
+}
+
+void Rig::run_ticks(int ticks) {
+  for (int i = 0; i < ticks; ++i)
     tick();
 }
 
 bool Rig::run_until(const std::function<bool()>& holds, double most_s) {
   const double end_s = time_s() + most_s;
   while (!holds()) {
-    if (time_s() > end_s) return false;
+    if (time_s() + 0.25 * period_s_ > end_s) return false;
     tick();
   }
   return true;
@@ -115,12 +154,20 @@ bool Rig::run_until(const std::function<bool()>& holds, double most_s) {
 void Rig::boot() {
   run_until([&] { return loop.self_test().passed() || loop.self_test().failed(); }, 2.0);
   // Until then the muscle may be hot from before, and nothing is armed.
-  run_until([&] { return snapshot().hottest_C < 120.0; }, 10.0);
+  const auto cool = [&](std::uint8_t i) { return loop.channel(i).snapshot().hottest_C < 120.0; };
+  run_until([&] { return cool(tested) && cool(neighbour); }, 10.0);
   run(0.1);
 }
 
 void Rig::arm() {
   send(Verb::arm);
+  tick();
+}
+
+void Rig::start_neighbour() {
+  loop.send({neighbour, Verb::arm, 0.0});
+  run(0.2);
+  loop.send({neighbour, Verb::position, 0.008});
   tick();
 }
 

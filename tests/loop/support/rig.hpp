@@ -10,7 +10,7 @@
 
 namespace supercoil::test {
 
-/// What the muscle is asked for, by time since boot.
+/// What the muscle under test is asked for, by time since boot.
 enum class Task { nothing, position, power, identify, calibrate };
 
 struct RigSettings {
@@ -18,11 +18,16 @@ struct RigSettings {
   BoardSettings firmware;
 };
 
-/// One channel; places of controllers: 0 pi, 1 pd_ff, 2 mrac.
-RigSettings rough_board();
+/// Two channels; places of controllers: 0 pi, 1 pd_ff, 2 mrac. What a board's settings must have in
+/// common with its rate has it.
+RigSettings rough_board(double rate_Hz = 1000.0);
 
+/// Channel 0 is under test, and all that is not said to be the neighbour's is about it.
 class Rig {
  public:
+  static constexpr std::uint8_t tested = 0;
+  static constexpr std::uint8_t neighbour = 1;
+
   explicit Rig(const RigSettings& settings);
   Rig(const Rig&) = delete;
   Rig& operator=(const Rig&) = delete;
@@ -30,36 +35,42 @@ class Rig {
   /// One tick: what is asked for, then the firmware.
   void tick();
   void run(double time_s);
-  /// Until it holds; false when that takes longer than most_s.
+  void run_ticks(int ticks);
+  /// Until it holds; false when it does not within most_s.
   bool run_until(const std::function<bool()>& holds, double most_s);
 
   /// Boots and passes the self-test; then arms (which probes); then heats.
   void boot();
   void arm();
   void heat(Task new_task);
+  /// The neighbour of a booted rig is armed and follows a position of its own from now on.
+  void start_neighbour();
 
-  void send(Verb verb, double value = 0.0) { loop.send({0, verb, value}); }
-  State state() const { return loop.channel(0).state().state(); }
-  Fault fault() const { return loop.channel(0).state().first_cause(); }
-  const Snapshot& snapshot() const { return loop.channel(0).snapshot(); }
+  void send(Verb verb, double value = 0.0) { loop.send({tested, verb, value}); }
+  State state() const { return loop.channel(tested).state().state(); }
+  Fault fault() const { return loop.channel(tested).state().first_cause(); }
+  const Snapshot& snapshot() const { return loop.channel(tested).snapshot(); }
+  host_sim::MuscleChannel& muscle() { return board.channel(tested); }
   double time_s() const { return hal::seconds(board.true_time()); }
-  host_sim::MuscleChannel& muscle() { return board.channel(0); }
-  /// What the resetting operator and the last answers were.
+  double period_s() const { return period_s_; }
+  /// Of the last command to any but the neighbour that was not obeyed.
   Refusal last_refusal = Refusal::none;
 
   host_sim::SimulatedBoard board;
   Loop loop;
   Executive executive;
   Task task = Task::nothing;
-  double scale = 1.0;  ///< of everything that is asked for
-  bool commands_flow = true;
+  double scale = 1.0;         ///< of everything that the tested muscle is asked for
+  bool commands_flow = true;  ///< to the tested channel
   bool telemetry_lives = true;
   std::function<void()> before_tick = [] {};  ///< troubles that go on
-  bool interval_missed = false;  ///< the plant's temperature left the firmware's bounds
-  double hottest_C = 0.0;        ///< of the plant
+  bool interval_missed = false;               ///< a muscle's temperature left the firmware's bounds
 
  private:
   void ask();
+  void ask_neighbour();
+  void watch_heat();
+  double period_s_;
   double ambient_C_;
   std::uint32_t beats_ = 0;
 };

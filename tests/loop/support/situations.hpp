@@ -38,16 +38,19 @@ inline constexpr std::array<SituationName, 10> situations{{
     {Situation::fault, "fault"},
 }};
 
-/// A booted rig is brought there; the muscle is warm in the active ones. In `fault` the emergency
-/// stop was pressed, and is released.
+/// A rig is booted and brought there, its neighbour active; the muscle is warm in the active ones.
+/// In `fault` the emergency stop was pressed, and is released: the neighbour has that fault as
+/// well.
 inline void bring_to(Situation situation, Rig& rig) {
   rig.boot();
+  rig.start_neighbour();
+  rig.run(0.3);
   if (situation == Situation::disarmed) return;
   if (situation == Situation::fault) {
     rig.board.stop_circuit.level.high = false;
-    rig.run(0.01);
+    rig.run_ticks(3);
     rig.board.stop_circuit.level.high = true;
-    rig.run(0.01);
+    rig.run_ticks(3);
     return;
   }
   rig.arm();

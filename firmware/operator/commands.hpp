@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "program/exit_status.hpp"
 
@@ -21,5 +22,14 @@ struct LogOptions {
   bool summary = false;
 };
 int log_command(const LogOptions& options);
+
+struct CommandOptions {
+  std::string socket = "/run/supercoil/commands";
+  std::vector<std::string> words;  ///< "state", or channel, verb, value
+  double hold_s = 0.0;             ///< 0: once
+  double sine_amplitude = 0.0;
+  double sine_period_s = 0.0;  ///< 0: no sine
+};
+int command_command(const CommandOptions& options);
 
 }  // namespace supercoil::operating

@@ -9,6 +9,7 @@
 
 namespace {
 
+using namespace supercoil;
 using namespace supercoil::operating;
 
 void add_log(CLI::App& app, LogOptions& options) {
@@ -31,19 +32,44 @@ void add_log(CLI::App& app, LogOptions& options) {
     summary->excludes(of_csv);
 }
 
+void add_command(CLI::App& app, CommandOptions& options) {
+  CLI::App* command = app.add_subcommand(
+      "command", "Give one command to the board on which this runs, or ask for its state");
+  command
+      ->add_option("COMMAND", options.words,
+                   "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
+                   "calibrate, position M, power W, scale M, controller N or estimator N")
+      ->required()
+      ->expected(1, 3);
+  CLI::Option* hold = command->add_option(
+      "--for", options.hold_s,
+      "Renew it for so many seconds or until Ctrl-C; then the muscle rests [once: it expires]");
+  hold->check(CLI::PositiveNumber);
+  CLI::Option* amplitude = command->add_option("--amplitude", options.sine_amplitude,
+                                               "With --for: the value is the middle of a sine");
+  CLI::Option* period = command->add_option("--period", options.sine_period_s, "Of the sine, in s")
+                            ->check(CLI::Range(0.2, 1e4));
+  amplitude->needs(period)->needs(hold);
+  period->needs(amplitude);
+  command->add_option("--socket", options.socket, "Where supercoild listens")
+      ->capture_default_str();
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
   app.set_version_flag("--version", SUPERCOIL_VERSION);
   app.require_subcommand(1);
   LogOptions log;
   add_log(app, log);
+  CommandOptions command;
+  add_command(app, command);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
   }
-  return log_command(log);
+  return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 namespace {
 
+using namespace supercoil;
 using namespace supercoil::host_sim;
 
 void add_run(CLI::App& app, RunOptions& options) {

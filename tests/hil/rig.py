@@ -82,6 +82,7 @@ def fill_share(settings, script, arguments):
         (exchange / old).unlink(missing_ok=True)
     for file in (HERE / "guest").iterdir():
         shutil.copy(file, exchange)
+    shutil.copy(HERE / "board.toml", exchange)
     shutil.copy(script, exchange / "script")
     (exchange / "command").write_text("exec sh /share/.rig/script " + shlex.join(arguments) + "\n")
 

@@ -11,5 +11,5 @@ set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 # there is no sysroot. What could be found wrongly is the host's own /usr/lib/<its triplet>.
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_IGNORE_PREFIX_PATH /usr/local)
-set(PKG_CONFIG_EXECUTABLE /usr/bin/aarch64-linux-gnu-pkg-config CACHE FILEPATH
-    "Knows the libraries of arm64 only")
+# pkg-config must know the libraries of arm64 only.
+set(ENV{PKG_CONFIG_LIBDIR} /usr/lib/aarch64-linux-gnu/pkgconfig:/usr/share/pkgconfig)

@@ -1,0 +1,103 @@
+// supercoil command: one command to a board, once or again and again.
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <thread>
+
+#include "operator/board_socket.hpp"
+#include "operator/commands.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void interrupt(int) {
+  interrupted = 1;
+}
+
+/// A board's answer as an exit status; anything but "ok" is also said.
+int judged(const std::string& line, const std::string& answer) {
+  if (answer == "ok") return exit_done;
+  const bool refused = answer.starts_with("refused");
+  return fail(refused ? exit_failed : exit_wrong_input, line + ": " + answer);
+}
+
+int ask(const BoardSocket& board, const std::string& line) {
+  const auto answer = board.ask(line);
+  if (!answer) return fail(exit_failed, answer.error());
+  return judged(line, *answer);
+}
+
+bool is_number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words)
+    line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+/// Channel and verb as they are; the value on its sine, if there is one.
+std::string line_at(const CommandOptions& options, double time_s) {
+  if (options.sine_period_s <= 0.0) return joined(options.words);
+  constexpr double turn = 6.283185307179586;
+  const double value = std::stod(options.words[2]) +
+                       options.sine_amplitude * std::sin(turn * time_s / options.sine_period_s);
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return joined({options.words[0], options.words[1], text});
+}
+
+/// Until its time is over or it is interrupted; then the muscle rests.
+int hold(const BoardSocket& board, const CommandOptions& options) {
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  const bool renews_itself = options.words.size() == 3;
+  const auto begin = Clock::now();
+  auto next = begin;
+  for (;;) {
+    const double time_s = std::chrono::duration<double>(Clock::now() - begin).count();
+    const bool first = next == begin;
+    const std::string line =
+        first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
+    const auto answer = board.ask(line);
+    if (!answer) return fail(exit_failed, answer.error());
+    // A mode that ends by itself is not renewed any more.
+    if (!first && !renews_itself && *answer != "ok") return exit_done;
+    if (const int status = judged(line, *answer); status != exit_done) return status;
+    if (interrupted != 0 || time_s >= options.hold_s) break;
+    next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);
+    std::this_thread::sleep_until(next);
+  }
+  return ask(board, options.words[0] + " rest");
+}
+
+}  // namespace
+
+int command_command(const CommandOptions& options) {
+  const bool number = options.words.size() == 3 && is_number(options.words[2]);
+  if (options.sine_period_s > 0.0 && !number) {
+    return fail(exit_wrong_input, joined(options.words) + ": a sine needs a number as its middle");
+  }
+  const auto board = BoardSocket::open(options.socket);
+  if (!board) return fail(exit_failed, board.error());
+  if (joined(options.words) == "state") {
+    const auto answer = board->ask("state");
+    if (!answer) return fail(exit_failed, answer.error());
+    std::fputs(answer->c_str(), stdout);
+    return exit_done;
+  }
+  return options.hold_s > 0.0 ? hold(*board, options) : ask(*board, joined(options.words));
+}
+
+}  // namespace supercoil::operating

@@ -14,13 +14,13 @@ std::int64_t scaled(std::int64_t numerator, std::int64_t factor, std::int64_t de
 
 /// Within these, step * period_ns fits into 64 bits many times over.
 constexpr std::int64_t longest_period_ns = 1'000'000'000;
-constexpr int most_steps = 1'000'000;
+constexpr int most_steps = 1 << 24;
 
 }  // namespace
 
 Result<std::unique_ptr<SysfsPwm>> SysfsPwm::open(const PwmPlace& place) {
   if (place.steps < 1 || place.steps > most_steps) {
-    return problem("a PWM of " + std::to_string(place.steps) + " steps: must be 1 to 1000000");
+    return problem("a PWM of " + std::to_string(place.steps) + " steps: must be 1 to 16777216");
   }
   if (place.period_ns < place.steps || place.period_ns > longest_period_ns) {
     return problem("a PWM period of " + std::to_string(place.period_ns) +

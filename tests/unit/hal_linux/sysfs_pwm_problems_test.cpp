@@ -33,7 +33,7 @@ TEST(SysfsPwmProblems, AreSaidOfNumbersThatCannotBe) {
   PwmKernel kernel;
   PwmPlace where = place(kernel);
   where.steps = 0;
-  STRCMP_EQUAL("a PWM of 0 steps: must be 1 to 1000000", answer(where).c_str());
+  STRCMP_EQUAL("a PWM of 0 steps: must be 1 to 16777216", answer(where).c_str());
   where = place(kernel);
   where.period_ns = 3999;
   STRCMP_EQUAL("a PWM period of 3999 ns: must be 1 ns a step (4000) to 1 s", answer(where).c_str());

@@ -59,7 +59,7 @@ PwmKernel::PwmKernel(const PwmState& left, bool exported, Rules rules, int numbe
   tree.write("devices/soc/i2c-1/1-0040/name", "pca9685\n");
   tree.link(std::string(chip) + "/device", "devices/soc/i2c-1/1-0040");
   tree.link("class/pwm/pwmchip3", chip);
-  if (exported) show();
+  if (exported) show_all();
   set_driver([this](const std::string& path, std::string_view text) { return write(path, text); });
 }
 
@@ -67,11 +67,17 @@ PwmKernel::~PwmKernel() {
   reset_calls();
 }
 
-void PwmKernel::show() const {
-  tree.write(output_ + "/period", std::to_string(state.period_ns) + "\n");
-  tree.write(output_ + "/duty_cycle", std::to_string(state.duty_ns) + "\n");
-  tree.write(output_ + "/enable", state.enabled ? "1\n" : "0\n");
-  tree.write(output_ + "/polarity", state.inversed ? "inversed\n" : "normal\n");
+void PwmKernel::show(std::string_view attribute) const {
+  const std::string path = output_ + "/" + std::string(attribute);
+  if (attribute == "period") tree.write(path, std::to_string(state.period_ns) + "\n");
+  if (attribute == "duty_cycle") tree.write(path, std::to_string(state.duty_ns) + "\n");
+  if (attribute == "enable") tree.write(path, state.enabled ? "1\n" : "0\n");
+  if (attribute == "polarity") tree.write(path, state.inversed ? "inversed\n" : "normal\n");
+}
+
+void PwmKernel::show_all() const {
+  for (const char* attribute : {"period", "duty_cycle", "enable", "polarity"})
+    show(attribute);
 }
 
 long PwmKernel::write(const std::string& path, std::string_view text) {
@@ -80,11 +86,12 @@ long PwmKernel::write(const std::string& path, std::string_view text) {
   writes.push_back(what);
   const auto written = static_cast<long>(text.size());
   if (attribute == "export") {
-    show();
+    show_all();
     return written;
   }
   const auto wanted = changed(state, attribute, text);
   const long error = wanted ? apply(*wanted) : -EINVAL;
+  if (error == 0) show(attribute);
   if (error != 0) refusals.push_back(what);
   return error != 0 ? error : written;
 }
@@ -95,7 +102,6 @@ long PwmKernel::apply(const PwmState& wanted) {
   if (judged && !is_valid(wanted) && !from_bad_to_bad) return -EINVAL;
   state = wanted;
   most_on = std::max(most_on, state.on());
-  show();
   return 0;
 }
 

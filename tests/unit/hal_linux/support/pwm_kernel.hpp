@@ -49,7 +49,8 @@ class PwmKernel {
  private:
   long write(const std::string& path, std::string_view text);
   long apply(const PwmState& wanted);
-  void show() const;
+  void show(std::string_view attribute) const;
+  void show_all() const;
 
   Rules rules_;
   std::string output_;

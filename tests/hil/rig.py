@@ -84,7 +84,7 @@ def fill_share(settings, script, arguments):
         shutil.copy(file, exchange)
     shutil.copy(HERE / "board.toml", exchange)
     shutil.copy(script, exchange / "script")
-    (exchange / "command").write_text("exec sh /share/.rig/script " + shlex.join(arguments) + "\n")
+    (exchange / "command").write_text("exec sh /rig/script " + shlex.join(arguments) + "\n")
 
 
 @contextlib.contextmanager

@@ -11,9 +11,9 @@
 namespace supercoil::test {
 
 /// The rule for every rate: a time that does not depend on it, and so many periods. The time is how
-/// long the detector holds, and the board's filters and the muscle need. The periods are 2, one
-/// until a tick reads it and one for the rounding to whole ticks; or, where a detector counts ticks
-/// instead, what it counts and one.
+/// long the detector holds, and what the board's filters and the muscle need. The periods are 2,
+/// one until a tick reads it and one for the rounding to whole ticks; or, where a detector counts
+/// ticks instead, what it counts and one.
 struct Within {
   double time_s;
   int periods = 2;
@@ -22,10 +22,10 @@ struct Within {
 
 struct FaultCase {
   Fault fault;
-  Within within;                     ///< from the injection to heater off
-  std::vector<Situation> elsewhere;  ///< where it cannot come about,
-  std::string why_not;               ///< and why
-  std::function<void(Rig&)> inject;
+  Within within;                          ///< from the injection to heater off
+  std::vector<Situation> elsewhere = {};  ///< where it cannot come about,
+  std::string why_not = {};               ///< and why
+  std::function<void(Rig&)> inject;       ///< into the tested channel, or the whole board
   std::function<void(Rig&)> remove;
   std::function<void(RigSettings&)> tune = [](RigSettings&) {};  ///< thresholds for the test
   /// Where another detector is as right and faster: the first cause is then this one.
@@ -33,5 +33,8 @@ struct FaultCase {
 };
 
 const std::vector<FaultCase>& fault_cases();
+
+/// Whether the fault can come about there.
+bool possible(const FaultCase& fault_case, Situation situation);
 
 }  // namespace supercoil::test

@@ -50,6 +50,9 @@ std::string heated(Rig& rig, Fault neighbours) {
 
 RigSettings board_for(const FaultCase& c, double rate_Hz) {
   RigSettings settings = rough_board(rate_Hz);
+  // Cold muscles: else every trial begins with waiting until they must have cooled.
+  for (ChannelSettings& channel : settings.firmware.channels)
+    channel.thermal.boot_rise_K = 20.0;
   c.tune(settings);
   return settings;
 }

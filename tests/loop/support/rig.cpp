@@ -8,7 +8,6 @@ namespace {
 
 constexpr double coefficient_per_K = 0.002;
 constexpr double sense_filter_s = 0.005;
-constexpr double board_steps_per_s = 5000.0;  ///< of the simulated board, at least
 
 control::ControllerSettings controller(control::ControllerKind kind) {
   control::ControllerSettings c;
@@ -56,7 +55,8 @@ void add_channel(RigSettings& s) {
 RigSettings rough_board(double rate_Hz) {
   RigSettings s;
   s.board.rate_Hz = rate_Hz;
-  s.board.substeps = std::max(1, static_cast<int>(std::lround(board_steps_per_s / rate_Hz)));
+  // At the fast rates a period is short against everything on the board.
+  s.board.substeps = rate_Hz > 5e3 ? 1 : 5;
   s.board.supply = {0.0, 30.0, 14, 0.005};
   s.board.channels.clear();
 
@@ -84,13 +84,14 @@ Rig::Rig(const RigSettings& settings)
 
 void Rig::ask() {
   if (!commands_flow) return;
-  const double t = time_s();
+  // What is scaled does not wait for the wave's crest.
+  const double wave = scale == 1.0 ? std::sin(0.8 * time_s()) : 1.0;
   switch (task) {
     case Task::position:
-      send(Verb::position, scale * (0.010 + 0.004 * std::sin(0.8 * t)));
+      send(Verb::position, scale * (0.010 + 0.004 * wave));
       break;
     case Task::power:
-      send(Verb::power, scale * (1.8 + 0.7 * std::sin(0.8 * t)));
+      send(Verb::power, scale * (1.8 + 0.7 * wave));
       break;
     case Task::identify:
     case Task::calibrate:

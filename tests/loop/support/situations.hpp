@@ -63,7 +63,7 @@ inline void bring_to(Situation situation, Rig& rig) {
            : situation == Situation::identify  ? Task::identify
            : situation == Situation::calibrate ? Task::calibrate
                                                : Task::position);
-  rig.run(situation == Situation::calibrate ? 0.5 : 6.0);
+  rig.run(situation == Situation::calibrate ? 0.5 : 3.0);
 }
 
 }  // namespace supercoil::test

@@ -5,11 +5,11 @@ Works PWM, lines, converters and watchdog of the board by hand (scripts/), and c
 the plant's witness saw. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not work.
 """
 
-import dataclasses
 import sys
 
 import rig
 import witness
+from table import Table
 
 M_PER_COUNT = 0.040 / 3.3 * 125e-6
 A_PER_COUNT = 125e-6
@@ -17,17 +17,6 @@ V_PER_COUNT = 4.3 * 125e-6
 DECAY_MS = 20.0
 STEP_MS = 1.0
 SLOW_MS = 10.0  # how often the plant reads the stop circuit
-
-
-@dataclasses.dataclass
-class Table:
-    wrong: int = 0
-
-    def row(self, what, value, low, high, unit):
-        right = value is not None and low <= value <= high
-        self.wrong += not right
-        shown = "none" if value is None else f"{value:.3f}"
-        print(f"{'ok   ' if right else 'WRONG'} {what:62} {shown:>9} {unit:4} {low:g} to {high:g}")
 
 
 def drivers(table, run):

@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""The firmware on the emulated board: it tracks, and whatever happens to it, the heat goes off in time.
+
+supercoild is the ordinary program with an ordinary configuration (board.toml, 100 Hz), over the kernel's real drivers.
+When power goes off, and by which means, is what the plant's witness saw, outside of the board. Prints what was
+measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
+
+    tests/hil/firmware_test.py [--track SECONDS]
+"""
+
+import argparse
+import re
+import sys
+
+import rig
+import witness
+from table import Table
+
+DECAY_MS = 150.0
+TICK_MS = 10.0
+MARK_MS = 10.0  # the board's uptime is told to 10 ms
+STEP_MS = 2.0  # of the plant
+
+# What happens, within which time power must be off, and by which means.
+DEATHS = (
+    ("stop", "stop pressed", 2 * TICK_MS + MARK_MS, "enable"),
+    # Its last value stays good for max_age (three ticks here).
+    ("sensor", "position's converter vanishes", 6 * TICK_MS + MARK_MS, "enable"),
+    ("busy", "another program takes the processor", DECAY_MS + TICK_MS + MARK_MS, "supply"),
+    ("stopped", "SIGSTOP", DECAY_MS + TICK_MS + MARK_MS, "supply"),
+    ("term", "SIGTERM", 5 * TICK_MS + 20 + MARK_MS, "enable"),
+    ("kill", "SIGKILL", TICK_MS + MARK_MS, "enable"),
+)
+
+
+def states(console):
+    """Of channel 1: (state, mode, fault, reference_m, position_m)."""
+    return [(m[1], m[2], m[3], float(m[4]), float(m[5]))
+            for m in re.finditer(r"^state 1 (\w+) (\w+) (\w+) (\S+) (\S+)", console, re.M)]
+
+
+def track(table, run, seconds):
+    marks, _ = witness.said(run.console)
+    table.row("the script ended with", run.status, 0, 0, "")
+    table.row("armed after", marks["armed"] - marks["disarmed"], 0, 10, "s")
+    table.row("identified after", marks["identified"] - marks["armed"], 50, 90, "s")
+    table.row("tracked for", marks["tracked"] - marks["identified"], seconds, seconds + 2, "s")
+    followed = [(r, y) for state, mode, _, r, y in states(run.console) if (state, mode) == ("active", "position")]
+    settled = followed[len(followed) // 4:]
+    table.row("states seen while it tracked", len(settled), seconds, 1e6, "")
+    error_m = (sum((y - r) ** 2 for r, y in settled) / len(settled)) ** 0.5
+    table.row("tracking error, rms, PI, sine of 10 s", error_m * 1e6, 0, 500, "um")
+    table.row("faults", sum("is fault" in line for line in run.console.splitlines()), 0, 0, "")
+    table.row("stored what it learned", "learned-1.toml" in run.console, 1, 1, "")
+    table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
+    steps = witness.steps(run.witness)[1:]
+    table.row("the plant's latest wake-up", max(s.late_us for s in steps), 0, 1000, "us")
+
+
+def means(look):
+    """How the heat was cut, as far as the witness sees."""
+    channel = look.channels[0]
+    return [name for name, cut in (("enable", not channel.enable), ("duty", channel.duty == 0),
+                                   ("supply", not look.closed)) if cut]
+
+
+def deaths(table, run):
+    marks, _ = witness.said(run.console)
+    looks = witness.looks(run.witness)
+    for mark, what, most_ms, by in DEATHS:
+        before = witness.at(looks, marks[mark] - 0.05)
+        table.row(f"{what}: power before", before.channels[0].power_W, 1.5, 2.5, "W")
+        # From the mark's own uncertainty on.
+        off = witness.first(looks, marks[mark] - MARK_MS / 1e3, lambda look: look.channels[0].power_W == 0)
+        after_ms = None if off is None else (off.time_s - marks[mark]) * 1e3
+        table.row(f"    off after, by {' and '.join(means(off)) if off else 'nothing'}", after_ms, -MARK_MS,
+                  most_ms + STEP_MS, "ms")
+        table.row(f"    among them {by}", off is not None and by in means(off), 1, 1, "")
+    last = looks[-1]
+    table.row("kernel panic: heat was on", last.channels[0].power_W, 1.5, 2.5, "W")
+    table.row("    the watchdog put the board off", run.status, rig.DIED, rig.DIED, "")
+    table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--track", metavar="SECONDS", type=int, default=60, help="of the board's time (default: 60)")
+    seconds = parser.parse_args().track
+    table = Table()
+    for name, part, arguments, options in (
+            ("track", lambda t, r: track(t, r, seconds), (seconds,), {}),
+            ("deaths", deaths, (), {"kernel_options": "panic=0"})):
+        settings = rig.Settings(share=rig.BUILD / f"{name}_test", watchdog=True, time_out_s=1200.0, **options)
+        run = rig.run(rig.HERE / "scripts" / name, arguments, settings)
+        try:
+            part(table, run)
+        except (KeyError, IndexError, TypeError, AttributeError) as error:
+            print(f"{run.console}\n{name}: the board did not do its part: {error!r}", file=sys.stderr)
+            sys.exit(2)
+        print(f"      {name}: {run.wall_s:.1f} s of this machine\n")
+    sys.exit(1 if table.wrong else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,7 +1,8 @@
 // supercoil-rig-beat: beats the heartbeat as the firmware does, by the kernel's GPIO interface and
-// in real time, and holds other lines high. For tests of the rig itself.
+// in real time, holds other lines high, and tells how late it woke. For tests of the rig itself.
 //   supercoil-rig-beat CHIP_LABEL PERIOD_us EDGES [HIGH_LINE...]
-// The first line is HEARTBEAT. When it ends, the lines are nobody's: they return to their pulls.
+// When it ends, the lines are nobody's: they return to their pulls.
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -66,16 +67,24 @@ int take_lines(int chip, unsigned lines, const std::vector<std::string>& names) 
 }
 
 void beat(int request, long period_ns, long edges) {
-  timespec wake{};
+  timespec wake{}, woken{};
   clock_gettime(CLOCK_MONOTONIC, &wake);
+  long late_ns = 0, latest_ns = 0;
   for (long edge = 1; edge <= edges; ++edge) {
     wake.tv_nsec += period_ns;
     wake.tv_sec += wake.tv_nsec / 1000000000;
     wake.tv_nsec %= 1000000000;
     clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr);
+    clock_gettime(CLOCK_MONOTONIC, &woken);
+    const long now_late_ns =
+        (woken.tv_sec - wake.tv_sec) * 1000000000 + woken.tv_nsec - wake.tv_nsec;
+    late_ns += now_late_ns;
+    latest_ns = std::max(latest_ns, now_late_ns);
     gpio_v2_line_values values{static_cast<__u64>(edge % 2), 1};
     if (ioctl(request, GPIO_V2_LINE_SET_VALUES_IOCTL, &values) != 0) fail("heartbeat");
   }
+  std::printf("beat: %ld edges; woken late by %ld us in the mean, %ld us at most\n", edges,
+              late_ns / std::max(edges, 1L) / 1000, latest_ns / 1000);
 }
 
 }  // namespace

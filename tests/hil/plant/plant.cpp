@@ -1,7 +1,5 @@
 #include "plant.hpp"
 
-#include "supercoil/control/actuator/parameters.hpp"
-
 namespace supercoil::rig {
 
 namespace {

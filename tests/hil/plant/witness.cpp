@@ -1,5 +1,6 @@
 #include "witness.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>

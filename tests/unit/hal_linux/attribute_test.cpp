@@ -55,7 +55,8 @@ TEST_GROUP(Attribute) {
     reset_calls();
   }
   hal_linux::Attribute opened(const std::string& content,
-                              hal_linux::Attribute::Use use = hal_linux::Attribute::Use::both) {
+                              hal_linux::Attribute::Use use = hal_linux::Attribute::Use::both)
+      const {
     folder.write("value", content);
     auto attribute = hal_linux::Attribute::open(folder / "value", use);
     CHECK(attribute.has_value());

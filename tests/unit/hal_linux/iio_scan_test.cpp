@@ -33,7 +33,7 @@ std::string scan(int voltage0, int voltage2, std::int64_t time_ns) {
 TEST_GROUP(IioScan) {
   ScanTree board;
 
-  std::unique_ptr<hal_linux::IioScan> opened() {
+  std::unique_ptr<hal_linux::IioScan> opened() const {
     auto scan = hal_linux::IioScan::open(board.place());
     if (!scan) FAIL(scan.error().text.c_str());
     return std::move(*scan);

@@ -33,7 +33,8 @@ Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedSt
       recorder_(config.storage_folder, static_cast<int>(config.settings.channels.size()),
                 config.settings.rate_Hz, files),
       newest_(config.settings.channels.size()),
-      last_(config.settings.channels.size()) {}
+      last_(config.settings.channels.size()),
+      looked_(config.settings.channels.size()) {}
 
 void Keeper::poll(Loop& loop, hal::Time now) {
   struct Tee {
@@ -47,18 +48,27 @@ void Keeper::poll(Loop& loop, hal::Time now) {
   } tee{&loop, this};
   recorder::pump(tee, recorder_, now);
   tell_notes();
-  for (std::size_t i = 0; i < stores_->size(); ++i) {
-    storage::Learned learned;
-    while (loop.channel(i).take_learned(learned)) {
-      const auto saved = (*stores_)[i].save(learned);
-      const std::string who = "channel " + std::to_string(i + 1);
-      if (saved) {
-        log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
-      } else {
-        log(Level::problem, who + " learned, but it is not stored: " + saved.error());
-      }
+  for (std::size_t i = 0; i < stores_->size(); ++i)
+    store_learned(loop, i);
+}
+
+void Keeper::store_learned(Loop& loop, std::size_t channel) {
+  const std::string who = "channel " + std::to_string(channel + 1);
+  storage::Learned learned;
+  bool any = false;
+  while (loop.channel(channel).take_learned(learned)) {
+    any = true;
+    const auto saved = (*stores_)[channel].save(learned);
+    if (saved) {
+      log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
+    } else {
+      log(Level::problem, who + " learned, but it is not stored: " + saved.error());
     }
   }
+  if (looked_[channel] && !any) {
+    log(Level::warning, who + " found nothing that passes its validation; nothing is changed");
+  }
+  looked_[channel] = false;
 }
 
 void Keeper::finish() {
@@ -89,6 +99,10 @@ void Keeper::watch(const Row& row) {
     }
     log(fault ? Level::problem : Level::info, text);
   }
+  const bool looking = static_cast<Mode>(before.mode) == Mode::identify;
+  // Its last row is a tick short of the whole.
+  constexpr float done = 0.99F;
+  if (looking && row.mode == 0 && before.progress > done) looked_[row.channel] = true;
   before = row;
   newest_.put(row);
 }

@@ -40,13 +40,15 @@ class Keeper {
 
  private:
   void watch(const Row& row);
+  void store_learned(Loop& loop, std::size_t channel);
   void tell_notes();
 
   const config::BoardConfig* config_;
   std::vector<storage::LearnedStore>* stores_;
   recorder::FlightRecorder recorder_;
   NewestRows newest_;
-  std::vector<Row> last_;  ///< of each channel
+  std::vector<Row> last_;     ///< of each channel
+  std::vector<bool> looked_;  ///< identification ended by itself
   std::uint64_t rows_ = 0;
 };
 

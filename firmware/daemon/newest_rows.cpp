@@ -11,8 +11,9 @@ std::string NewestRows::describe() {
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
     const Row& r = boxes_[i]->newest();
     text << i + 1 << ' ' << recorder::state_name(r.state) << ' ' << recorder::mode_name(r.mode)
-         << ' ' << recorder::fault_name(r.fault) << ' ' << r.reference << ' ' << r.position_m << ' '
-         << r.applied_W << ' ' << r.coldest_C << ' ' << r.hottest_C << ' ' << r.progress << '\n';
+         << ' ' << recorder::fault_name(r.fault) << ' ' << r.reference << ' ' << r.model_m << ' '
+         << r.position_m << ' ' << r.applied_W << ' ' << r.coldest_C << ' ' << r.hottest_C << ' '
+         << r.progress << '\n';
   }
   return text.str();
 }

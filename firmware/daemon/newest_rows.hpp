@@ -24,8 +24,9 @@ class NewestRows {
     if (row.channel < boxes_.size()) boxes_[row.channel]->put(row);
   }
   /// The reader's: a line for each channel,
-  /// "1 active position none 0.012 0.0119 1.25 66.1 78.2 0.5": channel, state, mode, fault,
-  /// reference and position in m, applied power in W, coldest and hottest in °C, progress.
+  /// "1 active position none 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5": channel, state, mode, fault,
+  /// reference, reference model and position in m, applied power in W, coldest and hottest in °C,
+  /// progress.
   std::string describe();
 
  private:

@@ -34,9 +34,9 @@ DEATHS = (
 
 
 def states(console):
-    """Of channel 1: (state, mode, fault, reference_m, position_m)."""
-    return [(m[1], m[2], m[3], float(m[4]), float(m[5]))
-            for m in re.finditer(r"^state 1 (\w+) (\w+) (\w+) (\S+) (\S+)", console, re.M)]
+    """Of channel 1: (state, mode, fault, reference_m, model_m, position_m)."""
+    return [(m[1], m[2], m[3], float(m[4]), float(m[5]), float(m[6]))
+            for m in re.finditer(r"^state 1 (\w+) (\w+) (\w+) (\S+) (\S+) (\S+)", console, re.M)]
 
 
 def track(table, run, seconds):
@@ -45,11 +45,11 @@ def track(table, run, seconds):
     table.row("armed after", marks["armed"] - marks["disarmed"], 0, 10, "s")
     table.row("identified after", marks["identified"] - marks["armed"], 50, 90, "s")
     table.row("tracked for", marks["tracked"] - marks["identified"], seconds, seconds + 2, "s")
-    followed = [(r, y) for state, mode, _, r, y in states(run.console) if (state, mode) == ("active", "position")]
+    followed = [(model, y) for state, mode, _, _, model, y in states(run.console) if (state, mode) == ("active", "position")]
     settled = followed[len(followed) // 4:]
     table.row("states seen while it tracked", len(settled), seconds, 1e6, "")
-    error_m = (sum((y - r) ** 2 for r, y in settled) / len(settled)) ** 0.5
-    table.row("tracking error, rms, PI, sine of 10 s", error_m * 1e6, 0, 500, "um")
+    error_m = (sum((y - model) ** 2 for model, y in settled) / len(settled)) ** 0.5
+    table.row("tracking error against its model, rms, PI, sine of 10 s", error_m * 1e6, 0, 500, "um")
     table.row("faults", sum("is fault" in line for line in run.console.splitlines()), 0, 0, "")
     table.row("stored what it learned", "learned-1.toml" in run.console, 1, 1, "")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")

@@ -34,18 +34,50 @@ void run(Rig& rig, double time_s, Seen& seen) {
   seen.ticks += ticks;
 }
 
+/// The load swings while the zero is taken.
+void calibrate_in_vain(Rig& rig, Seen& seen) {
+  host_sim::MuscleChannelSettings swinging = rough_board().board.channels[Rig::tested];
+  rig.heat(Task::calibrate);
+  for (int i = 0; i < 300; ++i) {
+    swinging.load_N = -0.03 * (1.0 + std::sin(3.0 * rig.time_s()));
+    rig.muscle().set(swinging);
+    run(rig, 0.01, seen);
+  }
+  swinging.load_N = 0.0;
+  rig.muscle().set(swinging);
+  run(rig, 1.0, seen);
+}
+
+/// Every answer but obedience.
+void ask_in_vain(Rig& rig, Seen& seen) {
+  rig.send(Verb::none);
+  rig.send(Verb::position, std::nan(""));
+  rig.send(Verb::scale, 100.0);
+  rig.send(Verb::identify);
+  rig.send(Verb::arm);
+  rig.loop.send({7, Verb::arm, 0.0});
+  rig.loop.send_damaged(Rig::tested);
+  run(rig, 0.01, seen);
+}
+
 /// A whole life: boot, calibrate, identify, every controller, hot switches, fault, reset.
 void live(Seen& seen) {
   RigSettings settings = rough_board();
-  settings.firmware.channels[0].thermal.boot_rise_K = 2.0;
+  for (ChannelSettings& channel : settings.firmware.channels)
+    channel.thermal.boot_rise_K = 2.0;
   Rig rig(settings);
   run(rig, 1.0, seen);
+  rig.loop.send({Rig::neighbour, Verb::arm, 0.0});
   rig.send(Verb::arm);
   run(rig, 0.2, seen);
+  rig.loop.send({Rig::neighbour, Verb::position, 0.008});
   rig.heat(Task::calibrate);
   run(rig, 8.0, seen);
+  calibrate_in_vain(rig, seen);
   rig.heat(Task::identify);
-  run(rig, 40.0, seen);
+  run(rig, 61.0, seen);
+  rig.heat(Task::identify);
+  run(rig, 5.0, seen);
   rig.send(Verb::rest);
   run(rig, 0.1, seen);
   rig.heat(Task::position);
@@ -56,6 +88,8 @@ void live(Seen& seen) {
   }
   rig.heat(Task::power);
   run(rig, 5.0, seen);
+  rig.send(Verb::scale, rig.snapshot().position_m);
+  ask_in_vain(rig, seen);
   rig.board.stop_circuit.level.high = false;
   run(rig, 0.2, seen);
   rig.board.stop_circuit.level.high = true;
@@ -64,7 +98,12 @@ void live(Seen& seen) {
   run(rig, 1.0, seen);
   rig.send(Verb::arm);
   run(rig, 0.2, seen);
-  seen.whole_life = rig.state() == State::armed;
+  storage::Learned learned;
+  int results = 0;
+  while (rig.loop.channel(Rig::tested).take_learned(learned))
+    ++results;
+  // Of calibrate, identify and scale.
+  seen.whole_life = rig.state() == State::armed && results == 3;
 }
 
 void break_everything(Seen& seen) {

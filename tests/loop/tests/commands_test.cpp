@@ -75,6 +75,8 @@ TEST(Commands, WithAValueThatIsNoneOrOutOfRangeAreRefused) {
   CHECK(answer_to(Verb::controller, 3) == Refusal::out_of_range);
   CHECK(answer_to(Verb::controller, std::nan("")) == Refusal::out_of_range);
   CHECK(answer_to(Verb::scale, -1.0) == Refusal::out_of_range);
+  // Of a muscle at rest it would be a scale of a thousand.
+  CHECK(answer_to(Verb::scale, 0.5) == Refusal::out_of_range);
   CHECK(rig.state() == State::armed);
 }
 

@@ -57,6 +57,11 @@ TEST(Modes, IdentifyStoresNothingWhenTheSensorIsTooNoisy) {
                   .has_value());
 }
 
+/// The motion is still explained, but no longer by these parameters only.
+TEST(Modes, IdentifyStoresNothingWhenNoiseLeavesTheParametersOpen) {
+  CHECK_FALSE(learned(identify + "[sensor.position]\nnoise_rms_m = 100e-6\n").has_value());
+}
+
 TEST(Modes, IdentifyStoresNothingWhenCommandsStop) {
   CHECK_FALSE(
       learned(identify + "[[event]]\nat_s = 30.0\ntrouble.commands_stop = true\n").has_value());

@@ -1,6 +1,7 @@
 // A NaN from anywhere cools.
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include <CppUTest/TestHarness.h>
 
@@ -10,6 +11,8 @@ using namespace supercoil;
 using namespace supercoil::test;
 
 namespace {
+
+const double most_W = LimiterSettings{}.max_W;
 
 void check_cools(Rig& rig, Fault expected) {
   CHECK(rig.run_until([&] { return rig.state() == State::fault; }, 5.0));
@@ -35,24 +38,39 @@ TEST(NotANumber, FromAController) {
     rig.arm();
     rig.run(0.2);
     rig.heat(Task::position);
+    // Before any detector has seen it, the limiter has.
+    if (std::isnan(gain)) CHECK(rig.snapshot().limited_by == LimitedBy::invalid);
+    CHECK(std::isfinite(rig.snapshot().applied_W));
+    CHECK_COMPARE(rig.snapshot().applied_W, <=, most_W);
     check_cools(rig, Fault::controller_invalid);
   }
 }
 
 TEST(NotANumber, FromAScalingThatIsNone) {
-  for (auto spoil :
-       {+[](RigSettings& s) { s.firmware.channels[0].position.scaling.per_count = std::nan(""); },
-        +[](RigSettings& s) { s.firmware.supply.scaling.offset = std::nan(""); },
-        +[](RigSettings& s) {
-          s.firmware.channels[0].heater.current.scaling.per_count = std::nan("");
-        }}) {
+  struct Spoilt {
+    void (*spoil)(RigSettings&);
+    Fault expected;
+  };
+  for (const Spoilt& spoilt : {
+           Spoilt{[](RigSettings& s) {
+                    s.firmware.channels[0].position.scaling.per_count = std::nan("");
+                  },
+                  Fault::sensor_out_of_range},
+           Spoilt{[](RigSettings& s) { s.firmware.supply.scaling.offset = std::nan(""); },
+                  Fault::under_voltage},
+           Spoilt{[](RigSettings& s) {
+                    s.firmware.channels[0].heater.current.scaling.per_count = std::nan("");
+                  },
+                  Fault::heater_stuck_on},
+       }) {
     RigSettings settings = rough_board();
-    spoil(settings);
+    spoilt.spoil(settings);
     Rig rig(settings);
     rig.run(1.0);
+    if (rig.fault() != spoilt.expected) FAIL(std::string(name(rig.fault())).c_str());
     rig.arm();
     rig.run(1.0);
-    CHECK(rig.state() == State::fault || rig.state() == State::disarmed);
+    CHECK(rig.state() == State::fault);
     DOUBLES_EQUAL(0.0, rig.muscle().true_power_W(), 0.0);
   }
 }

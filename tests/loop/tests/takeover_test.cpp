@@ -1,5 +1,6 @@
 // Switching controllers while hot.
 #include <cmath>
+#include <functional>
 
 #include <CppUTest/TestHarness.h>
 
@@ -11,38 +12,58 @@ using namespace supercoil::test;
 namespace {
 
 constexpr double noise_rms_m = 10e-6;
+constexpr int warm_ticks = 40'000;
+
+/// Two alike until one of them is told something else.
+struct Twins {
+  explicit Twins(const RigSettings& settings) : stays(settings), switches(settings) {}
+
+  template <typename What>
+  void both(What what) {
+    what(stays);
+    what(switches);
+  }
+  void warm_up(Task task, int controller) {
+    both([&](Rig& rig) {
+      rig.boot();
+      rig.arm();
+      rig.run(0.2);
+      rig.send(Verb::controller, controller);
+      rig.heat(task);
+    });
+  }
+  /// How far apart they get; `ask` is told every tick.
+  double apart_m(int ticks, const std::function<void(Rig&)>& ask) {
+    double furthest_m = 0.0;
+    for (int i = 0; i < ticks; ++i) {
+      both([&](Rig& rig) {
+        ask(rig);
+        rig.tick();
+      });
+      furthest_m = std::fmax(furthest_m, std::abs(switches.muscle().plant().position_m() -
+                                                  stays.muscle().plant().position_m()));
+    }
+    CHECK(switches.state() == State::active);
+    return furthest_m;
+  }
+
+  Rig stays;
+  Rig switches;
+};
+
+void follow(Rig&) {}
+void hold(Rig& rig) {
+  rig.send(Verb::position, 0.010);
+}
 
 /// How far the muscle is, within a time after a switch, from where it would have been without.
 double moved_m(int from, int to, bool sine, int ticks) {
-  const auto prepared = [&](Rig& rig) {
-    rig.boot();
-    rig.arm();
-    rig.run(0.2);
-    rig.send(Verb::controller, from);
-    rig.heat(Task::position);
-    if (!sine) rig.task = Task::nothing;
-    const double end_s = rig.time_s() + 40.0;
-    while (rig.time_s() < end_s) {
-      if (!sine) rig.send(Verb::position, 0.010);
-      rig.tick();
-    }
-  };
-  Rig stays(rough_board());
-  Rig switches(rough_board());
-  prepared(stays);
-  prepared(switches);
-  switches.send(Verb::controller, to);
-  double furthest_m = 0.0;
-  for (int i = 0; i < ticks; ++i) {
-    if (!sine) stays.send(Verb::position, 0.010);
-    if (!sine) switches.send(Verb::position, 0.010);
-    stays.tick();
-    switches.tick();
-    furthest_m = std::fmax(furthest_m, std::abs(switches.muscle().plant().position_m() -
-                                                stays.muscle().plant().position_m()));
-  }
-  CHECK(switches.state() == State::active);
-  return furthest_m;
+  Twins twins(rough_board());
+  twins.warm_up(Task::position, from);
+  if (!sine) twins.both([](Rig& rig) { rig.task = Task::nothing; });
+  twins.apart_m(warm_ticks, sine ? follow : hold);
+  twins.switches.send(Verb::controller, to);
+  return twins.apart_m(ticks, sine ? follow : hold);
 }
 
 }  // namespace
@@ -67,5 +88,22 @@ TEST(Takeover, InMotionDoesNotJerkTheMuscle) {
       if (from != to) printf("%d -> %d in motion: %.2f um\n", from, to, moved * 1e6);
       CHECK_COMPARE(moved, <, noise_rms_m);
     }
+  }
+}
+
+/// Following a position begins with the power that was given before.
+TEST(Takeover, FromOpenLoopDoesNotJerkTheMuscle) {
+  for (int to = 0; to < 3; ++to) {
+    Twins twins(rough_board());
+    twins.warm_up(Task::power, to);
+    twins.both([](Rig& rig) { rig.task = Task::nothing; });
+    twins.apart_m(warm_ticks, [](Rig& rig) { rig.send(Verb::power, 1.8); });
+    const double here_m = twins.switches.snapshot().position_m;
+    const double moved = twins.apart_m(100, [&](Rig& rig) {
+      const bool follows = &rig == &twins.switches;
+      follows ? rig.send(Verb::position, here_m) : rig.send(Verb::power, 1.8);
+    });
+    printf("power -> %d: %.2f um\n", to, moved * 1e6);
+    CHECK_COMPARE(moved, <, noise_rms_m);
   }
 }

@@ -118,8 +118,9 @@ void Rig::tick() {
   }
   Answer answer;
   while (loop.answer(answer)) {
-    const bool refused = answer.refusal != Refusal::none;
-    if (refused && answer.command.channel != neighbour) last_refusal = answer.refusal;
+    if (answer.command.channel == neighbour) continue;
+    if (answer.refusal != Refusal::none) last_refusal = answer.refusal;
+    if (answer.command.verb == Verb::reset) answer_to_reset = answer.refusal;
   }
   watch_heat();
 }

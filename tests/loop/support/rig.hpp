@@ -55,6 +55,8 @@ class Rig {
   double period_s() const { return period_s_; }
   /// Of the last command to any but the neighbour that was not obeyed.
   Refusal last_refusal = Refusal::none;
+  /// The answer to the tested channel's last reset.
+  Refusal answer_to_reset = Refusal::none;
 
   host_sim::SimulatedBoard board;
   Loop loop;

@@ -22,7 +22,8 @@ struct Within {
 
 struct FaultCase {
   Fault fault;
-  Within within;                          ///< from the injection to heater off
+  std::string how = {};  ///< it comes about, when that is not the obvious way
+  Within within;         ///< from the injection to heater off, and to the board's fault
   std::vector<Situation> elsewhere = {};  ///< where it cannot come about,
   std::string why_not = {};               ///< and why
   std::function<void(Rig&)> inject;       ///< into the tested channel, or the whole board
@@ -32,6 +33,7 @@ struct FaultCase {
   std::function<Fault(Situation)> first = nullptr;
 };
 
+/// At least one of every fault but self_test_failed.
 const std::vector<FaultCase>& fault_cases();
 
 /// Whether the fault can come about there.

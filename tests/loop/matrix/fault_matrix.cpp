@@ -43,11 +43,12 @@ void try_case(const FaultCase& c, const Run& run, Count& count) {
            try_fault(c, s.situation, board_for(c, run.rate_Hz), &seen_after_s));
     if (s.situation != Situation::fault) slowest_s = std::fmax(slowest_s, seen_after_s);
   }
+  const std::string how = c.how.empty() ? "" : "; when " + c.how;
+  const std::string why_not = c.why_not.empty() ? "" : "; elsewhere: " + c.why_not;
   std::printf("%2d %-24s tried %2d, failed %d, off within %7.1f of %7.1f ms%s%s\n",
               static_cast<int>(c.fault), std::string(name(c.fault)).c_str(),
               count.tried - before.tried, count.failed - before.failed, 1e3 * slowest_s,
-              1e3 * c.within.at(1.0 / run.rate_Hz),
-              c.why_not.empty() ? "" : "; elsewhere: ", c.why_not.c_str());
+              1e3 * c.within.at(1.0 / run.rate_Hz), how.c_str(), why_not.c_str());
 }
 
 void try_fault_of(Fault fault, const Run& run, Count& count) {
@@ -58,9 +59,13 @@ void try_fault_of(Fault fault, const Run& run, Count& count) {
                 std::string(name(fault)).c_str());
     return;
   }
+  bool found = false;
   for (const FaultCase& c : fault_cases()) {
-    if (c.fault == fault) return try_case(c, run, count);
+    if (c.fault != fault) continue;
+    try_case(c, run, count);
+    found = true;
   }
+  if (found) return;
   std::printf("FAILED %s has no case\n", std::string(name(fault)).c_str());
   ++count.failed;
 }
@@ -70,9 +75,10 @@ int failed(const Run& run) {
   Count count;
   for (const FaultInfo& fault : all_faults())
     try_fault_of(fault.fault, run, count);
-  std::printf("%zu faults x %zu situations: %d tried, %d cannot come about, %d failed\n\n",
-              all_faults().size(), run.situations.size(), count.tried, count.not_possible,
-              count.failed);
+  std::printf(
+      "%zu faults, %zu ways x %zu situations: %d tried, %d cannot come about, %d failed\n\n",
+      all_faults().size(), fault_cases().size(), run.situations.size(), count.tried,
+      count.not_possible, count.failed);
   return count.failed;
 }
 

@@ -28,6 +28,12 @@ Loosen board(Number BoardSupervision::*limit, double times = lax) {
 void older_positions(RigSettings& s) {
   s.firmware.channels[Rig::tested].position.max_age_s *= lax;
 }
+void older_currents(RigSettings& s) {
+  s.firmware.channels[Rig::tested].heater.current.max_age_s *= lax;
+}
+void older_supplies(RigSettings& s) {
+  s.firmware.supply.max_age_s *= lax;
+}
 /// At once is no time that could be multiplied.
 void bus_off_later(RigSettings& s) {
   s.firmware.supervision.bus_off_s = lax * s.firmware.step_s();
@@ -67,6 +73,7 @@ std::vector<LaxLimit> of_heater() {
       {"off_current, stuck on", Fault::heater_stuck_on, channel(&C::off_current_A),
        "a switch that is stuck conducts 1.2 A, and the limit becomes 0.15 A"},
       {"stuck_on_s", Fault::heater_stuck_on, channel(&C::stuck_on_s)},
+      {"current max_age_s", Fault::heater_stuck_on, older_currents},
       {"responding_window_s", Fault::heater_not_responding, channel(&C::responding_window_s)},
       {"responding_part", Fault::heater_not_responding, channel(&C::responding_part, lax_below),
        "a muscle off its anchor moves its sensor by nothing but noise"},
@@ -101,6 +108,7 @@ std::vector<LaxLimit> of_board() {
       {"highest_supply", Fault::over_voltage, board(&B::highest_supply_V)},
       {"supply_s, under", Fault::under_voltage, board(&B::supply_s)},
       {"supply_s, over", Fault::over_voltage, board(&B::supply_s)},
+      {"supply max_age_s", Fault::under_voltage, older_supplies},
       {"late_s", Fault::tick_late, board(&B::late_s)},
       {"late_in_a_row", Fault::tick_late, board(&B::late_in_a_row)},
       {"overruns_in_a_row", Fault::overrun, board(&B::overruns_in_a_row)},

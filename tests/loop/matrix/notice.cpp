@@ -20,6 +20,7 @@ std::string noticed(Fault fault, const std::function<void(RigSettings&)>& change
       const std::string wrong = try_fault(c, s.situation, settings, &unused_s);
       const bool for_lack_of_it = wrong.starts_with("not detected") ||
                                   wrong.starts_with("detected as") ||
+                                  wrong.starts_with("the board's fault is") ||
                                   wrong.starts_with("the supply is still closed");
       if (for_lack_of_it) return std::string(s.name) + ": " + wrong;
     }

@@ -16,8 +16,9 @@ std::string lines_wrong(Rig& rig, std::uint8_t channel) {
   const host_sim::MuscleChannel& muscle = rig.board.channel(channel);
   const std::string which = channel == Rig::tested ? "" : "of the neighbour ";
   if (muscle.enable.high()) return which + "the enable line is high";
-  // One that reads back wrongly is one step off.
-  if (muscle.pwm.read_back() > 1) return which + "the duty is not 0";
+  // One that reads back wrongly is one step off; one that refuses is cut by its enable line alone.
+  const bool obeys = muscle.pwm.refuses == hal::Status::ok;
+  if (obeys && muscle.pwm.read_back() > 1) return which + "the duty is not 0";
   return "";
 }
 
@@ -83,11 +84,12 @@ std::string try_fault(const FaultCase& c, Situation situation, const RigSettings
   if (rig.fault() != first) return "detected as " + text(rig.fault());
   if (std::string wrong = lines_wrong(rig, Rig::tested); !wrong.empty()) return wrong;
 
-  // Where the fault of the channel comes first, the board's follows as soon as it would have alone.
+  // Where a fault of the channel comes first, the board's follows.
   const FaultInfo fault = *info(c.fault);
   const bool of_board = fault.scope == Scope::board;
   if (of_board && first != c.fault && !before) {
-    rig.run_until([&] { return rig.loop.board_fault() != Fault::none; }, within_s);
+    rig.run_until([&] { return rig.loop.board_fault() != Fault::none; }, within_s - *seen_after_s);
+    *seen_after_s = rig.time_s() - injected_s;
   }
   const Fault boards = before ? Fault::emergency_stop : c.fault;
   if (of_board || before) {

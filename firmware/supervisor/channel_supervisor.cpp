@@ -86,9 +86,11 @@ void ChannelSupervisor::judge_heater(const Evidence& e) {
                 stuck_on_.margin());
   if (!e.current.present) return;
   verdict_.note(heater_open, open_.step(e.off ? 0.0 : e.duty, current_A), open_.margin());
-  // What is above the current of the least resistance that the muscle may have.
+  // What is above the current of the least resistance that the muscle may have. Without a supply
+  // that is known there is none; that the supply is not is under_voltage's to say.
   const double most_A = e.duty * e.supply_V / settings_.least_resistance_Ohm;
-  verdict_.note(heater_short, short_.step(e.off ? 0.0 : current_A - most_A), short_.margin());
+  const bool judged = !e.off && e.supply_V > 0.0;
+  verdict_.note(heater_short, short_.step(judged ? current_A - most_A : 0.0), short_.margin());
   const double measured_W = e.supply_V * current_A;
   verdict_.note(power_limit_exceeded, power_.step(measured_W), power_.margin());
   if (e.position.present) {

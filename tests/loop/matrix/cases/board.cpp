@@ -1,5 +1,4 @@
 // Supply, time and bus: what all channels have in common.
-#include <algorithm>
 
 #include "loop/matrix/cases/cases.hpp"
 
@@ -25,14 +24,6 @@ void wake_late(Rig& rig) {
   every_tick(rig, [&rig] { rig.board.oversleep(0.8 * rig.period_s()); });
 }
 
-/// An unknown supply counts as 0 V, so that for one tick any current looks like a short. Where a
-/// tick is longer than a short must be, the channels would name it first.
-void patient_with_shorts(RigSettings& settings) {
-  for (ChannelSettings& channel : settings.firmware.channels)
-    channel.supervision.short_s =
-        std::max(channel.supervision.short_s, 2.0 / settings.board.rate_Hz);
-}
-
 /// A board that takes its steps at whole periods only wakes nobody late.
 void finer_steps(RigSettings& settings) {
   settings.board.substeps = 5;
@@ -49,8 +40,7 @@ std::vector<FaultCase> board_cases() {
        .how = "nobody measures the supply",
        .within = {0.03},
        .inject = [](Rig& r) { r.board.supply.set({.silent = true}); },
-       .remove = [](Rig& r) { r.board.supply.set({.silent = false}); },
-       .tune = patient_with_shorts},
+       .remove = [](Rig& r) { r.board.supply.set({.silent = false}); }},
       {.fault = Fault::over_voltage, .within = {0.02}, .inject = supply(14.5), .remove = well},
       // Two periods a tick, and five of them left out.
       {.fault = Fault::overrun, .within = {0.0, 12}, .inject = overrun, .remove = nothing_more},

@@ -38,7 +38,7 @@ Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedSt
 
 void Keeper::poll(Loop& loop, hal::Time now) {
   struct Tee {
-    bool take(Row& row) {
+    bool take(Row& row) const {
       if (!loop->take(row)) return false;
       keeper->watch(row);
       return true;

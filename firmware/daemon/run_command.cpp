@@ -76,12 +76,12 @@ tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& c
   const bool realtime = options.priority > 0;
   if (realtime) report({hal_linux::lock_memory(), parts.wakeful.hold()});
   const int bus_priority = realtime ? std::max(1, options.priority - below_the_loop) : 0;
-  if (const auto started = parts.board->start(rate_Hz, bus_priority); !started) return started;
+  if (auto started = parts.board->start(rate_Hz, bus_priority); !started) return started;
   const board::Devices devices = parts.board->devices();
   parts.loop = std::make_unique<Loop>(config.settings, devices);
   parts.telemetry =
       std::make_unique<Telemetry>(*parts.loop, parts.keeper->newest(), std::move(commands));
-  if (const auto started = parts.telemetry->start(); !started) return started;
+  if (auto started = parts.telemetry->start(); !started) return started;
   auto thread = LoopThread::start(*parts.loop, *devices.clock, rate_Hz,
                                   {"loop", options.priority, options.cpu});
   if (!thread) return tl::unexpected(thread.error());

@@ -1,4 +1,5 @@
 // supercoil command: one command to a board, once or again and again.
+#include <array>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -53,9 +54,9 @@ std::string line_at(const CommandOptions& options, double time_s) {
   constexpr double turn = 6.283185307179586;
   const double value = std::stod(options.words[2]) +
                        options.sine_amplitude * std::sin(turn * time_s / options.sine_period_s);
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return joined({options.words[0], options.words[1], text});
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.9g", value);
+  return joined({options.words[0], options.words[1], text.data()});
 }
 
 /// Until its time is over or it is interrupted; then the muscle rests.

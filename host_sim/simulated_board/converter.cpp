@@ -16,8 +16,7 @@ hal::Sample SimulatedConverter::convert(double value, hal::Time when) {
     double reading = value + trouble_.offset;
     if (settings_.noise_rms > 0.0) reading += settings_.noise_rms * normal_(generator_);
     const double counts = (reading - settings_.low) * counts_per_unit_;
-    // Half to the next: std::nearbyint is a call.
-    sample.counts = static_cast<std::int32_t>(std::clamp(counts, 0.0, full_scale_) + 0.5);
+    sample.counts = static_cast<std::int32_t>(std::lround(std::clamp(counts, 0.0, full_scale_)));
   }
   return sample;
 }

@@ -1,5 +1,6 @@
 """supercoild as its owner or a script meets it: exit status and messages."""
 
+import fcntl
 import os
 import pathlib
 import subprocess
@@ -64,11 +65,56 @@ class Program(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertEqual(done.stderr, "none.toml: there is no such file\n")
 
-    def test_without_arguments_it_says_that_it_drives_no_board_yet(self):
+    def test_without_arguments_it_drives_the_board_of_etc(self):
+        if pathlib.Path("/etc/supercoil/board.toml").exists():
+            self.skipTest("this machine is a board")
         done = self.run_program()
-        self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertIn("no hardware layer yet", done.stderr)
-        self.assertIn("supercoil-sim", done.stderr)
+        self.assertEqual((done.returncode, done.stdout, done.stderr),
+                         (2, "", "/etc/supercoil/board.toml: there is no such file\n"))
+
+    def no_such_board(self):
+        """Names of devices that no machine has, so that nothing can be touched."""
+        text = SLOW.read_text()
+        for old, new in (("pinctrl-bcm2711", "no-such-chip"), ("i2c-1/1-0040", "no-such-pwm/0"),
+                         ('[board]\n', f'[board]\nstorage_folder = "{self.path}"\n')):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        (self.path / "b.toml").write_text(text)
+        return "--config", "b.toml", "--run-folder", "."
+
+    def test_every_device_that_is_missing_is_named(self):
+        done = self.run_program(*self.no_such_board())
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        for what in ("heartbeat", "stop_circuit", "light", "channel 1, enable", "channel 4, enable"):
+            self.assertIn(f"supercoild: problem: b.toml: {what}: no chip with the label 'no-such-chip' in /dev: there",
+                          done.stderr)
+        self.assertIn("b.toml: channel 3, pwm: ", done.stderr)
+        self.assertTrue(done.stderr.endswith("supercoild: problem: nothing was started\n"), done.stderr)
+
+    def test_a_folder_that_is_missing(self):
+        arguments = self.no_such_board()
+        done = self.run_program(*arguments[:3], "none")
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "supercoild: problem: none/lock: the lock file cannot be made: "
+                             "No such file or directory\n"))
+
+    def test_what_was_learned_and_is_damaged_is_no_start(self):
+        arguments = self.no_such_board()
+        (self.path / "learned-2.toml").write_text("nonsense")
+        done = self.run_program(*arguments)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("learned-2.toml", done.stderr)
+        self.assertNotIn("no-such-chip", done.stderr)
+
+    def test_only_one_drives_a_board(self):
+        arguments = self.no_such_board()
+        with open(self.path / "lock", "w") as lock:
+            lock.write("4711\n")
+            lock.flush()
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            done = self.run_program(*arguments)
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "supercoild: problem: ./lock: another supercoild drives this board, process 4711\n"))
 
     def test_unknown_options(self):
         self.assertEqual(self.run_program("--chek", SLOW).returncode, 2)

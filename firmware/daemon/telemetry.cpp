@@ -1,5 +1,7 @@
 #include "daemon/telemetry.hpp"
 
+#include <csignal>
+
 #include <poll.h>
 
 namespace supercoil::daemon {
@@ -7,6 +9,14 @@ namespace supercoil::daemon {
 namespace {
 /// A command waits for its answer at most a tick and this.
 constexpr int round_ms = 5;
+
+/// Asked to end, although the main thread has not noticed: it may be waiting for the disk.
+bool ending_is_asked() {
+  sigset_t pending;
+  sigemptyset(&pending);
+  sigpending(&pending);
+  return sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1;
+}
 }  // namespace
 
 tl::expected<void, std::string> Telemetry::start() {
@@ -19,6 +29,7 @@ tl::expected<void, std::string> Telemetry::start() {
 void Telemetry::run() {
   while (!ending_.load(std::memory_order_relaxed)) {
     loop_->health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
+    if (ending_is_asked()) cool();
     if (cooling_.load(std::memory_order_relaxed)) {
       for (std::size_t i = 0; i < loop_->channels(); ++i)
         loop_->send({static_cast<std::uint8_t>(i), Verb::disarm});

@@ -15,7 +15,9 @@
 
 namespace supercoil::daemon {
 
-/// Serves commands and shows the loop that it lives. Touches no disk.
+/// Serves commands and shows the loop that it lives. Touches no disk: so it is the one that cools
+/// at a SIGTERM or SIGINT that is blocked and pending, however long the main thread waits for a
+/// disk.
 class Telemetry {
  public:
   Telemetry(Loop& loop, NewestRows& rows, std::optional<LocalCommands> commands)

@@ -11,7 +11,7 @@ namespace {
 
 using namespace supercoil::host_sim;
 
-/// The budget at 1 kHz: 8,000 × real time or more.
+/// The budget at 1 kHz, one channel: 3,000 × real time or more. The boot of 15 s is not counted.
 void scenario(benchmark::State& state, const std::string& name) {
   const auto read = read_scenario(name);
   if (!read) {

@@ -5,7 +5,7 @@ supercoild is the ordinary program with an ordinary configuration (board.toml, 1
 When power goes off, and by which means, is what the plant's witness saw, outside of the board. Prints what was
 measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
 
-    tests/hil/firmware_test.py [--track SECONDS]
+    tests/hil/firmware_test.py [--track SECONDS] [--only track|deaths]
 """
 
 import argparse
@@ -21,15 +21,17 @@ TICK_MS = 10.0
 MARK_MS = 10.0  # the board's uptime is told to 10 ms
 STEP_MS = 2.0  # of the plant
 
-# What happens, within which time power must be off, and by which means.
+# What happens, within which time power must be off, and by which means: from the moment at which the board told that it
+# does it, or, where the charge pump is what cuts, from the heartbeat's last edge.
 DEATHS = (
     ("stop", "stop pressed", 2 * TICK_MS + MARK_MS, "enable"),
     # Its last value stays good for max_age (three ticks here).
     ("sensor", "position's converter vanishes", 6 * TICK_MS + MARK_MS, "enable"),
-    ("busy", "another program takes the processor", DECAY_MS + TICK_MS + MARK_MS, "supply"),
-    ("stopped", "SIGSTOP", DECAY_MS + TICK_MS + MARK_MS, "supply"),
+    ("busy", "another program takes the processor", DECAY_MS, "supply"),
+    ("stopped", "SIGSTOP", DECAY_MS, "supply"),
     ("term", "SIGTERM", 5 * TICK_MS + 20 + MARK_MS, "enable"),
-    ("kill", "SIGKILL", TICK_MS + MARK_MS, "enable"),
+    # Lines fall by their pulls when the kernel has taken the process apart; the pump would cut soon after.
+    ("kill", "SIGKILL", DECAY_MS, "enable"),
 )
 
 
@@ -47,7 +49,7 @@ def track(table, run, seconds):
     table.row("tracked for", marks["tracked"] - marks["identified"], seconds, seconds + 2, "s")
     followed = [(model, y) for state, mode, _, _, model, y in states(run.console) if (state, mode) == ("active", "position")]
     settled = followed[len(followed) // 4:]
-    table.row("states seen while it tracked", len(settled), seconds, 1e6, "")
+    table.row("states seen while it tracked", len(settled), seconds / 2, 1e6, "")
     error_m = (sum((y - model) ** 2 for model, y in settled) / len(settled)) ** 0.5
     table.row("tracking error against its model, rms, PI, sine of 10 s", error_m * 1e6, 0, 500, "um")
     table.row("faults", sum("is fault" in line for line in run.console.splitlines()), 0, 0, "")
@@ -72,8 +74,9 @@ def deaths(table, run):
         table.row(f"{what}: power before", before.channels[0].power_W, 1.5, 2.5, "W")
         # From the mark's own uncertainty on.
         off = witness.first(looks, marks[mark] - MARK_MS / 1e3, lambda look: look.channels[0].power_W == 0)
-        after_ms = None if off is None else (off.time_s - marks[mark]) * 1e3
-        table.row(f"    off after, by {' and '.join(means(off)) if off else 'nothing'}", after_ms, -MARK_MS,
+        since_s = off.edge_s if off is not None and by == "supply" else marks[mark]
+        after_ms = None if off is None else (off.time_s - since_s) * 1e3
+        table.row(f"    off {'after the last edge' if by == 'supply' else 'after'}, by {' and '.join(means(off)) if off else 'nothing'}", after_ms, -MARK_MS,
                   most_ms + STEP_MS, "ms")
         table.row(f"    among them {by}", off is not None and by in means(off), 1, 1, "")
     last = looks[-1]
@@ -85,12 +88,16 @@ def deaths(table, run):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--track", metavar="SECONDS", type=int, default=60, help="of the board's time (default: 60)")
-    seconds = parser.parse_args().track
+    parser.add_argument("--only", choices=("track", "deaths"), help="one of the two boards")
+    wish = parser.parse_args()
+    seconds = wish.track
     table = Table()
     for name, part, arguments, options in (
             ("track", lambda t, r: track(t, r, seconds), (seconds,), {}),
             ("deaths", deaths, (), {"kernel_options": "panic=0"})):
-        settings = rig.Settings(share=rig.BUILD / f"{name}_test", watchdog=True, time_out_s=1200.0, **options)
+        if wish.only not in (None, name):
+            continue
+        settings = rig.Settings(share=rig.BUILD / f"{name}_test", watchdog=True, time_out_s=600.0 + 4.0 * seconds, **options)
         run = rig.run(rig.HERE / "scripts" / name, arguments, settings)
         try:
             part(table, run)

@@ -1,6 +1,9 @@
 // The daemon's threads over a simulated board in real time: they run under ThreadSanitizer as well.
 // Nothing here is timed: every wait is for something to come about.
+#include <csignal>
 #include <thread>
+
+#include <unistd.h>
 
 #include <CppUTest/TestHarness.h>
 
@@ -60,8 +63,14 @@ TEST_GROUP(DaemonThreads) {
   std::unique_ptr<Keeper> keeper;
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
+  sigset_t ending{};
+  sigset_t before{};
 
   void setup() override {
+    // As the daemon does, before there are threads.
+    sigemptyset(&ending);
+    sigaddset(&ending, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &ending, &before);
     for (std::size_t i = 0; i < loop.channels(); ++i)
       stores.emplace_back(folder.path(), static_cast<int>(i + 1), files);
     keeper = std::make_unique<Keeper>(config, stores, files);
@@ -77,6 +86,7 @@ TEST_GROUP(DaemonThreads) {
     thread->stop();
     thread.reset();
     telemetry.reset();
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
   }
 
   BoardSocket client() const {
@@ -125,6 +135,16 @@ TEST(DaemonThreads, CoolingIsObeyedAndNobodyElseIsHeard) {
   CHECK_FALSE(keeper->all_off());
   telemetry->cool();
   until([&] { return keeper->all_off(); });
+}
+
+TEST(DaemonThreads, APendingSignalCoolsWhileTheMainThreadIsBusyElsewhere) {
+  const BoardSocket socket = client();
+  arm(socket);
+  kill(getpid(), SIGTERM);
+  until([&] { return keeper->all_off(); });
+  int taken = 0;
+  sigwait(&ending, &taken);
+  LONGS_EQUAL(SIGTERM, taken);
 }
 
 TEST(DaemonThreads, ClientsThatGoAwayTakeNobodysAnswers) {

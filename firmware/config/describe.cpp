@@ -80,8 +80,9 @@ std::string shown(const LineAddress& line) {
 }
 
 std::string shown(const ConverterAddress& converter) {
-  const std::string way = converter.access.buffered() ? ", buffered on " + converter.access.bus
-                                                      : std::string(", direct");
+  std::string way = ", direct";
+  if (converter.access.buffered()) way = ", buffered on " + converter.access.bus;
+  if (converter.capture) way = ", captured at " + converter.capture->trigger;
   return converter.input + " of " + converter.device + way;
 }
 
@@ -112,11 +113,11 @@ std::string describe(const BoardConfig& config) {
   for (std::size_t i = 0; i < channels; ++i)
     out << "\n" << describe_channel(config, i);
   describe_buses(out, config);
-  describe_memory(out, config.settings);
   const auto weak = weaknesses(config);
   out << "\ndetectors that cannot work, or not well" << (weak.empty() ? ": none\n" : "\n");
   for (const std::string& line : weak)
     out << "  " << line << "\n";
+  describe_memory(out, config.settings);
   return out.str();
 }
 

@@ -9,8 +9,8 @@
 
 namespace supercoil::config {
 
-/// What `supercoild --check` prints: the board, each channel, bus time, memory, and which detectors
-/// cannot work.
+/// What `supercoild --check` prints: the board, each channel, bus time, which detectors cannot
+/// work, and at last memory, to which the daemon adds what only it knows.
 std::string describe(const BoardConfig& config);
 
 /// Its parts.

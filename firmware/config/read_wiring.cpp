@@ -96,11 +96,37 @@ PwmAddress WiringReader::pwm(Section section, const std::string& owner) {
   return address;
 }
 
+std::optional<Capture> WiringReader::capture(Section& section, const ConverterAddress& converter) {
+  std::optional<Capture> capture;
+  if (section.has("capture")) {
+    Section inner = section.section("capture");
+    capture.emplace();
+    capture->trigger = inner.required_text("trigger");
+    capture->length = static_cast<int>(inner.integer("length", capture->length, 2, 65536));
+    inner.finish();
+    if (converter.access.buffered()) {
+      section.wrong("bus", "and capture exclude each other: the kernel reads, not a bus's thread");
+    }
+  }
+  section.allow({"capture"});
+  const auto same = [&](const auto& given) { return given.first == converter.device; };
+  const auto first = std::find_if(captures_.begin(), captures_.end(), same);
+  if (first == captures_.end()) {
+    captures_.emplace_back(converter.device, capture);
+  } else if (first->second != capture) {
+    section.wrong("device",
+                  "has another input with another capture: all its inputs are converted together, "
+                  "and none can be read beside that");
+  }
+  return capture;
+}
+
 ConverterAddress WiringReader::converter(Section& section, const std::string& owner) {
   ConverterAddress address;
   address.device = section.required_text("device");
   address.input = section.required_text("input");
   address.access = access(section, converter_transactions, converter_bytes);
+  address.capture = capture(section, address);
   if (!address.device.empty() && !address.input.empty()) {
     claim(section, "input", "input " + address.input + " of " + address.device, owner);
   }

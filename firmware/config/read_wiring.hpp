@@ -1,6 +1,7 @@
 // Addresses, each read from its own table, none given twice.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,9 @@ class WiringReader {
 
  private:
   Access access(Section& section, int transactions, int bytes);
+  /// Converters that the kernel reads; notes inputs of one device that are not read in the same
+  /// way.
+  std::optional<Capture> capture(Section& section, const ConverterAddress& converter);
   /// Notes at the key when the address has an owner already.
   void claim(Section& section, const char* key, const std::string& address,
              const std::string& owner);
@@ -35,6 +39,7 @@ class WiringReader {
   std::string chip_;
   double step_s_;
   std::vector<std::pair<std::string, std::string>> claims_;
+  std::vector<std::pair<std::string, std::optional<Capture>>> captures_;  ///< by device
 };
 
 /// [[bus]], and names that are given twice.

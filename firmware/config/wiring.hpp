@@ -35,11 +35,20 @@ struct PwmAddress {
   Access access;
 };
 
+/// The kernel converts at the times of a trigger and keeps what came; a tick takes the newest.
+struct Capture {
+  std::string trigger;  ///< its name
+  int length = 64;      ///< conversions that the kernel keeps; more than come in a tick
+
+  friend bool operator==(const Capture&, const Capture&) = default;
+};
+
 /// One input of an IIO converter.
 struct ConverterAddress {
   std::string device;  ///< IIO name, or the end of its device path when it holds a slash
   std::string input;   ///< e.g. voltage0
   Access access;
+  std::optional<Capture> capture;  ///< the same for all inputs of a device; then it is direct
 };
 
 enum class BusKind { i2c, spi };

@@ -74,7 +74,9 @@ TEST(BoardConfig, FastExampleHasAMuscleNearSkin) {
   DOUBLES_EQUAL(1000.0, c.settings.rate_Hz, 0.0);
   UNSIGNED_LONGS_EQUAL(2, c.settings.channels.size());
   CHECK_FALSE(c.wiring.channels[0].pwm.access.buffered());
-  CHECK(c.wiring.channels[0].position.access.buffered());
+  CHECK(c.wiring.supply.capture == (Capture{"supercoil", 64}));
+  CHECK(c.wiring.channels[0].position.capture == c.wiring.supply.capture);
+  CHECK_FALSE(c.wiring.channels[0].position.access.buffered());
   UNSIGNED_LONGS_EQUAL(2, c.settings.channels[0].controllers.size());
   CHECK(c.settings.channels[0].controllers[0].kind == control::ControllerKind::mrac);
   CHECK(c.settings.channels[0].controllers[1].kind == control::ControllerKind::pi);
@@ -85,7 +87,8 @@ TEST(BoardConfig, FastExampleHasAMuscleNearSkin) {
   DOUBLES_EQUAL(43.0, sleeve.supervision.trip_C, 0.0);
   DOUBLES_EQUAL(13.0, sleeve.thermal.boot_rise_K, 1e-9);
   const std::string text = describe(c);
-  check_says(text, "  spi0.0: 0.108 ms, 10.8 %, at 10000 kHz\n");
+  check_says(text, "voltage0 of ads7951, captured at supercoil");
+  check_says(text, "  no bus: every device is direct\n");
   check_says(text, "channel 2: sleeve\n");
   check_says(text, "near skin: full power up to 38 °C, none from 43 °C on");
 }

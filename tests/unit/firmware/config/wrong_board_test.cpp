@@ -239,6 +239,23 @@ TEST(WrongBoard, MistakeInEveryChannelIsSaidOnce) {
   CHECK_TEXT(answer.find("max_w = 3", at + message.size()) == std::string::npos, answer.c_str());
 }
 
+TEST(WrongBoard, CaptureOfSomeInputsOfADevice) {
+  check_replaced(
+      "input = \"voltage1\"", "input = \"voltage1\"\ncapture = {trigger = 'clock'}",
+      "b.toml:23: channel[1].position.device = 'adc': has another input with another "
+      "capture: all its inputs are converted together, and none can be read beside that");
+}
+
+TEST(WrongBoard, CaptureBehindABus) {
+  check_replaced(
+      "device = \"adc\"\ninput = \"voltage1\"",
+      "device = \"fast\"\ninput = \"voltage1\"\nbus = 'i2c-1'\ncapture = {trigger = 'clock', "
+      "length = 1}",
+      "b.toml:25: channel[1].position.bus = 'i2c-1': and capture exclude each other: the kernel "
+      "reads, not a bus's thread\n"
+      "b.toml:26: channel[1].position.capture.length = 1: must be 2 to 65536");
+}
+
 TEST(WrongBoard, EveryMistakeIsSaidInTheOrderOfTheFile) {
   std::string text = small_board_with("charge_pump_decay_ms = 20", "charge_pump_decay_ms = -1");
   text.replace(text.find("max_W = 4.5"), 11, "max_W = 0.0");

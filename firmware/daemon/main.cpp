@@ -7,6 +7,8 @@
 
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
+#include "daemon/locked_memory.hpp"
+#include "daemon/off_command.hpp"
 #include "daemon/run_command.hpp"
 #include "program/exit_status.hpp"
 
@@ -21,6 +23,7 @@ int check_file(const std::string& path) {
     return exit_wrong_input;
   }
   std::fputs(config::describe(*config).c_str(), stdout);
+  std::fputs(daemon::describe_locked_memory(*config).c_str(), stdout);
   return exit_done;
 }
 
@@ -34,6 +37,8 @@ int run_program(int count, char** arguments) {
   daemon::RunOptions options;
   app.add_option("--check", file, "Read a board's configuration, say what was understood, and end")
       ->type_name("FILE");
+  bool off = false;
+  app.add_flag("--off", off, "Set every line low and every duty to 0, and end");
   app.add_option("--config", options.config, "The board's configuration")
       ->type_name("FILE")
       ->capture_default_str();
@@ -54,6 +59,7 @@ int run_program(int count, char** arguments) {
     return status == 0 ? exit_done : exit_wrong_input;
   }
   if (app.count("--check") > 0) return check_file(file);
+  if (off) return daemon::off_command(options.config, options.run_folder);
   return daemon::run_command(options);
 }
 

@@ -34,6 +34,7 @@ class Settings:
     time_out_s: float = 120.0  # of the host's time; of the guest's nothing is known
     watchdog: bool = False  # an i6300esb: /dev/watchdog; not fed, it switches the board off
     can: bool = False  # can0 and can1, on one bus
+    system: bool = False  # Debian's systemd from a disk, with supercoild as its service
     free_running: bool = False  # the guest's time is the host's: latencies then mean nothing
     instruction_shift: int = 3  # an instruction lasts 2^shift ns of the guest's time
     kernel_options: str = ""
@@ -71,6 +72,10 @@ def qemu_command(settings):
         "-device", "virtio-serial-pci,ioeventfd=off", "-device", "virtserialport,chardev=witness,name=witness"]
     if settings.watchdog:
         command += ["-device", "i6300esb", "-watchdog-action", "poweroff"]
+    if settings.system:
+        # What the board writes is forgotten with it.
+        command += ["-drive", f"file={BUILD / 'system.ext4'},if=none,id=disk,format=raw,snapshot=on",
+                    "-device", "virtio-blk-pci,drive=disk"]
     if settings.can:
         command += ["-object", "can-bus,id=bus", "-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
     return command
@@ -78,8 +83,10 @@ def qemu_command(settings):
 
 def fill_share(settings, script, arguments):
     exchange = settings.share / ".rig"
-    for old in ("status", "witness", "console"):
+    for old in ("status", "witness", "console", "system"):
         (exchange / old).unlink(missing_ok=True)
+    if settings.system:
+        (exchange / "system").touch()
     for file in (HERE / "guest").iterdir():
         shutil.copy(file, exchange)
     shutil.copy(HERE / "board.toml", exchange)
@@ -119,7 +126,7 @@ def follow(process, deadline, echo):
 
 def run(script, arguments=(), settings=None):
     settings = settings or Settings()
-    for needed in (BUILD / "vmlinuz", BUILD / "initramfs.cpio", PROGRAMS):
+    for needed in (BUILD / "vmlinuz", BUILD / "initramfs.cpio", PROGRAMS, *([BUILD / "system.ext4"] if settings.system else [])):
         if not needed.exists():
             raise FileNotFoundError(f"{needed} is missing: run tests/hil/prepare")
     with alone_in(settings.share):

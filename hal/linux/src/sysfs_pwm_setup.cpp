@@ -1,13 +1,32 @@
 // Finding a PWM output and bringing it into a known state.
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <chrono>
 #include <string>
+#include <thread>
+
+#include <unistd.h>
 
 #include "supercoil/hal_linux/sysfs_pwm.hpp"
 
 namespace supercoil::hal_linux {
 
 namespace {
+
+constexpr std::array<const char*, 4> files_of_output{"period", "duty_cycle", "enable", "polarity"};
+
+/// udev gives a new output's files to their group a moment after they came. Who may not write by
+/// then is told so when the files are opened.
+void wait_for_rights(const std::string& folder) {
+  constexpr int most_rounds = 100;
+  constexpr auto round = std::chrono::milliseconds(10);
+  const auto may_write = [&](const char* name) {
+    return ::access((folder + "/" + name).c_str(), W_OK) == 0 || errno != EACCES;
+  };
+  for (int i = 0; i < most_rounds && !std::ranges::all_of(files_of_output, may_write); ++i)
+    std::this_thread::sleep_for(round);
+}
 
 Result<void> export_output(const DeviceFolder& chip, int number) {
   const auto count = read_whole(chip.folder + "/npwm");
@@ -16,13 +35,15 @@ Result<void> export_output(const DeviceFolder& chip, int number) {
     return problem(chip.describe() + " has " + std::to_string(*count) +
                    " outputs, counted from 0; there is no " + std::to_string(number));
   }
-  if (!real_path(chip.folder + "/pwm" + std::to_string(number)).empty()) return {};
+  const std::string folder = chip.folder + "/pwm" + std::to_string(number);
+  if (!real_path(folder).empty()) return {};
   auto written = write_text(chip.folder + "/export", std::to_string(number));
   if (!written && written.error().code == EBUSY) {
     return problem("output " + std::to_string(number) + " of " + chip.describe() +
                        " is used by a driver of the kernel (see /sys/kernel/debug/pwm)",
                    EBUSY);
   }
+  if (written) wait_for_rights(folder);
   return written;
 }
 

@@ -3,6 +3,7 @@
 import fcntl
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -43,6 +44,33 @@ class Program(unittest.TestCase):
         done = self.run_program("--check", SLOW)
         self.assertIn("  i2c-1: 1.988 ms, 19.9 %, at 400 kHz\n", done.stdout)
         self.assertRegex(done.stdout, r"\n  together \d+ KiB\n")
+
+    def test_check_prints_the_locked_memory(self):
+        # Four channels at 1 kHz, buses out of the way: most of all is the recorder.
+        text = re.sub(r'^bus = .*\n|, bus = "[^"]*"', "", SLOW.read_text(), flags=re.M)
+        text = re.sub(r"\[\[bus\]\]\nname = .*\nclock_Hz = .*\n", "", text).replace("rate_Hz = 100.0", "rate_Hz = 1000.0")
+        (self.path / "b.toml").write_text(text)
+        done = self.run_program("--check", "b.toml")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        locked = re.search(r"\n  locked   ([\d.]+) MiB: this, the program with its libraries ([\d.]+) MiB, "
+                           r"2 stacks 0.3 MiB\n$", done.stdout)
+        self.assertIsNotNone(locked, done.stdout[-500:])
+        recorder_MiB = 4 * 1000 * (16 + 2) * 112 / 2**20
+        self.assertGreater(float(locked[1]), recorder_MiB + float(locked[2]))
+        self.assertLessEqual(float(locked[1]), 16.0)
+
+    def test_off_is_said_of_every_device_that_it_reached(self):
+        done = self.run_program("--off", *self.no_such_board())
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("b.toml: channel 4, enable: no chip with the label 'no-such-chip'", done.stderr)
+        self.assertTrue(done.stderr.endswith("supercoild: problem: everything else is off\n"), done.stderr)
+
+    def test_off_beside_one_that_runs(self):
+        with open(self.path / "lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            done = self.run_program("--off", *self.no_such_board())
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, "another supercoild drives this board")
 
     def test_a_misspelt_key(self):
         file, line = self.changed("off_A = 0.01", "of_A = 0.01")

@@ -1,0 +1,14 @@
+// What mlockall() takes.
+#pragma once
+
+#include <string>
+
+#include "config/board_config.hpp"
+
+namespace supercoil::daemon {
+
+/// A line for `--check`: how much memory supercoild will lock on this board; the calling program
+/// stands for its size with libraries and heap.
+std::string describe_locked_memory(const config::BoardConfig& config);
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,36 @@
+#include "daemon/off_command.hpp"
+
+#include <cstdio>
+
+#include "config/board_config.hpp"
+#include "daemon/linux_board.hpp"
+#include "daemon/lock_file.hpp"
+#include "daemon/log.hpp"
+#include "program/exit_status.hpp"
+
+namespace supercoil::daemon {
+
+int off_command(const std::string& config, const std::string& run_folder) {
+  const auto board = config::read_board_config(config);
+  if (!board) {
+    std::fputs(config::to_text(board.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  const auto lock = LockFile::take(run_folder + "/lock");
+  if (!lock) {
+    log(Level::problem, lock.error());
+    return exit_failed;
+  }
+  // To open a device is to bring it to its safe level; to close it leaves it there.
+  const auto opened = LinuxBoard::open(board->wiring);
+  if (opened) {
+    log(Level::info, "everything is off");
+    return exit_done;
+  }
+  for (const std::string& problem : opened.error())
+    log(Level::problem, config + ": " + problem);
+  log(Level::problem, "everything else is off");
+  return exit_failed;
+}
+
+}  // namespace supercoil::daemon

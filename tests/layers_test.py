@@ -17,12 +17,13 @@ ALLOWED = {
     "hal/include": ["supercoil/hal/"],
     "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "pthread.h", "sched.h",
                   "sys/", "unistd.h"],
-    "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "config/", "loop/", "modes/", "program/", "recorder/",
-                 "storage/", "supervisor/", "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
+    "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "config/", "loop/", "modes/", "plot/", "program/",
+                 "recorder/", "storage/", "supervisor/", "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
 }
 # What a program inside a layer may include beside that.
 OF_PROGRAMS = {
     "firmware/daemon": ["daemon/", "CLI/", "supercoil/hal_linux/", "malloc.h", "poll.h"],
+    "firmware/daemon/latency": ["daemon/", "supercoil/hal_linux/", "nlohmann/"],
     "firmware/operator": ["operator/", "CLI/"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.M)

@@ -40,4 +40,14 @@ void log(Level level, std::string_view text) {
                static_cast<int>(text.size()), text.data());
 }
 
+void log_steps(const std::vector<hal_linux::SetupStep>& steps) {
+  for (const hal_linux::SetupStep& step : steps) {
+    if (step.worked) {
+      log(Level::info, step.step);
+    } else {
+      log(Level::warning, "not " + step.step + ": " + step.reason + "; " + step.remedy);
+    }
+  }
+}
+
 }  // namespace supercoil::daemon

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
+
+#include "supercoil/hal_linux/realtime.hpp"
 
 namespace supercoil::daemon {
 
@@ -9,5 +12,8 @@ enum class Level { problem, warning, info };
 
 /// To standard error, at once, from any thread. Under systemd each line carries its level.
 void log(Level level, std::string_view text);
+
+/// What worked of the real-time set-up, and as warnings what did not, with its remedy.
+void log_steps(const std::vector<hal_linux::SetupStep>& steps);
 
 }  // namespace supercoil::daemon

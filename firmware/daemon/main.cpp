@@ -7,6 +7,7 @@
 
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
+#include "daemon/latency/latency_command.hpp"
 #include "daemon/locked_memory.hpp"
 #include "daemon/off_command.hpp"
 #include "daemon/run_command.hpp"
@@ -25,6 +26,31 @@ int check_file(const std::string& path) {
   std::fputs(config::describe(*config).c_str(), stdout);
   std::fputs(daemon::describe_locked_memory(*config).c_str(), stdout);
   return exit_done;
+}
+
+/// What only goes with --latency says so when it stands alone.
+void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
+  CLI::Option* latency = app.add_flag(
+      "--latency", wanted,
+      "Measure how late the loop wakes and how long its ticks take, without opening any device, "
+      "and end");
+  CLI::Option* rate =
+      app.add_option("--rate", options.rate_Hz, "Without --config: Hz of one channel")
+          ->check(CLI::Range(100.0, 10e3))
+          ->capture_default_str();
+  CLI::Option* seconds = app.add_option("--seconds", options.seconds, "How long it measures")
+                             ->check(CLI::Range(0.1, 1e6))
+                             ->capture_default_str();
+  CLI::Option* ticks = app.add_option("--ticks", options.ticks, "How many ticks it measures")
+                           ->check(CLI::Range(1.0, 1e9))
+                           ->excludes(seconds);
+  CLI::Option* plot =
+      app.add_option("--plot", options.plot, "Draw the histograms (gnuplot)")->type_name("SVG");
+  CLI::Option* json = app.add_flag("--json", options.json, "Print JSON instead of text");
+  rate->excludes("--config");
+  for (CLI::Option* option : {rate, seconds, ticks, plot, json})
+    option->needs(latency)->group("With --latency");
+  latency->excludes("--check");
 }
 
 int run_program(int count, char** arguments) {
@@ -52,6 +78,9 @@ int run_program(int count, char** arguments) {
       ->capture_default_str();
   app.add_option("--cpu", options.cpu, "The loop's own CPU; any if not given")
       ->check(CLI::Range(0, 1023));
+  daemon::LatencyOptions latency;
+  bool measures = false;
+  add_latency(app, latency, measures);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
@@ -60,7 +89,11 @@ int run_program(int count, char** arguments) {
   }
   if (app.count("--check") > 0) return check_file(file);
   if (off) return daemon::off_command(options.config, options.run_folder);
-  return daemon::run_command(options);
+  if (!measures) return daemon::run_command(options);
+  if (app.count("--config") > 0) latency.config = options.config;
+  latency.priority = options.priority;
+  latency.cpu = options.cpu;
+  return daemon::latency_command(latency);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "daemon/run_command.hpp"
 
 #include <algorithm>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -11,6 +10,7 @@
 
 #include "supercoil/hal_linux/realtime.hpp"
 
+#include "daemon/ending_signals.hpp"
 #include "daemon/keeper.hpp"
 #include "daemon/linux_board.hpp"
 #include "daemon/lock_file.hpp"
@@ -24,7 +24,7 @@ namespace supercoil::daemon {
 
 namespace {
 
-constexpr long round_ns = 20'000'000;
+constexpr hal::Duration round = std::chrono::milliseconds(20);
 /// A loop that made no row for so long hangs.
 constexpr hal::Duration hangs_after = std::chrono::seconds(1);
 /// Duties and enable lines are off a tick after the command; so long is far more than that.
@@ -35,25 +35,6 @@ constexpr int below_the_loop = 10;
 int fail(const std::string& why) {
   log(Level::problem, why);
   return exit_failed;
-}
-
-/// Signals that end the program are waited for, by the main thread alone.
-sigset_t ending_signals() {
-  sigset_t set;
-  sigemptyset(&set);
-  sigaddset(&set, SIGTERM);
-  sigaddset(&set, SIGINT);
-  return set;
-}
-
-void report(const std::vector<hal_linux::SetupStep>& steps) {
-  for (const hal_linux::SetupStep& step : steps) {
-    if (step.worked) {
-      log(Level::info, step.step);
-    } else {
-      log(Level::warning, "not " + step.step + ": " + step.reason + "; " + step.remedy);
-    }
-  }
 }
 
 /// The daemon's parts, in the order in which they are made; they end in the opposite one.
@@ -74,7 +55,7 @@ tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& c
                                       const RunOptions& options, LocalCommands commands) {
   const double rate_Hz = config.settings.rate_Hz;
   const bool realtime = options.priority > 0;
-  if (realtime) report({hal_linux::lock_memory(), parts.wakeful.hold()});
+  if (realtime) log_steps({hal_linux::lock_memory(), parts.wakeful.hold()});
   const int bus_priority = realtime ? std::max(1, options.priority - below_the_loop) : 0;
   if (auto started = parts.board->start(rate_Hz, bus_priority); !started) return started;
   const board::Devices devices = parts.board->devices();
@@ -87,20 +68,18 @@ tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& c
   if (!thread) return tl::unexpected(thread.error());
   parts.thread = std::move(*thread);
   if (realtime) {
-    report(parts.board->steps());
-    report(parts.thread->steps());
+    log_steps(parts.board->steps());
+    log_steps(parts.thread->steps());
   }
   return {};
 }
 
 /// Rows keep coming, or the signal has come. Returns false when the loop hangs.
 bool keep_until_signal(Parts& parts, Service& service) {
-  const sigset_t signals = ending_signals();
-  const timespec round{0, round_ns};
   hal_linux::MonotonicClock clock;
   std::uint64_t rows = 0;
   hal::Time last_row = clock.now();
-  while (sigtimedwait(&signals, nullptr, &round) < 0) {
+  while (!ending_signal_within(round)) {
     const hal::Time now = clock.now();
     parts.keeper->poll(*parts.loop, now);
     if (parts.keeper->rows() != rows) {
@@ -119,9 +98,9 @@ bool cool(Parts& parts) {
   parts.telemetry->cool();
   hal_linux::MonotonicClock clock;
   const hal::Time asked = clock.now();
-  const timespec round{0, round_ns};
+  const timespec a_round{0, static_cast<long>(round.count())};
   do {
-    nanosleep(&round, nullptr);
+    nanosleep(&a_round, nullptr);
     parts.keeper->poll(*parts.loop, clock.now());
     if (clock.now() - asked > cool_within) return false;
   } while (!parts.keeper->all_off());
@@ -140,8 +119,7 @@ int run_command(const RunOptions& options) {
     std::fputs(config::to_text(config.error()).c_str(), stderr);
     return exit_wrong_input;
   }
-  const sigset_t signals = ending_signals();
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  block_ending_signals();
   // An arena for each thread would be locked in memory as well.
   mallopt(M_ARENA_MAX, 1);
 

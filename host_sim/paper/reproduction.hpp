@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "paper/row.hpp"
-#include "report/figure.hpp"
+#include "plot/figure.hpp"
 
 namespace supercoil::host_sim::paper {
 

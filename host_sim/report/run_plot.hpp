@@ -1,7 +1,7 @@
 // plot.svg: what one run looked like.
 #pragma once
 
-#include "report/figure.hpp"
+#include "plot/figure.hpp"
 #include "runner/simulation.hpp"
 
 namespace supercoil::host_sim {

@@ -7,7 +7,7 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "report/figure.hpp"
+#include "plot/figure.hpp"
 #include "report/reproduction_table.hpp"
 #include "report/run_plot.hpp"
 #include "report/trace_writer.hpp"
@@ -87,6 +87,16 @@ TEST(Report, FigureIsDrawnByGnuplotWhateverItsTitle) {
   STRCMP_CONTAINS("</svg>", svg.c_str());
   STRCMP_CONTAINS("a \"quoted\" 'title' with \\, $HOME and `touch ran`", svg.c_str());
   LONGS_EQUAL(1, std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(Report, FigureMayHaveLogarithmicAxesInOnePanelOnly) {
+  Figure figure = one_curve("logarithmic");
+  figure.panels[0].logarithmic = true;
+  figure.panels.push_back(one_curve("linear").panels[0]);
+  const std::string script = gnuplot_script(figure, "x.svg");
+  CHECK(script.find("\nset logscale xy\n") < script.find("'linear'"));
+  CHECK(script.find("\nunset logscale xy\n") < script.find("plot $d1"));
+  CHECK(script.find("\nunset logscale xy\n") > script.find("plot $d0"));
 }
 
 TEST(Report, FigureLeavesAGapWhereAValueIsNotFinite) {

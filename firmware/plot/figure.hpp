@@ -7,7 +7,7 @@
 
 #include <tl/expected.hpp>
 
-namespace supercoil::host_sim {
+namespace supercoil {
 
 struct Curve {
   std::string label;
@@ -25,6 +25,7 @@ struct Panel {
   std::vector<Curve> curves;
   double y_low = 0.0;  ///< with y_high equal: chosen by gnuplot
   double y_high = 0.0;
+  bool logarithmic = false;  ///< both axes: values must be above 0
 };
 
 struct Figure {
@@ -40,4 +41,4 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
 /// Draws the figure as SVG. The error says what gnuplot said, or how to install it.
 tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem::path& svg);
 
-}  // namespace supercoil::host_sim
+}  // namespace supercoil

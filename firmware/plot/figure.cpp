@@ -1,4 +1,4 @@
-#include "report/figure.hpp"
+#include "plot/figure.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string>
 
-namespace supercoil::host_sim {
+namespace supercoil {
 
 namespace {
 
@@ -53,7 +53,8 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "set title " << quoted(panel.title) << "\n"
       << "set xlabel " << quoted(panel.x_label) << "\n"
       << "set ylabel " << quoted(panel.y_label) << "\n"
-      << "set format y '%g'\n";
+      << "set format y '%g'\n"
+      << (panel.logarithmic ? "set" : "unset") << " logscale xy\n";
   if (panel.y_low < panel.y_high) {
     out << "set yrange [" << panel.y_low << ":" << panel.y_high << "]\n";
   } else {
@@ -119,4 +120,4 @@ tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem
   return tl::unexpected("gnuplot failed: " + complaint);
 }
 
-}  // namespace supercoil::host_sim
+}  // namespace supercoil

@@ -1,0 +1,32 @@
+// The signals that end supercoild: they are waited for, by the main thread alone.
+#pragma once
+
+#include <csignal>
+#include <ctime>
+
+#include "supercoil/hal/clock.hpp"
+
+namespace supercoil::daemon {
+
+inline sigset_t ending_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  return set;
+}
+
+/// Before there are threads: they inherit it.
+inline void block_ending_signals() {
+  const sigset_t signals = ending_signals();
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+/// Waits so long, less than a second, for one of them; whether it came.
+inline bool ending_signal_within(hal::Duration most) {
+  const sigset_t signals = ending_signals();
+  const timespec time{0, static_cast<long>(most.count())};
+  return sigtimedwait(&signals, nullptr, &time) >= 0;
+}
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,53 @@
+// How often which time was measured.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "supercoil/hal/clock.hpp"
+
+namespace supercoil::daemon {
+
+/// Times in bins of one width. All memory is taken when it is made.
+class Histogram {
+ public:
+  /// Bin i holds times from i·width up to, and without, (i+1)·width; what is beyond the last bin is
+  /// counted there. width: above 0; bins: at least 1.
+  Histogram(hal::Duration width, std::size_t bins) : width_(width), bins_(bins) {}
+
+  /// Below 0 counts as 0.
+  void add(hal::Duration time) noexcept;
+
+  hal::Duration width() const { return width_; }
+  const std::vector<std::uint64_t>& bins() const { return bins_; }
+  std::uint64_t count() const { return count_; }
+  /// Exact, unlike what bins say; 0 when nothing was added.
+  hal::Duration shortest() const { return count_ == 0 ? hal::Duration{} : shortest_; }
+  hal::Duration longest() const { return longest_; }
+  double mean_ns() const;
+  /// At least `share` (0 to 1) of the times are shorter than this, or equal: the end of a bin, but
+  /// never more than the longest.
+  hal::Duration quantile(double share) const;
+
+ private:
+  hal::Duration width_;
+  std::vector<std::uint64_t> bins_;
+  std::uint64_t count_ = 0;
+  double sum_ns_ = 0.0;
+  hal::Duration shortest_ = hal::Duration::max();
+  hal::Duration longest_{};
+};
+
+/// Some bins together.
+struct Bar {
+  hal::Duration from{};
+  hal::Duration to{};
+  std::uint64_t count = 0;
+};
+
+/// For people to read: at most 20 bars of one width, a round number, up to the 99th percentile, and
+/// wider and wider ones behind it. Without empty ones.
+std::vector<Bar> bars(const Histogram& histogram);
+
+}  // namespace supercoil::daemon

@@ -50,7 +50,7 @@ void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
   rate->excludes("--config");
   for (CLI::Option* option : {rate, seconds, ticks, plot, json})
     option->needs(latency)->group("With --latency");
-  latency->excludes("--check");
+  latency->excludes("--check")->excludes("--off");
 }
 
 int run_program(int count, char** arguments) {

@@ -7,6 +7,7 @@ the plant's witness saw. Prints what was measured; ends with 1 if any of it is w
 
 import sys
 
+import can_rows
 import rig
 import witness
 from table import Table
@@ -90,7 +91,7 @@ def watchdog(table, run):
 
 def main():
     table = Table()
-    for part, options in ((drivers, {}), (panic, {}), (watchdog, {"watchdog": True})):
+    for part, options in ((drivers, {}), (can_rows.can, {"can": True}), (panic, {}), (watchdog, {"watchdog": True})):
         name = part.__name__
         settings = rig.Settings(share=rig.BUILD / f"{name}_test", **options)
         run = rig.run(rig.HERE / "scripts" / name, settings=settings)

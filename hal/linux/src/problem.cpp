@@ -10,7 +10,9 @@ hal::Status status_of(int error) noexcept {
     case 0:
       return hal::Status::ok;
     case EBUSY:
+    case ENOBUFS:
       return hal::Status::busy;
+    case ENETDOWN:
     case ENODEV:
     case ENXIO:
     case ESHUTDOWN:

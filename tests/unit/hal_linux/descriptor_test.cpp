@@ -79,8 +79,9 @@ TEST(Descriptor, SaysWhichFileCannotBeOpened) {
 
 TEST(Descriptor, TellsErrnosApart) {
   check_status(hal::Status::ok, status_of(0));
-  check_status(hal::Status::busy, status_of(EBUSY));
-  for (const int error : {ENODEV, ENXIO, ESHUTDOWN})
+  for (const int error : {EBUSY, ENOBUFS})
+    check_status(hal::Status::busy, status_of(error));
+  for (const int error : {ENODEV, ENXIO, ESHUTDOWN, ENETDOWN})
     check_status(hal::Status::gone, status_of(error));
   check_status(hal::Status::not_ready, status_of(EAGAIN));
   for (const int error : {EIO, EINVAL, EPERM, EBADF, ETIMEDOUT, EREMOTEIO, 12345}) {

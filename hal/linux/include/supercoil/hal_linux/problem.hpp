@@ -10,8 +10,8 @@
 
 namespace supercoil::hal_linux {
 
-/// What an errno means to the firmware: EBUSY busy; ENODEV, ENXIO, ESHUTDOWN gone; EAGAIN not
-/// ready; all others, EINVAL too, io_error.
+/// What an errno means to the firmware: EBUSY, ENOBUFS busy; ENODEV, ENXIO, ESHUTDOWN, ENETDOWN
+/// gone; EAGAIN not ready; all others, EINVAL too, io_error.
 hal::Status status_of(int error) noexcept;
 
 /// A set-up that failed. Never made in a tick: it allocates.

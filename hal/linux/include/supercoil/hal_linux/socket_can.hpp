@@ -1,0 +1,65 @@
+// A CAN controller by the kernel's raw sockets (SocketCAN).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "supercoil/hal/can_bus.hpp"
+#include "supercoil/hal_linux/descriptor.hpp"
+#include "supercoil/hal_linux/problem.hpp"
+
+namespace supercoil::hal_linux {
+
+/// Which bus, and what is heard of it. Bit rate and restart after bus-off are the interface's
+/// set-up ("ip link set can0 up type can bitrate 500000 restart-ms 100"), not the firmware's.
+struct CanPlace {
+  std::string interface;              ///< e.g. can0
+  std::vector<std::uint16_t> listen;  ///< identifiers, 0 to 0x7FF, at most 512; none: hears nothing
+  std::string net = "/sys/class/net";
+};
+
+/// An interface as it was found: without a socket when it is down.
+struct CanLink {
+  Descriptor socket;
+  hal::CanState state = hal::CanState::down;
+};
+
+/// A socket that hears what is listened to and the controller's error frames, with the time when
+/// each came. The error has the errno of an interface that is not there.
+Result<CanLink> open_can_link(const CanPlace& place);
+
+/// Every CAN interface of this machine, up or not.
+std::vector<std::string> can_interfaces(const std::string& net);
+
+/// Used by one thread. An interface that goes down or vanishes is `down`, and everything answers
+/// gone; send() and receive() then look every 100 ms whether it is back, and go on with it. That
+/// look may wait for another program that configures the network at this moment; else nothing
+/// waits.
+class SocketCan final : public hal::CanBus {
+ public:
+  /// An interface that is down is no error: it may come up later. One that is not there, or is none
+  /// of CAN, is an error that says which there are.
+  static Result<std::unique_ptr<SocketCan>> open(const CanPlace& place);
+  SocketCan(CanPlace place, CanLink link) : place_(std::move(place)), link_(std::move(link)) {}
+
+  /// busy: the kernel's queue is full, and the frame is not in it. out_of_range: no such frame.
+  hal::Status send(const hal::CanFrame& frame) override;
+  /// Passes over what is no classical data frame with 11 bits. CanFrame::received is when the
+  /// kernel got it, so a frame that waited is as old as it is.
+  hal::Status receive(hal::CanFrame& frame) override;
+  /// As the last error frame told: so receive() has to be called. A controller that was
+  /// error-passive before this was opened is taken as active until it tells.
+  hal::CanState state() const override { return link_.state; }
+
+ private:
+  bool is_there();
+  hal::Status lost_if_gone(hal::Status status);
+
+  CanPlace place_;
+  CanLink link_;
+  hal::Time next_look_{};
+};
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <cerrno>
+
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <linux/if.h>
+#include <linux/if_arp.h>
+#include <sys/socket.h>
+
+#include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/device_folder.hpp"
+#include "supercoil/hal_linux/socket_can.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+/// The errors that say something of the controller's state.
+constexpr can_err_mask_t told_errors = CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
+
+/// A value that the kernel tells of an interface.
+Result<std::int64_t> told(const std::string& net, const std::string& interface, const char* what) {
+  return read_whole(net + "/" + interface + "/" + what);
+}
+
+Result<void> check(const CanPlace& place) {
+  const std::string& name = place.interface;
+  if (name.empty() || name.size() >= IFNAMSIZ || name.find('/') != std::string::npos) {
+    return problem("'" + name + "' is no name of a network interface");
+  }
+  if (place.listen.size() > CAN_RAW_FILTER_MAX) {
+    return problem(name + ": listens to " + std::to_string(place.listen.size()) +
+                   " identifiers, and 512 are the most");
+  }
+  for (const std::uint16_t id : place.listen) {
+    if (id > CAN_SFF_MASK) {
+      return problem(name + ": " + std::to_string(id) + " is no identifier of 11 bits (0 to 2047)");
+    }
+  }
+  return {};
+}
+
+Result<void> set_option(const Descriptor& socket, int level, int option, const void* value,
+                        std::size_t size, const std::string& what) {
+  const auto length = static_cast<socklen_t>(size);
+  if (::setsockopt(socket.number(), level, option, value, length) == 0) return {};
+  return problem("cannot set up a CAN socket: " + what, errno);
+}
+
+/// Only what is listened to comes in, from the first moment on: set before the socket is bound.
+Result<void> set_filters(const Descriptor& socket, const std::vector<std::uint16_t>& listen) {
+  std::vector<can_filter> filters;
+  filters.reserve(listen.size());
+  for (const std::uint16_t id : listen)
+    filters.push_back({id, CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK});
+  return set_option(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
+                    filters.size() * sizeof(can_filter), "receive filters");
+}
+
+Result<void> set_options(const Descriptor& socket, const CanPlace& place) {
+  const int on = 1;
+  return set_filters(socket, place.listen)
+      .and_then([&] {
+        return set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &told_errors,
+                          sizeof(told_errors), "error frames");
+      })
+      .and_then([&] {
+        return set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof(on), "timestamps");
+      });
+}
+
+Result<Descriptor> open_socket(const CanPlace& place, int index) {
+  Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
+  if (!socket.is_open()) {
+    return problem("no CAN sockets (kernel modules can, can-raw)", errno);
+  }
+  if (auto set = set_options(socket, place); !set) return tl::unexpected(set.error());
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = index;
+  if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    return problem("cannot bind a CAN socket to " + place.interface, errno);
+  }
+  return socket;
+}
+
+}  // namespace
+
+Result<CanLink> open_can_link(const CanPlace& place) {
+  if (auto checked = check(place); !checked) return tl::unexpected(checked.error());
+  const auto type = told(place.net, place.interface, "type");
+  const auto index = told(place.net, place.interface, "ifindex");
+  if (!type || !index || *type != ARPHRD_CAN) {
+    return problem("no CAN interface '" + place.interface + "'", ENODEV);
+  }
+  // Cannot be read of an interface that is down. A controller loses its carrier by bus-off alone.
+  const auto carrier = told(place.net, place.interface, "carrier");
+  if (!carrier) return CanLink{};
+  auto socket = open_socket(place, static_cast<int>(*index));
+  if (!socket) return tl::unexpected(socket.error());
+  return CanLink{std::move(*socket),
+                 *carrier == 0 ? hal::CanState::bus_off : hal::CanState::active};
+}
+
+std::vector<std::string> can_interfaces(const std::string& net) {
+  std::vector<std::string> found;
+  for (const std::string& name : names_in(net).value_or(std::vector<std::string>{})) {
+    if (told(net, name, "type").value_or(0) == ARPHRD_CAN) found.push_back(name);
+  }
+  return found;
+}
+
+}  // namespace supercoil::hal_linux

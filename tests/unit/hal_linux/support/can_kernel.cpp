@@ -29,17 +29,17 @@ CanKernel::~CanKernel() {
   if (peer_ >= 0) ::close(peer_);
 }
 
-void CanKernel::plug(const std::string& name, int index, int type) {
+void CanKernel::plug(const std::string& name, int index, int type) const {
   net.write(name + "/type", std::to_string(type) + "\n");
   net.write(name + "/ifindex", std::to_string(index) + "\n");
   set_up(name);
 }
 
-void CanKernel::set_up(const std::string& name) {
+void CanKernel::set_up(const std::string& name) const {
   net.write(name + "/carrier", "1\n");
 }
 
-void CanKernel::lose_carrier(const std::string& name) {
+void CanKernel::lose_carrier(const std::string& name) const {
   net.write(name + "/carrier", "0\n");
 }
 

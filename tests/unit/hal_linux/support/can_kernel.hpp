@@ -25,11 +25,11 @@ class CanKernel {
   ~CanKernel();
 
   /// An interface that is up. type: ARPHRD_CAN, or another.
-  void plug(const std::string& name, int index, int type = 280);
+  void plug(const std::string& name, int index, int type = 280) const;
   /// As `ip link set NAME down`, and up again: the open socket hears of it once.
   void set_down(const std::string& name);
-  void set_up(const std::string& name);
-  void lose_carrier(const std::string& name);
+  void set_up(const std::string& name) const;
+  void lose_carrier(const std::string& name) const;
   void unplug(const std::string& name);
 
   /// Something comes from the bus.

@@ -15,16 +15,18 @@ OS_IN_STD = {"thread", "mutex", "filesystem", "fstream", "iostream", "chrono", "
 ALLOWED = {
     "control": ["supercoil/control/", "Eigen/", "unsupported/Eigen/"],
     "hal/include": ["supercoil/hal/"],
-    "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "pthread.h", "sched.h",
-                  "sys/", "unistd.h"],
+    "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "net/if.h", "pthread.h",
+                  "sched.h", "sys/", "unistd.h"],
     "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "config/", "loop/", "modes/", "plot/", "program/",
                  "recorder/", "storage/", "supervisor/", "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
 }
 # What a program inside a layer may include beside that.
 OF_PROGRAMS = {
-    "firmware/daemon": ["daemon/", "CLI/", "supercoil/hal_linux/", "malloc.h", "poll.h"],
+    "firmware/linux_board": ["linux_board/", "supercoil/hal_linux/"],
+    "firmware/daemon": ["daemon/", "linux_board/", "CLI/", "supercoil/hal_linux/", "malloc.h", "poll.h"],
     "firmware/daemon/latency": ["daemon/", "supercoil/hal_linux/", "nlohmann/"],
     "firmware/operator": ["operator/", "CLI/"],
+    "firmware/operator/doctor": ["operator/doctor/", "linux_board/", "nlohmann/json.hpp", "supercoil/hal_linux/"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.M)
 

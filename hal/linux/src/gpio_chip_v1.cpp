@@ -13,6 +13,19 @@ std::string text_or_empty(const char* text) {
   return text == nullptr ? std::string{} : std::string{text};
 }
 
+Bias bias_of(gpiod_line* line) {
+  switch (gpiod_line_bias(line)) {
+    case GPIOD_LINE_BIAS_DISABLE:
+      return Bias::none;
+    case GPIOD_LINE_BIAS_PULL_UP:
+      return Bias::pull_up;
+    case GPIOD_LINE_BIAS_PULL_DOWN:
+      return Bias::pull_down;
+    default:
+      return Bias::unknown;
+  }
+}
+
 }  // namespace
 
 struct GpioChip::Handle {
@@ -56,7 +69,8 @@ unsigned GpioChip::line_count() const {
 LineAbout GpioChip::about(unsigned offset) const {
   gpiod_line* const line = gpiod_chip_get_line(handle_->chip, offset);
   if (line == nullptr) return {};
-  return {text_or_empty(gpiod_line_name(line)), text_or_empty(gpiod_line_consumer(line))};
+  return {text_or_empty(gpiod_line_name(line)), text_or_empty(gpiod_line_consumer(line)),
+          bias_of(line)};
 }
 
 Result<HeldLine> GpioChip::request(unsigned offset, Direction direction) && {

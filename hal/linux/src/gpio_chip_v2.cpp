@@ -36,6 +36,19 @@ bool settle(gpiod_line_settings* settings, Direction direction) {
          gpiod_line_settings_set_output_value(settings, GPIOD_LINE_VALUE_INACTIVE) == 0;
 }
 
+Bias bias_of(gpiod_line_info* info) {
+  switch (gpiod_line_info_get_bias(info)) {
+    case GPIOD_LINE_BIAS_DISABLED:
+      return Bias::none;
+    case GPIOD_LINE_BIAS_PULL_UP:
+      return Bias::pull_up;
+    case GPIOD_LINE_BIAS_PULL_DOWN:
+      return Bias::pull_down;
+    default:
+      return Bias::unknown;
+  }
+}
+
 }  // namespace
 
 struct GpioChip::Handle {
@@ -82,7 +95,7 @@ LineAbout GpioChip::about(unsigned offset) const {
   const LineInfo info(gpiod_chip_get_line_info(handle_->chip, offset));
   if (!info) return {};
   return {text_or_empty(gpiod_line_info_get_name(info.get())),
-          text_or_empty(gpiod_line_info_get_consumer(info.get()))};
+          text_or_empty(gpiod_line_info_get_consumer(info.get())), bias_of(info.get())};
 }
 
 Result<HeldLine> GpioChip::request(unsigned offset, Direction direction) && {

@@ -69,19 +69,45 @@ Result<unsigned> find_line(const GpioChip& chip, const std::string& name) {
   return problem(what + ": there are " + listed(names));
 }
 
-}  // namespace
+struct FoundLine {
+  GpioChip chip;
+  unsigned offset;
+  LineAbout about;
+};
 
-Result<HeldLine> hold_line(const LineName& name, Direction direction, const std::string& dev) {
+Result<FoundLine> find(const LineName& name, const std::string& dev) {
   auto chip = find_chip(name.chip, dev);
   if (!chip) return tl::unexpected(chip.error());
   const auto offset = find_line(*chip, name.line);
   if (!offset) return tl::unexpected(offset.error());
-  const std::string consumer = chip->about(*offset).consumer;
-  const std::string what = "cannot take line '" + name.line + "' of " + described(*chip);
-  auto line = std::move(*chip).request(*offset, direction);
+  LineAbout about = chip->about(*offset);
+  return FoundLine{std::move(*chip), *offset, std::move(about)};
+}
+
+Result<HeldLine> hold(FoundLine&& found, Direction direction) {
+  const std::string what =
+      "cannot take line '" + found.about.name + "' of " + described(found.chip);
+  auto line = std::move(found.chip).request(found.offset, direction);
   if (line) return line;
+  const std::string& consumer = found.about.consumer;
   const bool held = line.error().code == EBUSY && !consumer.empty();
   return problem(held ? what + ", which '" + consumer + "' holds" : what, line.error().code);
+}
+
+}  // namespace
+
+Result<HeldLine> hold_line(const LineName& name, Direction direction, const std::string& dev) {
+  return find(name, dev).and_then(
+      [&](FoundLine&& found) { return hold(std::move(found), direction); });
+}
+
+Result<LineAtRest> look_at_rest(const LineName& name, const std::string& dev) {
+  return find(name, dev).and_then([](FoundLine&& found) {
+    const Bias bias = found.about.bias;
+    return hold(std::move(found), Direction::input).map([&](HeldLine&& line) {
+      return LineAtRest{line.get(), bias};
+    });
+  });
 }
 
 Result<std::unique_ptr<GpioOutput>> GpioOutput::open(const LineName& name, const std::string& dev) {

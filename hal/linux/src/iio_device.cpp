@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/scan_element.hpp"
 
 namespace supercoil::hal_linux {
 
@@ -76,6 +77,19 @@ Result<Scaling> kernel_scaling(const ConverterPlace& place) {
   const auto offset = shared_value(device->folder, place.input, "offset");
   if (!offset) return tl::unexpected(offset.error());
   return Scaling{**scale, offset->value_or(0.0)};
+}
+
+std::optional<CountRange> count_range(const ConverterPlace& place) {
+  constexpr int most_bits = 32;  // more are no converter's
+  if (!is_input_name(place.input)) return {};
+  const auto device = find_iio_device(place.device, place.root);
+  if (!device) return {};
+  const auto type = read_text(device->folder + "/scan_elements/in_" + place.input + "_type")
+                        .and_then(parse_scan_type);
+  if (!type || type->bits > most_bits) return {};
+  const std::int64_t codes = std::int64_t{1} << static_cast<unsigned>(type->bits);
+  if (type->is_signed) return CountRange{-codes / 2, codes / 2 - 1};
+  return CountRange{0, codes - 1};
 }
 
 bool is_input_name(const std::string& input) {

@@ -47,6 +47,12 @@ hal::Status SysfsPwm::set(int step) {
   return files_.duty.write(scaled(step, period_ns_, steps_));
 }
 
+hal::Status SysfsPwm::wink() {
+  const hal::Status disabled = files_.enable.write(0);
+  const hal::Status enabled = files_.enable.write(1);
+  return disabled == hal::Status::ok ? enabled : disabled;
+}
+
 int SysfsPwm::read_back() const {
   const Number duty_ns = files_.duty.number();
   if (duty_ns.status != hal::Status::ok) return -1;

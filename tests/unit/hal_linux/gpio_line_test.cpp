@@ -134,3 +134,23 @@ TEST(GpioLine, SaysWhoHoldsIt) {
   STRCMP_EQUAL("cannot take line 'GPIO17' of gpiochip1 'pinctrl-bcm2711': Operation not permitted",
                answer("pinctrl-bcm2711", "GPIO17").c_str());
 }
+
+TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {
+  FakeLine& line = processor->lines[2];
+  for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up, Bias::pull_down}) {
+    line.bias = bias;
+    for (const int value : {1, 0}) {
+      line.value = value;
+      line.output = true;
+      line.history.clear();
+      const auto found = look_at_rest({"pinctrl-bcm2711", "GPIO5"}, dev.path());
+      CHECK(found->bias == bias);
+      CHECK(found->level.high == (value == 1));
+      const std::vector<std::string> expected = {"input", "release"};
+      CHECK(line.history == expected);
+    }
+  }
+  line.consumer = "fan";
+  const auto held = look_at_rest({"pinctrl-bcm2711", "GPIO5"}, dev.path());
+  STRCMP_CONTAINS("which 'fan' holds", held.error().text.c_str());
+}

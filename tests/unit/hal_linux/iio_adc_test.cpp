@@ -151,3 +151,18 @@ TEST(IioAdc, SaysWhyThereIsNoScale) {
     STRCMP_CONTAINS("which is not a number", kernel_scaling(place()).error().text.c_str());
   }
 }
+
+TEST(IioAdc, TellsBetweenWhichCountsItsValuesLie) {
+  const std::string type = at_48 + "/scan_elements/in_voltage0_type";
+  CHECK_FALSE(count_range(place()).has_value());
+  tree.write(type, "be:s16/16>>0\n");
+  LONGS_EQUAL(-32768, count_range(place())->lowest);
+  LONGS_EQUAL(32767, count_range(place())->highest);
+  tree.write(type, "be:u12/16>>2\n");
+  LONGS_EQUAL(0, count_range(place())->lowest);
+  LONGS_EQUAL(4095, count_range(place())->highest);
+  tree.write(type, "12 bits\n");
+  CHECK_FALSE(count_range(place()).has_value());
+  CHECK_FALSE(count_range(place("../voltage0")).has_value());
+  CHECK_FALSE(count_range({"i2c-1/1-0050", "voltage0", tree / "bus"}).has_value());
+}

@@ -120,3 +120,19 @@ TEST(SysfsPwm, PassesOnWhyADutyWasNotTaken) {
   fail_next(Call::pwrite, "/duty_cycle", EINTR, 2);
   check_status(hal::Status::ok, pwm->set(1000));
 }
+
+TEST(SysfsPwm, WinksWithoutEverBeingOn) {
+  PwmKernel kernel;
+  const auto pwm = opened(kernel);
+  kernel.writes.clear();
+  check_status(hal::Status::ok, pwm->wink());
+  const std::vector<std::string> expected = {"enable 0", "enable 1"};
+  CHECK(kernel.writes == expected);
+  CHECK(kernel.state.enabled);
+  DOUBLES_EQUAL(0.0, kernel.most_on, 0.0);
+  for (const int first : {EIO, 0}) {
+    next(Call::pwrite, "/enable", [first] { return first == 0 ? 1 : -first; });
+    next(Call::pwrite, "/enable", [first] { return first == 0 ? -EIO : 1; });
+    check_status(hal::Status::io_error, pwm->wink());
+  }
+}

@@ -1,4 +1,4 @@
-// What can be asked of a board before anybody heats anything.
+// What is found of a board when it is looked at before anybody heats anything.
 #pragma once
 
 #include <functional>
@@ -6,26 +6,34 @@
 
 namespace supercoil::hal {
 
-/// One finding: what was looked at, how it is, and what to do when it is not well.
+enum class Verdict {
+  ok,
+  warning,  ///< the firmware runs, but not as it should; or it cannot be known
+  problem,  ///< the firmware does not start, or nothing may be heated with it
+};
+
+constexpr const char* text(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::ok:
+      return "ok";
+    case Verdict::warning:
+      return "warning";
+    case Verdict::problem:
+      return "problem";
+  }
+  return "?";
+}
+
+/// One thing that was looked at.
 struct Finding {
-  enum class Verdict { good, doubtful, bad };
-  std::string subject;
-  Verdict verdict = Verdict::good;
-  std::string found;
-  std::string remedy;  ///< empty when good
+  std::string what;  ///< e.g. "channel 1, enable"
+  Verdict verdict = Verdict::ok;
+  std::string found;   ///< how it is; of what is missing, where it was looked for and what is there
+  std::string remedy;  ///< what to do; empty when ok
 };
 
-/// Probes of one kind of board. Runs only while no daemon holds the board; may block and allocate;
-/// never turns anything on.
-class BoardCheck {
- public:
-  BoardCheck() = default;
-  BoardCheck(const BoardCheck&) = delete;
-  BoardCheck& operator=(const BoardCheck&) = delete;
-  virtual ~BoardCheck() = default;
-
-  /// Tells every finding as it is made.
-  virtual void run(const std::function<void(const Finding&)>& tell) = 0;
-};
+/// Takes each finding as it is made. A check of a board is a function that gets one; it may block
+/// and allocate, and never turns anything on.
+using Tell = std::function<void(const Finding&)>;
 
 }  // namespace supercoil::hal

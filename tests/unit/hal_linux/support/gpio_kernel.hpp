@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "supercoil/hal_linux/gpio_chip.hpp"
+
 namespace supercoil::test {
 
 struct FakeLine {
@@ -14,6 +16,7 @@ struct FakeLine {
   std::string consumer;  ///< empty: nobody
   bool output = false;
   int value = 0;
+  hal_linux::Bias bias = hal_linux::Bias::unknown;
   std::vector<std::string> history;  ///< "output 0", "set 1", "release"
 };
 

@@ -50,6 +50,20 @@ const char* gpiod_line_name(gpiod_line* line) {
 const char* gpiod_line_consumer(gpiod_line* line) {
   return text_or_null(line_of(line).consumer);
 }
+int gpiod_line_bias(gpiod_line* line) {
+  using supercoil::hal_linux::Bias;
+  switch (line_of(line).bias) {
+    case Bias::none:
+      return GPIOD_LINE_BIAS_DISABLE;
+    case Bias::pull_up:
+      return GPIOD_LINE_BIAS_PULL_UP;
+    case Bias::pull_down:
+      return GPIOD_LINE_BIAS_PULL_DOWN;
+    case Bias::unknown:
+      break;
+  }
+  return GPIOD_LINE_BIAS_AS_IS;
+}
 int gpiod_line_request_output(gpiod_line* line, const char* consumer, int value) {
   return gpio_kernel().request(line_of(line), true, value, consumer);
 }

@@ -75,6 +75,20 @@ const char* gpiod_line_info_get_name(gpiod_line_info* info) {
 const char* gpiod_line_info_get_consumer(gpiod_line_info* info) {
   return text_or_null(line_of(info).consumer);
 }
+gpiod_line_bias gpiod_line_info_get_bias(gpiod_line_info* line) {
+  using supercoil::hal_linux::Bias;
+  switch (line_of(line).bias) {
+    case Bias::none:
+      return GPIOD_LINE_BIAS_DISABLED;
+    case Bias::pull_up:
+      return GPIOD_LINE_BIAS_PULL_UP;
+    case Bias::pull_down:
+      return GPIOD_LINE_BIAS_PULL_DOWN;
+    case Bias::unknown:
+      break;
+  }
+  return GPIOD_LINE_BIAS_UNKNOWN;
+}
 gpiod_line_settings* gpiod_line_settings_new() {
   return new gpiod_line_settings{false, 1};
 }

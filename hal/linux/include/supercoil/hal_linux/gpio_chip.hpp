@@ -33,10 +33,14 @@ class HeldLine {
   Owned handle_;
 };
 
+/// The resistor of the chip's own at a line.
+enum class Bias { unknown, none, pull_up, pull_down };
+
 /// A line as the kernel tells of it.
 struct LineAbout {
   std::string name;      ///< empty: none
   std::string consumer;  ///< who holds it; empty: nobody
+  Bias bias = Bias::unknown;
 };
 
 /// An opened chip. Move-only.

@@ -1,6 +1,8 @@
 // Converters of the kernel's Industrial I/O.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,15 @@ struct Scaling {
 /// The input's own scale and offset, or those of all inputs of its kind; a device without an offset
 /// has 0. For a check of the configuration: the firmware scales by what the configuration says.
 Result<Scaling> kernel_scaling(const ConverterPlace& place);
+
+/// Between which counts a converter's values lie: at either end it is at its rail.
+struct CountRange {
+  std::int64_t lowest = 0;
+  std::int64_t highest = 0;
+};
+
+/// From the type of the input's scans; nothing when the device tells none.
+std::optional<CountRange> count_range(const ConverterPlace& place);
 
 /// Whether `input` may be part of a file's name: letters, digits, '-' and '_'.
 bool is_input_name(const std::string& input);

@@ -52,6 +52,10 @@ class SysfsPwm final : public hal::PwmOutput {
   int read_back() const override;
   int steps() const override { return steps_; }
 
+  /// For timing the device while its duty is 0: disables and enables it. The kernel does not pass
+  /// on a duty that it believes is set already.
+  hal::Status wink();
+
  private:
   PwmFiles files_;
   std::int64_t period_ns_;

@@ -1,0 +1,74 @@
+#include "supercoil/hal_linux/check/can_link.hpp"
+
+#include <charconv>
+
+#include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/device_folder.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+using hal::Verdict;
+
+/// ARPHRD_CAN.
+constexpr std::int64_t can_type = 280;
+/// IFF_UP.
+constexpr unsigned up_flag = 1;
+/// All frames that a board of 16 channels sends within some 10 ms.
+constexpr std::int64_t least_queue = 100;
+
+/// sysfs shows flags as 0x40080.
+bool is_up(const std::string& folder) {
+  const std::string text = read_text(folder + "/flags").value_or("");
+  if (!text.starts_with("0x")) return false;
+  unsigned flags = 0;
+  std::from_chars(text.data() + 2, text.data() + text.size(), flags, 16);
+  return (flags & up_flag) != 0;
+}
+
+}  // namespace
+
+void check_can_link(const Machine& machine, const std::string& interface, const hal::Tell& tell) {
+  const std::string what = "CAN " + interface;
+  const std::string root = machine.sys + "/class/net";
+  const std::string folder = root + "/" + interface;
+  const std::string bring_up =
+      "ip link set " + interface + " up type can bitrate 500000 restart-ms 100";
+  const auto type = read_whole(folder + "/type");
+  if (!type) {
+    const auto all = names_in(root).value_or(std::vector<std::string>{});
+    tell({what, Verdict::problem,
+          "no interface '" + interface + "' in " + root + ": there " +
+              (all.empty() ? "is none at all" : "are " + listed(all)),
+          "load its driver, or name the right one"});
+    return;
+  }
+  if (*type != can_type) {
+    tell({what, Verdict::problem,
+          folder + "/type is " + std::to_string(*type) + ": not CAN (" + std::to_string(can_type) +
+              ")",
+          "name the right interface"});
+    return;
+  }
+  const std::string state = read_text(folder + "/operstate").value_or("unknown");
+  if (!is_up(folder) || state == "down") {
+    tell({what, Verdict::problem,
+          is_up(folder) ? "set up, but the bus is off (" + state + ")" : "down",
+          is_up(folder) ? "look for wires, ends and bit rate; then " + bring_up : bring_up});
+    return;
+  }
+  const auto rate = can_bit_rate(interface);
+  const auto queue = read_whole(folder + "/tx_queue_len");
+  const std::string found =
+      "up, " + (rate ? std::to_string(*rate) + " bit/s" : "without a bit rate") + ", queue of " +
+      (queue ? std::to_string(*queue) : "unknown many") + " frames";
+  if (queue && *queue >= least_queue) {
+    tell({what, Verdict::ok, found, ""});
+  } else {
+    tell({what, Verdict::warning, found,
+          "ip link set " + interface + " txqueuelen 1000: a short queue refuses frames (ENOBUFS)"});
+  }
+}
+
+}  // namespace supercoil::hal_linux

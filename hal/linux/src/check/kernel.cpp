@@ -1,0 +1,120 @@
+#include "supercoil/hal_linux/check/kernel.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <map>
+#include <string_view>
+#include <vector>
+
+#include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/device_folder.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+using hal::Verdict;
+
+/// "0-2,5" holds 1.
+bool in_list(std::string_view list, int number) {
+  while (!list.empty()) {
+    const std::string_view range = list.substr(0, list.find(','));
+    list.remove_prefix(std::min(list.size(), range.size() + 1));
+    int first = -1;
+    const char* const end = range.data() + range.size();
+    const auto [rest, error] = std::from_chars(range.data(), end, first);
+    if (error != std::errc{}) continue;
+    int last = first;
+    if (rest != end && *rest == '-') std::from_chars(rest + 1, end, last);
+    if (number >= first && number <= last) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void check_kernel(const Machine& machine, const hal::Tell& tell) {
+  const auto release = read_text(machine.proc + "/sys/kernel/osrelease");
+  const std::string name = release.value_or("of unknown release");
+  const auto realtime = read_whole(machine.sys + "/kernel/realtime");
+  if (realtime && *realtime == 1) {
+    tell({"kernel", Verdict::ok, name + ", real-time (PREEMPT_RT)", ""});
+    return;
+  }
+  tell({"kernel", Verdict::warning,
+        name + ", not a real-time kernel (" + machine.sys + "/kernel/realtime is not 1)",
+        "install a kernel with PREEMPT_RT, on Debian linux-image-rt-arm64: this one may wake the "
+        "loop milliseconds late when the board is busy"});
+}
+
+void check_throttling(const Machine& machine, const hal::Tell& tell) {
+  constexpr std::int64_t least_percent = 90;
+  const std::string what = "real-time share";
+  const std::string path = machine.proc + "/sys/kernel/sched_rt_runtime_us";
+  const auto runtime_us = read_whole(path);
+  const auto period_us = read_whole(machine.proc + "/sys/kernel/sched_rt_period_us");
+  if (!runtime_us || !period_us || *period_us <= 0) {
+    const std::string why = runtime_us ? path + " has no period" : runtime_us.error().text;
+    tell({what, Verdict::warning, "not known: " + why, "use a kernel that tells it"});
+    return;
+  }
+  if (*runtime_us < 0) {
+    tell({what, Verdict::ok, "real-time threads may use all of the processor", ""});
+    return;
+  }
+  const std::int64_t percent = 100 * *runtime_us / *period_us;
+  const std::string found = "real-time threads may use " + std::to_string(percent) + " % of each " +
+                            std::to_string(*period_us) + " us";
+  if (percent >= least_percent) {
+    tell({what, Verdict::ok, found, ""});
+  } else {
+    tell({what, percent == 0 ? Verdict::problem : Verdict::warning,
+          found + ", then they stand still", "sysctl kernel.sched_rt_runtime_us=950000"});
+  }
+}
+
+void check_governor(const Machine& machine, const hal::Tell& tell) {
+  const std::string what = "frequency";
+  const std::string root = machine.sys + "/devices/system/cpu";
+  const auto processors = numbered_folders(root, "cpu");
+  std::map<std::string, std::vector<std::string>> by_governor;
+  for (const DeviceFolder& processor : processors.value_or(std::vector<DeviceFolder>{})) {
+    const auto governor = read_text(processor.folder + "/cpufreq/scaling_governor");
+    if (governor) by_governor[*governor].push_back(last_part(processor.folder));
+  }
+  std::vector<std::string> slow;
+  for (const auto& [governor, which] : by_governor)
+    if (governor != "performance") slow.push_back("'" + governor + "' on " + listed(which));
+  if (slow.empty()) {
+    tell({what, Verdict::ok,
+          by_governor.empty() ? "the processors keep theirs (no cpufreq in " + root + ")"
+                              : "governor 'performance' on all processors",
+          ""});
+    return;
+  }
+  tell({what, Verdict::warning, "governor " + listed(slow),
+        "echo performance | tee " + root +
+            "/cpu*/cpufreq/scaling_governor: a processor that slows down makes ticks late"});
+}
+
+void check_processors(const Machine& machine, const LoopWish& wish, const hal::Tell& tell) {
+  const std::string what = "processors";
+  const std::string root = machine.sys + "/devices/system/cpu";
+  const std::string online = read_text(root + "/online").value_or("");
+  // An empty attribute is an error of reading: none is isolated.
+  const std::string isolated = read_text(root + "/isolated").value_or("");
+  const std::string found = "running " + (online.empty() ? std::string("unknown") : online) +
+                            ", isolated " + (isolated.empty() ? std::string("none") : isolated);
+  if (wish.cpu < 0 || in_list(isolated, wish.cpu)) {
+    tell({what, Verdict::ok, found, ""});
+  } else if (!in_list(online, wish.cpu)) {
+    tell({what, Verdict::problem, found + ": " + std::to_string(wish.cpu) + " does not run",
+          "choose another --cpu"});
+  } else {
+    const std::string cpu = std::to_string(wish.cpu);
+    tell({what, Verdict::warning, found + ": other work may run on the loop's, " + cpu,
+          "isolcpus=" + cpu + " on the kernel's command line"});
+  }
+}
+
+}  // namespace supercoil::hal_linux

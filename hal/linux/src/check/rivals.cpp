@@ -1,0 +1,112 @@
+#include "supercoil/hal_linux/check/rivals.hpp"
+
+#include <charconv>
+#include <map>
+#include <vector>
+
+#include <sched.h>
+
+#include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/device_folder.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+// proc(5), counted from the field behind the name, which is the third.
+constexpr std::size_t flags_field = 6;
+constexpr std::size_t priority_field = 37;
+constexpr std::size_t policy_field = 38;
+/// PF_KTHREAD of the kernel's sched.h.
+constexpr std::int64_t kernel_thread = 0x00200000;
+/// SCHED_DEADLINE; the C library has no name for it.
+constexpr int deadline = 6;
+
+bool is_number(const std::string& name) {
+  return parse_number(name).status == hal::Status::ok;
+}
+
+std::string counted(int count, const std::string& one) {
+  return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
+}
+
+/// The threads that are preferred to the loop, and of which program: "name (90)".
+struct Rivals {
+  std::map<std::string, int> programs;
+  int of_kernel = 0;
+};
+
+void look_at(const std::string& path, const LoopWish& wish, Rivals& rivals) {
+  const auto line = read_text(path);
+  // It ended in the meantime.
+  if (!line) return;
+  const auto thread = parse_thread_stat(*line);
+  if (!thread) return;
+  const bool above = thread->policy == deadline || thread->priority > wish.priority;
+  if (!above) return;
+  if (thread->of_kernel) {
+    ++rivals.of_kernel;
+  } else {
+    const std::string how =
+        thread->policy == deadline ? "deadline" : std::to_string(thread->priority);
+    ++rivals.programs[thread->name + " (" + how + ")"];
+  }
+}
+
+}  // namespace
+
+std::optional<ThreadStat> parse_thread_stat(std::string_view line) {
+  // A name may hold blanks and brackets.
+  const auto opened = line.find('(');
+  const auto closed = line.rfind(')');
+  if (opened == std::string_view::npos || closed == std::string_view::npos || closed < opened) {
+    return {};
+  }
+  ThreadStat thread;
+  thread.name = line.substr(opened + 1, closed - opened - 1);
+  line.remove_prefix(closed + 1);
+  for (std::size_t field = 0; field <= policy_field; ++field) {
+    const auto begin = line.find_first_not_of(' ');
+    if (begin == std::string_view::npos) return {};
+    line.remove_prefix(begin);
+    const std::string_view word = line.substr(0, line.find(' '));
+    line.remove_prefix(word.size());
+    const Number number = parse_number(word);
+    if (field == flags_field) thread.of_kernel = (number.value & kernel_thread) != 0;
+    if (field == priority_field) thread.priority = static_cast<int>(number.value);
+    if (field == policy_field) thread.policy = static_cast<int>(number.value);
+    const bool counts = field == flags_field || field >= priority_field;
+    if (counts && number.status != hal::Status::ok) return {};
+  }
+  return thread;
+}
+
+void check_rivals(const Machine& machine, const LoopWish& wish, const hal::Tell& tell) {
+  using hal::Verdict;
+  const std::string what = "other programs";
+  const auto processes = names_in(machine.proc);
+  if (!processes) {
+    tell({what, Verdict::warning, processes.error().text, "mount /proc"});
+    return;
+  }
+  Rivals rivals;
+  for (const std::string& process : *processes) {
+    if (!is_number(process)) continue;
+    const std::string tasks = machine.proc + "/" + process + "/task";
+    for (const std::string& task : names_in(tasks).value_or(std::vector<std::string>{}))
+      look_at(tasks + "/" + task + "/stat", wish, rivals);
+  }
+  const std::string above = " above priority " + std::to_string(wish.priority);
+  const std::string kernel = counted(rivals.of_kernel, "thread") + " of the kernel";
+  if (rivals.programs.empty()) {
+    tell({what, Verdict::ok, "none" + above + " (beside " + kernel + ")", ""});
+    return;
+  }
+  std::vector<std::string> names;
+  for (const auto& [name, threads] : rivals.programs)
+    names.push_back(threads == 1 ? name : name + ", " + counted(threads, "thread"));
+  tell({what, Verdict::warning, listed(names) + above + " (and " + kernel + ")",
+        "give them less (chrt), or supercoild more (--priority): what they do makes ticks late"});
+}
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,89 @@
+#include "supercoil/hal_linux/check/watchdog.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <optional>
+#include <system_error>
+#include <vector>
+
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/device_folder.hpp"
+
+namespace supercoil::hal_linux {
+
+namespace {
+
+using hal::Verdict;
+
+/// Of /dev/watchdog, which is another name of the first one.
+constexpr unsigned misc_major = 10;
+constexpr unsigned watchdog_minor = 130;
+
+std::string identity(const DeviceFolder& folder) {
+  return last_part(folder.folder) + " '" +
+         read_text(folder.folder + "/identity").value_or("unknown") + "'";
+}
+
+/// What of the machine's watchdogs the device is.
+std::optional<DeviceFolder> behind(const struct stat& device,
+                                   const std::vector<DeviceFolder>& all) {
+  const unsigned major = ::gnu_dev_major(device.st_rdev);
+  const unsigned minor = ::gnu_dev_minor(device.st_rdev);
+  const bool first = major == misc_major && minor == watchdog_minor;
+  const std::string number = std::to_string(major) + ":" + std::to_string(minor);
+  const auto found = std::find_if(all.begin(), all.end(), [&](const DeviceFolder& folder) {
+    if (first) return last_part(folder.folder) == "watchdog0";
+    return read_text(folder.folder + "/dev").value_or("") == number;
+  });
+  if (found == all.end()) return {};
+  return *found;
+}
+
+void tell_missing(const std::string& path, int error, const std::string& root,
+                  const std::vector<DeviceFolder>& all, const hal::Tell& tell) {
+  std::vector<std::string> names;
+  std::transform(all.begin(), all.end(), std::back_inserter(names), identity);
+  tell({"watchdog", Verdict::problem,
+        path + ": " + std::generic_category().message(error) + "; in " + root +
+            (names.empty() ? " there is none at all" : " there are " + listed(names)),
+        "load its driver, or name the right device in board.watchdog"});
+}
+
+}  // namespace
+
+void check_watchdog(const Machine& machine, const std::string& path, bool in_use,
+                    const hal::Tell& tell) {
+  const std::string what = "watchdog";
+  const std::string root = machine.sys + "/class/watchdog";
+  const auto all = numbered_folders(root, "watchdog").value_or(std::vector<DeviceFolder>{});
+  struct stat about {};
+  if (::stat(path.c_str(), &about) != 0) return tell_missing(path, errno, root, all, tell);
+  if (!S_ISCHR(about.st_mode)) return tell_missing(path, ENODEV, root, all, tell);
+  if (::access(path.c_str(), W_OK) != 0) {
+    tell({what, Verdict::problem, path + ": " + std::generic_category().message(errno),
+          "run as root, or let the service's user write to it"});
+    return;
+  }
+  const auto folder = behind(about, all);
+  if (!folder) {
+    tell({what, Verdict::warning, path + " is there; " + root + " does not tell what it is",
+          "use a kernel with CONFIG_WATCHDOG_SYSFS, or look at wdctl"});
+    return;
+  }
+  const std::string found = path + " is " + identity(*folder);
+  if (!in_use && read_text(folder->folder + "/state").value_or("") == "active") {
+    tell({what, Verdict::problem, found + ", and somebody else uses it",
+          "end what does: of systemd RuntimeWatchdogSec=off, else the watchdog daemon"});
+  } else if (read_text(folder->folder + "/nowayout").value_or("") == "1") {
+    tell({what, Verdict::warning, found + "; once started it cannot be stopped (nowayout)",
+          "expect the board to be reset when supercoild ends, or load the driver with nowayout=0"});
+  } else {
+    tell({what, Verdict::ok, found + "; not opened, since that starts it", ""});
+  }
+}
+
+}  // namespace supercoil::hal_linux

@@ -1,0 +1,87 @@
+#include "supercoil/hal_linux/check/kernel.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil;
+using namespace supercoil::hal_linux;
+using namespace supercoil::test;
+
+TEST_GROUP(CheckKernel) {
+  TemporaryFolder root;
+  const Machine machine{root / "proc", root / "sys", root / "dev"};
+  const std::string cpus = "sys/devices/system/cpu/";
+
+  void setup() override {
+    root.write("proc/sys/kernel/osrelease", "6.1.0-56-rt-arm64\n");
+    root.write("sys/kernel/realtime", "1\n");
+    root.write("proc/sys/kernel/sched_rt_runtime_us", "950000\n");
+    root.write("proc/sys/kernel/sched_rt_period_us", "1000000\n");
+    root.write(cpus + "online", "0-3\n");
+    root.write(cpus + "isolated", "\n");
+    root.make_folder(cpus + "cpufreq");
+    for (const char* cpu : {"cpu0", "cpu1", "cpu2", "cpu3"})
+      root.make_folder(cpus + cpu);
+  }
+  template <class Check>
+  static hal::Finding only(const Check& check) {
+    Told told;
+    check(told.tell());
+    LONGS_EQUAL(1, told.findings.size());
+    return told.findings.front();
+  }
+  hal::Finding kernel() const {
+    return only([&](const hal::Tell& tell) { check_kernel(machine, tell); });
+  }
+  hal::Finding throttling() const {
+    return only([&](const hal::Tell& tell) { check_throttling(machine, tell); });
+  }
+  hal::Finding governor() const {
+    return only([&](const hal::Tell& tell) { check_governor(machine, tell); });
+  }
+  hal::Finding processors(int cpu) const {
+    return only([&](const hal::Tell& tell) { check_processors(machine, {80, cpu}, tell); });
+  }
+};
+
+TEST(CheckKernel, KnowsARealTimeKernel) {
+  check_finding("ok", "6.1.0-56-rt-arm64, real-time (PREEMPT_RT)", "", kernel());
+  root.write("sys/kernel/realtime", "0\n");
+  check_finding("warning", "not a real-time kernel", "PREEMPT_RT", kernel());
+  root.remove("sys/kernel/realtime");
+  check_finding("warning", "6.1.0-56-rt-arm64, not a real-time kernel", "PREEMPT_RT", kernel());
+}
+
+TEST(CheckKernel, TellsTheShareOfRealTimeThreads) {
+  check_finding("ok", "may use 95 % of each 1000000 us", "", throttling());
+  root.write("proc/sys/kernel/sched_rt_runtime_us", "-1\n");
+  check_finding("ok", "may use all of the processor", "", throttling());
+  root.write("proc/sys/kernel/sched_rt_runtime_us", "500000\n");
+  check_finding("warning", "may use 50 %", "sched_rt_runtime_us=950000", throttling());
+  root.write("proc/sys/kernel/sched_rt_runtime_us", "0\n");
+  check_finding("problem", "may use 0 %", "sched_rt_runtime_us=950000", throttling());
+  root.remove("proc/sys/kernel/sched_rt_runtime_us");
+  check_finding("warning", "not known: cannot open ", "a kernel that tells it", throttling());
+}
+
+TEST(CheckKernel, NamesProcessorsThatSlowDown) {
+  check_finding("ok", "no cpufreq", "", governor());
+  for (const char* cpu : {"cpu0", "cpu1", "cpu2"})
+    root.write(cpus + cpu + "/cpufreq/scaling_governor", "performance\n");
+  check_finding("ok", "'performance' on all", "", governor());
+  root.write(cpus + "cpu1/cpufreq/scaling_governor", "ondemand\n");
+  root.write(cpus + "cpu2/cpufreq/scaling_governor", "ondemand\n");
+  check_finding("warning", "governor 'ondemand' on cpu1, cpu2", "echo performance", governor());
+}
+
+TEST(CheckKernel, AsksForTheLoopsOwnProcessor) {
+  check_finding("ok", "running 0-3, isolated none", "", processors(-1));
+  check_finding("warning", "other work may run on the loop's, 3", "isolcpus=3", processors(3));
+  root.write(cpus + "isolated", "1,3\n");
+  check_finding("ok", "isolated 1,3", "", processors(3));
+  check_finding("ok", "isolated 1,3", "", processors(1));
+  check_finding("warning", "isolated 1,3", "isolcpus=2", processors(2));
+  check_finding("problem", "4 does not run", "another --cpu", processors(4));
+}

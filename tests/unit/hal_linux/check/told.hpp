@@ -1,0 +1,29 @@
+// Keeps what a check tells.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal/board_check.hpp"
+
+namespace supercoil::test {
+
+struct Told {
+  std::vector<hal::Finding> findings;
+  hal::Tell tell() {
+    return [this](const hal::Finding& finding) { findings.push_back(finding); };
+  }
+};
+
+/// found and remedy: parts of them; an empty remedy asks for none.
+inline void check_finding(const std::string& verdict, const std::string& found,
+                          const std::string& remedy, const hal::Finding& finding) {
+  STRCMP_EQUAL(verdict.c_str(), hal::text(finding.verdict));
+  STRCMP_CONTAINS(found.c_str(), finding.found.c_str());
+  STRCMP_CONTAINS(remedy.c_str(), finding.remedy.c_str());
+  CHECK_EQUAL(remedy.empty(), finding.remedy.empty());
+}
+
+}  // namespace supercoil::test

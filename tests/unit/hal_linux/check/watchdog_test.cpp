@@ -1,0 +1,74 @@
+#include "supercoil/hal_linux/check/watchdog.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/support/system_calls.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil;
+using namespace supercoil::hal_linux;
+using namespace supercoil::test;
+
+TEST_GROUP(CheckWatchdog) {
+  TemporaryFolder root;
+  const Machine machine{root / "proc", root / "sys", root / "dev"};
+  const std::string first = "sys/class/watchdog/watchdog0/";
+  /// Some device that can be had everywhere, in the place of one.
+  const std::string device = "/dev/null";
+  bool opened = false;
+
+  void setup() override {
+    root.write(first + "identity", "i6300ESB timer\n");
+    root.write(first + "dev", "1:3\n");
+    root.write(first + "state", "inactive\n");
+    root.write(first + "nowayout", "0\n");
+    // Opening starts it.
+    next(Call::open, device, [this] {
+      opened = true;
+      return -1;
+    });
+  }
+  void teardown() override {
+    CHECK_FALSE(opened);
+    reset_calls();
+  }
+  hal::Finding found(const std::string& path, bool in_use = false) const {
+    Told told;
+    check_watchdog(machine, path, in_use, told.tell());
+    LONGS_EQUAL(1, told.findings.size());
+    return told.findings.front();
+  }
+};
+
+TEST(CheckWatchdog, KnowsItWithoutOpeningIt) {
+  check_finding("ok", "/dev/null is watchdog0 'i6300ESB timer'", "", found(device));
+}
+
+TEST(CheckWatchdog, NamesWhatThereIsInstead) {
+  check_finding("problem",
+                root / "dev/watchdog" + ": No such file or directory; in " +
+                    root / "sys/class/watchdog" + " there are watchdog0 'i6300ESB timer'",
+                "load its driver", found(root / "dev/watchdog"));
+  root.write("dev/watchdog", "");
+  check_finding("problem", root / "dev/watchdog" + ": No such device", "load its driver",
+                found(root / "dev/watchdog"));
+  root.remove("sys");
+  check_finding("problem", "there is none at all", "load its driver", found(root / "dev/none"));
+}
+
+TEST(CheckWatchdog, SaysThatSomebodyElseHasIt) {
+  root.write(first + "state", "active\n");
+  check_finding("problem", "somebody else uses it", "RuntimeWatchdogSec=off", found(device));
+  check_finding("ok", "is watchdog0", "", found(device, true));
+}
+
+TEST(CheckWatchdog, SaysThatItCannotBeStopped) {
+  root.write(first + "nowayout", "1\n");
+  check_finding("warning", "cannot be stopped (nowayout)", "nowayout=0", found(device));
+}
+
+TEST(CheckWatchdog, SaysThatItIsNotKnown) {
+  root.write(first + "dev", "10:131\n");
+  check_finding("warning", "/dev/null is there; ", "CONFIG_WATCHDOG_SYSFS", found(device));
+}

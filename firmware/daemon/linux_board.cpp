@@ -4,73 +4,34 @@
 
 #include "supercoil/hal_linux/buffered_adc.hpp"
 #include "supercoil/hal_linux/buffered_pwm.hpp"
-#include "supercoil/hal_linux/iio_adc.hpp"
-#include "supercoil/hal_linux/sysfs_pwm.hpp"
 
 #include "daemon/log.hpp"
+#include "linux_board/parts.hpp"
 
 namespace supercoil::daemon {
 
-namespace {
-
-hal_linux::LineName line_name(const config::LineAddress& address) {
-  return {address.chip, address.line};
-}
-
-}  // namespace
-
-/// Opens one device after the other and notes those that cannot be had.
-class LinuxBoard::Opening {
+/// Takes opened devices over, those behind a bus with what serves them.
+class LinuxBoard::Taking {
  public:
-  explicit Opening(LinuxBoard& board) : board_(&board) {}
+  explicit Taking(LinuxBoard& board) : board_(&board) {}
 
-  template <class Wanted, class Opened>
-  void take(const std::string& what, std::unique_ptr<Wanted>& into,
-            hal_linux::Result<std::unique_ptr<Opened>> opened) {
-    if (opened) {
-      into = std::move(*opened);
-    } else {
-      problems_.push_back(what + ": " + opened.error().text);
-    }
+  std::unique_ptr<hal::PwmOutput> pwm(linux_board::PwmPart& part,
+                                      const config::Access& access) const {
+    if (!access.buffered()) return std::move(*part.device);
+    auto buffered = std::make_unique<hal_linux::BufferedPwm>(std::move(*part.device));
+    bus(access.bus).duties.push_back(buffered.get());
+    return buffered;
   }
-  void output(const std::string& what, const config::LineAddress& address,
-              std::unique_ptr<hal::DigitalOutput>& into) {
-    take(what, into, hal_linux::GpioOutput::open(line_name(address)));
+  std::unique_ptr<hal::AdcChannel> converter(linux_board::ConverterPart& part,
+                                             const config::Access& access) const {
+    if (!access.buffered()) return std::move(*part.device);
+    auto buffered = std::make_unique<hal_linux::BufferedAdc>(std::move(*part.device));
+    bus(access.bus).conversions.push_back(buffered.get());
+    return buffered;
   }
-  void input(const std::string& what, const config::LineAddress& address,
-             std::unique_ptr<hal::DigitalInput>& into) {
-    take(what, into, hal_linux::GpioInput::open(line_name(address)));
-  }
-  void pwm(const std::string& what, const config::PwmAddress& address,
-           std::unique_ptr<hal::PwmOutput>& into) {
-    std::unique_ptr<hal::PwmOutput> direct;
-    take(what, direct,
-         hal_linux::SysfsPwm::open(
-             {address.device, address.number, address.period_ns, address.steps}));
-    if (!direct || !address.access.buffered()) {
-      into = std::move(direct);
-      return;
-    }
-    auto buffered = std::make_unique<hal_linux::BufferedPwm>(std::move(direct));
-    bus(address.access.bus).duties.push_back(buffered.get());
-    into = std::move(buffered);
-  }
-  void converter(const std::string& what, const config::ConverterAddress& address,
-                 std::unique_ptr<hal::AdcChannel>& into) {
-    std::unique_ptr<hal::AdcChannel> direct;
-    take(what, direct, hal_linux::IioAdc::open({address.device, address.input}));
-    if (!direct || !address.access.buffered()) {
-      into = std::move(direct);
-      return;
-    }
-    auto buffered = std::make_unique<hal_linux::BufferedAdc>(std::move(direct));
-    bus(address.access.bus).conversions.push_back(buffered.get());
-    into = std::move(buffered);
-  }
-  std::vector<std::string> problems() && { return std::move(problems_); }
 
  private:
-  Bus& bus(const std::string& name) {
+  Bus& bus(const std::string& name) const {
     const auto same = [&](const Bus& bus) { return bus.name == name; };
     const auto found = std::find_if(board_->buses_.begin(), board_->buses_.end(), same);
     if (found != board_->buses_.end()) return *found;
@@ -78,34 +39,27 @@ class LinuxBoard::Opening {
   }
 
   LinuxBoard* board_;
-  std::vector<std::string> problems_;
 };
 
 tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> LinuxBoard::open(
     const config::BoardWiring& wiring) {
+  linux_board::Parts parts = linux_board::open_parts(wiring);
+  if (auto missing = parts.missing(); !missing.empty()) return tl::unexpected(std::move(missing));
   std::unique_ptr<LinuxBoard> board(new LinuxBoard);
-  Opening opening(*board);
-  board->channels_.resize(wiring.channels.size());
+  const Taking take(*board);
   board->watchdog_address_ = wiring.watchdog;
-  const auto name = [](std::size_t i, const char* what) {
-    return "channel " + std::to_string(i + 1) + ", " + what;
-  };
-  // Off first: the lines that cut, then the duties.
-  opening.output("heartbeat", wiring.heartbeat, board->heartbeat_);
-  for (std::size_t i = 0; i < wiring.channels.size(); ++i)
-    opening.output(name(i, "enable"), wiring.channels[i].enable, board->channels_[i].enable);
-  for (std::size_t i = 0; i < wiring.channels.size(); ++i)
-    opening.pwm(name(i, "pwm"), wiring.channels[i].pwm, board->channels_[i].pwm);
-  opening.input("stop_circuit", wiring.stop_circuit, board->stop_circuit_);
-  if (wiring.light) opening.output("light", *wiring.light, board->light_);
-  opening.converter("supply", wiring.supply, board->supply_);
+  board->heartbeat_ = std::move(*parts.heartbeat.device);
+  board->stop_circuit_ = std::move(*parts.stop_circuit.device);
+  if (parts.light) board->light_ = std::move(*parts.light->device);
+  board->supply_ = take.converter(parts.supply, wiring.supply.access);
   for (std::size_t i = 0; i < wiring.channels.size(); ++i) {
-    const config::ChannelWiring& channel = wiring.channels[i];
-    opening.converter(name(i, "position"), channel.position, board->channels_[i].position);
-    opening.converter(name(i, "current"), channel.current, board->channels_[i].current);
+    const config::ChannelWiring& where = wiring.channels[i];
+    linux_board::ChannelParts& channel = parts.channels[i];
+    board->channels_.push_back({std::move(*channel.enable.device),
+                                take.pwm(channel.pwm, where.pwm.access),
+                                take.converter(channel.position, where.position.access),
+                                take.converter(channel.current, where.current.access)});
   }
-  auto problems = std::move(opening).problems();
-  if (!problems.empty()) return tl::unexpected(std::move(problems));
   return board;
 }
 

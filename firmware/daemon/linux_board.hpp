@@ -44,7 +44,7 @@ class LinuxBoard {
     std::vector<hal_linux::Served*> duties;
     std::vector<hal_linux::Served*> conversions;
   };
-  class Opening;
+  class Taking;
 
   LinuxBoard() = default;
 

@@ -4,8 +4,8 @@
 
 #include "config/board_config.hpp"
 #include "daemon/linux_board.hpp"
-#include "daemon/lock_file.hpp"
 #include "daemon/log.hpp"
+#include "linux_board/lock_file.hpp"
 #include "program/exit_status.hpp"
 
 namespace supercoil::daemon {
@@ -16,7 +16,7 @@ int off_command(const std::string& config, const std::string& run_folder) {
     std::fputs(config::to_text(board.error()).c_str(), stderr);
     return exit_wrong_input;
   }
-  const auto lock = LockFile::take(run_folder + "/lock");
+  const auto lock = linux_board::LockFile::take(run_folder + "/lock");
   if (!lock) {
     log(Level::problem, lock.error());
     return exit_failed;

@@ -13,11 +13,11 @@
 #include "daemon/ending_signals.hpp"
 #include "daemon/keeper.hpp"
 #include "daemon/linux_board.hpp"
-#include "daemon/lock_file.hpp"
 #include "daemon/log.hpp"
 #include "daemon/loop_thread.hpp"
 #include "daemon/service.hpp"
 #include "daemon/telemetry.hpp"
+#include "linux_board/lock_file.hpp"
 #include "program/exit_status.hpp"
 
 namespace supercoil::daemon {
@@ -41,7 +41,7 @@ int fail(const std::string& why) {
 struct Parts {
   storage::PosixFiles files;
   std::vector<storage::LearnedStore> stores;
-  std::optional<LockFile> lock;
+  std::optional<linux_board::LockFile> lock;
   std::unique_ptr<LinuxBoard> board;
   hal_linux::WakefulCpus wakeful;
   std::unique_ptr<Loop> loop;
@@ -124,7 +124,7 @@ int run_command(const RunOptions& options) {
   mallopt(M_ARENA_MAX, 1);
 
   Parts parts;
-  auto lock = LockFile::take(options.run_folder + "/lock");
+  auto lock = linux_board::LockFile::take(options.run_folder + "/lock");
   if (!lock) return fail(lock.error());
   parts.lock.emplace(std::move(*lock));
   for (std::size_t i = 0; i < config->settings.channels.size(); ++i)

@@ -1,4 +1,4 @@
-#include "daemon/lock_file.hpp"
+#include "linux_board/lock_file.hpp"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
-using namespace supercoil::daemon;
+using namespace supercoil::linux_board;
 using supercoil::test::TemporaryFolder;
 
 TEST_GROUP(LockFile) {

@@ -1,4 +1,4 @@
-#include "daemon/lock_file.hpp"
+#include "linux_board/lock_file.hpp"
 
 #include <array>
 #include <cerrno>
@@ -8,7 +8,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-namespace supercoil::daemon {
+namespace supercoil::linux_board {
 
 namespace {
 
@@ -46,4 +46,4 @@ tl::expected<LockFile, std::string> LockFile::take(const std::string& path) {
   return LockFile(std::move(file));
 }
 
-}  // namespace supercoil::daemon
+}  // namespace supercoil::linux_board

@@ -7,7 +7,7 @@
 
 #include "supercoil/hal_linux/descriptor.hpp"
 
-namespace supercoil::daemon {
+namespace supercoil::linux_board {
 
 /// Holds a lock for as long as it lives. The kernel drops it with the process, however that ends.
 class LockFile {
@@ -20,4 +20,4 @@ class LockFile {
   hal_linux::Descriptor file_;
 };
 
-}  // namespace supercoil::daemon
+}  // namespace supercoil::linux_board

@@ -1,0 +1,58 @@
+// A board's devices, opened as its configuration names them: for every program that touches them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "supercoil/hal_linux/gpio_line.hpp"
+#include "supercoil/hal_linux/iio_adc.hpp"
+#include "supercoil/hal_linux/machine.hpp"
+#include "supercoil/hal_linux/sysfs_pwm.hpp"
+
+#include "config/wiring.hpp"
+
+namespace supercoil::linux_board {
+
+/// A device, or where it was looked for and what is there instead.
+template <class Device>
+struct Part {
+  std::string what;  ///< "channel 1, enable"
+  hal_linux::Result<std::unique_ptr<Device>> device;
+};
+
+using OutputPart = Part<hal_linux::GpioOutput>;
+using InputPart = Part<hal_linux::GpioInput>;
+using PwmPart = Part<hal_linux::SysfsPwm>;
+using ConverterPart = Part<hal_linux::IioAdc>;
+
+struct ChannelParts {
+  OutputPart enable;
+  PwmPart pwm;
+  ConverterPart position;
+  ConverterPart current;
+};
+
+/// Those that are there are off: lines low, duties 0. When they end, they are left so.
+struct Parts {
+  OutputPart heartbeat;
+  std::vector<ChannelParts> channels;
+  InputPart stop_circuit;
+  std::optional<OutputPart> light;
+  ConverterPart supply;
+
+  /// A line for each device that cannot be had.
+  std::vector<std::string> missing() const;
+};
+
+/// Opens the lines that cut, then duties, then all others. The caller holds the board's lock.
+Parts open_parts(const config::BoardWiring& wiring, const hal_linux::Machine& machine = {});
+
+/// "channel 2, pwm"; index from 0.
+std::string part_name(std::size_t index, const std::string& what);
+hal_linux::LineName line_name(const config::LineAddress& address);
+hal_linux::ConverterPlace converter_place(const config::ConverterAddress& address,
+                                          const hal_linux::Machine& machine);
+
+}  // namespace supercoil::linux_board

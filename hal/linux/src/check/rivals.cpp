@@ -36,20 +36,25 @@ struct Rivals {
   int of_kernel = 0;
 };
 
-void look_at(const std::string& path, const LoopWish& wish, Rivals& rivals) {
-  const auto line = read_text(path);
-  // It ended in the meantime.
-  if (!line) return;
-  const auto thread = parse_thread_stat(*line);
-  if (!thread) return;
-  const bool above = thread->policy == deadline || thread->priority > wish.priority;
+void note(const ThreadStat& thread, const LoopWish& wish, Rivals& rivals) {
+  const bool above = thread.policy == deadline || thread.priority > wish.priority;
   if (!above) return;
-  if (thread->of_kernel) {
+  if (thread.of_kernel) {
     ++rivals.of_kernel;
   } else {
     const std::string how =
-        thread->policy == deadline ? "deadline" : std::to_string(thread->priority);
-    ++rivals.programs[thread->name + " (" + how + ")"];
+        thread.policy == deadline ? "deadline" : std::to_string(thread.priority);
+    ++rivals.programs[thread.name + " (" + how + ")"];
+  }
+}
+
+/// tasks: /proc/PID/task
+void look_at(const std::string& tasks, const LoopWish& wish, Rivals& rivals) {
+  for (std::string path : names_in(tasks).value_or(std::vector<std::string>{})) {
+    path.insert(0, tasks + "/").append("/stat");
+    // One that cannot be read ended in the meantime.
+    const auto thread = parse_thread_stat(read_text(path).value_or(""));
+    if (thread) note(*thread, wish, rivals);
   }
 }
 
@@ -92,9 +97,7 @@ void check_rivals(const Machine& machine, const LoopWish& wish, const hal::Tell&
   Rivals rivals;
   for (const std::string& process : *processes) {
     if (!is_number(process)) continue;
-    const std::string tasks = machine.proc + "/" + process + "/task";
-    for (const std::string& task : names_in(tasks).value_or(std::vector<std::string>{}))
-      look_at(tasks + "/" + task + "/stat", wish, rivals);
+    look_at(std::string(machine.proc).append("/").append(process).append("/task"), wish, rivals);
   }
   const std::string above = " above priority " + std::to_string(wish.priority);
   const std::string kernel = counted(rivals.of_kernel, "thread") + " of the kernel";

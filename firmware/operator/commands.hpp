@@ -32,4 +32,14 @@ struct CommandOptions {
 };
 int command_command(const CommandOptions& options);
 
+struct DoctorOptions {
+  std::string config = "/etc/supercoil/board.toml";
+  std::string run_folder = "/run/supercoil";
+  int priority = 80;  ///< that supercoild is given
+  int cpu = -1;       ///< that supercoild is given; negative: any
+  std::string can;    ///< an interface to look at, e.g. can0; empty: none
+  bool json = false;
+};
+int doctor_command(const DoctorOptions& options);
+
 }  // namespace supercoil::operating

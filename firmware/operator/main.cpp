@@ -55,6 +55,27 @@ void add_command(CLI::App& app, CommandOptions& options) {
       ->capture_default_str();
 }
 
+void add_doctor(CLI::App& app, DoctorOptions& options) {
+  CLI::App* doctor = app.add_subcommand(
+      "doctor",
+      "Look at the board on which this runs before anybody heats anything: kernel, rights, lines, "
+      "PWM, converters, watchdog. Heats nothing; opens devices only while no supercoild runs");
+  doctor->add_option("--config", options.config, "The board's configuration")
+      ->type_name("FILE")
+      ->capture_default_str();
+  doctor->add_option("--run-folder", options.run_folder, "Where supercoild's lock is")
+      ->type_name("DIR")
+      ->capture_default_str();
+  doctor->add_option("--priority", options.priority, "That supercoild is given")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  doctor->add_option("--cpu", options.cpu, "That supercoild is given [any]")
+      ->check(CLI::Range(0, 1023));
+  doctor->add_option("--can", options.can, "Look at this CAN interface too, e.g. can0")
+      ->type_name("NAME");
+  doctor->add_flag("--json", options.json, "Print one JSON object instead of lines");
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
   app.set_version_flag("--version", SUPERCOIL_VERSION);
@@ -63,12 +84,15 @@ int run_program(int count, char** arguments) {
   add_log(app, log);
   CommandOptions command;
   add_command(app, command);
+  DoctorOptions doctor;
+  add_doctor(app, doctor);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
   }
+  if (app.got_subcommand("doctor")) return doctor_command(doctor);
   return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }
 

@@ -1,0 +1,26 @@
+// Looks at a whole board.
+#pragma once
+
+#include <string>
+
+#include "supercoil/hal/board_check.hpp"
+#include "supercoil/hal_linux/check/loop_wish.hpp"
+#include "supercoil/hal_linux/machine.hpp"
+
+#include "config/board_config.hpp"
+
+namespace supercoil::doctor {
+
+struct CheckOptions {
+  hal_linux::Machine machine;
+  hal_linux::LoopWish loop;
+  std::string run_folder = "/run/supercoil";  ///< of supercoild's lock
+  std::string can;                            ///< an interface, e.g. can0; empty: none is looked at
+};
+
+/// Tells every finding. Opens devices only while it holds the lock, that is, while no supercoild
+/// runs. Nothing is heated: duties stay 0, enable lines low, the heartbeat has no edge.
+void check_board(const config::BoardConfig& config, const CheckOptions& options,
+                 const hal::Tell& tell);
+
+}  // namespace supercoil::doctor

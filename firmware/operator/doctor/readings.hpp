@@ -1,0 +1,58 @@
+// What a converter gives while everything is off.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "supercoil/hal/adc_channel.hpp"
+#include "supercoil/hal/board_check.hpp"
+#include "supercoil/hal_linux/iio_device.hpp"
+
+#include "board/measurement.hpp"
+
+namespace supercoil::doctor {
+
+/// Conversions of one converter, one after the other.
+class Readings {
+ public:
+  /// took: how long it was waited for.
+  void add(const hal::Sample& sample, hal::Duration took);
+
+  long good() const { return good_; }
+  long failed() const { return failed_; }
+  hal::Status failure() const { return failure_; }
+  std::int32_t lowest() const { return lowest_; }
+  std::int32_t highest() const { return highest_; }
+  double mean() const;  ///< counts
+  double rms() const;   ///< counts, around the mean
+  hal::Duration mean_time() const;
+
+ private:
+  long good_ = 0;
+  long failed_ = 0;
+  hal::Status failure_ = hal::Status::ok;  ///< the last one
+  std::int32_t lowest_ = 0;
+  std::int32_t highest_ = 0;
+  double sum_ = 0.0;
+  double sum_of_squares_ = 0.0;
+  hal::Duration time_{};
+};
+
+/// What is expected of a converter whose board is off.
+struct Expected {
+  std::string quantity;  ///< "the supply"
+  board::Scaling scaling;
+  double lowest = 0.0;  ///< in its unit
+  double highest = 0.0;
+  std::string unit;             ///< shown
+  double shown_per_unit = 1.0;  ///< 1e3 shows metres as mm
+  bool must_move = false;       ///< a value that never changes is none
+  std::string remedy;           ///< for a value outside
+};
+
+/// range: of the converter's counts, if it is known.
+hal::Finding judged(const std::string& what, const std::string& where, const Readings& readings,
+                    const Expected& expected, const std::optional<hal_linux::CountRange>& range);
+
+}  // namespace supercoil::doctor

@@ -1,0 +1,27 @@
+// What doctor found, for people and for programs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "supercoil/hal/board_check.hpp"
+
+namespace supercoil::doctor {
+
+/// Findings in the order in which they were made.
+struct Report {
+  std::string board;   ///< its name
+  std::string config;  ///< path of its configuration
+  std::vector<hal::Finding> findings;
+
+  long count(hal::Verdict verdict) const;
+};
+
+/// One finding: verdict, what, how it is; under it what to do.
+std::string to_text(const hal::Finding& finding);
+/// "1 problem, 2 warnings, 20 in order".
+std::string summary(const Report& report);
+/// One object; docs/doctor.md describes it.
+std::string to_json(const Report& report);
+
+}  // namespace supercoil::doctor

@@ -1,0 +1,133 @@
+"""supercoil doctor as its owner or a script meets it, on a machine that is no board: exit status, text, JSON.
+
+On the emulated board it meets devices (tests/hil/doctor_test.py).
+"""
+
+import fcntl
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["SUPERCOIL"]
+SLOW = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"]) / "raspberry-pi-pca9685-ads1115.toml"
+
+
+class Doctor(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+        text = SLOW.read_text()
+        # Names that no machine has, so that nothing can be touched.
+        for old, new in (("pinctrl-bcm2711", "no-such-chip"), ("i2c-1/1-0040", "no-such-pwm/0"),
+                         ("/dev/watchdog", "/dev/no-such-watchdog")):
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        (self.path / "b.toml").write_text(text)
+
+    def run_doctor(self, *arguments, **options):
+        folder = () if "--run-folder" in arguments else ("--run-folder", ".")
+        return subprocess.run([PROGRAM, "doctor", "--config", "b.toml", *folder, *arguments],
+                              stderr=subprocess.PIPE, text=True, cwd=self.path, timeout=60,
+                              **{"stdout": subprocess.PIPE, **options})
+
+    def findings(self, *arguments):
+        done = self.run_doctor("--json", *arguments)
+        self.assertEqual(done.stderr, "")
+        report = json.loads(done.stdout)
+        for verdict, key in (("problem", "problems"), ("warning", "warnings")):
+            self.assertEqual(sum(f["verdict"] == verdict for f in report["findings"]), report[key])
+        self.assertEqual(done.returncode, 1 if report["problems"] else 0)
+        for finding in report["findings"]:
+            self.assertEqual(list(finding), ["what", "verdict", "found", "remedy"])
+            self.assertEqual(finding["remedy"] == "", finding["verdict"] == "ok", finding)
+        names = [finding["what"] for finding in report["findings"]]
+        self.assertEqual(len(names), len(set(names)))
+        return {finding["what"]: finding for finding in report["findings"]}
+
+    def test_every_device_that_is_missing_is_named_with_where_it_was_looked_for(self):
+        found = self.findings()
+        for what in ("heartbeat", "stop_circuit", "light", "channel 1, enable", "channel 4, enable"):
+            self.assertEqual(found[what]["verdict"], "problem")
+            self.assertRegex(found[what]["found"], "^no chip with the label 'no-such-chip' in /dev: there ")
+            self.assertIn("gpioinfo", found[what]["remedy"])
+        for what in ("channel 1, pwm", "channel 4, pwm", "supply", "channel 1, position", "channel 4, current"):
+            self.assertEqual(found[what]["verdict"], "problem")
+            self.assertRegex(found[what]["found"], "(in|into) /sys/")
+        self.assertEqual(found["watchdog"]["verdict"], "problem")
+        self.assertIn("/dev/no-such-watchdog: No such file or directory; in /sys/class/watchdog",
+                      found["watchdog"]["found"])
+        self.assertIn("by the configuration; not measured", found["bus i2c-1"]["found"])
+
+    def test_what_needs_no_device(self):
+        found = self.findings()
+        for what in ("kernel", "real-time share", "priority", "other programs", "locked memory", "deep sleep",
+                     "frequency", "processors"):
+            self.assertIn(found[what]["verdict"], ("ok", "warning"))
+        self.assertIn(os.uname().release, found["kernel"]["found"])
+
+    def test_as_text_each_finding_has_its_line_and_its_remedy(self):
+        done = self.run_doctor()
+        self.assertEqual((done.returncode, done.stderr), (1, ""))
+        self.assertRegex(done.stdout, r"(?m)^problem  channel 2, enable +no chip with the label 'no-such-chip' in /dev")
+        lines = done.stdout.splitlines()
+        for line, after in zip(lines, lines[1:]):
+            if line.startswith(("warning ", "problem ")):
+                self.assertRegex(after, "^         what to do: .")
+        self.assertRegex(lines[-1], r": \d+ problems, \d+ warnings?, \d+ in order$")
+
+    def test_beside_a_daemon_no_device_is_touched(self):
+        with open(self.path / "lock", "w") as lock:
+            lock.write("4711\n")
+            lock.flush()
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            found = self.findings()
+        self.assertEqual(found["devices"]["verdict"], "warning")
+        self.assertEqual(found["devices"]["found"],
+                         "not looked at: ./lock: another supercoild drives this board, process 4711")
+        self.assertNotIn("heartbeat", found)
+        self.assertIn("kernel", found)
+        self.assertIn("bus i2c-1", found)
+
+    def test_without_its_folder_no_device_is_touched(self):
+        found = self.findings("--run-folder", "none")
+        self.assertIn("none/lock: the lock file cannot be made", found["devices"]["found"])
+        self.assertNotIn("heartbeat", found)
+
+    def test_warnings_alone_are_no_failure(self):
+        text = (self.path / "b.toml").read_text()
+        (self.path / "b.toml").write_text("".join(
+            line for line in text.splitlines(keepends=True) if not line.startswith("watchdog")))
+        found = self.findings("--run-folder", "none")
+        self.assertEqual({finding["verdict"] for finding in found.values()}, {"ok", "warning"})
+        self.assertEqual(found["watchdog"]["found"], "none: board.watchdog is absent")
+
+    def test_a_can_interface_only_when_it_is_asked_for(self):
+        self.assertNotIn("CAN no-can7", self.findings())
+        found = self.findings("--can", "no-can7")["CAN no-can7"]
+        self.assertEqual(found["verdict"], "problem")
+        self.assertIn("no interface 'no-can7' in /sys/class/net: there ", found["found"])
+
+    def test_a_wrong_configuration(self):
+        (self.path / "b.toml").write_text("nonsense")
+        done = self.run_doctor()
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("b.toml:1", done.stderr)
+
+    def test_unknown_options(self):
+        self.assertEqual(self.run_doctor("--priority", "0").returncode, 2)
+        self.assertEqual(self.run_doctor("--heat").returncode, 2)
+
+    def test_a_full_standard_output_is_an_error(self):
+        for arguments in ((), ("--json",)):
+            with open("/dev/full", "w") as full:
+                done = self.run_doctor(*arguments, stdout=full)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("cannot write to standard output", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -47,7 +47,7 @@ hal::Status SysfsPwm::set(int step) {
   return files_.duty.write(scaled(step, period_ns_, steps_));
 }
 
-hal::Status SysfsPwm::wink() {
+hal::Status SysfsPwm::wink() const {
   const hal::Status disabled = files_.enable.write(0);
   const hal::Status enabled = files_.enable.write(1);
   return disabled == hal::Status::ok ? enabled : disabled;

@@ -54,7 +54,7 @@ class SysfsPwm final : public hal::PwmOutput {
 
   /// For timing the device while its duty is 0: disables and enables it. The kernel does not pass
   /// on a duty that it believes is set already.
-  hal::Status wink();
+  hal::Status wink() const;
 
  private:
   PwmFiles files_;

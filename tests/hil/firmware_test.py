@@ -5,7 +5,7 @@ supercoild is the ordinary program with an ordinary configuration (board.toml, 1
 When power goes off, and by which means, is what the plant's witness saw, outside of the board. Prints what was
 measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
 
-    tests/hil/firmware_test.py [--track SECONDS] [--only track|deaths]
+    tests/hil/firmware_test.py [--track SECONDS] [--only track|calls|deaths]
 """
 
 import argparse
@@ -53,10 +53,32 @@ def track(table, run, seconds):
     error_m = (sum((y - model) ** 2 for model, y in settled) / len(settled)) ** 0.5
     table.row("tracking error against its model, rms, PI, sine of 10 s", error_m * 1e6, 0, 500, "um")
     table.row("faults", sum("is fault" in line for line in run.console.splitlines()), 0, 0, "")
+    # Every tick ends with an edge: an overrun leaves one out.
+    looks = witness.looks(run.witness)
+    begin, end = witness.at(looks, marks["armed"]), witness.at(looks, marks["tracked"])
+    table.row("ticks since it was armed, by the heartbeat's edges", end.edges - begin.edges, 100 * seconds, 1e6, "")
+    table.row("    overruns: left out", round((end.edge_s - begin.edge_s) * 1e3 / TICK_MS) - (end.edges - begin.edges),
+              0, 0, "")
     table.row("stored what it learned", "learned-1.toml" in run.console, 1, 1, "")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
     steps = witness.steps(run.witness)[1:]
     table.row("the plant's latest wake-up", max(s.late_us for s in steps), 0, 1000, "us")
+
+
+CALLS_S = 30
+
+
+def calls(table, run):
+    """What the loop's own thread calls in its ticks, over real drivers: cold, armed, active, in a fault."""
+    counted = {name: int(number) for name, number in re.findall(r"^counted (\w+) (\d+)", run.console, re.M)}
+    table.row("ticks of the loop, counted", counted["ticks"], 100 * CALLS_S, 100 * CALLS_S, "")
+    table.row("    of them heating, in position", counted["active"], 1000, 1e6, "")
+    table.row("    of them in a fault: its position's converter is gone", counted["fault"], 50, 1e6, "")
+    for what, name in (("malloc", "malloc"), ("new", "new"), ("locks", "locks"), ("exceptions", "exceptions"),
+                       ("files, beside the watchdog's feeding", "files"), ("overruns", "overruns")):
+        table.row(f"    {what}", counted[name], 0, 0, "")
+    table.row("counters that are blind", len(re.findall(r"^counter sees .* NO", run.console, re.M)), 0, 0, "")
+    table.row("it ended with", int(re.search(r"^it ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
 
 
 def means(look):
@@ -88,12 +110,13 @@ def deaths(table, run):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--track", metavar="SECONDS", type=int, default=60, help="of the board's time (default: 60)")
-    parser.add_argument("--only", choices=("track", "deaths"), help="one of the two boards")
+    parser.add_argument("--only", choices=("track", "calls", "deaths"), help="one of the boards")
     wish = parser.parse_args()
     seconds = wish.track
     table = Table()
     for name, part, arguments, options in (
             ("track", lambda t, r: track(t, r, seconds), (seconds,), {}),
+            ("calls", calls, (100 * CALLS_S,), {}),
             ("deaths", deaths, (), {"kernel_options": "panic=0"})):
         if wish.only not in (None, name):
             continue

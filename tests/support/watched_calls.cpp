@@ -17,7 +17,7 @@
 
 namespace {
 
-supercoil::test::WatchedCalls calls;
+thread_local supercoil::test::WatchedCalls calls;
 
 /// The function that ours stands in front of.
 template <class Function>

@@ -15,9 +15,17 @@ struct WatchedCalls {
   long throws = 0;  ///< exceptions
 
   long all() const { return heap + news + locks + files + throws; }
+  WatchedCalls& operator+=(const WatchedCalls& other) {
+    heap += other.heap;
+    news += other.news;
+    locks += other.locks;
+    files += other.files;
+    throws += other.throws;
+    return *this;
+  }
 };
 
-/// Since the program started. One thread.
+/// Of the calling thread, since it started.
 const WatchedCalls& watched_calls();
 
 template <class Work>

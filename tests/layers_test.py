@@ -18,7 +18,8 @@ ALLOWED = {
     "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "net/if.h", "pthread.h",
                   "sched.h", "sys/", "unistd.h"],
     "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "config/", "loop/", "modes/", "plot/", "program/",
-                 "recorder/", "storage/", "supervisor/", "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
+                 "recorder/", "storage/", "supercoil.h", "supervisor/", "telemetry/", "boost/circular_buffer.hpp",
+                 "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
 }
 # What a program inside a layer may include beside that.
 OF_PROGRAMS = {

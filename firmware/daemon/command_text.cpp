@@ -1,6 +1,6 @@
 #include "daemon/command_text.hpp"
 
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -9,27 +9,11 @@ namespace supercoil::daemon {
 
 namespace {
 
-struct VerbName {
-  std::string_view name;
-  Verb verb;
-  bool has_value;
-};
-constexpr std::array<VerbName, 12> verbs{{{"arm", Verb::arm, false},
-                                          {"disarm", Verb::disarm, false},
-                                          {"reset", Verb::reset, false},
-                                          {"position", Verb::position, true},
-                                          {"power", Verb::power, true},
-                                          {"renew", Verb::renew, false},
-                                          {"rest", Verb::rest, false},
-                                          {"identify", Verb::identify, false},
-                                          {"calibrate", Verb::calibrate, false},
-                                          {"scale", Verb::scale, true},
-                                          {"controller", Verb::controller, true},
-                                          {"estimator", Verb::estimator, true}}};
-
-constexpr std::array<std::string_view, 8> refusals{
-    "none",      "wrong_state", "cause_persists", "no_edge",
-    "not_ready", "busy",        "out_of_range",   "no_such_channel"};
+/// The others take none.
+bool has_value(Verb verb) {
+  return verb == Verb::position || verb == Verb::power || verb == Verb::scale ||
+         verb == Verb::controller || verb == Verb::estimator;
+}
 
 /// The next word, cut off from the text.
 std::string_view next_word(std::string_view& text) {
@@ -50,8 +34,9 @@ std::optional<Number> number(std::string_view word) {
 
 std::string known_verbs() {
   std::string all;
-  for (const VerbName& verb : verbs)
-    all += (all.empty() ? "" : ", ") + std::string(verb.name);
+  for (const std::string_view verb : verb_names) {
+    if (verb != name(Verb::none)) all += (all.empty() ? "" : ", ") + std::string(verb);
+  }
   return all;
 }
 
@@ -65,32 +50,32 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
                           std::to_string(channels));
   }
   const std::string_view verb_word = next_word(text);
-  const VerbName* verb = nullptr;
-  for (const VerbName& candidate : verbs) {
-    if (candidate.name == verb_word) verb = &candidate;
-  }
-  if (verb == nullptr) {
+  const auto found = std::find(verb_names.begin(), verb_names.end(), verb_word);
+  const Verb verb = found == verb_names.end()
+                        ? Verb::none
+                        : static_cast<Verb>(std::distance(verb_names.begin(), found));
+  if (verb == Verb::none) {
     return tl::unexpected("'" + std::string(verb_word) + "' is not a command; there are " +
                           known_verbs());
   }
-  Command command{static_cast<std::uint8_t>(*channel - 1), verb->verb, 0.0};
+  Command command{static_cast<std::uint8_t>(*channel - 1), verb, 0.0};
   const std::string_view value_word = next_word(text);
-  if (verb->has_value) {
+  if (has_value(verb)) {
     const auto value = number<double>(value_word);
     if (!value || !std::isfinite(*value)) {
-      return tl::unexpected("'" + std::string(value_word) + "': " + std::string(verb->name) +
+      return tl::unexpected("'" + std::string(value_word) + "': " + std::string(name(verb)) +
                             " needs a number");
     }
     command.value = *value;
   }
-  const std::string_view rest = verb->has_value ? next_word(text) : value_word;
+  const std::string_view rest = has_value(verb) ? next_word(text) : value_word;
   if (!rest.empty()) return tl::unexpected("'" + std::string(rest) + "' is too much");
   return command;
 }
 
 std::string answer_text(Refusal refusal) {
   if (refusal == Refusal::none) return "ok";
-  return "refused: " + std::string(refusals[static_cast<std::size_t>(refusal)]);
+  return "refused: " + std::string(name(refusal));
 }
 
 }  // namespace supercoil::daemon

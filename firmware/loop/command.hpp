@@ -1,7 +1,9 @@
 // What can be asked of a running board, and what it answers.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "supervisor/channel_state.hpp"
 
@@ -22,6 +24,13 @@ enum class Verb : std::uint8_t {
   controller = 11,  ///< value: place in the configuration
   estimator = 12,   ///< value: place in the configuration
 };
+
+inline constexpr std::array<std::string_view, 13> verb_names{
+    "none", "arm",      "disarm",    "reset", "position",   "power",    "renew",
+    "rest", "identify", "calibrate", "scale", "controller", "estimator"};
+constexpr std::string_view name(Verb verb) {
+  return verb_names[static_cast<std::size_t>(verb)];
+}
 
 struct Command {
   std::uint8_t channel = 0;  ///< from 0

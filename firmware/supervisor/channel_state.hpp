@@ -34,7 +34,18 @@ enum class Refusal : std::uint8_t {
   busy = 5,            ///< a probe, identification or calibration is under way
   out_of_range = 6,    ///< its value
   no_such_channel = 7,
+  not_yours = 8,       ///< over CAN: another master holds the lease
+  no_lease = 9,        ///< over CAN: nobody holds it; claim it first
+  wrong_counter = 10,  ///< over CAN: repeated, or too many were lost before it
+  too_many = 11,       ///< more commands than a tick can take
 };
+
+inline constexpr std::array<std::string_view, 12> refusal_names{
+    "none",         "wrong_state",     "cause_persists", "no_edge",  "not_ready",     "busy",
+    "out_of_range", "no_such_channel", "not_yours",      "no_lease", "wrong_counter", "too_many"};
+constexpr std::string_view name(Refusal refusal) {
+  return refusal_names[static_cast<std::size_t>(refusal)];
+}
 
 /// State and first cause of one channel. Every way of making it safe is disarm().
 class ChannelState {

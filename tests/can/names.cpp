@@ -1,0 +1,40 @@
+// Prints the names that the firmware has for the numbers it sends, as JSON: what the tables of
+// values in the DBC must say.
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "loop/snapshot.hpp"
+#include "telemetry/opcodes.hpp"
+
+namespace {
+
+using namespace supercoil;
+
+template <std::size_t N>
+nlohmann::ordered_json table(const std::array<std::string_view, N>& names) {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < N; ++i)
+    json[std::to_string(i)] = names[i];
+  return json;
+}
+
+nlohmann::ordered_json faults() {
+  nlohmann::ordered_json json{{"0", name(Fault::none)}};
+  for (const FaultInfo& fault : all_faults())
+    json[std::to_string(static_cast<int>(fault.fault))] = fault.name;
+  return json;
+}
+
+}  // namespace
+
+int main() {
+  const nlohmann::ordered_json json{{"state", table(state_names)},
+                                    {"mode", table(mode_names)},
+                                    {"fault", faults()},
+                                    {"limited_by", table(limit_names)},
+                                    {"refusal", table(refusal_names)},
+                                    {"opcode", table(telemetry::opcode_names())},
+                                    {"version", telemetry::protocol_version}};
+  std::puts(json.dump(1).c_str());
+}

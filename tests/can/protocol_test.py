@@ -1,0 +1,82 @@
+"""The DBC is the single source of the CAN protocol: what is generated from it is up to date, what it calls numbers is
+what the firmware calls them, and it keeps its own rules."""
+
+import json
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import cantools
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DBC = ROOT / "firmware" / "telemetry" / "supercoil.dbc"
+GENERATED = ["firmware/telemetry/generated/supercoil.c", "firmware/telemetry/generated/supercoil.h", "docs/can-protocol.md"]
+NOT_AVAILABLE = "not_available"
+
+
+class Protocol(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.database = cantools.database.load_file(DBC)
+        cls.names = json.loads(subprocess.run([os.environ["CAN_NAMES"]], capture_output=True, check=True).stdout)
+
+    def signals(self):
+        for message in self.database.messages:
+            for signal in message.signals:
+                yield message, signal, {raw: str(name) for raw, name in (signal.choices or {}).items()}
+
+    def test_what_is_generated_is_committed_to_the_byte(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([ROOT / "toolchain" / "generate-can", folder], check=True)
+            for name in GENERATED:
+                fresh = (pathlib.Path(folder) / name).read_bytes()
+                self.assertTrue(fresh == (ROOT / name).read_bytes(), f"{name}: run toolchain/generate-can")
+
+    def test_values_have_the_names_that_the_firmware_gives_them(self):
+        seen = set()
+        for message, signal, choices in self.signals():
+            if signal.name in self.names:
+                seen.add(signal.name)
+                expected = {int(raw): name for raw, name in self.names[signal.name].items()}
+                self.assertEqual(choices, expected, f"{message.name}.{signal.name}")
+        self.assertEqual(seen, self.names.keys() - {"version"})
+        self.assertEqual(self.database.dbc.attributes["ProtocolVersion"].value, self.names["version"])
+
+    def test_identifiers_are_node_1_of_distinct_bases(self):
+        bases = [message.frame_id - 1 for message in self.database.messages]
+        self.assertEqual(len(set(bases)), len(bases))
+        for base in bases:
+            self.assertEqual(base % 0x40, 0)
+            self.assertTrue(0x080 <= base <= 0x700)
+
+    def test_everything_is_said_in_words(self):
+        for message, signal, _ in self.signals():
+            for what in (message, signal):
+                self.assertTrue(what.comment and what.comment.endswith("."), f"{message.name}.{what.name}: no comment")
+
+    def test_a_quantity_has_the_unit_that_its_name_ends_with(self):
+        for _, signal, _ in self.signals():
+            unit = {"degC": "C"}.get(signal.unit, signal.unit)
+            if unit and not signal.name.startswith("theta"):
+                self.assertTrue(signal.name.endswith("_" + unit.replace("/", "_per_")), f"{signal.name}: {unit}")
+
+    def test_a_scaled_signal_has_one_value_that_says_not_available_and_may_have_all_others(self):
+        for message, signal, choices in self.signals():
+            if NOT_AVAILABLE not in choices.values():
+                continue
+            self.assertEqual(len(choices), 1)
+            reserved, = choices
+            most = 2 ** (signal.length - 1) - 1 if signal.is_signed else 2 ** signal.length - 2
+            self.assertEqual(reserved, -most - 1 if signal.is_signed else most + 1)
+            self.assertAlmostEqual(signal.maximum, most * signal.scale, 9)
+            self.assertAlmostEqual(signal.minimum, -most * signal.scale if signal.is_signed else 0, 9)
+
+    def test_every_other_message_of_the_board_has_its_cycle(self):
+        when_needed = {message.name for message in self.database.messages if not message.cycle_time}
+        self.assertEqual(when_needed, {"Emergency", "Command", "Acknowledge"})
+
+
+if __name__ == "__main__":
+    unittest.main()

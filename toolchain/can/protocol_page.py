@@ -1,0 +1,104 @@
+"""Prints docs/can-protocol.md from the DBC that is named on the command line."""
+
+import sys
+
+import cantools
+
+INTRODUCTION = """\
+# CAN protocol
+
+Generated from `firmware/telemetry/supercoil.dbc` by `toolchain/generate-can`; [can.md](can.md) says how to use it.
+
+Version {version}. An identifier is base + node, node 1 to 63; each channel of a board is a node. The DBC describes
+node 1.
+
+All signals are little-endian (Intel). *Raw* is what the bits say: i signed, u unsigned, a float is IEEE 754 of 32 bits.
+Raw times scale is the value. *n/a* is the raw value that says: not available; a float says it with NaN. What lies
+outside of a range is sent as its nearest end.
+
+| identifier | message | from | every | bytes |
+|---|---|---|---|---|
+"""
+
+
+def number(value):
+    return f"{value:.12g}"
+
+
+def period(message):
+    return f"{message.cycle_time} ms" if message.cycle_time else "when needed"
+
+
+def is_scaled(signal):
+    return not signal.is_float and "not_available" in map(str, (signal.choices or {}).values())
+
+
+def raw_kind(signal):
+    if signal.is_float:
+        return "float"
+    return f"{'i' if signal.is_signed else 'u'}{signal.length}"
+
+
+def span(signal):
+    if signal.is_float:
+        return "any"
+    return f"{number(signal.minimum)} to {number(signal.maximum)}"
+
+
+def unavailable(signal):
+    return next((number(raw) for raw, name in (signal.choices or {}).items() if str(name) == "not_available"), "")
+
+
+def meaning(signal):
+    text = signal.comment
+    if signal.multiplexer_ids:
+        text = f"While parameter is {signal.multiplexer_ids[0]}: {text}"
+    if signal.choices and not is_scaled(signal):
+        text += f" [Names](#{signal.name})"
+    return text
+
+
+def signal_row(signal):
+    bits = f"{signal.start}" if signal.length == 1 else f"{signal.start} to {signal.start + signal.length - 1}"
+    scale = "" if signal.is_float or signal.scale == 1 else number(signal.scale)
+    cells = [f"`{signal.name}`", bits, raw_kind(signal), scale, signal.unit or "", span(signal), unavailable(signal),
+             meaning(signal)]
+    return "| " + " | ".join(cells) + " |"
+
+
+def describe_message(message):
+    yield f"\n## {message.name}\n"
+    yield f"0x{message.frame_id - 1:03X} + node, {message.length} bytes, {period(message)}. {message.comment}\n"
+    yield "| signal | bits | raw | scale | unit | range | n/a | meaning |"
+    yield "|---|---|---|---|---|---|---|---|"
+    yield from map(signal_row, message.signals)
+
+
+def describe_names(database):
+    tables = {}
+    for message in database.messages:
+        for signal in message.signals:
+            if signal.choices and not is_scaled(signal):
+                names = {raw: str(name) for raw, name in signal.choices.items()}
+                if tables.setdefault(signal.name, names) != names:
+                    sys.exit(f"{message.name}.{signal.name}: another signal of this name has other names of values")
+    for title, names in tables.items():
+        yield f"\n## {title}\n"
+        yield "| raw | name |"
+        yield "|---|---|"
+        yield from (f"| {raw} | `{name}` |" for raw, name in sorted(names.items()))
+
+
+def page(database):
+    yield INTRODUCTION.format(version=database.dbc.attributes["ProtocolVersion"].value).rstrip("\n")
+    for message in database.messages:
+        anchor = message.name.lower()
+        yield (f"| 0x{message.frame_id - 1:03X} + node | [{message.name}](#{anchor}) | {message.senders[0]} | "
+               f"{period(message)} | {message.length} |")
+    for message in database.messages:
+        yield from describe_message(message)
+    yield from describe_names(database)
+
+
+if __name__ == "__main__":
+    print("\n".join(page(cantools.database.load_file(sys.argv[1], sort_signals="by_start"))))

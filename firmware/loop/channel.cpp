@@ -18,6 +18,10 @@ constexpr long most_repeats = 1000;
 /// Long against the sensor's noise, short against the muscle's motion.
 constexpr double smoothing_s = 0.2;
 
+/// 2³²/φ: steps of the golden ratio go round evenly also for who sees every n-th of them only, as
+/// telemetry does; counting up, every fifth would show a fifth of the detectors.
+constexpr std::uint32_t golden_turn = 2654435769U;
+
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
@@ -225,8 +229,8 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;
   const auto& faults = all_faults();
-  turn_ = (turn_ + 1) % faults.size();
-  s.turn = faults[turn_].fault;
+  turn_ += golden_turn;
+  s.turn = faults[(std::uint64_t{turn_} * faults.size()) >> 32U].fault;
   const Verdict& judge = board_verdict.judges(s.turn) ? board_verdict : supervisor_.verdict();
   s.margin = judge.margin(s.turn);
   return s;

@@ -148,8 +148,8 @@ class Channel {
   bool lines_ok_ = true;
   bool reset_asked_ = false;
   bool heat_known_ = false;  ///< the muscle has been cool since boot, whatever was before
-  std::size_t turn_ = 0;
-  long ticks_ = 0;  ///< of learning, in this second
+  std::uint32_t turn_ = 0;   ///< of a full turn
+  long ticks_ = 0;           ///< of learning, in this second
   Snapshot snapshot_;
   boost::lockfree::spsc_queue<storage::Learned, boost::lockfree::capacity<4>> found_;
 };

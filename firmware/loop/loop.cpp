@@ -93,6 +93,7 @@ void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
   times_.drive.add(driven - computed);
   times_.publish.add(published - driven);
   times_.whole.add(published - woke);
+  timing_.add(woke - due, published - woke, skipped);
   ++ticks_;
 }
 

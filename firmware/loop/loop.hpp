@@ -33,6 +33,28 @@ struct LoopTimes {
   StageTime whole;
 };
 
+/// What the loop tells one other thread of its time, which takes the largest by putting `none` in
+/// its place.
+struct LoopTiming {
+  static constexpr std::int64_t none = -1;
+  std::atomic<std::int64_t> late_ns{none};       ///< largest since it was taken
+  std::atomic<std::int64_t> execution_ns{none};  ///< likewise, of whole ticks
+  std::atomic<std::uint32_t> overruns{0};        ///< periods left out since boot
+
+  /// In the tick.
+  void add(hal::Duration late, hal::Duration execution, long skipped) {
+    raise(late_ns, late.count());
+    raise(execution_ns, execution.count());
+    if (skipped > 0) overruns.fetch_add(static_cast<std::uint32_t>(skipped));
+  }
+
+ private:
+  static void raise(std::atomic<std::int64_t>& largest, std::int64_t value) {
+    if (value > largest.load(std::memory_order_relaxed))
+      largest.store(value, std::memory_order_relaxed);
+  }
+};
+
 class Loop {
  public:
   /// settings must pass check(); devices outlive the loop, and have as many channels. Allocates;
@@ -49,6 +71,7 @@ class Loop {
   bool send_damaged(std::uint8_t channel) { return damaged_.push(channel); }
   bool take(Row& row) { return rows_.pop(row); }
   Health& health() { return health_; }
+  LoopTiming& timing() { return timing_; }
 
   /// In the loop's thread, or while it stands still.
   std::size_t channels() const { return channels_.size(); }
@@ -92,6 +115,7 @@ class Loop {
   LoopTimes times_;
   long settling_ticks_;
   Health health_;
+  LoopTiming timing_;
   boost::lockfree::spsc_queue<Command, boost::lockfree::capacity<256>> commands_;
   boost::lockfree::spsc_queue<Answer, boost::lockfree::capacity<256>> answers_;
   boost::lockfree::spsc_queue<std::uint8_t, boost::lockfree::capacity<64>> damaged_;

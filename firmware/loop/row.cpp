@@ -20,7 +20,8 @@ Row row_of(const Snapshot& s) {
   row.limited_by = static_cast<std::uint8_t>(s.limited_by);
   row.controller = s.controller;
   row.flags =
-      static_cast<std::uint8_t>((s.probing ? 1 : 0) | (s.trusted ? 2 : 0) | (s.limited ? 4 : 0));
+      static_cast<std::uint8_t>((s.probing ? row_probing : 0) | (s.trusted ? row_trusted : 0) |
+                                (s.limited ? row_limited : 0));
   row.turn = static_cast<std::uint8_t>(s.turn);
   row.reference = narrow(s.reference);
   row.model_m = narrow(s.model_m);

@@ -9,6 +9,9 @@
 
 namespace supercoil {
 
+/// Bits of Row::flags.
+enum RowFlag : std::uint8_t { row_probing = 1, row_trusted = 2, row_limited = 4 };
+
 /// A snapshot in single precision. Written to recordings as it is in memory, little-endian; the
 /// layout is a format (docs/recorder.md): new fields take `reserved`, nothing moves.
 struct Row {
@@ -19,7 +22,7 @@ struct Row {
   std::uint8_t fault;
   std::uint8_t limited_by;
   std::uint8_t controller;
-  std::uint8_t flags;  ///< 1 probing, 2 trusted, 4 limited
+  std::uint8_t flags;  ///< of RowFlag
   std::uint8_t turn;   ///< whose margin this row carries
   float reference;     ///< m, or W in open loop
   float model_m;

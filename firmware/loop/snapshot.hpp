@@ -47,7 +47,7 @@ struct Snapshot {
   control::Theta theta = control::Theta::Zero();
   double error_bound = 0.0;  ///< of the estimates, relative
   float progress = 0.0F;     ///< of identify and calibrate, 0 to 1
-  /// One detector's margin in turn, so that all are published within as many ticks.
+  /// One detector's margin in turn; each comes round within 55 ticks.
   Fault turn = Fault::none;
   detectors::Margin margin;
 };

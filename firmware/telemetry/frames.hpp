@@ -1,0 +1,69 @@
+// What the firmware knows, as frames of the CAN protocol (supercoil.dbc).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/hal/can_bus.hpp"
+
+#include "loop/row.hpp"
+
+namespace supercoil::telemetry {
+
+/// Node 1 to 63: one channel of a board.
+using Node = std::uint8_t;
+inline constexpr int most_nodes = 63;
+
+/// What is sent at a rate of its own.
+enum class Message : std::uint8_t {
+  measurement,
+  tracking,
+  power,
+  heater,
+  temperature,
+  estimate,
+  margin,
+  limit,
+  timing,
+  status,
+};
+inline constexpr std::size_t messages = 10;
+
+struct MessageInfo {
+  std::string_view name;  ///< as in configurations
+  std::uint8_t length;
+  double usual_Hz;        ///< the DBC's cycle time
+  bool of_board = false;  ///< sent by the board's first node only
+};
+/// In the order of Message.
+const std::array<MessageInfo, messages>& all_messages();
+
+/// Times of a whole board's ticks, as Timing has them. NaN: there was no tick.
+struct BoardTiming {
+  double late_s = NAN;
+  double execution_s = NAN;
+  std::uint32_t overruns = 0;
+  std::uint32_t dropped_frames = 0;
+};
+
+// A quantity outside of its signal's range becomes the range's nearest end; NaN becomes "not
+// available". The generated code would wrap one and is undefined for the other.
+hal::CanFrame emergency(Node node, const Row& row);
+hal::CanFrame measurement(Node node, const Row& row);
+hal::CanFrame tracking(Node node, const Row& row);
+hal::CanFrame power(Node node, const Row& row);
+hal::CanFrame heater(Node node, const Row& row);
+hal::CanFrame temperature(Node node, const Row& row);
+/// parameter: 0 to 7, as the DBC counts them.
+inline constexpr std::uint8_t parameters = 8;
+hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
+                       const control::KnownParameters& known);
+hal::CanFrame margin(Node node, const Row& row);
+hal::CanFrame limit(Node node, const Row& row);
+hal::CanFrame timing(Node node, const BoardTiming& timing);
+hal::CanFrame status(Node node, const Row& row, bool leased, std::uint8_t counter);
+
+}  // namespace supercoil::telemetry

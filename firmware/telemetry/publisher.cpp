@@ -1,0 +1,100 @@
+#include "telemetry/publisher.hpp"
+
+namespace supercoil::telemetry {
+
+Publisher::Publisher(const CanSettings& settings,
+                     const std::vector<control::KnownParameters>& muscles, LoopTiming& timing,
+                     hal::CanBus& bus)
+    : first_node_(settings.first_node),
+      channels_(muscles.size()),
+      schedule_(settings.rates_Hz, muscles.size()),
+      timing_(&timing),
+      bus_(&bus),
+      urgent_(4 * muscles.size()),
+      queue_(settings.queue) {
+  for (std::size_t i = 0; i < muscles.size(); ++i) {
+    channels_[i].muscle = muscles[i];
+    channels_[i].sent_ns.fill(-1);
+  }
+}
+
+void Publisher::offer(const Row& row) {
+  if (row.channel >= channels_.size()) return;
+  Channel& channel = channels_[row.channel];
+  const bool changed = row.fault != (channel.known ? channel.row.fault : 0);
+  channel.row = row;
+  channel.known = true;
+  if (!changed) return;
+  dropped_ += urgent_.full() ? 1U : 0U;
+  urgent_.push_back(emergency(static_cast<Node>(first_node_ + row.channel), row));
+}
+
+void Publisher::send(const hal::CanFrame& frame) {
+  dropped_ += queue_.full() ? 1U : 0U;
+  queue_.push_back(frame);
+}
+
+void Publisher::publish(std::uint8_t index, Message message, bool leased) {
+  Channel& channel = channels_[index];
+  std::int64_t& sent_ns = channel.sent_ns[static_cast<std::size_t>(message)];
+  if (!channel.known || sent_ns == channel.row.time_ns) return;
+  sent_ns = channel.row.time_ns;
+  send(frame_of(static_cast<Node>(first_node_ + index), channel, message, leased));
+}
+
+hal::CanFrame Publisher::frame_of(Node node, Channel& channel, Message message, bool leased) {
+  const Row& row = channel.row;
+  switch (message) {
+    case Message::measurement:
+      return measurement(node, row);
+    case Message::tracking:
+      return tracking(node, row);
+    case Message::power:
+      return power(node, row);
+    case Message::heater:
+      return heater(node, row);
+    case Message::temperature:
+      return temperature(node, row);
+    case Message::estimate:
+      channel.parameter = static_cast<std::uint8_t>((channel.parameter + 1) % parameters);
+      return estimate(node, row, channel.parameter, channel.muscle);
+    case Message::margin:
+      return margin(node, row);
+    case Message::limit:
+      return limit(node, row);
+    case Message::timing:
+      return timing(node, take_timing());
+    case Message::status:
+      break;
+  }
+  return status(node, row, leased, channel.counter++);
+}
+
+BoardTiming Publisher::take_timing() {
+  const auto seconds_of = [](std::atomic<std::int64_t>& largest_ns) {
+    const std::int64_t taken = largest_ns.exchange(LoopTiming::none, std::memory_order_relaxed);
+    return taken == LoopTiming::none ? NAN : 1e-9 * static_cast<double>(taken);
+  };
+  return {seconds_of(timing_->late_ns), seconds_of(timing_->execution_ns),
+          timing_->overruns.load(std::memory_order_relaxed), dropped_};
+}
+
+void Publisher::flush() {
+  while (!urgent_.empty() || !queue_.empty()) {
+    Queue& next = urgent_.empty() ? queue_ : urgent_;
+    switch (bus_->send(next.front())) {
+      case hal::Status::ok:
+        next.pop_front();
+        break;
+      case hal::Status::busy:
+      case hal::Status::not_ready:
+        return;
+      default:
+        dropped_ += static_cast<std::uint32_t>(waiting());
+        urgent_.clear();
+        queue_.clear();
+    }
+  }
+}
+
+}  // namespace supercoil::telemetry

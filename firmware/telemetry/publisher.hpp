@@ -1,0 +1,72 @@
+// The board's own frames, in order and in time, through a bounded queue onto the bus.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <boost/circular_buffer.hpp>
+
+#include "supercoil/hal/can_bus.hpp"
+
+#include "loop/loop.hpp"
+#include "telemetry/schedule.hpp"
+
+namespace supercoil::telemetry {
+
+/// A plain object of one thread, which is not the loop's. Nothing blocks and nothing allocates
+/// after construction. What the bus does not take waits for the next poll; when the queue is full
+/// the oldest frame gives way and is counted. What waits when the bus is lost is dropped: it is no
+/// news when the bus is back.
+class Publisher {
+ public:
+  /// muscles: what θ alone cannot tell, of each channel. timing and bus outlive the publisher.
+  Publisher(const CanSettings& settings, const std::vector<control::KnownParameters>& muscles,
+            LoopTiming& timing, hal::CanBus& bus);
+
+  /// The newest row of its channel. A change of its fault is sent at once, before all that waits.
+  void offer(const Row& row);
+  /// Sends what is due and what waits. leased: whether a channel is commanded over CAN. From a row
+  /// that a message was sent from already it is not sent again: when the loop stands still, the
+  /// board falls silent.
+  template <class Leased>
+  void poll(hal::Time now, const Leased& leased) {
+    schedule_.due(now, [&](std::uint8_t channel, Message message) {
+      publish(channel, message, leased(channel));
+    });
+    flush();
+  }
+  /// Behind what waits already.
+  void send(const hal::CanFrame& frame);
+
+  /// Frames that gave way or were lost with the bus.
+  std::uint32_t dropped() const { return dropped_; }
+  std::size_t waiting() const { return urgent_.size() + queue_.size(); }
+
+ private:
+  struct Channel {
+    Row row{};
+    bool known = false;                            ///< there was a row
+    std::array<std::int64_t, messages> sent_ns{};  ///< time of the row that each was made from
+    std::uint8_t parameter = 0;                    ///< the next one of Estimate
+    std::uint8_t counter = 0;                      ///< of Status
+    control::KnownParameters muscle{};
+  };
+
+  using Queue = boost::circular_buffer<hal::CanFrame>;
+
+  void publish(std::uint8_t index, Message message, bool leased);
+  hal::CanFrame frame_of(Node node, Channel& channel, Message message, bool leased);
+  BoardTiming take_timing();
+  void flush();
+
+  Node first_node_;
+  std::vector<Channel> channels_;
+  Schedule schedule_;
+  LoopTiming* timing_;
+  hal::CanBus* bus_;
+  Queue urgent_;  ///< emergencies
+  Queue queue_;
+  std::uint32_t dropped_ = 0;
+};
+
+}  // namespace supercoil::telemetry

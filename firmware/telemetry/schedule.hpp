@@ -1,0 +1,62 @@
+// When which message of which channel is sent, and how much of the bus that takes.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "supercoil/hal/clock.hpp"
+
+#include "telemetry/settings.hpp"
+
+namespace supercoil::telemetry {
+
+/// Bits on the wire of a frame with an 11-bit identifier and so many bytes, with the most bits that
+/// stuffing can add and the pause to the next frame (Davis, Burns, Bril, Lukkien: Controller Area
+/// Network schedulability analysis, 2007, equation 1, with 3 bits of pause).
+constexpr int most_bits(int bytes) {
+  constexpr int exposed = 34;  // of the frame without data, what may need stuffing
+  const int stuffed = (exposed + 8 * bytes - 1) / 4;
+  return exposed + 8 * bytes + 13 + stuffed;
+}
+
+/// The part of the bus that is busy with what is sent at a rate: 1 is all of it. Commands, their
+/// answers and emergencies come on top.
+double bus_load(const Rates& rates_Hz, std::size_t channels, double bit_rate);
+
+/// Each message of each channel has its own place within its period, evenly spread, so that frames
+/// do not come in bursts. What was missed is not made up for.
+class Schedule {
+ public:
+  struct Slot {
+    std::uint8_t channel;
+    Message message;
+    hal::Duration period;
+    hal::Time next;  ///< before the first due(): within the period
+  };
+
+  Schedule(const Rates& rates_Hz, std::size_t channels);
+
+  /// Calls send(channel, message) for all that is due. The first call sets the start.
+  template <class Send>
+  void due(hal::Time now, const Send& send) {
+    if (!started_) start(now);
+    if (now < earliest_) return;
+    earliest_ = hal::Time::max();
+    for (Slot& slot : slots_) {
+      if (slot.next <= now) {
+        send(slot.channel, slot.message);
+        slot.next += slot.period * ((now - slot.next) / slot.period + 1);
+      }
+      earliest_ = std::min(earliest_, slot.next);
+    }
+  }
+
+ private:
+  void start(hal::Time now);
+
+  std::vector<Slot> slots_;
+  hal::Time earliest_{};
+  bool started_ = false;
+};
+
+}  // namespace supercoil::telemetry

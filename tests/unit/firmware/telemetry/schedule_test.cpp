@@ -1,0 +1,84 @@
+#include "telemetry/schedule.hpp"
+
+#include <map>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil;
+using namespace supercoil::telemetry;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Frames of each millisecond, over some time.
+std::vector<int> frames_per_ms(Schedule& schedule, int milliseconds) {
+  std::vector<int> counts;
+  for (int ms = 0; ms < milliseconds; ++ms) {
+    counts.push_back(0);
+    schedule.due(ms * 1ms, [&](std::uint8_t, Message) { ++counts.back(); });
+  }
+  return counts;
+}
+
+}  // namespace
+
+TEST_GROUP(Schedule){};
+
+TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
+  Rates rates = usual_rates();
+  rates[static_cast<std::size_t>(Message::power)] = 0.0;
+  rates[static_cast<std::size_t>(Message::heater)] = 3.0;
+  Schedule schedule(rates, 4);
+  std::map<std::pair<int, Message>, int> counts;
+  for (int ms = 0; ms < 100'000; ++ms) {
+    schedule.due(ms * 1ms, [&](std::uint8_t channel, Message message) {
+      ++counts[{channel, message}];
+    });
+  }
+  for (int channel = 0; channel < 4; ++channel) {
+    for (std::size_t i = 0; i < messages; ++i) {
+      const bool sent = channel == 0 || !all_messages()[i].of_board;
+      const double expected = sent ? 100.0 * rates[i] : 0.0;
+      DOUBLES_EQUAL(expected, (counts[{channel, static_cast<Message>(i)}]), 1.0);
+    }
+  }
+}
+
+TEST(Schedule, HasNoBursts) {
+  for (const std::size_t channels : {1U, 2U, 4U, 8U, 16U}) {
+    Schedule schedule(usual_rates(), channels);
+    const auto counts = frames_per_ms(schedule, 2000);
+    double sum = 0.0;
+    for (const int count : counts)
+      sum += count;
+    const double mean = sum / static_cast<double>(counts.size());
+    const int most = *std::max_element(counts.begin(), counts.end());
+    CHECK_TEXT(most <= mean + 3.0, std::to_string(most).c_str());
+  }
+}
+
+TEST(Schedule, DoesNotMakeUpForWhatWasMissed) {
+  Schedule schedule(usual_rates(), 1);
+  frames_per_ms(schedule, 1000);
+  int sent = 0;
+  const auto count = [&](std::uint8_t, Message) { ++sent; };
+  schedule.due(60s, count);
+  CHECK(sent <= static_cast<int>(messages));
+  sent = 0;
+  schedule.due(60s, count);
+  LONGS_EQUAL(0, sent);
+}
+
+TEST(Schedule, CountsTheBitsOfAFrameAtItsWorst) {
+  // Davis et al. 2007: 55 to 135 bits of frames with 11-bit identifiers.
+  LONGS_EQUAL(55, most_bits(0));
+  LONGS_EQUAL(135, most_bits(8));
+}
+
+TEST(Schedule, TellsTheLoadOfTheBus) {
+  Rates rates{};
+  rates[static_cast<std::size_t>(Message::measurement)] = 100.0;
+  rates[static_cast<std::size_t>(Message::timing)] = 10.0;
+  // 4 channels x 100 x 135 + 10 x 135 bits, as the board's timing is sent once.
+  DOUBLES_EQUAL(55350.0 / 500e3, bus_load(rates, 4, 500e3), 1e-12);
+}

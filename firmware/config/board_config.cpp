@@ -87,6 +87,9 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
                              rules.refused_in_a_row};
   const std::vector<Section> channels = root.sections("channel");
   read_channels(channels, every, context, config);
+  Section can = root.section("can");
+  if (root.has("can"))
+    config.can = read_can(can, config.settings.rate_Hz, config.settings.channels.size());
   root.finish();
   if (!refuse_number(channels, diagnostics)) refuse_settings(board, config.settings, diagnostics);
   refuse_slow_buses(buses, config.wiring, config.settings.step_s());

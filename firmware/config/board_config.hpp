@@ -1,6 +1,7 @@
 // A board as its owner describes it: what the loop needs, and what it is wired to.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "config/diagnostics.hpp"
 #include "config/wiring.hpp"
 #include "loop/settings.hpp"
+#include "telemetry/settings.hpp"
 
 namespace supercoil::config {
 
@@ -25,6 +27,7 @@ struct BoardConfig {
   BoardSettings settings;  ///< passes check()
   BoardWiring wiring;      ///< as many channels as the settings
   std::vector<ChannelLabel> labels;
+  std::optional<telemetry::CanSettings> can;
   std::string storage_folder;  ///< what was learned is kept here
 };
 

@@ -6,6 +6,7 @@
 #include "config/bus_time.hpp"
 #include "loop/loop.hpp"
 #include "recorder/flight_recorder.hpp"
+#include "telemetry/schedule.hpp"
 
 namespace supercoil::config {
 
@@ -56,6 +57,27 @@ void describe_buses(std::ostream& out, const BoardConfig& config) {
         << " kHz\n";
     for (const BusUser& user : time.users)
       out << "    " << user.what << " " << rounded(1e3 * user.time_s, 1e-3) << " ms\n";
+  }
+}
+
+void describe_can(std::ostream& out, const BoardConfig& config) {
+  out << "\nCAN";
+  if (!config.can) {
+    out << ": none\n";
+    return;
+  }
+  const telemetry::CanSettings& can = *config.can;
+  const std::size_t channels = config.settings.channels.size();
+  const double load = telemetry::bus_load(can.rates_Hz, channels, can.bit_rate);
+  out << " on " << can.interface << " at " << 1e-3 * can.bit_rate << " kbit/s, nodes "
+      << int{can.first_node} << " to " << can.first_node + channels - 1 << "\n  load    "
+      << rounded(100.0 * load, 0.1) << " % at worst, beside commands (at most "
+      << rounded(100.0 * can.most_load, 0.1) << " %)\n  lease   " << 1e3 * can.lease_s
+      << " ms unused ends it\n";
+  for (std::size_t i = 0; i < telemetry::messages; ++i) {
+    const telemetry::MessageInfo& message = telemetry::all_messages()[i];
+    out << "  " << message.name << " " << can.rates_Hz[i] << " Hz"
+        << (message.of_board ? ", of the board\n" : "\n");
   }
 }
 
@@ -113,6 +135,7 @@ std::string describe(const BoardConfig& config) {
   for (std::size_t i = 0; i < channels; ++i)
     out << "\n" << describe_channel(config, i);
   describe_buses(out, config);
+  describe_can(out, config);
   const auto weak = weaknesses(config);
   out << "\ndetectors that cannot work, or not well" << (weak.empty() ? ": none\n" : "\n");
   for (const std::string& line : weak)

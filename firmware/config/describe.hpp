@@ -9,7 +9,7 @@
 
 namespace supercoil::config {
 
-/// What `supercoild --check` prints: the board, each channel, bus time, which detectors cannot
+/// What `supercoild --check` prints: the board, each channel, bus time, CAN, which detectors cannot
 /// work, and at last memory, to which the daemon adds what only it knows.
 std::string describe(const BoardConfig& config);
 

@@ -28,4 +28,7 @@ struct CommandRules {
 /// [command].
 CommandRules read_command(Section section, double step_s);
 
+/// [can]. channels: that the board has.
+telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t channels);
+
 }  // namespace supercoil::config

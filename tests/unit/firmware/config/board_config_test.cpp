@@ -161,3 +161,22 @@ TEST(BoardConfig, MemoryCountsRingAndRecorder) {
   UNSIGNED_LONGS_EQUAL(16 * 1000 * 112, memory.recorder);
   CHECK(memory.loop > 10000);
 }
+
+TEST(BoardConfig, CanIsAbsentUnlessItIsAskedForAndThenHasTheProtocolsRates) {
+  CHECK_FALSE(read(test::small_board).can.has_value());
+  check_says(describe(read(test::small_board)), "CAN: none");
+  const BoardConfig c = read(test::small_board + "[can]\n");
+  STRCMP_EQUAL("can0", c.can->interface.c_str());
+  LONGS_EQUAL(1, c.can->first_node);
+  DOUBLES_EQUAL(500e3, c.can->bit_rate, 0.0);
+  DOUBLES_EQUAL(100.0, c.can->rates_Hz[0], 0.0);
+  DOUBLES_EQUAL(1.0, c.can->lease_s, 1e-12);
+}
+
+TEST(BoardConfig, DescriptionTellsTheLoadOfTheCanBus) {
+  const std::string text = describe(
+      read(test::small_board + "[can]\nfirst_node = 7\nrates = {status_Hz = 5.0, power_Hz = 0}\n"));
+  check_says(text, "CAN on can0 at 500 kbit/s, nodes 7 to 7");
+  check_says(text, "load    7.5 % at worst");
+  check_says(text, "status 5 Hz");
+}

@@ -264,7 +264,7 @@ TEST(WrongBoard, EveryMistakeIsSaidInTheOrderOfTheFile) {
       "b.toml:2: board.charge_pump_decay_ms = -1: must be 0.1 to 1000\n"
       "b.toml:40: channel[1].limits.max_W = 0: must be 0.001 to 1000\n"
       "b.toml:42: operator: is not a key of this file; its keys are: bus, board, lines, supply, "
-      "ambient, command, every_channel, channel",
+      "ambient, command, every_channel, channel, can",
       text);
 }
 
@@ -272,4 +272,31 @@ TEST(WrongBoard, FileThatIsNotThere) {
   const auto config = supercoil::config::read_board_config("/nowhere/b.toml");
   STRCMP_EQUAL("/nowhere/b.toml: there is no such file\n",
                supercoil::config::to_text(config.error()).c_str());
+}
+
+TEST(WrongBoard, CanBusThatWouldBeTooBusy) {
+  check_answer(
+      "b.toml:43: can.bit_rate = 50000: the bus would be busy for 88 % with what is sent at a "
+      "rate, and 50 % is the most (most_load): choose lower rates",
+      small_board + "[can]\nbit_rate = 50000\n");
+}
+
+TEST(WrongBoard, NodesOfCanThatThereAreNot) {
+  check_answer("b.toml:43: can.first_node = 64: must be 1 to 63",
+               small_board + "[can]\nfirst_node = 64\n");
+}
+
+TEST(WrongBoard, RatesOfCanThatThereAreNot) {
+  check_answer("b.toml:43: can.rates.status_Hz = 0: must be 1 to 1000",
+               small_board + "[can]\nrates = {status_Hz = 0}\n");
+  check_answer(
+      "b.toml:43: can.rates.powr_Hz = 10: is not a key of [can.rates]; did you mean "
+      "power_Hz?",
+      small_board + "[can]\nrates = {powr_Hz = 10}\n");
+}
+
+TEST(WrongBoard, NameOfAnInterfaceThatTheKernelCannotHave) {
+  check_answer(
+      "b.toml:43: can.interface = 'a-name-of-16-char': must be a name of 1 to 15 characters",
+      small_board + "[can]\ninterface = 'a-name-of-16-char'\n");
 }

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "config/read_board.hpp"
+#include "telemetry/schedule.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+/// The kernel's IFNAMSIZ, less the zero at the end.
+constexpr std::size_t longest_interface = 15;
+/// A heartbeat that is rarer is none.
+constexpr double least_status_Hz = 1.0;
+constexpr double most_Hz = 1000.0;
+
+telemetry::Rates read_rates(Section section, double tick_Hz) {
+  telemetry::Rates rates = telemetry::usual_rates();
+  for (std::size_t i = 0; i < telemetry::messages; ++i) {
+    const std::string key = std::string(telemetry::all_messages()[i].name) + "_Hz";
+    const bool heartbeat = static_cast<telemetry::Message>(i) == telemetry::Message::status;
+    rates[i] = section.number(key, rates[i],
+                              {heartbeat ? least_status_Hz : 0.0, std::min(most_Hz, tick_Hz)});
+  }
+  section.finish();
+  return rates;
+}
+
+void refuse_load(Section& section, const telemetry::CanSettings& can, std::size_t channels) {
+  const double load = telemetry::bus_load(can.rates_Hz, channels, can.bit_rate);
+  if (!(load > can.most_load)) return;
+  std::ostringstream message;
+  message << "the bus would be busy for " << std::lround(100.0 * load)
+          << " % with what is sent at a rate, and " << std::lround(100.0 * can.most_load)
+          << " % is the most (most_load): choose lower rates";
+  section.wrong("bit_rate", message.str());
+}
+
+}  // namespace
+
+telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t channels) {
+  telemetry::CanSettings can;
+  can.interface = section.text("interface", can.interface);
+  if (can.interface.empty() || can.interface.size() > longest_interface) {
+    section.wrong("interface", "must be a name of 1 to 15 characters");
+  }
+  can.bit_rate = static_cast<double>(
+      section.integer("bit_rate", std::lround(can.bit_rate), 10'000, 1'000'000));
+  const auto last_first = telemetry::most_nodes + 1 - static_cast<long>(channels);
+  can.first_node = static_cast<telemetry::Node>(
+      section.integer("first_node", can.first_node, 1, std::max(last_first, 1L)));
+  can.most_load = section.number("most_load", can.most_load, {0.01, 0.9});
+  can.lease_s = 1e-3 * section.number("lease_ms", 1e3 * can.lease_s, {100.0, 60e3});
+  can.rates_Hz = read_rates(section.section("rates"), tick_Hz);
+  refuse_load(section, can, channels);
+  section.finish();
+  return can;
+}
+
+}  // namespace supercoil::config

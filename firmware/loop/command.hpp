@@ -32,10 +32,14 @@ constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }
 
+/// Who asked: the answer goes back there.
+enum class Source : std::uint8_t { local, can };
+
 struct Command {
   std::uint8_t channel = 0;  ///< from 0
   Verb verb = Verb::none;
   double value = 0.0;
+  Source source = Source::local;
 };
 
 /// Every command is answered, in order.

@@ -363,12 +363,12 @@ double supercoil_command_counter_decode(uint8_t value)
 
 bool supercoil_command_counter_is_in_range(uint8_t value)
 {
-    return (value <= 14u);
+    return (value <= 15u);
 }
 
 bool supercoil_command_counter_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 14.0));
+    return ((value >= 0.0) && (value <= 15.0));
 }
 
 uint8_t supercoil_command_opcode_encode(double value)

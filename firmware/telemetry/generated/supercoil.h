@@ -467,13 +467,13 @@ struct supercoil_emergency_t {
 /**
  * Signals in message Command.
  *
- * One command to this node's channel. AUTOSAR E2E Profile 1: the data id is the frame's own identifier. A command to heat expires unless it is renewed.
+ * One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier. A command to heat expires unless it is renewed.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_command_t {
     /**
-     * CRC-8 of SAE J1850 as Profile 1 uses it (polynomial 0x1D, start 0, no final XOR) over the data id, low byte first, and bytes 1 to 7.
+     * CRC-8H2F (polynomial 0x2F, start 0xFF, final XOR 0xFF) over bytes 1 to 7 and then the data id. It sees all damages of up to 3 bits.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1
@@ -482,9 +482,9 @@ struct supercoil_command_t {
     uint8_t crc;
 
     /**
-     * 0 to 14, then 0 again; one more with each command of a session. Up to 3 may be lost in between.
+     * One more with each command of a session, 0 after 15. Up to 3 may be lost in between.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..15 (0..15 -)
      * Scale: 1
      * Offset: 0
      */
@@ -527,7 +527,7 @@ struct supercoil_command_t {
  */
 struct supercoil_acknowledge_t {
     /**
-     * As in Command, over bytes 1 to 6.
+     * As in Command, over bytes 1 to 6 and then the data id.
      *
      * Range: 0..255 (0..255 -)
      * Scale: 1

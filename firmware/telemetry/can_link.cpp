@@ -1,0 +1,44 @@
+#include "telemetry/can_link.hpp"
+
+namespace supercoil::telemetry {
+
+namespace {
+
+std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
+  std::vector<control::KnownParameters> muscles;
+  for (const ChannelSettings& channel : board.channels) {
+    muscles.push_back({channel.muscle.force_per_kelvin_N_per_K, channel.muscle.moving_mass_kg});
+  }
+  return muscles;
+}
+
+}  // namespace
+
+CanLink::CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop,
+                 hal::CanBus& bus, std::uint32_t seed)
+    : loop_(&loop),
+      bus_(&bus),
+      publisher_(settings, muscles_of(board), loop.timing(), bus),
+      commands_(settings, board.channels.size(), seed) {}
+
+void CanLink::answer(const Answer& answer) {
+  if (const auto frame = commands_.answered(answer)) publisher_.send(*frame);
+}
+
+void CanLink::poll(hal::Time now) {
+  loop_->health().bus.store(bus_->state(), std::memory_order_relaxed);
+  receive(now);
+  publisher_.poll(now, [&](std::uint8_t channel) { return commands_.leased(channel, now); });
+}
+
+void CanLink::receive(hal::Time now) {
+  hal::CanFrame frame;
+  for (int i = 0; i < most_at_once && bus_->receive(frame) == hal::Status::ok; ++i) {
+    const Commands::Taken taken = commands_.take(frame, now);
+    if (taken.damaged) loop_->send_damaged(*taken.damaged);
+    if (taken.answer) publisher_.send(*taken.answer);
+    if (taken.command && !loop_->send(*taken.command)) publisher_.send(commands_.not_taken());
+  }
+}
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,38 @@
+// A board on its bus: telemetry out, commands in.
+#pragma once
+
+#include "telemetry/commands.hpp"
+#include "telemetry/publisher.hpp"
+
+namespace supercoil::telemetry {
+
+/// Of one thread, which is not the loop's: on a board the telemetry thread, in a simulation the
+/// runner between two ticks. Nothing blocks.
+class CanLink {
+ public:
+  /// board: as the loop was made with. seed: see Commands. Loop and bus outlive the link.
+  CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop, hal::CanBus& bus,
+          std::uint32_t seed);
+
+  /// The newest row of a channel.
+  void offer(const Row& row) { publisher_.offer(row); }
+  /// The loop's answer to a command with Source::can, in their order.
+  void answer(const Answer& answer);
+  /// Takes what came, sends what is due, and tells the loop how the bus is.
+  void poll(hal::Time now);
+
+  const Publisher& publisher() const { return publisher_; }
+
+ private:
+  void receive(hal::Time now);
+
+  /// Frames taken in one poll: more than a full bus brings within a telemetry thread's round.
+  static constexpr int most_at_once = 256;
+
+  Loop* loop_;
+  hal::CanBus* bus_;
+  Publisher publisher_;
+  Commands commands_;
+};
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,63 @@
+// A CAN bus with nobody on it but the board, and whoever a test or a log is.
+#pragma once
+
+#include <deque>
+#include <functional>
+
+#include "supercoil/hal/can_bus.hpp"
+
+#include "telemetry/schedule.hpp"
+
+namespace supercoil::host_sim {
+
+/// Frames take as long as on a real bus at its worst, and as many wait as in the kernel's queue: a
+/// frame is sent, and heard, when its time has come.
+class SimulatedCanBus final : public hal::CanBus {
+ public:
+  /// clock: read for the time of frames; outlives the bus.
+  SimulatedCanBus(const hal::Clock& clock, double bit_rate) : clock_(&clock), bit_rate_(bit_rate) {}
+
+  hal::Status send(const hal::CanFrame& frame) override {
+    if (link == hal::CanState::down) return hal::Status::gone;
+    if (link == hal::CanState::bus_off) return hal::Status::io_error;
+    const hal::Time now = clock_->now();
+    while (!ends_.empty() && ends_.front() <= now)
+      ends_.pop_front();
+    if (refuses || ends_.size() >= queue) return hal::Status::busy;
+    const hal::Time begins = ends_.empty() ? now : ends_.back();
+    const double frame_s = telemetry::most_bits(frame.length) / bit_rate_;
+    ends_.push_back(begins + hal::duration_from(frame_s));
+    hal::CanFrame heard = frame;
+    heard.received = ends_.back();
+    listener(heard);
+    return hal::Status::ok;
+  }
+  hal::Status receive(hal::CanFrame& frame) override {
+    if (link != hal::CanState::active && link != hal::CanState::error_passive)
+      return hal::Status::io_error;
+    if (inbox_.empty()) return hal::Status::not_ready;
+    frame = inbox_.front();
+    inbox_.pop_front();
+    return hal::Status::ok;
+  }
+  hal::CanState state() const override { return link; }
+
+  /// A frame from somebody else on the bus.
+  void deliver(const hal::CanFrame& frame) { inbox_.push_back(frame); }
+
+  /// Hears every frame of the board; `received` is when its last bit was on the wire.
+  std::function<void(const hal::CanFrame&)> listener = [](const hal::CanFrame&) {};
+  hal::CanState link = hal::CanState::active;
+  bool refuses = false;  ///< others keep the bus busy
+
+ private:
+  /// txqueuelen of a Linux CAN interface, unless somebody raised it.
+  static constexpr std::size_t queue = 10;
+
+  const hal::Clock* clock_;
+  double bit_rate_;
+  std::deque<hal::Time> ends_;  ///< of frames that are on their way
+  std::deque<hal::CanFrame> inbox_;
+};
+
+}  // namespace supercoil::host_sim

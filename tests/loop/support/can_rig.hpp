@@ -1,0 +1,95 @@
+// The rough board on a CAN bus, and a master who commands it there.
+#pragma once
+
+#include <vector>
+
+#include "loop/support/rig.hpp"
+#include "simulated_board/simulated_can_bus.hpp"
+#include "telemetry/can_link.hpp"
+#include "unit/firmware/telemetry/support/master.hpp"
+
+namespace supercoil::test {
+
+class CanRig {
+ public:
+  CanRig()
+      : board(settings.board),
+        loop(settings.firmware, board.devices()),
+        executive(loop, board, settings.firmware.rate_Hz),
+        bus(board, can.bit_rate),
+        link(can, settings.firmware, loop, bus, 1) {
+    bus.listener = [this](const hal::CanFrame& frame) { hear(frame); };
+  }
+  CanRig(const CanRig&) = delete;
+  CanRig& operator=(const CanRig&) = delete;
+
+  /// One tick, with what other threads do.
+  void tick() {
+    executive.run_tick();
+    loop.health().telemetry_beats.store(++beats_);
+    for (Row row; loop.take(row);)
+      link.offer(row);
+    for (Answer answer; loop.answer(answer);)
+      link.answer(answer);
+    link.poll(board.now());
+  }
+  void run(double time_s) {
+    for (long i = std::lround(time_s * settings.firmware.rate_Hz); i > 0; --i)
+      tick();
+  }
+  /// Sends a command and waits for its answer.
+  Refusal command(Master& who, std::uint8_t opcode, float value = 0.0F) {
+    answers.clear();
+    bus.deliver(who.frame(opcode, value));
+    for (int i = 0; i < 20 && answers.empty(); ++i)
+      tick();
+    return answers.empty() ? Refusal::no_such_channel
+                           : static_cast<Refusal>(answers.back().refusal);
+  }
+  Refusal command(Master& who, Verb verb, float value = 0.0F) {
+    return command(who, static_cast<std::uint8_t>(verb), value);
+  }
+  Refusal claim(Master& who) {
+    who.session = who.nonce;
+    const Refusal refusal = command(who, telemetry::Opcode::claim);
+    if (!answers.empty()) who.session = answers.back().granted;
+    return refusal;
+  }
+  /// Booted, cool, claimed, armed, and at a position.
+  void start(Master& who) {
+    run(16.0);
+    claim(who);
+    command(who, Verb::arm);
+    for (int i = 0; i < 10; ++i) {
+      run(0.02);
+      command(who, Verb::renew);
+    }
+    command(who, Verb::position, 0.012F);
+  }
+
+  State state() const { return loop.channel(0).state().state(); }
+  Fault fault() const { return loop.channel(0).state().first_cause(); }
+  double true_power_W() const { return board.channel(0).true_power_W(); }
+
+  RigSettings settings = rough_board();
+  telemetry::CanSettings can;
+  host_sim::SimulatedBoard board;
+  Loop loop;
+  Executive executive;
+  host_sim::SimulatedCanBus bus;
+  telemetry::CanLink link;
+  std::vector<supercoil_acknowledge_t> answers;
+  std::vector<hal::CanFrame> emergencies;
+  long heard = 0;
+
+ private:
+  void hear(const hal::CanFrame& frame) {
+    ++heard;
+    if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID) answers.push_back(read_answer(frame));
+    if (frame.id == SUPERCOIL_EMERGENCY_FRAME_ID) emergencies.push_back(frame);
+  }
+
+  std::uint32_t beats_ = 0;
+};
+
+}  // namespace supercoil::test

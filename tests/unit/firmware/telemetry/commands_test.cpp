@@ -1,0 +1,242 @@
+// Leases, sessions and damaged frames.
+#include <bit>
+#include <random>
+#include <set>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/telemetry/support/master.hpp"
+
+using namespace supercoil;
+using namespace supercoil::telemetry;
+using namespace supercoil::test;
+using namespace std::chrono_literals;
+
+TEST_GROUP(CanCommands) {
+  CanSettings settings;
+  Commands commands{settings, 2, 1};
+  hal::Time now = 100s;
+  Master master;
+
+  Commands::Taken take(const hal::CanFrame& frame) {
+    return commands.take(frame, now);
+  }
+  Refusal refusal_of(const hal::CanFrame& frame) {
+    const auto taken = take(frame);
+    if (taken.command) return Refusal::none;
+    CHECK(taken.answer.has_value());
+    return static_cast<Refusal>(read_answer(*taken.answer).refusal);
+  }
+  /// The session that was granted; 0: none was.
+  std::uint16_t claim(Master & who) {
+    who.session = who.nonce;
+    const auto taken = take(who.frame(Opcode::claim));
+    who.session = read_answer(*taken.answer).granted;
+    return who.session;
+  }
+};
+
+TEST(CanCommands, AMasterClaimsALeaseAndIsObeyed) {
+  CHECK(claim(master) != 0);
+  const auto taken = take(master.frame(Verb::position, 0.012F));
+  CHECK(taken.command->verb == Verb::position);
+  CHECK(taken.command->source == Source::can);
+  DOUBLES_EQUAL(0.012, taken.command->value, 1e-9);
+  CHECK_FALSE(taken.answer.has_value());
+  const auto answer = read_answer(*commands.answered({*taken.command, Refusal::busy}));
+  LONGS_EQUAL(5, answer.refusal);
+  LONGS_EQUAL(master.session, answer.session);
+  LONGS_EQUAL(4, answer.opcode);
+  LONGS_EQUAL(1, answer.counter);
+}
+
+TEST(CanCommands, AnswersAreProtectedAsCommandsAre) {
+  const auto answer = *take(master.frame(Opcode::claim)).answer;
+  LONGS_EQUAL(0x241, answer.id);
+  CHECK(e2e::intact(answer, SUPERCOIL_ACKNOWLEDGE_LENGTH));
+}
+
+TEST(CanCommands, WithoutALeaseAreRefused) {
+  CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::no_lease);
+}
+
+TEST(CanCommands, OfAnotherMasterAreRefusedAndItsClaimToo) {
+  claim(master);
+  Master other;
+  other.nonce = 0x4321;
+  LONGS_EQUAL(0, claim(other));
+  other.session = static_cast<std::uint16_t>(master.session + 1);
+  CHECK(refusal_of(other.frame(Verb::position, 0.01F)) == Refusal::not_yours);
+  CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
+}
+
+TEST(CanCommands, StopAndDisarmAreObeyedFromAnybody) {
+  Master other;
+  CHECK(take(other.frame(Verb::disarm)).command->verb == Verb::disarm);
+  claim(master);
+  other.session = 0xFFFF;
+  CHECK(take(other.frame(Verb::disarm)).command->verb == Verb::disarm);
+  const auto again = master.frame(Verb::disarm);
+  CHECK(take(again).command.has_value());
+  const auto repeated = take(again);
+  CHECK(repeated.command.has_value());
+  CHECK_FALSE(repeated.damaged.has_value());
+}
+
+TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
+  claim(master);
+  const Master gone = master;
+  now += 999ms;
+  CHECK(refusal_of(master.frame(Verb::renew)) == Refusal::none);
+  CHECK(commands.leased(0, now));
+  now += 1001ms;
+  CHECK_FALSE(commands.leased(0, now));
+  CHECK(refusal_of(master.frame(Verb::renew)) == Refusal::no_lease);
+  Master next;
+  CHECK(claim(next) != 0);
+  // A frame of the earlier session.
+  Master earlier = gone;
+  CHECK(refusal_of(earlier.frame(Verb::position, 0.01F)) == Refusal::not_yours);
+  CHECK(refusal_of(next.frame(Opcode::release)) == Refusal::none);
+  CHECK_FALSE(commands.leased(0, now));
+}
+
+TEST(CanCommands, ARefusedMasterDoesNotKeepTheLeaseAlive) {
+  claim(master);
+  Master other;
+  other.session = 77;
+  for (int i = 0; i < 11; ++i) {
+    now += 100ms;
+    refusal_of(other.frame(Verb::arm));
+  }
+  CHECK(claim(other) != 0);
+}
+
+TEST(CanCommands, FramesOfEveryEarlierSessionAreRefused) {
+  std::vector<hal::CanFrame> earlier;
+  std::set<std::uint16_t> sessions;
+  for (int i = 0; i < 100; ++i) {
+    Master each;
+    CHECK(claim(each) != 0);
+    for (const hal::CanFrame& frame : earlier)
+      CHECK(refusal_of(frame) == Refusal::not_yours);
+    sessions.insert(each.session);
+    earlier.push_back(each.frame(Verb::position, 0.01F));
+    refusal_of(each.frame(Opcode::release));
+  }
+  CHECK(sessions.size() > 95);
+}
+
+TEST(CanCommands, AClaimWhoseAnswerWasLostIsGrantedAgainToTheSameOnly) {
+  const std::uint16_t session = claim(master);
+  LONGS_EQUAL(session, claim(master));
+  Master other;
+  other.session = 0x4321;
+  const auto taken = take(other.frame(Opcode::claim));
+  LONGS_EQUAL(8, read_answer(*taken.answer).refusal);
+  LONGS_EQUAL(0, read_answer(*taken.answer).granted);
+  refusal_of(master.frame(Verb::arm));
+  LONGS_EQUAL(0, claim(other));
+}
+
+TEST(CanCommands, ARepeatedOneIsRefusedAndCountsAsDamaged) {
+  claim(master);
+  const auto frame = master.frame(Verb::position, 0.01F);
+  CHECK(take(frame).command.has_value());
+  const auto repeated = take(frame);
+  CHECK_FALSE(repeated.command.has_value());
+  LONGS_EQUAL(0, *repeated.damaged);
+  LONGS_EQUAL(10, read_answer(*repeated.answer).refusal);
+}
+
+TEST(CanCommands, ThreeMayBeLostInBetweenAndAfterMoreTheNextIsObeyed) {
+  claim(master);
+  for (int lost = 0; lost <= 6; ++lost) {
+    for (int i = 0; i < lost; ++i)
+      master.frame(Verb::renew);
+    const Refusal expected = lost <= 3 ? Refusal::none : Refusal::wrong_counter;
+    CHECK(refusal_of(master.frame(Verb::renew)) == expected);
+    CHECK(refusal_of(master.frame(Verb::renew)) == Refusal::none);
+  }
+}
+
+TEST(CanCommands, OfOneChannelSayNothingOfTheOther) {
+  claim(master);
+  Master second;
+  second.node = 2;
+  second.session = master.session;
+  CHECK(refusal_of(second.frame(Verb::arm)) == Refusal::no_lease);
+  CHECK(claim(second) != 0);
+  LONGS_EQUAL(1, take(second.frame(Verb::arm)).command->channel);
+  Master third;
+  third.node = 3;
+  const auto taken = take(third.frame(Verb::arm));
+  CHECK(!taken.command && !taken.answer && !taken.damaged);
+}
+
+TEST(CanCommands, MeantForOneNodeAreDamagedAtAnother) {
+  claim(master);
+  auto frame = master.frame(Verb::disarm);
+  frame.id = 0x202;
+  LONGS_EQUAL(1, *take(frame).damaged);
+}
+
+TEST(CanCommands, EveryDamageOfUpToThreeBitsIsSeen) {
+  claim(master);
+  const hal::CanFrame good = master.frame(Verb::disarm);
+  long damages = 0;
+  const auto is_refused = [&](std::uint64_t bits) {
+    hal::CanFrame bad = good;
+    for (std::size_t i = 0; i < 8; ++i)
+      bad.data[i] ^= static_cast<std::uint8_t>(bits >> (8 * i));
+    const auto taken = take(bad);
+    ++damages;
+    return !taken.command && !taken.answer && taken.damaged == 0;
+  };
+  for (int a = 0; a < 64; ++a) {
+    for (int b = a; b < 64; ++b) {
+      for (int c = b; c < 64; ++c) {
+        // a = b = c is one bit, a = b or b = c two, and all different three.
+        if (a == b && b != c) continue;
+        CHECK(is_refused(1ULL << a | 1ULL << b | 1ULL << c));
+      }
+    }
+  }
+  LONGS_EQUAL(64 + 64 * 63 / 2 + 64 * 63 * 62 / 6, damages);
+  CHECK(take(good).command.has_value());
+}
+
+TEST(CanCommands, OfAMillionRandomFramesNoneIsObeyed) {
+  claim(master);
+  std::mt19937 random(20261120);
+  long obeyed = 0;
+  long granted = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    hal::CanFrame frame;
+    frame.id = 0x201;
+    frame.length = 8;
+    for (std::uint8_t& byte : frame.data)
+      byte = static_cast<std::uint8_t>(random());
+    const auto taken = take(frame);
+    obeyed += taken.command ? 1 : 0;
+    granted += taken.answer && read_answer(*taken.answer).refusal == 0 ? 1 : 0;
+  }
+  LONGS_EQUAL(0, obeyed);
+  LONGS_EQUAL(0, granted);
+  CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
+}
+
+TEST(CanCommands, AWrongLengthIsADamage) {
+  hal::CanFrame frame = master.frame(Verb::disarm);
+  for (const int length : {0, 1, 2, 7}) {
+    frame.length = static_cast<std::uint8_t>(length);
+    LONGS_EQUAL(0, *take(frame).damaged);
+  }
+}
+
+TEST(CanCommands, TheChecksumIsThatOfTheProfile) {
+  // As the package autosar-e2e 1.0.0 (PyPI) computes it for Profile 2.
+  master.counter = 5;
+  master.session = 0xBEEF;
+  LONGS_EQUAL(0xE7, master.frame(Verb::position, 0.012F).data[0]);
+}

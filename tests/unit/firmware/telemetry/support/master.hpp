@@ -1,0 +1,43 @@
+// Who commands a node: makes frames, reads their answers.
+#pragma once
+
+#include <supercoil.h>
+
+#include "telemetry/commands.hpp"
+#include "telemetry/e2e.hpp"
+#include "telemetry/opcodes.hpp"
+
+namespace supercoil::test {
+
+struct Master {
+  telemetry::Node node = 1;
+  std::uint16_t session = 0;
+  std::uint8_t counter = 0;
+  std::uint16_t nonce = 0x1234;  ///< by which it knows the answer to its claim
+
+  hal::CanFrame frame(std::uint8_t opcode, float value = 0.0F) {
+    supercoil_command_t m{};
+    m.counter = counter;
+    counter = static_cast<std::uint8_t>((counter + 1) % telemetry::e2e::counters);
+    m.opcode = opcode;
+    m.session = session;
+    m.value = value;
+    hal::CanFrame made;
+    made.id = static_cast<std::uint16_t>(SUPERCOIL_COMMAND_FRAME_ID - 1 + node);
+    made.length = SUPERCOIL_COMMAND_LENGTH;
+    supercoil_command_pack(made.data.data(), &m, made.data.size());
+    telemetry::e2e::protect(made);
+    return made;
+  }
+  hal::CanFrame frame(Verb verb, float value = 0.0F) {
+    return frame(static_cast<std::uint8_t>(verb), value);
+  }
+};
+
+inline supercoil_acknowledge_t read_answer(const hal::CanFrame& frame) {
+  supercoil_acknowledge_t m{};
+  supercoil_acknowledge_unpack(&m, frame.data.data(), frame.length);
+  return m;
+}
+
+}  // namespace supercoil::test

@@ -20,6 +20,7 @@ struct RunOptions {
   long every = 1;
   bool trace = true;
   bool plot = true;
+  bool can = true;
   bool check = false;  ///< only read the scenario
   bool quiet = false;
   std::string learned;  ///< folder; empty: nothing is remembered

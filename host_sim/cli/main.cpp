@@ -12,7 +12,8 @@ using namespace supercoil;
 using namespace supercoil::host_sim;
 
 void add_run(CLI::App& app, RunOptions& options) {
-  CLI::App* run = app.add_subcommand("run", "Simulate a scenario; write trace, summary and plot");
+  CLI::App* run =
+      app.add_subcommand("run", "Simulate a scenario; write trace, summary, plot and CAN log");
   run->add_option("SCENARIO", options.scenario, "A TOML file, or a name from supercoil-sim list")
       ->required();
   run->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
@@ -24,6 +25,7 @@ void add_run(CLI::App& app, RunOptions& options) {
                   "Folder of what the board learned: used at its start, and renewed");
   run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
+  run->add_flag("!--no-can", options.can, "Write no can.log, what the board sends on its CAN bus");
   run->add_flag("--check", options.check, "Only say whether the scenario is in order");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }

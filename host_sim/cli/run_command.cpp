@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "report/can_log.hpp"
 #include "report/output_folder.hpp"
 #include "report/run_plot.hpp"
 #include "report/trace_writer.hpp"
@@ -123,6 +124,14 @@ int run_command(const RunOptions& options) {
   Summary summary(*window);
   std::optional<TraceWriter> trace;
   if (options.trace) trace.emplace(folder->temporary("trace.csv"), options.every);
+  std::optional<CanLog> can_log;
+  if (options.can) {
+    const telemetry::CanSettings can;
+    can_log.emplace(folder->temporary("can.log"), can.interface);
+    simulation.join_bus(can, [&](const hal::CanFrame& frame) {
+      can_log->add(frame, frame.received - simulation.start());
+    });
+  }
   std::optional<RunPlot> plot;
   if (options.plot) plot.emplace(*scenario);
   std::signal(SIGINT, interrupt);
@@ -153,6 +162,11 @@ int run_command(const RunOptions& options) {
 
   if (trace) {
     if (const auto finished = trace->finish(); !finished) {
+      return fail(exit_failed, finished.error());
+    }
+  }
+  if (can_log) {
+    if (const auto finished = can_log->finish(); !finished) {
       return fail(exit_failed, finished.error());
     }
   }

@@ -1,6 +1,7 @@
 #include "runner/simulation.hpp"
 
-#include "recorder/pump.hpp"
+#include <utility>
+
 #include "runner/board_of.hpp"
 
 namespace supercoil::host_sim {
@@ -36,25 +37,37 @@ void Simulation::boot() {
     housekeep();
   }
   break_things(conditions_->trouble);
+  start_ = executive_.next_wake();
+}
+
+void Simulation::join_bus(const telemetry::CanSettings& settings,
+                          std::function<void(const hal::CanFrame&)> listener) {
+  bus_.emplace(board_, settings.bit_rate);
+  bus_->listener = std::move(listener);
+  link_.emplace(settings, firmware_of(*scenario_), loop_, *bus_,
+                static_cast<std::uint32_t>(scenario_->seed));
 }
 
 /// What other threads do on a board.
 void Simulation::housekeep() {
   loop_.health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
-  if (beats_ % rows_every == 0) {
-    if (recorder_ != nullptr) {
-      recorder::pump(loop_, *recorder_, board_.true_time());
-    } else {
-      for (Row row; loop_.take(row);) {
-      }
-    }
-  }
+  if (link_ || beats_ % rows_every == 0) pass_rows();
   Answer answer;
   while (loop_.answer(answer)) {
+    if (link_ && answer.command.source == Source::can) link_->answer(answer);
   }
+  if (link_) link_->poll(board_.now());
   storage::Learned learned;
   while (loop_.channel(0).take_learned(learned))
     learned_ = learned;
+}
+
+void Simulation::pass_rows() {
+  for (Row row; loop_.take(row);) {
+    if (recorder_ != nullptr) recorder_->add(row);
+    if (link_) link_->offer(row);
+  }
+  if (recorder_ != nullptr && beats_ % rows_every == 0) recorder_->poll(board_.true_time());
 }
 
 void Simulation::happen(const Event& event) {

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "loop/executive.hpp"
 #include "recorder/flight_recorder.hpp"
 #include "scenario/scenario.hpp"
 #include "simulated_board/simulated_board.hpp"
+#include "simulated_board/simulated_can_bus.hpp"
+#include "telemetry/can_link.hpp"
 
 namespace supercoil::host_sim {
 
@@ -55,6 +58,13 @@ class Simulation {
   /// Keeps what happens from now on; must outlive the simulation's steps.
   void record_to(recorder::FlightRecorder& recorder) { recorder_ = &recorder; }
   const Loop& loop() const { return loop_; }
+  /// Puts the board on a CAN bus from now on; the listener hears every frame that it sends.
+  void join_bus(const telemetry::CanSettings& settings,
+                std::function<void(const hal::CanFrame&)> listener);
+  /// Empty before join_bus().
+  SimulatedCanBus* bus() { return bus_ ? &*bus_ : nullptr; }
+  /// The board's clock at the scenario's time 0.
+  hal::Time start() const { return start_; }
   /// What identify or calibrate found last; empty when nothing was.
   const std::optional<storage::Learned>& learned() const { return learned_; }
 
@@ -65,6 +75,7 @@ class Simulation {
   void ask(double reference);
   void send(Verb verb, double value = 0.0);
   void housekeep();
+  void pass_rows();
   TickRecord record(double time_s, double reference) const;
 
   const Scenario* scenario_;
@@ -82,6 +93,9 @@ class Simulation {
   SimulatedBoard board_;
   Loop loop_;
   Executive executive_;
+  hal::Time start_{};
+  std::optional<SimulatedCanBus> bus_;
+  std::optional<telemetry::CanLink> link_;
   std::optional<storage::Learned> learned_;
 };
 

@@ -68,7 +68,7 @@ class Program(unittest.TestCase):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--window", "1:2")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
-                         ["plot.svg", "summary.json", "trace.csv"])
+                         ["can.log", "plot.svg", "summary.json", "trace.csv"])
         with open(self.path / "out/trace.csv") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 2000)

@@ -42,4 +42,10 @@ struct DoctorOptions {
 };
 int doctor_command(const DoctorOptions& options);
 
+struct DbcOptions {
+  std::vector<int> nodes;  ///< empty: node 1, under the messages' own names
+  std::string out;         ///< empty: standard output
+};
+int dbc_command(const DbcOptions& options);
+
 }  // namespace supercoil::operating

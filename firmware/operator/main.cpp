@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "operator/commands.hpp"
+#include "telemetry/frames.hpp"
 
 namespace {
 
@@ -76,6 +77,16 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   doctor->add_flag("--json", options.json, "Print one JSON object instead of lines");
 }
 
+void add_dbc(CLI::App& app, DbcOptions& options) {
+  CLI::App* dbc = app.add_subcommand(
+      "dbc", "Print the DBC of the CAN protocol: of node 1, or of a bus with certain nodes");
+  dbc->add_option("--nodes", options.nodes,
+                  "The bus's nodes, e.g. 1,2,5: messages' names end with their node's")
+      ->delimiter(',')
+      ->check(CLI::Range(1, telemetry::most_nodes));
+  dbc->add_option("--out", options.out, "Write it to this file [standard output]");
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
   app.set_version_flag("--version", SUPERCOIL_VERSION);
@@ -86,6 +97,8 @@ int run_program(int count, char** arguments) {
   add_command(app, command);
   DoctorOptions doctor;
   add_doctor(app, doctor);
+  DbcOptions dbc;
+  add_dbc(app, dbc);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
@@ -93,6 +106,7 @@ int run_program(int count, char** arguments) {
     return status == 0 ? exit_done : exit_wrong_input;
   }
   if (app.got_subcommand("doctor")) return doctor_command(doctor);
+  if (app.got_subcommand("dbc")) return dbc_command(dbc);
   return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }
 

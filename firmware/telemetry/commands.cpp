@@ -32,32 +32,24 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
 
   // From everybody, whatever is wrong with lease and counter.
   const bool stop = m.opcode == static_cast<std::uint8_t>(Verb::disarm) && m.value == 0.0F;
-  Refusal refusal = Refusal::none;
-  if (m.opcode == Opcode::claim) {
-    refusal = m.value == 0.0F ? claim_lease(lease, asked, now) : Refusal::out_of_range;
-    taken.answer =
-        acknowledge(asked, refusal, refusal == Refusal::none ? lease.session : std::uint16_t{0});
-    return taken;
-  }
   bool damaged = false;
-  refusal = check(lease, asked, now, damaged);
-  if (stop) {
-    refusal = Refusal::none;
-  } else if (damaged) {
-    taken.damaged = index;
-  }
-  if (refusal == Refusal::none && m.opcode == Opcode::release) {
+  const Refusal checked = check(lease, asked, m.value, now, damaged);
+  if (damaged && !stop) taken.damaged = index;
+  if (checked != Refusal::none && !stop) {
+    taken.answer = acknowledge(asked, checked);
+  } else if (m.opcode == Opcode::claim) {
+    taken.answer = acknowledge(asked, Refusal::none, lease.session);
+  } else if (m.opcode == Opcode::release) {
     lease.session = 0;
-  } else if (refusal == Refusal::none && m.opcode >= verb_names.size()) {
-    refusal = Refusal::out_of_range;
-  } else if (refusal == Refusal::none && waiting_.size() < most_waiting) {
+    taken.answer = acknowledge(asked, Refusal::none);
+  } else if (m.opcode >= opcodes) {
+    taken.answer = acknowledge(asked, Refusal::out_of_range);
+  } else if (waiting_.size() == most_waiting) {
+    taken.answer = acknowledge(asked, Refusal::too_many);
+  } else {
     waiting_.push_back(asked);
     taken.command = Command{index, static_cast<Verb>(m.opcode), m.value, Source::can};
-    return taken;
-  } else if (refusal == Refusal::none) {
-    refusal = Refusal::too_many;
   }
-  taken.answer = acknowledge(asked, refusal);
   return taken;
 }
 
@@ -74,9 +66,13 @@ Refusal Commands::claim_lease(Lease& lease, const Asked& asked, hal::Time now) {
 }
 
 /// A sequence that was broken goes on from where it is now: the next command is obeyed.
-Refusal Commands::check(Lease& lease, const Asked& asked, hal::Time now, bool& damaged) const {
+Refusal Commands::check(Lease& lease, const Asked& asked, float value, hal::Time now,
+                        bool& damaged) {
+  const bool holder = lease.session != 0 && asked.session == lease.session;
+  if (asked.opcode == Opcode::claim && value != 0.0F) return Refusal::out_of_range;
+  if (asked.opcode == Opcode::claim && !holder) return claim_lease(lease, asked, now);
   if (lease.session == 0) return Refusal::no_lease;
-  if (asked.session != lease.session) return Refusal::not_yours;
+  if (!holder) return Refusal::not_yours;
   damaged = !e2e::follows(asked.counter, lease.counter);
   lease.counter = asked.counter;
   if (damaged) return Refusal::wrong_counter;

@@ -19,7 +19,8 @@ namespace supercoil::telemetry {
 /// answered when the loop has done it.
 ///
 /// A lease is claimed, and granted with a session: a random number that every command must carry.
-/// It ends when it is released or unused for lease_s; a session is never granted twice in a row, so
+/// It ends when it is released or unused for lease_s; claiming it again under its session keeps it,
+/// where there is nothing else to command. A session is never granted twice in a row, so
 /// frames of an earlier one are refused. Only disarm is obeyed from everybody. This guards against
 /// mistakes and faults, not against somebody who means harm: whoever can send can also stop.
 class Commands {
@@ -61,7 +62,7 @@ class Commands {
   };
 
   Refusal claim_lease(Lease& lease, const Asked& asked, hal::Time now);
-  Refusal check(Lease& lease, const Asked& asked, hal::Time now, bool& damaged) const;
+  Refusal check(Lease& lease, const Asked& asked, float value, hal::Time now, bool& damaged);
   bool live(const Lease& lease, hal::Time now) const {
     return lease.session != 0 && now - lease.last <= lease_;
   }

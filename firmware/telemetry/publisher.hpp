@@ -30,6 +30,7 @@ class Publisher {
   /// board falls silent.
   template <class Leased>
   void poll(hal::Time now, const Leased& leased) {
+    flush();
     schedule_.due(now, [&](std::uint8_t channel, Message message) {
       publish(channel, message, leased(channel));
     });

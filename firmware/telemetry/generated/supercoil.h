@@ -500,7 +500,7 @@ struct supercoil_command_t {
     uint8_t opcode;
 
     /**
-     * Of the lease, as it was granted; of a claim: any number by which its sender knows the answer.
+     * Of the lease, as it was granted; of a claim: any number by which its sender knows the answer, or its own session to keep it.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1

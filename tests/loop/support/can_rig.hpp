@@ -60,10 +60,7 @@ class CanRig {
     run(16.0);
     claim(who);
     command(who, Verb::arm);
-    for (int i = 0; i < 10; ++i) {
-      run(0.02);
-      command(who, Verb::renew);
-    }
+    run(0.2);
     command(who, Verb::position, 0.012F);
   }
 

@@ -1,4 +1,5 @@
 // The whole firmware, commanded over CAN.
+#include <algorithm>
 #include <random>
 
 #include <CppUTest/TestHarness.h>
@@ -47,6 +48,7 @@ TEST(OverCan, ASecondMasterIsRefusedAndMayStop) {
   hold(0.2);
   CHECK(rig.command(other, Verb::disarm) == Refusal::none);
   CHECK(rig.state() == State::disarmed);
+  rig.run(0.002);
   DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
 }
 
@@ -136,7 +138,11 @@ TEST(OverCan, AMillionRandomFramesDisturbNothing) {
     CHECK(here.applied_W == there.applied_W && here.position_m == there.position_m);
   }
   CHECK(rig.state() == State::active);
-  for (const supercoil_acknowledge_t& answer : rig.answers)
-    LONGS_EQUAL(static_cast<int>(Verb::position), answer.opcode);
-  LONGS_EQUAL(quiet.answers.size(), rig.answers.size());
+  const auto obeyed = [](const CanRig& whose) {
+    return std::count_if(whose.answers.begin(), whose.answers.end(), [](const auto& answer) {
+      return answer.refusal == static_cast<std::uint8_t>(Refusal::none);
+    });
+  };
+  LONGS_EQUAL(125'000 / 20 + 1, obeyed(quiet));
+  LONGS_EQUAL(obeyed(quiet), obeyed(rig));
 }

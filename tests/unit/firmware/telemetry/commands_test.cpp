@@ -101,6 +101,15 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   CHECK_FALSE(commands.leased(0, now));
 }
 
+TEST(CanCommands, ItsHolderKeepsALeaseByClaimingItAgain) {
+  const std::uint16_t session = claim(master);
+  for (int i = 0; i < 30; ++i) {
+    now += 900ms;
+    LONGS_EQUAL(session, read_answer(*take(master.frame(Opcode::claim)).answer).granted);
+  }
+  CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
+}
+
 TEST(CanCommands, ARefusedMasterDoesNotKeepTheLeaseAlive) {
   claim(master);
   Master other;

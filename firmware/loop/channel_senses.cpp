@@ -54,14 +54,13 @@ void Channel::observe_heat(double supply_V, long periods) {
     heat_.step(0.0, most_W, told_W);
   evidence_.most_W = most_W;
 
-  const HeaterSettings& h = settings_.heater;
-  evidence_.tells_temperature = h.temperature_coefficient_per_K > 0.0 && resistance_.age_s() < 1.0;
-  evidence_.from_resistance_K =
-      evidence_.tells_temperature
-          ? (resistance_.value_Ohm() / calibration_.cold_resistance_Ohm - 1.0) /
-                h.temperature_coefficient_per_K
-          : 0.0;
-  evidence_.from_position_K = evidence_.position.value / heat_.metres_per_K();
+  const double per_K = settings_.heater.temperature_coefficient_per_K;
+  evidence_.from_resistance_K = evidence_.from_position_K = 0.0;
+  if (per_K > 0.0 && resistance_.age_s() < 1.0) {
+    const double warm = resistance_.value_Ohm() / calibration_.cold_resistance_Ohm;
+    evidence_.from_resistance_K = (warm - 1.0) / per_K;
+    evidence_.from_position_K = evidence_.position.value / heat_.metres_per_K();
+  }
 }
 
 void Channel::follow_probe(double supply_V) {

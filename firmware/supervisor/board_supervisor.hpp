@@ -39,23 +39,18 @@ class BoardSupervisor {
 
  private:
   Verdict verdict_;
-  // Of a flag: 0 is well, 1 is not.
-  detectors::Limit stop_;
-  detectors::Limit lines_;
-  detectors::Limit configuration_;
-  detectors::Limit self_test_;
+  detectors::Flag stop_;
+  detectors::Flag lines_;
+  detectors::Flag configuration_;
+  detectors::Flag self_test_;
   detectors::Below under_;
   detectors::Above over_;
   detectors::InARow late_in_a_row_;
   detectors::InARow overruns_;
   detectors::Silent telemetry_;
-  detectors::HeldFor bus_off_;
-  detectors::HeldFor bus_passive_;
-  detectors::Margin bus_off_margin_;
-  detectors::Margin bus_passive_margin_;
+  detectors::Lasting bus_off_;
+  detectors::Lasting bus_passive_;
   double late_s_;
-  double bus_off_s_;
-  double bus_passive_s_;
 };
 
 }  // namespace supercoil

@@ -25,7 +25,6 @@ double frozen_band_m(const ChannelSupervision& s) {
 ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_resistance_Ohm,
                                      double lowest_supply_V, double step_s)
     : settings_(s),
-      stale_(0.0),
       out_of_range_({s.lowest_position_m, s.highest_position_m, s.out_of_range_s}, step_s),
       frozen_({frozen_band_m(s), s.frozen_s}, step_s),
       jump_({s.fastest_m_per_s, quiet_sensor_m + jump_noises * s.position_noise_rms_m}),
@@ -43,7 +42,7 @@ ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_re
       expired_(s.command_timeout_s, step_s),
       damaged_(s.damaged_in_a_row),
       refused_(s.refused_in_a_row),
-      saturated_(s.saturated_s, step_s) {}
+      lost_(s.saturated_s, step_s) {}
 
 Fault ChannelSupervisor::step(const Evidence& e) {
   verdict_.begin();
@@ -56,82 +55,78 @@ Fault ChannelSupervisor::step(const Evidence& e) {
 
 void ChannelSupervisor::restart() {
   not_responding_.reset();
-  saturated_.reset();
+  lost_.reset();
 }
 
 void ChannelSupervisor::judge_sensors(const Evidence& e) {
   using enum Fault;
   const bool absent = !e.position.present || !e.current.present;
-  verdict_.note(sensor_stale, stale_.step(absent ? 1.0 : 0.0), stale_.margin());
+  verdict_.note(sensor_stale, stale_.step(absent), stale_);
   if (!e.position.present) return;  // nothing to judge, and stale already says so
   const double position_m = e.position.value;
-  verdict_.note(sensor_out_of_range, out_of_range_.step(e.sensor_m), out_of_range_.margin());
+  verdict_.note(sensor_out_of_range, out_of_range_.step(e.sensor_m), out_of_range_);
   // A reading from outside is no position: coming and going it would look like a jump.
   // Judged as the sensor gives it: a new calibration moves every position.
   if (e.position_elapsed_s > 0.0 && inside(e.sensor_m)) {
-    verdict_.note(sensor_jump, jump_.step(e.sensor_m, e.position_elapsed_s), jump_.margin());
+    verdict_.note(sensor_jump, jump_.step(e.sensor_m, e.position_elapsed_s), jump_);
   }
-  verdict_.note(sensor_frozen, frozen_.step(position_m, e.hot), frozen_.margin());
-  const double apart = e.tells_temperature ? e.from_position_K : e.from_resistance_K;
-  verdict_.note(sensors_disagree, disagree_.step(e.from_resistance_K, apart), disagree_.margin());
+  verdict_.note(sensor_frozen, frozen_.step(position_m, e.hot), frozen_);
+  verdict_.note(sensors_disagree, disagree_.step(e.from_resistance_K, e.from_position_K),
+                disagree_);
 }
 
 void ChannelSupervisor::judge_heater(const Evidence& e) {
   using enum Fault;
   const double current_A = e.current.present ? e.current.value : 0.0;
   verdict_.note(duty_wrong, wrong_duty_.step(e.set_step, e.devices_ok ? e.read_back : 1 << 30),
-                wrong_duty_.margin());
+                wrong_duty_);
   // Without a reading nothing proves that the heat is off: the board is cut, to be sure.
   verdict_.note(heater_stuck_on, stuck_on_.step(e.off, e.current.present ? current_A : INFINITY),
-                stuck_on_.margin());
+                stuck_on_);
   if (!e.current.present) return;
-  verdict_.note(heater_open, open_.step(e.off ? 0.0 : e.duty, current_A), open_.margin());
+  verdict_.note(heater_open, open_.step(e.off ? 0.0 : e.duty, current_A), open_);
   // What is above the current of the least resistance that the muscle may have. Without a supply
   // that is known there is none; that the supply is not is under_voltage's to say.
   const double most_A = e.duty * e.supply_V / settings_.least_resistance_Ohm;
   const bool judged = !e.off && e.supply_V > 0.0;
-  verdict_.note(heater_short, short_.step(judged ? current_A - most_A : 0.0), short_.margin());
+  verdict_.note(heater_short, short_.step(judged ? current_A - most_A : 0.0), short_);
   const double measured_W = e.supply_V * current_A;
-  verdict_.note(power_limit_exceeded, power_.step(measured_W), power_.margin());
+  verdict_.note(power_limit_exceeded, power_.step(measured_W), power_);
   if (e.position.present) {
     verdict_.note(heater_not_responding, not_responding_.step(e.position.value, e.expected_m),
-                  not_responding_.margin());
+                  not_responding_);
   }
 }
 
 void ChannelSupervisor::judge_muscle(const Evidence& e) {
   using enum Fault;
-  verdict_.note(over_temperature, temperature_.step(e.hottest_C), temperature_.margin());
+  verdict_.note(over_temperature, temperature_.step(e.hottest_C), temperature_);
   if (e.position.present && inside(e.sensor_m)) {
-    verdict_.note(over_travel, travel_.step(e.position.value), travel_.margin());
+    verdict_.note(over_travel, travel_.step(e.position.value), travel_);
   }
-  verdict_.note(energy_budget_exceeded, energy_.step(e.most_W), energy_.margin());
+  verdict_.note(energy_budget_exceeded, energy_.step(e.most_W), energy_);
   // While heating as well: a sense that tells too little current makes the power stage give more.
   if (e.resistance_fresh) {
     verdict_.note(resistance_drift,
-                  drift_.step(e.resistance_Ohm, e.least_Ohm, e.most_Ohm, e.probed),
-                  drift_.margin());
+                  drift_.step(e.resistance_Ohm, e.least_Ohm, e.most_Ohm, e.probed), drift_);
   } else {
     drift_.skip();
   }
-  if (e.probe_failed) verdict_.note(heater_open, true, open_.margin());
+  if (e.probe_failed) verdict_.note(heater_open, true, open_);
 }
 
 void ChannelSupervisor::judge_commands(const Evidence& e) {
   using enum Fault;
-  const bool number = std::isfinite(e.wanted_W);
   // Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
-  const bool lost = saturated_.step(e.heating && e.limited && e.wanted_W > e.applied_W);
-  saturation_ = number ? detectors::rising(saturated_.held_s(), settings_.saturated_s)
-                       : detectors::rising(e.wanted_W, 1.0);
-  verdict_.note(controller_invalid, !number || lost, saturation_);
-  verdict_.note(command_timeout, expired_.step(e.renewed, e.heating), expired_.margin());
+  const bool wants_more = e.heating && e.limited && e.wanted_W > e.applied_W;
+  verdict_.note(controller_invalid, lost_.step(e.wanted_W, wants_more), lost_);
+  verdict_.note(command_timeout, expired_.step(e.renewed, e.heating), expired_);
   // Only an obeyed command ends a row: damaged and refused ones may alternate.
   if (e.damaged_command || e.obeyed_command) {
-    verdict_.note(command_damaged, damaged_.step(e.damaged_command), damaged_.margin());
+    verdict_.note(command_damaged, damaged_.step(e.damaged_command), damaged_);
   }
   if (e.refused_command || e.obeyed_command) {
-    verdict_.note(command_not_allowed, refused_.step(e.refused_command), refused_.margin());
+    verdict_.note(command_not_allowed, refused_.step(e.refused_command), refused_);
   }
 }
 

@@ -29,11 +29,10 @@ struct Evidence {
   double hottest_C = 0.0;
   double applied_W = 0.0;          ///< as it was set
   double most_W = 0.0;             ///< as it may have been, the measured current considered
-  bool tells_temperature = false;  ///< the next two are known
-  double from_resistance_K = 0.0;
-  double from_position_K = 0.0;
-  bool probed = false;            ///< a probe ended at this tick with the next value
-  bool resistance_fresh = false;  ///< it was measured at this tick, by a probe or while heating
+  double from_resistance_K = 0.0;  ///< the temperature that it tells; 0 when it tells none,
+  double from_position_K = 0.0;    ///< and then this as well
+  bool probed = false;             ///< a probe ended at this tick with the next value
+  bool resistance_fresh = false;   ///< it was measured at this tick, by a probe or while heating
   double resistance_Ohm = 0.0;
   double least_Ohm = 0.0;  ///< between these it should be, at whichever temperature
   double most_Ohm = 0.0;
@@ -73,7 +72,7 @@ class ChannelSupervisor {
 
   ChannelSupervision settings_;
   Verdict verdict_;
-  detectors::Stale stale_;
+  detectors::Flag stale_;
   detectors::OutOfRange out_of_range_;
   detectors::Frozen frozen_;
   detectors::Jump jump_;
@@ -91,8 +90,7 @@ class ChannelSupervisor {
   detectors::Expired expired_;
   detectors::InARow damaged_;
   detectors::InARow refused_;
-  detectors::HeldFor saturated_;
-  detectors::Margin saturation_;
+  detectors::ControllerLost lost_;
 };
 
 }  // namespace supercoil

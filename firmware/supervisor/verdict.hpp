@@ -17,9 +17,9 @@ class Verdict {
   static constexpr std::size_t faults = 96;  ///< numbers below this
 
   void begin() { fault_ = board_fault_ = Fault::none; }
-  /// margin outlives the verdict: it is the detector's own.
-  void note(Fault fault, bool trips, const detectors::Margin& margin) {
-    margins_[static_cast<std::size_t>(fault)] = &margin;
+  /// detector outlives the verdict, which asks it for its margin.
+  void note(Fault fault, bool trips, const detectors::Detector& detector) {
+    detectors_[static_cast<std::size_t>(fault)] = &detector;
     if (trips) take(fault);
   }
   /// The first of this tick, of either scope.
@@ -27,21 +27,20 @@ class Verdict {
   /// The first of this tick that concerns the whole board.
   Fault board_fault() const { return board_fault_; }
   /// Whether this verdict's detectors judge that fault.
-  bool judges(Fault fault) const { return margins_[static_cast<std::size_t>(fault)] != nullptr; }
+  bool judges(Fault fault) const { return detectors_[static_cast<std::size_t>(fault)] != nullptr; }
   /// As of the last tick at which it judged; nothing used before that.
   detectors::Margin margin(Fault fault) const {
-    return judges(fault) ? *margins_[static_cast<std::size_t>(fault)] : detectors::Margin{};
+    return judges(fault) ? detectors_[static_cast<std::size_t>(fault)]->margin()
+                         : detectors::Margin{};
   }
 
  private:
-  void take(Fault fault) {
-    if (fault_ == Fault::none) fault_ = fault;
-    if (board_fault_ == Fault::none && info(fault)->scope == Scope::board) board_fault_ = fault;
-  }
+  /// Not inline: thirty copies of what hardly ever runs would push the tick out of the cache.
+  void take(Fault fault);
 
   Fault fault_ = Fault::none;
   Fault board_fault_ = Fault::none;
-  std::array<const detectors::Margin*, faults> margins_{};
+  std::array<const detectors::Detector*, faults> detectors_{};
 };
 
 }  // namespace supercoil

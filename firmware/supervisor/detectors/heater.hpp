@@ -6,7 +6,7 @@
 namespace supercoil::detectors {
 
 /// Trips when duty is applied and the current stays below min_A for hold_s: a broken wire.
-class OpenLoad {
+class OpenLoad final : public Detector {
  public:
   struct Settings {
     double min_duty;  ///< below it the current is too small to judge
@@ -17,17 +17,19 @@ class OpenLoad {
       : settings_(settings), held_(settings.hold_s, step_s) {}
 
   bool step(double duty, double current_A) {
-    const double least = settings_.min_A_per_duty * duty;
-    const bool judged = duty >= settings_.min_duty;
-    margin_ = {current_A, least, true, judged};
-    return held_.step(judged && !(current_A >= least));
+    current_A_ = current_A;
+    least_A_ = settings_.min_A_per_duty * duty;
+    judged_ = duty >= settings_.min_duty;
+    return held_.step(judged_ && !(current_A >= least_A_));
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return {current_A_, least_A_, true, judged_}; }
 
  private:
   Settings settings_;
   HeldFor held_;
-  Margin margin_;
+  double current_A_ = 0.0;
+  double least_A_ = 0.0;
+  bool judged_ = false;
 };
 
 /// Trips when the current in A is above its limit for hold_s. Short in time: the switch's own
@@ -36,7 +38,7 @@ using Short = Above;
 
 /// Trips when current still flows hold_s after the channel was made safe. Only current proves that
 /// power is off: a duty that reads back as zero is the kernel's memory.
-class StuckOn {
+class StuckOn final : public Detector {
  public:
   struct Settings {
     double max_A;          ///< what a cold channel may show: offset and noise
@@ -47,21 +49,23 @@ class StuckOn {
 
   /// off: the duty is 0 or the enable line low.
   bool step(bool off, double current_A) {
-    margin_ = {current_A, settings_.max_A, false, off};
+    current_A_ = current_A;
+    off_ = off;
     return held_.step(off && !(current_A <= settings_.max_A));
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return {current_A_, settings_.max_A, false, off_}; }
 
  private:
   Settings settings_;
   HeldFor held_;
-  Margin margin_;
+  double current_A_ = 0.0;
+  bool off_ = false;
 };
 
 /// Power in, no motion: compares how far the muscle moved over a window with how far its model says
 /// that it must have. Trips when it moved less than a part of it. "Rose 0.3 of the 2.0 mm expected
 /// in 20 s."
-class NotResponding {
+class NotResponding final : public Detector {
  public:
   struct Settings {
     double window_s = 20.0;
@@ -79,16 +83,18 @@ class NotResponding {
     elapsed_s_ += step_s_;
     widen(low_, high_, position_m);
     widen(expected_low_, expected_high_, expected_m);
-    const double expected = expected_high_ - expected_low_;
-    const double moved = high_ - low_;
-    const bool judged = expected >= settings_.least_expected_m;
-    margin_ = {moved, settings_.least_part * expected, true, judged};
     if (elapsed_s_ + 0.5 * step_s_ < settings_.window_s) return false;
     elapsed_s_ = 0.0;
-    return judged && !(moved >= settings_.least_part * expected);
+    const Margin seen = margin();
+    return seen.judged && !(seen.measured >= seen.limit);
   }
   void reset() { elapsed_s_ = 0.0; }
-  const Margin& margin() const { return margin_; }
+  /// Of the window so far.
+  Margin margin() const override {
+    const double expected = expected_high_ - expected_low_;
+    const bool judged = expected >= settings_.least_expected_m;
+    return {high_ - low_, settings_.least_part * expected, true, judged};
+  }
 
  private:
   static void widen(double& low, double& high, double value) {
@@ -103,26 +109,30 @@ class NotResponding {
   double high_ = 0.0;
   double expected_low_ = 0.0;
   double expected_high_ = 0.0;
-  Margin margin_;
 };
 
 /// Trips when the PWM reads back another step than was set, for hold_s (a buffered one lags).
-class WrongDuty {
+class WrongDuty final : public Detector {
  public:
   WrongDuty(double hold_s, double step_s) : held_(hold_s, step_s) {}
 
   /// read_back: negative when the device cannot be read back; it is then not judged.
   bool step(int set, int read_back) {
-    const bool wrong = read_back >= 0 && read_back != set;
-    // The steps between them: any is beyond the limit.
-    margin_ = {wrong ? std::abs(static_cast<double>(read_back) - set) : 0.0, 0.0, false, true};
-    return held_.step(wrong);
+    set_ = set;
+    read_back_ = read_back;
+    return held_.step(wrong());
   }
-  const Margin& margin() const { return margin_; }
+  /// The steps between them: any is beyond the limit.
+  Margin margin() const override {
+    return rising(wrong() ? std::abs(static_cast<double>(read_back_) - set_) : 0.0, 0.0);
+  }
 
  private:
+  bool wrong() const { return read_back_ >= 0 && read_back_ != set_; }
+
   HeldFor held_;
-  Margin margin_;
+  int set_ = 0;
+  int read_back_ = -1;
 };
 
 }  // namespace supercoil::detectors

@@ -7,23 +7,34 @@ namespace supercoil::detectors {
 
 /// Trips at once when a value that must not be passed is passed, or is no number. For temperature:
 /// the hottest of the observers; for travel: the position.
-class Limit {
+class Limit final : public Detector {
  public:
   explicit Limit(double limit) : limit_(limit) {}
 
   bool step(double value) {
-    margin_ = rising(value, limit_);
+    value_ = value;
     return !(value <= limit_);
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return rising(value_, limit_); }
 
  private:
   double limit_;
-  Margin margin_;
+  double value_ = 0.0;
+};
+
+/// Trips at once when something is not well that can only be well or not.
+class Flag final : public Detector {
+ public:
+  bool step(bool bad) { return bad_ = bad; }
+  /// 0 is well, 1 is not.
+  Margin margin() const override { return rising(bad_ ? 1.0 : 0.0, 0.0); }
+
+ private:
+  bool bad_ = false;
 };
 
 /// Trips when a value is above its limit, or is no number, for hold_s.
-class Above {
+class Above final : public Detector {
  public:
   struct Settings {
     double limit;
@@ -33,19 +44,19 @@ class Above {
       : settings_(settings), held_(settings.hold_s, step_s) {}
 
   bool step(double value) {
-    margin_ = rising(value, settings_.limit);
+    value_ = value;
     return held_.step(!(value <= settings_.limit));
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return rising(value_, settings_.limit); }
 
  private:
   Settings settings_;
   HeldFor held_;
-  Margin margin_;
+  double value_ = 0.0;
 };
 
 /// Trips when a value is below its limit, or is no number, for hold_s.
-class Below {
+class Below final : public Detector {
  public:
   struct Settings {
     double limit;
@@ -55,15 +66,29 @@ class Below {
       : settings_(settings), held_(settings.hold_s, step_s) {}
 
   bool step(double value) {
-    margin_ = falling(value, settings_.limit);
+    value_ = value;
     return held_.step(!(value >= settings_.limit));
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return falling(value_, settings_.limit); }
 
  private:
   Settings settings_;
   HeldFor held_;
-  Margin margin_;
+  double value_ = 0.0;
+};
+
+/// Trips when a state that is not well has lasted for max_s; 0: at once.
+class Lasting final : public Detector {
+ public:
+  Lasting(double max_s, double step_s) : max_s_(max_s), held_(max_s, step_s) {}
+
+  bool step(bool holds) { return held_.step(holds); }
+  void reset() { held_.reset(); }
+  Margin margin() const override { return rising(held_.held_s(), max_s_); }
+
+ private:
+  double max_s_;
+  HeldFor held_;
 };
 
 }  // namespace supercoil::detectors

@@ -3,12 +3,12 @@
 
 #include <cstdint>
 
-#include "supervisor/detectors/margin.hpp"
+#include "supervisor/detectors/limits.hpp"
 
 namespace supercoil::detectors {
 
 /// Trips at `most` events in a row (periods left out; damaged commands).
-class InARow {
+class InARow final : public Detector {
  public:
   explicit InARow(int most) : most_(most) {}
 
@@ -16,56 +16,73 @@ class InARow {
   /// Several at once; none ends the row.
   bool step(long happened) {
     count_ = happened > 0 ? count_ + happened : 0;
-    margin_ = rising(static_cast<double>(count_), static_cast<double>(most_));
     return count_ >= most_;
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override {
+    return rising(static_cast<double>(count_), static_cast<double>(most_));
+  }
 
  private:
   int most_;
   long count_ = 0;
-  Margin margin_;
 };
 
 /// Trips when a counter that its owner turns has stood still for max_s (a thread's sign of life).
-class Silent {
+class Silent final : public Detector {
  public:
-  Silent(double max_s, double step_s) : max_s_(max_s), held_(max_s, step_s) {}
+  Silent(double max_s, double step_s) : still_(max_s, step_s) {}
 
   bool step(std::uint32_t counter) {
-    const bool trips = held_.step(counter == last_);
+    const bool still = counter == last_;
     last_ = counter;
-    margin_ = rising(held_.held_s(), max_s_);
-    return trips;
+    return still_.step(still);
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return still_.margin(); }
 
  private:
-  double max_s_;
-  HeldFor held_;
+  Lasting still_;
   std::uint32_t last_ = 0;
-  Margin margin_;
 };
 
 /// Every command to heat expires unless it is renewed: trips when it is older than max_s while it
 /// holds.
-class Expired {
+class Expired final : public Detector {
  public:
   Expired(double max_s, double step_s) : max_s_(max_s), step_s_(step_s) {}
 
   /// renewed: a valid command arrived since the last tick. heating: a command to heat is in force.
   bool step(bool renewed, bool heating) {
     age_s_ = renewed || !heating ? 0.0 : age_s_ + step_s_;
-    margin_ = rising(age_s_, max_s_);
     return age_s_ > max_s_ + 0.5 * step_s_;
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return rising(age_s_, max_s_); }
 
  private:
   double max_s_;
   double step_s_;
   double age_s_ = 0.0;
-  Margin margin_;
+};
+
+/// Trips when what the controller wants is no number, and when it has wanted more than it got for
+/// max_s without a gap: it is lost.
+class ControllerLost final : public Detector {
+ public:
+  ControllerLost(double max_s, double step_s) : more_(max_s, step_s) {}
+
+  /// wants_more: than it got, since the last tick.
+  bool step(double wanted_W, bool wants_more) {
+    wanted_W_ = wanted_W;
+    const bool lost = more_.step(wants_more);
+    return !std::isfinite(wanted_W) || lost;
+  }
+  void reset() { more_.reset(); }
+  Margin margin() const override {
+    return std::isfinite(wanted_W_) ? more_.margin() : rising(wanted_W_, 1.0);
+  }
+
+ private:
+  Lasting more_;
+  double wanted_W_ = 0.0;
 };
 
 }  // namespace supercoil::detectors

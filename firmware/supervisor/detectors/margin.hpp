@@ -6,8 +6,7 @@
 
 namespace supercoil::detectors {
 
-/// Kept every tick, also when all is well: what was measured and what the limit is, both in the
-/// detector's own unit.
+/// What was measured and what the limit is, both in the detector's own unit.
 struct Margin {
   double measured = 0.0;
   double limit = 0.0;
@@ -32,6 +31,20 @@ inline Margin rising(double measured, double limit) {
 inline Margin falling(double measured, double limit) {
   return {measured, limit, true, true};
 }
+
+/// A step says whether it trips, and keeps what it judged. Of a channel's thirty margins a tick
+/// publishes one: only what is asked for is worked out.
+class Detector {
+ public:
+  /// As of its last step, also when all is well.
+  virtual Margin margin() const = 0;
+
+ protected:
+  Detector() = default;
+  Detector(const Detector&) = default;
+  Detector& operator=(const Detector&) = default;
+  ~Detector() = default;
+};
 
 /// Tells whether something has held for a whole time.
 class HeldFor {

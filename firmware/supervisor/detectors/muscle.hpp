@@ -8,7 +8,7 @@ namespace supercoil::detectors {
 /// Trips when, within about window_s, more energy went in than the muscle may take. A leaky
 /// integral: energy leaves the account at the rate of energy_J/window_s in proportion to what is on
 /// it, so that a constant power of energy_J/window_s just fills it.
-class EnergyBudget {
+class EnergyBudget final : public Detector {
  public:
   struct Settings {
     double energy_J;
@@ -19,23 +19,21 @@ class EnergyBudget {
 
   bool step(double power_W) {
     spent_J_ += power_W * step_s_ - spent_J_ * forgotten_;
-    margin_ = rising(spent_J_, settings_.energy_J);
     return !(spent_J_ <= settings_.energy_J);
   }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override { return rising(spent_J_, settings_.energy_J); }
 
  private:
   Settings settings_;
   double step_s_;
   double forgotten_;  ///< in a step, of what was spent
   double spent_J_ = 0.0;
-  Margin margin_;
 };
 
 /// Trips when the heater's resistance is further than `part` outside of what it can be at any
 /// temperature that the muscle may have: at once when a probe measured it, after hold_s when it is
 /// the smoothed one of a heating muscle.
-class ResistanceDrift {
+class ResistanceDrift final : public Detector {
  public:
   struct Settings {
     double part;
@@ -46,21 +44,26 @@ class ResistanceDrift {
 
   /// least_Ohm and most_Ohm: between these a muscle lies that is as it was calibrated.
   bool step(double measured_Ohm, double least_Ohm, double most_Ohm, bool probed) {
-    const double low_Ohm = least_Ohm * (1.0 - settings_.part);
-    const double high_Ohm = most_Ohm * (1.0 + settings_.part);
-    const bool outside = !(measured_Ohm >= low_Ohm && measured_Ohm <= high_Ohm);
-    const bool falls = measured_Ohm < least_Ohm;
-    margin_ = falls ? falling(measured_Ohm, low_Ohm) : rising(measured_Ohm, high_Ohm);
+    measured_Ohm_ = measured_Ohm;
+    low_Ohm_ = least_Ohm * (1.0 - settings_.part);
+    high_Ohm_ = most_Ohm * (1.0 + settings_.part);
+    falls_ = measured_Ohm < least_Ohm;
+    const bool outside = !(measured_Ohm >= low_Ohm_ && measured_Ohm <= high_Ohm_);
     return held_.step(outside) || (probed && outside);
   }
   /// Nothing was measured at this tick.
   void skip() { held_.step(false); }
-  const Margin& margin() const { return margin_; }
+  Margin margin() const override {
+    return falls_ ? falling(measured_Ohm_, low_Ohm_) : rising(measured_Ohm_, high_Ohm_);
+  }
 
  private:
   Settings settings_;
   HeldFor held_;
-  Margin margin_;
+  double measured_Ohm_ = 0.0;
+  double low_Ohm_ = 0.0;
+  double high_Ohm_ = 0.0;
+  bool falls_ = false;
 };
 
 }  // namespace supercoil::detectors

@@ -52,11 +52,12 @@ TEST(SensorDetectors, OutOfRangeMarginIsHowNearTheEndIs) {
   DOUBLES_EQUAL(0.5, detector.margin().used(), 1e-9);
 }
 
-TEST(SensorDetectors, StaleTripsBeyondItsAge) {
-  Stale detector(0.01);
-  CHECK_FALSE(detector.step(0.01));
-  CHECK(detector.step(0.0101));
-  CHECK(detector.step(nan_value));
+TEST(SensorDetectors, AFlagTripsAtOnceAndUsesAllOrNothing) {
+  Flag detector;
+  CHECK_FALSE(detector.step(false));
+  DOUBLES_EQUAL(0.0, detector.margin().used(), 0.0);
+  CHECK(detector.step(true));
+  CHECK(std::isinf(detector.margin().used()));
 }
 
 TEST(SensorDetectors, FrozenTripsOnlyWhileHot) {

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 #include "supervisor/detectors/liveness.hpp"
@@ -44,4 +46,26 @@ TEST(TimeDetectors, ExpiredDoesNotTripWhileRenewedOrCold) {
     CHECK_FALSE(detector.step(i % 250 == 0, true));
   for (int i = 0; i < 5000; ++i)
     CHECK_FALSE(detector.step(false, false));
+}
+
+TEST(TimeDetectors, AControllerIsLostWhenItHasWantedMoreForTooLong) {
+  ControllerLost detector(0.01, step_s);
+  for (int i = 0; i < 9; ++i)
+    CHECK_FALSE(detector.step(4.5, true));
+  CHECK_FALSE(detector.step(4.5, false));
+  for (int i = 0; i < 9; ++i)
+    CHECK_FALSE(detector.step(4.5, true));
+  DOUBLES_EQUAL(0.9, detector.margin().used(), 1e-9);
+  CHECK(detector.step(4.5, true));
+  detector.reset();
+  CHECK_FALSE(detector.step(4.5, true));
+}
+
+TEST(TimeDetectors, AControllerIsLostAtOnceWhenItWantsWhatIsNoNumber) {
+  ControllerLost detector(10.0, step_s);
+  CHECK(detector.step(std::nan(""), false));
+  CHECK(std::isinf(detector.margin().used()));
+  CHECK(detector.step(INFINITY, false));
+  CHECK(std::isinf(detector.margin().used()));
+  CHECK_FALSE(detector.step(1.0, false));
 }

@@ -157,7 +157,7 @@ void Loop::judge_board(hal::Time now, double late_s, long skipped) {
   if (verdict.board_fault() != Fault::none)
     latch(verdict.board_fault(), verdict.margin(verdict.board_fault()));
   now_.fault = board_fault_ != Fault::none ? board_fault_ : present;
-  now_.margin = verdict.margin(now_.fault);
+  if (now_.fault != Fault::none) now_.margin = verdict.margin(now_.fault);
 }
 
 /// The first cause is kept. From the next tick on no channel of this board may be hot; those of

@@ -18,7 +18,7 @@ class StageTime {
   void add(hal::Duration taken) {
     const auto nanoseconds = static_cast<std::uint64_t>(taken.count() < 0 ? 0 : taken.count());
     last_ = taken;
-    largest_ = taken > largest_ ? taken : largest_;
+    if (taken > largest_) largest_ = taken;
     sum_ns_ += nanoseconds;
     const auto bin = static_cast<std::size_t>(std::bit_width(nanoseconds));
     ++histogram_[bin < bins ? bin : bins - 1];

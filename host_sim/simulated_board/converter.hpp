@@ -56,7 +56,7 @@ class SimulatedConverter final : public hal::AdcChannel {
   const ConverterSettings& settings() const { return settings_; }
 
  private:
-  hal::Sample convert(double value, hal::Time when);
+  std::int32_t convert(double value);
 
   ConverterSettings settings_;
   double full_scale_ = 1.0;

@@ -26,7 +26,7 @@ class SimulatedPwm final : public hal::PwmOutput {
     if (delay_ > hal::Duration{}) {
       on_the_way_.push_back({*now_ + delay_, step});
     } else {
-      acting_ = step;
+      act(step);
     }
     return hal::Status::ok;
   }
@@ -36,21 +36,23 @@ class SimulatedPwm final : public hal::PwmOutput {
   /// What the switch gets at `now`.
   double duty(hal::Time now) {
     while (!on_the_way_.empty() && on_the_way_.front().first <= now) {
-      acting_ = on_the_way_.front().second;
+      act(on_the_way_.front().second);
       on_the_way_.pop_front();
     }
-    return static_cast<double>(acting_) / steps_;
+    return duty_;
   }
 
   hal::Status refuses = hal::Status::ok;  ///< what a set answers instead of being obeyed
   bool reads_wrong = false;
 
  private:
+  void act(int step) { duty_ = static_cast<double>(step) / steps_; }
+
   int steps_;
   hal::Duration delay_;
   const hal::Time* now_;
   int set_ = 0;
-  int acting_ = 0;
+  double duty_ = 0.0;  ///< that acts
   boost::circular_buffer<std::pair<hal::Time, int>> on_the_way_{4096};
 };
 

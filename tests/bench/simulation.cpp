@@ -11,7 +11,8 @@ namespace {
 
 using namespace supercoil::host_sim;
 
-/// The budget at 1 kHz, one channel: 3,000 × real time or more. The boot of 15 s is not counted.
+/// The budget at 1 kHz, one channel: 3,000 × real time or more. The boot costs time here, but its
+/// 15 s are not counted as simulated.
 void scenario(benchmark::State& state, const std::string& name) {
   const auto read = read_scenario(name);
   if (!read) {

@@ -161,6 +161,12 @@ class Run(unittest.TestCase):
                 seen += 1
         self.assertGreater(seen, 4000)
 
+    def test_all_detectors_come_round(self):
+        for message in ("Margin", "Limit"):
+            faults = self.database.get_message_by_name(message).get_signal_by_name("fault").choices
+            seen = {raw["fault"] for _, name, _, raw in self.frames if name == message}
+            self.assertEqual(seen, faults.keys() - {0}, message)
+
     def test_the_error_is_position_less_model(self):
         for tick, message, values, _ in self.frames:
             row = self.recorded.get(tick)

@@ -84,10 +84,11 @@ class Program(unittest.TestCase):
         self.assertEqual((self.path / "a/trace.csv").read_bytes(),
                          (self.path / "b/trace.csv").read_bytes())
 
-    def test_every_and_no_trace(self):
+    def test_every_no_trace_and_no_can(self):
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot", "--every", 10)
         self.assertEqual(len((self.path / "out/trace.csv").read_text().splitlines()), 201)
-        self.run_program("run", self.scenario(SHORT), "--out", "none", "--no-plot", "--no-trace")
+        self.run_program("run", self.scenario(SHORT), "--out", "none", "--no-plot", "--no-trace",
+                         "--no-can")
         self.assertEqual([p.name for p in (self.path / "none").iterdir()], ["summary.json"])
 
     def check_refused(self, message, *arguments):
@@ -146,7 +147,7 @@ class Program(unittest.TestCase):
         self.assertEqual((self.path / "out/trace.csv").read_bytes(), earlier)
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
-                         ["summary.json", "trace.csv"])
+                         ["can.log", "summary.json", "trace.csv"])
 
     def test_without_gnuplot_the_results_are_kept_and_the_picture_is_missed(self):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out",
@@ -154,7 +155,7 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("plot.svg is not written: gnuplot is not installed", done.stderr)
         self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
-                         ["summary.json", "trace.csv"])
+                         ["can.log", "summary.json", "trace.csv"])
 
     def test_reproduce_without_gnuplot_still_gives_the_table(self):
         done = self.run_program("reproduce", "--out", "out", env={"PATH": "/nowhere"})

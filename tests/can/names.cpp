@@ -1,6 +1,7 @@
 // Prints the names that the firmware has for the numbers it sends, as JSON: what the tables of
 // values in the DBC must say.
 #include <cstdio>
+#include <exception>
 
 #include <nlohmann/json.hpp>
 
@@ -29,12 +30,18 @@ nlohmann::ordered_json faults() {
 }  // namespace
 
 int main() {
-  const nlohmann::ordered_json json{{"state", table(state_names)},
-                                    {"mode", table(mode_names)},
-                                    {"fault", faults()},
-                                    {"limited_by", table(limit_names)},
-                                    {"refusal", table(refusal_names)},
-                                    {"opcode", table(telemetry::opcode_names())},
-                                    {"version", telemetry::protocol_version}};
-  std::puts(json.dump(1).c_str());
+  try {
+    const nlohmann::ordered_json json{{"state", table(state_names)},
+                                      {"mode", table(mode_names)},
+                                      {"fault", faults()},
+                                      {"limited_by", table(limit_names)},
+                                      {"refusal", table(refusal_names)},
+                                      {"opcode", table(telemetry::opcode_names())},
+                                      {"version", telemetry::protocol_version}};
+    std::puts(json.dump(1).c_str());
+  } catch (const std::exception& error) {
+    std::fputs(error.what(), stderr);
+    return 1;
+  }
+  return 0;
 }

@@ -19,7 +19,7 @@ TEST_GROUP(OverCan) {
   }
   /// Renews every 50 ms.
   void hold(double time_s) {
-    for (double t = 0.0; t < time_s; t += 0.05) {
+    for (long i = std::lround(time_s / 0.05); i > 0; --i) {
       CHECK(rig.command(master, Verb::renew) == Refusal::none);
       rig.run(0.048);
     }

@@ -111,9 +111,9 @@ Result<LineAtRest> look_at_rest(const LineName& name, const std::string& dev) {
 }
 
 Result<std::unique_ptr<GpioOutput>> GpioOutput::open(const LineName& name, const std::string& dev) {
-  return hold_line(name, Direction::output, dev).map([](HeldLine&& line) {
-    return std::make_unique<GpioOutput>(std::move(line));
-  });
+  auto line = hold_line(name, Direction::output, dev);
+  if (!line) return tl::unexpected(line.error());
+  return std::make_unique<GpioOutput>(std::move(*line));
 }
 
 GpioOutput::~GpioOutput() {
@@ -122,9 +122,9 @@ GpioOutput::~GpioOutput() {
 }
 
 Result<std::unique_ptr<GpioInput>> GpioInput::open(const LineName& name, const std::string& dev) {
-  return hold_line(name, Direction::input, dev).map([](HeldLine&& line) {
-    return std::make_unique<GpioInput>(std::move(line));
-  });
+  auto line = hold_line(name, Direction::input, dev);
+  if (!line) return tl::unexpected(line.error());
+  return std::make_unique<GpioInput>(std::move(*line));
 }
 
 }  // namespace supercoil::hal_linux

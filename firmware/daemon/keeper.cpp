@@ -8,6 +8,17 @@
 
 namespace supercoil::daemon {
 
+namespace {
+
+/// Of rows that wait for the keeper while it waits for the disk.
+constexpr double relayed_s = 2.0;
+
+std::size_t rows_relayed(const BoardSettings& board) {
+  return static_cast<std::size_t>(relayed_s * board.rate_Hz) * board.channels.size();
+}
+
+}  // namespace
+
 tl::expected<void, std::string> remember(config::BoardConfig& config,
                                          std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {
@@ -32,20 +43,19 @@ Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedSt
       stores_(&stores),
       recorder_(config.storage_folder, static_cast<int>(config.settings.channels.size()),
                 config.settings.rate_Hz, files),
-      newest_(config.settings.channels.size()),
+      relay_(rows_relayed(config.settings)),
       last_(config.settings.channels.size()),
       looked_(config.settings.channels.size()) {}
 
 void Keeper::poll(Loop& loop, hal::Time now) {
   struct Tee {
     bool take(Row& row) const {
-      if (!loop->take(row)) return false;
+      if (!keeper->relay_.take(row)) return false;
       keeper->watch(row);
       return true;
     }
-    Loop* loop;
     Keeper* keeper;
-  } tee{&loop, this};
+  } tee{this};
   recorder::pump(tee, recorder_, now);
   tell_notes();
   for (std::size_t i = 0; i < stores_->size(); ++i)
@@ -104,10 +114,14 @@ void Keeper::watch(const Row& row) {
   constexpr float done = 0.99F;
   if (looking && row.mode == 0 && before.progress > done) looked_[row.channel] = true;
   before = row;
-  newest_.put(row);
 }
 
 void Keeper::tell_notes() {
+  if (const std::size_t lost = relay_.lost(); lost != told_lost_) {
+    log(Level::warning, std::to_string(lost - told_lost_) +
+                            " rows are missing in recordings: the disk kept the recorder waiting");
+    told_lost_ = lost;
+  }
   for (const recorder::RecorderNote& note : recorder_.take_notes())
     log(note.problem ? Level::problem : Level::info, note.text);
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "config/board_config.hpp"
-#include "daemon/newest_rows.hpp"
+#include "daemon/row_relay.hpp"
 #include "loop/loop.hpp"
 #include "recorder/flight_recorder.hpp"
 #include "storage/posix_files.hpp"
@@ -27,12 +27,12 @@ class Keeper {
   Keeper(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
          storage::Files& files);
 
-  /// Takes what has come since. now: on the loop's clock, read before.
+  /// Takes what has come since by the relay. now: on the loop's clock, read before.
   void poll(Loop& loop, hal::Time now);
   /// Writes at once what would be written later.
   void finish();
 
-  NewestRows& newest() { return newest_; }
+  RowRelay& relay() { return relay_; }
   /// How many rows have come: a loop that is alive makes them.
   std::uint64_t rows() const { return rows_; }
   /// No channel is armed or active, as far as rows tell.
@@ -46,7 +46,8 @@ class Keeper {
   const config::BoardConfig* config_;
   std::vector<storage::LearnedStore>* stores_;
   recorder::FlightRecorder recorder_;
-  NewestRows newest_;
+  RowRelay relay_;
+  std::size_t told_lost_ = 0;
   std::vector<Row> last_;     ///< of each channel
   std::vector<bool> looked_;  ///< identification ended by itself
   std::uint64_t rows_ = 0;

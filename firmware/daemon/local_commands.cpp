@@ -53,14 +53,13 @@ tl::expected<LocalCommands, std::string> LocalCommands::open(const std::string& 
   return LocalCommands(std::move(listener));
 }
 
-void LocalCommands::serve(Loop& loop, NewestRows& rows, int most_ms) {
+void LocalCommands::serve(Loop& loop, const NewestRows& rows, int most_ms) {
   std::array<pollfd, most_clients + 1> watched{};
   watched[0] = {listener_.number(), POLLIN, 0};
   const std::size_t count = clients_.size();
   for (std::size_t i = 0; i < count; ++i)
     watched[i + 1] = {clients_[i].number(), POLLIN, 0};
   ::poll(watched.data(), count + 1, most_ms);
-  pass_answers(loop);
   for (std::size_t i = count; i-- > 0;) {
     if (watched[i + 1].revents == 0 || take_packet(clients_[i], loop, rows)) continue;
     for (int& client : waiting_)
@@ -82,7 +81,8 @@ void LocalCommands::accept_one() {
 }
 
 /// False when the client is gone.
-bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop, NewestRows& rows) {
+bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
+                                const NewestRows& rows) {
   std::array<char, longest_line> line{};
   const ssize_t size = ::recv(client.number(), line.data(), line.size(), MSG_DONTWAIT);
   if (size <= 0) return size < 0 && (errno == EAGAIN || errno == EINTR);
@@ -104,13 +104,10 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
   return true;
 }
 
-void LocalCommands::pass_answers(Loop& loop) {
-  Answer given;
-  while (loop.answer(given)) {
-    if (waiting_.empty()) continue;  // of a command that nobody here sent
-    answer(waiting_.front(), answer_text(given.refusal));
-    waiting_.pop_front();
-  }
+void LocalCommands::pass(const Answer& given) {
+  if (waiting_.empty()) return;  // of a command that nobody here sent
+  answer(waiting_.front(), answer_text(given.refusal));
+  waiting_.pop_front();
 }
 
 }  // namespace supercoil::daemon

@@ -6,10 +6,10 @@
 
 namespace supercoil::daemon {
 
-std::string NewestRows::describe() {
+std::string NewestRows::describe() const {
   std::ostringstream text;
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    const Row& r = boxes_[i]->newest();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& r = rows_[i];
     text << i + 1 << ' ' << recorder::state_name(r.state) << ' ' << recorder::mode_name(r.mode)
          << ' ' << recorder::fault_name(r.fault) << ' ' << r.reference << ' ' << r.model_m << ' '
          << r.position_m << ' ' << r.applied_W << ' ' << r.coldest_C << ' ' << r.hottest_C << ' '

@@ -1,36 +1,30 @@
 // The newest row of every channel, for those who do not keep them all.
 #pragma once
 
-#include <memory>
+#include <cstddef>
 #include <string>
 #include <vector>
-
-#include "supercoil/hal_linux/mailbox.hpp"
 
 #include "loop/row.hpp"
 
 namespace supercoil::daemon {
 
-/// Written by the thread that takes the loop's rows, read by one other.
+/// Of one thread.
 class NewestRows {
  public:
-  explicit NewestRows(std::size_t channels) {
-    for (std::size_t i = 0; i < channels; ++i)
-      boxes_.push_back(std::make_unique<hal_linux::Mailbox<Row>>());
-  }
+  explicit NewestRows(std::size_t channels) : rows_(channels) {}
 
-  /// The writer's.
   void put(const Row& row) {
-    if (row.channel < boxes_.size()) boxes_[row.channel]->put(row);
+    if (row.channel < rows_.size()) rows_[row.channel] = row;
   }
-  /// The reader's: a line for each channel,
+  /// A line for each channel,
   /// "1 active position none 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5": channel, state, mode, fault,
   /// reference, reference model and position in m, applied power in W, coldest and hottest in °C,
   /// progress.
-  std::string describe();
+  std::string describe() const;
 
  private:
-  std::vector<std::unique_ptr<hal_linux::Mailbox<Row>>> boxes_;
+  std::vector<Row> rows_;
 };
 
 }  // namespace supercoil::daemon

@@ -4,11 +4,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <random>
 
 #include <malloc.h>
 #include <unistd.h>
 
 #include "supercoil/hal_linux/realtime.hpp"
+#include "supercoil/hal_linux/socket_can.hpp"
 
 #include "daemon/ending_signals.hpp"
 #include "daemon/keeper.hpp"
@@ -46,9 +48,23 @@ struct Parts {
   hal_linux::WakefulCpus wakeful;
   std::unique_ptr<Loop> loop;
   std::unique_ptr<Keeper> keeper;
+  std::unique_ptr<hal_linux::SocketCan> can_bus;
+  std::unique_ptr<telemetry::CanLink> can;
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
 };
+
+/// A bus that is down is no error, and may come up later.
+tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig& config) {
+  if (!config.can) return {};
+  const auto ids = telemetry::command_ids(*config.can, config.settings.channels.size());
+  auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
+  if (!bus) return tl::unexpected("can: " + bus.error().text);
+  parts.can_bus = std::move(*bus);
+  parts.can = std::make_unique<telemetry::CanLink>(*config.can, config.settings, *parts.loop,
+                                                   *parts.can_bus, std::random_device()());
+  return {};
+}
 
 /// Buses, watchdog, commands, and at last the loop.
 tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& config,
@@ -60,8 +76,9 @@ tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& c
   if (auto started = parts.board->start(rate_Hz, bus_priority); !started) return started;
   const board::Devices devices = parts.board->devices();
   parts.loop = std::make_unique<Loop>(config.settings, devices);
-  parts.telemetry =
-      std::make_unique<Telemetry>(*parts.loop, parts.keeper->newest(), std::move(commands));
+  if (auto joined = join_can(parts, config); !joined) return joined;
+  parts.telemetry = std::make_unique<Telemetry>(*parts.loop, parts.keeper->relay(),
+                                                std::move(commands), parts.can.get());
   if (auto started = parts.telemetry->start(); !started) return started;
   auto thread = LoopThread::start(*parts.loop, *devices.clock, rate_Hz,
                                   {"loop", options.priority, options.cpu});
@@ -106,6 +123,8 @@ bool cool(Parts& parts) {
   } while (!parts.keeper->all_off());
   parts.thread->stop();
   parts.thread.reset();
+  // The last rows come through the telemetry thread.
+  nanosleep(&a_round, nullptr);
   parts.keeper->poll(*parts.loop, clock.now());
   parts.keeper->finish();
   return true;

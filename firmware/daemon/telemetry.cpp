@@ -4,6 +4,8 @@
 
 #include <poll.h>
 
+#include "supercoil/hal_linux/monotonic_clock.hpp"
+
 namespace supercoil::daemon {
 
 namespace {
@@ -27,20 +29,42 @@ tl::expected<void, std::string> Telemetry::start() {
 }
 
 void Telemetry::run() {
+  hal_linux::MonotonicClock clock;
   while (!ending_.load(std::memory_order_relaxed)) {
     loop_->health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
     if (ending_is_asked()) cool();
-    if (cooling_.load(std::memory_order_relaxed)) {
-      for (std::size_t i = 0; i < loop_->channels(); ++i)
-        loop_->send({static_cast<std::uint8_t>(i), Verb::disarm});
-      Answer answer;
-      while (loop_->answer(answer)) {
-      }
-      ::poll(nullptr, 0, round_ms);
-    } else if (commands_) {
-      commands_->serve(*loop_, *rows_, round_ms);
+    const bool cooling = cooling_.load(std::memory_order_relaxed);
+    if (cooling) disarm_all();
+    if (commands_ && !cooling) {
+      commands_->serve(*loop_, rows_, round_ms);
     } else {
       ::poll(nullptr, 0, round_ms);
+    }
+    pass_rows();
+    pass_answers();
+    if (can_ != nullptr && !cooling) can_->poll(clock.now());
+  }
+}
+
+void Telemetry::disarm_all() {
+  for (std::size_t i = 0; i < loop_->channels(); ++i)
+    loop_->send({static_cast<std::uint8_t>(i), Verb::disarm});
+}
+
+void Telemetry::pass_rows() {
+  for (Row row; loop_->take(row);) {
+    relay_->put(row);
+    rows_.put(row);
+    if (can_ != nullptr) can_->offer(row);
+  }
+}
+
+void Telemetry::pass_answers() {
+  for (Answer answer; loop_->answer(answer);) {
+    if (answer.command.source == Source::can && can_ != nullptr) {
+      can_->answer(answer);
+    } else if (commands_) {
+      commands_->pass(answer);
     }
   }
 }

@@ -1,5 +1,7 @@
 #include "linux_board/parts.hpp"
 
+#include "linux_board/captures.hpp"
+
 namespace supercoil::linux_board {
 
 namespace {
@@ -12,7 +14,8 @@ void note(const Part<Device>& part, std::vector<std::string>& missing) {
 /// Opens devices of one machine.
 class Opening {
  public:
-  explicit Opening(const hal_linux::Machine& machine) : machine_(&machine) {}
+  Opening(const config::BoardWiring& wiring, const hal_linux::Machine& machine)
+      : machine_(&machine), captures_(wiring, machine) {}
 
   OutputPart output(std::string what, const config::LineAddress& address) const {
     return {std::move(what), hal_linux::GpioOutput::open(line_name(address), machine_->dev)};
@@ -24,12 +27,14 @@ class Opening {
     return {std::move(what), hal_linux::SysfsPwm::open({a.device, a.number, a.period_ns, a.steps,
                                                         machine_->pwm_chips()})};
   }
-  ConverterPart converter(std::string what, const config::ConverterAddress& address) const {
+  ConverterPart converter(std::string what, const config::ConverterAddress& address) {
+    if (address.capture) return {std::move(what), captures_.open(address)};
     return {std::move(what), hal_linux::IioAdc::open(converter_place(address, *machine_))};
   }
 
  private:
   const hal_linux::Machine* machine_;
+  Captures captures_;
 };
 
 }  // namespace
@@ -52,7 +57,7 @@ std::vector<std::string> Parts::missing() const {
 }
 
 Parts open_parts(const config::BoardWiring& wiring, const hal_linux::Machine& machine) {
-  const Opening open(machine);
+  Opening open(wiring, machine);
   OutputPart heartbeat = open.output("heartbeat", wiring.heartbeat);
   // Enable lines of all channels come before the first duty, duties before the converters.
   std::vector<OutputPart> enables;

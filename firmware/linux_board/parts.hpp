@@ -25,7 +25,7 @@ struct Part {
 using OutputPart = Part<hal_linux::GpioOutput>;
 using InputPart = Part<hal_linux::GpioInput>;
 using PwmPart = Part<hal_linux::SysfsPwm>;
-using ConverterPart = Part<hal_linux::IioAdc>;
+using ConverterPart = Part<hal::AdcChannel>;
 
 struct ChannelParts {
   OutputPart enable;

@@ -8,6 +8,21 @@
 
 namespace supercoil::telemetry {
 
+namespace {
+
+/// The DBC describes node 1.
+constexpr int command_base = SUPERCOIL_COMMAND_FRAME_ID - 1;
+
+}  // namespace
+
+std::vector<std::uint16_t> command_ids(const CanSettings& settings, std::size_t channels) {
+  std::vector<std::uint16_t> ids;
+  for (std::size_t i = 0; i < channels; ++i)
+    ids.push_back(
+        static_cast<std::uint16_t>(command_base + settings.first_node + static_cast<int>(i)));
+  return ids;
+}
+
 Commands::Commands(const CanSettings& settings, std::size_t channels, std::uint32_t seed)
     : first_node_(settings.first_node),
       lease_(hal::duration_from(settings.lease_s)),
@@ -15,8 +30,7 @@ Commands::Commands(const CanSettings& settings, std::size_t channels, std::uint3
       random_(seed) {}
 
 Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
-  constexpr int base = SUPERCOIL_COMMAND_FRAME_ID - 1;
-  const int channel = frame.id - base - first_node_;
+  const int channel = frame.id - command_base - first_node_;
   if (channel < 0 || channel >= static_cast<int>(leases_.size())) return {};
   Taken taken;
   const auto index = static_cast<std::uint8_t>(channel);

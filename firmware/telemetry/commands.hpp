@@ -14,6 +14,9 @@
 
 namespace supercoil::telemetry {
 
+/// Identifiers of the frames that command a board's channels, for the bus's receive filters.
+std::vector<std::uint16_t> command_ids(const CanSettings& settings, std::size_t channels);
+
 /// Judges frames and keeps the leases, one a channel; neither sends nor receives. Every frame of a
 /// Command is either damaged, or answered with a reason, or handed on; what is handed on is
 /// answered when the loop has done it.

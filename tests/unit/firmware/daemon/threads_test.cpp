@@ -76,7 +76,7 @@ TEST_GROUP(DaemonThreads) {
     keeper = std::make_unique<Keeper>(config, stores, files);
     auto commands = LocalCommands::open(folder / "commands");
     if (!commands) FAIL(commands.error().c_str());
-    telemetry = std::make_unique<Telemetry>(loop, keeper->newest(), std::move(*commands));
+    telemetry = std::make_unique<Telemetry>(loop, keeper->relay(), std::move(*commands));
     CHECK(telemetry->start().has_value());
     auto started = LoopThread::start(loop, board, settings.firmware.rate_Hz, {"loop"});
     if (!started) FAIL(started.error().c_str());

@@ -1,0 +1,36 @@
+// Converters that the kernel reads into a buffer.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "supercoil/hal_linux/iio_scan.hpp"
+#include "supercoil/hal_linux/machine.hpp"
+
+#include "config/wiring.hpp"
+
+namespace supercoil::linux_board {
+
+/// Opens the captures of a board: a device once, with all the inputs that the board wants of it.
+class Captures {
+ public:
+  Captures(const config::BoardWiring& wiring, const hal_linux::Machine& machine);
+
+  /// One of these inputs. Its device's capture runs until the last of its inputs ends; inputs of a
+  /// device belong to one thread.
+  hal_linux::Result<std::unique_ptr<hal::AdcChannel>> open(const config::ConverterAddress& input);
+
+ private:
+  using Scan = hal_linux::Result<std::shared_ptr<hal_linux::IioScan>>;
+
+  void want(const config::ConverterAddress& input);
+  Scan& scan_of(const std::string& device);
+
+  std::map<std::string, hal_linux::ScanPlace> wanted_;  ///< by device
+  std::map<std::string, Scan> opened_;
+  hal_linux::Machine machine_;
+};
+
+}  // namespace supercoil::linux_board

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""supercoild's CAN bus on the emulated board: telemetry crosses from one controller to another, and a command back.
+
+Every frame must decode by the DBC. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not
+do its part.
+
+    .venv/bin/python tests/hil/telemetry_test.py
+"""
+
+import re
+import sys
+
+import cantools
+
+import rig
+import witness
+from table import Table
+
+sys.path.insert(0, str(rig.ROOT / "tests" / "can"))
+import e2e
+
+FIRST_NODE = 5
+TICK_MS = 10.0
+ROUND_MS = 5.0  # of the telemetry thread
+MARK_MS = 10.0
+STEP_MS = 2.0
+
+
+def protocol():
+    return cantools.database.load_file(rig.ROOT / "firmware" / "telemetry" / "supercoil.dbc")
+
+
+def disarm_frame(dbc):
+    """As cansend takes it. Everybody may disarm, with any session."""
+    message = dbc.get_message_by_name("Command")
+    identifier = message.frame_id - 1 + FIRST_NODE
+    data = message.encode({"crc": 0, "counter": 0, "opcode": "disarm", "session": 0, "value": 0.0})
+    return f"{identifier:03X}#{e2e.protected(identifier, data).hex().upper()}"
+
+
+def decoded(dbc, log):
+    """(seconds, node, message's name, signals); a frame that is none of the protocol's raises KeyError."""
+    for time, identifier, data in re.findall(r"^\(([\d.]+)\) \w+ ([0-9A-F]{3})#([0-9A-F]*)", log, re.M):
+        node = int(identifier, 16) & 0x3F
+        message = dbc.get_message_by_frame_id((int(identifier, 16) & ~0x3F) + 1)
+        yield float(time), node, message, message.decode(bytes.fromhex(data))
+
+
+def judge(table, run, dbc, log):
+    marks, _ = witness.said(run.console)
+    table.row("the script ended with", run.status, 0, 0, "")
+    frames = list(decoded(dbc, log))
+    nodes = {node for _, node, message, _ in frames if message.name == "Status"}
+    table.row("nodes heard", len(nodes), 2, 2, "")
+    table.row("    the first of them", min(nodes), FIRST_NODE, FIRST_NODE, "")
+    seconds = marks["disarm"] - marks["heated"]
+    times = [time for time, node, message, _ in frames if node == FIRST_NODE]
+    for message in dbc.messages:
+        if not message.cycle_time:
+            continue
+        begin, end = min(times) + 1, min(times) + 1 + seconds
+        count = sum(m.name == message.name and node == FIRST_NODE and begin <= time < end for time, node, m, _ in frames)
+        # Ticks of 10 ms: nothing new comes more often.
+        expected = seconds * min(1000.0 / message.cycle_time, 1000.0 / TICK_MS)
+        table.row(f"{message.name}: frames in {seconds:.1f} s", count, 0.9 * expected - 1, 1.02 * expected + 1, "")
+    powers = [signals["applied_W"] for _, node, message, signals in frames if message.name == "Power" and node == FIRST_NODE]
+    table.row("most power that the bus was told", max(p for p in powers if not isinstance(p, str)), 1.9, 2.1, "W")
+
+    answers = [signals for _, _, message, signals in frames if message.name == "Acknowledge"]
+    table.row("the disarm from can1 is acknowledged", len(answers), 1, 1, "")
+    table.row("    and not refused", str(answers[0]["refusal"]) == "none", 1, 1, "")
+    off = witness.first(witness.looks(run.witness), marks["disarm"] - MARK_MS / 1e3, lambda look: look.channels[0].power_W == 0)
+    table.row("    power is off after", (off.time_s - marks["disarm"]) * 1e3, -MARK_MS, 3 * TICK_MS + ROUND_MS + MARK_MS + STEP_MS + 50, "ms")
+    table.row("link down: the fault is bus_off", bool(re.search(r"^state 1 fault \w+ bus_off", run.console, re.M)), 1, 1, "")
+    back = [signals for time, node, message, signals in frames if message.name == "Status" and node == FIRST_NODE]
+    table.row("link up again: heard, disarmed", str(back[-1]["state"]) == "disarmed", 1, 1, "")
+    gap = max(b - a for a, b in zip(times, times[1:]))
+    table.row("    after a silence of", gap, 0.3, 30, "s")
+    dropped = [signals["dropped_frames"] for _, _, message, signals in frames if message.name == "Timing"]
+    table.row("    frames that were dropped meanwhile, as it tells", dropped[-1], 0, 1e4, "")
+    table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
+
+
+def main():
+    table = Table()
+    dbc = protocol()
+    share = rig.BUILD / "telemetry_test"
+    (share / "can.log").unlink(missing_ok=True)
+    settings = rig.Settings(share=share, watchdog=True, can=True, time_out_s=900.0)
+    run = rig.run(rig.HERE / "scripts" / "telemetry", (disarm_frame(dbc),), settings)
+    try:
+        judge(table, run, dbc, (share / "can.log").read_text())
+    except (KeyError, IndexError, TypeError, AttributeError, ValueError, OSError) as error:
+        print(f"{run.console}\ntelemetry: the board did not do its part: {error!r}", file=sys.stderr)
+        sys.exit(2)
+    print(f"      {run.wall_s:.1f} s of this machine\n")
+    sys.exit(1 if table.wrong else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -46,11 +46,12 @@ std::string summary(const Report& report) {
 std::string to_json(const Report& report) {
   using nlohmann::ordered_json;
   ordered_json findings = ordered_json::array();
-  for (const Finding& f : report.findings)
+  for (const Finding& f : report.findings) {
     findings.push_back({{"what", f.what},
                         {"verdict", hal::text(f.verdict)},
                         {"found", f.found},
                         {"remedy", f.remedy}});
+  }
   const ordered_json all{{"board", report.board},
                          {"config", report.config},
                          {"problems", report.count(Verdict::problem)},

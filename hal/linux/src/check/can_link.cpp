@@ -51,12 +51,11 @@ void check_can_link(const Machine& machine, const std::string& interface, const 
           "name the right interface"});
     return;
   }
-  const std::string state = read_text(folder + "/operstate").value_or("unknown");
-  if (!is_up(folder) || state == "down") {
-    tell({what, Verdict::problem,
-          is_up(folder) ? "set up, but the bus is off (" + state + ")" : "down",
-          is_up(folder) ? "look for wires, ends and bit rate; then " + bring_up : bring_up});
-    return;
+  if (!is_up(folder)) return tell({what, Verdict::problem, "down", bring_up});
+  // Not operstate, which follows a second later.
+  if (read_whole(folder + "/carrier").value_or(0) != 1) {
+    return tell({what, Verdict::problem, "set up, but off the bus (no carrier)",
+                 "look for wires, ends and bit rate; then " + bring_up});
   }
   const auto rate = can_bit_rate(interface);
   const auto queue = read_whole(folder + "/tx_queue_len");

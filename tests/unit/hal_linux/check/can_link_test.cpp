@@ -69,7 +69,7 @@ TEST_GROUP(CheckCanLink) {
   void setup() override {
     root.write(folder + "type", "280\n");
     root.write(folder + "flags", "0x40081\n");
-    root.write(folder + "operstate", "up\n");
+    root.write(folder + "carrier", "1\n");
     root.write(folder + "tx_queue_len", "1000\n");
     root.write("sys/class/net/eth0/type", "1\n");
   }
@@ -97,8 +97,10 @@ TEST(CheckCanLink, SaysHowToBringItUp) {
   root.write(folder + "flags", "0x40080\n");
   check_finding("problem", "down", "ip link set supercoil-no0 up type can bitrate", found());
   root.write(folder + "flags", "0x40081\n");
-  root.write(folder + "operstate", "down\n");
-  check_finding("problem", "the bus is off", "wires", found());
+  root.write(folder + "carrier", "0\n");
+  check_finding("problem", "off the bus", "wires", found());
+  root.remove(folder + "carrier");
+  check_finding("problem", "off the bus", "wires", found());
 }
 
 TEST(CheckCanLink, WarnsOfAShortQueue) {

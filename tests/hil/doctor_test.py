@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""supercoil doctor on the emulated board: nothing to complain of on a good one, and each of six faults is named.
+"""supercoil doctor on the emulated board: nothing to complain of on a good one, and each of seven faults is named.
 
 Each fault has a board of its own. What is missing must be told with where it was looked for and what is there instead.
 That doctor heats nothing is what the plant's witness saw, outside of the board. Prints what was found; ends with 1 if
@@ -35,12 +35,15 @@ FAULTS = {
     "rail": ("channel 2, position", r"all of them 32767 counts: stuck at the converter's highest rail$", {}),
     "no_watchdog": ("watchdog", r"^/dev/watchdog: No such file or directory; in /sys/class/watchdog there is none at all",
                     {}),
+    "can_default": (None, "", {}),
     "enable_up": ("channel 2, enable released", r"^high while nobody drives it; what pulls it is not told$", {}),
 }
 # And what is told as a warning because of the fault.
 FOLLOWS = {
     # While the plant stands still, so do the values of its sensors.
     "rail": {"channel 1, position": "the same -?[0-9]+ counts each time"},
+    # Ten frames are the kernel's default.
+    "can_default": {"CAN can0": "^up, 500000 bit/s, queue of 10 frames$"},
     "no_pwm": {f"channel {n}, enable released": "not looked at: its duty is not known to be 0" for n in (1, 2)},
 }
 
@@ -93,7 +96,8 @@ def main():
         if wish.only not in (None, fault):
             continue
         # A direct call has 20 us on a real processor; the usual shift is one a fifth as fast.
-        settings = rig.Settings(share=rig.BUILD / "doctor_test", watchdog=True, time_out_s=600.0, instruction_shift=1)
+        settings = rig.Settings(share=rig.BUILD / "doctor_test", watchdog=True, can=fault == "can_default",
+                                time_out_s=600.0, instruction_shift=1)
         run = rig.run(rig.HERE / "scripts" / "doctor", (fault,), settings)
         try:
             examined(table, fault, run)

@@ -73,9 +73,10 @@ TEST(DoctorFindings, CallsAreTimedOneByOne) {
 
 TEST(DoctorFindings, AnEnableThatIsPulledUpOpensTheGate) {
   using hal_linux::Bias;
-  for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up, Bias::pull_down})
+  for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up, Bias::pull_down}) {
     check_finding("problem", "high while nobody drives it; ", "pulls it down",
                   released(true, bias));
+  }
   check_finding("ok", "low while nobody drives it; the chip pulls it down", "",
                 released(false, Bias::pull_down));
   for (const Bias bias : {Bias::unknown, Bias::none, Bias::pull_up})

@@ -13,7 +13,9 @@
 #include "daemon/telemetry.hpp"
 #include "loop/support/rig.hpp"
 #include "operator/board_socket.hpp"
+#include "unit/firmware/daemon/support/meeting_bus.hpp"
 #include "unit/firmware/daemon/support/real_time_board.hpp"
+#include "unit/firmware/telemetry/support/master.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
 using namespace supercoil;
@@ -61,6 +63,8 @@ TEST_GROUP(DaemonThreads) {
   test::RealTimeBoard board{settings.board};
   Loop loop{settings.firmware, board.devices()};
   std::unique_ptr<Keeper> keeper;
+  test::MeetingBus bus;
+  supercoil::telemetry::CanLink can{{}, settings.firmware, loop, bus, 1};
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
   sigset_t ending{};
@@ -76,7 +80,7 @@ TEST_GROUP(DaemonThreads) {
     keeper = std::make_unique<Keeper>(config, stores, files);
     auto commands = LocalCommands::open(folder / "commands");
     if (!commands) FAIL(commands.error().c_str());
-    telemetry = std::make_unique<Telemetry>(loop, keeper->relay(), std::move(*commands));
+    telemetry = std::make_unique<Telemetry>(loop, keeper->relay(), std::move(*commands), &can);
     CHECK(telemetry->start().has_value());
     auto started = LoopThread::start(loop, board, settings.firmware.rate_Hz, {"loop"});
     if (!started) FAIL(started.error().c_str());
@@ -135,6 +139,28 @@ TEST(DaemonThreads, CoolingIsObeyedAndNobodyElseIsHeard) {
   CHECK_FALSE(keeper->all_off());
   telemetry->cool();
   until([&] { return keeper->all_off(); });
+}
+
+TEST(DaemonThreads, AMasterOnTheBusIsAnsweredThereAndLocalProgramsHere) {
+  constexpr std::uint16_t acknowledge = SUPERCOIL_ACKNOWLEDGE_FRAME_ID;
+  const BoardSocket socket = client();
+  test::Master master;
+  master.session = master.nonce;
+  bus.order(master.frame(supercoil::telemetry::Opcode::claim));
+  until([&] { return !bus.heard(acknowledge).empty(); });
+  master.session = test::read_answer(bus.heard(acknowledge).front()).granted;
+  CHECK(master.session != 0);
+
+  const auto obeyed = [&](Verb verb) {
+    const std::size_t answers = bus.heard(acknowledge).size();
+    bus.order(master.frame(verb));
+    STRCMP_EQUAL("refused: wrong_state", ask(socket, "1 rest").c_str());
+    until([&] { return bus.heard(acknowledge).size() > answers; });
+    return test::read_answer(bus.heard(acknowledge).back()).refusal == 0;
+  };
+  until([&] { return obeyed(Verb::disarm); });
+  constexpr std::uint16_t status = SUPERCOIL_STATUS_FRAME_ID;  // of node 1
+  until([&] { return !bus.heard(status).empty() && !bus.heard(status + 1).empty(); });
 }
 
 TEST(DaemonThreads, APendingSignalCoolsWhileTheMainThreadIsBusyElsewhere) {

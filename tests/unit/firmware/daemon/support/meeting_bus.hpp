@@ -1,0 +1,49 @@
+// A CAN bus on which the daemon's telemetry thread and a test meet.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <vector>
+
+#include "supercoil/hal/can_bus.hpp"
+
+namespace supercoil::test {
+
+class MeetingBus final : public hal::CanBus {
+ public:
+  hal::Status send(const hal::CanFrame& frame) override {
+    const std::lock_guard lock(mutex_);
+    heard_.push_back(frame);
+    return hal::Status::ok;
+  }
+  hal::Status receive(hal::CanFrame& frame) override {
+    const std::lock_guard lock(mutex_);
+    if (orders_.empty()) return hal::Status::not_ready;
+    frame = orders_.front();
+    orders_.pop_front();
+    return hal::Status::ok;
+  }
+  hal::CanState state() const override { return hal::CanState::active; }
+
+  /// The test's.
+  void order(const hal::CanFrame& frame) {
+    const std::lock_guard lock(mutex_);
+    orders_.push_back(frame);
+  }
+  /// All frames of the board with this identifier so far.
+  std::vector<hal::CanFrame> heard(std::uint16_t id) const {
+    const std::lock_guard lock(mutex_);
+    std::vector<hal::CanFrame> found;
+    for (const hal::CanFrame& frame : heard_) {
+      if (frame.id == id) found.push_back(frame);
+    }
+    return found;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::deque<hal::CanFrame> orders_;
+  std::vector<hal::CanFrame> heard_;
+};
+
+}  // namespace supercoil::test

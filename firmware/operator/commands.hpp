@@ -37,7 +37,7 @@ struct DoctorOptions {
   std::string run_folder = "/run/supercoil";
   int priority = 80;  ///< that supercoild is given
   int cpu = -1;       ///< that supercoild is given; negative: any
-  std::string can;    ///< an interface to look at, e.g. can0; empty: none
+  std::string can;    ///< an interface to look at, e.g. can0; empty: that of [can]
   bool json = false;
 };
 int doctor_command(const DoctorOptions& options);

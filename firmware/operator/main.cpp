@@ -72,7 +72,9 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
       ->capture_default_str();
   doctor->add_option("--cpu", options.cpu, "That supercoild is given [any]")
       ->check(CLI::Range(0, 1023));
-  doctor->add_option("--can", options.can, "Look at this CAN interface too, e.g. can0")
+  doctor
+      ->add_option("--can", options.can,
+                   "Look at this CAN interface, e.g. can0 [that of the configuration]")
       ->type_name("NAME");
   doctor->add_flag("--json", options.json, "Print one JSON object instead of lines");
 }

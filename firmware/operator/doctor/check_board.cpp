@@ -1,5 +1,7 @@
 #include "operator/doctor/check_board.hpp"
 
+#include <cmath>
+
 #include "supercoil/hal_linux/check/can_link.hpp"
 #include "supercoil/hal_linux/check/kernel.hpp"
 #include "supercoil/hal_linux/check/rights.hpp"
@@ -9,6 +11,7 @@
 #include "linux_board/lock_file.hpp"
 #include "operator/doctor/check_buses.hpp"
 #include "operator/doctor/check_devices.hpp"
+#include "telemetry/schedule.hpp"
 
 namespace supercoil::doctor {
 
@@ -27,12 +30,34 @@ void check_system(const CheckOptions& options, const hal::Tell& tell) {
   check_processors(options.machine, options.loop, tell);
 }
 
+std::string in_percent(double part) {
+  constexpr double tenths = 10.0;
+  std::string text = std::to_string(std::lround(100.0 * tenths * part));
+  if (text.size() == 1) text.insert(0, "0");
+  return text.insert(text.size() - 1, ".") + " %";
+}
+
+/// The interface that is asked for, or that of the configuration; and what the board will send.
+void check_can(const config::BoardConfig& config, const CheckOptions& options,
+               const hal::Tell& tell) {
+  const auto& can = config.can;
+  const std::string interface = can && options.can.empty() ? can->interface : options.can;
+  if (!interface.empty()) check_can_link(options.machine, interface, tell);
+  if (!can) return;
+  const double load =
+      telemetry::bus_load(can->rates_Hz, config.settings.channels.size(), can->bit_rate);
+  tell({"CAN load", Verdict::ok,
+        in_percent(load) + " of " + std::to_string(std::lround(1e-3 * can->bit_rate)) +
+            " kbit/s at worst, beside commands; at most " + in_percent(can->most_load),
+        ""});
+}
+
 }  // namespace
 
 void check_board(const config::BoardConfig& config, const CheckOptions& options,
                  const hal::Tell& tell) {
   check_system(options, tell);
-  if (!options.can.empty()) check_can_link(options.machine, options.can, tell);
+  check_can(config, options, tell);
   const auto lock = linux_board::LockFile::take(options.run_folder + "/lock");
   const auto& watchdog = config.wiring.watchdog;
   if (watchdog) {

@@ -15,7 +15,7 @@ struct CheckOptions {
   hal_linux::Machine machine;
   hal_linux::LoopWish loop;
   std::string run_folder = "/run/supercoil";  ///< of supercoild's lock
-  std::string can;                            ///< an interface, e.g. can0; empty: none is looked at
+  std::string can;                            ///< an interface, e.g. can0; empty: that of [can]
 };
 
 /// Tells every finding. Opens devices only while it holds the lock, that is, while no supercoild

@@ -105,8 +105,15 @@ class Doctor(unittest.TestCase):
         self.assertEqual({finding["verdict"] for finding in found.values()}, {"ok", "warning"})
         self.assertEqual(found["watchdog"]["found"], "none: board.watchdog is absent")
 
+    def test_the_bus_of_the_configuration_and_its_load(self):
+        with open(self.path / "b.toml", "a") as file:
+            file.write('[can]\ninterface = "no-can6"\nbit_rate = 500000\n')
+        found = self.findings()
+        self.assertEqual(found["CAN no-can6"]["verdict"], "problem")
+        self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, beside commands; at most 50.0 %$")
+
     def test_a_can_interface_only_when_it_is_asked_for(self):
-        self.assertNotIn("CAN no-can7", self.findings())
+        self.assertNotIn("CAN", " ".join(self.findings()))
         found = self.findings("--can", "no-can7")["CAN no-can7"]
         self.assertEqual(found["verdict"], "problem")
         self.assertIn("no interface 'no-can7' in /sys/class/net: there ", found["found"])

@@ -27,8 +27,9 @@ int off_command(const std::string& config, const std::string& run_folder) {
     log(Level::info, "everything is off");
     return exit_done;
   }
+  const std::string file = config + ": ";
   for (const std::string& problem : opened.error())
-    log(Level::problem, config + ": " + problem);
+    log(Level::problem, std::string(file).append(problem));
   log(Level::problem, "everything else is off");
   return exit_failed;
 }

@@ -26,7 +26,7 @@ class LocalCommands {
   /// Waits at most most_ms for something to do, and does it.
   void serve(Loop& loop, const NewestRows& rows, int most_ms);
   /// The loop's answer to a command with Source::local, in their order.
-  void pass(const Answer& answer);
+  void pass(const Answer& given);
 
  private:
   explicit LocalCommands(hal_linux::Descriptor listener) : listener_(std::move(listener)) {}

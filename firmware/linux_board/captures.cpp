@@ -1,6 +1,7 @@
 #include "linux_board/captures.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace supercoil::linux_board {
 
@@ -20,8 +21,8 @@ class CapturedInput final : public hal::AdcChannel {
 
 }  // namespace
 
-Captures::Captures(const config::BoardWiring& wiring, const hal_linux::Machine& machine)
-    : machine_(machine) {
+Captures::Captures(const config::BoardWiring& wiring, hal_linux::Machine machine)
+    : machine_(std::move(machine)) {
   want(wiring.supply);
   for (const config::ChannelWiring& channel : wiring.channels) {
     want(channel.position);

@@ -16,7 +16,7 @@ namespace supercoil::linux_board {
 /// Opens the captures of a board: a device once, with all the inputs that the board wants of it.
 class Captures {
  public:
-  Captures(const config::BoardWiring& wiring, const hal_linux::Machine& machine);
+  Captures(const config::BoardWiring& wiring, hal_linux::Machine machine);
 
   /// One of these inputs. Its device's capture runs until the last of its inputs ends; inputs of a
   /// device belong to one thread.

@@ -17,9 +17,9 @@ constexpr int command_base = SUPERCOIL_COMMAND_FRAME_ID - 1;
 
 std::vector<std::uint16_t> command_ids(const CanSettings& settings, std::size_t channels) {
   std::vector<std::uint16_t> ids;
-  for (std::size_t i = 0; i < channels; ++i)
-    ids.push_back(
-        static_cast<std::uint16_t>(command_base + settings.first_node + static_cast<int>(i)));
+  const int first = command_base + settings.first_node;
+  for (int i = 0; i < static_cast<int>(channels); ++i)
+    ids.push_back(static_cast<std::uint16_t>(first + i));
   return ids;
 }
 

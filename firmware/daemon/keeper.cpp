@@ -11,7 +11,7 @@ namespace supercoil::daemon {
 namespace {
 
 /// Of rows that wait for the keeper while it waits for the disk.
-constexpr double relayed_s = 2.0;
+constexpr double relayed_s = 1.0;
 
 std::size_t rows_relayed(const BoardSettings& board) {
   return static_cast<std::size_t>(relayed_s * board.rate_Hz) * board.channels.size();

@@ -33,10 +33,13 @@ std::string describe_locked_memory(const config::BoardConfig& config) {
   // Loop, telemetry, and one for each bus; the main thread's is in the program's.
   const std::size_t threads = 2 + config.wiring.buses.size();
   const auto stacks = static_cast<double>(threads * hal_linux::ThreadWish().stack_bytes);
-  const auto data = static_cast<double>(config::memory_of(config.settings).total());
+  const config::Memory memory = config::memory_of(config.settings);
+  // Half a ring more is the relay's (keeper.cpp).
+  const auto data = static_cast<double>(memory.total() + memory.ring / 2);
   const double program = mapped_bytes();
   std::ostringstream out;
-  out << "  locked   " << mebibytes(program + stacks + data) << " MiB: this, the program with its "
+  out << "  locked   " << mebibytes(program + stacks + data)
+      << " MiB: this and its relay, the program with its "
       << "libraries " << mebibytes(program) << " MiB, " << threads << " stacks "
       << mebibytes(stacks) << " MiB\n";
   return out.str();

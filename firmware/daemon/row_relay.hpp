@@ -15,7 +15,7 @@ namespace supercoil::daemon {
 /// a round of telemetry. Neither side waits; all memory is taken when it is made.
 class RowRelay {
  public:
-  /// rows: that it holds, 2 s of them; what does not fit is lost to the recorder, and counted.
+  /// rows: that it holds; what does not fit is lost to the recorder, and counted.
   explicit RowRelay(std::size_t rows) : rows_(rows) {}
 
   /// The telemetry thread's.

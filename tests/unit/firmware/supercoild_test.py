@@ -52,12 +52,13 @@ class Program(unittest.TestCase):
         (self.path / "b.toml").write_text(text)
         done = self.run_program("--check", "b.toml")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        locked = re.search(r"\n  locked   ([\d.]+) MiB: this, the program with its libraries ([\d.]+) MiB, "
+        locked = re.search(r"\n  locked   ([\d.e+]+) MiB: this and its relay, the program with its libraries ([\d.e+]+) MiB, "
                            r"2 stacks 0.3 MiB\n$", done.stdout)
         self.assertIsNotNone(locked, done.stdout[-500:])
         recorder_MiB = 4 * 1000 * (16 + 2) * 112 / 2**20
         self.assertGreater(float(locked[1]), recorder_MiB + float(locked[2]))
-        self.assertLessEqual(float(locked[1]), 16.0)
+        if float(locked[2]) < 1000.0:  # a sanitizer maps terabytes
+            self.assertLessEqual(float(locked[1]), 16.0)
 
     def test_off_is_said_of_every_device_that_it_reached(self):
         done = self.run_program("--off", *self.no_such_board())

@@ -13,7 +13,7 @@ namespace supercoil::config {
 namespace {
 
 /// Of the ring between loop and recorder (loop.cpp).
-constexpr double ring_s = 2.0;
+constexpr double ring_s = 1.0;
 
 /// To a few digits: times and parts are for people.
 double rounded(double value, double to) {

@@ -34,8 +34,8 @@ std::string describe_locked_memory(const config::BoardConfig& config) {
   const std::size_t threads = 2 + config.wiring.buses.size();
   const auto stacks = static_cast<double>(threads * hal_linux::ThreadWish().stack_bytes);
   const config::Memory memory = config::memory_of(config.settings);
-  // Half a ring more is the relay's (keeper.cpp).
-  const auto data = static_cast<double>(memory.total() + memory.ring / 2);
+  // The relay (keeper.cpp) is as large as the loop's ring.
+  const auto data = static_cast<double>(memory.total() + memory.ring);
   const double program = mapped_bytes();
   std::ostringstream out;
   out << "  locked   " << mebibytes(program + stacks + data)

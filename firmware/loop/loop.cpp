@@ -8,7 +8,7 @@ namespace supercoil {
 namespace {
 
 /// A stalled disk or a busy CPU may keep the recorder away for so long without a row being lost.
-constexpr double ring_s = 2.0;
+constexpr double ring_s = 1.0;
 constexpr int most_commands_per_tick = 64;
 /// Buffered converters need so long to have their first values, and filters to settle.
 constexpr double settling_s = 0.1;

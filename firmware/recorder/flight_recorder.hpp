@@ -30,7 +30,7 @@ struct RecorderNote {
 };
 
 /// A plain object, used by one thread that may block: not the loop's. Writing a recording blocks
-/// add(), poll() or finish() for as long as the disk takes; the loop's ring holds the rows for 2 s
+/// add(), poll() or finish() for as long as the disk takes; the loop's ring holds the rows for 1 s
 /// meanwhile, and rows that it loses are a gap in the times.
 class FlightRecorder {
  public:

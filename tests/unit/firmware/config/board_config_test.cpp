@@ -157,7 +157,7 @@ TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
 
 TEST(BoardConfig, MemoryCountsRingAndRecorder) {
   const Memory memory = memory_of(read(test::small_board).settings);
-  UNSIGNED_LONGS_EQUAL(2 * 1000 * 112, memory.ring);
+  UNSIGNED_LONGS_EQUAL(1 * 1000 * 112, memory.ring);
   UNSIGNED_LONGS_EQUAL(16 * 1000 * 112, memory.recorder);
   CHECK(memory.loop > 10000);
 }

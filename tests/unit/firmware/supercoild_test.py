@@ -56,8 +56,8 @@ class Program(unittest.TestCase):
                            r"2 stacks 0.3 MiB\n$", done.stdout)
         self.assertIsNotNone(locked, done.stdout[-500:])
         recorder_MiB = 4 * 1000 * (16 + 2) * 112 / 2**20
-        self.assertGreater(float(locked[1]), recorder_MiB + float(locked[2]))
         if float(locked[2]) < 1000.0:  # a sanitizer maps terabytes
+            self.assertGreater(float(locked[1]), recorder_MiB + float(locked[2]))
             self.assertLessEqual(float(locked[1]), 16.0)
 
     def test_off_is_said_of_every_device_that_it_reached(self):

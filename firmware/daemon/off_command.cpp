@@ -1,11 +1,13 @@
 #include "daemon/off_command.hpp"
 
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "config/board_config.hpp"
-#include "daemon/linux_board.hpp"
 #include "daemon/log.hpp"
 #include "linux_board/lock_file.hpp"
+#include "linux_board/parts.hpp"
 #include "program/exit_status.hpp"
 
 namespace supercoil::daemon {
@@ -22,13 +24,13 @@ int off_command(const std::string& config, const std::string& run_folder) {
     return exit_failed;
   }
   // To open a device is to bring it to its safe level; to close it leaves it there.
-  const auto opened = LinuxBoard::open(board->wiring);
-  if (opened) {
+  const std::vector<std::string> missing = linux_board::open_parts(board->wiring).missing();
+  if (missing.empty()) {
     log(Level::info, "everything is off");
     return exit_done;
   }
   const std::string file = config + ": ";
-  for (const std::string& problem : opened.error())
+  for (const std::string& problem : missing)
     log(Level::problem, std::string(file).append(problem));
   log(Level::problem, "everything else is off");
   return exit_failed;

@@ -27,8 +27,9 @@ namespace supercoil::daemon {
 namespace {
 
 constexpr hal::Duration round = std::chrono::milliseconds(20);
-/// A loop that made no row for so long hangs.
-constexpr hal::Duration hangs_after = std::chrono::seconds(1);
+/// A loop that made no row in so many rounds hangs: a second. Rounds are counted, not time, because
+/// this thread may itself be kept from running, and wakes before those that bring the rows.
+constexpr int hangs_after_rounds = 50;
 /// Duties and enable lines are off a tick after the command; so long is far more than that.
 constexpr hal::Duration cool_within = std::chrono::seconds(2);
 /// Buses must not hold up the loop.
@@ -95,15 +96,15 @@ tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& c
 bool keep_until_signal(Parts& parts, Service& service) {
   hal_linux::MonotonicClock clock;
   std::uint64_t rows = 0;
-  hal::Time last_row = clock.now();
+  int rounds_without = 0;
   while (!ending_signal_within(round)) {
     const hal::Time now = clock.now();
     parts.keeper->poll(*parts.loop, now);
     if (parts.keeper->rows() != rows) {
       rows = parts.keeper->rows();
-      last_row = now;
+      rounds_without = 0;
       service.alive(now);
-    } else if (now - last_row > hangs_after) {
+    } else if (++rounds_without > hangs_after_rounds) {
       return false;
     }
   }

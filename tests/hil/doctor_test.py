@@ -11,7 +11,6 @@ any of it is wrong, 2 if the board did not do its part.
 import argparse
 import json
 import re
-import sys
 
 import rig
 import witness
@@ -99,13 +98,8 @@ def main():
         settings = rig.Settings(share=rig.BUILD / "doctor_test", watchdog=True, can=fault == "can_default",
                                 time_out_s=600.0, instruction_shift=1)
         run = rig.run(rig.HERE / "scripts" / "doctor", (fault,), settings)
-        try:
-            examined(table, fault, run)
-        except (KeyError, IndexError, TypeError, AttributeError, ValueError) as error:
-            print(f"{run.console}\n{fault}: the board did not do its part: {error!r}", file=sys.stderr)
-            sys.exit(2)
-        print(f"      {fault}: {run.wall_s:.1f} s of this machine\n")
-    sys.exit(1 if table.wrong else 0)
+        table.judge(fault, lambda t, r: examined(t, fault, r), run)
+    table.end()
 
 
 if __name__ == "__main__":

@@ -5,8 +5,6 @@ Works PWM, lines, converters and watchdog of the board by hand (scripts/), and c
 the plant's witness saw. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not work.
 """
 
-import sys
-
 import can_rows
 import rig
 import witness
@@ -95,13 +93,8 @@ def main():
         name = part.__name__
         settings = rig.Settings(share=rig.BUILD / f"{name}_test", **options)
         run = rig.run(rig.HERE / "scripts" / name, settings=settings)
-        try:
-            part(table, run)
-        except (KeyError, IndexError, TypeError, AttributeError) as error:
-            print(f"{run.console}\n{name}: the board did not do its part: {error!r}", file=sys.stderr)
-            sys.exit(2)
-        print(f"      {name}: {run.wall_s:.1f} s of this machine\n")
-    sys.exit(1 if table.wrong else 0)
+        table.judge(name, part, run)
+    table.end()
 
 
 if __name__ == "__main__":

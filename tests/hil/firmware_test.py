@@ -10,7 +10,6 @@ measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
 
 import argparse
 import re
-import sys
 
 import rig
 import witness
@@ -122,13 +121,8 @@ def main():
             continue
         settings = rig.Settings(share=rig.BUILD / f"{name}_test", watchdog=True, time_out_s=600.0 + 4.0 * seconds, **options)
         run = rig.run(rig.HERE / "scripts" / name, arguments, settings)
-        try:
-            part(table, run)
-        except (KeyError, IndexError, TypeError, AttributeError) as error:
-            print(f"{run.console}\n{name}: the board did not do its part: {error!r}", file=sys.stderr)
-            sys.exit(2)
-        print(f"      {name}: {run.wall_s:.1f} s of this machine\n")
-    sys.exit(1 if table.wrong else 0)
+        table.judge(name, part, run)
+    table.end()
 
 
 if __name__ == "__main__":

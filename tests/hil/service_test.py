@@ -8,7 +8,6 @@ again, disarmed. Prints what was measured; ends with 1 if any of it is wrong, 2 
 """
 
 import re
-import sys
 
 import rig
 import witness
@@ -69,13 +68,8 @@ def main():
     table = Table()
     settings = rig.Settings(share=rig.BUILD / "service_test", watchdog=True, system=True, time_out_s=1200.0)
     run = rig.run(rig.HERE / "scripts" / "service", (), settings)
-    try:
-        judge(table, run)
-    except (KeyError, IndexError, TypeError, AttributeError, ValueError) as error:
-        print(f"{run.console}\nservice: the board did not do its part: {error!r}", file=sys.stderr)
-        sys.exit(2)
-    print(f"      {run.wall_s:.1f} s of this machine\n")
-    sys.exit(1 if table.wrong else 0)
+    table.judge("service", judge, run)
+    table.end()
 
 
 if __name__ == "__main__":

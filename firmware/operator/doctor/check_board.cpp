@@ -1,6 +1,8 @@
 #include "operator/doctor/check_board.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "supercoil/hal_linux/check/can_link.hpp"
 #include "supercoil/hal_linux/check/kernel.hpp"
@@ -31,10 +33,9 @@ void check_system(const CheckOptions& options, const hal::Tell& tell) {
 }
 
 std::string in_percent(double part) {
-  constexpr double tenths = 10.0;
-  std::string text = std::to_string(std::lround(100.0 * tenths * part));
-  if (text.size() == 1) text.insert(0, "0");
-  return text.insert(text.size() - 1, ".") + " %";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.1f %%", 100.0 * part);
+  return text.data();
 }
 
 /// The interface that is asked for, or that of the configuration; and what the board will send.

@@ -17,7 +17,7 @@ ALLOWED = {
     "hal/include": ["supercoil/hal/"],
     "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "net/if.h", "pthread.h",
                   "sched.h", "sys/", "unistd.h"],
-    "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "config/", "loop/", "modes/", "plot/", "program/",
+    "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "can_client/", "config/", "loop/", "modes/", "plot/", "program/",
                  "recorder/", "storage/", "supercoil.h", "supervisor/", "telemetry/", "boost/circular_buffer.hpp",
                  "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
 }

@@ -2,6 +2,8 @@
 // running, 2 wrong input (nothing was written), 130 interrupted.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "program/exit_status.hpp"
@@ -21,7 +23,9 @@ struct RunOptions {
   bool trace = true;
   bool plot = true;
   bool can = true;
-  bool check = false;  ///< only read the scenario
+  bool real_time = false;
+  std::optional<std::uint16_t> socketcand_port;  ///< in real time; 0: a free one
+  bool check = false;                            ///< only read the scenario
   bool quiet = false;
   std::string learned;  ///< folder; empty: nothing is remembered
 };

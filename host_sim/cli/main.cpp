@@ -1,6 +1,10 @@
 // supercoil-sim: the muscle and its firmware on any PC.
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +14,18 @@ namespace {
 
 using namespace supercoil;
 using namespace supercoil::host_sim;
+
+/// "socketcand:PORT"
+std::uint16_t port_of(const std::string& where) {
+  constexpr std::string_view protocol = "socketcand:";
+  const std::string_view text(where);
+  std::uint16_t port = 0;
+  const char* end = text.data() + text.size();
+  const bool right = text.starts_with(protocol) && text.size() > protocol.size();
+  const auto read = std::from_chars(right ? text.data() + protocol.size() : end, end, port);
+  if (read.ec == std::errc{} && read.ptr == end) return port;
+  throw CLI::ValidationError("--can", where + ": must be socketcand:PORT, a port from 0 to 65535");
+}
 
 void add_run(CLI::App& app, RunOptions& options) {
   CLI::App* run =
@@ -26,6 +42,15 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
   run->add_flag("!--no-can", options.can, "Write no can.log, what the board sends on its CAN bus");
+  CLI::Option* real_time =
+      run->add_flag("--real-time", options.real_time,
+                    "As fast as the clock on the wall, without trace, plot and CAN log; until "
+                    "Ctrl-C or its end");
+  run->add_option_function<std::string>(
+         "--can", [&](const std::string& where) { options.socketcand_port = port_of(where); },
+         "socketcand:PORT: serve the board's CAN bus on that port of loopback; 0 takes a free one")
+      ->type_name("BUS")
+      ->needs(real_time);
   run->add_flag("--check", options.check, "Only say whether the scenario is in order");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }

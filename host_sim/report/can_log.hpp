@@ -11,10 +11,6 @@
 
 namespace supercoil::host_sim {
 
-/// "(0000000012.345678) can0 281#A1B2C3": time in s, interface, identifier and bytes.
-std::string candump_line(const hal::CanFrame& frame, hal::Time since_start,
-                         const std::string& interface);
-
 class CanLog {
  public:
   CanLog(const std::filesystem::path& path, std::string interface);

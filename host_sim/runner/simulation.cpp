@@ -32,7 +32,8 @@ void Simulation::boot() {
     // Asked for at the first tick after the self-test.
     const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
-    if (ready && disarmed && conditions_->wish != Wish::disarm) send(Verb::arm);
+    const bool wants = conditions_->wish != Wish::disarm && conditions_->wish != Wish::none;
+    if (ready && disarmed && wants) send(Verb::arm);
     executive_.run_tick();
     housekeep();
   }
@@ -101,7 +102,7 @@ void Simulation::send(Verb verb, double value) {
 
 /// As whoever holds the command does: renews it every tick.
 void Simulation::ask(double reference) {
-  if (conditions_->trouble.commands_stop) return;
+  if (conditions_->trouble.commands_stop || conditions_->wish == Wish::none) return;
   const State state = loop_.channel(0).state().state();
   if (resetting_ && state == State::disarmed) send(Verb::arm);
   if (state == State::armed) resetting_ = false;
@@ -127,6 +128,8 @@ void Simulation::ask(double reference) {
       break;
     case Wish::disarm:
       send(Verb::disarm);
+      break;
+    case Wish::none:
       break;
   }
   fulfilled_ = conditions_->wish;

@@ -53,12 +53,13 @@ struct ThermalSpans {
 };
 
 /// What whoever commands the board wants of it.
-enum class Wish { track, rest, disarm, identify, calibrate };
-inline constexpr control::Names<Wish, 5> wish_names{{{"track", Wish::track},
+enum class Wish { track, rest, disarm, identify, calibrate, none };
+inline constexpr control::Names<Wish, 6> wish_names{{{"track", Wish::track},
                                                      {"rest", Wish::rest},
                                                      {"disarm", Wish::disarm},
                                                      {"identify", Wish::identify},
-                                                     {"calibrate", Wish::calibrate}}};
+                                                     {"calibrate", Wish::calibrate},
+                                                     {"none", Wish::none}}};
 
 struct Conditions {
   /// Of a sensor's range: the travel limit.

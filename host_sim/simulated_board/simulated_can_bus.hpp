@@ -42,8 +42,10 @@ class SimulatedCanBus final : public hal::CanBus {
   }
   hal::CanState state() const override { return link; }
 
-  /// A frame from somebody else on the bus.
-  void deliver(const hal::CanFrame& frame) { inbox_.push_back(frame); }
+  /// A frame from somebody else on the bus; lost when as many wait as in the kernel's buffer.
+  void deliver(const hal::CanFrame& frame) {
+    if (inbox_.size() < inbox) inbox_.push_back(frame);
+  }
 
   /// Hears every frame of the board; `received` is when its last bit was on the wire.
   std::function<void(const hal::CanFrame&)> listener = [](const hal::CanFrame&) {};
@@ -53,6 +55,7 @@ class SimulatedCanBus final : public hal::CanBus {
  private:
   /// txqueuelen of a Linux CAN interface, unless somebody raised it.
   static constexpr std::size_t queue = 10;
+  static constexpr std::size_t inbox = 1024;
 
   const hal::Clock* clock_;
   double bit_rate_;

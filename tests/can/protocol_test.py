@@ -12,7 +12,8 @@ import cantools
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DBC = ROOT / "firmware" / "telemetry" / "supercoil.dbc"
-GENERATED = ["firmware/telemetry/generated/supercoil.c", "firmware/telemetry/generated/supercoil.h", "docs/can-protocol.md"]
+GENERATED = ["firmware/telemetry/generated/supercoil.c", "firmware/telemetry/generated/supercoil.h", "docs/can-protocol.md",
+             "firmware/can_client/generated/protocol.cpp"]
 NOT_AVAILABLE = "not_available"
 
 

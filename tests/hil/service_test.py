@@ -51,7 +51,7 @@ def judge(table, run):
     table.row("memory locked", int(said(console, r"^service locked_KiB (\d+)")) / 1024, 0, 16, "MiB")
     table.row("--off is refused beside it, its process named", bool(re.search(r"^beside .*\b\d+", console, re.M)), 1, 1, "")
     table.row("systemd-analyze security", float(said(console, r"^exposure ([\d.]+)") or "nan"), 0, 2.0, "")
-    cold_after(table, run, "kill", "SIGKILL", DECAY_MS, HOOK_S)
+    cold_after(table, run, "kill", "SIGKILL", DECAY_MS, HOOK_S, since_edge=True)
     table.row("    started again, disarmed, after", marks["killed_again"] - marks["kill"], RESTART_S, RESTART_S + 16, "s")
     cold_after(table, run, "stopped", "SIGSTOP", DECAY_MS, WATCHDOG_S + HOOK_S, since_edge=True)
     table.row("    systemd's watchdog and a start later disarmed, after", marks["stopped_again"] - marks["stopped"],

@@ -1,0 +1,25 @@
+// Frames as text, a line each, as candump -L writes them: "(1436509052.249713) can0 2C1#0011AA".
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal/can_bus.hpp"
+
+namespace supercoil::can_client {
+
+/// at: from whenever the log's times are counted; microseconds are kept. Ends with a newline.
+std::string candump_line(const hal::CanFrame& frame, hal::Time at, std::string_view interface);
+
+/// One line of a log.
+struct LogLine {
+  hal::CanFrame frame;  ///< received: the line's time
+  bool ours = true;  ///< false: an extended, remote, error or FD frame, which supercoil never sends
+};
+/// Error: what is wrong with the line. A sign of direction behind the frame, as newer candumps
+/// write it, is passed over.
+tl::expected<LogLine, std::string> parse_candump_line(std::string_view line);
+
+}  // namespace supercoil::can_client

@@ -1,0 +1,81 @@
+#include "can_client/decode.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace supercoil::can_client {
+
+namespace {
+
+/// Bases of identifiers are multiples of this; below it is the node.
+constexpr std::uint16_t nodes = 0x40;
+
+std::uint64_t bits(const hal::CanFrame& frame, const SignalInfo& signal) {
+  std::uint64_t all = 0;
+  for (std::size_t i = frame.data.size(); i-- > 0;)
+    all = all << 8U | frame.data[i];
+  const std::uint64_t mask = (std::uint64_t{1} << signal.length) - 1;
+  return all >> signal.start & mask;
+}
+
+/// The number that the bits are, before its scale.
+std::int64_t integer(std::uint64_t raw, const SignalInfo& signal) {
+  const std::uint64_t sign = std::uint64_t{1} << (signal.length - 1U);
+  const bool negative = signal.raw == Raw::signed_integer && (raw & sign) != 0;
+  return static_cast<std::int64_t>(raw) - (negative ? static_cast<std::int64_t>(sign << 1U) : 0);
+}
+
+double value_of(const hal::CanFrame& frame, const SignalInfo& signal) {
+  const std::uint64_t raw = bits(frame, signal);
+  if (signal.raw == Raw::floating)
+    return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
+  const std::int64_t number = integer(raw, signal);
+  return number == signal.reserved ? NAN : static_cast<double>(number) * signal.scale;
+}
+
+}  // namespace
+
+const MessageInfo* find_message(std::string_view name) {
+  const auto all = protocol();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const MessageInfo& message) { return message.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::size_t signal_index(const MessageInfo& message, std::string_view name) {
+  const auto found = std::find_if(message.signals.begin(), message.signals.end(),
+                                  [&](const SignalInfo& signal) { return signal.name == name; });
+  if (found != message.signals.end())
+    return static_cast<std::size_t>(std::distance(message.signals.begin(), found));
+  throw std::out_of_range(std::string(message.name) + " has no signal " + std::string(name));
+}
+
+std::string_view value_name(const SignalInfo& signal, double value) {
+  for (const ValueName& known : signal.names) {
+    if (static_cast<double>(known.raw) == value) return known.name;
+  }
+  return {};
+}
+
+std::optional<Decoded> decode(const hal::CanFrame& frame) {
+  const auto base = static_cast<std::uint16_t>(frame.id / nodes * nodes);
+  const auto all = protocol();
+  const auto message = std::find_if(all.begin(), all.end(),
+                                    [&](const MessageInfo& known) { return known.base == base; });
+  const bool ours = message != all.end() && frame.length == message->length && frame.id != base;
+  if (!ours) return std::nullopt;
+  Decoded decoded{&*message, static_cast<std::uint8_t>(frame.id - base), {}};
+  decoded.values.fill(NAN);
+  for (std::size_t i = 0; i < message->signals.size(); ++i) {
+    const SignalInfo& signal = message->signals[i];
+    // The first signal of a multiplexed message says which others are there.
+    if (signal.selected_by != always && decoded.values[0] != signal.selected_by) continue;
+    decoded.values.at(i) = value_of(frame, signal);
+  }
+  return decoded;
+}
+
+}  // namespace supercoil::can_client

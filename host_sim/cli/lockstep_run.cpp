@@ -1,0 +1,95 @@
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "cli/progress.hpp"
+#include "cli/run_results.hpp"
+#include "cli/runs.hpp"
+#include "report/can_log.hpp"
+#include "report/run_plot.hpp"
+#include "report/trace_writer.hpp"
+#include "storage/posix_files.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+/// Runs with whatever of trace and plot is wanted. False when it was interrupted before its end.
+bool simulate(Simulation& simulation, Summary& summary, TraceWriter* trace, RunPlot* plot,
+              Progress& progress) {
+  constexpr long look_every = 16384;
+  while (!simulation.done()) {
+    const long tick = simulation.tick();
+    const TickRecord record = simulation.step();
+    summary.add(record);
+    if (trace != nullptr && trace->wants(tick)) trace->add(record, simulation.estimate());
+    if (plot != nullptr && plot->wants(tick)) plot->add(record, simulation.estimate());
+    if (tick % look_every == 0) {
+      if (interrupted()) return false;
+      const double done = static_cast<double>(tick) / static_cast<double>(simulation.ticks());
+      progress.show(done, std::to_string(static_cast<long>(record.time_s)) + " s simulated");
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+int lockstep_run(const RunOptions& options, const Scenario& scenario, const Window& window,
+                 OutputFolder& folder, storage::LearnedStore& store) {
+  storage::PosixFiles files;
+  Progress progress(scenario.name, options.quiet);
+  Simulation simulation(scenario);
+  recorder::FlightRecorder recorder(folder.path().string(), 1, scenario.rate_Hz, files);
+  simulation.record_to(recorder);
+  Summary summary(window);
+  std::optional<TraceWriter> trace;
+  if (options.trace) trace.emplace(folder.temporary("trace.csv"), options.every);
+  std::optional<CanLog> can_log;
+  if (options.can) {
+    const telemetry::CanSettings can;
+    can_log.emplace(folder.temporary("can.log"), can.interface);
+    simulation.join_bus(can, [&](const hal::CanFrame& frame) {
+      can_log->add(frame, frame.received - simulation.start());
+    });
+  }
+  std::optional<RunPlot> plot;
+  if (options.plot) plot.emplace(scenario);
+  catch_interrupts();
+  if (!simulate(simulation, summary, trace ? &*trace : nullptr, plot ? &*plot : nullptr,
+                progress)) {
+    return fail(exit_interrupted,
+                "interrupted; nothing of this run is kept but recordings of faults");
+  }
+  if (summary.not_finite_ticks() > 0) {
+    std::fprintf(
+        stderr,
+        "supercoil-sim: warning: the controller's power was no number in %ld ticks, first at %g s; "
+        "none was applied then\n",
+        summary.not_finite_ticks(), summary.first_not_finite_s());
+  }
+  if (const auto kept = keep(recorder, simulation, store, options); !kept)
+    return fail(exit_failed, kept.error());
+  if (trace) {
+    if (const auto finished = trace->finish(); !finished) {
+      return fail(exit_failed, finished.error());
+    }
+  }
+  if (can_log) {
+    if (const auto finished = can_log->finish(); !finished) {
+      return fail(exit_failed, finished.error());
+    }
+  }
+  if (plot) {
+    if (const auto drawn = draw(plot->figure(), folder.temporary("plot.svg")); !drawn) {
+      // The run's results are worth more than their picture.
+      folder.drop("plot.svg");
+      std::fprintf(stderr, "supercoil-sim: plot.svg is not written: %s\n", drawn.error().c_str());
+    }
+  }
+  const auto concluded =
+      conclude(summary, scenario, simulation, progress.elapsed_s(), folder, options.quiet);
+  return concluded ? exit_done : fail(exit_failed, concluded.error());
+}
+
+}  // namespace supercoil::host_sim

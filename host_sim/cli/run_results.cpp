@@ -1,0 +1,74 @@
+#include "cli/run_results.hpp"
+
+#include <csignal>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace supercoil::host_sim {
+
+namespace {
+
+volatile std::sig_atomic_t signalled = 0;
+
+void note_signal(int) {
+  signalled = 1;
+}
+
+void print_summary(const nlohmann::ordered_json& json, const std::string& folder) {
+  std::printf("%s: %ld ticks in %.2f s, %.0f x real time\n",
+              json["scenario"].get<std::string>().c_str(), json["ticks"].get<long>(),
+              json["wall_s"].get<double>(), json["realtime_factor"].get<double>());
+  if (!json["tracking_rms_m"].is_null()) {
+    std::printf("tracking error %.1f um rms, %.1f um at most (%g to %g s)\n",
+                json["tracking_rms_m"].get<double>() * 1e6,
+                json["tracking_max_m"].get<double>() * 1e6, json["window_s"][0].get<double>(),
+                json["window_s"][1].get<double>());
+  }
+  for (const auto& fault : json["faults"]) {
+    std::printf("fault %d %s at %.3f s (docs/faults/%s.md)\n", fault["number"].get<int>(),
+                fault["name"].get<std::string>().c_str(), fault["at_s"].get<double>(),
+                fault["name"].get<std::string>().c_str());
+  }
+  std::printf("hottest %.1f K above ambient\nwritten to %s\n",
+              json["hottest_temperature_rise_K"].get<double>(), folder.c_str());
+}
+
+}  // namespace
+
+void catch_interrupts() {
+  std::signal(SIGINT, note_signal);
+  std::signal(SIGTERM, note_signal);
+}
+
+bool interrupted() {
+  return signalled != 0;
+}
+
+tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
+                                     const Simulation& simulation, storage::LearnedStore& store,
+                                     const RunOptions& options) {
+  recorder.finish();
+  for (const recorder::RecorderNote& note : recorder.take_notes()) {
+    if (note.problem || !options.quiet)
+      std::fprintf(note.problem ? stderr : stdout, "%s\n", note.text.c_str());
+  }
+  if (options.learned.empty() || !simulation.learned()) return {};
+  if (const auto saved = store.save(*simulation.learned()); !saved)
+    return tl::unexpected(saved.error());
+  return {};
+}
+
+tl::expected<void, std::string> conclude(const Summary& summary, const Scenario& scenario,
+                                         const Simulation& simulation, double wall_s,
+                                         OutputFolder& folder, bool quiet) {
+  const auto json = summary.to_json(scenario, simulation, wall_s);
+  const std::string text =
+      json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (auto written = folder.write("summary.json", text); !written) return written;
+  if (auto done = folder.commit(); !done) return done;
+  if (!quiet) print_summary(json, folder.path().string());
+  return {};
+}
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,31 @@
+// What is left of a run: recordings, what was learned, summary.json, and words on standard output.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "cli/commands.hpp"
+#include "recorder/flight_recorder.hpp"
+#include "report/output_folder.hpp"
+#include "runner/summary.hpp"
+#include "storage/store.hpp"
+
+namespace supercoil::host_sim {
+
+/// Set by SIGINT and SIGTERM once catch_interrupts() was called.
+void catch_interrupts();
+bool interrupted();
+
+/// All that happened: the recorder's last file, its notes, what the board learned.
+/// The error says what could not be kept.
+tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
+                                     const Simulation& simulation, storage::LearnedStore& store,
+                                     const RunOptions& options);
+
+/// summary.json in the folder, which is then committed; prints its figures unless quiet.
+tl::expected<void, std::string> conclude(const Summary& summary, const Scenario& scenario,
+                                         const Simulation& simulation, double wall_s,
+                                         OutputFolder& folder, bool quiet);
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,84 @@
+#include "socketcand/client.hpp"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/write.hpp>
+
+#include "can_client/text.hpp"
+#include "socketcand/server.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+constexpr std::size_t most_waiting = 1U << 20U;
+/// Clients expect < ok > alone in what they read next, so frames follow after a pause.
+constexpr auto pause_after_ok = std::chrono::milliseconds(200);
+
+}  // namespace
+
+void SocketcandClient::start() {
+  boost::system::error_code ignored;
+  socket_.set_option(boost::asio::ip::tcp::no_delay(true), ignored);
+  send("< hi >");
+  read();
+}
+
+void SocketcandClient::close() {
+  boost::system::error_code ignored;
+  socket_.close(ignored);
+}
+
+void SocketcandClient::read() {
+  socket_.async_read_some(
+      boost::asio::buffer(buffer_),
+      [self = shared_from_this()](boost::system::error_code error, std::size_t bytes) {
+        if (error) return self->close();
+        self->reader_.put({self->buffer_.data(), bytes});
+        while (const auto element = self->reader_.take())
+          self->obey(*element);
+        if (self->is_open()) self->read();
+      });
+}
+
+void SocketcandClient::send(std::string_view text) {
+  if (waiting_.size() + text.size() > most_waiting) return close();
+  waiting_ += text;
+  if (in_flight_.empty()) write();
+}
+
+void SocketcandClient::write() {
+  in_flight_.swap(waiting_);
+  if (in_flight_.empty()) return;
+  boost::asio::async_write(
+      socket_, boost::asio::buffer(in_flight_),
+      [self = shared_from_this()](boost::system::error_code error, std::size_t) {
+        if (error) return self->close();
+        self->in_flight_.clear();
+        self->write();
+      });
+}
+
+void SocketcandClient::answer(std::string_view element) {
+  send("< " + std::string(element) + " >");
+}
+
+void SocketcandClient::obey(std::string_view element) {
+  std::string_view rest = element;
+  const std::string_view word = can_client::next_word(rest);
+  if (word == "echo") return answer(element);
+  if (word == "open") {
+    opened_ = can_client::next_word(rest) == server_->interface_;
+    return answer(opened_ ? "ok" : "error could not open bus: there is " + server_->interface_);
+  }
+  if (!opened_) return answer("error open a bus first");
+  if (word == "rawmode") {
+    raw_ = true;
+    frames_from_ = std::chrono::steady_clock::now() + pause_after_ok;
+    return answer("ok");
+  }
+  const auto frame = can_client::parse_send(element);
+  if (!frame) return answer("error unknown command, or no classical frame with 11 bits");
+  server_->take(*frame, *this);
+}
+
+}  // namespace supercoil::host_sim

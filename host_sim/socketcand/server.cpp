@@ -1,0 +1,60 @@
+#include "socketcand/server.hpp"
+
+#include <utility>
+
+#include "socketcand/client.hpp"
+
+namespace supercoil::host_sim {
+
+using boost::asio::ip::tcp;
+
+tl::expected<std::unique_ptr<SocketcandServer>, std::string> SocketcandServer::listen(
+    std::uint16_t port, std::string interface, Deliver deliver) {
+  const tcp::endpoint endpoint(boost::asio::ip::address_v4::loopback(), port);
+  try {
+    return std::make_unique<SocketcandServer>(endpoint, std::move(interface), std::move(deliver));
+  } catch (const boost::system::system_error& error) {
+    return tl::unexpected("socketcand: port " + std::to_string(port) +
+                          " of loopback: " + error.code().message());
+  }
+}
+
+SocketcandServer::SocketcandServer(tcp::endpoint endpoint, std::string interface, Deliver deliver)
+    : acceptor_(io_, endpoint), interface_(std::move(interface)), deliver_(std::move(deliver)) {
+  accept();
+}
+
+SocketcandServer::~SocketcandServer() {
+  for (const auto& client : clients_)
+    client->close();
+}
+
+void SocketcandServer::accept() {
+  acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
+    if (!error && clients_.size() < most_clients) {
+      clients_.push_back(std::make_shared<SocketcandClient>(std::move(socket), *this));
+      clients_.back()->start();
+    }
+    accept();
+  });
+}
+
+void SocketcandServer::poll() {
+  io_.poll();
+  std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
+}
+
+void SocketcandServer::take(const hal::CanFrame& frame, const SocketcandClient& from) {
+  deliver_(frame);
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  send(frame, std::chrono::duration_cast<hal::Time>(now), &from);
+}
+
+void SocketcandServer::send(const hal::CanFrame& frame, hal::Time at, const SocketcandClient* but) {
+  const std::string text = can_client::frame_text(frame, at);
+  for (const auto& client : clients_) {
+    if (client.get() != but && client->is_open() && client->listens()) client->send(text);
+  }
+}
+
+}  // namespace supercoil::host_sim

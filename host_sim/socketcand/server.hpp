@@ -1,0 +1,61 @@
+// The simulated board's CAN bus over TCP, for real CAN programs on a machine whose kernel has none.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <tl/expected.hpp>
+
+#include "supercoil/hal/can_bus.hpp"
+
+namespace supercoil::host_sim {
+
+class SocketcandClient;
+
+/// Speaks the socketcand protocol (open, rawmode, send, frame, echo) on loopback only. Everything
+/// happens in poll(), which never waits. A client that does not read is cut off before it takes
+/// more than a mebibyte.
+class SocketcandServer {
+ public:
+  /// What to do with a client's frame.
+  using Deliver = std::function<void(const hal::CanFrame&)>;
+
+  /// port: 0 takes a free one. interface: the one that clients may open. The error names the port.
+  static tl::expected<std::unique_ptr<SocketcandServer>, std::string> listen(std::uint16_t port,
+                                                                             std::string interface,
+                                                                             Deliver deliver);
+  SocketcandServer(boost::asio::ip::tcp::endpoint endpoint, std::string interface, Deliver deliver);
+  SocketcandServer(const SocketcandServer&) = delete;
+  SocketcandServer& operator=(const SocketcandServer&) = delete;
+  ~SocketcandServer();
+
+  std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+  std::size_t clients() const { return clients_.size(); }
+  /// Takes what came and sends what waits.
+  void poll();
+  /// A frame for all clients. at: since 1970.
+  void send(const hal::CanFrame& frame, hal::Time at) { send(frame, at, nullptr); }
+
+ private:
+  friend class SocketcandClient;
+
+  void accept();
+  /// A client's frame: for the board, and for all other clients.
+  void take(const hal::CanFrame& frame, const SocketcandClient& from);
+  void send(const hal::CanFrame& frame, hal::Time at, const SocketcandClient* but);
+
+  static constexpr std::size_t most_clients = 32;
+
+  boost::asio::io_context io_;
+  boost::asio::ip::tcp::acceptor acceptor_;
+  std::string interface_;
+  Deliver deliver_;
+  std::vector<std::shared_ptr<SocketcandClient>> clients_;
+};
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,75 @@
+"""Prints firmware/can_client/generated/protocol.cpp, every message and signal as a table, from the DBC that is named on
+the command line."""
+
+import sys
+
+import cantools
+
+HEAD = """\
+// Generated from firmware/telemetry/supercoil.dbc by toolchain/generate-can. Do not edit.
+#include "can_client/protocol.hpp"
+
+namespace supercoil::can_client {
+
+namespace {
+"""
+
+NOT_AVAILABLE = "not_available"
+
+
+def names_of(signal):
+    names = {raw: str(name) for raw, name in (signal.choices or {}).items()}
+    return {} if NOT_AVAILABLE in names.values() else names
+
+
+def reserved_of(signal):
+    return next((raw for raw, name in (signal.choices or {}).items() if str(name) == NOT_AVAILABLE), None)
+
+
+def table_name(signal):
+    return f"names_of_{signal.name}"
+
+
+def describe_names(database):
+    tables = {}
+    for message in database.messages:
+        for signal in message.signals:
+            names = names_of(signal)
+            if names and tables.setdefault(signal.name, names) != names:
+                sys.exit(f"{message.name}.{signal.name}: another signal of this name has other names of values")
+    for name, values in sorted(tables.items()):
+        yield f"\nconstexpr std::array<ValueName, {len(values)}> names_of_{name}{{{{"
+        yield from (f'    {{{raw}, "{text}"}},' for raw, text in sorted(values.items()))
+        yield "}};"
+
+
+def describe_signal(signal):
+    kind = "floating" if signal.is_float else "signed_integer" if signal.is_signed else "unsigned_integer"
+    reserved = reserved_of(signal)
+    fields = [f'"{signal.name}"', f'"{signal.unit or ""}"', str(signal.start), str(signal.length), f"Raw::{kind}",
+              f"{float(signal.scale)!r}", "no_value" if reserved is None else str(reserved),
+              str(signal.multiplexer_ids[0]) if signal.multiplexer_ids else "always",
+              table_name(signal) if names_of(signal) else "{}"]
+    return f"    {{{', '.join(fields)}}},"
+
+
+def describe(database):
+    yield HEAD.rstrip("\n")
+    yield from describe_names(database)
+    for message in database.messages:
+        yield f"\nconstexpr std::array<SignalInfo, {len(message.signals)}> signals_of_{message.name}{{{{"
+        yield from map(describe_signal, message.signals)
+        yield "}};"
+    yield f"\nconstexpr std::array<MessageInfo, {len(database.messages)}> all{{{{"
+    for message in database.messages:
+        yield f'    {{"{message.name}", {message.frame_id - 1:#05x}, {message.length}, signals_of_{message.name}}},'
+    yield "}};\n"
+    yield "}  // namespace\n"
+    yield "std::span<const MessageInfo> protocol() {"
+    yield "  return all;"
+    yield "}\n"
+    yield "}  // namespace supercoil::can_client"
+
+
+if __name__ == "__main__":
+    print("\n".join(describe(cantools.database.load_file(sys.argv[1], sort_signals="by_start"))))

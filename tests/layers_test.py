@@ -26,7 +26,10 @@ OF_PROGRAMS = {
     "firmware/linux_board": ["linux_board/", "supercoil/hal_linux/"],
     "firmware/daemon": ["daemon/", "linux_board/", "CLI/", "supercoil/hal_linux/", "malloc.h", "poll.h"],
     "firmware/daemon/latency": ["daemon/", "supercoil/hal_linux/", "nlohmann/"],
-    "firmware/operator": ["operator/", "CLI/"],
+    "firmware/can_client": ["can_client/"],
+    "firmware/operator": ["operator/", "CLI/", "nlohmann/json.hpp"],
+    "firmware/operator/bus": ["operator/bus/", "boost/asio/", "supercoil/hal_linux/socket_can.hpp"],
+    "firmware/operator/monitor": ["operator/bus/", "operator/monitor/", "httplib.h", "nlohmann/json.hpp"],
     "firmware/operator/doctor": ["operator/doctor/", "linux_board/", "nlohmann/json.hpp", "supercoil/hal_linux/"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.M)

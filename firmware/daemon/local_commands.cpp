@@ -11,7 +11,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
-#include "daemon/command_text.hpp"
+#include "loop/command_text.hpp"
 
 namespace supercoil::daemon {
 

@@ -7,7 +7,9 @@
 #include <cstdio>
 #include <thread>
 
-#include "operator/board_socket.hpp"
+#include <nlohmann/json.hpp>
+
+#include "operator/board_link.hpp"
 #include "operator/commands.hpp"
 
 namespace supercoil::operating {
@@ -29,10 +31,19 @@ int judged(const std::string& line, const std::string& answer) {
   return fail(refused ? exit_failed : exit_wrong_input, line + ": " + answer);
 }
 
-int ask(const BoardSocket& board, const std::string& line) {
-  const auto answer = board.ask(line);
-  if (!answer) return fail(exit_failed, answer.error());
-  return judged(line, *answer);
+/// One command's end, as text or as JSON on standard output.
+int concluded(const CommandOptions& options, const std::string& line,
+              const BoardLink::Answer& answer) {
+  if (options.json) {
+    nlohmann::ordered_json told{{"command", line}};
+    told[answer ? "answer" : "error"] = answer ? *answer : answer.error();
+    std::printf("%s\n", told.dump().c_str());
+  }
+  return answer ? judged(line, *answer) : fail(exit_failed, answer.error());
+}
+
+int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
+  return concluded(options, line, board.ask(line));
 }
 
 bool is_number(const std::string& text) {
@@ -60,7 +71,7 @@ std::string line_at(const CommandOptions& options, double time_s) {
 }
 
 /// Until its time is over or it is interrupted; then the muscle rests.
-int hold(const BoardSocket& board, const CommandOptions& options) {
+int hold(BoardLink& board, const CommandOptions& options) {
   std::signal(SIGINT, interrupt);
   std::signal(SIGTERM, interrupt);
   const bool renews_itself = options.words.size() == 3;
@@ -72,15 +83,21 @@ int hold(const BoardSocket& board, const CommandOptions& options) {
     const std::string line =
         first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
     const auto answer = board.ask(line);
-    if (!answer) return fail(exit_failed, answer.error());
     // A mode that ends by itself is not renewed any more.
-    if (!first && !renews_itself && *answer != "ok") return exit_done;
-    if (const int status = judged(line, *answer); status != exit_done) return status;
+    if (answer && !first && !renews_itself && *answer != "ok") return exit_done;
+    if (!answer || *answer != "ok") return concluded(options, line, answer);
     if (interrupted != 0 || time_s >= options.hold_s) break;
     next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);
     std::this_thread::sleep_until(next);
   }
-  return ask(board, options.words[0] + " rest");
+  return ask(board, options, options.words[0] + " rest");
+}
+
+tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const CommandOptions& options) {
+  if (!options.can.empty()) return std::make_unique<CanLink>(options.can);
+  auto socket = BoardSocket::open(options.socket);
+  if (!socket) return tl::unexpected(socket.error());
+  return std::make_unique<LocalLink>(std::move(*socket));
 }
 
 }  // namespace
@@ -90,15 +107,18 @@ int command_command(const CommandOptions& options) {
   if (options.sine_period_s > 0.0 && !number) {
     return fail(exit_wrong_input, joined(options.words) + ": a sine needs a number as its middle");
   }
-  const auto board = BoardSocket::open(options.socket);
+  if (options.sine_period_s > 0.0 && options.hold_s <= 0.0)
+    return fail(exit_wrong_input, "a sine needs --for or --hold");
+  const auto board = open_link(options);
   if (!board) return fail(exit_failed, board.error());
-  if (joined(options.words) == "state") {
-    const auto answer = board->ask("state");
+  const std::string line = joined(options.words);
+  if (line == "state") {
+    const auto answer = (*board)->state();
     if (!answer) return fail(exit_failed, answer.error());
     std::fputs(answer->c_str(), stdout);
     return exit_done;
   }
-  return options.hold_s > 0.0 ? hold(*board, options) : ask(*board, joined(options.words));
+  return options.hold_s > 0.0 ? hold(**board, options) : ask(**board, options, line);
 }
 
 }  // namespace supercoil::operating

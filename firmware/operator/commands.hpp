@@ -20,10 +20,17 @@ struct LogOptions {
   int channel = 0;  ///< from 1; 0: all
   bool damaged = false;
   bool summary = false;
+  int node = 0;         ///< of a CAN log, 1 to 63; 0: all
+  std::string message;  ///< of a CAN log; empty: all
 };
+/// A flight recording or a CAN log, whichever the file is.
 int log_command(const LogOptions& options);
+bool is_can_log(const std::string& path);
+int can_log_command(const LogOptions& options);
 
 struct CommandOptions {
+  std::string can;  ///< a bus; empty: the board on which this runs
+  bool json = false;
   std::string socket = "/run/supercoil/commands";
   std::vector<std::string> words;  ///< "state", or channel, verb, value
   double hold_s = 0.0;             ///< 0: once
@@ -41,6 +48,17 @@ struct DoctorOptions {
   bool json = false;
 };
 int doctor_command(const DoctorOptions& options);
+
+struct MonitorOptions {
+  std::string source;                ///< an interface, socketcand:PORT or a candump log
+  std::string listen = "127.0.0.1";  ///< address
+  int port = 8080;                   ///< 0: a free one
+  bool read_only = false;
+  bool text = false;        ///< on the terminal; no page
+  double keep_s = 3600.0;   ///< how much a page that is opened later still sees
+  double bit_rate = 500e3;  ///< of the bus, for its load
+};
+int monitor_command(const MonitorOptions& options);
 
 struct DbcOptions {
   std::vector<int> nodes;  ///< empty: node 1, under the messages' own names

@@ -80,6 +80,11 @@ int fail(int status, const std::string& message) {
 }
 
 int log_command(const LogOptions& options) {
+  if (is_can_log(options.file)) return can_log_command(options);
+  if (options.node != 0 || !options.message.empty()) {
+    return fail(exit_wrong_input,
+                options.file + ": is no CAN log, which --node and --message are for");
+  }
   storage::PosixFiles files;
   const auto content = read(options.file, files);
   if (!content) return fail(exit_wrong_input, content.error());

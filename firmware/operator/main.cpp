@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <limits>
 
 #include <CLI/CLI.hpp>
 
@@ -15,27 +16,36 @@ using namespace supercoil::operating;
 
 void add_log(CLI::App& app, LogOptions& options) {
   CLI::App* log = app.add_subcommand(
-      "log", "Read a flight recording: its rows as CSV, or what happened in words");
-  log->add_option("FILE", options.file, "A recording, flight-NUMBER.scfr")->required();
+      "log",
+      "Read a flight recording, its rows as CSV or what happened in words; or a CAN log, decoded "
+      "as CSV");
+  log->add_option("FILE", options.file, "A recording, flight-NUMBER.scfr, or a log of candump -L")
+      ->required();
   CLI::Option* out =
       log->add_option("--out", options.out, "Write the CSV to this file [standard output]");
   CLI::Option* from = log->add_option("--from", options.from_s,
-                                      "First time in s, relative to the fault [the first row]");
-  CLI::Option* to =
-      log->add_option("--to", options.to_s, "Last time in s, relative to the fault [the last row]");
+                                      "First time in s: of a recording relative to the fault, of a "
+                                      "CAN log its own [the first]");
+  CLI::Option* to = log->add_option("--to", options.to_s, "Last time in s, likewise [the last]");
   CLI::Option* channel =
       log->add_option("--channel", options.channel, "Only this channel, 1 to 16 [all]")
           ->check(CLI::Range(1, 16));
   log->add_flag("--damaged", options.damaged, "Read what can be read of a damaged file");
   CLI::Option* summary =
       log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
+  log->add_option("--node", options.node, "Of a CAN log only this node [all]")
+      ->check(CLI::Range(1, telemetry::most_nodes));
+  log->add_option("--message", options.message,
+                  "Of a CAN log only this message, a column for each signal [a row for each value]")
+      ->type_name("NAME");
   for (CLI::Option* of_csv : {out, from, to, channel})
     summary->excludes(of_csv);
 }
 
 void add_command(CLI::App& app, CommandOptions& options) {
-  CLI::App* command = app.add_subcommand(
-      "command", "Give one command to the board on which this runs, or ask for its state");
+  CLI::App* command = app.add_subcommand("command",
+                                         "Give one command to the board on which this runs or to "
+                                         "one on a CAN bus, or ask for its state");
   command
       ->add_option("COMMAND", options.words,
                    "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
@@ -46,14 +56,26 @@ void add_command(CLI::App& app, CommandOptions& options) {
       "--for", options.hold_s,
       "Renew it for so many seconds or until Ctrl-C; then the muscle rests [once: it expires]");
   hold->check(CLI::PositiveNumber);
+  command
+      ->add_flag_callback(
+          "--hold", [&] { options.hold_s = std::numeric_limits<double>::infinity(); },
+          "Renew it until Ctrl-C; then the muscle rests")
+      ->excludes(hold);
   CLI::Option* amplitude = command->add_option("--amplitude", options.sine_amplitude,
                                                "With --for: the value is the middle of a sine");
   CLI::Option* period = command->add_option("--period", options.sine_period_s, "Of the sine, in s")
                             ->check(CLI::Range(0.2, 1e4));
-  amplitude->needs(period)->needs(hold);
+  amplitude->needs(period);
   period->needs(amplitude);
-  command->add_option("--socket", options.socket, "Where supercoild listens")
-      ->capture_default_str();
+  CLI::Option* socket = command->add_option("--socket", options.socket, "Where supercoild listens")
+                            ->capture_default_str();
+  command
+      ->add_option("--can", options.can,
+                   "Command over this bus instead, where CHANNEL is the node: can0, or "
+                   "socketcand:[HOST:]PORT[/INTERFACE]")
+      ->type_name("BUS")
+      ->excludes(socket);
+  command->add_flag("--json", options.json, "Print the answer as one line of JSON too");
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options) {
@@ -79,6 +101,31 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   doctor->add_flag("--json", options.json, "Print one JSON object instead of lines");
 }
 
+void add_monitor(CLI::App& app, MonitorOptions& options) {
+  CLI::App* monitor = app.add_subcommand(
+      "monitor", "Serve a page that shows the boards of a bus live, and commands them");
+  monitor
+      ->add_option("SOURCE", options.source,
+                   "can0, socketcand:[HOST:]PORT[/INTERFACE], or a log of candump -L")
+      ->required();
+  monitor->add_option("--port", options.port, "Of the page; 0 takes a free one")
+      ->check(CLI::Range(0, 65534))
+      ->capture_default_str();
+  monitor
+      ->add_option("--listen", options.listen,
+                   "Address that others may reach, e.g. 0.0.0.0: looking needs the token then too")
+      ->type_name("ADDRESS")
+      ->capture_default_str();
+  monitor->add_flag("--read-only", options.read_only, "Nobody may command");
+  monitor->add_flag("--text", options.text, "Show it on this terminal; serve no page");
+  monitor->add_option("--keep", options.keep_s, "Seconds that a page opened later still sees")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  monitor->add_option("--bit-rate", options.bit_rate, "Of the bus in bit/s, to work out its load")
+      ->check(CLI::Range(1e4, 1e6))
+      ->capture_default_str();
+}
+
 void add_dbc(CLI::App& app, DbcOptions& options) {
   CLI::App* dbc = app.add_subcommand(
       "dbc", "Print the DBC of the CAN protocol: of node 1, or of a bus with certain nodes");
@@ -99,6 +146,8 @@ int run_program(int count, char** arguments) {
   add_command(app, command);
   DoctorOptions doctor;
   add_doctor(app, doctor);
+  MonitorOptions monitor;
+  add_monitor(app, monitor);
   DbcOptions dbc;
   add_dbc(app, dbc);
   try {
@@ -108,6 +157,7 @@ int run_program(int count, char** arguments) {
     return status == 0 ? exit_done : exit_wrong_input;
   }
   if (app.got_subcommand("doctor")) return doctor_command(doctor);
+  if (app.got_subcommand("monitor")) return monitor_command(monitor);
   if (app.got_subcommand("dbc")) return dbc_command(dbc);
   return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }

@@ -40,6 +40,18 @@ void SocketcandClient::read() {
       });
 }
 
+void SocketcandClient::hear(std::string_view frame) {
+  if (!raw_) return;
+  held_ += frame;
+  poll();
+}
+
+void SocketcandClient::poll() {
+  if (held_.empty() || std::chrono::steady_clock::now() < frames_from_) return;
+  send(held_);
+  held_.clear();
+}
+
 void SocketcandClient::send(std::string_view text) {
   if (waiting_.size() + text.size() > most_waiting) return close();
   waiting_ += text;

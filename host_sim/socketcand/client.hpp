@@ -23,14 +23,16 @@ class SocketcandClient : public std::enable_shared_from_this<SocketcandClient> {
 
   void start();
   bool is_open() const { return socket_.is_open(); }
-  /// Whether it wants the bus's frames.
-  bool listens() const { return raw_ && std::chrono::steady_clock::now() >= frames_from_; }
-  void send(std::string_view text);
+  /// A frame of the bus, if it wants them.
+  void hear(std::string_view frame);
+  /// Sends what waited for the pause to be over.
+  void poll();
   void close();
 
  private:
   void read();
   void write();
+  void send(std::string_view text);
   void obey(std::string_view element);
   void answer(std::string_view element);
 
@@ -38,6 +40,7 @@ class SocketcandClient : public std::enable_shared_from_this<SocketcandClient> {
   SocketcandServer* server_;
   can_client::ElementReader reader_;
   std::array<char, 4096> buffer_{};
+  std::string held_;  ///< frames, until frames_from_
   std::string waiting_;
   std::string in_flight_;
   bool opened_ = false;

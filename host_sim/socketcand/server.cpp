@@ -41,6 +41,8 @@ void SocketcandServer::accept() {
 
 void SocketcandServer::poll() {
   io_.poll();
+  for (const auto& client : clients_)
+    client->poll();
   std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
 }
 
@@ -53,7 +55,7 @@ void SocketcandServer::take(const hal::CanFrame& frame, const SocketcandClient& 
 void SocketcandServer::send(const hal::CanFrame& frame, hal::Time at, const SocketcandClient* but) {
   const std::string text = can_client::frame_text(frame, at);
   for (const auto& client : clients_) {
-    if (client.get() != but && client->is_open() && client->listens()) client->send(text);
+    if (client.get() != but && client->is_open()) client->hear(text);
   }
 }
 

@@ -49,10 +49,11 @@ Result<void> set_option(const Descriptor& socket, int level, int option, const v
 }
 
 /// Only what is listened to comes in, from the first moment on: set before the socket is bound.
-Result<void> set_filters(const Descriptor& socket, const std::vector<std::uint16_t>& listen) {
+Result<void> set_filters(const Descriptor& socket, const CanPlace& place) {
   std::vector<can_filter> filters;
-  filters.reserve(listen.size());
-  for (const std::uint16_t id : listen)
+  filters.reserve(place.listen.size() + 1);
+  if (place.listen_to_all) filters.push_back({0, CAN_EFF_FLAG | CAN_RTR_FLAG});
+  for (const std::uint16_t id : place.listen)
     filters.push_back({id, CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_SFF_MASK});
   return set_option(socket, SOL_CAN_RAW, CAN_RAW_FILTER, filters.data(),
                     filters.size() * sizeof(can_filter), "receive filters");
@@ -60,7 +61,7 @@ Result<void> set_filters(const Descriptor& socket, const std::vector<std::uint16
 
 Result<void> set_options(const Descriptor& socket, const CanPlace& place) {
   const int on = 1;
-  return set_filters(socket, place.listen)
+  return set_filters(socket, place)
       .and_then([&] {
         return set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &told_errors,
                           sizeof(told_errors), "error frames");

@@ -1,11 +1,11 @@
-#include "daemon/command_text.hpp"
+#include "loop/command_text.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
-namespace supercoil::daemon {
+namespace supercoil {
 
 namespace {
 
@@ -78,4 +78,4 @@ std::string answer_text(Refusal refusal) {
   return "refused: " + std::string(name(refusal));
 }
 
-}  // namespace supercoil::daemon
+}  // namespace supercoil

@@ -1,9 +1,8 @@
-#include "daemon/command_text.hpp"
+#include "loop/command_text.hpp"
 
 #include <CppUTest/TestHarness.h>
 
 using namespace supercoil;
-using namespace supercoil::daemon;
 
 TEST_GROUP(CommandText){
     static Command read(std::string_view text){const auto command = parse_command(text, 4);

@@ -8,7 +8,7 @@
 
 #include "loop/command.hpp"
 
-namespace supercoil::daemon {
+namespace supercoil {
 
 /// "1 position 0.01": a channel from 1, a verb, and a value where the verb has one, in SI units.
 /// channels: how many the board has. The error says what is wrong and what is allowed.
@@ -17,4 +17,4 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
 /// "ok", or "refused: wrong_state".
 std::string answer_text(Refusal refusal);
 
-}  // namespace supercoil::daemon
+}  // namespace supercoil

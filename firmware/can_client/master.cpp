@@ -1,0 +1,57 @@
+#include "can_client/master.hpp"
+
+#include <supercoil.h>
+
+#include "telemetry/e2e.hpp"
+#include "telemetry/opcodes.hpp"
+#include "telemetry/pack.hpp"
+
+namespace supercoil::can_client {
+
+namespace e2e = telemetry::e2e;
+
+std::uint16_t acknowledge_id(std::uint8_t node) {
+  return static_cast<std::uint16_t>(SUPERCOIL_ACKNOWLEDGE_FRAME_ID - 1 + node);
+}
+
+hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
+  asked_as_ = opcode == telemetry::claim && session_ == 0 ? nonce_ : session_;
+  counter_ = static_cast<std::uint8_t>((counter_ + 1) % e2e::counters);
+  supercoil_command_t m{};
+  m.counter = counter_;
+  m.opcode = opcode;
+  m.session = asked_as_;
+  m.value = static_cast<float>(value);
+  hal::CanFrame made = telemetry::packed(SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH,
+                                         node_, m, supercoil_command_pack);
+  e2e::protect(made);
+  return made;
+}
+
+hal::CanFrame Master::claim() {
+  return frame(telemetry::claim, 0.0);
+}
+
+hal::CanFrame Master::release() {
+  return frame(telemetry::release, 0.0);
+}
+
+hal::CanFrame Master::command(Verb verb, double value) {
+  return frame(static_cast<std::uint8_t>(verb), value);
+}
+
+std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {
+  if (frame.id != acknowledge_id(node_) || !e2e::intact(frame, SUPERCOIL_ACKNOWLEDGE_LENGTH))
+    return std::nullopt;
+  supercoil_acknowledge_t m{};
+  supercoil_acknowledge_unpack(&m, frame.data.data(), frame.length);
+  if (m.counter != counter_ || m.session != asked_as_ || m.refusal >= refusal_names.size())
+    return std::nullopt;
+  const auto refusal = static_cast<Refusal>(m.refusal);
+  const bool over = refusal == Refusal::no_lease || refusal == Refusal::not_yours;
+  if (m.opcode == telemetry::claim && refusal == Refusal::none) session_ = m.granted;
+  if (over || (m.opcode == telemetry::release && refusal == Refusal::none)) session_ = 0;
+  return Heard{m.opcode, refusal};
+}
+
+}  // namespace supercoil::can_client

@@ -1,0 +1,50 @@
+// The frames of whoever commands one node, and what the node's answers mean (docs/can.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "supercoil/hal/can_bus.hpp"
+
+#include "loop/command.hpp"
+
+namespace supercoil::can_client {
+
+/// Of the frames by which a node answers its masters.
+std::uint16_t acknowledge_id(std::uint8_t node);
+
+/// Neither sends nor receives.
+class Master {
+ public:
+  /// nonce: any number by which this master knows the answer to its claim; of its own, so that two
+  /// masters do not take each other's.
+  Master(std::uint8_t node, std::uint16_t nonce) : node_(node), nonce_(nonce) {}
+
+  std::uint8_t node() const { return node_; }
+  bool holds_lease() const { return session_ != 0; }
+
+  /// Asks for the lease, or keeps the one that this master has.
+  hal::CanFrame claim();
+  hal::CanFrame release();
+  /// Under the lease; without one only disarm is obeyed.
+  hal::CanFrame command(Verb verb, double value);
+
+  struct Heard {
+    std::uint8_t opcode;  ///< of what was answered
+    Refusal refusal;
+  };
+  /// Empty: no intact answer to this master's last frame. A lease that was granted, released or
+  /// refused is known from then on.
+  std::optional<Heard> hear(const hal::CanFrame& frame);
+
+ private:
+  hal::CanFrame frame(std::uint8_t opcode, double value);
+
+  std::uint8_t node_;
+  std::uint16_t nonce_;
+  std::uint16_t session_ = 0;
+  std::uint16_t asked_as_ = 0;  ///< what the last frame carried as its session
+  std::uint8_t counter_ = 0;    ///< of the last frame
+};
+
+}  // namespace supercoil::can_client

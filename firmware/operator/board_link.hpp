@@ -1,0 +1,54 @@
+// Whoever obeys commands: the supercoild of this board, or nodes on a CAN bus.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "operator/board_socket.hpp"
+#include "operator/bus/commander.hpp"
+
+namespace supercoil::operating {
+
+class BoardLink {
+ public:
+  using Answer = tl::expected<std::string, std::string>;
+
+  BoardLink() = default;
+  BoardLink(const BoardLink&) = delete;
+  BoardLink& operator=(const BoardLink&) = delete;
+  virtual ~BoardLink() = default;
+
+  /// "1 arm": "ok", "refused: why", or what is wrong with the line. The error: nobody answered.
+  virtual Answer ask(const std::string& line) = 0;
+  /// What is known of the board, in lines.
+  virtual Answer state() = 0;
+};
+
+class LocalLink final : public BoardLink {
+ public:
+  explicit LocalLink(BoardSocket socket) : socket_(std::move(socket)) {}
+  Answer ask(const std::string& line) override { return socket_.ask(line); }
+  Answer state() override { return socket_.ask("state"); }
+
+ private:
+  BoardSocket socket_;
+};
+
+/// The first number of a line is a node. Leases are given back at the end.
+class CanLink final : public BoardLink {
+ public:
+  explicit CanLink(std::string bus) : bus_(std::move(bus)) {}
+  ~CanLink() override;
+  Answer ask(const std::string& line) override;
+  /// Listens for a second and a half.
+  Answer state() override;
+
+ private:
+  std::string bus_;
+  std::map<std::uint8_t, std::unique_ptr<Commander>> nodes_;
+};
+
+}  // namespace supercoil::operating

@@ -1,0 +1,40 @@
+// Commands to one node, each until it is answered.
+#pragma once
+
+#include <chrono>
+#include <memory>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal/can_bus.hpp"
+
+#include "can_client/master.hpp"
+
+namespace supercoil::operating {
+
+/// Of one thread. The bus is its own: what else is heard there is passed over.
+class Commander {
+ public:
+  Commander(std::unique_ptr<hal::CanBus> bus, std::uint8_t node);
+
+  /// Waits at most half a second for the answer. Claims the lease when it has run out. The error
+  /// says that nobody answered, or that the bus is gone.
+  tl::expected<Refusal, std::string> ask(Verb verb, double value);
+  /// Gives the lease back, if there is one.
+  void release();
+  /// Passes over what came meanwhile; to be called every 100 ms or so when nothing is asked.
+  void drain();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  using Answer = tl::expected<Refusal, std::string>;
+
+  Answer exchange(const hal::CanFrame& frame);
+  Answer command(Verb verb, double value);
+
+  std::unique_ptr<hal::CanBus> bus_;
+  can_client::Master master_;
+  Clock::time_point lease_from_{};
+};
+
+}  // namespace supercoil::operating

@@ -1,0 +1,24 @@
+// A candump log as a whole.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal/can_bus.hpp"
+
+namespace supercoil::operating {
+
+struct CanLogFile {
+  std::vector<hal::CanFrame> frames;  ///< in the order of the file
+  std::size_t foreign_lines = 0;      ///< frames that supercoil never sends
+  std::string damage;                 ///< what is wrong with the first line that cannot be read
+  std::size_t damaged_lines = 0;
+};
+
+/// Reads what can be read: a log whose last line was cut off is still worth all others. The error
+/// names the file: it cannot be read, or has no line of a log.
+tl::expected<CanLogFile, std::string> read_can_log(const std::string& path);
+
+}  // namespace supercoil::operating

@@ -1,0 +1,33 @@
+// A candump log as CSV.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal/can_bus.hpp"
+
+namespace supercoil::operating {
+
+/// What of a log is wanted.
+struct CanSelection {
+  double from_s;        ///< of the log's own times
+  double to_s;          ///< included
+  int node = 0;         ///< 0: all
+  std::string message;  ///< empty: all
+};
+
+using WritePart = std::function<tl::expected<void, std::string>(std::string_view)>;
+
+/// Of all messages: a row for each value, "time_s,node,message,signal,value,unit"; what is not
+/// available has none. Of one message: a row a frame, a column a signal; what is not available is
+/// empty. Values with names are written by name. The message must be one of the protocol's. Returns
+/// how many rows it wrote; the error is the writer's.
+tl::expected<std::size_t, std::string> can_to_csv(const std::vector<hal::CanFrame>& frames,
+                                                  const CanSelection& selection,
+                                                  const WritePart& write);
+
+}  // namespace supercoil::operating

@@ -1,0 +1,57 @@
+// The bus's frames of the last while, for all who watch.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "supercoil/hal/can_bus.hpp"
+
+namespace supercoil::operating {
+
+/// How busy the bus is.
+struct BusFigures {
+  double load = 0.0;  ///< part of the bus's time, at worst stuffing, over the last second
+  double frames_per_s = 0.0;
+  double foreign_per_s = 0.0;  ///< of these, not of the protocol
+};
+
+/// Safe from any thread.
+class Recent {
+ public:
+  /// keep_s: older frames are forgotten; 0: none is. bit_rate: of the bus, for its load.
+  Recent(double keep_s, double bit_rate) : keep_(hal::duration_from(keep_s)), bit_rate_(bit_rate) {}
+
+  void add(const std::vector<hal::CanFrame>& frames);
+
+  struct Part {
+    std::vector<hal::CanFrame> frames;
+    std::uint64_t next = 0;  ///< from where the next part begins
+  };
+  /// What came since; nothing but `next` when from is that of now.
+  Part since(std::uint64_t from) const;
+  std::uint64_t end() const;
+  /// Frames between two times of the bus; a negative from is relative to the newest frame.
+  std::vector<hal::CanFrame> between(hal::Time from, hal::Time to) const;
+  /// As of the newest frame; everything 0 when that is older than a second of the machine's clock.
+  BusFigures figures() const;
+  /// Nodes of supercoil that told something, in order.
+  std::vector<std::uint8_t> nodes() const;
+
+  /// Empty: the source is there. Else why not.
+  void set_lost(const std::string& reason);
+  std::string lost() const;
+
+ private:
+  hal::Duration keep_;
+  double bit_rate_;
+  mutable std::mutex mutex_;
+  std::deque<hal::CanFrame> frames_;
+  std::uint64_t forgotten_ = 0;
+  std::uint64_t nodes_ = 0;  ///< a bit for each
+  std::string lost_;
+};
+
+}  // namespace supercoil::operating

@@ -1,0 +1,108 @@
+#include "operator/monitor/terminal.hpp"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <thread>
+
+#include <unistd.h>
+
+#include "can_client/decode.hpp"
+#include "program/exit_status.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using can_client::Decoded;
+
+/// The newest message of each kind of one node.
+using Newest = std::map<std::string_view, Decoded>;
+
+double value(const Newest& node, std::string_view message, std::string_view signal) {
+  const auto found = node.find(message);
+  if (found == node.end()) return NAN;
+  return found->second.values.at(can_client::signal_index(*found->second.message, signal));
+}
+
+std::string named(const Newest& node, std::string_view message, std::string_view signal) {
+  const auto found = node.find(message);
+  if (found == node.end()) return "-";
+  const auto& known = found->second.message->signals;
+  const std::size_t i = can_client::signal_index(*found->second.message, signal);
+  return std::string(can_client::value_name(known[i], found->second.values.at(i)));
+}
+
+/// "position 12.345 mm"; what is not available is "-".
+std::string shown(const char* what, double quantity, int digits, const char* unit) {
+  std::array<char, 80> text{};
+  if (std::isnan(quantity)) {
+    std::snprintf(text.data(), text.size(), "  %-12s %10s %s", what, "-", unit);
+  } else {
+    std::snprintf(text.data(), text.size(), "  %-12s %10.*f %s", what, digits, quantity, unit);
+  }
+  return text.data();
+}
+
+std::string node_text(int number, const Newest& node) {
+  const std::string fault = named(node, "Status", "fault");
+  std::string text = "node " + std::to_string(number) + ": " + named(node, "Status", "state") +
+                     ", " + named(node, "Status", "mode");
+  if (fault != "none" && fault != "-") text += ", FAULT " + fault;
+  const std::string limit = named(node, "Power", "limited_by");
+  if (limit != "nothing" && limit != "-") text += ", limited by " + limit;
+  const double progress = value(node, "Status", "progress");
+  const std::string mode = named(node, "Status", "mode");
+  if (mode == "identify" || mode == "calibrate")
+    text += ", " + std::to_string(std::lround(100.0 * progress)) + " %";
+  text += '\n';
+  text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +
+          shown("reference", 1e3 * value(node, "Tracking", "reference_m"), 3, "mm") +
+          shown("error", 1e6 * value(node, "Tracking", "error_m"), 0, "um") + '\n';
+  text += shown("power", value(node, "Power", "applied_W"), 3, "W ") +
+          shown("demanded", value(node, "Power", "demanded_W"), 3, "W ") +
+          shown("resistance", value(node, "Measurement", "resistance_Ohm"), 3, "Ohm") + '\n';
+  text += shown("coldest", value(node, "Temperature", "coldest_C"), 1, "C ") +
+          shown("hottest", value(node, "Temperature", "hottest_C"), 1, "C ") +
+          shown("supply", value(node, "Heater", "supply_V"), 2, "V") + '\n';
+  return text;
+}
+
+}  // namespace
+
+std::string state_text(const Recent& recent) {
+  std::map<int, Newest> nodes;
+  hal::Time newest{};
+  // Everything is sent within this time.
+  for (const hal::CanFrame& frame : recent.between(-std::chrono::seconds(3), hal::Time::max())) {
+    newest = frame.received;
+    if (const auto decoded = can_client::decode(frame))
+      nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
+  }
+  const BusFigures bus = recent.figures();
+  std::array<char, 120> head{};
+  std::snprintf(head.data(), head.size(), "at %.3f s: %.0f frames/s, bus %.1f %% busy%s%s\n",
+                hal::seconds(newest), bus.frames_per_s, 100.0 * bus.load,
+                recent.lost().empty() ? "" : "; LOST: ", recent.lost().c_str());
+  std::string text = head.data();
+  if (nodes.empty()) text += "no node of supercoil is heard\n";
+  for (const auto& [number, node] : nodes)
+    text += node_text(number, node);
+  return text;
+}
+
+int show_on_terminal(const Recent& recent, bool log, const std::function<bool()>& ended) {
+  const bool terminal = isatty(STDOUT_FILENO) == 1;
+  const auto every = std::chrono::milliseconds(terminal ? 200 : 1000);
+  do {
+    if (!log) std::this_thread::sleep_for(every);
+    // Home, and clear what is below.
+    const std::string text = (terminal && !log ? "\x1b[H\x1b[J" : "") + state_text(recent);
+    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return exit_failed;
+  } while (!log && !ended());
+  return exit_done;
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,116 @@
+// supercoil monitor: a bus or a log on a page.
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#include "operator/bus/bus_name.hpp"
+#include "operator/bus/log_file.hpp"
+#include "operator/commands.hpp"
+#include "operator/monitor/api.hpp"
+#include "operator/monitor/listener.hpp"
+#include "operator/monitor/stop.hpp"
+#include "operator/monitor/terminal.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+constexpr int page_threads = 40;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void interrupt(int) {
+  interrupted = 1;
+}
+
+/// What is watched: a log that was read, or a listener on a bus.
+struct Source {
+  std::unique_ptr<Recent> recent;
+  std::unique_ptr<Listener> listener;
+  bool log = false;
+};
+
+tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
+  Source source;
+  std::error_code ignored;
+  source.log =
+      !names_socketcand(options.source) && std::filesystem::exists(options.source, ignored);
+  source.recent = std::make_unique<Recent>(source.log ? 0.0 : options.keep_s, options.bit_rate);
+  if (source.log) {
+    auto log = read_can_log(options.source);
+    if (!log) return tl::unexpected(log.error());
+    if (log->damaged_lines > 0) {
+      std::fprintf(stderr, "supercoil: %s; %zu such lines are left out\n", log->damage.c_str(),
+                   log->damaged_lines);
+    }
+    source.recent->add(log->frames);
+    return source;
+  }
+  auto bus = open_bus(options.source);
+  if (!bus) return tl::unexpected(bus.error());
+  source.listener = std::make_unique<Listener>(std::move(*bus), *source.recent);
+  return source;
+}
+
+int serve_page(const MonitorOptions& options, Source& source) {
+  Access access{options.listen, options.port, new_token(), is_loopback(options.listen),
+                options.read_only};
+  httplib::Server server;
+  server.new_task_queue = [] { return new httplib::ThreadPool(page_threads); };
+  take_port_alone(server);
+  server.set_payload_max_length(4096);
+  server.set_read_timeout(5);
+  server.set_write_timeout(5);
+  server.set_keep_alive_timeout(2);
+  server.set_tcp_nodelay(true);
+  if (access.port == 0) {
+    access.port = server.bind_to_any_port(access.host);
+  } else if (!server.bind_to_port(access.host, access.port)) {
+    access.port = -1;
+  }
+  if (access.port <= 0) {
+    return fail(exit_failed, "port " + std::to_string(options.port) + " of " + access.host +
+                                 " cannot be had: another program has it, or the address is not "
+                                 "this machine's; --port takes another");
+  }
+
+  const auto open_for = [&](std::vector<std::uint16_t> listen) -> Hand::OpenBus {
+    return [name = options.source, listen] { return open_bus(name, listen); };
+  };
+  Hands hands([&](std::uint8_t node) { return open_for({can_client::acknowledge_id(node)}); });
+  std::unique_ptr<StopServer> stop;
+  if (!source.log && !access.read_only) {
+    auto started = StopServer::start(access, open_for({can_client::acknowledge_id(1)}),
+                                     *source.recent, [&] { hands.let_go("stopped"); });
+    if (!started) return fail(exit_failed, started.error());
+    stop = std::move(*started);
+  }
+  Api api(access, *source.recent, hands, {options.source, source.log, stop ? stop->port() : 0});
+  api.serve_with(server);
+  const bool token = !source.log && !access.read_only;
+  std::printf("http://%s:%d/%s%s\n", access.host.c_str(), access.port,
+              token || !access.loopback ? "#token=" : "",
+              token || !access.loopback ? access.token.c_str() : "");
+  std::fflush(stdout);
+  std::thread thread([&] { server.listen_after_bind(); });
+  while (interrupted == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  api.end();
+  server.stop();
+  thread.join();
+  return exit_done;
+}
+
+}  // namespace
+
+int monitor_command(const MonitorOptions& options) {
+  auto source = open_source(options);
+  if (!source) return fail(exit_wrong_input, source.error());
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  if (!options.text) return serve_page(options, *source);
+  return show_on_terminal(*source->recent, source->log, [] { return interrupted != 0; });
+}
+
+}  // namespace supercoil::operating

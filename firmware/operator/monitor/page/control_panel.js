@@ -1,0 +1,111 @@
+// The panel by which a muscle is commanded: state, arm, mode, set-point.
+
+import { element, show } from "./dom.js";
+
+// While the board has not told its limits: the stroke and the power of the paper's muscle.
+const USUAL = { position: 0.02, power: 4.5 };
+const MODES = {
+  position: { opcode: "position", button: "move", unit: "mm", factor: 1e3, step: 0.1, label: "Position",
+    hint: "The controller makes the muscle follow this position." },
+  power: { opcode: "power", button: "heat", unit: "W", factor: 1, step: 0.05, label: "Power",
+    hint: "Open loop: the muscle gets this power, within its limits." },
+  rest: { opcode: "rest", button: "rest", hint: "No power; the muscle cools and stays armed." },
+  identify: { opcode: "identify", button: "identify", hint: "Excites the muscle and learns its parameters." },
+  calibrate: { opcode: "calibrate", button: "calibrate", hint: "Finds zero and cold resistance; the muscle must be cold." },
+};
+
+export class ControlPanel {
+  /** may: {command: may it, why: why not}; log: is told (text, kind) of each command. */
+  constructor(hand, may, log) {
+    Object.assign(this, { hand, may, log, mode: "position", limits: new Map() });
+    const id = (name) => `${name}-${hand.node}`;
+    this.arm = this.#button("arm", "arm");
+    this.disarm = this.#button("disarm", "disarm");
+    this.reset = this.#button("reset fault", "reset");
+    this.radios = Object.keys(MODES).map((mode) => {
+      const radio = element("input", { type: "radio", name: id("mode"), value: mode, checked: mode === this.mode,
+        disabled: !may.command, onchange: () => this.#choose(mode) });
+      return element("label", {}, radio, element("span", {}, mode));
+    });
+    this.number = element("input", { type: "number", id: id("value"), disabled: !may.command, value: "0", inputmode: "decimal" });
+    this.unit = element("span", { class: "unit" });
+    this.number_label = element("label", { for: id("value") });
+    this.slider = element("input", { type: "range", "aria-label": "set-point", disabled: !may.command, value: "0",
+      oninput: () => (this.number.value = this.slider.value), onchange: () => this.#go() });
+    this.number.addEventListener("input", () => (this.slider.value = this.number.value));
+    this.go = element("button", { type: "submit", class: "go", disabled: !may.command });
+    this.hint = element("p", { class: "hint" });
+    this.value_row = element("div", { class: "value" }, this.number_label, this.number, this.unit);
+    this.answer = element("p", { class: "answer", role: "status", "aria-label": "answer of the board" });
+    this.notice = element("p", { class: "notice", role: "alert", hidden: true });
+    const form = element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#go(); } },
+      element("div", { class: "set" }, this.value_row, this.go), this.slider, this.hint);
+    this.element = element("section", { class: "card hand full-only", "aria-label": `command node ${hand.node}` },
+      element("h2", {}, "Hand on the muscle"),
+      may.command ? "" : element("p", { class: "why" }, may.why),
+      element("div", { class: "buttons" }, this.arm, this.disarm, this.reset),
+      element("fieldset", { class: "modes" }, element("legend", {}, "mode"), ...this.radios),
+      form, this.answer, this.notice);
+    hand.addEventListener("notice", () => {
+      show(this.notice, hand.notice);
+      this.notice.hidden = hand.notice === "";
+      if (hand.notice) log(hand.notice, "warn");
+    });
+    this.#choose(this.mode);
+  }
+
+  #button(text, opcode) {
+    return element("button", { type: "button", class: opcode, disabled: !this.may.command, onclick: () => this.#send(opcode) }, text);
+  }
+
+  #choose(mode) {
+    this.mode = mode;
+    const { button, hint, unit, label } = MODES[mode];
+    show(this.go, button);
+    show(this.hint, hint);
+    this.value_row.hidden = this.slider.hidden = !unit;
+    if (!unit) return;
+    show(this.unit, unit);
+    show(this.number_label, label);
+    this.#scale();
+  }
+
+  /** Number and slider end at the limit of the detector, where the board has told it. */
+  #scale() {
+    const { factor, step, opcode } = MODES[this.mode];
+    const most = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
+    for (const input of [this.number, this.slider]) Object.assign(input, { min: 0, step, max: Math.floor((most * factor) / step) * step });
+  }
+
+  #go() {
+    const { opcode, unit, factor } = MODES[this.mode];
+    if (!unit) return this.#send(opcode);
+    const value = this.number.valueAsNumber;
+    if (Number.isNaN(value)) return this.#answer("a number is missing", false);
+    this.#send(opcode, value / factor, `${this.number.value} ${unit}`);
+  }
+
+  async #send(opcode, value = 0, said = "") {
+    const what = said ? `${opcode} ${said}` : opcode;
+    this.#answer(`${what} …`, true);
+    const { obeyed, text } = await this.hand.send(opcode, value);
+    this.#answer(`${what}: ${text}`, obeyed);
+    this.log(`${what}: ${text}`, obeyed ? "" : "warn");
+  }
+
+  #answer(text, obeyed) {
+    show(this.answer, text);
+    this.answer.classList.toggle("refused", !obeyed);
+  }
+
+  /** status: what the channel says of itself, in words, or null. The sensible next step stands out. */
+  update(status, limits) {
+    if (status) this.hand.observe(status.state);
+    for (const [button, state] of [[this.arm, "disarmed"], [this.reset, "fault"]])
+      button.classList.toggle("next", status?.state === state);
+    this.go.classList.toggle("next", status?.state === "armed");
+    const had = this.limits.size;
+    this.limits = limits;
+    if (limits.size !== had && MODES[this.mode].unit) this.#scale();
+  }
+}

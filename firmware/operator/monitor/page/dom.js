@@ -1,0 +1,17 @@
+// Making and changing elements.
+
+/** An element with attributes and children; on… attributes are listeners. */
+export function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) {
+    if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
+    else if (value !== undefined && value !== null && value !== false) made.setAttribute(key, value === true ? "" : value);
+  }
+  made.append(...children);
+  return made;
+}
+
+/** Writes only what changed: layout is not computed anew for nothing. */
+export function show(where, text) {
+  if (where.textContent !== text) where.textContent = text;
+}

@@ -1,0 +1,55 @@
+// Fills the store: the newest minute first, so that the first plot is there at once, then the stream, then older minutes.
+
+import { history_of } from "./server.js";
+
+const FIRST_S = 60;
+const PIECE_S = 30;
+
+export class Feed {
+  #waiting = []; // batches of the stream while history is on its way; null: none is
+  #older = 0;
+
+  /** on_problem: is told what went wrong with a request for history. */
+  constructor(store, stream, is_log, on_problem) {
+    this.store = store;
+    this.is_log = is_log;
+    this.on_problem = on_problem;
+    stream.addEventListener("batch", ({ detail }) => {
+      if (this.#waiting) this.#waiting.push(detail);
+      else store.append(detail);
+    });
+    // The browser opened the stream again: what came in between is in the history.
+    stream.addEventListener("open", () => this.#fill());
+    store.addEventListener("restart", () => ++this.#older);
+  }
+
+  async #fill() {
+    const known = !this.store.empty;
+    if (known && this.is_log) return;
+    this.#waiting ??= [];
+    try {
+      this.store.append(await history_of(...this.#missing(known)));
+    } catch (problem) {
+      this.on_problem(problem.message);
+    } finally {
+      const waiting = this.#waiting;
+      this.#waiting = null;
+      for (const batch of waiting ?? []) this.store.append(batch);
+    }
+    if (!known && !this.is_log) this.#fetch_older(++this.#older).catch((problem) => this.on_problem(problem.message));
+  }
+
+  #missing(known) {
+    if (this.is_log) return [];
+    return known ? [this.store.newest_s] : [-FIRST_S];
+  }
+
+  async #fetch_older(turn) {
+    const { store } = this;
+    const end_s = store.newest_s - store.keep_s;
+    while (turn === this.#older && store.oldest_s > end_s) {
+      const older = await history_of(store.oldest_s - PIECE_S, store.oldest_s);
+      if (turn !== this.#older || !store.prepend(older)) return;
+    }
+  }
+}

@@ -1,0 +1,46 @@
+// Numbers and words as they are shown. What is not available is a dash.
+
+export const NONE = "–";
+
+/** A fixed number of decimals keeps digits where they are while they change. */
+export function fixed(value, decimals) {
+  if (value == null || Number.isNaN(value)) return NONE;
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
+  return value.toFixed(decimals).replace("-", "−");
+}
+
+/** Three digits that count, for what may be of any size. */
+export function significant(value) {
+  if (value == null || !Number.isFinite(value)) return fixed(value, 0);
+  const size = Math.abs(value);
+  if (size === 0) return "0";
+  if (size >= 1e5 || size < 1e-3) return value.toExponential(2).replaceAll("-", "−");
+  return fixed(value, Math.max(0, 2 - Math.floor(Math.log10(size))));
+}
+
+// Beyond 1973 a time is one of a calendar; before, it is counted from a start.
+const CALENDAR_S = 1e8;
+
+/** A time of the bus. decimals: of the seconds. */
+export function bus_time(time_s, decimals = 1) {
+  if (time_s == null || Number.isNaN(time_s)) return NONE;
+  if (time_s > CALENDAR_S) {
+    const date = new Date(time_s * 1e3);
+    const clock = [date.getHours(), date.getMinutes(), date.getSeconds()].map((n) => String(n).padStart(2, "0")).join(":");
+    return decimals ? `${clock}.${String(Math.floor(date.getMilliseconds() / 10 ** (3 - decimals))).padStart(decimals, "0")}` : clock;
+  }
+  return `${fixed(time_s, decimals)} s`;
+}
+
+/** How long ago, or how long something is. */
+export function duration(seconds) {
+  if (seconds < 120) return `${Math.floor(seconds)} s`;
+  return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;
+}
+
+/** over_temperature → over temperature */
+export const words = (name) => name.replaceAll("_", " ");
+
+export function clock_now() {
+  return new Date().toLocaleTimeString([], { hour12: false });
+}

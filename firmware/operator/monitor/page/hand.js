@@ -1,0 +1,92 @@
+// The hand on one muscle: gives commands, and says that this page lives as long as what it commanded may heat.
+
+import { alive, command } from "./server.js";
+import { clock_now, duration, words } from "./format.js";
+
+const ALIVE_EVERY_MS = 300;
+// The muscle's own state follows an obeyed command within a heartbeat or two.
+const SETTLES_MS = 1000;
+const HEATS = new Set(["position", "power", "identify", "calibrate"]);
+const COOLS = new Set(["rest", "disarm"]);
+
+const WHY = {
+  wrong_state: "wrong state: arm it first, or reset its fault",
+  cause_persists: "the fault's cause is still there",
+  no_edge: "too soon after the last reset: try again",
+  not_ready: "not ready: self-test, cooling or a probe is not over yet",
+  busy: "busy",
+  out_of_range: "out of range",
+  no_such_channel: "the board has no such channel",
+  not_yours: "somebody else holds the lease to command this muscle",
+  no_lease: "the lease had ended: try again",
+  wrong_counter: "commands were lost: try again",
+  too_many: "more commands than the board takes at once: try again",
+};
+
+/** Why a command was refused, in words. */
+export const refusal_words = (refusal) => WHY[refusal] ?? words(refusal);
+
+export class Hand extends EventTarget {
+  constructor(node, timeout_s) {
+    super();
+    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0 });
+  }
+
+  /** Resolves to {obeyed, text}. */
+  async send(opcode, value = 0) {
+    try {
+      const refusal = await command(this.node, opcode, value);
+      if (refusal !== "none") return { obeyed: false, text: `refused: ${refusal_words(refusal)}` };
+    } catch (problem) {
+      return { obeyed: false, text: problem.message };
+    }
+    if (HEATS.has(opcode)) this.#hold(opcode);
+    if (COOLS.has(opcode)) this.let_go();
+    return { obeyed: true, text: "obeyed" };
+  }
+
+  #hold(opcode) {
+    this.holds = opcode;
+    this.since_ms = this.heard_ms = performance.now();
+    this.#say("");
+    this.timer ||= setInterval(() => this.#live(), ALIVE_EVERY_MS);
+  }
+
+  /** This page commands nothing any more that heats. */
+  let_go(notice = "") {
+    clearInterval(this.timer);
+    this.timer = 0;
+    this.holds = null;
+    this.#say(notice);
+  }
+
+  /** The board's own word: a mode that has ended, or a fault, is not held any longer. */
+  observe(state) {
+    if (!this.holds || state === "active" || performance.now() - this.since_ms < SETTLES_MS) return;
+    const ended = this.holds === "identify" || this.holds === "calibrate";
+    this.let_go(state === "armed" && ended ? `${this.holds} has ended` : `${this.holds} has ended: the muscle is ${state}`);
+  }
+
+  async #live() {
+    if (this.asking) return;
+    this.asking = true;
+    try {
+      const { holding, reason } = await alive(this.node);
+      this.heard_ms = performance.now();
+      if (!holding && this.holds) this.let_go(`command ${reason ?? "ended"} (${clock_now()})`);
+      else if (this.holds) this.#say("");
+    } catch (problem) {
+      const silent_s = (performance.now() - this.heard_ms) / 1000;
+      if (silent_s > this.timeout_s && this.holds)
+        this.#say(`command expired: supercoil monitor has not answered for ${duration(silent_s)} (${problem.message})`);
+    } finally {
+      this.asking = false;
+    }
+  }
+
+  #say(notice) {
+    if (notice === this.notice) return;
+    this.notice = notice;
+    this.dispatchEvent(new Event("notice"));
+  }
+}

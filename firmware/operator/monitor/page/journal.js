@@ -1,0 +1,34 @@
+// What happened, newest first: commands and answers, changes of state, faults, losses.
+
+import { element } from "./dom.js";
+import { bus_time, words } from "./format.js";
+
+const KEPT = 200;
+
+export class Journal {
+  constructor(node, store) {
+    Object.assign(this, { node, store, last: {} });
+    this.list = element("ol", { class: "journal", role: "log", "aria-label": `what happened at node ${node}`, tabindex: 0 });
+    this.element = element("section", { class: "card full-only happened" }, element("h2", {}, "What happened"), this.list);
+  }
+
+  add(text, kind = "", time_s = this.store.newest_s) {
+    this.list.prepend(element("li", { class: kind }, element("time", {}, bus_time(time_s)), ` ${text}`));
+    while (this.list.children.length > KEPT) this.list.lastChild.remove();
+  }
+
+  /** Changes of state, mode and fault in a batch that has just come. */
+  read(rows) {
+    const status = rows?.Status;
+    for (let i = 0; i < (status?.time_s.length ?? 0); ++i) {
+      for (const signal of ["state", "mode", "fault"]) {
+        const value = status[signal][i];
+        const before = this.last[signal];
+        this.last[signal] = value;
+        if (before === undefined || before === value) continue;
+        const name = words(this.store.word("Status", signal, value));
+        this.add(`${signal}: ${name}`, signal === "fault" && value !== 0 ? "warn" : "", status.time_s[i]);
+      }
+    }
+  }
+}

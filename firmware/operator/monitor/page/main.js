@@ -1,0 +1,141 @@
+// Puts the page together: server → stream → store → what is seen.
+
+import { csv, download } from "./csv.js";
+import { show } from "./dom.js";
+import { FaultPage } from "./fault_page.js";
+import { Feed } from "./feed.js";
+import { listen_to_keys, listen_to_wheel } from "./keys.js";
+import { NodeTabs } from "./node_tabs.js";
+import { NodeView } from "./node_view.js";
+import { Replay } from "./replay.js";
+import { about as ask_about, token } from "./server.js";
+import { StatusLine } from "./status_line.js";
+import { Stop } from "./stop.js";
+import { Store } from "./store.js";
+import { Stream } from "./stream.js";
+import { View } from "./view.js";
+
+const TEXT_EVERY_MS = 100;
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+const DRAW_EVERY_MS = () => (calm.matches ? 500 : 33);
+
+const by_id = (id) => document.getElementById(id);
+
+function may_command(about) {
+  if (about.kind === "log") return { command: false, why: "This is a log: there is nothing to command." };
+  if (about.read_only) return { command: false, why: "For viewing only: the monitor was started with --read-only." };
+  if (!token) return { command: false, why: "For viewing only: no token. Open the address that supercoil monitor printed at its start." };
+  if (!about.may_command) return { command: false, why: "For viewing only: the token is not this monitor's. Open the address that it printed at its start." };
+  return { command: true, why: "" };
+}
+
+function begin(about) {
+  const is_log = about.kind === "log";
+  show(by_id("source"), about.source);
+  const store = new Store(about.protocol, is_log);
+  const stream = new Stream();
+  const replay = is_log ? new Replay(by_id("replay"), store) : null;
+  const view = new View(() => replay?.time_s ?? store.newest_s, () => store.oldest_s);
+  const fault_page = new FaultPage(by_id("fault-page"));
+  const tabs = new NodeTabs(by_id("tabs"), by_id("nodes"));
+  const status = new StatusLine(by_id("status"), stream, store, view, is_log);
+  const say_problem = (text) => {
+    by_id("problem").hidden = false;
+    show(by_id("problem"), text);
+  };
+  new Feed(store, stream, is_log, say_problem);
+
+  const add = (node) => tabs.add(new NodeView(node, store, view, about, may_command(about), (name) => fault_page.open(name)));
+  const views = () => [...tabs.views.values()];
+  store.addEventListener("node", ({ detail }) => add(detail));
+  store.addEventListener("restart", () => views().forEach((node) => node.journal.add("the source began anew")));
+  store.addEventListener("batch", ({ detail }) => {
+    for (const node of views()) node.journal.read(detail.nodes?.[node.node]);
+  });
+  new Stop(by_id("stop"), by_id("stop-notice"), about, () => [...tabs.views.keys()], () =>
+    views().forEach(({ hand, journal }) => {
+      hand.let_go();
+      journal.add("STOP");
+    }));
+
+  const export_csv = async () => {
+    const nodes = tabs.visible.map(({ node }) => node);
+    const { from_s, to_s } = view.range;
+    download(await csv(store, nodes, view.range), `supercoil-node-${nodes.join("-")}-${from_s.toFixed(0)}-to-${to_s.toFixed(0)}-s.csv`);
+  };
+  // A log is seen as a whole at first.
+  if (is_log) store.addEventListener("batch", () => view.span(Math.max(1, store.newest_s - store.oldest_s)), { once: true });
+  connect_tools(view, replay, export_csv, fault_page);
+  draw_forever({ store, view, replay, tabs, status });
+  stream.open();
+}
+
+function connect_tools(view, replay, export_csv, fault_page) {
+  const pause = by_id("pause");
+  const toggle = () => (replay && view.live ? replay.toggle() : view.toggle());
+  pause.addEventListener("click", toggle);
+  pause.hidden = replay !== null;
+  by_id("csv").addEventListener("click", export_csv);
+  const spans = [...document.querySelectorAll("[name=span]")];
+  for (const radio of spans) radio.addEventListener("change", () => view.span(Number(radio.value)));
+  view.addEventListener("change", () => {
+    show(pause, view.live ? "❚❚ pause" : replay ? "▶ follow" : "▶ live");
+    pause.hidden = replay && view.live; // the replay has a button of its own
+    for (const radio of spans) radio.checked = Number(radio.value) === view.span_s;
+  });
+  const help = by_id("help");
+  const show_help = () => (help.open ? help.close() : help.show());
+  by_id("keys").addEventListener("click", show_help);
+  help.querySelector("button").addEventListener("click", () => help.close());
+  listen_to_keys({
+    p: toggle, l: () => view.follow(), End: () => view.follow(), c: export_csv, "?": show_help,
+    "+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2),
+    ArrowLeft: () => view.pan(-0.25), ArrowRight: () => view.pan(0.25),
+    Escape: () => (help.open ? help.close() : fault_page.dialog.open && fault_page.close()),
+  });
+  listen_to_wheel(by_id("nodes"), view);
+}
+
+/** Plots when there is something new, texts ten times a second. */
+function draw_forever({ store, view, replay, tabs, status }) {
+  let stale = true; // something new came
+  let asked = true; // somebody waits for it
+  let plots_ms = 0;
+  let texts_ms = 0;
+  const ask = () => (asked = true);
+  store.addEventListener("batch", () => (stale = true));
+  view.addEventListener("change", ask);
+  replay?.addEventListener("change", ask);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ask);
+  const frame = (now_ms) => {
+    requestAnimationFrame(frame);
+    // An hour that scrolls by less than a pixel is not drawn for it.
+    const enough_ms = Math.max(DRAW_EVERY_MS(), Math.min(1000, view.span_s));
+    if (!store.empty && (asked || (stale && view.live && now_ms - plots_ms >= enough_ms))) {
+      asked = stale = false;
+      plots_ms = now_ms;
+      for (const node of tabs.visible) node.draw();
+      mark_first_plot(tabs);
+    }
+    if (now_ms - texts_ms >= TEXT_EVERY_MS) {
+      texts_ms = now_ms;
+      status.update();
+      if (store.empty) return;
+      for (const node of tabs.views.values()) node.update();
+      tabs.update();
+    }
+  };
+  requestAnimationFrame(frame);
+}
+
+function mark_first_plot(tabs) {
+  if (performance.getEntriesByName("first-plot").length > 0) return;
+  if (tabs.visible.some((node) => node.plots.some((plot) => plot.drawn))) performance.mark("first-plot");
+}
+
+ask_about().then(begin, (problem) => {
+  const status = by_id("status");
+  status.dataset.kind = "lost";
+  show(status.querySelector("b"), "no access");
+  show(status.querySelector("span"), `${problem.message}${token ? "" : " – open the address that supercoil monitor printed at its start, with its token"}`);
+});

@@ -1,0 +1,48 @@
+// All that is seen of one node.
+
+import { ControlPanel } from "./control_panel.js";
+import { element } from "./dom.js";
+import { Hand } from "./hand.js";
+import { Journal } from "./journal.js";
+import { Margins } from "./margins.js";
+import { Parameters } from "./parameters.js";
+import { Plot } from "./plot.js";
+import { PLOTS } from "./plots.js";
+import { Readouts } from "./readouts.js";
+import { StateCard } from "./state_card.js";
+
+// Beside other nodes there is room for these.
+const COMPACT_PLOTS = new Set(["Position", "Power", "Temperature"]);
+
+export class NodeView {
+  /** may: {command, why}; on_fault: opens the page of a fault. */
+  constructor(node, store, view, about, may, on_fault) {
+    Object.assign(this, { node, view, store });
+    this.hand = new Hand(node, about.page_timeout_s);
+    this.journal = new Journal(node, store);
+    this.state = new StateCard(node, store, on_fault);
+    this.panel = new ControlPanel(this.hand, may, (text, kind) => this.journal.add(text, kind));
+    this.margins = new Margins(node, store, on_fault);
+    this.cards = [new Readouts(node, store), new Parameters(node, store), this.margins];
+    this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
+    for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
+    const [readouts, parameters, margins] = this.cards.map((card) => card.element);
+    this.element = element("article", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
+      element("div", { class: "side" }, this.state.element, this.panel.element, this.journal.element),
+      element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
+        element("div", { class: "lower" }, parameters, margins)));
+  }
+
+  draw() {
+    for (const plot of this.plots) plot.draw();
+  }
+
+  /** Everything that is text. */
+  update() {
+    const now_s = this.view.now_s();
+    this.status = this.state.update(now_s);
+    for (const card of this.cards) card.update(now_s);
+    this.panel.update(this.status, this.margins.limits);
+    for (const plot of this.plots) plot.show_values();
+  }
+}

@@ -1,0 +1,34 @@
+// The newest numbers of a node, large.
+
+import { element, show } from "./dom.js";
+import { fixed } from "./format.js";
+
+const NUMBERS = [
+  ["position", "mm", 3, "Measurement", "position_m", 1e3],
+  ["reference", "mm", 3, "Tracking", "reference_m", 1e3],
+  ["error", "µm", 0, "Tracking", "error_m", 1e6],
+  ["power", "W", 3, "Power", "applied_W", 1],
+  ["resistance", "Ω", 3, "Measurement", "resistance_Ohm", 1],
+  ["supply", "V", 2, "Heater", "supply_V", 1],
+];
+
+export class Readouts {
+  constructor(node, store) {
+    Object.assign(this, { node, store });
+    this.values = NUMBERS.map(() => element("b", {}, "–"));
+    this.temperature = element("b", {}, "–");
+    const tile = (name, value, unit) => element("div", {}, element("dt", {}, name), element("dd", {}, value, element("span", {}, ` ${unit}`)));
+    const tiles = NUMBERS.map(([name, unit], i) => tile(name, this.values[i], unit));
+    tiles.splice(4, 0, tile("temperature", this.temperature, "°C"));
+    this.element = element("dl", { class: "readouts", "aria-label": `newest values of node ${node}` }, ...tiles);
+  }
+
+  update(now_s) {
+    NUMBERS.forEach(([, , decimals, message, column, factor], i) => {
+      const value = this.store.at(this.node, message, now_s)?.[column];
+      show(this.values[i], fixed(value * factor, decimals));
+    });
+    const row = this.store.at(this.node, "Temperature", now_s);
+    show(this.temperature, `${fixed(row?.coldest_C, 1)} … ${fixed(row?.hottest_C, 1)}`);
+  }
+}

@@ -1,0 +1,68 @@
+// What a channel says of itself: state as a colour and a word, mode, progress, fault.
+
+import { element, show } from "./dom.js";
+import { duration, fixed, words } from "./format.js";
+
+// A heartbeat comes every 100 ms.
+const SILENT_S = 1;
+const MEANS = {
+  disarmed: "cold, cannot heat",
+  armed: "cold, ready",
+  active: "may be hot",
+  fault: "cold, needs a reset",
+  silent: "its heartbeat has stopped: state unknown",
+};
+
+export class StateCard {
+  /** on_fault: called with a fault's name whose page is wanted. */
+  constructor(node, store, on_fault) {
+    Object.assign(this, { node, store, fault_name: "none" });
+    this.word = element("strong", { class: "word" });
+    this.means = element("span", { class: "means" });
+    this.facts = element("dl", { class: "facts" });
+    this.values = ["mode", "controller", "commanded by", "limited by"].map((name) => {
+      const value = element("dd", {}, "–");
+      this.facts.append(element("div", {}, element("dt", {}, name), value));
+      return value;
+    });
+    this.bar = element("progress", { max: 1, "aria-label": "progress" });
+    this.percent = element("span");
+    this.progress = element("p", { class: "progress", hidden: true }, this.bar, " ", this.percent);
+    this.fault_button = element("button", { type: "button", class: "link", onclick: () => on_fault(this.fault_name) });
+    this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
+    this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
+      element("h2", {}, `Node ${node}`),
+      element("p", { class: "now", role: "status" }, this.word, " ", this.means), this.fault, this.progress, this.facts);
+  }
+
+  /** Returns the status in words, or null while there is none. */
+  update(now_s) {
+    const row = this.store.at(this.node, "Status", now_s);
+    const name = (signal) => this.store.word("Status", signal, row[signal]);
+    const silent_s = row ? now_s - row.time_s : Infinity;
+    const status = row && { state: silent_s > SILENT_S ? "silent" : name("state"), mode: name("mode"), fault: name("fault") };
+    const state = status?.state ?? "silent";
+    this.element.dataset.state = state;
+    show(this.word, state);
+    show(this.means, state === "silent" && row ? `no heartbeat since ${duration(silent_s)}: state unknown` : MEANS[state] ?? "");
+    const facts = row
+      ? [name("mode"), `no. ${row.controller}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
+        row.limited ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
+      : ["–", "–", "–", "–"];
+    this.values.forEach((value, i) => show(value, facts[i]));
+    this.#show_fault(status, row);
+    const shows = status && (status.mode === "identify" || status.mode === "calibrate") && Number.isFinite(row.progress);
+    this.progress.hidden = !shows;
+    if (shows) {
+      this.bar.value = row.progress;
+      show(this.percent, `${status.mode}: ${fixed(100 * row.progress, 0)} %`);
+    }
+    return status;
+  }
+
+  #show_fault(status, row) {
+    this.fault_name = status?.fault ?? "none";
+    this.fault.hidden = this.fault_name === "none";
+    if (!this.fault.hidden) show(this.fault_button, `fault ${row.fault}: ${words(this.fault_name)} – what to do`);
+  }
+}

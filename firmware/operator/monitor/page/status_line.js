@@ -1,0 +1,50 @@
+// One line that says whether what is seen is live, and if not, since when and why.
+
+import { show } from "./dom.js";
+import { bus_time, duration } from "./format.js";
+
+// A board sends a hundred frames in this time.
+const SILENT_MS = 1500;
+
+export class StatusLine {
+  constructor(place, stream, store, view, is_log) {
+    Object.assign(this, { place, store, view, is_log, trouble: null, heard_ms: null });
+    [this.word, this.text] = [place.querySelector("b"), place.querySelector("span")];
+    stream.addEventListener("batch", () => {
+      this.heard_ms = performance.now();
+      this.trouble = null;
+    });
+    stream.addEventListener("open", () => this.#clear());
+    stream.addEventListener("found", () => this.#clear());
+    stream.addEventListener("lost", ({ detail }) => this.#trouble("source lost", detail?.reason));
+    stream.addEventListener("closed", () => this.#trouble("connection lost", "supercoil monitor does not answer"));
+  }
+
+  #clear() {
+    this.trouble = null;
+    this.heard_ms ??= performance.now();
+  }
+
+  #trouble(word, why) {
+    if (this.trouble?.word !== word) this.trouble = { word, why, since_ms: this.heard_ms ?? performance.now() };
+  }
+
+  update() {
+    const { kind, word, text } = this.#now();
+    this.place.dataset.kind = kind;
+    show(this.word, word);
+    show(this.text, text);
+  }
+
+  #now() {
+    const now_ms = performance.now();
+    const since = (from_ms) => `since ${duration((now_ms - from_ms) / 1e3)}`;
+    if (this.trouble) return { kind: "lost", word: this.trouble.word, text: `${since(this.trouble.since_ms)}${this.trouble.why ? `: ${this.trouble.why}` : ""}` };
+    if (this.heard_ms === null && this.store.empty) return { kind: "wait", word: "connecting", text: "" };
+    const at = bus_time(this.view.range.to_s);
+    if (!this.view.live) return { kind: "paused", word: "paused", text: `at ${at}` };
+    if (this.is_log) return { kind: "log", word: "log", text: at };
+    if (now_ms - this.heard_ms > SILENT_MS) return { kind: "lost", word: "no frames", text: since(this.heard_ms) };
+    return { kind: "live", word: "live", text: at };
+  }
+}

@@ -1,0 +1,63 @@
+// STOP: disarms every muscle. By the button, or by the space bar wherever the focus is.
+
+import { show } from "./dom.js";
+import { clock_now } from "./format.js";
+import { command, stop } from "./server.js";
+
+export class Stop {
+  /** nodes: a function that tells the known nodes; on_stop: called when the nodes were stopped. */
+  constructor(button, notice, about, nodes, on_stop) {
+    Object.assign(this, { button, notice, port: about.stop_port, nodes, on_stop });
+    button.disabled = about.read_only || about.kind === "log";
+    if (button.disabled) {
+      button.title = about.kind === "log" ? "a log cannot be stopped" : "this monitor is read-only";
+      return;
+    }
+    button.addEventListener("click", () => this.press());
+    // Before anything else sees the key: a focused button or input does not get it.
+    addEventListener("keydown", (event) => this.#key(event, () => event.repeat || this.press()), { capture: true });
+    addEventListener("keyup", (event) => this.#key(event, () => {}), { capture: true });
+    addEventListener("keypress", (event) => this.#key(event, () => {}), { capture: true });
+  }
+
+  #key(event, act) {
+    if (event.code !== "Space" && event.key !== " ") return;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    act();
+  }
+
+  async press() {
+    this.button.classList.add("pressed");
+    try {
+      const nodes = await stop(this.port);
+      this.on_stop();
+      this.#say(nodes.length ? `stopped node ${nodes.join(", ")} (${clock_now()})` : "stopped; no node was ever heard", "done");
+    } catch (problem) {
+      await this.#by_commands(problem);
+    } finally {
+      this.button.classList.remove("pressed");
+    }
+  }
+
+  /** The other way there is, when the stop's own port does not answer. */
+  async #by_commands(problem) {
+    this.#say(`STOP did not get through (${problem.message}); disarming each node …`, "failed");
+    const answers = await Promise.allSettled(this.nodes().map((node) => command(node, "disarm")));
+    const obeyed = answers.length > 0 && answers.every(({ value }) => value === "none");
+    if (obeyed) {
+      this.on_stop();
+      this.#say(`disarmed each node; the stop's own port did not answer: ${problem.message}`, "done");
+    } else {
+      this.#say(`STOP FAILED: ${problem.message}. Use the stop button of the board.`, "failed");
+    }
+  }
+
+  #say(text, kind) {
+    show(this.notice, text);
+    this.notice.dataset.kind = kind;
+    this.notice.hidden = false;
+    clearTimeout(this.hiding);
+    if (kind === "done") this.hiding = setTimeout(() => (this.notice.hidden = true), 6000);
+  }
+}

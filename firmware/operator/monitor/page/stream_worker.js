@@ -1,0 +1,35 @@
+// One event stream for all pages of this browser: it allows six connections to a server, and eight pages are open.
+// A classic script, so that it runs as a SharedWorker everywhere.
+
+const pages = [];
+let source = null;
+let lost = null; // the message, while the source is lost
+
+function tell(message) {
+  if (message.kind === "lost") lost = message;
+  if (message.kind === "found" || message.kind === "open") lost = null;
+  for (const page of pages) page.postMessage(message);
+}
+
+function open(url) {
+  source = new EventSource(url);
+  source.onopen = () => tell({ kind: "open" });
+  source.onmessage = (event) => tell({ kind: "batch", data: event.data });
+  source.addEventListener("lost", (event) => tell({ kind: "lost", data: event.data }));
+  source.addEventListener("found", () => tell({ kind: "found" }));
+  source.onerror = () => {
+    tell({ kind: "closed" });
+    // A refused stream (too many of them) is not opened again by itself.
+    if (source.readyState === EventSource.CLOSED) setTimeout(open, 1000, url);
+  };
+}
+
+onconnect = (event) => {
+  const [page] = event.ports;
+  pages.push(page);
+  page.onmessage = ({ data }) => {
+    if (!source) return open(data.url);
+    page.postMessage({ kind: source.readyState === EventSource.OPEN ? "open" : "closed" });
+    if (lost) page.postMessage(lost);
+  };
+};

@@ -1,0 +1,64 @@
+// Which time is looked at: the newest (live), or a part of the past that stands still (paused).
+
+const SHORTEST_S = 0.5;
+
+export class View extends EventTarget {
+  /** now_s: a function that tells the newest time there is to see; oldest_s: likewise. */
+  constructor(now_s, oldest_s) {
+    super();
+    this.now_s = now_s;
+    this.oldest_s = oldest_s;
+    this.span_s = 60;
+    this.end_s = null; // null: live
+  }
+
+  get live() {
+    return this.end_s === null;
+  }
+
+  get range() {
+    const to_s = this.end_s ?? this.now_s();
+    return { from_s: to_s - this.span_s, to_s };
+  }
+
+  follow() {
+    this.#set(this.span_s, null);
+  }
+
+  pause() {
+    this.#set(this.span_s, this.range.to_s);
+  }
+
+  toggle() {
+    if (this.live) this.pause();
+    else this.follow();
+  }
+
+  /** Live stays live. */
+  span(span_s) {
+    this.#set(span_s, this.end_s);
+  }
+
+  show(from_s, to_s) {
+    this.#set(to_s - from_s, to_s);
+  }
+
+  /** factor below 1: nearer. about: what stays where it is, 0 to 1 from left to right; live stays live. */
+  zoom(factor, about = 1) {
+    const { from_s, to_s } = this.range;
+    const span_s = this.span_s * factor;
+    this.#set(span_s, this.live ? null : from_s + about * (to_s - from_s) + (1 - about) * span_s);
+  }
+
+  /** part of the span, negative: to the past. */
+  pan(part) {
+    const end_s = this.range.to_s + part * this.span_s;
+    this.#set(this.span_s, end_s >= this.now_s() ? null : Math.max(end_s, this.oldest_s()));
+  }
+
+  #set(span_s, end_s) {
+    this.span_s = Math.max(SHORTEST_S, span_s);
+    this.end_s = end_s;
+    this.dispatchEvent(new Event("change"));
+  }
+}

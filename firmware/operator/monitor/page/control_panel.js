@@ -100,7 +100,7 @@ export class ControlPanel {
 
   /** status: what the channel says of itself, in words, or null. The sensible next step stands out. */
   update(status, limits) {
-    if (status) this.hand.observe(status.state);
+    if (status) this.hand.observe(status);
     for (const [button, state] of [[this.arm, "disarmed"], [this.reset, "fault"]])
       button.classList.toggle("next", status?.state === state);
     this.go.classList.toggle("next", status?.state === "armed");

@@ -6,7 +6,8 @@ const FIRST_S = 60;
 const PIECE_S = 30;
 
 export class Feed {
-  #waiting = []; // batches of the stream while history is on its way; null: none is
+  #waiting = null; // batches of the stream while history is on its way; null: none is
+  #filling = Promise.resolve();
   #older = 0;
 
   /** on_problem: is told what went wrong with a request for history. */
@@ -18,9 +19,14 @@ export class Feed {
       if (this.#waiting) this.#waiting.push(detail);
       else store.append(detail);
     });
-    // The browser opened the stream again: what came in between is in the history.
-    stream.addEventListener("open", () => this.#fill());
+    // The stream was opened, perhaps again: what came before is in the history.
+    stream.addEventListener("open", () => this.fill());
     store.addEventListener("restart", () => ++this.#older);
+  }
+
+  /** Gets what is missing up to now. */
+  fill() {
+    this.#filling = this.#filling.then(() => this.#fill());
   }
 
   async #fill() {
@@ -34,7 +40,8 @@ export class Feed {
     } finally {
       const waiting = this.#waiting;
       this.#waiting = null;
-      for (const batch of waiting ?? []) this.store.append(batch);
+      // What came before the history was asked for is in it; appended again it would look like a source that begins anew.
+      for (const batch of waiting ?? []) if (!(batch.newest_s <= this.store.newest_s)) this.store.append(batch);
     }
     if (!known && !this.is_log) this.#fetch_older(++this.#older).catch((problem) => this.on_problem(problem.message));
   }

@@ -60,11 +60,12 @@ export class Hand extends EventTarget {
     this.#say(notice);
   }
 
-  /** The board's own word: a mode that has ended, or a fault, is not held any longer. */
-  observe(state) {
+  /** The board's own word (state, fault): a mode that has ended, or was made to end, is not held any longer. */
+  observe({ state, fault }) {
     if (!this.holds || state === "active" || performance.now() - this.since_ms < SETTLES_MS) return;
-    const ended = this.holds === "identify" || this.holds === "calibrate";
-    this.let_go(state === "armed" && ended ? `${this.holds} has ended` : `${this.holds} has ended: the muscle is ${state}`);
+    if (fault === "command_timeout") this.let_go(`command expired: it was not renewed in time (${clock_now()})`);
+    else if (state === "armed") this.let_go(`${this.holds} has ended`);
+    else this.let_go(`${this.holds} has ended: the muscle is ${state}`);
   }
 
   async #live() {

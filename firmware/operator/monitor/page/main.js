@@ -22,7 +22,6 @@ const DRAW_EVERY_MS = () => (calm.matches ? 500 : 33);
 const by_id = (id) => document.getElementById(id);
 
 function may_command(about) {
-  if (about.kind === "log") return { command: false, why: "This is a log: there is nothing to command." };
   if (about.read_only) return { command: false, why: "For viewing only: the monitor was started with --read-only." };
   if (!token) return { command: false, why: "For viewing only: no token. Open the address that supercoil monitor printed at its start." };
   if (!about.may_command) return { command: false, why: "For viewing only: the token is not this monitor's. Open the address that it printed at its start." };
@@ -43,7 +42,7 @@ function begin(about) {
     by_id("problem").hidden = false;
     show(by_id("problem"), text);
   };
-  new Feed(store, stream, is_log, say_problem);
+  const feed = new Feed(store, stream, is_log, say_problem);
 
   const add = (node) => tabs.add(new NodeView(node, store, view, about, may_command(about), (name) => fault_page.open(name)));
   const views = () => [...tabs.views.values()];
@@ -68,6 +67,7 @@ function begin(about) {
   connect_tools(view, replay, export_csv, fault_page);
   draw_forever({ store, view, replay, tabs, status });
   stream.open();
+  feed.fill();
 }
 
 function connect_tools(view, replay, export_csv, fault_page) {
@@ -120,7 +120,6 @@ function draw_forever({ store, view, replay, tabs, status }) {
     if (now_ms - texts_ms >= TEXT_EVERY_MS) {
       texts_ms = now_ms;
       status.update();
-      if (store.empty) return;
       for (const node of tabs.views.values()) node.update();
       tabs.update();
     }

@@ -38,19 +38,34 @@ function list(lines, kind, link) {
   return element(kind, {}, ...items.map((item) => element("li", {}, ...inline(item, link))));
 }
 
+const KINDS = [["heading", /^#{1,4} /], ["pre", /^```/], ["table", /^\|/], ["ul", /^[-*] /], ["ol", /^\d+\. /]];
+
+/** Cuts a text where another kind of paragraph begins: [kind, lines]. */
+function blocks(text) {
+  const found = [];
+  let kind = null; // null: the next line begins a block
+  for (const line of text.split("\n")) {
+    const fenced = kind === "pre" && found.at(-1)[1].length > 1 && found.at(-1)[1].at(-1).startsWith("```");
+    if (fenced || (line.trim() === "" && kind !== "pre")) kind = null;
+    if (line.trim() === "" && kind !== "pre") continue;
+    const begins = kind === "pre" ? "pre" : KINDS.find(([, pattern]) => pattern.test(line))?.[0];
+    // An indented line goes on with a list, a plain one with a paragraph.
+    const here = begins ?? (kind === "ul" || kind === "ol" ? kind : "p");
+    if (here !== kind || here === "heading") found.push([here, []]);
+    found.at(-1)[1].push(line);
+    kind = here;
+  }
+  return found;
+}
+
 /** The elements of a text; link(label, target) makes the element of a link. */
 export function markdown(text, link) {
-  return text.trim().split(/\n\s*\n/).flatMap((paragraph) => {
-    const lines = paragraph.split("\n");
-    const heading = /^(#{1,4}) (.*)$/.exec(lines[0]);
-    if (heading) {
-      const rest = lines.slice(1).join("\n");
-      return [element(`h${heading[1].length + 1}`, {}, ...inline(heading[2], link)), ...(rest.trim() ? markdown(rest, link) : [])];
-    }
-    if (/^```/.test(lines[0])) return element("pre", {}, lines.slice(1, -1).join("\n"));
-    if (/^\|/.test(lines[0])) return table(lines, link);
-    if (/^[-*] /.test(lines[0])) return list(lines, "ul", link);
-    if (/^\d+\. /.test(lines[0])) return list(lines, "ol", link);
-    return element("p", {}, ...inline(lines.join(" "), link));
+  return blocks(text).map(([kind, lines]) => {
+    const [, level, title] = /^(#+) (.*)$/.exec(lines[0]) ?? [];
+    if (kind === "heading") return element(`h${level.length + 1}`, {}, ...inline(title, link));
+    if (kind === "pre") return element("pre", {}, lines.filter((line) => !line.startsWith("```")).join("\n"));
+    if (kind === "table") return table(lines, link);
+    if (kind === "p") return element("p", {}, ...inline(lines.join(" "), link));
+    return list(lines, kind, link);
   });
 }

@@ -22,6 +22,7 @@ export class NodeView {
     this.journal = new Journal(node, store);
     this.state = new StateCard(node, store, on_fault);
     this.panel = new ControlPanel(this.hand, may, (text, kind) => this.journal.add(text, kind));
+    this.panel.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
     this.cards = [new Readouts(node, store), new Parameters(node, store), this.margins];
     this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
@@ -40,8 +41,10 @@ export class NodeView {
   /** Everything that is text. */
   update() {
     const now_s = this.view.now_s();
+    const limits = this.margins.limits.size;
     this.status = this.state.update(now_s);
     for (const card of this.cards) card.update(now_s);
+    if (this.margins.limits.size !== limits) this.draw();
     this.panel.update(this.status, this.margins.limits);
     for (const plot of this.plots) plot.show_values();
   }

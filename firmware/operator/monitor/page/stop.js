@@ -8,11 +8,10 @@ export class Stop {
   /** nodes: a function that tells the known nodes; on_stop: called when the nodes were stopped. */
   constructor(button, notice, about, nodes, on_stop) {
     Object.assign(this, { button, notice, port: about.stop_port, nodes, on_stop });
-    button.disabled = about.read_only || about.kind === "log";
-    if (button.disabled) {
-      button.title = about.kind === "log" ? "a log cannot be stopped" : "this monitor is read-only";
-      return;
-    }
+    button.hidden = about.kind === "log";
+    button.disabled = about.read_only;
+    if (button.disabled) button.title = "this monitor is read-only: use the board's stop button";
+    if (button.hidden || button.disabled) return;
     button.addEventListener("click", () => this.press());
     // Before anything else sees the key: a focused button or input does not get it.
     addEventListener("keydown", (event) => this.#key(event, () => event.repeat || this.press()), { capture: true });

@@ -1,0 +1,112 @@
+"""A stand-in for supercoil monitor that has an hour of four muscles at 100 Hz to give, as fast as a page takes it."""
+
+import http.server
+import itertools
+import json
+import math
+import pathlib
+import queue
+import threading
+
+import cantools
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGE = ROOT / "firmware" / "operator" / "monitor" / "page"
+TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
+NODES = (1, 2, 3, 4)
+DATABASE = cantools.database.load_file(ROOT / "firmware" / "telemetry" / "supercoil.dbc")
+PROTOCOL = {message.name: {signal.name: {"unit": signal.unit or "", "values": {
+    str(number): str(name) for number, name in (signal.choices or {}).items()}} for signal in message.signals}
+    for message in DATABASE.messages}
+CONSTANT = {"state": 2, "mode": 1, "fault": 0, "leased": 1, "protocol_version": 1, "error_bound": 0.1}
+
+
+def value(signal, time_s, node, turn):
+    """A motion with a tremble; what comes round comes round."""
+    if signal in ("parameter", "counter"):
+        return turn % 8
+    if signal in CONSTANT:
+        return CONSTANT[signal]
+    return round(0.01 * (1 + math.sin(0.3 * time_s + node)) + 1e-5 * math.sin(997.0 * time_s), 7)
+
+
+def batch(from_s, to_s):
+    """All messages with a rhythm, each at its own."""
+    nodes = {}
+    for node, message in itertools.product(NODES, DATABASE.messages):
+        if not message.cycle_time or (message.name == "Timing" and node != NODES[0]):
+            continue
+        period_s = message.cycle_time / 1e3
+        turns = range(math.ceil(from_s / period_s - 1e-9), math.ceil(to_s / period_s - 1e-9))
+        rows = {"time_s": [round(turn * period_s, 6) for turn in turns]}
+        for signal in message.signals:
+            rows[signal.name] = [value(signal.name, turn * period_s, node, turn) for turn in turns]
+        nodes.setdefault(str(node), {})[message.name] = rows
+    bus = {"load": 0.6, "frames_per_s": 1600, "error_frames": 0, "dropped": 0, "foreign_per_s": 0}
+    return {"newest_s": to_s, "nodes": nodes, "bus": bus}
+
+
+class HourSource(http.server.ThreadingHTTPServer):
+    """Serves the page; send() puts a batch into the stream and waits while it is congested."""
+
+    daemon_threads = True
+
+    def __init__(self, uplot):
+        self.uplot = pathlib.Path(uplot)
+        self.batches = queue.Queue(maxsize=4)
+        super().__init__(("127.0.0.1", 0), Handler)
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    @property
+    def address(self):
+        return f"http://127.0.0.1:{self.server_port}/"
+
+    def send(self, from_s, to_s):
+        self.batches.put(json.dumps(batch(from_s, to_s)), timeout=30)
+
+    def file(self, path):
+        named = {"/": PAGE / "index.html", "/uplot.js": self.uplot / "uPlot.iife.min.js",
+                 "/uplot.css": self.uplot / "uPlot.min.css"}
+        return named.get(path, PAGE / path.removeprefix("/"))
+
+    def handle_error(self, *_):
+        """A browser that was closed is no error."""
+
+
+class Handler(http.server.BaseHTTPRequestHandler):
+    def log_message(self, *_):
+        """Says nothing."""
+
+    def do_GET(self):
+        path = self.path.partition("?")[0]
+        if path == "/api/stream":
+            return self.stream()
+        if path == "/api/about":
+            return self.answer("application/json", json.dumps(
+                {"version": "0", "source": "an hour", "kind": "live", "read_only": True, "may_command": False,
+                 "stop_port": 1, "page_timeout_s": 1.5, "protocol": PROTOCOL}).encode())
+        if path == "/api/history":
+            return self.answer("application/json", b'{"newest_s": null, "nodes": {}}')
+        file = self.server.file(path)
+        if not file.is_file():
+            return self.send_error(404)
+        return self.answer(TYPES[file.suffix], file.read_bytes())
+
+    def answer(self, kind, body):
+        self.send_response(200)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        # Isolated, so that the browser tells the page's memory.
+        self.send_header("Cross-Origin-Opener-Policy", "same-origin")
+        self.send_header("Cross-Origin-Embedder-Policy", "require-corp")
+        self.end_headers()
+        self.wfile.write(body)
+
+    def stream(self):
+        self.send_response(200)
+        self.send_header("Content-Type", "text/event-stream")
+        self.send_header("Cross-Origin-Embedder-Policy", "require-corp")
+        self.end_headers()
+        while True:
+            self.wfile.write(f"data: {self.server.batches.get()}\n\n".encode())
+            self.wfile.flush()

@@ -1,0 +1,273 @@
+"""The live page in a real browser, over a simulated board that runs in real time: arms, moves and stops the muscle.
+
+    page_test.py                the tests
+    page_test.py --pictures     and takes the pictures of docs/monitor.md
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+"""
+
+import pathlib
+import sys
+import time
+import unittest
+import urllib.parse
+
+from browser import Browser
+from programs import ROOT, monitor, simulated_board
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+
+PICTURES = ROOT / "docs" / "pictures"
+# What the page promises is a second; the machine of a test does other work.
+FIRST_PLOT_S = 5.0
+STOP_S = 1.0
+# A board waits until its muscle must have cooled before it can be armed.
+READY_S = 60.0
+ARRIVES_S = 20.0
+TARGET_MM = 8.0
+NEAR_MM = 0.5
+
+
+def number(text):
+    return float(text.split()[0].replace("−", "-"))
+
+
+class Page(Browser):
+    """The monitor's page, by what a person sees of it."""
+
+    def open(self, address):
+        self.driver.get(address)
+        self.wait(lambda: self.run("return performance.getEntriesByName('first-plot').length") > 0, FIRST_PLOT_S,
+                  "a plot is drawn")
+
+    def wait(self, condition, patience_s, what):
+        end_s = time.monotonic() + patience_s
+        while not condition():
+            if time.monotonic() > end_s:
+                raise AssertionError(f"{what}: not within {patience_s} s; the page says: {self.text('body')[:600]}")
+            time.sleep(0.05)
+
+    def state(self):
+        return self.text(".state .word")
+
+    def value(self, name):
+        return number(self.run(f"""return [...document.querySelectorAll('.readouts dt')]
+            .find((dt) => dt.textContent === '{name}').nextSibling.textContent"""))
+
+    def arm(self):
+        """From whatever state it is in."""
+        def armed():
+            state = self.state()
+            if state in ("disarmed", "fault"):
+                self.click(".arm" if state == "disarmed" else ".reset")
+                time.sleep(0.4)
+            return state in ("armed", "active")
+        self.wait(armed, READY_S, "armed")
+
+    def move(self, position_mm):
+        self.click("input[value=position] + span")
+        field = self.find(".value input")
+        field.clear()
+        field.send_keys(str(position_mm), Keys.ENTER)
+        self.wait(lambda: self.state() == "active", 3.0, "active")
+
+    def arrive(self, position_mm):
+        self.wait(lambda: abs(self.value("position") - position_mm) < NEAR_MM, ARRIVES_S, f"at {position_mm} mm")
+
+    def press_space(self):
+        ActionChains(self.driver).send_keys(" ").perform()
+
+    def is_off(self):
+        return self.state() == "disarmed" and self.value("power") == 0.0
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.board = simulated_board()
+        cls.addClassCleanup(cls.board.stop)
+        cls.monitor = monitor(f"socketcand:{cls.board.found[1]}")
+        cls.addClassCleanup(cls.monitor.stop)
+        cls.address = cls.monitor.found[0]
+        cls.origin = cls.monitor.found[1]
+
+    def page(self, address=None, **size):
+        page = self.enterContext(Page(**size))
+        page.open(address or self.address)
+        return page
+
+    def test_first_plot_is_there_at_once(self):
+        page = self.page()
+        first_s = page.run("return performance.getEntriesByName('first-plot')[0].startTime") / 1e3
+        print(f"first plot after {first_s:.2f} s")
+        self.assertLess(first_s, FIRST_PLOT_S)
+        self.assertEqual(page.text("#status b"), "live")
+        self.assertEqual(page.errors(), [])
+
+    def test_every_module_is_named_in_the_page_so_that_all_load_at_once(self):
+        page = self.page()
+        loaded = {urllib.parse.urlparse(address).path for address in page.requests()
+                  if address.startswith(self.origin) and address.endswith(".js")}
+        named = set(page.run("return [...document.querySelectorAll('[rel=modulepreload], script')]"
+                             ".map((e) => new URL(e.href ?? e.src).pathname)"))
+        self.assertEqual(loaded - {"/stream_worker.js"}, named)
+
+    def test_muscle_obeys_arm_set_point_and_space(self):
+        page = self.page()
+        page.arm()
+        page.move(TARGET_MM)
+        page.arrive(TARGET_MM)
+        self.assertGreater(page.value("power"), 0.0)
+        # The focus is in the number's field: there, too, the space bar stops.
+        page.press_space()
+        page.wait(page.is_off, STOP_S, "off")
+        self.assertEqual(page.find(".value input").get_attribute("value"), str(TARGET_MM))
+        page.wait(lambda: "stopped node" in page.text("#stop-notice"), STOP_S, "stop is confirmed")
+
+    def test_space_stops_and_presses_no_button_that_has_the_focus(self):
+        page = self.page()
+        page.arm()
+        page.run("document.querySelector('.arm').focus()")
+        page.press_space()
+        page.wait(page.is_off, STOP_S, "off")
+        time.sleep(0.5)
+        self.assertEqual(page.state(), "disarmed")
+
+    def test_stop_is_clicked(self):
+        page = self.page()
+        page.arm()
+        page.move(TARGET_MM)
+        page.click("#stop")
+        page.wait(page.is_off, STOP_S, "off")
+
+    def test_refusal_is_shown_in_words(self):
+        page = self.page()
+        page.click(".disarm")
+        page.wait(lambda: page.state() == "disarmed", READY_S, "disarmed")
+        page.click(".go")
+        page.wait(lambda: "refused: wrong state" in page.text(".answer"), 2.0, "refusal")
+
+    def test_without_token_it_is_for_viewing_and_says_why(self):
+        page = self.page(self.origin)
+        self.assertIn("no token", page.text(".why"))
+        self.assertFalse(page.find(".arm").is_enabled())
+        page.wait(lambda: page.state() != "silent", 3.0, "a state")
+
+    def test_token_does_not_stay_in_the_address_bar(self):
+        page = self.page()
+        self.assertNotIn("token", page.driver.current_url)
+        page.driver.refresh()
+        page.wait(lambda: page.text(".state .word") != "", FIRST_PLOT_S, "the page again")
+        self.assertTrue(page.find(".arm").is_enabled())
+
+    def test_lost_page_expires_the_command_and_says_so(self):
+        page = self.page()
+        page.arm()
+        page.move(TARGET_MM)
+        # A page that hangs, as one that sleeps, says nothing for longer than the monitor waits.
+        page.run("const end_ms = performance.now() + 3500; while (performance.now() < end_ms);")
+        page.wait(lambda: "command expired" in page.text(".notice"), 3.0, "the page says that it was away")
+        page.wait(lambda: page.state() != "active", 2.0, "not active")
+
+    def test_eight_open_pages_do_not_keep_stop_waiting(self):
+        page = self.page()
+        for _ in range(7):
+            page.driver.switch_to.new_window("tab")
+            page.open(self.address)
+        page.arm()
+        page.move(TARGET_MM)
+        pressed_s = time.monotonic()
+        page.press_space()
+        page.wait(lambda: "stopped node" in page.text("#stop-notice"), STOP_S, "stop is confirmed")
+        page.wait(page.is_off, STOP_S, "off")
+        print(f"eight pages: off {time.monotonic() - pressed_s:.2f} s after the space bar")
+
+    def test_nothing_is_asked_of_anybody_else(self):
+        page = self.page()
+        page.click("#stop")
+        time.sleep(1.0)
+        port = urllib.parse.urlparse(self.origin).port
+        hosts = {urllib.parse.urlparse(address).netloc for address in page.requests()
+                 if not address.startswith(("data:", "blob:", "chrome"))}
+        self.assertLessEqual(hosts, {f"127.0.0.1:{port}", f"127.0.0.1:{port + 1}"})
+
+    def test_phone_scrolls_downwards_only_and_shows_stop(self):
+        page = self.page()
+        page.screen(360, 740, mobile=True)
+        page.wait(lambda: page.run("return document.documentElement.scrollWidth <= 360"), 2.0, "as wide as the phone")
+        self.assertTrue(page.run("""const stop = document.getElementById('stop').getBoundingClientRect();
+            return stop.left >= 0 && stop.right <= 360 && stop.top >= 0 && stop.bottom <= innerHeight"""))
+
+    def test_pause_holds_the_plots_and_not_the_numbers(self):
+        page = self.page()
+        ActionChains(page.driver).send_keys("p").perform()
+        page.wait(lambda: page.text("#status b") == "paused", 1.0, "paused")
+        before = page.text("#status span")
+        page.wait(lambda: page.text(".state .word") not in ("", "silent"), 2.0, "the state stays live")
+        self.assertEqual(page.text("#status span"), before)
+        ActionChains(page.driver).send_keys("l").perform()
+        page.wait(lambda: page.text("#status b") == "live", 1.0, "live")
+
+    def test_csv_has_what_is_shown(self):
+        page = self.page()
+        folder = pathlib.Path(page.profile.name) / "downloads"
+        page.cdp("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
+        page.click("input[value='10'] + span")
+        page.click("#csv")
+        page.wait(lambda: list(folder.glob("*.csv")), 5.0, "a file")
+        head, *rows = next(folder.glob("*.csv")).read_text().splitlines()
+        columns = head.split(",")
+        self.assertEqual(columns[:2], ["time_s", "node"])
+        position = columns.index("Measurement.position_m")
+        measured = [row.split(",") for row in rows if row.split(",")[position]]
+        self.assertGreater(len(measured), 100)
+        times_s = [float(row.split(",")[0]) for row in rows]
+        self.assertEqual(times_s, sorted(times_s))
+        self.assertLessEqual(times_s[-1] - times_s[0], 10.0)
+        self.assertIn("disarmed", {row.split(",")[columns.index("Status.state")] for row in rows})
+
+    def test_fault_leads_to_its_page(self):
+        page = self.page()
+        page.click("#stop")
+        page.wait(lambda: page.driver.find_elements("css selector", ".margins .link"), 5.0, "margins")
+        page.wait(lambda: "over temperature" in page.text(".margins"), 5.0, "all detectors")
+        page.run("[...document.querySelectorAll('.margins .link')].find((b) => b.textContent === 'over temperature').click()")
+        page.wait(lambda: "30 over_temperature" in page.text("#fault-page article"), 2.0, "the fault's page")
+        # It covers neither the button nor the key.
+        page.press_space()
+        page.wait(lambda: "stopped" in page.text("#stop-notice"), STOP_S, "stop is confirmed")
+
+
+class Pictures(PageTest):
+    """Pictures of a muscle that has something to show; only with --pictures."""
+
+    def runTest(self):
+        page = self.page()
+        page.screen(1440, 1330)
+        page.arm()
+        for position_mm in (12.0, 5.0, 9.0):
+            page.move(position_mm)
+            time.sleep(15.0)
+        page.run("document.activeElement.blur()")
+        for scheme in ("light", "dark"):
+            page.colours(scheme)
+            time.sleep(0.6)
+            page.driver.save_screenshot(str(PICTURES / f"monitor-{scheme}.png"))
+        page.colours("light")
+        page.screen(390, 844, mobile=True)
+        time.sleep(1.0)
+        page.driver.save_screenshot(str(PICTURES / "monitor-phone.png"))
+        page.press_space()
+        page.wait(page.is_off, STOP_S, "off")
+
+
+def load_tests(loader, _tests, _pattern):
+    suite = loader.loadTestsFromTestCase(PageTest)
+    if PICTURES_WANTED:
+        suite.addTest(Pictures())
+    return suite
+
+
+PICTURES_WANTED = "--pictures" in sys.argv
+
+if __name__ == "__main__":
+    unittest.main(argv=[word for word in sys.argv if word != "--pictures"], verbosity=2)

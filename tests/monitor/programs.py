@@ -1,0 +1,67 @@
+"""A simulated board in real time and supercoil monitor, as a user starts them."""
+
+import os
+import pathlib
+import re
+import select
+import socket
+import subprocess
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = ROOT / "build" / "release" / "bin"
+
+
+def free_ports():
+    """Two ports in a row that nobody listens at: the page's and the stop's."""
+    while True:
+        with socket.socket() as first, socket.socket() as second:
+            first.bind(("127.0.0.1", 0))
+            port = first.getsockname()[1]
+            try:
+                second.bind(("127.0.0.1", port + 1))
+            except (OSError, OverflowError):
+                continue
+            return port
+
+
+class Program:
+    """A program that runs until stop(); it is ready when it has printed what is waited for."""
+
+    def __init__(self, command, ready, patience_s=20.0):
+        self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True, bufsize=1)
+        end_s = time.monotonic() + patience_s
+        while True:
+            left_s = end_s - time.monotonic()
+            if left_s <= 0 or not select.select([self.process.stdout], [], [], left_s)[0]:
+                self.stop()
+                raise TimeoutError(f"{command}: did not print {ready!r} within {patience_s} s")
+            line = self.process.stdout.readline()
+            if not line:
+                raise ChildProcessError(f"{command}: ended with {self.process.wait()} before it printed {ready!r}")
+            if found := re.search(ready, line):
+                self.found = found
+                return
+
+    def stop(self):
+        self.process.terminate()
+        try:
+            self.process.wait(10)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+        self.process.stdout.close()
+
+
+def simulated_board():
+    """Its .found[1] is the port of its socketcand."""
+    program = os.environ.get("SUPERCOIL_SIM", BIN / "supercoil-sim")
+    return Program([program, "run", "bench", "--real-time", "--can", "socketcand:0"],
+                   r"serving can0 on 127\.0\.0\.1:(\d+)")
+
+
+def monitor(source, *options):
+    """Its .found[1] is the page's address, with the token in .found[2]."""
+    program = os.environ.get("SUPERCOIL", BIN / "supercoil")
+    return Program([program, "monitor", source, "--port", free_ports(), *options],
+                   r"(http://\S+/)#token=([0-9a-f]+)")

@@ -1,0 +1,110 @@
+"""The page's modules, one by one, in a real browser: what a plot shows of many rows, what is kept, what a text becomes."""
+
+import json
+import unittest
+
+from browser import Browser
+from hour_source import HourSource
+
+# Rows of one signal v, at 100 Hz from a time on.
+TOOLS = """
+const { Table } = await import("/table.js");
+const { decimate } = await import("/decimate.js");
+const { Store } = await import("/store.js");
+const { markdown } = await import("/markdown.js");
+const rows = (from_s, count, value, period_s = 0.01) => ({
+  time_s: Array.from({ length: count }, (_, i) => from_s + i * period_s),
+  v: Array.from({ length: count }, (_, i) => value(i)),
+});
+const full = (from_s, count, value) => {
+  const table = new Table(["v"], 3600);
+  table.append(rows(from_s, count, value));
+  return table;
+};
+const length = (table) => table.chunks.reduce((sum, chunk) => sum + chunk.count, 0);
+"""
+
+
+class ModulesTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.source = HourSource(".")
+        cls.addClassCleanup(cls.source.server_close)
+        cls.addClassCleanup(cls.source.shutdown)
+        cls.browser = cls.enterClassContext(Browser())
+        cls.browser.driver.get(cls.source.address + "icon.svg")
+
+    def ask(self, script):
+        """What the script returns."""
+        answer = self.browser.driver.execute_async_script(
+            "const done = arguments[0]; (async () => {" + TOOLS + script + "})()"
+            ".then((value) => done(JSON.stringify({ value: value ?? null })), (error) => done(JSON.stringify({ error: String(error.stack) })))")
+        answer = json.loads(answer)
+        self.assertNotIn("error", answer)
+        return answer["value"]
+
+    def test_one_row_s_peak_is_seen_in_an_hour(self):
+        points = self.ask("""const table = full(0, 360000, (i) => (i === 123457 ? 7 : Math.sin(i)));
+            const [line] = decimate(table, ["v"], 0, 3600, 500, 1);
+            return [Math.max(...line), Math.min(...line), line.length, line.indexOf(7)];""")
+        self.assertEqual(points[0], 7)
+        self.assertAlmostEqual(points[1], -1, places=3)
+        self.assertEqual(points[2], 1000)
+        self.assertAlmostEqual(points[3] / 1000, 123457 / 360000, delta=0.002)
+
+    def test_points_of_a_pixel_come_in_their_order(self):
+        self.assertEqual(self.ask("""const table = full(0, 4, (i) => [5, 4, 1, 2][i]);
+            return decimate(table, ["v"], 0, 0.04, 1, 1)[0];"""), [5, 1])
+
+    def test_line_goes_on_between_sparse_rows_and_breaks_where_nothing_came(self):
+        line = self.ask("""const table = new Table(["v"], 3600);
+            table.append(rows(0, 20, () => 1, 0.1));
+            table.append(rows(6, 20, () => 2, 0.1));
+            return decimate(table, ["v"], 0, 8, 160, 1)[0].map((v) => (v === undefined ? "-" : v === null ? "0" : v))
+                .concat().join("");""")
+        self.assertRegex(line, r"^[1-]+0[-]*2[2-]*$")
+
+    def test_what_is_not_available_is_a_gap(self):
+        self.assertEqual(self.ask("""const table = full(0, 3, (i) => (i === 1 ? null : i));
+            return decimate(table, ["v"], 0, 0.03, 3, 1)[0].filter((v) => v !== undefined);"""), [0, None, 2])
+
+    def test_an_hour_is_kept_and_no_more(self):
+        first_s, kept = self.ask("""const table = new Table(["v"], 3600);
+            for (let t = 0; t < 5000; t += 10) table.append(rows(t, 1000, (i) => i));
+            return [table.first_s, length(table)];""")
+        self.assertLessEqual(first_s, 1400)
+        self.assertGreater(first_s, 1300)
+        self.assertLess(kept, 365_000)
+
+    def test_rows_are_taken_once_whether_history_or_stream_brings_them(self):
+        self.assertEqual(self.ask("""const table = full(10, 100, (i) => i);
+            table.append(rows(10.5, 100, (i) => i));
+            table.prepend(rows(9.5, 100, (i) => i));
+            const times = [...table.rows(0, 100)].map((row) => row.time_s);
+            return [length(table), times.every((time, i) => i === 0 || time > times[i - 1])];"""), [200, True])
+
+    def test_value_at_a_time_is_the_newest_until_then(self):
+        self.assertEqual(self.ask("""const table = full(10, 100, (i) => i);
+            return [table.at(9.99), table.at(10.005).v, table.at(99).v];"""), [None, 0, 99])
+
+    def test_source_that_begins_anew_begins_anew(self):
+        self.assertEqual(self.ask("""const store = new Store({ M: { v: {} } }, false);
+            const batch = (from_s) => ({ newest_s: from_s + 0.99, nodes: { 1: { M: rows(from_s, 100, () => 1) } } });
+            let begun = 0;
+            store.addEventListener("restart", () => ++begun);
+            store.append(batch(100));
+            store.append(batch(5));
+            return [begun, store.oldest_s, length(store.table(1, "M"))];"""), [1, 5, 100])
+
+    def test_page_of_a_fault_becomes_elements_and_never_script(self):
+        html = self.ask("""const text = "# 30 a <b>\\n\\nTwo ways:\\n- one `x`\\n  more\\n- **two**\\n\\n1. [other](over_travel.md)\\n";
+            const link = (label) => document.createTextNode(`(${label})`);
+            return markdown(text, link).map((e) => e.outerHTML).join("");""")
+        self.assertIn("30 a &lt;b&gt;", html)
+        self.assertIn("<li>one <code>x</code> more</li>", html)
+        self.assertIn("<li><strong>two</strong></li>", html)
+        self.assertIn("<li>(other)</li>", html)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -9,6 +9,7 @@
 #include "operator/commands.hpp"
 #include "operator/monitor/api.hpp"
 #include "operator/monitor/listener.hpp"
+#include "operator/monitor/server_thread.hpp"
 #include "operator/monitor/stop.hpp"
 #include "operator/monitor/terminal.hpp"
 
@@ -93,12 +94,10 @@ int serve_page(const MonitorOptions& options, Source& source) {
               token || !access.loopback ? "#token=" : "",
               token || !access.loopback ? access.token.c_str() : "");
   std::fflush(stdout);
-  std::thread thread([&] { server.listen_after_bind(); });
+  const ServerThread thread(server);
   while (interrupted == 0)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   api.end();
-  server.stop();
-  thread.join();
   return exit_done;
 }
 

@@ -6,6 +6,7 @@ import re
 import select
 import socket
 import subprocess
+import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -29,7 +30,9 @@ class Program:
     """A program that runs until stop(); it is ready when it has printed what is waited for."""
 
     def __init__(self, command, ready, patience_s=20.0):
-        self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True, bufsize=1)
+        self.folder = tempfile.TemporaryDirectory()  # of its own, for what it writes
+        self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True, bufsize=1,
+                                        cwd=self.folder.name)
         end_s = time.monotonic() + patience_s
         while True:
             left_s = end_s - time.monotonic()
@@ -51,12 +54,13 @@ class Program:
             self.process.kill()
             self.process.wait()
         self.process.stdout.close()
+        self.folder.cleanup()
 
 
-def simulated_board():
-    """Its .found[1] is the port of its socketcand."""
+def simulated_board(port=0):
+    """Its .found[1] is the port of its socketcand; 0 takes a free one."""
     program = os.environ.get("SUPERCOIL_SIM", BIN / "supercoil-sim")
-    return Program([program, "run", "bench", "--real-time", "--can", "socketcand:0"],
+    return Program([program, "run", "bench", "--real-time", "--can", f"socketcand:{port}"],
                    r"serving can0 on 127\.0\.0\.1:(\d+)")
 
 

@@ -50,7 +50,7 @@ tl::expected<std::unique_ptr<hal::CanBus>, std::string> open_bus(
     if (!bus) return tl::unexpected(name + ": " + bus.error());
     return std::move(*bus);
   }
-  auto bus = hal_linux::SocketCan::open({name, listen, listen.empty()});
+  auto bus = hal_linux::SocketCan::open({name, listen, "/sys/class/net", listen.empty()});
   if (!bus) return tl::unexpected(bus.error().text + "; a simulated board's is socketcand:PORT");
   return std::move(*bus);
 }

@@ -6,7 +6,8 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr auto renew_every = std::chrono::milliseconds(100);
+/// Five times before a command expires by default.
+constexpr auto renew_every = std::chrono::milliseconds(50);
 
 bool heats(Verb verb) {
   return verb == Verb::position || verb == Verb::power || verb == Verb::identify ||
@@ -100,8 +101,8 @@ void Hand::renew() {
   }
   const Answer answer = command(Verb::renew, 0.0);
   if (!answer) return let_go("expired: " + answer.error());
-  // Identification and calibration end by themselves.
-  if (*answer == Refusal::wrong_state) return let_go("ended");
+  // Identification and calibration end by themselves; what else ended it, the board's state tells.
+  if (*answer == Refusal::wrong_state) return let_go("ended: the board let it go");
   if (*answer != Refusal::none) let_go("refused: " + std::string(name(*answer)));
 }
 

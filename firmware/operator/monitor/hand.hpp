@@ -17,7 +17,7 @@
 
 namespace supercoil::operating {
 
-/// What heats is renewed every 100 ms while a page says again and again that it is alive; when none
+/// What heats is renewed every 50 ms while a page says again and again that it is alive; when none
 /// has for page_timeout, nothing is renewed any more, and the board lets the command expire.
 /// Safe from any thread; a thread of its own talks to the node.
 class Hand {

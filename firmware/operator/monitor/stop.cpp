@@ -1,6 +1,7 @@
 #include "operator/monitor/stop.hpp"
 
 #include <chrono>
+#include <thread>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -45,16 +46,8 @@ tl::expected<std::unique_ptr<StopServer>, std::string> StopServer::start(
                       ? next
                       : server->server_.bind_to_any_port(access.host);
   if (server->port_ <= 0) return tl::unexpected(access.host + ": no port for STOP can be had");
-  server->thread_ = std::thread([raw = server.get()] { raw->server_.listen_after_bind(); });
+  server->thread_ = std::make_unique<ServerThread>(server->server_);
   return server;
-}
-
-StopServer::~StopServer() {
-  // A server that is stopped before it listens would listen for ever.
-  while (thread_.joinable() && !server_.is_running())
-    std::this_thread::sleep_for(between);
-  server_.stop();
-  if (thread_.joinable()) thread_.join();
 }
 
 std::string StopServer::disarm_all() {

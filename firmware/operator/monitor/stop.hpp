@@ -5,11 +5,11 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <thread>
 
 #include "operator/monitor/access.hpp"
 #include "operator/monitor/hand.hpp"
 #include "operator/monitor/recent.hpp"
+#include "operator/monitor/server_thread.hpp"
 
 namespace supercoil::operating {
 
@@ -25,7 +25,6 @@ class StopServer {
                                                                       std::function<void()> let_go);
   StopServer(const StopServer&) = delete;
   StopServer& operator=(const StopServer&) = delete;
-  ~StopServer();
 
   int port() const { return port_; }
 
@@ -44,7 +43,7 @@ class StopServer {
   std::unique_ptr<hal::CanBus> bus_;
   httplib::Server server_;
   int port_ = 0;
-  std::thread thread_;
+  std::unique_ptr<ServerThread> thread_;
 };
 
 }  // namespace supercoil::operating

@@ -17,8 +17,8 @@ namespace supercoil::hal_linux {
 struct CanPlace {
   std::string interface;              ///< e.g. can0
   std::vector<std::uint16_t> listen;  ///< identifiers, 0 to 0x7FF, at most 512; none: hears nothing
-  bool listen_to_all = false;         ///< whatever is listed
   std::string net = "/sys/class/net";
+  bool listen_to_all = false;  ///< whatever is listed
 };
 
 /// An interface as it was found: without a socket when it is down.

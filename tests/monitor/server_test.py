@@ -1,0 +1,309 @@
+"""The monitor's server as a page, a script or somebody who means harm meets it.
+
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+"""
+
+import contextlib
+import http.client
+import json
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+import unittest
+
+from programs import BIN, Program, free_ports, monitor, simulated_board
+
+SUPERCOIL = os.environ.get("SUPERCOIL", BIN / "supercoil")
+# As the page says (page_timeout_s), and as a board of the bench lets a command expire.
+PAGE_TIMEOUT_S = 1.5
+# What this machine may need when it does other work.
+SLACK_S = 10.0
+
+
+class Served:
+    """One monitor's page, as seen by a program."""
+
+    def __init__(self, program):
+        self.address = program.found[1].removeprefix("http://").rstrip("/")
+        self.token = program.found[2]
+        self.port = int(self.address.split(":")[1])
+
+    def ask(self, method, path, body=None, port=None, **headers):
+        connection = http.client.HTTPConnection("127.0.0.1", port or self.port, timeout=SLACK_S)
+        with contextlib.closing(connection):
+            connection.request(method, path, body, headers)
+            answer = connection.getresponse()
+            return answer.status, answer.read().decode()
+
+    def get(self, path, **headers):
+        status, text = self.ask("GET", path, **headers)
+        return status, json.loads(text)
+
+    def post(self, path, body, port=None, token=None, origin=None):
+        headers = {"X-Supercoil-Token": self.token if token is None else token,
+                   "Origin": f"http://{self.address}" if origin is None else origin}
+        status, text = self.ask("POST", path, body if isinstance(body, str) else json.dumps(body), port, **headers)
+        return status, json.loads(text)
+
+    def command(self, opcode, value=0.0):
+        return self.post("/api/command", {"node": 1, "opcode": opcode, "value": value})
+
+    def stop_port(self):
+        return self.get("/api/about")[1]["stop_port"]
+
+    def state(self):
+        """Name of the newest state, and the power."""
+        about = self.get("/api/about")[1]
+        node = self.get("/api/history?from_s=-1")[1]["nodes"]["1"]
+        names = about["protocol"]["Status"]["state"]["values"]
+        return names[str(node["Status"]["state"][-1])], node["Power"]["applied_W"][-1]
+
+    def open_stream(self):
+        stream = socket.create_connection(("127.0.0.1", self.port), timeout=SLACK_S)
+        stream.sendall(f"GET /api/stream HTTP/1.1\r\nHost: {self.address}\r\n\r\n".encode())
+        return stream
+
+
+def until(condition, patience_s=SLACK_S):
+    end_s = time.monotonic() + patience_s
+    while not condition():
+        if time.monotonic() > end_s:
+            raise AssertionError(f"not within {patience_s} s")
+        time.sleep(0.05)
+
+
+class Live(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.board = simulated_board()
+        cls.addClassCleanup(cls.board.stop)
+        cls.source = f"socketcand:{cls.board.found[1]}"
+
+    def serve(self, *options):
+        program = monitor(self.source, *options)
+        self.addCleanup(program.stop)
+        served = Served(program)
+        until(lambda: "1" in served.get(f"/api/history?token={served.token}")[1]["nodes"])
+        return served
+
+    def arm(self, served):
+        """Of whatever was before."""
+        served.command("disarm")
+        served.command("reset")
+        until(lambda: served.command("arm")[1] == {"refusal": "none"} or served.state()[0] == "armed", 30.0)
+        until(lambda: served.state()[0] == "armed")
+
+    def test_columns_of_a_message_are_of_one_length_and_in_time(self):
+        served = self.serve()
+        about = served.get("/api/about")[1]
+        self.assertEqual((about["kind"], about["may_command"], about["protocol"]["Power"]["applied_W"]["unit"]),
+                         ("live", False, "W"))
+        until(lambda: len(served.get("/api/history")[1]["nodes"]["1"]) == 10)
+        for message, columns in served.get("/api/history")[1]["nodes"]["1"].items():
+            self.assertEqual(columns.keys() - {"time_s"}, about["protocol"][message].keys())
+            self.assertEqual({len(column) for column in columns.values()}, {len(columns["time_s"])})
+            self.assertEqual(columns["time_s"], sorted(columns["time_s"]))
+
+    def test_a_stream_brings_what_is_new_and_says_when_the_source_is_lost_and_found(self):
+        board = simulated_board()
+        self.addCleanup(board.stop)
+        port = board.found[1]
+        program = monitor(f"socketcand:{port}")
+        self.addCleanup(program.stop)
+        with Served(program).open_stream() as stream:
+            text = b""
+            for wanted in (b'data: {"newest_s"', b"event: lost", b"event: found", b'data: {"newest_s"'):
+                if wanted == b"event: lost":
+                    board.stop()
+                if wanted == b"event: found":
+                    self.addCleanup(simulated_board(port).stop)
+                end_s = time.monotonic() + 3 * SLACK_S
+                while wanted not in text and time.monotonic() < end_s:
+                    text += stream.recv(65536)
+                self.assertIn(wanted, text)
+                text = text[text.index(wanted) + len(wanted):]
+
+    def test_who_may_command(self):
+        served = self.serve()
+        order = {"node": 1, "opcode": "renew", "value": 0}
+        for wrong in ({"token": ""}, {"token": "0" * 32}, {"origin": ""}, {"origin": "http://example.org"},
+                      {"origin": f"http://127.0.0.1:{served.port + 1}"}):
+            for path in ("/api/command", "/api/alive"):
+                self.assertEqual(served.post(path, order, **wrong)[0], 403, (path, wrong))
+        self.assertEqual(served.post("/stop", "", served.stop_port(), origin="http://example.org")[0], 403)
+        self.assertEqual(served.post("/api/command", order)[0], 200)
+        # A name that leads here by somebody else's DNS.
+        self.assertEqual(served.ask("GET", "/api/history", Host="example.org")[0], 403)
+        self.assertEqual(served.ask("GET", "/api/about", Host=f"localhost:{served.port}")[0], 200)
+
+    def test_what_is_no_order_is_told_so(self):
+        served = self.serve()
+        for wrong in ("", "{", "[]", "7", "null", '{"node":0}', '{"node":64,"opcode":"arm"}', '{"node":1}',
+                      '{"node":1,"opcode":"claim"}', '{"node":1,"opcode":"none"}', '{"node":1.5,"opcode":"arm"}',
+                      '{"node":"1","opcode":"arm"}', '{"node":1,"opcode":"power","value":"x"}',
+                      '{"node":1,"opcode":"power","value":1e999}', '{"node":1,"opcode":7}', "\xff\x00", "[" * 4000):
+            status, answer = served.post("/api/command", wrong)
+            self.assertEqual((status, list(answer)), (400, ["error"]), wrong)
+        for path in ("/api/history?from_s=x", "/api/history?to_s=1e300", "/api/history?from_s=nan"):
+            self.assertEqual(served.get(path)[0], 400, path)
+        self.assertEqual(served.get("/api/fault/no_such")[0], 404)
+        self.assertIn("heater", served.ask("GET", "/api/fault/heater_open")[1])
+
+    def test_a_muscle_moves_while_a_page_lives_and_cools_when_none_does(self):
+        served = self.serve()
+        self.arm(served)
+        self.assertEqual(served.command("position", 0.004), (200, {"refusal": "none"}))
+        alive = {"node": 1}
+        end_s = time.monotonic() + 2 * PAGE_TIMEOUT_S
+        while time.monotonic() < end_s:
+            self.assertEqual(served.post("/api/alive", alive)[1], {"holding": True})
+            time.sleep(0.2)
+        self.assertEqual(served.state()[0], "active")
+        lost_s = time.monotonic()
+        until(lambda: served.state()[0] == "fault")
+        self.assertGreater(time.monotonic() - lost_s, PAGE_TIMEOUT_S / 2)
+        self.assertEqual(served.state()[1], 0.0)
+        self.assertRegex(served.post("/api/alive", alive)[1]["reason"], "no page was alive|the board let it go")
+
+    def test_stop_is_obeyed_however_busy_the_page_is(self):
+        served = self.serve()
+        stop_port = served.stop_port()
+        self.arm(served)
+        with contextlib.ExitStack() as crowd:
+            for _ in range(24):
+                crowd.enter_context(served.open_stream())
+            until(lambda: served.ask("GET", "/api/stream")[0] == 503)
+            # Nobody is left to serve the page: these say nothing and stay.
+            for _ in range(64):
+                crowd.enter_context(socket.create_connection(("127.0.0.1", served.port)))
+            begin_s = time.monotonic()
+            self.assertEqual(served.post("/stop", "", stop_port)[1], {"nodes": [1]})
+            self.assertLess(time.monotonic() - begin_s, 1.0)
+        until(lambda: served.state() == ("disarmed", 0.0))
+
+    def test_read_only_serves_no_stop_and_no_command(self):
+        served = Served(self.program_without_token("--read-only"))
+        self.assertEqual(served.stop_port(), 0)
+        self.assertEqual(served.command("renew")[0], 403)
+
+    def program_without_token(self, *options):
+        program = Program([SUPERCOIL, "monitor", self.source, "--port", free_ports(), *options], r"(http://\S+/)()$")
+        self.addCleanup(program.stop)
+        return program
+
+    def test_others_need_the_token_to_look(self):
+        program = monitor(self.source, "--listen", "0.0.0.0")
+        self.addCleanup(program.stop)
+        served = Served(program)
+        self.assertEqual(served.get("/api/about")[0], 403)
+        self.assertEqual(served.get("/api/history?token=" + "0" * 32)[0], 403)
+        status, about = served.get("/api/about", **{"X-Supercoil-Token": served.token})
+        self.assertEqual((status, about["may_command"]), (200, True))
+        self.assertEqual(served.get(f"/api/history?token={served.token}")[0], 200)
+        self.assertEqual(served.post("/stop", "", about["stop_port"])[0], 403)
+        self.assertEqual(served.post("/stop", served.token, about["stop_port"])[0], 200)
+
+    def test_it_ends_at_once_while_pages_watch(self):
+        program = monitor(self.source)
+        with Served(program).open_stream():
+            program.process.send_signal(signal.SIGTERM)
+            self.assertEqual(program.process.wait(SLACK_S), 0)
+        program.stop()
+
+    def test_a_port_that_is_taken_is_named(self):
+        served = self.serve()
+        done = subprocess.run([SUPERCOIL, "monitor", self.source, "--port", str(served.port)], capture_output=True,
+                              text=True, timeout=SLACK_S)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn(f"port {served.port} of 127.0.0.1 cannot be had", done.stderr)
+
+    def test_a_script_commands_over_the_bus_and_a_second_master_is_refused(self):
+        def command(*words):
+            return subprocess.run([SUPERCOIL, "command", *words, "--can", self.source], capture_output=True, text=True,
+                                  timeout=60)
+
+        served = self.serve()
+        self.arm(served)
+        self.assertEqual(served.command("rest")[0], 200)
+        refused = command("1", "position", "0.002", "--json")
+        self.assertEqual((refused.returncode, json.loads(refused.stdout)),
+                         (1, {"command": "1 position 0.002", "answer": "refused: not_yours"}))
+        until(lambda: command("1", "power", "0.1").returncode == 0)
+        until(lambda: served.state()[0] == "fault")
+        self.assertEqual(command("1", "reset").returncode, 0)
+        self.arm(served)
+        time.sleep(1.5)  # the lease of the page runs out
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "0.003", "--hold", "--can", self.source])
+        until(lambda: served.state()[0] == "active")
+        time.sleep(1.0)
+        self.assertEqual(served.state()[0], "active")
+        held.send_signal(signal.SIGINT)
+        self.assertEqual(held.wait(SLACK_S), 0)
+        until(lambda: served.state()[0] == "armed")
+        self.assertIn("node 1: armed", command("state").stdout)
+
+
+class Sources(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+
+    def run_monitor(self, source, *options):
+        return subprocess.run([SUPERCOIL, "monitor", str(source), "--port", str(free_ports()), *options],
+                              capture_output=True, text=True, timeout=SLACK_S)
+
+    def test_what_is_no_source_is_told_so(self):
+        (self.path / "empty").touch()
+        (self.path / "text").write_text("what is this\n")
+        for source, why in ((self.path / "empty", "is empty"), (self.path / "text", "text:1: must begin with"),
+                            (self.path, "is a folder"), ("no-such-can", "no CAN interface"),
+                            ("socketcand:", "must be socketcand:"), ("socketcand:70000", "must be socketcand:"),
+                            (f"socketcand:{free_ports()}", "refused")):
+            done = self.run_monitor(source)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), source)
+            self.assertIn(why, done.stderr)
+
+    def test_whoever_is_no_socketcand_is_told_so(self):
+        with socket.create_server(("127.0.0.1", 0)) as other:
+            done = self.run_monitor(f"socketcand:{other.getsockname()[1]}")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is no socketcand", done.stderr)
+
+    def test_a_log_with_damaged_lines_is_shown_without_them(self):
+        log = self.path / "can.log"
+        log.write_text("(0000000001.000000) can0 281#0A000000000000FF\n(0000000001.01\n"
+                       "(0000000001.500000) can0 00000281#00\n(0000000002.000000) can0 301#00\n"
+                       "(0000000003.000000) can0 281#140000000000FFFF\n")
+        program = subprocess.Popen([SUPERCOIL, "monitor", log, "--port", str(free_ports())], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.addCleanup(program.stderr.close)
+        self.addCleanup(program.stdout.close)
+        self.addCleanup(program.wait)
+        self.addCleanup(program.terminate)
+        self.assertIn("can.log:2: must begin with (SECONDS.MICROSECONDS); 1 such lines are left out",
+                      program.stderr.readline())
+        port = int(program.stdout.readline().rsplit(":", 1)[1].strip("/\n"))
+        connection = http.client.HTTPConnection("127.0.0.1", port, timeout=SLACK_S)
+        self.addCleanup(connection.close)
+        connection.request("GET", "/api/history")
+        batch = json.loads(connection.getresponse().read())
+        self.assertEqual(batch["nodes"], {"1": {"Measurement": {
+            "time_s": [1, 3], "position_m": [1e-6, 2e-6], "resistance_Ohm": [0, 0],
+            "resistance_age_s": [652.8, None]}}})
+
+    def test_text_shows_a_log_once(self):
+        log = self.path / "can.log"
+        log.write_text("(0000000001.000000) can0 281#102700000000FFFF\n(0000000001.000000) can0 701#02000000FF0001\n")
+        done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("node 1: active, rest", done.stdout)
+        self.assertRegex(done.stdout, r"position\s+1\.000 mm")
+
+
+if __name__ == "__main__":
+    unittest.main()

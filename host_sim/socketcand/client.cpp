@@ -1,5 +1,8 @@
 #include "socketcand/client.hpp"
 
+#include <chrono>
+#include <utility>
+
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
 
@@ -11,7 +14,7 @@ namespace supercoil::host_sim {
 namespace {
 
 constexpr std::size_t most_waiting = 1U << 20U;
-/// Clients expect < ok > alone in what they read next, so frames follow after a pause.
+/// Clients expect < ok > alone in what they read next.
 constexpr auto pause_after_ok = std::chrono::milliseconds(200);
 
 }  // namespace
@@ -20,40 +23,51 @@ void SocketcandClient::start() {
   boost::system::error_code ignored;
   socket_.set_option(boost::asio::ip::tcp::no_delay(true), ignored);
   send("< hi >");
-  read();
 }
 
 void SocketcandClient::close() {
   boost::system::error_code ignored;
   socket_.close(ignored);
+  pause_.cancel();
 }
 
 void SocketcandClient::read() {
+  if (reading_) return;
+  reading_ = true;
   socket_.async_read_some(
       boost::asio::buffer(buffer_),
       [self = shared_from_this()](boost::system::error_code error, std::size_t bytes) {
         if (error) return self->close();
+        self->reading_ = false;
         self->reader_.put({self->buffer_.data(), bytes});
         while (const auto element = self->reader_.take())
           self->obey(*element);
-        if (self->is_open()) self->read();
       });
 }
 
 void SocketcandClient::hear(std::string_view frame) {
   if (!raw_) return;
+  if (!paused_) return send(frame);
+  if (held_.size() + frame.size() > most_waiting) return close();
   held_ += frame;
-  poll();
 }
 
-void SocketcandClient::poll() {
-  if (held_.empty() || std::chrono::steady_clock::now() < frames_from_) return;
-  send(held_);
-  held_.clear();
+void SocketcandClient::pause() {
+  paused_ = true;
+  pause_.expires_after(pause_after_ok);
+  pause_.async_wait([self = shared_from_this()](boost::system::error_code error) {
+    if (!error) self->resume();
+  });
+}
+
+void SocketcandClient::resume() {
+  if (!paused_) return;
+  paused_ = false;
+  send(std::exchange(held_, {}));
 }
 
 void SocketcandClient::send(std::string_view text) {
-  if (waiting_.size() + text.size() > most_waiting) return close();
+  if (in_flight_.size() + waiting_.size() + text.size() > most_waiting) return close();
   waiting_ += text;
   if (in_flight_.empty()) write();
 }
@@ -75,6 +89,7 @@ void SocketcandClient::answer(std::string_view element) {
 }
 
 void SocketcandClient::obey(std::string_view element) {
+  resume();  // who says something has read the < ok >
   std::string_view rest = element;
   const std::string_view word = can_client::next_word(rest);
   if (word == "echo") return answer(element);
@@ -85,8 +100,8 @@ void SocketcandClient::obey(std::string_view element) {
   if (!opened_) return answer("error open a bus first");
   if (word == "rawmode") {
     raw_ = true;
-    frames_from_ = std::chrono::steady_clock::now() + pause_after_ok;
-    return answer("ok");
+    answer("ok");
+    return pause();
   }
   const auto frame = can_client::parse_send(element);
   if (!frame) return answer("error unknown command, or no classical frame with 11 bits");

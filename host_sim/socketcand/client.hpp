@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include "can_client/socketcand.hpp"
 
@@ -19,33 +19,37 @@ class SocketcandServer;
 class SocketcandClient : public std::enable_shared_from_this<SocketcandClient> {
  public:
   SocketcandClient(boost::asio::ip::tcp::socket socket, SocketcandServer& server)
-      : socket_(std::move(socket)), server_(&server) {}
+      : socket_(std::move(socket)), pause_(socket_.get_executor()), server_(&server) {}
 
   void start();
   bool is_open() const { return socket_.is_open(); }
-  /// A frame of the bus, if it wants them.
+  /// Takes what came next, at most a buffer of it.
+  void read();
+  /// The text of a frame of the bus, for a client that wants these.
   void hear(std::string_view frame);
-  /// Sends what waited for the pause to be over.
-  void poll();
   void close();
 
  private:
-  void read();
   void write();
-  void send(std::string_view text);
   void obey(std::string_view element);
   void answer(std::string_view element);
+  void send(std::string_view text);
+  /// Holds frames back, for some time or until the client says something.
+  void pause();
+  void resume();
 
   boost::asio::ip::tcp::socket socket_;
+  boost::asio::steady_timer pause_;
   SocketcandServer* server_;
   can_client::ElementReader reader_;
-  std::array<char, 4096> buffer_{};
-  std::string held_;  ///< frames, until frames_from_
+  std::array<char, 1024> buffer_{};
   std::string waiting_;
   std::string in_flight_;
+  std::string held_;  ///< frames of a pause
   bool opened_ = false;
   bool raw_ = false;
-  std::chrono::steady_clock::time_point frames_from_;
+  bool paused_ = false;
+  bool reading_ = false;
 };
 
 }  // namespace supercoil::host_sim

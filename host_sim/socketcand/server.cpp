@@ -1,5 +1,6 @@
 #include "socketcand/server.hpp"
 
+#include <chrono>
 #include <utility>
 
 #include "socketcand/client.hpp"
@@ -7,6 +8,12 @@
 namespace supercoil::host_sim {
 
 using boost::asio::ip::tcp;
+
+namespace {
+
+constexpr auto retry_after = std::chrono::milliseconds(100);
+
+}  // namespace
 
 tl::expected<std::unique_ptr<SocketcandServer>, std::string> SocketcandServer::listen(
     std::uint16_t port, std::string interface, Deliver deliver) {
@@ -20,7 +27,10 @@ tl::expected<std::unique_ptr<SocketcandServer>, std::string> SocketcandServer::l
 }
 
 SocketcandServer::SocketcandServer(tcp::endpoint endpoint, std::string interface, Deliver deliver)
-    : acceptor_(io_, endpoint), interface_(std::move(interface)), deliver_(std::move(deliver)) {
+    : acceptor_(io_, endpoint),
+      retry_(io_),
+      interface_(std::move(interface)),
+      deliver_(std::move(deliver)) {
   accept();
 }
 
@@ -31,7 +41,8 @@ SocketcandServer::~SocketcandServer() {
 
 void SocketcandServer::accept() {
   acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
-    if (!error && clients_.size() < most_clients) {
+    if (error) return accept_later();
+    if (clients_.size() < most_clients) {
       clients_.push_back(std::make_shared<SocketcandClient>(std::move(socket), *this));
       clients_.back()->start();
     }
@@ -39,10 +50,15 @@ void SocketcandServer::accept() {
   });
 }
 
+void SocketcandServer::accept_later() {
+  retry_.expires_after(retry_after);
+  retry_.async_wait([this](boost::system::error_code) { accept(); });
+}
+
 void SocketcandServer::poll() {
-  io_.poll();
   for (const auto& client : clients_)
-    client->poll();
+    client->read();
+  io_.poll();
   std::erase_if(clients_, [](const auto& client) { return !client->is_open(); });
 }
 

@@ -9,6 +9,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <tl/expected.hpp>
 
 #include "supercoil/hal/can_bus.hpp"
@@ -36,7 +37,8 @@ class SocketcandServer {
 
   std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
   std::size_t clients() const { return clients_.size(); }
-  /// Takes what came and sends what waits.
+  /// Takes what came and sends what waits; of each client a buffer at most, so that none can hold
+  /// up the board.
   void poll();
   /// A frame for all clients. at: since 1970.
   void send(const hal::CanFrame& frame, hal::Time at) { send(frame, at, nullptr); }
@@ -45,6 +47,8 @@ class SocketcandServer {
   friend class SocketcandClient;
 
   void accept();
+  /// Without free descriptors every try fails at once: more of them within a poll would not end.
+  void accept_later();
   /// A client's frame: for the board, and for all other clients.
   void take(const hal::CanFrame& frame, const SocketcandClient& from);
   void send(const hal::CanFrame& frame, hal::Time at, const SocketcandClient* but);
@@ -53,6 +57,7 @@ class SocketcandServer {
 
   boost::asio::io_context io_;
   boost::asio::ip::tcp::acceptor acceptor_;
+  boost::asio::steady_timer retry_;
   std::string interface_;
   Deliver deliver_;
   std::vector<std::shared_ptr<SocketcandClient>> clients_;

@@ -10,8 +10,11 @@
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
+#include "unit/firmware/telemetry/support/unpacked.hpp"
+
 using namespace supercoil;
 using namespace supercoil::telemetry;
+using supercoil::test::unpacked;
 
 namespace {
 
@@ -26,14 +29,6 @@ struct Signal {
   double highest;
   double (*read)(const Row& row);
 };
-
-template <class Signals>
-Signals unpacked(const hal::CanFrame& frame,
-                 int (*unpack)(Signals*, const std::uint8_t*, std::size_t)) {
-  Signals signals{};
-  CHECK_EQUAL(0, unpack(&signals, frame.data.data(), frame.length));
-  return signals;
-}
 
 double position(const Row& row) {
   const auto m = unpacked(measurement(1, row), supercoil_measurement_unpack);

@@ -37,6 +37,7 @@ tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Simulation& s
 
 int live_run(const RunOptions& options, const Scenario& scenario, const Window& window,
              OutputFolder& folder, storage::LearnedStore& store) {
+  catch_interrupts();  // before the first line tells others that it runs
   storage::PosixFiles files;
   Simulation simulation(scenario);
   recorder::FlightRecorder recorder(folder.path().string(), 1, scenario.rate_Hz, files);
@@ -50,7 +51,6 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
   }
   if (!options.quiet) std::printf("%s in real time; Ctrl-C ends it\n", scenario.name.c_str());
   std::fflush(stdout);
-  catch_interrupts();
   Pace pace(scenario.step_s());
   while (!simulation.done() && !interrupted()) {
     summary.add(simulation.step());

@@ -1,0 +1,151 @@
+"""A simulated board in real time, and masters that command it over socketcand.
+
+Nothing here judges by the clock on the wall: a busy machine may stop any of the programs for a second. A command may
+then expire, or a lease end; masters notice and begin anew.
+"""
+
+import contextlib
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import time
+import typing
+
+import can
+import cantools
+
+import e2e
+
+PROTOCOL = cantools.database.load_file(pathlib.Path(__file__).resolve().parents[2] / "firmware/telemetry/supercoil.dbc")
+COMMAND = PROTOCOL.get_message_by_name("Command")
+FROM_BOARD = {message.frame_id: message for message in PROTOCOL.messages if "Board" in message.senders}
+DEADLINE_S = 120.0  # for whatever takes a second on a machine that has nothing else to do
+TRIES = 5
+can.log.setLevel("CRITICAL")  # it warns of each frame that TCP brings in two parts
+with contextlib.suppress(PermissionError):  # root, as in a container: the fewer commands expire the sooner it is done
+    os.setpriority(os.PRIO_PROCESS, 0, -15)
+
+
+class Simulator:
+    def __init__(self, folder):
+        self.out = pathlib.Path(folder) / "out"
+        self.process = subprocess.Popen(
+            [os.environ["SUPERCOIL_SIM"], "run", "bench", "--real-time", "--can", "socketcand:0", "--out", self.out],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        first = self.process.stdout.readline()
+        self.port = int(re.fullmatch(r"serving can0 on 127\.0\.0\.1:(\d+) by the socketcand protocol\n", first)[1])
+
+    def end(self, how=signal.SIGINT):
+        """Its exit status; a second call only says it again."""
+        if self.process.returncode is None:
+            self.process.send_signal(how)
+            self.process.communicate(timeout=DEADLINE_S)
+        return self.process.returncode
+
+
+def join(port):
+    """A bus. python-can wants < ok > alone, and fails where it was kept from reading it for too long."""
+    for _ in range(TRIES):
+        try:
+            return can.Bus(interface="socketcand", host="127.0.0.1", port=port, channel="can0")
+        except can.CanError as error:
+            reason = error
+    raise reason
+
+
+class Heard(typing.NamedTuple):
+    message: str
+    signals: dict
+    time_s: float  # on the bus, by the board's clock
+
+
+class Master:
+    def __init__(self, port, name=0x1234):
+        self.bus = join(port)
+        self.name = self.session = name
+        self.counter = 0
+        self.asked = 0  # commands that were made
+        self.newest = {}  # signals of each message
+        self.answers = []
+        self.faults = []
+
+    def data(self, opcode, value=0.0):
+        """Of the next command."""
+        self.counter = (self.counter + 1) % 16
+        self.asked += 1
+        return e2e.protected(COMMAND.frame_id, COMMAND.encode(
+            {"crc": 0, "counter": self.counter, "opcode": opcode, "session": self.session, "value": value}))
+
+    def send(self, data):
+        self.bus.send(can.Message(arbitration_id=COMMAND.frame_id, data=data, is_extended_id=False))
+
+    def hear(self):
+        """The board's next message, or None: it was somebody else's."""
+        frame = self.bus.recv(DEADLINE_S)
+        if frame is None:
+            raise AssertionError("the board is silent")
+        if frame.arbitration_id not in FROM_BOARD:
+            return None
+        message = FROM_BOARD[frame.arbitration_id]
+        signals = {name: value if isinstance(value, (int, float)) else str(value)
+                   for name, value in message.decode(frame.data).items()}
+        self.newest[message.name] = signals
+        if message.name == "Acknowledge":
+            self.answers.append(signals)
+        if message.name == "Emergency" and signals["fault"] != "none":
+            self.faults.append(signals["fault"])
+        return Heard(message.name, signals, frame.timestamp)
+
+    def hear_until(self, wanted):
+        """The first message that is wanted."""
+        end = time.monotonic() + DEADLINE_S
+        while time.monotonic() < end:
+            heard = self.hear()
+            if heard and wanted(heard):
+                return heard
+        raise AssertionError("never heard")
+
+    def hear_next(self, message, count=1):
+        """The board sends them at known rates, so to count them is to wait by its clock."""
+        for _ in range(count):
+            heard = self.hear_until(lambda heard: heard.message == message)
+        return heard
+
+    def ask(self, opcode, value=0.0):
+        """A command's answer."""
+        self.send(self.data(opcode, value))
+        mine = {"opcode": opcode, "counter": self.counter, "session": self.session}
+        return self.hear_until(lambda heard: heard.message == "Acknowledge" and mine.items() <= heard.signals.items())
+
+    def refusal(self, opcode, value=0.0):
+        return self.ask(opcode, value).signals["refusal"]
+
+    def claim(self):
+        """Claims the lease, or keeps it; why it was refused."""
+        told = self.ask("claim").signals
+        if told["refusal"] == "none":
+            self.session = told["granted"]
+        return told["refusal"]
+
+    def steer(self, position_m):
+        """Commands a position, or does what must be done before; whether it was obeyed."""
+        refusal = self.refusal("position", position_m)
+        if refusal == "none":
+            self.hear_next("Measurement", 4)
+            return True
+        if refusal == "no_lease":
+            self.session = self.name
+            self.claim()
+        else:
+            state = self.hear_next("Status").signals["state"]
+            if state in ("fault", "disarmed"):
+                self.ask("reset" if state == "fault" else "arm")
+        return False
+
+    def steer_until(self, position_m, reached):
+        for _ in range(1000):
+            if self.steer(position_m) and reached(self):
+                return
+        raise AssertionError(f"not reached: {self.newest}, {self.answers[-5:]}, {self.faults}")

@@ -1,0 +1,189 @@
+"""Programs that do to the simulated board's bus what they should not, and what a user of --can gets wrong."""
+
+import contextlib
+import json
+import os
+import pathlib
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import unittest
+
+from live import DEADLINE_S, Master, Simulator
+
+MOST_CLIENTS = 32
+GARBAGE = b"\x00\xff<<>< send 201 8 <\n< send 201 8 zz >< echo" + bytes(range(256)) + b" >"
+FLOOD = b"< send 7ff 0 >" * 4096
+
+
+class Client:
+    """What speaks the protocol by hand."""
+
+    def __init__(self, port):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=DEADLINE_S)
+        self.heard = b""
+
+    def send(self, text):
+        self.socket.sendall(text if isinstance(text, bytes) else text.encode())
+
+    def element(self):
+        """The next one; empty: the simulator has closed."""
+        while b">" not in self.heard:
+            more = self.socket.recv(65536)
+            if not more:
+                return ""
+            self.heard += more
+        element, self.heard = self.heard.split(b">", 1)
+        return element.decode("latin-1").strip("< ")
+
+    def ask(self, text):
+        self.send(text)
+        return self.element()
+
+    def opened(self):
+        assert (self.element(), self.ask("< open can0 >")) == ("hi", "ok")
+        return self
+
+    def skip_to(self, text):
+        while (element := self.element()) != text:
+            if not element:
+                raise AssertionError(f"closed before {text}")
+
+
+class HostileClients(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.simulator = Simulator(folder.name)
+        self.addCleanup(self.simulator.end)
+
+    def client(self):
+        client = Client(self.simulator.port)
+        self.addCleanup(client.socket.close)
+        return client
+
+    def assert_goes_on(self):
+        """The board is heard by a program that joins now, without a frame lost."""
+        master = Master(self.simulator.port)
+        counters = [master.hear_next("Status").signals["counter"] for _ in range(3)]
+        master.bus.shutdown()
+        self.assertEqual([(counter - counters[0]) % 256 for counter in counters], [0, 1, 2])
+
+    def test_garbage_is_passed_over(self):
+        client = self.client().opened()
+        client.send(GARBAGE * 20)
+        client.send("> < echo still here >")
+        client.skip_to("echo still here")
+        self.assert_goes_on()
+
+    def test_half_an_element_waits_for_its_other_half(self):
+        client = self.client().opened()
+        client.send("< ec")
+        self.assert_goes_on()
+        self.assertEqual(client.ask("ho halves >"), "echo halves")
+
+    def test_a_client_that_leaves_within_an_element_is_forgotten(self):
+        client = self.client().opened()
+        client.send("< send 201 8 1 2")
+        client.socket.close()
+        self.assert_goes_on()
+
+    def test_an_element_without_end_is_passed_over(self):
+        client = self.client().opened()
+        client.send(b"<" + b"x" * (1 << 20))
+        self.assert_goes_on()
+        self.assertEqual(client.ask("< echo still here >"), "echo still here")
+
+    def test_what_is_no_classical_standard_frame_is_refused(self):
+        client = self.client().opened()
+        listener = self.client().opened()
+        self.assertEqual(listener.ask("< rawmode >"), "ok")
+        for text in ("< send 00000201 1 0 >", "< send 1FFFFFFF 0 >", "< send 800 0 >", "< send 123 9 1 1 1 1 1 1 1 1 1 >",
+                     "< send 123 2 1 >", "< send 123 1 100 >", "< add 0 0 123 1 0 >"):
+            self.assertIn("error unknown command", client.ask(text), text)
+        client.send("< send 7FE 1 5A >")
+        element = ""
+        while not element.startswith("frame 7FE"):
+            element = listener.element()
+            self.assertRegex(element, r"^frame (081|241|2[8C]1|3[048C]1|4[048]1|701|7FE) ")
+        self.assertTrue(element.endswith(" 5A"))
+
+    def test_a_bus_must_be_opened_by_its_name(self):
+        client = self.client()
+        self.assertEqual(client.element(), "hi")
+        self.assertEqual(client.ask("< rawmode >"), "error open a bus first")
+        self.assertEqual(client.ask("< send 123 0 >"), "error open a bus first")
+        self.assertEqual(client.ask("< open can1 >"), "error could not open bus: there is can0")
+
+    def test_a_client_that_never_reads_is_cut_off_and_the_others_go_on(self):
+        deaf, listener, loud = (self.client().opened() for _ in range(3))
+        for client in (deaf, listener):
+            self.assertEqual(client.ask("< rawmode >"), "ok")
+        statuses, ended = [], threading.Event()
+
+        def listen():
+            while not ended.is_set():
+                element = listener.element()
+                if element.startswith("frame 701 "):
+                    statuses.append(int(element[-4:-2], 16))
+        listening = threading.Thread(target=listen)
+        listening.start()
+        # What the kernel holds for a connection, and the simulator's mebibyte, are less than this makes.
+        for _ in range(100):
+            loud.send(FLOOD)
+        heard = 0
+        with contextlib.suppress(ConnectionResetError):
+            while more := deaf.socket.recv(1 << 20):
+                heard += len(more)
+        ended.set()
+        listening.join()
+        self.assertGreater(heard, 1 << 16)
+        self.assertGreater(len(statuses), 3)
+        self.assertEqual(statuses, [(statuses[0] + i) % 256 for i in range(len(statuses))])
+        self.assert_goes_on()
+
+    def test_of_forty_programs_as_many_as_may_are_served(self):
+        clients = [self.client() for _ in range(40)]
+        greeted = [client.element() == "hi" for client in clients]
+        self.assertEqual(sum(greeted), MOST_CLIENTS)
+        clients[greeted.index(True)].socket.close()
+        self.assert_goes_on()
+
+
+class Usage(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+
+    def assert_wrong(self, *options):
+        """Ends with 2 and writes nothing; what it says."""
+        done = subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "bench", *options, "--out", "out"], cwd=self.path,
+                              capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(list(self.path.iterdir()), [])
+        return done.stderr
+
+    def test_a_port_that_is_taken_is_named(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:
+            port = taken.getsockname()[1]
+            self.assertEqual(self.assert_wrong("--real-time", "--can", f"socketcand:{port}"),
+                             f"supercoil-sim: socketcand: port {port} of loopback: Address already in use\n")
+
+    def test_a_bus_that_there_is_not_is_wrong_input(self):
+        for bus in ("nonsense", "socketcand", "socketcand:", "socketcand:65536", "socketcand:-1", "socketcand:1x", "can0"):
+            self.assertIn(f"--can: {bus}: must be socketcand:PORT", self.assert_wrong("--real-time", "--can", bus))
+        self.assertIn("--real-time", self.assert_wrong("--can", "socketcand:0"))
+
+    def test_an_interrupt_is_an_end_like_any_other(self):
+        for how in (signal.SIGINT, signal.SIGTERM):
+            simulator = Simulator(self.path)
+            self.assertEqual(simulator.end(how), 0)
+            summary = json.loads((self.path / "out/summary.json").read_text())
+            self.assertEqual((summary["scenario"], summary["faults"]), ("bench", []))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,165 @@
+"""python-can with cantools commands the simulated board over socketcand; so does the example."""
+
+import importlib.util
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import can
+
+import e2e
+from live import COMMAND, DEADLINE_S, FROM_BOARD, TRIES, Master, Simulator
+
+EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "examples/python/move_muscle.py"
+TARGET_M = 0.005
+
+
+def is_there(master):
+    return abs(master.newest["Measurement"]["position_m"] - TARGET_M) < 2e-4
+
+
+class OnTheBus(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.simulator = Simulator(folder.name)
+        self.addCleanup(self.simulator.end)
+        self.master = self.new_master()
+
+    def new_master(self, name=0x1234):
+        master = Master(self.simulator.port, name)
+        self.addCleanup(master.bus.shutdown)
+        return master
+
+    def while_leased(self, ask):
+        """What ask() gives while the master has the lease; it may end where this program is starved for a second."""
+        for _ in range(TRIES):
+            self.master.claim()
+            session = self.master.session
+            told = ask()
+            if self.master.claim() == "none" and self.master.session == session:
+                return told
+        self.fail("no lease lasted")
+
+    def assert_nothing_but_starved(self):
+        """A command may have expired where this program was starved; no other fault may have come."""
+        self.assertLessEqual(set(self.master.faults), {"command_timeout"})
+
+
+class Commanded(OnTheBus):
+    def end_row_of_damaged(self):
+        """Ten ticks in a row with damaged commands are a fault; a tick with an obeyed one alone ends the row."""
+        for _ in range(2):
+            self.master.steer_until(TARGET_M, lambda m: True)
+
+    def test_a_master_moves_the_muscle_and_its_heater_is_cold_when_the_command_expires(self):
+        self.master.steer_until(TARGET_M, is_there)
+        self.assert_nothing_but_starved()
+        self.assertGreater(self.master.newest["Temperature"]["hottest_C"], 35.0)
+        self.assertGreater(self.master.newest["Power"]["applied_W"], 0.1)
+        obeyed = None
+        while obeyed is None or obeyed.signals["refusal"] != "none":
+            self.master.steer_until(TARGET_M, lambda m: True)
+            obeyed = self.master.ask("position", TARGET_M)
+        expired = self.master.hear_until(lambda heard: heard.message == "Emergency")
+        self.assertEqual((expired.signals["fault"], expired.signals["state"]), ("command_timeout", "fault"))
+        self.assertAlmostEqual(expired.time_s - obeyed.time_s, 0.25, delta=0.02)
+        self.assertEqual(self.master.hear_next("Power", 2).signals["applied_W"], 0.0)
+        self.assertEqual(self.master.hear_next("Heater", 2).signals["duty"], 0.0)
+
+    def test_a_second_master_is_refused_and_may_stop(self):
+        other = self.new_master(0x4321)
+        self.assertEqual(self.while_leased(lambda: other.refusal("claim")), "not_yours")
+        other.session = 0x5555
+        self.assertEqual(self.while_leased(lambda: other.refusal("arm")), "not_yours")
+        self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
+        self.assertEqual(self.while_leased(lambda: self.master.refusal("arm")), "none")
+        self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "armed")
+        self.assertEqual(other.refusal("disarm"), "none")
+        self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "disarmed")
+
+    def test_a_frame_of_an_earlier_session_is_refused(self):
+        self.assertEqual(self.master.claim(), "none")
+        earlier, old = self.master.data("arm"), self.master.session
+        self.assertEqual(self.while_leased(lambda: self.master.refusal("claim")), "none")
+        self.master.ask("release")
+
+        def replayed():
+            self.master.send(earlier)
+            return self.master.hear_until(lambda heard: heard.signals.get("opcode") == "arm").signals["refusal"]
+        self.assertEqual(replayed(), "no_lease")
+        self.master.session = self.master.name
+        self.assertEqual(self.while_leased(replayed), "not_yours")
+        self.assertNotEqual(self.master.session, old)
+        self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
+
+    def test_damaged_commands_are_neither_obeyed_nor_answered(self):
+        chance = random.Random(20261120)
+        self.master.steer_until(TARGET_M, lambda m: True)
+        for _ in range(40):
+            damaged = int.from_bytes(self.master.data("disarm"), "little")
+            for bit in chance.sample(range(64), chance.randint(1, 3)):
+                damaged ^= 1 << bit
+            self.master.send(damaged.to_bytes(8, "little"))
+            self.end_row_of_damaged()
+        self.assertNotIn("disarm", {told["opcode"] for told in self.master.answers})
+        self.assert_nothing_but_starved()
+
+    def test_random_frames_are_not_obeyed_and_do_not_disturb_the_control(self):
+        def tracks(master):
+            return abs(master.newest["Tracking"]["error_m"]) < 2e-4
+        chance = random.Random(20261120)
+        noisy = self.new_master()
+        foreign = [i for i in range(0x800) if i not in FROM_BOARD]  # two must never send the same identifier
+        self.master.steer_until(TARGET_M, is_there)
+        answered, asked, starved = len(self.master.answers), self.master.asked, len(self.master.faults)
+        for _ in range(50):
+            for i in range(200):
+                is_command = i % 40 == 0
+                noisy.bus.send(can.Message(arbitration_id=COMMAND.frame_id if is_command else chance.choice(foreign),
+                                           data=chance.randbytes(8 if is_command else chance.randint(0, 8)),
+                                           is_extended_id=False))
+            self.end_row_of_damaged()
+            if len(self.master.faults) == starved:
+                self.assertTrue(tracks(self.master), self.master.newest)
+        self.assert_nothing_but_starved()
+        obeyed = [told for told in self.master.answers[answered:] if told["refusal"] == "none"]
+        self.assertLessEqual(len(obeyed), self.master.asked - asked)
+        self.assertLessEqual({told["session"] for told in obeyed}, {self.master.session, self.master.name})
+
+
+class Example(OnTheBus):
+    def test_its_checksum_is_the_protocols(self):
+        spec = importlib.util.spec_from_file_location("move_muscle", EXAMPLE)
+        example = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(example)
+        chance = random.Random(20261120)
+        for _ in range(1000):
+            identifier, data = chance.randrange(0x800), chance.randbytes(8)
+            self.assertEqual(bytes([example.crc(identifier, data)]) + data[1:], e2e.protected(identifier, data))
+
+    def test_it_moves_the_muscle_and_lets_it_go(self):
+        words = ["interface=socketcand", "host=127.0.0.1", f"port={self.simulator.port}", "channel=can0"]
+        for _ in range(TRIES):
+            done = subprocess.run([sys.executable, EXAMPLE, *words], capture_output=True, text=True, timeout=DEADLINE_S)
+            if done.returncode == 0:
+                break
+            # Starved: its command expired.
+            self.master.hear_next("Status")
+            self.assert_nothing_but_starved()
+            self.master.steer_until(0.0, lambda m: True)
+            self.master.ask("disarm")
+            self.master.ask("release")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        lines = done.stdout.splitlines()
+        self.assertEqual(len(lines), 10)
+        self.assertRegex(lines[-1], r"^0\.00(49|50)\d* m, \d+(\.\d+)? °C at most$")
+        self.master.hear_until(lambda heard: heard.message == "Status" and not heard.signals["leased"]
+                               and heard.signals["state"] == "disarmed")
+
+
+if __name__ == "__main__":
+    unittest.main()

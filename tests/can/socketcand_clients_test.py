@@ -9,6 +9,7 @@ import socket
 import subprocess
 import tempfile
 import threading
+import time
 import unittest
 
 from live import DEADLINE_S, Master, Simulator
@@ -128,15 +129,18 @@ class HostileClients(unittest.TestCase):
                 element = listener.element()
                 if element.startswith("frame 701 "):
                     statuses.append(int(element[-4:-2], 16))
-        listening = threading.Thread(target=listen)
+        listening = threading.Thread(target=listen, daemon=True)
         listening.start()
         # What the kernel holds for a connection, and the simulator's mebibyte, are less than this makes.
         for _ in range(100):
             loud.send(FLOOD)
-        heard = 0
+        self.assertEqual(loud.ask("< echo done >"), "echo done")
+        heard, more, end = 0, b"some", time.monotonic() + DEADLINE_S / 4
         with contextlib.suppress(ConnectionResetError):
-            while more := deaf.socket.recv(1 << 20):
+            while more and time.monotonic() < end:
+                more = deaf.socket.recv(1 << 20)
                 heard += len(more)
+            self.assertEqual(more, b"", "not cut off")
         ended.set()
         listening.join()
         self.assertGreater(heard, 1 << 16)

@@ -1,0 +1,86 @@
+// What a poll does, and what it leaves for the next.
+#include "socketcand/server.hpp"
+
+#include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <CppUTest/TestHarness.h>
+#include <boost/asio/write.hpp>
+
+using namespace supercoil;
+using namespace supercoil::host_sim;
+using boost::asio::ip::tcp;
+
+TEST_GROUP(SocketcandServer) {
+  std::size_t delivered = 0;
+  std::unique_ptr<SocketcandServer> server =
+      SocketcandServer::listen(0, "can0", [this](const hal::CanFrame&) { ++delivered; }).value();
+  boost::asio::io_context io;
+  tcp::socket client{io};
+
+  void connect() {
+    client.connect({boost::asio::ip::address_v4::loopback(), server->port()});
+  }
+  void say(const std::string& text) {
+    boost::asio::write(client, boost::asio::buffer(text));
+  }
+  /// What has come after so many polls.
+  std::string hear(int polls) {
+    for (int i = 0; i < polls; ++i)
+      server->poll();
+    std::string text(client.available(), ' ');
+    client.read_some(boost::asio::buffer(text));
+    return text;
+  }
+};
+
+TEST(SocketcandServer, APollTakesNoMoreThanABufferOfAClient) {
+  connect();
+  server->poll();
+  std::string flood;
+  while (flood.size() < 32768)
+    flood += "< send 1 0 >";
+  say("< open can0 >" + flood);
+  server->poll();
+  server->poll();
+  CHECK(delivered <= 2 * 1024 / 12);
+  for (int i = 0; i < 100; ++i)
+    server->poll();
+  LONGS_EQUAL(flood.size() / 12, delivered);
+}
+
+TEST(SocketcandServer, AnOkComesAloneAndWhatIsHeardThenFollowsWithTheNextWord) {
+  connect();
+  say("< open can0 >< rawmode >");
+  STRCMP_EQUAL("< hi >< ok >< ok >", hear(4).c_str());
+  hal::CanFrame frame;
+  frame.id = 0x123;
+  server->send(frame, {});
+  STRCMP_EQUAL("", hear(4).c_str());
+  say("< echo >");
+  STRCMP_EQUAL("< frame 123 0000000000.000000  >< echo >", hear(4).c_str());
+  server->send(frame, {});
+  STRCMP_EQUAL("< frame 123 0000000000.000000  >", hear(4).c_str());
+}
+
+/// Each try to accept fails at once then: a poll must not try until one succeeds.
+TEST(SocketcandServer, APollEndsWithoutFreeDescriptors) {
+  connect();
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  const int next = dup(0);
+  close(next);
+  const rlimit none_free{static_cast<rlim_t>(next), before.rlim_max};
+  setrlimit(RLIMIT_NOFILE, &none_free);
+  for (int i = 0; i < 10; ++i)
+    server->poll();
+  LONGS_EQUAL(0, server->clients());
+  setrlimit(RLIMIT_NOFILE, &before);
+  for (int i = 0; i < 1000 && server->clients() == 0; ++i) {
+    usleep(10'000);
+    server->poll();
+  }
+  LONGS_EQUAL(1, server->clients());
+}

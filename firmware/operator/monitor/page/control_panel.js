@@ -17,7 +17,7 @@ const MODES = {
 export class ControlPanel {
   /** may: {command: may it, why: why not}; log: is told (text, kind) of each command. */
   constructor(hand, may, log) {
-    Object.assign(this, { hand, may, log, mode: "position", limits: new Map() });
+    Object.assign(this, { hand, may, log, mode: "position", values: {}, limits: new Map() });
     const id = (name) => `${name}-${hand.node}`;
     this.arm = this.#button("arm", "arm");
     this.disarm = this.#button("disarm", "disarm");
@@ -58,7 +58,9 @@ export class ControlPanel {
     return element("button", { type: "button", class: opcode, disabled: !this.may.command, onclick: () => this.#send(opcode) }, text);
   }
 
+  /** Millimetres are no watts: each mode has a number of its own. */
   #choose(mode) {
+    this.values[this.mode] = this.number.value;
     this.mode = mode;
     const { button, hint, unit, label } = MODES[mode];
     show(this.go, button);
@@ -68,13 +70,14 @@ export class ControlPanel {
     show(this.unit, unit);
     show(this.number_label, label);
     this.#scale();
+    this.number.value = this.slider.value = this.values[mode] ?? "0";
   }
 
   /** Number and slider end at the limit of the detector, where the board has told it. */
   #scale() {
     const { factor, step, opcode } = MODES[this.mode];
     const most = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
-    for (const input of [this.number, this.slider]) Object.assign(input, { min: 0, step, max: Math.floor((most * factor) / step) * step });
+    for (const input of [this.number, this.slider]) Object.assign(input, { min: 0, step, max: (Math.floor((most * factor) / step) * step).toFixed(2) });
   }
 
   #go() {
@@ -82,6 +85,8 @@ export class ControlPanel {
     if (!unit) return this.#send(opcode);
     const value = this.number.valueAsNumber;
     if (Number.isNaN(value)) return this.#answer("a number is missing", false);
+    const { rangeOverflow, rangeUnderflow } = this.number.validity;
+    if (rangeOverflow || rangeUnderflow) return this.#answer(`allowed: 0 to ${this.number.max} ${unit}`, false);
     this.#send(opcode, value / factor, `${this.number.value} ${unit}`);
   }
 

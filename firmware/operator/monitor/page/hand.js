@@ -1,7 +1,7 @@
 // The hand on one muscle: gives commands, and says that this page lives as long as what it commanded may heat.
 
 import { alive, command } from "./server.js";
-import { clock_now, duration, words } from "./format.js";
+import { clock_now, words } from "./format.js";
 
 const ALIVE_EVERY_MS = 300;
 // The muscle's own state follows an obeyed command within a heartbeat or two.
@@ -47,7 +47,8 @@ export class Hand extends EventTarget {
 
   #hold(opcode) {
     this.holds = opcode;
-    this.since_ms = this.heard_ms = performance.now();
+    this.since_ms = performance.now();
+    this.#heard();
     this.#say("");
     this.timer ||= setInterval(() => this.#live(), ALIVE_EVERY_MS);
   }
@@ -73,16 +74,20 @@ export class Hand extends EventTarget {
     this.asking = true;
     try {
       const { holding, reason } = await alive(this.node);
-      this.heard_ms = performance.now();
+      this.#heard();
       if (!holding && this.holds) this.let_go(`command ${reason ?? "ended"} (${clock_now()})`);
       else if (this.holds) this.#say("");
-    } catch (problem) {
-      const silent_s = (performance.now() - this.heard_ms) / 1000;
-      if (silent_s > this.timeout_s && this.holds)
-        this.#say(`command expired: supercoil monitor has not answered for ${duration(silent_s)} (${problem.message})`);
+    } catch {
+      if (performance.now() - this.heard_ms > 1e3 * this.timeout_s && this.holds)
+        this.#say(`command expired: supercoil monitor has not answered since ${this.heard_at}`);
     } finally {
       this.asking = false;
     }
+  }
+
+  #heard() {
+    this.heard_ms = performance.now();
+    this.heard_at = clock_now();
   }
 
   #say(notice) {

@@ -44,6 +44,7 @@ export class NodeView {
     const limits = this.margins.limits.size;
     this.status = this.state.update(now_s);
     for (const card of this.cards) card.update(now_s);
+    this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();
     this.panel.update(this.status, this.margins.limits);
     for (const plot of this.plots) plot.show_values();

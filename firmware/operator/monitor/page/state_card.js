@@ -10,14 +10,14 @@ const MEANS = {
   armed: "cold, ready",
   active: "may be hot",
   fault: "cold, needs a reset",
-  silent: "its heartbeat has stopped: state unknown",
+  silent: "its heartbeat was never heard",
 };
 
 export class StateCard {
   /** on_fault: called with a fault's name whose page is wanted. */
   constructor(node, store, on_fault) {
     Object.assign(this, { node, store, fault_name: "none" });
-    this.word = element("strong", { class: "word" });
+    this.word = element("strong", { class: "word", role: "status" });
     this.means = element("span", { class: "means" });
     this.facts = element("dl", { class: "facts" });
     this.values = ["mode", "controller", "commanded by", "limited by"].map((name) => {
@@ -32,19 +32,19 @@ export class StateCard {
     this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
-      element("p", { class: "now", role: "status" }, this.word, " ", this.means), this.fault, this.progress, this.facts);
+      element("p", { class: "now" }, this.word, " ", this.means), this.fault, this.progress, this.facts);
   }
 
   /** Returns the status in words, or null while there is none. */
   update(now_s) {
     const row = this.store.at(this.node, "Status", now_s);
     const name = (signal) => this.store.word("Status", signal, row[signal]);
-    const silent_s = row ? now_s - row.time_s : Infinity;
+    const silent_s = row ? now_s - row.time_s + this.store.silent_s : Infinity;
     const status = row && { state: silent_s > SILENT_S ? "silent" : name("state"), mode: name("mode"), fault: name("fault") };
     const state = status?.state ?? "silent";
     this.element.dataset.state = state;
     show(this.word, state);
-    show(this.means, state === "silent" && row ? `no heartbeat since ${duration(silent_s)}: state unknown` : MEANS[state] ?? "");
+    show(this.means, state === "silent" && row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : MEANS[state] ?? "");
     const facts = row
       ? [name("mode"), `no. ${row.controller}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
         row.limited ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]

@@ -20,6 +20,12 @@ export class Store extends EventTarget {
     this.bus = new Table(["load", "frames_per_s", "error_frames", "dropped", "foreign_per_s"], this.keep_s);
     this.oldest_s = NaN;
     this.newest_s = NaN;
+    this.heard_ms = NaN;
+  }
+
+  /** Since when nothing has come, on this page's own clock: 0 in a log. */
+  get silent_s() {
+    return this.keep_s === Infinity ? 0 : (performance.now() - this.heard_ms) / 1e3;
   }
 
   get empty() {
@@ -38,6 +44,7 @@ export class Store extends EventTarget {
       this.bus.append({ time_s: [batch.newest_s], ...row });
     }
     this.newest_s = batch.newest_s;
+    this.heard_ms = performance.now();
     this.dispatchEvent(new CustomEvent("batch", { detail: batch }));
   }
 

@@ -12,6 +12,8 @@ import cantools
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "firmware" / "operator" / "monitor" / "page"
+UPLOT = ROOT / "toolchain" / "page" / "node_modules" / "uplot" / "dist"
+FILES = {"/": PAGE / "index.html", "/uplot.js": UPLOT / "uPlot.iife.min.js", "/uplot.css": UPLOT / "uPlot.min.css"}
 TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 NODES = (1, 2, 3, 4)
 DATABASE = cantools.database.load_file(ROOT / "firmware" / "telemetry" / "supercoil.dbc")
@@ -51,8 +53,7 @@ class HourSource(http.server.ThreadingHTTPServer):
 
     daemon_threads = True
 
-    def __init__(self, uplot):
-        self.uplot = pathlib.Path(uplot)
+    def __init__(self):
         self.batches = queue.Queue(maxsize=4)
         super().__init__(("127.0.0.1", 0), Handler)
         threading.Thread(target=self.serve_forever, daemon=True).start()
@@ -63,11 +64,6 @@ class HourSource(http.server.ThreadingHTTPServer):
 
     def send(self, from_s, to_s):
         self.batches.put(json.dumps(batch(from_s, to_s)), timeout=30)
-
-    def file(self, path):
-        named = {"/": PAGE / "index.html", "/uplot.js": self.uplot / "uPlot.iife.min.js",
-                 "/uplot.css": self.uplot / "uPlot.min.css"}
-        return named.get(path, PAGE / path.removeprefix("/"))
 
     def handle_error(self, *_):
         """A browser that was closed is no error."""
@@ -87,7 +83,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
                  "stop_port": 1, "page_timeout_s": 1.5, "protocol": PROTOCOL}).encode())
         if path == "/api/history":
             return self.answer("application/json", b'{"newest_s": null, "nodes": {}}')
-        file = self.server.file(path)
+        file = FILES.get(path, PAGE / path.removeprefix("/"))
         if not file.is_file():
             return self.send_error(404)
         return self.answer(TYPES[file.suffix], file.read_bytes())

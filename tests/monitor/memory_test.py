@@ -1,6 +1,6 @@
 """How much memory the page takes for an hour of four muscles at 100 Hz, and whether it stays smooth. Not run by itself.
 
-    memory_test.py FOLDER    the folder of uPlot.iife.min.js and uPlot.min.css
+An hour is fed in a minute or two, through the same stream as ever; then it goes on in real time while frames are counted.
 """
 
 import pathlib
@@ -85,8 +85,8 @@ def watch_frames(browser, source, now_s, span_s):
     return now_s + sent_s
 
 
-def main(uplot):
-    source = HourSource(uplot)
+def main():
+    source = HourSource()
     with Browser(height=1400) as browser:
         browser.driver.get(source.address)
         source.send(0.0, PIECE_S)
@@ -107,4 +107,4 @@ def main(uplot):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1]))
+    sys.exit(main())

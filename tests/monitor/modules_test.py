@@ -28,7 +28,7 @@ const length = (table) => table.chunks.reduce((sum, chunk) => sum + chunk.count,
 class ModulesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.source = HourSource(".")
+        cls.source = HourSource()
         cls.addClassCleanup(cls.source.server_close)
         cls.addClassCleanup(cls.source.shutdown)
         cls.browser = cls.enterClassContext(Browser())

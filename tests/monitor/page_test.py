@@ -1,7 +1,7 @@
 """The live page in a real browser, over a simulated board that runs in real time: arms, moves and stops the muscle.
 
     page_test.py                the tests
-    page_test.py --pictures     and takes the pictures of docs/monitor.md
+    page_test.py --pictures     takes the pictures of docs/monitor.md instead
 Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 """
 
@@ -23,6 +23,7 @@ STOP_S = 1.0
 # A board waits until its muscle must have cooled before it can be armed.
 READY_S = 60.0
 ARRIVES_S = 20.0
+IDENTIFIES_S = 200.0
 TARGET_MM = 8.0
 NEAR_MM = 0.5
 
@@ -80,7 +81,9 @@ class Page(Browser):
         return self.state() == "disarmed" and self.value("power") == 0.0
 
 
-class PageTest(unittest.TestCase):
+class PageCase(unittest.TestCase):
+    """A board, a monitor over it, pages of it."""
+
     @classmethod
     def setUpClass(cls):
         cls.board = simulated_board()
@@ -95,6 +98,8 @@ class PageTest(unittest.TestCase):
         page.open(address or self.address)
         return page
 
+
+class PageTest(PageCase):
     def test_first_plot_is_there_at_once(self):
         page = self.page()
         first_s = page.run("return performance.getEntriesByName('first-plot')[0].startTime") / 1e3
@@ -225,6 +230,21 @@ class PageTest(unittest.TestCase):
         self.assertLessEqual(times_s[-1] - times_s[0], 10.0)
         self.assertIn("disarmed", {row.split(",")[columns.index("Status.state")] for row in rows})
 
+    def test_lost_source_is_told_and_the_node_is_silent(self):
+        board = simulated_board()
+        self.addCleanup(board.stop)
+        own = monitor(f"socketcand:{board.found[1]}")
+        self.addCleanup(own.stop)
+        page = self.page(own.found[0])
+        page.wait(lambda: page.state() != "silent", 3.0, "a state")
+        board.stop()
+        page.wait(lambda: page.text("#status").startswith("source lost since"), 3.0, "source lost")
+        page.wait(lambda: page.state() == "silent", 3.0, "silent")
+        own.stop()
+        page.wait(lambda: page.text("#status").startswith("connection lost since"), 3.0, "connection lost")
+        page.press_space()
+        page.wait(lambda: page.text("#stop-notice").startswith("STOP FAILED"), 3.0, "that STOP failed")
+
     def test_fault_leads_to_its_page(self):
         page = self.page()
         page.click("#stop")
@@ -237,16 +257,20 @@ class PageTest(unittest.TestCase):
         page.wait(lambda: "stopped" in page.text("#stop-notice"), STOP_S, "stop is confirmed")
 
 
-class Pictures(PageTest):
-    """Pictures of a muscle that has something to show; only with --pictures."""
+class Pictures(PageCase):
+    """Pictures of a muscle that has something to show; no test finds them by itself."""
 
     def runTest(self):
         page = self.page()
-        page.screen(1440, 1330)
+        page.screen(1440, 1390)
         page.arm()
-        for position_mm in (12.0, 5.0, 9.0):
+        page.click("input[value=identify] + span")
+        page.click(".go")
+        page.wait(lambda: page.state() == "active", 3.0, "identifies")
+        page.wait(lambda: page.state() == "armed", IDENTIFIES_S, "has identified")
+        for position_mm in (8.0, 14.0, 5.0, 10.0):
             page.move(position_mm)
-            time.sleep(15.0)
+            time.sleep(14.0)
         page.run("document.activeElement.blur()")
         for scheme in ("light", "dark"):
             page.colours(scheme)
@@ -260,14 +284,7 @@ class Pictures(PageTest):
         page.wait(page.is_off, STOP_S, "off")
 
 
-def load_tests(loader, _tests, _pattern):
-    suite = loader.loadTestsFromTestCase(PageTest)
-    if PICTURES_WANTED:
-        suite.addTest(Pictures())
-    return suite
-
-
-PICTURES_WANTED = "--pictures" in sys.argv
-
 if __name__ == "__main__":
-    unittest.main(argv=[word for word in sys.argv if word != "--pictures"], verbosity=2)
+    wanted = Pictures if "--pictures" in sys.argv else PageTest
+    arguments = [word for word in sys.argv if word != "--pictures"]
+    unittest.main(argv=arguments, verbosity=2, defaultTest=None if len(arguments) > 1 else wanted.__name__)

@@ -41,12 +41,14 @@ class Program:
                 raise TimeoutError(f"{command}: did not print {ready!r} within {patience_s} s")
             line = self.process.stdout.readline()
             if not line:
-                raise ChildProcessError(f"{command}: ended with {self.process.wait()} before it printed {ready!r}")
+                self.stop()
+                raise ChildProcessError(f"{command}: ended with {self.process.returncode} before it printed {ready!r}")
             if found := re.search(ready, line):
                 self.found = found
                 return
 
     def stop(self):
+        """May be called again."""
         self.process.terminate()
         try:
             self.process.wait(10)

@@ -14,7 +14,7 @@ const WHY = {
   cause_persists: "the fault's cause is still there",
   no_edge: "too soon after the last reset: try again",
   not_ready: "not ready: self-test, cooling or a probe is not over yet",
-  busy: "busy",
+  busy: "busy with another mode, or with a probe: let it rest first",
   out_of_range: "out of range",
   no_such_channel: "the board has no such channel",
   not_yours: "somebody else holds the lease to command this muscle",

@@ -4,7 +4,7 @@ import { bucket_times, decimate } from "./decimate.js";
 import { element, show } from "./dom.js";
 import { bus_time, fixed, significant } from "./format.js";
 
-const HEIGHT_PX = 168;
+const HEIGHT_PX = 176;
 const TIME_STEPS_S = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600];
 // Messages come ten times a second or more often; without one for so long something was lost.
 const GAP_S = 1;
@@ -55,12 +55,12 @@ export class Plot {
     const axis = { stroke: () => colour("ink-2"), grid: { stroke: () => colour("grid"), width: 1 }, font: "11px system-ui",
       ticks: { show: false } };
     return {
-      width, height: HEIGHT_PX, pxAlign: 1, legend: { show: false }, padding: [6, 18, 0, 0],
+      width, height: HEIGHT_PX, pxAlign: 1, legend: { show: false }, padding: [16, 18, 0, 0],
       cursor: { sync: { key: "time" }, y: false, points: { size: 6 }, drag: { x: true, y: false, setScale: false },
         bind: { dblclick: () => () => this.view.follow() } },
       scales: { x: { time: false }, y: { range: (_, least, greatest) => this.#span(least, greatest) } },
       axes: [
-        { ...axis, size: 22, gap: 3, incrs: TIME_STEPS_S, space: 70,
+        { ...axis, size: 27, gap: 8, incrs: TIME_STEPS_S, space: 70,
           values: (_, times) => times.map((time) => bus_time(time, this.view.span_s < 5 ? 1 : 0)) },
         { ...axis, size: 46, gap: 4, space: 28, values: (_, values, axis, space, step) => values.map((value) => fixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))) },
       ],
@@ -154,10 +154,11 @@ export class Plot {
     ctx.strokeStyle = ctx.fillStyle = colour("fault");
     ctx.font = `${10 * devicePixelRatio}px system-ui`;
     ctx.textAlign = "right";
-    ctx.textBaseline = above ? "top" : "bottom";
+    ctx.textBaseline = "bottom";
     const text = `limit ${significant(limit)} ${this.spec.unit}${above ? " ↑" : below ? " ↓" : ""}`;
-    const baseline = above ? bbox.top + 5 * devicePixelRatio : Math.min(place, bbox.top + bbox.height) - 3 * devicePixelRatio;
-    ctx.fillText(text, bbox.left + bbox.width - 4 * devicePixelRatio, baseline);
+    // Beyond the plot it stands in the margin, where no line crosses it.
+    const bottom = Math.min(Math.max(place, bbox.top), bbox.top + bbox.height);
+    ctx.fillText(text, bbox.left + bbox.width, bottom - 3 * devicePixelRatio);
     if (above || below) return;
     ctx.setLineDash([5 * devicePixelRatio, 4 * devicePixelRatio]);
     ctx.beginPath();

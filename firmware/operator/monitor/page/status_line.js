@@ -10,10 +10,8 @@ export class StatusLine {
   constructor(place, stream, store, view, is_log) {
     Object.assign(this, { place, store, view, is_log, trouble: null, heard_ms: null });
     [this.word, this.text] = [place.querySelector("b"), place.querySelector("span")];
-    stream.addEventListener("batch", () => {
-      this.heard_ms = performance.now();
-      this.trouble = null;
-    });
+    // Frames that were on their way may come after the word that the source is lost.
+    stream.addEventListener("batch", () => (this.heard_ms = performance.now()));
     stream.addEventListener("open", () => this.#clear());
     stream.addEventListener("found", () => this.#clear());
     stream.addEventListener("lost", ({ detail }) => this.#trouble("source lost", detail?.reason));

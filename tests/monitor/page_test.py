@@ -7,12 +7,13 @@ Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 
 import pathlib
 import sys
+import tempfile
 import time
 import unittest
 import urllib.parse
 
 from browser import Browser
-from programs import ROOT, monitor, simulated_board
+from programs import ROOT, log_of, monitor, simulated_board
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
@@ -267,6 +268,28 @@ class PageTest(PageCase):
         page.wait(lambda: page.text("#status b") == "connection lost", 3.0, "connection lost")
         page.press_space()
         page.wait(lambda: page.text("#stop-notice").startswith("STOP FAILED"), 3.0, "that STOP failed")
+
+    def test_read_only_monitor_lets_nobody_command(self):
+        own = monitor(f"socketcand:{self.board.found[1]}", "--read-only")
+        self.addCleanup(own.stop)
+        page = self.page(own.found[0])
+        self.assertIn("--read-only", page.text(".why"))
+        self.assertFalse(page.find(".arm").is_enabled())
+        self.assertFalse(page.find("#stop").is_enabled())
+
+    def test_log_is_replayed(self):
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        own = monitor(log_of("first-motion", folder))
+        self.addCleanup(own.stop)
+        page = self.page(own.found[0])
+        page.wait(lambda: page.text("#status b") == "log", 2.0, "a log")
+        self.assertFalse(page.find("#stop").is_displayed())
+        page.run("""const slider = document.querySelector('#replay input');
+            slider.value = 205; slider.dispatchEvent(new Event('input'))""")
+        page.wait(lambda: page.state() == "fault" and "heater open" in page.text(".state .fault"), 2.0, "the fault at 200 s")
+        page.click("#replay button")
+        page.wait(lambda: number(page.text("#replay output")) > 206.0, 5.0, "it plays")
+        self.assertLess(number(page.text("#replay output")), 210.0)
 
     def test_fault_leads_to_its_page(self):
         page = self.page()

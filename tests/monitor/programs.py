@@ -66,8 +66,15 @@ def simulated_board(port=0):
                    r"serving can0 on 127\.0\.0\.1:(\d+)")
 
 
+def log_of(scenario, folder):
+    """The can.log of a scenario that is simulated into the folder."""
+    program = os.environ.get("SUPERCOIL_SIM", BIN / "supercoil-sim")
+    subprocess.run([program, "run", scenario, "--out", folder, "--no-trace", "--no-plot", "--quiet"], check=True, timeout=120)
+    return pathlib.Path(folder) / "can.log"
+
+
 def monitor(source, *options):
-    """Its .found[1] is the page's address, with the token in .found[2]."""
+    """Its .found[0] is the page's address as it is printed, .found[1] without the token."""
     program = os.environ.get("SUPERCOIL", BIN / "supercoil")
     return Program([program, "monitor", source, "--port", free_ports(), *options],
-                   r"(http://\S+/)#token=([0-9a-f]+)")
+                   r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")

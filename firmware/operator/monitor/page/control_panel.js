@@ -49,7 +49,8 @@ export class ControlPanel {
     hand.addEventListener("notice", () => {
       show(this.notice, hand.notice);
       this.notice.hidden = hand.notice === "";
-      if (hand.notice) log(hand.notice, "warn");
+      this.notice.classList.toggle("calm", !hand.alarming);
+      if (hand.notice) log(hand.notice, hand.alarming ? "warn" : "");
     });
     this.#choose(this.mode);
   }

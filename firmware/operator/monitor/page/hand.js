@@ -54,18 +54,18 @@ export class Hand extends EventTarget {
   }
 
   /** This page commands nothing any more that heats. */
-  let_go(notice = "") {
+  let_go(notice = "", alarming = true) {
     clearInterval(this.timer);
     this.timer = 0;
     this.holds = null;
-    this.#say(notice);
+    this.#say(notice, alarming);
   }
 
   /** The board's own word (state, fault): a mode that has ended, or was made to end, is not held any longer. */
   observe({ state, fault }) {
     if (!this.holds || state === "active" || performance.now() - this.since_ms < SETTLES_MS) return;
     if (fault === "command_timeout") this.let_go(`command expired: it was not renewed in time (${clock_now()})`);
-    else if (state === "armed") this.let_go(`${this.holds} has ended`);
+    else if (state === "armed") this.let_go(`${this.holds} has ended`, false);
     else this.let_go(`${this.holds} has ended: the muscle is ${state}`);
   }
 
@@ -75,7 +75,7 @@ export class Hand extends EventTarget {
     try {
       const { holding, reason } = await alive(this.node);
       this.#heard();
-      if (!holding && this.holds) this.let_go(`command ${reason ?? "ended"} (${clock_now()})`);
+      if (!holding && this.holds) this.let_go(`command ${reason} (${clock_now()})`, reason !== "ended");
       else if (this.holds) this.#say("");
     } catch {
       if (performance.now() - this.heard_ms > 1e3 * this.timeout_s && this.holds)
@@ -90,9 +90,9 @@ export class Hand extends EventTarget {
     this.heard_at = clock_now();
   }
 
-  #say(notice) {
+  #say(notice, alarming = true) {
     if (notice === this.notice) return;
-    this.notice = notice;
+    Object.assign(this, { notice, alarming });
     this.dispatchEvent(new Event("notice"));
   }
 }

@@ -115,7 +115,6 @@ function draw_forever({ store, view, replay, tabs, status }) {
       asked = stale = false;
       plots_ms = now_ms;
       for (const node of tabs.visible) node.draw();
-      mark_first_plot(tabs);
     }
     if (now_ms - texts_ms >= TEXT_EVERY_MS) {
       texts_ms = now_ms;
@@ -125,11 +124,6 @@ function draw_forever({ store, view, replay, tabs, status }) {
     }
   };
   requestAnimationFrame(frame);
-}
-
-function mark_first_plot(tabs) {
-  if (performance.getEntriesByName("first-plot").length > 0) return;
-  if (tabs.visible.some((node) => node.plots.some((plot) => plot.drawn))) performance.mark("first-plot");
 }
 
 ask_about().then(begin, (problem) => {

@@ -63,7 +63,8 @@ export class Hand extends EventTarget {
 
   /** The board's own word (state, fault): a mode that has ended, or was made to end, is not held any longer. */
   observe({ state, fault }) {
-    if (!this.holds || state === "active" || performance.now() - this.since_ms < SETTLES_MS) return;
+    const settled = performance.now() - this.since_ms >= SETTLES_MS;
+    if (!this.holds || !settled || state === "active" || state === "silent") return;
     if (fault === "command_timeout") this.let_go(`command expired: it was not renewed in time (${clock_now()})`);
     else if (state === "armed") this.let_go(`${this.holds} has ended`, false);
     else this.let_go(`${this.holds} has ended: the muscle is ${state}`);

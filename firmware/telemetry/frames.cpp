@@ -43,7 +43,7 @@ hal::CanFrame emergency(Node node, const Row& row) {
   m.fault = row.fault;
   m.state = row.state;
   const double time_s = 1e-9 * static_cast<double>(row.time_ns);
-  m.time_s = supercoil_emergency_time_s_encode(std::clamp(time_s, 0.0, highest_s));
+  m.board_time_s = supercoil_emergency_board_time_s_encode(std::clamp(time_s, 0.0, highest_s));
   return packed(SUPERCOIL_EMERGENCY_FRAME_ID, SUPERCOIL_EMERGENCY_LENGTH, node, m,
                 supercoil_emergency_pack);
 }

@@ -110,7 +110,7 @@ constexpr std::array<ValueName, 4> names_of_state{{
 constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
     {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
     {"state", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
-    {"time_s", "s", 16, 48, Raw::unsigned_integer, 1e-06, no_value, always, {}},
+    {"board_time_s", "s", 16, 48, Raw::unsigned_integer, 1e-06, no_value, always, {}},
 }};
 
 constexpr std::array<SignalInfo, 5> signals_of_Command{{

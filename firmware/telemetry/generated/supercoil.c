@@ -168,12 +168,12 @@ int supercoil_emergency_pack(
 
     dst_p[0] |= pack_left_shift_u8(src_p->fault, 0u, 0xffu);
     dst_p[1] |= pack_left_shift_u8(src_p->state, 0u, 0xffu);
-    dst_p[2] |= pack_left_shift_u64(src_p->time_s, 0u, 0xffu);
-    dst_p[3] |= pack_right_shift_u64(src_p->time_s, 8u, 0xffu);
-    dst_p[4] |= pack_right_shift_u64(src_p->time_s, 16u, 0xffu);
-    dst_p[5] |= pack_right_shift_u64(src_p->time_s, 24u, 0xffu);
-    dst_p[6] |= pack_right_shift_u64(src_p->time_s, 32u, 0xffu);
-    dst_p[7] |= pack_right_shift_u64(src_p->time_s, 40u, 0xffu);
+    dst_p[2] |= pack_left_shift_u64(src_p->board_time_s, 0u, 0xffu);
+    dst_p[3] |= pack_right_shift_u64(src_p->board_time_s, 8u, 0xffu);
+    dst_p[4] |= pack_right_shift_u64(src_p->board_time_s, 16u, 0xffu);
+    dst_p[5] |= pack_right_shift_u64(src_p->board_time_s, 24u, 0xffu);
+    dst_p[6] |= pack_right_shift_u64(src_p->board_time_s, 32u, 0xffu);
+    dst_p[7] |= pack_right_shift_u64(src_p->board_time_s, 40u, 0xffu);
 
     return (8);
 }
@@ -189,12 +189,12 @@ int supercoil_emergency_unpack(
 
     dst_p->fault = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
     dst_p->state = unpack_right_shift_u8(src_p[1], 0u, 0xffu);
-    dst_p->time_s = unpack_right_shift_u64(src_p[2], 0u, 0xffu);
-    dst_p->time_s |= unpack_left_shift_u64(src_p[3], 8u, 0xffu);
-    dst_p->time_s |= unpack_left_shift_u64(src_p[4], 16u, 0xffu);
-    dst_p->time_s |= unpack_left_shift_u64(src_p[5], 24u, 0xffu);
-    dst_p->time_s |= unpack_left_shift_u64(src_p[6], 32u, 0xffu);
-    dst_p->time_s |= unpack_left_shift_u64(src_p[7], 40u, 0xffu);
+    dst_p->board_time_s = unpack_right_shift_u64(src_p[2], 0u, 0xffu);
+    dst_p->board_time_s |= unpack_left_shift_u64(src_p[3], 8u, 0xffu);
+    dst_p->board_time_s |= unpack_left_shift_u64(src_p[4], 16u, 0xffu);
+    dst_p->board_time_s |= unpack_left_shift_u64(src_p[5], 24u, 0xffu);
+    dst_p->board_time_s |= unpack_left_shift_u64(src_p[6], 32u, 0xffu);
+    dst_p->board_time_s |= unpack_left_shift_u64(src_p[7], 40u, 0xffu);
 
     return (0);
 }
@@ -248,22 +248,22 @@ bool supercoil_emergency_state_is_in_phys_range(double value)
     return ((value >= 0.0) && (value <= 3.0));
 }
 
-uint64_t supercoil_emergency_time_s_encode(double value)
+uint64_t supercoil_emergency_board_time_s_encode(double value)
 {
     return (uint64_t)(cantools_unsigned_from_double(round(value / 1e-06)));
 }
 
-double supercoil_emergency_time_s_decode(uint64_t value)
+double supercoil_emergency_board_time_s_decode(uint64_t value)
 {
     return ((double)value * 1e-06);
 }
 
-bool supercoil_emergency_time_s_is_in_range(uint64_t value)
+bool supercoil_emergency_board_time_s_is_in_range(uint64_t value)
 {
     return (value <= 281474976710655ull);
 }
 
-bool supercoil_emergency_time_s_is_in_phys_range(double value)
+bool supercoil_emergency_board_time_s_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 281474976.710655));
 }

@@ -368,7 +368,7 @@ extern "C" {
 /* Signal Names. */
 #define SUPERCOIL_EMERGENCY_FAULT_NAME "fault"
 #define SUPERCOIL_EMERGENCY_STATE_NAME "state"
-#define SUPERCOIL_EMERGENCY_TIME_S_NAME "time_s"
+#define SUPERCOIL_EMERGENCY_BOARD_TIME_S_NAME "board_time_s"
 #define SUPERCOIL_COMMAND_CRC_NAME "crc"
 #define SUPERCOIL_COMMAND_COUNTER_NAME "counter"
 #define SUPERCOIL_COMMAND_OPCODE_NAME "opcode"
@@ -461,7 +461,7 @@ struct supercoil_emergency_t {
      * Scale: 1e-06
      * Offset: 0
      */
-    uint64_t time_s;
+    uint64_t board_time_s;
 };
 
 /**
@@ -1218,7 +1218,7 @@ bool supercoil_emergency_state_is_in_phys_range(double value);
  *
  * @return Encoded signal.
  */
-uint64_t supercoil_emergency_time_s_encode(double value);
+uint64_t supercoil_emergency_board_time_s_encode(double value);
 
 /**
  * Decode given signal by applying scaling and offset.
@@ -1227,7 +1227,7 @@ uint64_t supercoil_emergency_time_s_encode(double value);
  *
  * @return Decoded signal.
  */
-double supercoil_emergency_time_s_decode(uint64_t value);
+double supercoil_emergency_board_time_s_decode(uint64_t value);
 
 /**
  * Check that given signal is in allowed range.
@@ -1236,7 +1236,7 @@ double supercoil_emergency_time_s_decode(uint64_t value);
  *
  * @return true if in range, false otherwise.
  */
-bool supercoil_emergency_time_s_is_in_range(uint64_t value);
+bool supercoil_emergency_board_time_s_is_in_range(uint64_t value);
 
 /**
  * Check that given physical value is in allowed range before encoding.
@@ -1249,7 +1249,7 @@ bool supercoil_emergency_time_s_is_in_range(uint64_t value);
  *
  * @return true if in range, false otherwise.
  */
-bool supercoil_emergency_time_s_is_in_phys_range(double value);
+bool supercoil_emergency_board_time_s_is_in_phys_range(double value);
 
 /**
  * Pack message Command.

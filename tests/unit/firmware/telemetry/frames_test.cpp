@@ -219,7 +219,7 @@ TEST(Frames, AnEmergencyTellsFaultStateAndTimeToAMicrosecond) {
   const auto m = unpacked(emergency(1, row), supercoil_emergency_unpack);
   LONGS_EQUAL(30, m.fault);
   LONGS_EQUAL(3, m.state);
-  DOUBLES_EQUAL(86400.123457, supercoil_emergency_time_s_decode(m.time_s), 1e-9);
+  DOUBLES_EQUAL(86400.123457, supercoil_emergency_board_time_s_decode(m.board_time_s), 1e-9);
 }
 
 TEST(Frames, TimesOfTicksSaturateAndCountsGoRound) {

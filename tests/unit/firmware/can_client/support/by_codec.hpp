@@ -34,7 +34,7 @@ inline Values emergency(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_emergency_unpack);
   return values({supercoil_emergency_fault_decode(m.fault),
                  supercoil_emergency_state_decode(m.state),
-                 supercoil_emergency_time_s_decode(m.time_s)});
+                 supercoil_emergency_board_time_s_decode(m.board_time_s)});
 }
 inline Values command(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_command_unpack);

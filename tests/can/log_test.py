@@ -1,0 +1,120 @@
+"""supercoil log of a CAN log: what it writes is what cantools reads, for every value of every frame."""
+
+import csv
+import math
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+import cantools
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DBC = ROOT / "firmware" / "telemetry" / "supercoil.dbc"
+LINE = re.compile(r"\((\d+\.\d+)\) can0 ([0-9A-F]{3})#([0-9A-F]*)")
+SCENARIO = "simulation.duration_s = 4.0\n[[event]]\nat_s = 3.0\ntrouble.heater_open = true\n"
+# Of a float in nine digits.
+RELATIVE = 1e-7
+
+
+def is_available(value):
+    named = isinstance(value, cantools.database.namedsignalvalue.NamedSignalValue)
+    return str(value) != "not_available" if named else not math.isnan(value)
+
+
+def same(text, value):
+    if isinstance(value, cantools.database.namedsignalvalue.NamedSignalValue):
+        return text == str(value)
+    return math.isclose(float(text), value, rel_tol=RELATIVE, abs_tol=1e-12)
+
+
+class Log(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.path = pathlib.Path(folder.name)
+        (cls.path / "s.toml").write_text(SCENARIO)
+        subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", ".", "--no-trace", "--no-plot", "--quiet"],
+                       cwd=cls.path, check=True, timeout=300)
+        database = cantools.database.load_file(DBC)
+        cls.frames = []  # time, message, signals
+        for line in (cls.path / "can.log").read_text().splitlines():
+            time_s, frame_id, data = LINE.fullmatch(line).groups()
+            message = database.get_message_by_frame_id(int(frame_id, 16))
+            cls.frames.append((float(time_s), message.name, message.decode(bytes.fromhex(data))))
+
+    def log(self, *arguments):
+        return subprocess.run([os.environ["SUPERCOIL"], "log", *map(str, arguments)], cwd=self.path, capture_output=True,
+                              text=True, timeout=120)
+
+    def rows(self, *arguments):
+        done = self.log(*arguments)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return list(csv.DictReader(done.stdout.splitlines()))
+
+    def test_every_value_is_the_one_that_cantools_reads(self):
+        rows = iter(self.rows("can.log"))
+        count = 0
+        for time_s, message, signals in self.frames:
+            for name, value in signals.items():
+                if not is_available(value):
+                    continue
+                row = next(rows)
+                self.assertEqual((float(row["time_s"]), row["node"], row["message"], row["signal"]), (time_s, "1", message, name))
+                self.assertTrue(same(row["value"], value), (row, value))
+                count += 1
+        self.assertIsNone(next(rows, None))
+        self.assertGreater(count, 5000)
+        self.assertEqual({message for _, message, _ in self.frames},
+                         {"Emergency", "Measurement", "Tracking", "Power", "Heater", "Temperature", "Estimate", "Margin",
+                          "Limit", "Timing", "Status"})
+
+    def test_of_one_message_a_row_is_a_frame(self):
+        for message in ("Tracking", "Estimate", "Emergency"):
+            rows = self.rows("can.log", "--message", message, "--node", 1)
+            frames = [(time_s, signals) for time_s, name, signals in self.frames if name == message]
+            self.assertEqual(len(rows), len(frames))
+            for row, (time_s, signals) in zip(rows, frames):
+                self.assertEqual((float(row.pop("time_s")), row.pop("node")), (time_s, "1"))
+                for name, text in row.items():
+                    available = name in signals and is_available(signals[name])
+                    self.assertEqual(text != "", available, (name, text))
+                    self.assertTrue(not available or same(text, signals[name]))
+
+    def test_a_cut_has_its_ends(self):
+        first, last = self.frames[100][0], self.frames[300][0]
+        rows = self.rows("can.log", "--from", first, "--to", last)
+        self.assertEqual((float(rows[0]["time_s"]), float(rows[-1]["time_s"])), (first, last))
+
+    def test_out_is_a_file_as_a_whole_or_not_at_all(self):
+        self.assertEqual(self.log("can.log", "--out", "can.csv").returncode, 0)
+        self.assertEqual((self.path / "can.csv").read_text(), self.log("can.log").stdout)
+        done = self.log("can.log", "--node", 9, "--out", "none.csv")
+        self.assertEqual(done.returncode, 2)
+        self.assertFalse((self.path / "none.csv").exists())
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([os.environ["SUPERCOIL"], "log", "can.log"], cwd=self.path, stdout=full,
+                                  stderr=subprocess.PIPE, text=True, timeout=120)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("standard output", done.stderr)
+
+    def test_what_is_wrong_is_told(self):
+        (self.path / "half.log").write_text((self.path / "can.log").read_text()[:1000])
+        for arguments, status, why in (
+                (("can.log", "--message", "Nonsense"), 2, "--message Nonsense: there are Emergency, Command"),
+                (("can.log", "--from", "2", "--to", "1"), 2, "--from must not be later"),
+                (("can.log", "--summary"), 2, "is a CAN log"),
+                (("can.log", "--node", "64"), 2, "--node"),
+                (("can.log", "--from", "1e6"), 2, "no such frames"),
+                (("flight-1.scfr", "--message", "Power"), 2, "is no CAN log"),
+                (("half.log",), 0, "half.log:"), (("none.log",), 2, "there is no such file")):
+            done = self.log(*arguments)
+            self.assertEqual(done.returncode, status, arguments)
+            self.assertIn(why, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -66,7 +66,8 @@ def judge(table, run, dbc, log):
     powers = [signals["applied_W"] for _, node, message, signals in frames if message.name == "Power" and node == FIRST_NODE]
     table.row("most power that the bus was told", max(p for p in powers if not isinstance(p, str)), 1.9, 2.1, "W")
 
-    answers = [signals for _, _, message, signals in frames if message.name == "Acknowledge"]
+    answers = [signals for _, _, message, signals in frames
+               if message.name == "Acknowledge" and str(signals["opcode"]) == "disarm"]
     table.row("the disarm from can1 is acknowledged", len(answers), 1, 1, "")
     table.row("    and not refused", str(answers[0]["refusal"]) == "none", 1, 1, "")
     off = witness.first(witness.looks(run.witness), marks["disarm"] - MARK_MS / 1e3, lambda look: look.channels[0].power_W == 0)
@@ -78,6 +79,13 @@ def judge(table, run, dbc, log):
     table.row("    after a silence of", gap, 0.3, 30, "s")
     dropped = [signals["dropped_frames"] for _, _, message, signals in frames if message.name == "Timing"]
     table.row("    frames that were dropped meanwhile, as it tells", dropped[-1], 1, 4095, "")
+    for command, status in (("arm", 0), ("power", 0), ("fly", 2)):
+        table.row(f"supercoil command on can1: {command} ended with", int(re.search(rf"^over can1: {command} (\d+)", run.console, re.M)[1]),
+                  status, status, "")
+    by_bus = [look.channels[0].power_W for look in witness.looks(run.witness) if marks["by_bus"] <= look.time_s <= marks["by_bus_ended"]]
+    table.row("    most power while it held it", max(by_bus), 1.9, 2.1, "W")
+    table.row("    and at its end", witness.at(witness.looks(run.witness), marks["by_bus_ended"]).channels[0].power_W, 0, 0, "W")
+    table.row("    the other end sees it armed", bool(re.search(r"^seen node 5: armed", run.console, re.M)), 1, 1, "")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 
 

@@ -12,5 +12,9 @@ if(SUPERCOIL_SANITIZE)
   add_compile_options(-fsanitize=${SUPERCOIL_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer -O1 -g1
                       $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/unsanitized.txt>)
+  if(SUPERCOIL_FUZZ)
+    # Every branch counts itself, for libFuzzer to see what an input reached (tests/fuzz).
+    add_compile_options(-fsanitize=fuzzer-no-link)
+  endif()
   add_link_options(-fsanitize=${SUPERCOIL_SANITIZE})
 endif()

@@ -12,8 +12,9 @@ namespace supercoil::test {
 
 class CanRig {
  public:
-  CanRig()
-      : board(settings.board),
+  explicit CanRig(const RigSettings& rig_settings = rough_board())
+      : settings(rig_settings),
+        board(settings.board),
         loop(settings.firmware, board.devices()),
         executive(loop, board, settings.firmware.rate_Hz),
         bus(board, can.bit_rate),
@@ -68,7 +69,7 @@ class CanRig {
   Fault fault() const { return loop.channel(0).state().first_cause(); }
   double true_power_W() const { return board.channel(0).true_power_W(); }
 
-  RigSettings settings = rough_board();
+  RigSettings settings;
   telemetry::CanSettings can;
   host_sim::SimulatedBoard board;
   Loop loop;

@@ -1,0 +1,21 @@
+// A command as text, from a socket that every program of the board may write to.
+#include <cmath>
+
+#include "loop/command_text.hpp"
+#include "fuzz/fuzz.hpp"
+
+using namespace supercoil;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::size_t channels = 4;
+  const auto command = parse_command(fuzz::text(data, size), channels);
+  if (!command) {
+    fuzz::require(!command.error().empty(), "what is refused is refused with a reason");
+    return 0;
+  }
+  fuzz::require(command->channel < channels, "a command is for a channel of the board");
+  fuzz::require(command->verb != Verb::none && !name(command->verb).empty(), "it has a verb");
+  fuzz::require(std::isfinite(command->value), "its value is a number");
+  fuzz::require(command->source == Source::local, "its answer goes back to the socket");
+  return 0;
+}

@@ -1,0 +1,65 @@
+// Frames from the bus: what becomes a command has its E2E intact and is the lease holder's, or it
+// is a stop.
+#include <bit>
+
+#include "fuzz/steps.hpp"
+#include "telemetry/commands.hpp"
+
+using namespace supercoil;
+using fuzz::LeaseModel;
+using fuzz::require;
+
+namespace {
+
+void require_right(const telemetry::Commands::Taken& taken, const hal::CanFrame& frame,
+                   const LeaseModel& model, hal::Time now) {
+  const int channel = LeaseModel::channel_of(frame);
+  if (channel < 0) {
+    require(!taken.command && !taken.answer && !taken.damaged, "others' frames are left alone");
+    return;
+  }
+  if (!LeaseModel::intact(frame)) {
+    require(taken.damaged == channel && !taken.command && !taken.answer,
+            "a damaged frame is counted, and nothing else");
+    return;
+  }
+  require(taken.command.has_value() != taken.answer.has_value(),
+          "an intact frame is handed on or answered");
+  if (!taken.command) return;
+  const supercoil_command_t asked = LeaseModel::command_in(frame);
+  require(taken.command->channel == channel, "a command is for the channel that was asked");
+  require(static_cast<std::uint8_t>(taken.command->verb) == asked.opcode,
+          "its verb is the frame's");
+  require(std::bit_cast<std::uint32_t>(static_cast<float>(taken.command->value)) ==
+                  std::bit_cast<std::uint32_t>(asked.value) ||
+              std::isnan(asked.value),
+          "its value is the frame's");
+  require(taken.command->source == Source::can, "its answer goes back to the bus");
+  if (LeaseModel::stops(asked)) return;
+  require(!taken.damaged, "what breaks the sequence does nothing but stop");
+  require(model.from_holder(frame, now), "only the holder of the lease is obeyed");
+  require(model.in_sequence(frame), "only what follows the last frame is obeyed");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const telemetry::CanSettings settings;
+  telemetry::Commands commands(settings, LeaseModel::channels, 1);
+  LeaseModel model(settings.lease_s);
+  hal::Time now{};
+  fuzz::for_each_step(data, size, [&](const fuzz::Step& step) {
+    now += std::chrono::milliseconds(8 * step.wait);
+    const hal::CanFrame frame = frame_of(step, model);
+    const auto taken = commands.take(frame, now);
+    require_right(taken, frame, model, now);
+    model.heard(frame, now);
+    if (taken.answer) model.answered(*taken.answer, now);
+    // The loop answers some of them, and has no room for others.
+    if (taken.command && step.wait % 4 == 1) commands.not_taken();
+    if (step.wait % 4 >= 2) {
+      if (const auto answer = commands.answered({{}, Refusal::none})) model.answered(*answer, now);
+    }
+  });
+  return 0;
+}

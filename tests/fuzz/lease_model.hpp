@@ -1,0 +1,107 @@
+// Who may command, told anew from what is on the bus alone: what the firmware does is compared with
+// it.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include <supercoil.h>
+
+#include "supercoil/hal/can_bus.hpp"
+
+#include "fuzz/fuzz.hpp"
+#include "telemetry/opcodes.hpp"
+
+namespace supercoil::fuzz {
+
+/// CRC-8H2F as AUTOSAR describes it, bit by bit.
+inline std::uint8_t crc_of(const hal::CanFrame& frame) {
+  unsigned crc = 0xFF;
+  const auto add = [&](unsigned byte) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit)
+      crc = ((crc & 0x80U) != 0 ? (crc << 1U) ^ 0x2FU : crc << 1U) & 0xFFU;
+  };
+  for (std::size_t i = 1; i < frame.length; ++i)
+    add(frame.data[i]);
+  add(frame.id & 0xFFU);
+  return static_cast<std::uint8_t>(crc ^ 0xFFU);
+}
+
+class LeaseModel {
+ public:
+  static constexpr int channels = 2;
+  static constexpr unsigned command_base = 0x200;
+  static constexpr unsigned acknowledge_base = 0x240;
+  static constexpr int first_node = 1;
+
+  struct Lease {
+    std::uint16_t session = 0;  ///< 0: none was granted
+    std::uint8_t counter = 0;
+    hal::Time last{};
+  };
+
+  explicit LeaseModel(double lease_s) : lease_(hal::duration_from(lease_s)) {}
+
+  /// From 0; -1: the frame is for somebody else.
+  static int channel_of(const hal::CanFrame& frame) {
+    const int channel = frame.id - static_cast<int>(command_base) - first_node;
+    return channel >= 0 && channel < channels ? channel : -1;
+  }
+  static bool intact(const hal::CanFrame& frame) {
+    return frame.length == SUPERCOIL_COMMAND_LENGTH && frame.data[0] == crc_of(frame);
+  }
+  static supercoil_command_t command_in(const hal::CanFrame& frame) {
+    supercoil_command_t m{};
+    supercoil_command_unpack(&m, frame.data.data(), frame.length);
+    return m;
+  }
+  /// A disarm that is obeyed from everybody.
+  static bool stops(const supercoil_command_t& m) {
+    return m.opcode == static_cast<std::uint8_t>(Verb::disarm) && m.value == 0.0F;
+  }
+  /// The frame is the holder's, in time.
+  bool from_holder(const hal::CanFrame& frame, hal::Time now) const {
+    const int channel = channel_of(frame);
+    if (channel < 0 || !intact(frame)) return false;
+    const Lease& lease = leases_[static_cast<std::size_t>(channel)];
+    return lease.session != 0 && command_in(frame).session == lease.session &&
+           now - lease.last <= lease_;
+  }
+  /// And at most three of its frames were lost before.
+  bool in_sequence(const hal::CanFrame& frame) const {
+    const unsigned ahead = (command_in(frame).counter - lease_of(frame).counter) & 15U;
+    return ahead >= 1 && ahead <= 4;
+  }
+  const Lease& lease_of(const hal::CanFrame& frame) const {
+    return leases_[static_cast<std::size_t>(channel_of(frame))];
+  }
+  const Lease& lease(int channel) const { return leases_[static_cast<std::size_t>(channel)]; }
+
+  /// A frame that was judged: the holder's counter goes on from it, in_sequence also its lease.
+  void heard(const hal::CanFrame& frame, hal::Time now) {
+    if (!from_holder(frame, now)) return;
+    Lease& lease = leases_[static_cast<std::size_t>(channel_of(frame))];
+    if (in_sequence(frame)) lease.last = now;
+    lease.counter = command_in(frame).counter;
+  }
+  /// An answer of the board: it grants a lease, or tells that one was released.
+  void answered(const hal::CanFrame& frame, hal::Time now) {
+    const int channel = frame.id - static_cast<int>(acknowledge_base) - first_node;
+    if (channel < 0 || channel >= channels || frame.length != SUPERCOIL_ACKNOWLEDGE_LENGTH) return;
+    require(frame.data[0] == crc_of(frame), "answers are protected");
+    supercoil_acknowledge_t m{};
+    supercoil_acknowledge_unpack(&m, frame.data.data(), frame.length);
+    if (m.refusal != static_cast<std::uint8_t>(Refusal::none)) return;
+    Lease& lease = leases_[static_cast<std::size_t>(channel)];
+    if (m.opcode == telemetry::Opcode::claim) lease = {m.granted, m.counter, now};
+    if (m.opcode == telemetry::Opcode::release) lease = {};
+  }
+
+ private:
+  hal::Duration lease_;
+  std::array<Lease, channels> leases_{};
+};
+
+}  // namespace supercoil::fuzz

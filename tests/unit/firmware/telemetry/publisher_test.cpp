@@ -42,7 +42,7 @@ TEST_GROUP(Publisher) {
   LoopTiming timing;
 
   /// A row a millisecond.
-  void run(Publisher & publisher, int from_ms, int to_ms) {
+  void publish(Publisher & publisher, int from_ms, int to_ms) {
     for (int ms = from_ms; ms < to_ms; ++ms) {
       publisher.offer(row_at(ms * 1ms));
       publisher.poll(ms * 1ms, [](std::uint8_t) { return false; });
@@ -52,7 +52,7 @@ TEST_GROUP(Publisher) {
 
 TEST(Publisher, SendsTheNewestRowAtItsRateUnderItsNode) {
   Publisher publisher(only(Message::measurement, 100.0), {1, {0.0086, 0.09}}, timing, bus);
-  run(publisher, 0, 1000);
+  publish(publisher, 0, 1000);
   LONGS_EQUAL(100, bus.sent.size());
   LONGS_EQUAL(0x280 + 5, bus.sent[0].id);
   LONGS_EQUAL(10, micrometres(bus.sent[50]) - micrometres(bus.sent[49]));
@@ -61,12 +61,12 @@ TEST(Publisher, SendsTheNewestRowAtItsRateUnderItsNode) {
 TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
   Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
   bus.answer = hal::Status::busy;
-  run(publisher, 0, 20);
+  publish(publisher, 0, 20);
   LONGS_EQUAL(0, bus.sent.size());
   LONGS_EQUAL(8, publisher.waiting());
   const std::uint32_t dropped = publisher.dropped();
   bus.answer = hal::Status::ok;
-  run(publisher, 20, 21);
+  publish(publisher, 20, 21);
   // The newest eight of those that waited, and the new one, in their order.
   LONGS_EQUAL(9, bus.sent.size());
   LONGS_EQUAL(20, micrometres(bus.sent.back()));
@@ -78,9 +78,9 @@ TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
 TEST(Publisher, WhatWaitedForALostBusIsNoNews) {
   Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
   bus.answer = hal::Status::gone;
-  run(publisher, 0, 20);
+  publish(publisher, 0, 20);
   bus.answer = hal::Status::ok;
-  run(publisher, 20, 21);
+  publish(publisher, 20, 21);
   LONGS_EQUAL(1, bus.sent.size());
   LONGS_EQUAL(20, micrometres(bus.sent[0]));
   CHECK(publisher.dropped() >= 19);
@@ -89,7 +89,7 @@ TEST(Publisher, WhatWaitedForALostBusIsNoNews) {
 TEST(Publisher, AFaultIsSentAtOnceAndBeforeAllThatWaits) {
   Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
   bus.answer = hal::Status::busy;
-  run(publisher, 0, 20);
+  publish(publisher, 0, 20);
   publisher.offer(row_at(20ms, Fault::over_travel));
   bus.answer = hal::Status::ok;
   publisher.poll(20ms, [](std::uint8_t) { return false; });
@@ -107,7 +107,7 @@ TEST(Publisher, AFaultIsSentAtOnceAndBeforeAllThatWaits) {
 
 TEST(Publisher, FallsSilentWhenTheLoopStandsStill) {
   Publisher publisher(only(Message::status, 10.0), {1, {0.0086, 0.09}}, timing, bus);
-  run(publisher, 0, 1000);
+  publish(publisher, 0, 1000);
   const std::size_t sent = bus.sent.size();
   for (int ms = 1000; ms < 2000; ++ms)
     publisher.poll(ms * 1ms, [](std::uint8_t) { return false; });
@@ -118,13 +118,13 @@ TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
   Publisher publisher(only(Message::timing, 10.0), {1, {0.0086, 0.09}}, timing, bus);
   timing.add(30us, 5us, 0);
   timing.add(20us, 8us, 2);
-  run(publisher, 0, 150);
+  publish(publisher, 0, 150);
   supercoil_timing_t m{};
   supercoil_timing_unpack(&m, bus.sent.at(0).data.data(), 8);
   LONGS_EQUAL(300, m.late_s);
   LONGS_EQUAL(80, m.execution_s);
   LONGS_EQUAL(2, m.overruns);
-  run(publisher, 150, 250);
+  publish(publisher, 150, 250);
   supercoil_timing_unpack(&m, bus.sent.at(1).data.data(), 8);
   LONGS_EQUAL(0xFFFFF, m.late_s);  // no tick since
 }

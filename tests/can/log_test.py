@@ -67,7 +67,7 @@ class Log(unittest.TestCase):
                 self.assertTrue(same(row["value"], value), (row, value))
                 count += 1
         self.assertIsNone(next(rows, None))
-        self.assertGreater(count, 5000)
+        self.assertGreater(count, 4000)
         self.assertEqual({message for _, message, _ in self.frames},
                          {"Emergency", "Measurement", "Tracking", "Power", "Heater", "Temperature", "Estimate", "Margin",
                           "Limit", "Timing", "Status"})
@@ -86,8 +86,9 @@ class Log(unittest.TestCase):
 
     def test_a_cut_has_its_ends(self):
         first, last = self.frames[100][0], self.frames[300][0]
-        rows = self.rows("can.log", "--from", first, "--to", last)
-        self.assertEqual((float(rows[0]["time_s"]), float(rows[-1]["time_s"])), (first, last))
+        within = [row for row in self.rows("can.log") if first <= float(row["time_s"]) <= last]
+        self.assertEqual(self.rows("can.log", "--from", first, "--to", last), within)
+        self.assertGreater(len(within), 200)
 
     def test_out_is_a_file_as_a_whole_or_not_at_all(self):
         self.assertEqual(self.log("can.log", "--out", "can.csv").returncode, 0)

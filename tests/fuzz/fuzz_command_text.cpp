@@ -1,8 +1,8 @@
 // A command as text, from a socket that every program of the board may write to.
 #include <cmath>
 
-#include "loop/command_text.hpp"
 #include "fuzz/fuzz.hpp"
+#include "loop/command_text.hpp"
 
 using namespace supercoil;
 

@@ -1,0 +1,90 @@
+// What comes to the monitor's page over HTTP: the whole server, a connection for each input.
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "fuzz/fuzz.hpp"
+#include "operator/monitor/api.hpp"
+#include "operator/monitor/order.hpp"
+#include "operator/monitor/server_thread.hpp"
+#include "telemetry/frames.hpp"
+
+using namespace supercoil;
+using namespace supercoil::operating;
+
+namespace {
+
+/// A page without a board: every command that is let through asks for its bus.
+class Page {
+ public:
+  Page()
+      : recent_(60.0, 500e3),
+        hands_([this](std::uint8_t) { return bus(); }),
+        access_{"127.0.0.1", 0, std::string(32, 'a'), true, false} {
+    take_port_alone(server_);
+    server_.set_read_timeout(1);
+    server_.set_keep_alive_max_count(1);
+    server_.set_payload_max_length(4096);
+    access_.port = server_.bind_to_any_port(access_.host);
+    api_ = std::make_unique<Api>(access_, recent_, hands_, Api::About{"can0", false, 1});
+    api_->serve_with(server_);
+    thread_ = std::make_unique<ServerThread>(server_);
+  }
+
+  /// The answer's first bytes.
+  std::string ask(std::string_view request) const {
+    const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(access_.port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    std::string answer(64, '\0');
+    if (::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) {
+      ::send(file, request.data(), request.size(), MSG_NOSIGNAL);
+      ::shutdown(file, SHUT_WR);
+      const ssize_t size = ::recv(file, answer.data(), answer.size(), 0);
+      answer.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+    }
+    ::close(file);
+    return answer;
+  }
+  bool was_asked() const { return asked_; }
+
+ private:
+  Hand::OpenBus bus() {
+    return [this]() -> tl::expected<std::unique_ptr<hal::CanBus>, std::string> {
+      asked_ = true;
+      return tl::unexpected(std::string("there is none"));
+    };
+  }
+
+  std::atomic<bool> asked_{false};
+  Recent recent_;
+  Hands hands_;
+  Access access_;
+  httplib::Server server_;
+  std::unique_ptr<Api> api_;
+  std::unique_ptr<ServerThread> thread_;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const Page page;
+  const std::string_view input = fuzz::text(data, size);
+  if (const auto order = parse_order(std::string(input))) {
+    fuzz::require(order->node >= 1 && order->node <= telemetry::most_nodes, "a node is one of 63");
+    fuzz::require(order->verb != Verb::none && std::isfinite(order->value), "an order can be sent");
+  }
+  // A stream has no end.
+  if (input.find("stream") != std::string_view::npos) return 0;
+  const std::string answer = page.ask(input);
+  fuzz::require(answer.empty() || answer.starts_with("HTTP/1.1 "), "an answer is one of HTTP");
+  const bool has_token = input.find(std::string(32, 'a')) != std::string_view::npos;
+  fuzz::require(has_token || !page.was_asked(), "nobody commands without the token");
+  return 0;
+}

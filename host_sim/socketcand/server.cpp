@@ -26,7 +26,8 @@ tl::expected<std::unique_ptr<SocketcandServer>, std::string> SocketcandServer::l
   }
 }
 
-SocketcandServer::SocketcandServer(tcp::endpoint endpoint, std::string interface, Deliver deliver)
+SocketcandServer::SocketcandServer(const tcp::endpoint& endpoint, std::string interface,
+                                   Deliver deliver)
     : acceptor_(io_, endpoint),
       retry_(io_),
       interface_(std::move(interface)),

@@ -30,7 +30,8 @@ class SocketcandServer {
   static tl::expected<std::unique_ptr<SocketcandServer>, std::string> listen(std::uint16_t port,
                                                                              std::string interface,
                                                                              Deliver deliver);
-  SocketcandServer(boost::asio::ip::tcp::endpoint endpoint, std::string interface, Deliver deliver);
+  SocketcandServer(const boost::asio::ip::tcp::endpoint& endpoint, std::string interface,
+                   Deliver deliver);
   SocketcandServer(const SocketcandServer&) = delete;
   SocketcandServer& operator=(const SocketcandServer&) = delete;
   ~SocketcandServer();

@@ -335,4 +335,4 @@ class Pictures(PageCase):
 if __name__ == "__main__":
     wanted = Pictures if "--pictures" in sys.argv else PageTest
     arguments = [word for word in sys.argv if word != "--pictures"]
-    unittest.main(argv=arguments, verbosity=2, defaultTest=None if len(arguments) > 1 else wanted.__name__)
+    unittest.main(argv=arguments, verbosity=2, defaultTest=wanted.__name__)

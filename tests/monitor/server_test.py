@@ -15,7 +15,7 @@ import tempfile
 import time
 import unittest
 
-from programs import BIN, Program, free_ports, monitor, simulated_board
+from programs import BIN, free_ports, monitor, simulated_board
 
 SUPERCOIL = os.environ.get("SUPERCOIL", BIN / "supercoil")
 # As the page says (page_timeout_s), and as a board of the bench lets a command expire.
@@ -29,7 +29,7 @@ class Served:
 
     def __init__(self, program):
         self.address = program.found[1].removeprefix("http://").rstrip("/")
-        self.token = program.found[2]
+        self.token = (program.found[2] or "").removeprefix("#token=")
         self.port = int(self.address.split(":")[1])
 
     def ask(self, method, path, body=None, port=None, **headers):
@@ -155,19 +155,27 @@ class Live(unittest.TestCase):
 
     def test_a_muscle_moves_while_a_page_lives_and_cools_when_none_does(self):
         served = self.serve()
+        for _ in range(3):
+            reason, lasted_s = self.move_and_leave(served)
+            if "the board let it go" not in reason:
+                break
+            print("this machine stalled for longer than a command lasts: once more")
+        self.assertIn("no page was alive", reason)
+        self.assertGreater(lasted_s, PAGE_TIMEOUT_S / 2)
+        self.assertEqual(served.state()[1], 0.0)
+
+    def move_and_leave(self, served):
+        """Why the muscle cooled, and how long after the page's last word."""
         self.arm(served)
         self.assertEqual(served.command("position", 0.004), (200, {"refusal": "none"}))
-        alive = {"node": 1}
         end_s = time.monotonic() + 2 * PAGE_TIMEOUT_S
-        while time.monotonic() < end_s:
-            self.assertEqual(served.post("/api/alive", alive)[1], {"holding": True})
+        while time.monotonic() < end_s and served.post("/api/alive", {"node": 1})[1]["holding"]:
             time.sleep(0.2)
-        self.assertEqual(served.state()[0], "active")
         lost_s = time.monotonic()
         until(lambda: served.state()[0] == "fault")
-        self.assertGreater(time.monotonic() - lost_s, PAGE_TIMEOUT_S / 2)
-        self.assertEqual(served.state()[1], 0.0)
-        self.assertRegex(served.post("/api/alive", alive)[1]["reason"], "no page was alive|the board let it go")
+        lasted_s = time.monotonic() - lost_s
+        until(lambda: not served.post("/api/alive", {"node": 1})[1]["holding"])
+        return served.post("/api/alive", {"node": 1})[1]["reason"], lasted_s
 
     def test_stop_is_obeyed_however_busy_the_page_is(self):
         served = self.serve()
@@ -186,14 +194,12 @@ class Live(unittest.TestCase):
         until(lambda: served.state() == ("disarmed", 0.0))
 
     def test_read_only_serves_no_stop_and_no_command(self):
-        served = Served(self.program_without_token("--read-only"))
+        program = monitor(self.source, "--read-only")
+        self.addCleanup(program.stop)
+        self.assertIsNone(program.found[2])
+        served = Served(program)
         self.assertEqual(served.stop_port(), 0)
         self.assertEqual(served.command("renew")[0], 403)
-
-    def program_without_token(self, *options):
-        program = Program([SUPERCOIL, "monitor", self.source, "--port", free_ports(), *options], r"(http://\S+/)()$")
-        self.addCleanup(program.stop)
-        return program
 
     def test_others_need_the_token_to_look(self):
         program = monitor(self.source, "--listen", "0.0.0.0")

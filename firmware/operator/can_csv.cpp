@@ -66,7 +66,9 @@ std::size_t add_row(std::string& csv, const Decoded& decoded, hal::Time time) {
 }
 
 bool wanted(const CanSelection& selection, const Decoded& decoded, double time_s) {
-  return time_s >= selection.from_s && time_s <= selection.to_s &&
+  // Logs are in microseconds: a time as it is printed there is that line's.
+  constexpr double rounding_s = 0.5e-6;
+  return time_s >= selection.from_s - rounding_s && time_s <= selection.to_s + rounding_s &&
          (selection.node == 0 || selection.node == decoded.node) &&
          (selection.message.empty() || selection.message == decoded.message->name);
 }

@@ -44,7 +44,7 @@ Commander::Answer Commander::command(Verb verb, double value) {
   const bool claims =
       verb != Verb::disarm && (!master_.holds_lease() || Clock::now() - lease_from_ > lease_lasts);
   if (claims) {
-    const Answer claimed = exchange(master_.claim());
+    Answer claimed = exchange(master_.claim());
     if (!claimed || *claimed != Refusal::none) return claimed;
   }
   return exchange(master_.command(verb, value));

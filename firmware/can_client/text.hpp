@@ -10,19 +10,12 @@
 
 #include "supercoil/hal/can_bus.hpp"
 
+#include "program/words.hpp"
+
 namespace supercoil::can_client {
 
 inline constexpr std::size_t digits_of_standard_id = 3;
 inline constexpr std::uint32_t standard_ids = 0x800;
-
-/// The next word, cut off from the text; empty at its end.
-inline std::string_view next_word(std::string_view& text) {
-  const std::size_t from = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-  const std::size_t to = std::min(text.find_first_of(" \t\r\n", from), text.size());
-  const std::string_view word = text.substr(from, to - from);
-  text.remove_prefix(to);
-  return word;
-}
 
 /// All of the text as a whole number; empty: it is none, or too large.
 template <class Number>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "program/words.hpp"
+
 namespace supercoil {
 
 namespace {
@@ -13,15 +15,6 @@ namespace {
 bool has_value(Verb verb) {
   return verb == Verb::position || verb == Verb::power || verb == Verb::scale ||
          verb == Verb::controller || verb == Verb::estimator;
-}
-
-/// The next word, cut off from the text.
-std::string_view next_word(std::string_view& text) {
-  const std::size_t from = std::min(text.find_first_not_of(" \t\r\n"), text.size());
-  const std::size_t to = std::min(text.find_first_of(" \t\r\n", from), text.size());
-  const std::string_view word = text.substr(from, to - from);
-  text.remove_prefix(to);
-  return word;
 }
 
 template <class Number>

@@ -91,10 +91,10 @@ void SocketcandClient::answer(std::string_view element) {
 void SocketcandClient::obey(std::string_view element) {
   resume();  // who says something has read the < ok >
   std::string_view rest = element;
-  const std::string_view word = can_client::next_word(rest);
+  const std::string_view word = next_word(rest);
   if (word == "echo") return answer(element);
   if (word == "open") {
-    opened_ = can_client::next_word(rest) == server_->interface_;
+    opened_ = next_word(rest) == server_->interface_;
     return answer(opened_ ? "ok" : "error could not open bus: there is " + server_->interface_);
   }
   if (!opened_) return answer("error open a bus first");

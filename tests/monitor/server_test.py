@@ -210,6 +210,10 @@ class Live(unittest.TestCase):
         status, about = served.get("/api/about", **{"X-Supercoil-Token": served.token})
         self.assertEqual((status, about["may_command"]), (200, True))
         self.assertEqual(served.get(f"/api/history?token={served.token}")[0], 200)
+        # Its page may post there, under whatever name others know this machine by.
+        with contextlib.closing(http.client.HTTPConnection("127.0.0.1", served.port)) as connection:
+            connection.request("GET", "/")
+            self.assertIn(f"http://*:{about['stop_port']};", connection.getresponse().headers["Content-Security-Policy"])
         self.assertEqual(served.post("/stop", "", about["stop_port"])[0], 403)
         self.assertEqual(served.post("/stop", served.token, about["stop_port"])[0], 200)
 

@@ -41,13 +41,19 @@ std::optional<hal::Time> time_of(const httplib::Request& request, const std::str
   return hal::duration_from(time_s);
 }
 
+/// Where the page may post STOP to: this server's other port, under whatever name the page was
+/// asked for.
+std::string stop_origins(const Access& access, int stop_port) {
+  const std::string port = ":" + std::to_string(stop_port);
+  if (!access.loopback) return "http://*" + port;
+  return "http://" + access.host + port + " http://localhost" + port;
+}
+
 void add_headers(httplib::Server& server, const Access& access, int stop_port) {
-  const std::string stop = "http://" + access.host + ":" + std::to_string(stop_port);
-  const std::string local = access.loopback ? " http://localhost:" + std::to_string(stop_port) : "";
   server.set_default_headers(
-      {{"Content-Security-Policy", "default-src 'self'; connect-src 'self' " + stop + local +
-                                       "; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
-                                       "frame-ancestors 'none'"},
+      {{"Content-Security-Policy",
+        "default-src 'self'; connect-src 'self' " + stop_origins(access, stop_port) +
+            "; style-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'"},
        {"X-Content-Type-Options", "nosniff"},
        {"Referrer-Policy", "no-referrer"},
        {"Cache-Control", "no-store"}});

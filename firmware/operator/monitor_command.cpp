@@ -76,7 +76,7 @@ int serve_page(const MonitorOptions& options, Source& source) {
                                  "this machine's; --port takes another");
   }
 
-  const auto open_for = [&](std::vector<std::uint16_t> listen) -> Hand::OpenBus {
+  const auto open_for = [&](const std::vector<std::uint16_t>& listen) -> Hand::OpenBus {
     return [name = options.source, listen] { return open_bus(name, listen); };
   };
   Hands hands([&](std::uint8_t node) { return open_for({can_client::acknowledge_id(node)}); });

@@ -92,8 +92,8 @@ void Hands::let_go(const std::string& reason) {
     hand->let_go(reason);
 }
 
-Api::Api(const Access& access, const Recent& recent, Hands& hands, About about)
-    : access_(access), recent_(&recent), hands_(&hands), about_(std::move(about)) {}
+Api::Api(Access access, const Recent& recent, Hands& hands, About about)
+    : access_(std::move(access)), recent_(&recent), hands_(&hands), about_(std::move(about)) {}
 
 void Api::serve_with(httplib::Server& server) {
   add_headers(server, access_, about_.stop_port);

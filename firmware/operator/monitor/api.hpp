@@ -37,7 +37,7 @@ class Api {
     int stop_port = 0;  ///< 0: nothing can be commanded
   };
 
-  Api(const Access& access, const Recent& recent, Hands& hands, About about);
+  Api(Access access, const Recent& recent, Hands& hands, About about);
 
   void serve_with(httplib::Server& server);
   /// Streams end within a second.

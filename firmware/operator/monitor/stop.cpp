@@ -19,9 +19,9 @@ constexpr auto at_most = std::chrono::milliseconds(500);
 
 }  // namespace
 
-StopServer::StopServer(const Access& access, Hand::OpenBus open_bus, const Recent& recent,
+StopServer::StopServer(Access access, Hand::OpenBus open_bus, const Recent& recent,
                        std::function<void()> let_go)
-    : access_(access),
+    : access_(std::move(access)),
       open_bus_(std::move(open_bus)),
       recent_(&recent),
       let_go_(std::move(let_go)) {

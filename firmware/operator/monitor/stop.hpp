@@ -29,7 +29,7 @@ class StopServer {
   int port() const { return port_; }
 
  private:
-  StopServer(const Access& access, Hand::OpenBus open_bus, const Recent& recent,
+  StopServer(Access access, Hand::OpenBus open_bus, const Recent& recent,
              std::function<void()> let_go);
   void stop(const httplib::Request& request, httplib::Response& response);
   /// Empty: done.

@@ -14,11 +14,25 @@ std::uint16_t acknowledge_id(std::uint8_t node) {
   return static_cast<std::uint16_t>(SUPERCOIL_ACKNOWLEDGE_FRAME_ID - 1 + node);
 }
 
+std::uint16_t setting_id(std::uint8_t node) {
+  return static_cast<std::uint16_t>(SUPERCOIL_SETTING_FRAME_ID - 1 + node);
+}
+
+hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting) {
+  const supercoil_setting_read_t m{setting};
+  return telemetry::packed(SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_SETTING_READ_LENGTH, node, m,
+                           supercoil_setting_read_pack);
+}
+
+std::uint8_t Master::next_counter() {
+  counter_ = static_cast<std::uint8_t>((counter_ + 1) % e2e::counters);
+  return counter_;
+}
+
 hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
   asked_as_ = opcode == telemetry::claim && session_ == 0 ? nonce_ : session_;
-  counter_ = static_cast<std::uint8_t>((counter_ + 1) % e2e::counters);
   supercoil_command_t m{};
-  m.counter = counter_;
+  m.counter = next_counter();
   m.opcode = opcode;
   m.session = asked_as_;
   m.value = static_cast<float>(value);
@@ -38,6 +52,32 @@ hal::CanFrame Master::release() {
 
 hal::CanFrame Master::command(Verb verb, double value) {
   return frame(static_cast<std::uint8_t>(verb), value);
+}
+
+hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {
+  asked_as_ = session_;
+  supercoil_setting_write_t m{};
+  m.counter = next_counter();
+  m.setting = setting;
+  m.session = session_;
+  m.value = static_cast<float>(value);
+  hal::CanFrame made =
+      telemetry::packed(SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH, node_, m,
+                        supercoil_setting_write_pack);
+  e2e::protect(made);
+  return made;
+}
+
+std::optional<Master::Setting> Master::hear_setting(const hal::CanFrame& frame, bool of_write) {
+  if (frame.id != setting_id(node_) || !e2e::intact(frame, SUPERCOIL_SETTING_LENGTH))
+    return std::nullopt;
+  supercoil_setting_t m{};
+  supercoil_setting_unpack(&m, frame.data.data(), frame.length);
+  const bool mine = !of_write || (m.counter == counter_ && m.session_low == (asked_as_ & 0xFFU));
+  if (!mine || m.refusal >= refusal_names.size()) return std::nullopt;
+  const auto refusal = static_cast<Refusal>(m.refusal);
+  if (refusal == Refusal::no_lease || refusal == Refusal::not_yours) session_ = 0;
+  return Setting{m.setting, refusal, m.value};
 }
 
 std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {

@@ -12,6 +12,10 @@ namespace supercoil::can_client {
 
 /// Of the frames by which a node answers its masters.
 std::uint16_t acknowledge_id(std::uint8_t node);
+std::uint16_t setting_id(std::uint8_t node);
+
+/// Asks for one setting of a node; needs no lease.
+hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);
 
 /// Neither sends nor receives.
 class Master {
@@ -28,6 +32,16 @@ class Master {
   hal::CanFrame release();
   /// Under the lease; without one only disarm is obeyed.
   hal::CanFrame command(Verb verb, double value);
+  /// Under the lease.
+  hal::CanFrame setting_write(std::uint8_t setting, double value);
+
+  struct Setting {
+    std::uint8_t setting;
+    Refusal refusal;
+    double value;  ///< that holds now; NaN: there is none
+  };
+  /// Empty: no intact answer to this master's last write, or to anybody's read.
+  std::optional<Setting> hear_setting(const hal::CanFrame& frame, bool of_write);
 
   struct Heard {
     std::uint8_t opcode;  ///< of what was answered
@@ -39,6 +53,7 @@ class Master {
 
  private:
   hal::CanFrame frame(std::uint8_t opcode, double value);
+  std::uint8_t next_counter();
 
   std::uint8_t node_;
   std::uint16_t nonce_;

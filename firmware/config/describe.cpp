@@ -68,7 +68,7 @@ void describe_can(std::ostream& out, const BoardConfig& config) {
   }
   const telemetry::CanSettings& can = *config.can;
   const std::size_t channels = config.settings.channels.size();
-  const double load = telemetry::bus_load(can.rates_Hz, channels, can.bit_rate);
+  const double load = telemetry::bus_load(can, channels);
   out << " on " << can.interface << " at " << 1e-3 * can.bit_rate << " kbit/s, nodes "
       << int{can.first_node} << " to " << can.first_node + channels - 1 << "\n  load    "
       << rounded(100.0 * load, 0.1) << " % at worst, beside commands (at most "

@@ -11,24 +11,24 @@ namespace {
 
 /// The kernel's IFNAMSIZ, less the zero at the end.
 constexpr std::size_t longest_interface = 15;
-/// A heartbeat that is rarer is none.
-constexpr double least_status_Hz = 1.0;
-constexpr double most_Hz = 1000.0;
 
 telemetry::Rates read_rates(Section section, double tick_Hz) {
   telemetry::Rates rates = telemetry::usual_rates();
   for (std::size_t i = 0; i < telemetry::messages; ++i) {
     const std::string key = std::string(telemetry::all_messages()[i].name) + "_Hz";
-    const bool heartbeat = static_cast<telemetry::Message>(i) == telemetry::Message::status;
-    rates[i] = section.number(key, rates[i],
-                              {heartbeat ? least_status_Hz : 0.0, std::min(most_Hz, tick_Hz)});
+    const auto message = static_cast<telemetry::Message>(i);
+    const double least_Hz =
+        message == telemetry::Message::status ? telemetry::least_status_Hz : 0.0;
+    rates[i] = section.number(key, rates[i], {least_Hz, telemetry::most_rate(tick_Hz)});
+    if (!telemetry::is_allowed(message, rates[i], tick_Hz))
+      section.wrong(key, "must be 0, for never, or at least 0.01");
   }
   section.finish();
   return rates;
 }
 
 void refuse_load(Section& section, const telemetry::CanSettings& can, std::size_t channels) {
-  const double load = telemetry::bus_load(can.rates_Hz, channels, can.bit_rate);
+  const double load = telemetry::bus_load(can, channels);
   if (!(load > can.most_load)) return;
   std::ostringstream message;
   message << "the bus would be busy for " << std::lround(100.0 * load)

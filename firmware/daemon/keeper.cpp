@@ -64,11 +64,15 @@ void Keeper::poll(Loop& loop, hal::Time now) {
 
 void Keeper::store_learned(Loop& loop, std::size_t channel) {
   const std::string who = "channel " + std::to_string(channel + 1);
-  storage::Learned learned;
+  storage::Lesson lesson;
   bool any = false;
-  while (loop.channel(channel).take_learned(learned)) {
+  while (loop.channel(channel).take_lesson(lesson)) {
     any = true;
-    const auto saved = (*stores_)[channel].save(learned);
+    if (!lesson) {
+      forget(channel, who);
+      continue;
+    }
+    const auto saved = (*stores_)[channel].save(*lesson);
     if (saved) {
       log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
     } else {
@@ -79,6 +83,14 @@ void Keeper::store_learned(Loop& loop, std::size_t channel) {
     log(Level::warning, who + " found nothing that passes its validation; nothing is changed");
   }
   looked_[channel] = false;
+}
+
+void Keeper::forget(std::size_t channel, const std::string& who) {
+  if (const auto forgotten = (*stores_)[channel].forget(); !forgotten) {
+    log(Level::problem, who + " is to forget its muscle, but: " + forgotten.error());
+    return;
+  }
+  log(Level::info, who + " has forgotten its muscle, from the next start on");
 }
 
 void Keeper::finish() {

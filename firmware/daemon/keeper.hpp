@@ -41,6 +41,7 @@ class Keeper {
  private:
   void watch(const Row& row);
   void store_learned(Loop& loop, std::size_t channel);
+  void forget(std::size_t channel, const std::string& who);
   void tell_notes();
 
   const config::BoardConfig* config_;

@@ -58,7 +58,7 @@ struct Parts {
 /// A bus that is down is no error, and may come up later.
 tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig& config) {
   if (!config.can) return {};
-  const auto ids = telemetry::command_ids(*config.can, config.settings.channels.size());
+  const auto ids = telemetry::heard_ids(*config.can, config.settings.channels.size());
   auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
   if (!bus) return tl::unexpected("can: " + bus.error().text);
   parts.can_bus = std::move(*bus);

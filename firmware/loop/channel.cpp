@@ -45,6 +45,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       identify_({}, settings.muscle, board.step_s()),
       smooth_power_W_(smoothing_s, board.step_s()),
       smooth_error_m_(smoothing_s, board.step_s()),
+      most_power_W_(settings.limiter.max_W),
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
@@ -141,6 +142,7 @@ void Channel::control() {
 }
 
 void Channel::limit() {
+  limiter_.set_most(most_power_W());
   if (state_.may_heat()) {
     allowed_ = limiter_.step(wanted_.wanted_power_W, heat_.hottest_C());
   } else {
@@ -233,6 +235,7 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.turn = faults[(std::uint64_t{turn_} * faults.size()) >> 32U].fault;
   const Verdict& judge = board_verdict.judges(s.turn) ? board_verdict : supervisor_.verdict();
   s.margin = judge.margin(s.turn);
+  s.gain = controllers_[controller_].gain(turn_);
   return s;
 }
 

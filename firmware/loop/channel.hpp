@@ -1,6 +1,8 @@
 // One muscle: everything that happens to it in a tick, in the order of the loop's stages.
 #pragma once
 
+#include <atomic>
+
 #include <boost/lockfree/spsc_queue.hpp>
 
 #include "board/applied_power.hpp"
@@ -76,14 +78,22 @@ class Channel {
   std::optional<control::Estimate> estimates() const { return estimator().estimate(); }
   bool lines_ok() const { return lines_ok_; }
   /// Between ticks only: what the limiter allows from now on.
-  void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
-  /// What identify or calibrate found; from one other thread.
-  bool take_learned(storage::Learned& learned) { return found_.pop(learned); }
+  void set_power_range(double min_W, double max_W) {
+    limiter_.set_range(min_W, max_W);
+    allow_power(max_W);
+  }
+  /// From one other thread, and from the next tick on: no more power than this, nor than the
+  /// configured maximum. most_W: at least 0.
+  void allow_power(double most_W) { most_power_W_.store(most_W, std::memory_order_relaxed); }
+  double most_power_W() const { return most_power_W_.load(std::memory_order_relaxed); }
+  /// What identify or calibrate found, or was asked to store or clear; from one other thread.
+  bool take_lesson(storage::Lesson& lesson) { return lessons_.pop(lesson); }
 
  private:
   Refusal arm(const BoardNow& board);
   Refusal heat(Mode mode, double value, const BoardNow& board);
   Refusal scale(double true_m);
+  Refusal store(double what);
   Refusal choose_controller(double place);
   Refusal choose_estimator(double place);
   void enter(Mode mode);
@@ -136,6 +146,7 @@ class Channel {
   control::ControllerOutput wanted_;
   Smoothed smooth_power_W_;
   Smoothed smooth_error_m_;  ///< position over the reference model
+  std::atomic<double> most_power_W_;
   Limiter limiter_;
   Limiter::Result allowed_;
   board::PowerStage power_stage_;
@@ -151,7 +162,7 @@ class Channel {
   std::uint32_t turn_ = 0;   ///< of a full turn
   long ticks_ = 0;           ///< of learning, in this second
   Snapshot snapshot_;
-  boost::lockfree::spsc_queue<storage::Learned, boost::lockfree::capacity<4>> found_;
+  boost::lockfree::spsc_queue<storage::Lesson, boost::lockfree::capacity<4>> lessons_;
 };
 
 }  // namespace supercoil

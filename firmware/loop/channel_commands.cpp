@@ -37,6 +37,8 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
       return choose_controller(command.value);
     case Verb::estimator:
       return choose_estimator(command.value);
+    case Verb::store:
+      return store(command.value);
     case Verb::none:
       break;
   }
@@ -145,6 +147,17 @@ Refusal Channel::scale(double true_m) {
   storage::Calibration found = calibration_;
   found.position_scale *= true_m / measured_m;
   return true_m > 0.0 && keep(muscle_, found) ? Refusal::none : Refusal::out_of_range;
+}
+
+/// A running channel goes on with what it knows: what was cleared is not known at the next start.
+Refusal Channel::store(double what) {
+  if (what == 0.0) return lessons_.push(std::nullopt) ? Refusal::none : Refusal::too_many;
+  if (what != 1.0) return Refusal::out_of_range;
+  const auto estimate = estimator().estimate();
+  if (!estimate || !estimate->trusted) return Refusal::not_ready;
+  const control::KnownParameters known{muscle_.force_per_kelvin_N_per_K, muscle_.moving_mass_kg};
+  const auto muscle = control::physical_from(estimate->theta, known);
+  return muscle && keep(*muscle, calibration_) ? Refusal::none : Refusal::out_of_range;
 }
 
 }  // namespace supercoil

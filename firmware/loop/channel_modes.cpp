@@ -45,10 +45,10 @@ void Channel::end_calibrate(double cold_Ohm) {
 bool Channel::keep(const control::PhysicalParameters& muscle, const storage::Calibration& found) {
   const storage::Learned learned{muscle, found, 0};
   if (storage::check(learned)) return false;
+  if (found != calibration_) supervisor_.restart();  // every position moves with it
   muscle_ = muscle;
   calibration_ = found;
-  supervisor_.restart();  // every position moves with it
-  return found_.push(learned);
+  return lessons_.push(learned);
 }
 
 }  // namespace supercoil

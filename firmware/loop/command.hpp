@@ -23,11 +23,13 @@ enum class Verb : std::uint8_t {
   scale = 10,       ///< value: the true position now, in m
   controller = 11,  ///< value: place in the configuration
   estimator = 12,   ///< value: place in the configuration
+  store = 13,       ///< value: 1 keeps the trusted estimates for the next start, 0 forgets all that
+                    ///< is kept
 };
 
-inline constexpr std::array<std::string_view, 13> verb_names{
-    "none", "arm",      "disarm",    "reset", "position",   "power",    "renew",
-    "rest", "identify", "calibrate", "scale", "controller", "estimator"};
+inline constexpr std::array<std::string_view, 14> verb_names{
+    "none", "arm",      "disarm",    "reset", "position",   "power",     "renew",
+    "rest", "identify", "calibrate", "scale", "controller", "estimator", "store"};
 constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }

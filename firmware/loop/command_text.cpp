@@ -30,7 +30,7 @@ std::string known_verbs() {
   for (const std::string_view verb : verb_names) {
     if (verb != name(Verb::none)) all += (all.empty() ? "" : ", ") + std::string(verb);
   }
-  return all;
+  return all + ", clear";
 }
 
 }  // namespace
@@ -43,7 +43,10 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
                           std::to_string(channels));
   }
   const std::string_view verb_word = next_word(text);
-  const auto found = std::find(verb_names.begin(), verb_names.end(), verb_word);
+  // To store nothing has a word of its own.
+  const bool clears = verb_word == "clear";
+  const auto found =
+      std::find(verb_names.begin(), verb_names.end(), clears ? name(Verb::store) : verb_word);
   const Verb verb = found == verb_names.end()
                         ? Verb::none
                         : static_cast<Verb>(std::distance(verb_names.begin(), found));
@@ -51,7 +54,8 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
     return tl::unexpected("'" + std::string(verb_word) + "' is not a command; there are " +
                           known_verbs());
   }
-  Command command{static_cast<std::uint8_t>(*channel - 1), verb, 0.0};
+  const bool stores = verb == Verb::store && !clears;
+  Command command{static_cast<std::uint8_t>(*channel - 1), verb, stores ? 1.0 : 0.0};
   const std::string_view value_word = next_word(text);
   if (has_value(verb)) {
     const auto value = number<double>(value_word);

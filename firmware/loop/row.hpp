@@ -42,7 +42,9 @@ struct Row {
   float margin_used;
   float margin_measured;
   float margin_limit;
-  std::array<float, 3> reserved;
+  float gain;
+  std::uint8_t gain_turn;  ///< which of the controller's gains this row carries
+  std::array<std::uint8_t, 7> reserved;
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/tracking/gain.hpp"
 #include "supercoil/hal/clock.hpp"
 
 #include "supervisor/channel_state.hpp"
@@ -50,6 +51,8 @@ struct Snapshot {
   /// One detector's margin in turn; each comes round within 55 ticks.
   Fault turn = Fault::none;
   detectors::Margin margin;
+  /// One gain of the controller in turn.
+  control::GainValue gain;
 };
 
 }  // namespace supercoil

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,15 @@ struct CommandOptions {
   double sine_period_s = 0.0;  ///< 0: no sine
 };
 int command_command(const CommandOptions& options);
+
+struct SettingOptions {
+  std::string can;  ///< a bus
+  int node = 1;
+  std::string name;             ///< empty: all
+  std::optional<double> value;  ///< to write
+  bool json = false;
+};
+int setting_command(const SettingOptions& options);
 
 struct DoctorOptions {
   std::string config = "/etc/supercoil/board.toml";

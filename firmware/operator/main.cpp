@@ -49,7 +49,8 @@ void add_command(CLI::App& app, CommandOptions& options) {
   command
       ->add_option("COMMAND", options.words,
                    "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
-                   "calibrate, position M, power W, scale M, controller N or estimator N")
+                   "calibrate, position M, power W, scale M, controller N, estimator N, store "
+                   "(keep what the estimator has learned) or clear (forget what is kept)")
       ->required()
       ->expected(1, 3);
   CLI::Option* hold = command->add_option(
@@ -76,6 +77,22 @@ void add_command(CLI::App& app, CommandOptions& options) {
       ->type_name("BUS")
       ->excludes(socket);
   command->add_flag("--json", options.json, "Print the answer as one line of JSON too");
+}
+
+void add_setting(CLI::App& app, SettingOptions& options) {
+  CLI::App* setting = app.add_subcommand(
+      "setting",
+      "Read or change what may be changed on a running board, until it starts again: the greatest "
+      "power, and how often it sends each message");
+  setting->add_option("NODE", options.node, "1 to 63")
+      ->required()
+      ->check(CLI::Range(1, telemetry::most_nodes));
+  CLI::Option* name = setting->add_option("NAME", options.name, "e.g. most_power_W [all]");
+  setting->add_option("VALUE", options.value, "To write [read it]")->needs(name);
+  setting->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
+      ->type_name("BUS")
+      ->required();
+  setting->add_flag("--json", options.json, "Print each setting as one line of JSON");
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options) {
@@ -144,6 +161,8 @@ int run_program(int count, char** arguments) {
   add_log(app, log);
   CommandOptions command;
   add_command(app, command);
+  SettingOptions setting;
+  add_setting(app, setting);
   DoctorOptions doctor;
   add_doctor(app, doctor);
   MonitorOptions monitor;
@@ -158,6 +177,7 @@ int run_program(int count, char** arguments) {
   }
   if (app.got_subcommand("doctor")) return doctor_command(doctor);
   if (app.got_subcommand("monitor")) return monitor_command(monitor);
+  if (app.got_subcommand("setting")) return setting_command(setting);
   if (app.got_subcommand("dbc")) return dbc_command(dbc);
   return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }

@@ -26,6 +26,9 @@ struct Learned {
   friend bool operator==(const Learned&, const Learned&) = default;
 };
 
+/// What a channel hands to whoever stores it; empty: what is stored is to be forgotten.
+using Lesson = std::optional<Learned>;
+
 /// The same muscle and calibration, whichever version they are.
 bool same_content(const Learned& a, const Learned& b);
 

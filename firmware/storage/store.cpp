@@ -30,6 +30,7 @@ LearnedStore::LearnedStore(std::string folder, int channel, Files& files)
       previous_path_(path_ + ".previous"),
       new_path_(path_ + ".new"),
       previous_new_path_(previous_path_ + ".new"),
+      cleared_path_(path_ + ".cleared"),
       files_(&files) {
   assert(channel >= 1 && channel <= 16);
 }
@@ -77,6 +78,23 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const Learned& learn
   }
   synced_ = true;
   return next.version;
+}
+
+tl::expected<void, std::string> LearnedStore::forget() {
+  if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text);
+  return {};
+}
+
+/// What load() would give goes last: until then it gives that, never an older set or an error.
+Result<void> LearnedStore::clear() {
+  synced_ = false;
+  const bool by_current = examine(*files_, path_).learned.has_value();
+  for (const bool current : {!by_current, by_current}) {
+    auto gone = current ? files_->rename(path_, cleared_path_) : files_->unlink(previous_path_);
+    if (!gone && gone.error().code != ENOENT) return gone;
+    if (auto synced = files_->sync_folder(folder_); !synced) return synced;
+  }
+  return {};
 }
 
 Result<void> LearnedStore::replace(const Examined& current, const Examined& previous,

@@ -31,7 +31,8 @@ struct Loaded {
 ///   learned-N.toml.previous       the one before
 ///   learned-N.toml.new            being written; means nothing
 ///   learned-N.toml.previous.new   on its way to become the previous one; means nothing
-///   learned-N.toml.damaged-1 … 9  kept for examination; nothing here reads them
+///   learned-N.toml.cleared        the last that was to be forgotten,
+///   learned-N.toml.damaged-1 … 9  and damaged ones: kept for examination; nothing here reads them
 ///
 /// Whenever the power fails or a call fails, load() gives the set from before the save or the one
 /// that was being saved, whole: a new file gets the current one's name only when its content is on
@@ -54,10 +55,16 @@ class LearnedStore {
   /// may be stored or not, and load() says which; saving again is always allowed.
   tl::expected<std::uint32_t, std::string> save(const Learned& learned);
 
+  /// From now on nothing is stored, and versions count from 1 again. The current file stays for
+  /// examination. When the power fails meanwhile, or a call, the current set is still there, or
+  /// nothing is.
+  tl::expected<void, std::string> forget();
+
  private:
   /// Makes the current file a file of this content, and a good current file the previous one.
   Result<void> replace(const Examined& current, const Examined& previous,
                        const std::string& content);
+  Result<void> clear();
   Result<void> write_new(const std::string& content);
   /// Gives a damaged file another name by which it stays when its own is taken.
   Result<void> set_aside(const std::string& path);
@@ -69,6 +76,7 @@ class LearnedStore {
   std::string previous_path_;
   std::string new_path_;
   std::string previous_new_path_;
+  std::string cleared_path_;
   Files* files_;
   /// What this store sees by its name is also what a power cut would leave.
   bool synced_ = false;

@@ -14,11 +14,11 @@ Limiter::Result Limiter::step(double wanted_W, double temperature_C) {
     result = {0.0, LimitedBy::invalid};
   } else {
     if (wanted_W < settings_.min_W) result = {settings_.min_W, LimitedBy::minimum};
-    cap(settings_.max_W, LimitedBy::maximum);
+    cap(max_W(), LimitedBy::maximum);
     if (temperature_C > settings_.derate_from_C) {
       const double span_C = settings_.derate_to_C - settings_.derate_from_C;
       const double part = std::max(0.0, (settings_.derate_to_C - temperature_C) / span_C);
-      cap(settings_.max_W * part, LimitedBy::temperature);
+      cap(max_W() * part, LimitedBy::temperature);
     }
     cap(last_W_ + rise_W_, LimitedBy::slew);
   }

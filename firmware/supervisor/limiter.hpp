@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace supercoil {
@@ -48,13 +49,16 @@ class Limiter {
     settings_.min_W = min_W;
     settings_.max_W = max_W;
   }
-  double max_W() const { return settings_.max_W; }
+  /// From whoever commands: a lower maximum than the one that is set.
+  void set_most(double most_W) { most_W_ = most_W; }
+  double max_W() const { return most_W_ < settings_.max_W ? most_W_ : settings_.max_W; }
   /// The channel was made safe: the next rise starts from nothing.
   void reset() { last_W_ = 0.0; }
 
  private:
   LimiterSettings settings_;
   double rise_W_;
+  double most_W_ = std::numeric_limits<double>::infinity();
   double last_W_ = 0.0;
 };
 

@@ -14,12 +14,21 @@ std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
 
 }  // namespace
 
+std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
+  std::vector<std::uint16_t> ids = command_ids(settings, channels);
+  const std::vector<std::uint16_t> others = setting_ids(settings, channels);
+  ids.insert(ids.end(), others.begin(), others.end());
+  return ids;
+}
+
 CanLink::CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop,
                  hal::CanBus& bus, std::uint32_t seed)
     : loop_(&loop),
       bus_(&bus),
       publisher_(settings, muscles_of(board), loop.timing(), bus),
-      commands_(settings, board.channels.size(), seed) {}
+      leases_(settings.lease_s, board.channels.size(), seed),
+      commands_(settings, leases_),
+      settings_(settings, board, leases_, publisher_, loop) {}
 
 void CanLink::answer(const Answer& answer) {
   if (const auto frame = commands_.answered(answer)) publisher_.send(*frame);
@@ -28,7 +37,7 @@ void CanLink::answer(const Answer& answer) {
 void CanLink::poll(hal::Time now) {
   loop_->health().bus.store(bus_->state(), std::memory_order_relaxed);
   receive(now);
-  publisher_.poll(now, [&](std::uint8_t channel) { return commands_.leased(channel, now); });
+  publisher_.poll(now, [&](std::uint8_t channel) { return leases_.held(channel, now); });
 }
 
 void CanLink::receive(hal::Time now) {
@@ -38,6 +47,9 @@ void CanLink::receive(hal::Time now) {
     if (taken.damaged) loop_->send_damaged(*taken.damaged);
     if (taken.answer) publisher_.send(*taken.answer);
     if (taken.command && !loop_->send(*taken.command)) publisher_.send(commands_.not_taken());
+    const RunSettings::Taken set = settings_.take(frame, now);
+    if (set.damaged) loop_->send_damaged(*set.damaged);
+    if (set.answer) publisher_.send(*set.answer);
   }
 }
 

@@ -3,14 +3,18 @@
 
 #include "telemetry/commands.hpp"
 #include "telemetry/publisher.hpp"
+#include "telemetry/run_settings.hpp"
 
 namespace supercoil::telemetry {
+
+/// Identifiers of all frames that a board listens to, for the bus's receive filters.
+std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels);
 
 /// Of one thread, which is not the loop's: on a board the telemetry thread, in a simulation the
 /// runner between two ticks. Nothing blocks.
 class CanLink {
  public:
-  /// board: as the loop was made with. seed: see Commands. Loop and bus outlive the link.
+  /// board: as the loop was made with. seed: see Leases. Loop and bus outlive the link.
   CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop, hal::CanBus& bus,
           std::uint32_t seed);
 
@@ -32,7 +36,9 @@ class CanLink {
   Loop* loop_;
   hal::CanBus* bus_;
   Publisher publisher_;
+  Leases leases_;
   Commands commands_;
+  RunSettings settings_;
 };
 
 }  // namespace supercoil::telemetry

@@ -33,6 +33,7 @@ const std::array<MessageInfo, messages>& all_messages() {
       {"limit", SUPERCOIL_LIMIT_LENGTH, hertz(SUPERCOIL_LIMIT_CYCLE_TIME_MS)},
       {"timing", SUPERCOIL_TIMING_LENGTH, hertz(SUPERCOIL_TIMING_CYCLE_TIME_MS), true},
       {"status", SUPERCOIL_STATUS_LENGTH, hertz(SUPERCOIL_STATUS_CYCLE_TIME_MS)},
+      {"gain", SUPERCOIL_GAIN_LENGTH, hertz(SUPERCOIL_GAIN_CYCLE_TIME_MS)},
   }};
   return all;
 }
@@ -127,6 +128,13 @@ hal::CanFrame limit(Node node, const Row& row) {
   m.fault = row.turn;
   m.limit = row.margin_limit;
   return packed(SUPERCOIL_LIMIT_FRAME_ID, SUPERCOIL_LIMIT_LENGTH, node, m, supercoil_limit_pack);
+}
+
+hal::CanFrame gain(Node node, const Row& row) {
+  supercoil_gain_t m{};
+  m.gain = row.gain_turn;
+  m.value = row.gain;
+  return packed(SUPERCOIL_GAIN_FRAME_ID, SUPERCOIL_GAIN_LENGTH, node, m, supercoil_gain_pack);
 }
 
 hal::CanFrame timing(Node node, const BoardTiming& timing) {

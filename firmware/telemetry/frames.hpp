@@ -29,8 +29,9 @@ enum class Message : std::uint8_t {
   limit,
   timing,
   status,
+  gain,
 };
-inline constexpr std::size_t messages = 10;
+inline constexpr std::size_t messages = 11;
 
 struct MessageInfo {
   std::string_view name;  ///< as in configurations
@@ -63,6 +64,7 @@ hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
                        const control::KnownParameters& known);
 hal::CanFrame margin(Node node, const Row& row);
 hal::CanFrame limit(Node node, const Row& row);
+hal::CanFrame gain(Node node, const Row& row);
 hal::CanFrame timing(Node node, const BoardTiming& timing);
 hal::CanFrame status(Node node, const Row& row, bool leased, std::uint8_t counter);
 

@@ -2,16 +2,24 @@
 
 namespace supercoil::telemetry {
 
+namespace {
+
+/// That wait for the bus. Each master waits for one before it asks again.
+constexpr std::size_t most_answers = 16;
+
+}  // namespace
+
 Publisher::Publisher(const CanSettings& settings,
                      const std::vector<control::KnownParameters>& muscles, LoopTiming& timing,
                      hal::CanBus& bus)
     : first_node_(settings.first_node),
       channels_(muscles.size()),
-      schedule_(settings.rates_Hz, muscles.size()),
+      schedule_(std::vector<Rates>(muscles.size(), settings.rates_Hz)),
       timing_(&timing),
       bus_(&bus),
-      urgent_(4 * muscles.size()),
-      queue_(settings.queue) {
+      emergencies_(4 * muscles.size()),
+      answers_(most_answers),
+      messages_(settings.queue) {
   for (std::size_t i = 0; i < muscles.size(); ++i) {
     channels_[i].muscle = muscles[i];
     channels_[i].sent_ns.fill(-1);
@@ -25,13 +33,16 @@ void Publisher::offer(const Row& row) {
   channel.row = row;
   channel.known = true;
   if (!changed) return;
-  dropped_ += urgent_.full() ? 1U : 0U;
-  urgent_.push_back(emergency(static_cast<Node>(first_node_ + row.channel), row));
+  push(emergencies_, emergency(static_cast<Node>(first_node_ + row.channel), row));
+}
+
+void Publisher::push(Queue& queue, const hal::CanFrame& frame) {
+  dropped_ += queue.full() ? 1U : 0U;
+  queue.push_back(frame);
 }
 
 void Publisher::send(const hal::CanFrame& frame) {
-  dropped_ += queue_.full() ? 1U : 0U;
-  queue_.push_back(frame);
+  push(answers_, frame);
 }
 
 void Publisher::publish(std::uint8_t index, Message message, bool leased) {
@@ -39,7 +50,7 @@ void Publisher::publish(std::uint8_t index, Message message, bool leased) {
   std::int64_t& sent_ns = channel.sent_ns[static_cast<std::size_t>(message)];
   if (!channel.known || sent_ns == channel.row.time_ns) return;
   sent_ns = channel.row.time_ns;
-  send(frame_of(static_cast<Node>(first_node_ + index), channel, message, leased));
+  push(messages_, frame_of(static_cast<Node>(first_node_ + index), channel, message, leased));
 }
 
 hal::CanFrame Publisher::frame_of(Node node, Channel& channel, Message message, bool leased) {
@@ -62,6 +73,8 @@ hal::CanFrame Publisher::frame_of(Node node, Channel& channel, Message message, 
       return margin(node, row);
     case Message::limit:
       return limit(node, row);
+    case Message::gain:
+      return gain(node, row);
     case Message::timing:
       return timing(node, take_timing());
     case Message::status:
@@ -80,8 +93,8 @@ BoardTiming Publisher::take_timing() {
 }
 
 void Publisher::flush() {
-  while (!urgent_.empty() || !queue_.empty()) {
-    Queue& next = urgent_.empty() ? queue_ : urgent_;
+  while (waiting() > 0) {
+    Queue& next = !emergencies_.empty() ? emergencies_ : !answers_.empty() ? answers_ : messages_;
     switch (bus_->send(next.front())) {
       case hal::Status::ok:
         next.pop_front();
@@ -91,8 +104,8 @@ void Publisher::flush() {
         return;
       default:
         dropped_ += static_cast<std::uint32_t>(waiting());
-        urgent_.clear();
-        queue_.clear();
+        for (Queue* lost : {&emergencies_, &answers_, &messages_})
+          lost->clear();
     }
   }
 }

@@ -36,12 +36,16 @@ class Publisher {
     });
     flush();
   }
-  /// Behind what waits already.
+  /// An answer: before the messages that wait, so that a bus which is too slow can be commanded.
   void send(const hal::CanFrame& frame);
+  /// Of each channel.
+  const std::vector<Rates>& rates_Hz() const { return schedule_.rates_Hz(); }
+  /// From now on; all messages take new places in their periods.
+  void set_rates(const std::vector<Rates>& rates_Hz) { schedule_ = Schedule(rates_Hz); }
 
   /// Frames that gave way or were lost with the bus.
   std::uint32_t dropped() const { return dropped_; }
-  std::size_t waiting() const { return urgent_.size() + queue_.size(); }
+  std::size_t waiting() const { return emergencies_.size() + answers_.size() + messages_.size(); }
 
  private:
   struct Channel {
@@ -55,6 +59,7 @@ class Publisher {
 
   using Queue = boost::circular_buffer<hal::CanFrame>;
 
+  void push(Queue& queue, const hal::CanFrame& frame);
   void publish(std::uint8_t index, Message message, bool leased);
   hal::CanFrame frame_of(Node node, Channel& channel, Message message, bool leased);
   BoardTiming take_timing();
@@ -65,8 +70,10 @@ class Publisher {
   Schedule schedule_;
   LoopTiming* timing_;
   hal::CanBus* bus_;
-  Queue urgent_;  ///< emergencies
-  Queue queue_;
+  // In the order in which they go out.
+  Queue emergencies_;
+  Queue answers_;
+  Queue messages_;
   std::uint32_t dropped_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "telemetry/schedule.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace supercoil::telemetry {
 
@@ -10,7 +11,7 @@ namespace {
 constexpr double golden = 0.6180339887498949;
 
 bool is_sent(const Rates& rates_Hz, std::size_t message, std::size_t channel) {
-  return rates_Hz[message] > 0.0 && (channel == 0 || !all_messages()[message].of_board);
+  return rates_Hz[message] > 0.0 && is_of(channel, static_cast<Message>(message));
 }
 
 }  // namespace
@@ -22,9 +23,17 @@ Rates usual_rates() {
   return rates;
 }
 
-double bus_load(const Rates& rates_Hz, std::size_t channels, double bit_rate) {
+bool is_allowed(Message message, double rate_Hz, double tick_Hz) {
+  const bool heartbeat = message == Message::status;
+  if (rate_Hz == 0.0) return !heartbeat;
+  const double least_Hz = heartbeat ? least_status_Hz : least_rate_Hz;
+  return rate_Hz >= least_Hz && rate_Hz <= most_rate(tick_Hz);
+}
+
+double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate) {
   double bits_per_s = 0.0;
-  for (std::size_t channel = 0; channel < channels; ++channel) {
+  for (std::size_t channel = 0; channel < of_channels_Hz.size(); ++channel) {
+    const Rates& rates_Hz = of_channels_Hz[channel];
     for (std::size_t i = 0; i < messages; ++i) {
       if (is_sent(rates_Hz, i, channel))
         bits_per_s += rates_Hz[i] * most_bits(all_messages()[i].length);
@@ -33,8 +42,13 @@ double bus_load(const Rates& rates_Hz, std::size_t channels, double bit_rate) {
   return bits_per_s / bit_rate;
 }
 
-Schedule::Schedule(const Rates& rates_Hz, std::size_t channels) {
-  for (std::size_t channel = 0; channel < channels; ++channel) {
+double bus_load(const CanSettings& can, std::size_t channels) {
+  return bus_load(std::vector<Rates>(channels, can.rates_Hz), can.bit_rate);
+}
+
+Schedule::Schedule(std::vector<Rates> of_channels_Hz) : rates_Hz_(std::move(of_channels_Hz)) {
+  for (std::size_t channel = 0; channel < rates_Hz_.size(); ++channel) {
+    const Rates& rates_Hz = rates_Hz_[channel];
     for (std::size_t i = 0; i < messages; ++i) {
       if (!is_sent(rates_Hz, i, channel)) continue;
       const hal::Duration period = hal::duration_from(1.0 / rates_Hz[i]);

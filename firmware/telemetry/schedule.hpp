@@ -21,7 +21,9 @@ constexpr int most_bits(int bytes) {
 
 /// The part of the bus that is busy with what is sent at a rate: 1 is all of it. Commands, their
 /// answers and emergencies come on top.
-double bus_load(const Rates& rates_Hz, std::size_t channels, double bit_rate);
+double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate);
+/// With the rates that are configured, for all channels.
+double bus_load(const CanSettings& can, std::size_t channels);
 
 /// Each message of each channel has its own place within its period, evenly spread, so that frames
 /// do not come in bursts. What was missed is not made up for.
@@ -34,7 +36,9 @@ class Schedule {
     hal::Time next;  ///< before the first due(): within the period
   };
 
-  Schedule(const Rates& rates_Hz, std::size_t channels);
+  explicit Schedule(std::vector<Rates> of_channels_Hz);
+
+  const std::vector<Rates>& rates_Hz() const { return rates_Hz_; }
 
   /// Calls send(channel, message) for all that is due. The first call sets the start.
   template <class Send>
@@ -54,6 +58,7 @@ class Schedule {
  private:
   void start(hal::Time now);
 
+  std::vector<Rates> rates_Hz_;
   std::vector<Slot> slots_;
   hal::Time earliest_{};
   bool started_ = false;

@@ -14,6 +14,20 @@ namespace supercoil::telemetry {
 using Rates = std::array<double, messages>;
 Rates usual_rates();
 
+/// A heartbeat that is rarer is none; what is rarer than the other is meant to be never.
+inline constexpr double least_status_Hz = 1.0;
+inline constexpr double least_rate_Hz = 0.01;
+/// No message more often than there is news.
+constexpr double most_rate(double tick_Hz) {
+  return tick_Hz < 1000.0 ? tick_Hz : 1000.0;
+}
+/// Between the least and the most, or 0 for never, which a heartbeat may not be.
+bool is_allowed(Message message, double rate_Hz, double tick_Hz);
+/// Whether this channel's node (from 0) sends it; the board's first node sends what is the board's.
+inline bool is_of(std::size_t channel, Message message) {
+  return channel == 0 || !all_messages()[static_cast<std::size_t>(message)].of_board;
+}
+
 struct CanSettings {
   std::string interface = "can0";
   double bit_rate = 500e3;  ///< bit/s

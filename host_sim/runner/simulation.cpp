@@ -58,9 +58,8 @@ void Simulation::housekeep() {
     if (link_ && answer.command.source == Source::can) link_->answer(answer);
   }
   if (link_) link_->poll(board_.now());
-  storage::Learned learned;
-  while (loop_.channel(0).take_learned(learned))
-    learned_ = learned;
+  while (loop_.channel(0).take_lesson(learned_)) {
+  }
 }
 
 void Simulation::pass_rows() {

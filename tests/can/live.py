@@ -20,6 +20,8 @@ import e2e
 
 PROTOCOL = cantools.database.load_file(pathlib.Path(__file__).resolve().parents[2] / "firmware/telemetry/supercoil.dbc")
 COMMAND = PROTOCOL.get_message_by_name("Command")
+SETTING_WRITE = PROTOCOL.get_message_by_name("SettingWrite")
+SETTING_READ = PROTOCOL.get_message_by_name("SettingRead")
 FROM_BOARD = {message.frame_id: message for message in PROTOCOL.messages if "Board" in message.senders}
 DEADLINE_S = 120.0  # for whatever takes a second on a machine that has nothing else to do
 TRIES = 5
@@ -118,6 +120,22 @@ class Master:
         self.send(self.data(opcode, value))
         mine = {"opcode": opcode, "counter": self.counter, "session": self.session}
         return self.hear_until(lambda heard: heard.message == "Acknowledge" and mine.items() <= heard.signals.items())
+
+    def hear_setting(self, counter, name):
+        mine = {"counter": counter, "setting": name, "session_low": counter and self.session & 0xFF}
+        return self.hear_until(lambda heard: heard.message == "Setting" and mine.items() <= heard.signals.items()).signals
+
+    def write_setting(self, name, value):
+        self.counter = self.counter % 15 + 1  # never 0, which is a read's
+        self.bus.send(can.Message(arbitration_id=SETTING_WRITE.frame_id, is_extended_id=False, data=e2e.protected(
+            SETTING_WRITE.frame_id, SETTING_WRITE.encode({"crc": 0, "counter": self.counter, "setting": name,
+                                                          "session": self.session, "value": value}))))
+        return self.hear_setting(self.counter, name)
+
+    def read_setting(self, name):
+        self.bus.send(can.Message(arbitration_id=SETTING_READ.frame_id, is_extended_id=False,
+                                  data=SETTING_READ.encode({"setting": name})))
+        return self.hear_setting(0, name)
 
     def refusal(self, opcode, value=0.0):
         return self.ask(opcode, value).signals["refusal"]

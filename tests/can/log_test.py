@@ -70,7 +70,7 @@ class Log(unittest.TestCase):
         self.assertGreater(count, 4000)
         self.assertEqual({message for _, message, _ in self.frames},
                          {"Emergency", "Measurement", "Tracking", "Power", "Heater", "Temperature", "Estimate", "Margin",
-                          "Limit", "Timing", "Status"})
+                          "Limit", "Timing", "Gain", "Status"})
 
     def test_of_one_message_a_row_is_a_frame(self):
         for message in ("Tracking", "Estimate", "Emergency"):

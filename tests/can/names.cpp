@@ -7,6 +7,7 @@
 
 #include "loop/snapshot.hpp"
 #include "telemetry/opcodes.hpp"
+#include "telemetry/run_settings.hpp"
 
 namespace {
 
@@ -17,6 +18,13 @@ nlohmann::ordered_json table(const std::array<std::string_view, N>& names) {
   nlohmann::ordered_json json;
   for (std::size_t i = 0; i < N; ++i)
     json[std::to_string(i)] = names[i];
+  return json;
+}
+
+nlohmann::ordered_json settings() {
+  nlohmann::ordered_json json;
+  for (std::uint8_t i = 0; i < telemetry::run_settings; ++i)
+    json[std::to_string(i)] = telemetry::run_setting_name(i);
   return json;
 }
 
@@ -37,6 +45,8 @@ int main() {
                                       {"limited_by", table(limit_names)},
                                       {"refusal", table(refusal_names)},
                                       {"opcode", table(telemetry::opcode_names())},
+                                      {"gain", table(control::gain_names)},
+                                      {"setting", settings()},
                                       {"version", telemetry::protocol_version}};
     std::puts(json.dump(1).c_str());
   } catch (const std::exception& error) {

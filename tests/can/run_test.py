@@ -41,6 +41,7 @@ COLUMNS = {
                  "theta3": "theta3", "theta4": "theta4"},
     "Margin": {"fault": "margin_of", "used": "margin_used", "measured": "margin_measured"},
     "Limit": {"fault": "margin_of", "limit": "margin_limit"},
+    "Gain": {"gain": "gain_of", "value": "gain"},
     "Status": {"state": "state", "mode": "mode", "fault": "fault", "limited_by": "limited_by", "probing": "probing",
                "trusted": "trusted", "limited": "limited", "controller": "controller", "progress": "progress"},
 }
@@ -52,7 +53,7 @@ OTHERWISE = {"Tracking": {"error_m"},
              "Status": {"leased", "counter", "protocol_version"},
              "Emergency": {"fault", "state", "board_time_s"}}
 MUSCLE = ("thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m")
-FROM_MASTER = {"Command", "Acknowledge"}
+FROM_MASTER = {"Command", "Acknowledge", "Setting", "SettingWrite", "SettingRead"}  # and its answers
 
 
 def single(value):
@@ -207,7 +208,7 @@ class Run(unittest.TestCase):
         self.assertEqual(counters, [(counters[0] + i) % 256 for i in range(len(counters))])
         for _, message, values, raw in self.frames:
             if message == "Status":
-                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 1))
+                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 2))
             elif message == "Timing":
                 self.assertEqual((values["late_s"], values["execution_s"]), (0, 0))
                 self.assertEqual((raw["overruns"], raw["dropped_frames"]), (0, 0))

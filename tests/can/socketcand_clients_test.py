@@ -108,7 +108,7 @@ class HostileClients(unittest.TestCase):
         element = ""
         while not element.startswith("frame 7FE"):
             element = listener.element()
-            self.assertRegex(element, r"^frame (081|241|2[8C]1|3[048C]1|4[048]1|701|7FE) ")
+            self.assertRegex(element, r"^frame (081|241|2[8C]1|3[048C]1|4[048C]1|701|7FE) ")
         self.assertTrue(element.endswith(" 5A"))
 
     def test_a_bus_must_be_opened_by_its_name(self):

@@ -81,6 +81,15 @@ class Commanded(OnTheBus):
         self.assertEqual(other.refusal("disarm"), "none")
         self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "disarmed")
 
+    def test_settings_are_read_by_everybody_and_written_under_the_lease(self):
+        self.assertEqual(self.new_master(0x4321).read_setting("most_power_W")["value"], 4.5)
+        self.assertEqual(self.master.write_setting("most_power_W", 2.0)["refusal"], "no_lease")
+        told = self.while_leased(lambda: self.master.write_setting("most_power_W", 2.0))
+        self.assertEqual((told["refusal"], told["value"]), ("none", 2.0))
+        told = self.while_leased(lambda: self.master.write_setting("status_Hz", 0.0))
+        self.assertEqual((told["refusal"], told["value"]), ("out_of_range", 10.0))
+        self.assertEqual(self.master.read_setting("most_power_W")["value"], 2.0)
+
     def test_a_frame_of_an_earlier_session_is_refused(self):
         self.assertEqual(self.master.claim(), "none")
         earlier, old = self.master.data("arm"), self.master.session

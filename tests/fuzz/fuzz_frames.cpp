@@ -45,7 +45,8 @@ void require_right(const telemetry::Commands::Taken& taken, const hal::CanFrame&
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const telemetry::CanSettings settings;
-  telemetry::Commands commands(settings, LeaseModel::channels, 1);
+  telemetry::Leases leases(settings.lease_s, LeaseModel::channels, 1);
+  telemetry::Commands commands(settings, leases);
   LeaseModel model(settings.lease_s);
   hal::Time now{};
   fuzz::for_each_step(data, size, [&](const fuzz::Step& step) {

@@ -7,7 +7,9 @@ do its part.
     .venv/bin/python tests/hil/telemetry_test.py
 """
 
+import os
 import re
+import shutil
 import sys
 
 import cantools
@@ -86,7 +88,54 @@ def judge(table, run, dbc, log):
     table.row("    most power while it held it", max(by_bus), 1.9, 2.1, "W")
     table.row("    and at its end", witness.at(witness.looks(run.witness), marks["by_bus_ended"]).channels[0].power_W, 0, 0, "W")
     table.row("    the other end sees it armed", bool(re.search(r"^seen node 5: armed", run.console, re.M)), 1, 1, "")
+    judge_crowded(table, run, marks, frames)
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
+
+
+def judge_crowded(table, run, marks, frames):
+    """A queue that is full, and an interface that vanishes: neither is felt by the loop."""
+    looks = witness.looks(run.witness)
+    status = int(re.search(r"^over can1: crowded (\d+)", run.console, re.M)[1])
+    table.row("full queue: a command that is held ended with", status, 0, 0, "")
+    powers = [look.channels[0].power_W for look in looks if marks["full"] <= look.time_s <= marks["full_ended"]]
+    table.row("    most power meanwhile", max(powers), 0.9, 1.1, "W")
+    for what, begin, end in (("while all is well", "heated", "disarm"), ("while the queue is full", "full", "full_ended"),
+                             ("while the interface is gone", "vanished", "vanished_ended")):
+        edges = witness.at(looks, marks[end]).edges - witness.at(looks, marks[begin]).edges
+        table.row(f"    ticks left out {what}", (marks[end] - marks[begin]) * 1e3 / TICK_MS - edges, -3, 3, "")
+    dropped = [signals["dropped_frames"] for _, _, message, signals in frames if message.name == "Timing"]
+    table.row("    frames that gave way, as it tells", max(b - a for a, b in zip(dropped, dropped[10:])), 100, 4095, "")
+    off = witness.first(looks, marks["vanished"], lambda look: look.channels[0].power_W == 0)
+    table.row("interface vanished: power is off after", (off.time_s - marks["vanished"]) * 1e3, 0, 1000, "ms")
+    table.row("    the fault is bus_off", bool(re.search(r"^gone 1 fault \w+ bus_off", run.console, re.M)), 1, 1, "")
+    last_s = max(time for time, _, _, _ in frames)
+    heard = [signals for time, node, message, signals in frames
+             if message.name == "Status" and node == FIRST_NODE and time > last_s - 1]
+    table.row("    came back: heartbeats in a second", len(heard), 8, 12, "")
+    table.row("    disarmed", str(heard[-1]["state"]) == "disarmed", 1, 1, "")
+
+
+def judge_python(table, run):
+    marks, _ = witness.said(run.console)
+    table.row("the Python example ended with", int(re.search(r"^example ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
+    told_m = [float(m) for m in re.findall(r"^example: ([\d.e-]+) m,", run.console, re.M)]
+    table.row("    where it saw the muscle at its end", told_m[-1] * 1e3, 4.5, 5.5, "mm")
+    looks = [look for look in witness.looks(run.witness) if marks["begins"] <= look.time_s <= marks["ended"]]
+    table.row("    where the muscle was at most", max(look.channels[0].position_m for look in looks) * 1e3, 4.5, 6.5, "mm")
+    table.row("    power at its end", witness.at(looks, marks["ended"]).channels[0].power_W, 0, 0, "W")
+    table.row("SIGTERM ended supercoild with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
+
+
+def run_python():
+    """The example and Python lie beside the script, as links: QEMU shares one folder."""
+    share = rig.BUILD / "python_test"
+    shutil.rmtree(share, ignore_errors=True)
+    for name in ("examples/python/move_muscle.py", "firmware/telemetry/supercoil.dbc"):
+        (share / "source" / name).parent.mkdir(parents=True)
+        shutil.copy(rig.ROOT / name, share / "source" / name)
+    shutil.copytree(rig.BUILD / "python", share / "python", copy_function=os.link, symlinks=True)
+    settings = rig.Settings(share=share, watchdog=True, can=True, time_out_s=900.0)
+    return rig.run(rig.HERE / "scripts" / "python", (), settings)
 
 
 def main():
@@ -97,6 +146,7 @@ def main():
     settings = rig.Settings(share=share, watchdog=True, can=True, time_out_s=900.0)
     run = rig.run(rig.HERE / "scripts" / "telemetry", (disarm_frame(dbc),), settings)
     table.judge("telemetry", lambda t, r: judge(t, r, dbc, (share / "can.log").read_text()), run)
+    table.judge("Python", judge_python, run_python())
     table.end()
 
 

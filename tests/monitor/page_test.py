@@ -167,6 +167,15 @@ class PageTest(PageCase):
         self.assertEqual(page.find(".value input").get_attribute("value"), str(TARGET_MM))
         page.wait(lambda: "stopped node" in page.text("#stop-notice"), STOP_S, "stop is confirmed")
 
+    def test_gains_of_the_controller_are_shown_by_name(self):
+        page = self.page()
+        gains = "section[aria-label='gains of the controller, node 1']"
+        page.wait(lambda: len(page.text(f"{gains} tbody").splitlines()) == 7, READY_S, "all gains of MRAC")
+        rows = dict(line.rsplit(" ", 1) for line in page.text(f"{gains} tbody").splitlines())
+        self.assertEqual(list(rows), ["power rate", "power", "position rate", "position lag", "position", "reference",
+                                      "sigma"])
+        self.assertNotEqual(float(rows["reference"]), 0.0)
+
     def test_space_stops_and_presses_no_button_that_has_the_focus(self):
         page = self.page()
         page.arm()

@@ -102,7 +102,7 @@ class Live(unittest.TestCase):
         about = served.get("/api/about")[1]
         self.assertEqual((about["kind"], about["may_command"], about["protocol"]["Power"]["applied_W"]["unit"]),
                          ("live", False, "W"))
-        until(lambda: len(served.get("/api/history")[1]["nodes"]["1"]) == 10)
+        until(lambda: len(served.get("/api/history")[1]["nodes"]["1"]) == 11)
         for message, columns in served.get("/api/history")[1]["nodes"]["1"].items():
             self.assertEqual(columns.keys() - {"time_s"}, about["protocol"][message].keys())
             self.assertEqual({len(column) for column in columns.values()}, {len(columns["time_s"])})
@@ -255,6 +255,26 @@ class Live(unittest.TestCase):
         self.assertEqual(held.wait(SLACK_S), 0)
         until(lambda: served.state()[0] == "armed")
         self.assertIn("node 1: armed", command("state").stdout)
+
+    def test_a_script_reads_and_writes_settings_over_the_bus(self):
+        def setting(*words, source=self.source):
+            return subprocess.run([SUPERCOIL, "setting", *words, "--can", source], capture_output=True, text=True,
+                                  timeout=60)
+
+        known = dict(line.split(" = ") for line in setting("1").stdout.splitlines())
+        self.assertEqual((len(known), known["most_power_W"], known["measurement_Hz"]), (12, "4.5", "100"))
+        written = setting("1", "measurement_Hz", "50", "--json")
+        self.assertEqual((written.returncode, json.loads(written.stdout)),
+                         (0, {"setting": "measurement_Hz", "value": 50.0, "refusal": "none"}))
+        self.assertEqual(setting("1", "measurement_Hz").stdout, "measurement_Hz = 50\n")
+        refused = setting("1", "most_power_W", "5")
+        self.assertEqual((refused.returncode, refused.stdout), (1, "most_power_W = 4.5\n"))
+        self.assertIn("most_power_W: refused: out_of_range", refused.stderr)
+        unknown = setting("1", "mesurement_Hz")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("'mesurement_Hz' is not a setting; there are most_power_W, measurement_Hz,", unknown.stderr)
+        self.assertIn("no answer from node 9", setting("9", "status_Hz").stderr)
+        self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
 
 
 class Sources(unittest.TestCase):

@@ -54,7 +54,7 @@ def meaning(signal):
     if signal.multiplexer_ids:
         text = f"While parameter is {signal.multiplexer_ids[0]}: {text}"
     if signal.choices and not is_scaled(signal):
-        text += f" [Names](#{signal.name})"
+        text += f" [Names](#names-of-{signal.name})"
     return text
 
 
@@ -83,7 +83,7 @@ def describe_names(database):
                 if tables.setdefault(signal.name, names) != names:
                     sys.exit(f"{message.name}.{signal.name}: another signal of this name has other names of values")
     for title, names in tables.items():
-        yield f"\n## {title}\n"
+        yield f"\n## Names of {title}\n"
         yield "| raw | name |"
         yield "|---|---|"
         yield from (f"| {raw} | `{name}` |" for raw, name in sorted(names.items()))

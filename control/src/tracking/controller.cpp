@@ -46,4 +46,8 @@ ModelMotion<double> Controller::motion() const {
   return std::visit([](const auto& controller) { return controller.motion(); }, any_);
 }
 
+GainValue Controller::gain(std::uint32_t turn) const {
+  return std::visit([&](const auto& controller) { return controller.gain(turn); }, any_);
+}
+
 }  // namespace supercoil::control

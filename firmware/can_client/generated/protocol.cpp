@@ -39,6 +39,21 @@ constexpr std::array<ValueName, 31> names_of_fault{{
     {82, "self_test_failed"},
 }};
 
+constexpr std::array<ValueName, 12> names_of_gain{{
+    {0, "none"},
+    {1, "proportional"},
+    {2, "integral"},
+    {3, "derivative"},
+    {4, "feedforward"},
+    {5, "power_rate"},
+    {6, "power"},
+    {7, "position_rate"},
+    {8, "position_lag"},
+    {9, "position"},
+    {10, "reference"},
+    {11, "sigma"},
+}};
+
 constexpr std::array<ValueName, 6> names_of_limited_by{{
     {0, "nothing"},
     {1, "minimum"},
@@ -56,7 +71,7 @@ constexpr std::array<ValueName, 5> names_of_mode{{
     {4, "calibrate"},
 }};
 
-constexpr std::array<ValueName, 15> names_of_opcode{{
+constexpr std::array<ValueName, 16> names_of_opcode{{
     {0, "none"},
     {1, "arm"},
     {2, "disarm"},
@@ -70,8 +85,9 @@ constexpr std::array<ValueName, 15> names_of_opcode{{
     {10, "scale"},
     {11, "controller"},
     {12, "estimator"},
-    {13, "claim"},
-    {14, "release"},
+    {13, "store"},
+    {14, "claim"},
+    {15, "release"},
 }};
 
 constexpr std::array<ValueName, 8> names_of_parameter{{
@@ -98,6 +114,21 @@ constexpr std::array<ValueName, 12> names_of_refusal{{
     {9, "no_lease"},
     {10, "wrong_counter"},
     {11, "too_many"},
+}};
+
+constexpr std::array<ValueName, 12> names_of_setting{{
+    {0, "most_power_W"},
+    {1, "measurement_Hz"},
+    {2, "tracking_Hz"},
+    {3, "power_Hz"},
+    {4, "heater_Hz"},
+    {5, "temperature_Hz"},
+    {6, "estimate_Hz"},
+    {7, "margin_Hz"},
+    {8, "limit_Hz"},
+    {9, "timing_Hz"},
+    {10, "status_Hz"},
+    {11, "gain_Hz"},
 }};
 
 constexpr std::array<ValueName, 4> names_of_state{{
@@ -192,6 +223,32 @@ constexpr std::array<SignalInfo, 4> signals_of_Timing{{
     {"dropped_frames", "", 52, 12, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
+constexpr std::array<SignalInfo, 2> signals_of_Gain{{
+    {"gain", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_gain},
+    {"value", "", 8, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 6> signals_of_Setting{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"setting", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
+    {"refusal", "", 16, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_refusal},
+    {"session_low", "", 24, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 5> signals_of_SettingWrite{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"setting", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
+    {"session", "", 16, 16, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
+    {"setting", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
+}};
+
 constexpr std::array<SignalInfo, 12> signals_of_Status{{
     {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
@@ -207,7 +264,7 @@ constexpr std::array<SignalInfo, 12> signals_of_Status{{
     {"protocol_version", "", 48, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<MessageInfo, 13> all{{
+constexpr std::array<MessageInfo, 17> all{{
     {"Emergency", 0x080, 8, signals_of_Emergency},
     {"Command", 0x200, 8, signals_of_Command},
     {"Acknowledge", 0x240, 7, signals_of_Acknowledge},
@@ -220,6 +277,10 @@ constexpr std::array<MessageInfo, 13> all{{
     {"Margin", 0x400, 7, signals_of_Margin},
     {"Limit", 0x440, 5, signals_of_Limit},
     {"Timing", 0x480, 8, signals_of_Timing},
+    {"Gain", 0x4c0, 5, signals_of_Gain},
+    {"Setting", 0x580, 8, signals_of_Setting},
+    {"SettingWrite", 0x5c0, 8, signals_of_SettingWrite},
+    {"SettingRead", 0x600, 1, signals_of_SettingRead},
     {"Status", 0x700, 7, signals_of_Status},
 }};
 

@@ -1,5 +1,6 @@
 #include "operator/bus/commander.hpp"
 
+#include <cmath>
 #include <random>
 #include <thread>
 
@@ -22,7 +23,10 @@ void Commander::drain() {
   }
 }
 
-Commander::Answer Commander::exchange(const hal::CanFrame& frame) {
+template <class Heard>
+tl::expected<Heard, std::string> Commander::exchange(
+    const hal::CanFrame& frame,
+    const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear) {
   const auto deadline = Clock::now() + answer_within;
   hal::Status sent = bus_->send(frame);
   while (sent == hal::Status::busy && Clock::now() < deadline) {
@@ -33,30 +37,71 @@ Commander::Answer Commander::exchange(const hal::CanFrame& frame) {
     return tl::unexpected(std::string("the bus does not take the command: ") + text(sent));
   do {
     for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
-      if (const auto answer = master_.hear(heard)) return answer->refusal;
+      if (const auto answer = hear(heard)) return *answer;
     }
     std::this_thread::sleep_for(nap);
   } while (Clock::now() < deadline);
   return tl::unexpected("no answer from node " + std::to_string(master_.node()) + " within 0.5 s");
 }
 
+Commander::Answer Commander::exchange(const hal::CanFrame& frame) {
+  return exchange<Refusal>(frame, [&](const hal::CanFrame& heard) -> std::optional<Refusal> {
+    const auto answer = master_.hear(heard);
+    if (!answer) return std::nullopt;
+    return answer->refusal;
+  });
+}
+
+Commander::Answer Commander::claim() {
+  const bool held = master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts;
+  return held ? Answer{Refusal::none} : exchange(master_.claim());
+}
+
 Commander::Answer Commander::command(Verb verb, double value) {
-  const bool claims =
-      verb != Verb::disarm && (!master_.holds_lease() || Clock::now() - lease_from_ > lease_lasts);
-  if (claims) {
-    Answer claimed = exchange(master_.claim());
+  if (verb != Verb::disarm) {
+    Answer claimed = claim();
     if (!claimed || *claimed != Refusal::none) return claimed;
   }
   return exchange(master_.command(verb, value));
 }
 
+/// The lease ran out meanwhile, or frames were lost before this one.
+bool Commander::once_more(Refusal refusal) {
+  return refusal == Refusal::no_lease || refusal == Refusal::wrong_counter;
+}
+
 tl::expected<Refusal, std::string> Commander::ask(Verb verb, double value) {
   drain();
   Answer answer = command(verb, value);
-  // The lease ran out meanwhile, or commands were lost before this one: once more.
-  if (answer && (*answer == Refusal::no_lease || *answer == Refusal::wrong_counter))
-    answer = command(verb, value);
+  if (answer && once_more(*answer)) answer = command(verb, value);
   if (answer && *answer == Refusal::none) lease_from_ = Clock::now();
+  return answer;
+}
+
+Commander::Setting Commander::read(std::uint8_t setting) {
+  drain();
+  return exchange<can_client::Master::Setting>(can_client::setting_read(master_.node(), setting),
+                                               [&](const hal::CanFrame& frame) {
+                                                 auto heard = master_.hear_setting(frame, false);
+                                                 if (heard && heard->setting != setting)
+                                                   heard.reset();
+                                                 return heard;
+                                               });
+}
+
+Commander::Setting Commander::write(std::uint8_t setting, double value) {
+  drain();
+  const auto once = [&]() -> Setting {
+    const Answer claimed = claim();
+    if (!claimed) return tl::unexpected(claimed.error());
+    if (*claimed != Refusal::none) return can_client::Master::Setting{setting, *claimed, NAN};
+    return exchange<can_client::Master::Setting>(
+        master_.setting_write(setting, value),
+        [&](const hal::CanFrame& frame) { return master_.hear_setting(frame, true); });
+  };
+  Setting answer = once();
+  if (answer && once_more(answer->refusal)) answer = once();
+  if (answer && answer->refusal == Refusal::none) lease_from_ = Clock::now();
   return answer;
 }
 

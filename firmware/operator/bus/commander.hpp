@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 
 #include <tl/expected.hpp>
@@ -20,6 +21,10 @@ class Commander {
   /// Waits at most half a second for the answer. Claims the lease when it has run out. The error
   /// says that nobody answered, or that the bus is gone.
   tl::expected<Refusal, std::string> ask(Verb verb, double value);
+  using Setting = tl::expected<can_client::Master::Setting, std::string>;
+  /// Likewise; reading needs no lease.
+  Setting read(std::uint8_t setting);
+  Setting write(std::uint8_t setting, double value);
   /// Gives the lease back, if there is one.
   void release();
   /// Passes over what came meanwhile; to be called every 100 ms or so when nothing is asked.
@@ -29,8 +34,16 @@ class Commander {
   using Clock = std::chrono::steady_clock;
   using Answer = tl::expected<Refusal, std::string>;
 
+  /// Until hear(frame) gives what an answer says.
+  template <class Heard>
+  tl::expected<Heard, std::string> exchange(
+      const hal::CanFrame& frame,
+      const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
   Answer exchange(const hal::CanFrame& frame);
+  /// Refusal::none: the lease is held.
+  Answer claim();
   Answer command(Verb verb, double value);
+  static bool once_more(Refusal refusal);
 
   std::unique_ptr<hal::CanBus> bus_;
   can_client::Master master_;

@@ -45,8 +45,7 @@ void check_can(const config::BoardConfig& config, const CheckOptions& options,
   const std::string interface = can && options.can.empty() ? can->interface : options.can;
   if (!interface.empty()) check_can_link(options.machine, interface, tell);
   if (!can) return;
-  const double load =
-      telemetry::bus_load(can->rates_Hz, config.settings.channels.size(), can->bit_rate);
+  const double load = telemetry::bus_load(*can, config.settings.channels.size());
   tell({"CAN load", Verdict::ok,
         in_percent(load) + " of " + std::to_string(std::lround(1e-3 * can->bit_rate)) +
             " kbit/s at worst, beside commands; at most " + in_percent(can->most_load),

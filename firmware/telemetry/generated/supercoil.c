@@ -383,12 +383,12 @@ double supercoil_command_opcode_decode(uint8_t value)
 
 bool supercoil_command_opcode_is_in_range(uint8_t value)
 {
-    return (value <= 14u);
+    return (value <= 15u);
 }
 
 bool supercoil_command_opcode_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 14.0));
+    return ((value >= 0.0) && (value <= 15.0));
 }
 
 uint16_t supercoil_command_session_encode(double value)
@@ -544,12 +544,12 @@ double supercoil_acknowledge_opcode_decode(uint8_t value)
 
 bool supercoil_acknowledge_opcode_is_in_range(uint8_t value)
 {
-    return (value <= 14u);
+    return (value <= 15u);
 }
 
 bool supercoil_acknowledge_opcode_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 14.0));
+    return ((value >= 0.0) && (value <= 15.0));
 }
 
 uint16_t supercoil_acknowledge_session_encode(double value)
@@ -2055,6 +2055,520 @@ bool supercoil_timing_dropped_frames_is_in_range(uint16_t value)
 bool supercoil_timing_dropped_frames_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 4095.0));
+}
+
+int supercoil_gain_pack(
+    uint8_t *dst_p,
+    const struct supercoil_gain_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 5u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 5);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->gain, 0u, 0xffu);
+    memcpy(&value, &src_p->value, sizeof(value));
+    dst_p[1] |= pack_left_shift_u32(value, 0u, 0xffu);
+    dst_p[2] |= pack_right_shift_u32(value, 8u, 0xffu);
+    dst_p[3] |= pack_right_shift_u32(value, 16u, 0xffu);
+    dst_p[4] |= pack_right_shift_u32(value, 24u, 0xffu);
+
+    return (5);
+}
+
+int supercoil_gain_unpack(
+    struct supercoil_gain_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 5u) {
+        return (-EINVAL);
+    }
+
+    dst_p->gain = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    value = unpack_right_shift_u32(src_p[1], 0u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[2], 8u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[3], 16u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[4], 24u, 0xffu);
+    memcpy(&dst_p->value, &value, sizeof(dst_p->value));
+
+    return (0);
+}
+
+int supercoil_gain_init(struct supercoil_gain_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_gain_t));
+
+    return 0;
+}
+
+uint8_t supercoil_gain_gain_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_gain_gain_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_gain_gain_is_in_range(uint8_t value)
+{
+    return (value <= 11u);
+}
+
+bool supercoil_gain_gain_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 11.0));
+}
+
+float supercoil_gain_value_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_gain_value_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_gain_value_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_gain_value_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+int supercoil_setting_pack(
+    uint8_t *dst_p,
+    const struct supercoil_setting_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->counter, 0u, 0x0fu);
+    dst_p[1] |= pack_left_shift_u8(src_p->setting, 4u, 0xf0u);
+    dst_p[2] |= pack_left_shift_u8(src_p->refusal, 0u, 0xffu);
+    dst_p[3] |= pack_left_shift_u8(src_p->session_low, 0u, 0xffu);
+    memcpy(&value, &src_p->value, sizeof(value));
+    dst_p[4] |= pack_left_shift_u32(value, 0u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(value, 8u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(value, 16u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(value, 24u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_setting_unpack(
+    struct supercoil_setting_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->counter = unpack_right_shift_u8(src_p[1], 0u, 0x0fu);
+    dst_p->setting = unpack_right_shift_u8(src_p[1], 4u, 0xf0u);
+    dst_p->refusal = unpack_right_shift_u8(src_p[2], 0u, 0xffu);
+    dst_p->session_low = unpack_right_shift_u8(src_p[3], 0u, 0xffu);
+    value = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+    memcpy(&dst_p->value, &value, sizeof(dst_p->value));
+
+    return (0);
+}
+
+int supercoil_setting_init(struct supercoil_setting_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_setting_t));
+
+    return 0;
+}
+
+uint8_t supercoil_setting_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_setting_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_setting_counter_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_counter_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_counter_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_setting_counter_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint8_t supercoil_setting_setting_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_setting_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_setting_is_in_range(uint8_t value)
+{
+    return (value <= 11u);
+}
+
+bool supercoil_setting_setting_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 11.0));
+}
+
+uint8_t supercoil_setting_refusal_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_refusal_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_refusal_is_in_range(uint8_t value)
+{
+    return (value <= 11u);
+}
+
+bool supercoil_setting_refusal_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 11.0));
+}
+
+uint8_t supercoil_setting_session_low_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_session_low_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_session_low_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_setting_session_low_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+float supercoil_setting_value_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_setting_value_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_value_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_setting_value_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+int supercoil_setting_write_pack(
+    uint8_t *dst_p,
+    const struct supercoil_setting_write_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->counter, 0u, 0x0fu);
+    dst_p[1] |= pack_left_shift_u8(src_p->setting, 4u, 0xf0u);
+    dst_p[2] |= pack_left_shift_u16(src_p->session, 0u, 0xffu);
+    dst_p[3] |= pack_right_shift_u16(src_p->session, 8u, 0xffu);
+    memcpy(&value, &src_p->value, sizeof(value));
+    dst_p[4] |= pack_left_shift_u32(value, 0u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(value, 8u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(value, 16u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(value, 24u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_setting_write_unpack(
+    struct supercoil_setting_write_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->counter = unpack_right_shift_u8(src_p[1], 0u, 0x0fu);
+    dst_p->setting = unpack_right_shift_u8(src_p[1], 4u, 0xf0u);
+    dst_p->session = unpack_right_shift_u16(src_p[2], 0u, 0xffu);
+    dst_p->session |= unpack_left_shift_u16(src_p[3], 8u, 0xffu);
+    value = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+    memcpy(&dst_p->value, &value, sizeof(dst_p->value));
+
+    return (0);
+}
+
+int supercoil_setting_write_init(struct supercoil_setting_write_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_setting_write_t));
+
+    return 0;
+}
+
+uint8_t supercoil_setting_write_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_write_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_write_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_setting_write_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_setting_write_counter_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_write_counter_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_write_counter_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_setting_write_counter_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint8_t supercoil_setting_write_setting_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_write_setting_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_write_setting_is_in_range(uint8_t value)
+{
+    return (value <= 11u);
+}
+
+bool supercoil_setting_write_setting_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 11.0));
+}
+
+uint16_t supercoil_setting_write_session_encode(double value)
+{
+    return (uint16_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_write_session_decode(uint16_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_write_session_is_in_range(uint16_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_setting_write_session_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 65535.0));
+}
+
+float supercoil_setting_write_value_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_setting_write_value_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_write_value_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_setting_write_value_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+int supercoil_setting_read_pack(
+    uint8_t *dst_p,
+    const struct supercoil_setting_read_t *src_p,
+    size_t size)
+{
+    if (size < 1u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 1);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->setting, 0u, 0x0fu);
+
+    return (1);
+}
+
+int supercoil_setting_read_unpack(
+    struct supercoil_setting_read_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    if (size < 1u) {
+        return (-EINVAL);
+    }
+
+    dst_p->setting = unpack_right_shift_u8(src_p[0], 0u, 0x0fu);
+
+    return (0);
+}
+
+int supercoil_setting_read_init(struct supercoil_setting_read_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_setting_read_t));
+
+    return 0;
+}
+
+uint8_t supercoil_setting_read_setting_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_setting_read_setting_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_setting_read_setting_is_in_range(uint8_t value)
+{
+    return (value <= 11u);
+}
+
+bool supercoil_setting_read_setting_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 11.0));
 }
 
 int supercoil_status_pack(

@@ -57,6 +57,10 @@ extern "C" {
 #define SUPERCOIL_MARGIN_FRAME_ID (0x401u)
 #define SUPERCOIL_LIMIT_FRAME_ID (0x441u)
 #define SUPERCOIL_TIMING_FRAME_ID (0x481u)
+#define SUPERCOIL_GAIN_FRAME_ID (0x4c1u)
+#define SUPERCOIL_SETTING_FRAME_ID (0x581u)
+#define SUPERCOIL_SETTING_WRITE_FRAME_ID (0x5c1u)
+#define SUPERCOIL_SETTING_READ_FRAME_ID (0x601u)
 #define SUPERCOIL_STATUS_FRAME_ID (0x701u)
 
 /* Frame lengths in bytes. */
@@ -72,6 +76,10 @@ extern "C" {
 #define SUPERCOIL_MARGIN_LENGTH (7u)
 #define SUPERCOIL_LIMIT_LENGTH (5u)
 #define SUPERCOIL_TIMING_LENGTH (8u)
+#define SUPERCOIL_GAIN_LENGTH (5u)
+#define SUPERCOIL_SETTING_LENGTH (8u)
+#define SUPERCOIL_SETTING_WRITE_LENGTH (8u)
+#define SUPERCOIL_SETTING_READ_LENGTH (1u)
 #define SUPERCOIL_STATUS_LENGTH (7u)
 
 /* Extended or standard frame types. */
@@ -87,6 +95,10 @@ extern "C" {
 #define SUPERCOIL_MARGIN_IS_EXTENDED (0)
 #define SUPERCOIL_LIMIT_IS_EXTENDED (0)
 #define SUPERCOIL_TIMING_IS_EXTENDED (0)
+#define SUPERCOIL_GAIN_IS_EXTENDED (0)
+#define SUPERCOIL_SETTING_IS_EXTENDED (0)
+#define SUPERCOIL_SETTING_WRITE_IS_EXTENDED (0)
+#define SUPERCOIL_SETTING_READ_IS_EXTENDED (0)
 #define SUPERCOIL_STATUS_IS_EXTENDED (0)
 
 /* Frame cycle times in milliseconds. */
@@ -99,6 +111,7 @@ extern "C" {
 #define SUPERCOIL_MARGIN_CYCLE_TIME_MS (50u)
 #define SUPERCOIL_LIMIT_CYCLE_TIME_MS (100u)
 #define SUPERCOIL_TIMING_CYCLE_TIME_MS (100u)
+#define SUPERCOIL_GAIN_CYCLE_TIME_MS (200u)
 #define SUPERCOIL_STATUS_CYCLE_TIME_MS (100u)
 
 /* Signal choices. */
@@ -152,8 +165,9 @@ extern "C" {
 #define SUPERCOIL_COMMAND_OPCODE_SCALE_CHOICE (10u)
 #define SUPERCOIL_COMMAND_OPCODE_CONTROLLER_CHOICE (11u)
 #define SUPERCOIL_COMMAND_OPCODE_ESTIMATOR_CHOICE (12u)
-#define SUPERCOIL_COMMAND_OPCODE_CLAIM_CHOICE (13u)
-#define SUPERCOIL_COMMAND_OPCODE_RELEASE_CHOICE (14u)
+#define SUPERCOIL_COMMAND_OPCODE_STORE_CHOICE (13u)
+#define SUPERCOIL_COMMAND_OPCODE_CLAIM_CHOICE (14u)
+#define SUPERCOIL_COMMAND_OPCODE_RELEASE_CHOICE (15u)
 
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_NONE_CHOICE (0u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_ARM_CHOICE (1u)
@@ -168,8 +182,9 @@ extern "C" {
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_SCALE_CHOICE (10u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_CONTROLLER_CHOICE (11u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_ESTIMATOR_CHOICE (12u)
-#define SUPERCOIL_ACKNOWLEDGE_OPCODE_CLAIM_CHOICE (13u)
-#define SUPERCOIL_ACKNOWLEDGE_OPCODE_RELEASE_CHOICE (14u)
+#define SUPERCOIL_ACKNOWLEDGE_OPCODE_STORE_CHOICE (13u)
+#define SUPERCOIL_ACKNOWLEDGE_OPCODE_CLAIM_CHOICE (14u)
+#define SUPERCOIL_ACKNOWLEDGE_OPCODE_RELEASE_CHOICE (15u)
 
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_NONE_CHOICE (0u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_WRONG_STATE_CHOICE (1u)
@@ -298,6 +313,71 @@ extern "C" {
 
 #define SUPERCOIL_TIMING_EXECUTION_S_NOT_AVAILABLE_CHOICE (1048575u)
 
+#define SUPERCOIL_GAIN_GAIN_NONE_CHOICE (0u)
+#define SUPERCOIL_GAIN_GAIN_PROPORTIONAL_CHOICE (1u)
+#define SUPERCOIL_GAIN_GAIN_INTEGRAL_CHOICE (2u)
+#define SUPERCOIL_GAIN_GAIN_DERIVATIVE_CHOICE (3u)
+#define SUPERCOIL_GAIN_GAIN_FEEDFORWARD_CHOICE (4u)
+#define SUPERCOIL_GAIN_GAIN_POWER_RATE_CHOICE (5u)
+#define SUPERCOIL_GAIN_GAIN_POWER_CHOICE (6u)
+#define SUPERCOIL_GAIN_GAIN_POSITION_RATE_CHOICE (7u)
+#define SUPERCOIL_GAIN_GAIN_POSITION_LAG_CHOICE (8u)
+#define SUPERCOIL_GAIN_GAIN_POSITION_CHOICE (9u)
+#define SUPERCOIL_GAIN_GAIN_REFERENCE_CHOICE (10u)
+#define SUPERCOIL_GAIN_GAIN_SIGMA_CHOICE (11u)
+
+#define SUPERCOIL_SETTING_SETTING_MOST_POWER_W_CHOICE (0u)
+#define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
+#define SUPERCOIL_SETTING_SETTING_TRACKING_HZ_CHOICE (2u)
+#define SUPERCOIL_SETTING_SETTING_POWER_HZ_CHOICE (3u)
+#define SUPERCOIL_SETTING_SETTING_HEATER_HZ_CHOICE (4u)
+#define SUPERCOIL_SETTING_SETTING_TEMPERATURE_HZ_CHOICE (5u)
+#define SUPERCOIL_SETTING_SETTING_ESTIMATE_HZ_CHOICE (6u)
+#define SUPERCOIL_SETTING_SETTING_MARGIN_HZ_CHOICE (7u)
+#define SUPERCOIL_SETTING_SETTING_LIMIT_HZ_CHOICE (8u)
+#define SUPERCOIL_SETTING_SETTING_TIMING_HZ_CHOICE (9u)
+#define SUPERCOIL_SETTING_SETTING_STATUS_HZ_CHOICE (10u)
+#define SUPERCOIL_SETTING_SETTING_GAIN_HZ_CHOICE (11u)
+
+#define SUPERCOIL_SETTING_REFUSAL_NONE_CHOICE (0u)
+#define SUPERCOIL_SETTING_REFUSAL_WRONG_STATE_CHOICE (1u)
+#define SUPERCOIL_SETTING_REFUSAL_CAUSE_PERSISTS_CHOICE (2u)
+#define SUPERCOIL_SETTING_REFUSAL_NO_EDGE_CHOICE (3u)
+#define SUPERCOIL_SETTING_REFUSAL_NOT_READY_CHOICE (4u)
+#define SUPERCOIL_SETTING_REFUSAL_BUSY_CHOICE (5u)
+#define SUPERCOIL_SETTING_REFUSAL_OUT_OF_RANGE_CHOICE (6u)
+#define SUPERCOIL_SETTING_REFUSAL_NO_SUCH_CHANNEL_CHOICE (7u)
+#define SUPERCOIL_SETTING_REFUSAL_NOT_YOURS_CHOICE (8u)
+#define SUPERCOIL_SETTING_REFUSAL_NO_LEASE_CHOICE (9u)
+#define SUPERCOIL_SETTING_REFUSAL_WRONG_COUNTER_CHOICE (10u)
+#define SUPERCOIL_SETTING_REFUSAL_TOO_MANY_CHOICE (11u)
+
+#define SUPERCOIL_SETTING_WRITE_SETTING_MOST_POWER_W_CHOICE (0u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_MEASUREMENT_HZ_CHOICE (1u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_TRACKING_HZ_CHOICE (2u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_POWER_HZ_CHOICE (3u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_HEATER_HZ_CHOICE (4u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_TEMPERATURE_HZ_CHOICE (5u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_ESTIMATE_HZ_CHOICE (6u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_MARGIN_HZ_CHOICE (7u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_LIMIT_HZ_CHOICE (8u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_TIMING_HZ_CHOICE (9u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_STATUS_HZ_CHOICE (10u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_GAIN_HZ_CHOICE (11u)
+
+#define SUPERCOIL_SETTING_READ_SETTING_MOST_POWER_W_CHOICE (0u)
+#define SUPERCOIL_SETTING_READ_SETTING_MEASUREMENT_HZ_CHOICE (1u)
+#define SUPERCOIL_SETTING_READ_SETTING_TRACKING_HZ_CHOICE (2u)
+#define SUPERCOIL_SETTING_READ_SETTING_POWER_HZ_CHOICE (3u)
+#define SUPERCOIL_SETTING_READ_SETTING_HEATER_HZ_CHOICE (4u)
+#define SUPERCOIL_SETTING_READ_SETTING_TEMPERATURE_HZ_CHOICE (5u)
+#define SUPERCOIL_SETTING_READ_SETTING_ESTIMATE_HZ_CHOICE (6u)
+#define SUPERCOIL_SETTING_READ_SETTING_MARGIN_HZ_CHOICE (7u)
+#define SUPERCOIL_SETTING_READ_SETTING_LIMIT_HZ_CHOICE (8u)
+#define SUPERCOIL_SETTING_READ_SETTING_TIMING_HZ_CHOICE (9u)
+#define SUPERCOIL_SETTING_READ_SETTING_STATUS_HZ_CHOICE (10u)
+#define SUPERCOIL_SETTING_READ_SETTING_GAIN_HZ_CHOICE (11u)
+
 #define SUPERCOIL_STATUS_STATE_DISARMED_CHOICE (0u)
 #define SUPERCOIL_STATUS_STATE_ARMED_CHOICE (1u)
 #define SUPERCOIL_STATUS_STATE_ACTIVE_CHOICE (2u)
@@ -363,6 +443,10 @@ extern "C" {
 #define SUPERCOIL_MARGIN_NAME "Margin"
 #define SUPERCOIL_LIMIT_NAME "Limit"
 #define SUPERCOIL_TIMING_NAME "Timing"
+#define SUPERCOIL_GAIN_NAME "Gain"
+#define SUPERCOIL_SETTING_NAME "Setting"
+#define SUPERCOIL_SETTING_WRITE_NAME "SettingWrite"
+#define SUPERCOIL_SETTING_READ_NAME "SettingRead"
 #define SUPERCOIL_STATUS_NAME "Status"
 
 /* Signal Names. */
@@ -415,6 +499,20 @@ extern "C" {
 #define SUPERCOIL_TIMING_EXECUTION_S_NAME "execution_s"
 #define SUPERCOIL_TIMING_OVERRUNS_NAME "overruns"
 #define SUPERCOIL_TIMING_DROPPED_FRAMES_NAME "dropped_frames"
+#define SUPERCOIL_GAIN_GAIN_NAME "gain"
+#define SUPERCOIL_GAIN_VALUE_NAME "value"
+#define SUPERCOIL_SETTING_CRC_NAME "crc"
+#define SUPERCOIL_SETTING_COUNTER_NAME "counter"
+#define SUPERCOIL_SETTING_SETTING_NAME "setting"
+#define SUPERCOIL_SETTING_REFUSAL_NAME "refusal"
+#define SUPERCOIL_SETTING_SESSION_LOW_NAME "session_low"
+#define SUPERCOIL_SETTING_VALUE_NAME "value"
+#define SUPERCOIL_SETTING_WRITE_CRC_NAME "crc"
+#define SUPERCOIL_SETTING_WRITE_COUNTER_NAME "counter"
+#define SUPERCOIL_SETTING_WRITE_SETTING_NAME "setting"
+#define SUPERCOIL_SETTING_WRITE_SESSION_NAME "session"
+#define SUPERCOIL_SETTING_WRITE_VALUE_NAME "value"
+#define SUPERCOIL_SETTING_READ_SETTING_NAME "setting"
 #define SUPERCOIL_STATUS_STATE_NAME "state"
 #define SUPERCOIL_STATUS_MODE_NAME "mode"
 #define SUPERCOIL_STATUS_FAULT_NAME "fault"
@@ -493,7 +591,7 @@ struct supercoil_command_t {
     /**
      * What to do. disarm with value 0 is obeyed from everybody, whatever session and counter are.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..15 (0..15 -)
      * Scale: 1
      * Offset: 0
      */
@@ -509,7 +607,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * position and scale: m. power: W. controller and estimator: place in the configuration. All others: 0.
+     * position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets all that is kept. All others: 0.
      *
      * Range: -
      * Scale: 1
@@ -547,7 +645,7 @@ struct supercoil_acknowledge_t {
     /**
      * Of the command.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..15 (0..15 -)
      * Scale: 1
      * Offset: 0
      */
@@ -975,6 +1073,168 @@ struct supercoil_timing_t {
      * Offset: 0
      */
     uint16_t dropped_frames;
+};
+
+/**
+ * Signals in message Gain.
+ *
+ * What the active controller multiplies its signals by; its gains come round. An adaptive controller changes them.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_gain_t {
+    /**
+     * Which one this frame carries; none: the controller has none.
+     *
+     * Range: 0..11 (0..11 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t gain;
+
+    /**
+     * proportional, feedforward: W/m. integral: W/(m s). derivative: W s/m. The others are theta and sigma of MRAC, which multiply power, position and reference in watts at rest. NaN: no gain.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float value;
+};
+
+/**
+ * Signals in message Setting.
+ *
+ * The answer to SettingWrite and SettingRead: what holds from now on, also when the write was refused. Protected as Command is.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_setting_t {
+    /**
+     * As in Command.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * Of the write; 0 of a read.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t counter;
+
+    /**
+     * Which one.
+     *
+     * Range: 0..11 (0..11 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t setting;
+
+    /**
+     * none: it was written, or read. Else why not.
+     *
+     * Range: 0..11 (0..11 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t refusal;
+
+    /**
+     * Low byte of the write's session, by which its master knows the answer; 0 of a read.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t session_low;
+
+    /**
+     * most_power_W: W. Rates: Hz. NaN: no such setting.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float value;
+};
+
+/**
+ * Signals in message SettingWrite.
+ *
+ * Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command or SettingWrite.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_setting_write_t {
+    /**
+     * As in Command.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * One more with each Command or SettingWrite of a session, 0 after 15.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t counter;
+
+    /**
+     * Which one.
+     *
+     * Range: 0..11 (0..11 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t setting;
+
+    /**
+     * Of the lease.
+     *
+     * Range: 0..65535 (0..65535 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint16_t session;
+
+    /**
+     * most_power_W: W, 0 to the configured maximum. Rates: Hz; 0: never.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float value;
+};
+
+/**
+ * Signals in message SettingRead.
+ *
+ * Asks for one setting of this node. Needs no lease: reading changes nothing.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_setting_read_t {
+    /**
+     * Which one.
+     *
+     * Range: 0..11 (0..11 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t setting;
 };
 
 /**
@@ -3497,6 +3757,714 @@ bool supercoil_timing_dropped_frames_is_in_range(uint16_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_timing_dropped_frames_is_in_phys_range(double value);
+
+/**
+ * Pack message Gain.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_gain_pack(
+    uint8_t *dst_p,
+    const struct supercoil_gain_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Gain.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_gain_unpack(
+    struct supercoil_gain_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Gain.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_gain_init(struct supercoil_gain_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_gain_gain_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_gain_gain_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_gain_gain_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_gain_gain_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_gain_value_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_gain_value_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_gain_value_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_gain_value_is_in_phys_range(double value);
+
+/**
+ * Pack message Setting.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_setting_pack(
+    uint8_t *dst_p,
+    const struct supercoil_setting_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Setting.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_setting_unpack(
+    struct supercoil_setting_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Setting.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_setting_init(struct supercoil_setting_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_counter_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_counter_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_counter_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_counter_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_setting_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_setting_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_setting_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_setting_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_refusal_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_refusal_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_refusal_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_refusal_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_session_low_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_session_low_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_session_low_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_session_low_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_setting_value_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_value_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_value_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_value_is_in_phys_range(double value);
+
+/**
+ * Pack message SettingWrite.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_setting_write_pack(
+    uint8_t *dst_p,
+    const struct supercoil_setting_write_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message SettingWrite.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_setting_write_unpack(
+    struct supercoil_setting_write_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from SettingWrite.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_setting_write_init(struct supercoil_setting_write_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_write_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_write_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_write_counter_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_write_counter_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_counter_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_counter_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_write_setting_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_write_setting_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_setting_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_setting_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint16_t supercoil_setting_write_session_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_write_session_decode(uint16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_session_is_in_range(uint16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_session_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_setting_write_value_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_write_value_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_value_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_write_value_is_in_phys_range(double value);
+
+/**
+ * Pack message SettingRead.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_setting_read_pack(
+    uint8_t *dst_p,
+    const struct supercoil_setting_read_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message SettingRead.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_setting_read_unpack(
+    struct supercoil_setting_read_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from SettingRead.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_setting_read_init(struct supercoil_setting_read_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_setting_read_setting_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_setting_read_setting_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_read_setting_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_setting_read_setting_is_in_phys_range(double value);
 
 /**
  * Pack message Status.

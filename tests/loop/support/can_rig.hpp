@@ -1,6 +1,7 @@
 // The rough board on a CAN bus, and a master who commands it there.
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "loop/support/rig.hpp"
@@ -50,6 +51,14 @@ class CanRig {
   Refusal command(Master& who, Verb verb, float value = 0.0F) {
     return command(who, static_cast<std::uint8_t>(verb), value);
   }
+  /// What the board says to a frame about settings; all zero: nothing.
+  supercoil_setting_t ask_setting(const hal::CanFrame& frame) {
+    settings_told.clear();
+    bus.deliver(frame);
+    for (int i = 0; i < 20 && settings_told.empty(); ++i)
+      tick();
+    return settings_told.empty() ? supercoil_setting_t{} : settings_told.back();
+  }
   Refusal claim(Master& who) {
     who.session = who.nonce;
     const Refusal refusal = command(who, telemetry::Opcode::claim);
@@ -77,12 +86,16 @@ class CanRig {
   host_sim::SimulatedCanBus bus;
   telemetry::CanLink link;
   std::vector<supercoil_acknowledge_t> answers;
+  std::vector<supercoil_setting_t> settings_told;
   std::vector<hal::CanFrame> emergencies;
   long heard = 0;
+  std::map<std::uint16_t, int> heard_of;  ///< by identifier
 
  private:
   void hear(const hal::CanFrame& frame) {
     ++heard;
+    ++heard_of[frame.id];
+    if (frame.id == SUPERCOIL_SETTING_FRAME_ID) settings_told.push_back(read_setting(frame));
     if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID) answers.push_back(read_answer(frame));
     if (frame.id == SUPERCOIL_EMERGENCY_FRAME_ID) emergencies.push_back(frame);
   }

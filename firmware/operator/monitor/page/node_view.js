@@ -2,6 +2,7 @@
 
 import { ControlPanel } from "./control_panel.js";
 import { element } from "./dom.js";
+import { Gains } from "./gains.js";
 import { Hand } from "./hand.js";
 import { Journal } from "./journal.js";
 import { Margins } from "./margins.js";
@@ -24,14 +25,14 @@ export class NodeView {
     this.panel = new ControlPanel(this.hand, may, (text, kind) => this.journal.add(text, kind));
     this.panel.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
-    this.cards = [new Readouts(node, store), new Parameters(node, store), this.margins];
+    this.cards = [new Readouts(node, store), new Parameters(node, store), new Gains(node, store), this.margins];
     this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
     for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
-    const [readouts, parameters, margins] = this.cards.map((card) => card.element);
+    const [readouts, parameters, gains, margins] = this.cards.map((card) => card.element);
     this.element = element("article", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
       element("div", { class: "side" }, this.state.element, this.panel.element, this.journal.element),
       element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
-        element("div", { class: "lower" }, parameters, margins)));
+        element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, gains), margins)));
   }
 
   draw() {

@@ -177,6 +177,6 @@ TEST(BoardConfig, DescriptionTellsTheLoadOfTheCanBus) {
   const std::string text = describe(
       read(test::small_board + "[can]\nfirst_node = 7\nrates = {status_Hz = 5.0, power_Hz = 0}\n"));
   check_says(text, "CAN on can0 at 500 kbit/s, nodes 7 to 7");
-  check_says(text, "load    7.5 % at worst");
+  check_says(text, "load    7.6 % at worst");
   check_says(text, "status 5 Hz");
 }

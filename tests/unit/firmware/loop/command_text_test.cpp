@@ -24,6 +24,10 @@ TEST(CommandText, ChannelVerbAndValue) {
   DOUBLES_EQUAL(0.0125, follow.value, 0.0);
   CHECK(read("1 arm").verb == Verb::arm);
   CHECK(read("4 power 1e0").verb == Verb::power);
+  CHECK(read("1 store").verb == Verb::store);
+  DOUBLES_EQUAL(1.0, read("1 store").value, 0.0);
+  CHECK(read("1 clear").verb == Verb::store);
+  DOUBLES_EQUAL(0.0, read("1 clear").value, 0.0);
 }
 
 TEST(CommandText, WhatIsWrongIsSaid) {
@@ -39,7 +43,8 @@ TEST(CommandText, WhatIsWrongIsSaid) {
   check_wrong("1 arm now", "'now' is too much");
   check_wrong("1 heat",
               "'heat' is not a command; there are arm, disarm, reset, position, power, renew, "
-              "rest, identify, calibrate, scale, controller, estimator");
+              "rest, identify, calibrate, scale, controller, estimator, store, clear");
+  check_wrong("1 store 1", "'1' is too much");
 }
 
 TEST(CommandText, EveryRefusalHasAName) {

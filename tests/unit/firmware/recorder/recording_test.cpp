@@ -85,7 +85,8 @@ TEST(Recording, FieldsStandWhereTheDocumentationSays) {
   LONGS_EQUAL(88, offsetof(Row, margin_used));
   LONGS_EQUAL(92, offsetof(Row, margin_measured));
   LONGS_EQUAL(96, offsetof(Row, margin_limit));
-  LONGS_EQUAL(100, offsetof(Row, reserved));
+  LONGS_EQUAL(100, offsetof(Row, gain));
+  LONGS_EQUAL(104, offsetof(Row, gain_turn));
 }
 
 TEST(Recording, TheHeaderIsTextThatSaysWhatFollows) {

@@ -60,6 +60,12 @@ TEST_GROUP(PowerCut) {
     CHECK_TEXT(condition, (context + ": " + what).c_str());
   }
 
+  static bool start_loads(const Start& start) {
+    Disk disk(start.content);
+    SimulatedFiles files(disk);
+    return LearnedStore("/d", channel, files).load().has_value();
+  }
+
   /// What the board may find after the cut, and that it goes on from there.
   void check_survivor(const Start& start, const Content& content, int before) const {
     const int now = loaded(content);
@@ -123,6 +129,35 @@ TEST(PowerCut, AfterASaveKeepsTheVersionBeforeAsWell) {
       if (before != none) LONGS_EQUAL_TEXT(before, set_in(content, previous), start.name);
     }
   }
+}
+
+TEST(PowerCut, AtEveryCallOfForgettingLeavesTheOldSetOrNone) {
+  int disks = 0;
+  for (const Start& start : starts()) {
+    const int before = loaded(start.content);
+    Disk whole(start.content);
+    SimulatedFiles undisturbed(whole);
+    CHECK(LearnedStore("/d", channel, undisturbed).forget().has_value());
+    for (int call = 0; call < undisturbed.calls(); ++call) {
+      for (const Mishap& mishap : mishaps(call)) {
+        context = std::string(start.name) + ", call " + std::to_string(call);
+        Disk disk(start.content);
+        SimulatedFiles files(disk, mishap);
+        const auto result = LearnedStore("/d", channel, files).forget();
+        for (const Content& content : disk.survivors()) {
+          ++disks;
+          const int now = loaded(content);
+          expect(now == none || (now == before && !result), "the old set, or none when it is said");
+          Disk later(content);
+          SimulatedFiles files_later(later);
+          const auto there = LearnedStore("/d", channel, files_later).load();
+          const bool started_before = start_loads(start);
+          expect(there.has_value() || !started_before, "the board still starts");
+        }
+      }
+    }
+  }
+  CHECK_TEXT(disks > 1000, "every disk that a cut may leave was looked at");
 }
 
 TEST(PowerCut, NeverLeavesOneFileUnderBothNames) {

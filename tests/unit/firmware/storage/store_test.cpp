@@ -35,6 +35,20 @@ TEST(LearnedStore, CountsTheVersionsWhateverItIsGiven) {
   LONGS_EQUAL(2, store.load()->learned->version);
 }
 
+TEST(LearnedStore, ForgetsAllAndBeginsAnew) {
+  save(1);
+  save(2);
+  CHECK(store.forget().has_value());
+  CHECK(store.load()->source == Source::nothing);
+  CHECK(store.load()->problems.empty());
+  LONGS_EQUAL(2, which(*decode(text_of(path + ".cleared"))));
+  LONGS_EQUAL(1, *store.save(nth_set(3)));
+  check_loaded(Source::current, 3);
+  CHECK(store.forget().has_value());
+  CHECK(store.forget().has_value());
+  LONGS_EQUAL(3, which(*decode(text_of(path + ".cleared"))));
+}
+
 TEST(LearnedStore, StillSavesWhenTheVersionsHaveRunOut) {
   Learned last = nth_set(1);
   last.version = std::numeric_limits<std::uint32_t>::max();

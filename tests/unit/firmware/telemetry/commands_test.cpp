@@ -14,7 +14,8 @@ using namespace std::chrono_literals;
 
 TEST_GROUP(CanCommands) {
   CanSettings settings;
-  Commands commands{settings, 2, 1};
+  Leases leases{settings.lease_s, 2, 1};
+  Commands commands{settings, leases};
   hal::Time now = 100s;
   Master master;
 
@@ -88,9 +89,9 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   const Master gone = master;
   now += 999ms;
   CHECK(refusal_of(master.frame(Verb::renew)) == Refusal::none);
-  CHECK(commands.leased(0, now));
+  CHECK(leases.held(0, now));
   now += 1001ms;
-  CHECK_FALSE(commands.leased(0, now));
+  CHECK_FALSE(leases.held(0, now));
   CHECK(refusal_of(master.frame(Verb::renew)) == Refusal::no_lease);
   Master next;
   CHECK(claim(next) != 0);
@@ -98,7 +99,7 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   Master earlier = gone;
   CHECK(refusal_of(earlier.frame(Verb::position, 0.01F)) == Refusal::not_yours);
   CHECK(refusal_of(next.frame(Opcode::release)) == Refusal::none);
-  CHECK_FALSE(commands.leased(0, now));
+  CHECK_FALSE(leases.held(0, now));
 }
 
 TEST(CanCommands, ItsHolderKeepsALeaseByClaimingItAgain) {

@@ -128,3 +128,22 @@ TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
   supercoil_timing_unpack(&m, bus.sent.at(1).data.data(), 8);
   LONGS_EQUAL(0xFFFFF, m.late_s);  // no tick since
 }
+
+TEST(Publisher, SendsAnswersBeforeTheMessagesThatWaitAndEmergenciesBeforeThem) {
+  Publisher publisher(only(Message::measurement, 100.0), {1, {0.0086, 0.09}}, timing, bus);
+  bus.answer = hal::Status::busy;
+  publish(publisher, 0, 50);
+  hal::CanFrame answer;
+  answer.id = 0x245;
+  publisher.send(answer);
+  publisher.offer(row_at(50ms, Fault::heater_open));
+  // However many answers wait, they take no emergency's place.
+  for (int i = 0; i < 100; ++i)
+    publisher.send(answer);
+  bus.answer = hal::Status::ok;
+  publisher.poll(51ms, [](std::uint8_t) { return false; });
+  LONGS_EQUAL(0x080 + 5, bus.sent[0].id);
+  for (std::size_t i = 1; i <= 16; ++i)
+    LONGS_EQUAL(0x245, bus.sent[i].id);
+  LONGS_EQUAL(0x280 + 5, bus.sent[17].id);
+}

@@ -28,7 +28,7 @@ TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
   Rates rates = usual_rates();
   rates[static_cast<std::size_t>(Message::power)] = 0.0;
   rates[static_cast<std::size_t>(Message::heater)] = 3.0;
-  Schedule schedule(rates, 4);
+  Schedule schedule(std::vector<Rates>(4, rates));
   std::map<std::pair<int, Message>, int> counts;
   for (int ms = 0; ms < 100'000; ++ms) {
     schedule.due(ms * 1ms, [&](std::uint8_t channel, Message message) {
@@ -46,7 +46,7 @@ TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
 
 TEST(Schedule, HasNoBursts) {
   for (const std::size_t channels : {1U, 2U, 4U, 8U, 16U}) {
-    Schedule schedule(usual_rates(), channels);
+    Schedule schedule(std::vector<Rates>(channels, usual_rates()));
     const auto counts = frames_per_ms(schedule, 2000);
     double sum = 0.0;
     for (const int count : counts)
@@ -58,7 +58,7 @@ TEST(Schedule, HasNoBursts) {
 }
 
 TEST(Schedule, DoesNotMakeUpForWhatWasMissed) {
-  Schedule schedule(usual_rates(), 1);
+  Schedule schedule({usual_rates()});
   frames_per_ms(schedule, 1000);
   int sent = 0;
   const auto count = [&](std::uint8_t, Message) { ++sent; };
@@ -80,5 +80,5 @@ TEST(Schedule, TellsTheLoadOfTheBus) {
   rates[static_cast<std::size_t>(Message::measurement)] = 100.0;
   rates[static_cast<std::size_t>(Message::timing)] = 10.0;
   // 4 channels x 100 x 135 + 10 x 135 bits, as the board's timing is sent once.
-  DOUBLES_EQUAL(55350.0 / 500e3, bus_load(rates, 4, 500e3), 1e-12);
+  DOUBLES_EQUAL(55350.0 / 500e3, bus_load(std::vector<Rates>(4, rates), 500e3), 1e-12);
 }

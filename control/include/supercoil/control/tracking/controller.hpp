@@ -67,6 +67,7 @@ class OpenLoopPower {
   void start(const ControllerStart&) {}
   ControllerOutput step(const ControllerInput& in) const { return {in.reference_power_W, 0.0}; }
   ModelMotion<double> motion() const { return {}; }
+  static GainValue gain(std::uint32_t) { return {}; }
 };
 
 /// A law with its reference model; converts between SI and the law's scalar.
@@ -119,6 +120,11 @@ class ModelFollower {
             static_cast<double>(m.acceleration) * to_metres_};
   }
 
+  /// Gains come round as turn takes all values, whatever its step (see Controller).
+  GainValue gain(std::uint32_t turn) const {
+    return law_.gain((std::uint64_t{turn} * Law::gains) >> 32U);
+  }
+
   const Law& law() const { return law_; }
 
  private:
@@ -146,6 +152,8 @@ class Controller {
   void start(const ControllerStart& at);
   /// Of its reference model, in metres; zero in open loop.
   ModelMotion<double> motion() const;
+  /// One of its gains: turn is the part of a full turn, in 2⁻³², at which this one comes round.
+  GainValue gain(std::uint32_t turn) const;
 
  private:
   template <class Scalar>

@@ -1,6 +1,8 @@
-// What every tracking law is given at a tick, and the saturation of Eq. (19).
+// What every tracking law is given at a tick, and the saturation of Eq. (19). A law also tells its
+// gains: `gains` is how many it has, gain(i) the one of them with i < gains.
 #pragma once
 
+#include "supercoil/control/tracking/gain.hpp"
 #include "supercoil/control/tracking/reference_model.hpp"
 
 namespace supercoil::control {

@@ -98,6 +98,14 @@ class Mrac {
     return to<Scalar>(wanted);
   }
 
+  static constexpr std::size_t gains = 7;
+  GainValue gain(std::size_t i) const {
+    constexpr auto first = static_cast<std::size_t>(Gain::power_rate);
+    if (i + 1 == gains) return {Gain::sigma, sigma()};
+    return {static_cast<Gain>(first + i),
+            static_cast<double>(theta_[static_cast<Eigen::Index>(i)])};
+  }
+
   const WideParameters& theta() const { return theta_; }
   double sigma() const { return static_cast<double>(sigma_); }
   /// The filtered signals that θ multiplies, and Eq. (16)'s r0 = u/((s+p0)(s+p1)) − θᵀφ.

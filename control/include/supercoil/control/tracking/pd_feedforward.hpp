@@ -17,7 +17,8 @@ template <class Scalar>
 class PdFeedforward {
  public:
   PdFeedforward(const PdFeedforwardSettings& settings, double dc_gain_m_per_W, double step_s)
-      : filter_({settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s,
+      : settings_(settings),
+        filter_({settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s,
                  2.0 * settings.derivative_filter_rad_per_s, 1.0},
                 step_s),
         filter_gain_(settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s),
@@ -36,7 +37,15 @@ class PdFeedforward {
            (in.model.velocity - velocity) * derivative_ + in.model.position * feedforward_;
   }
 
+  static constexpr std::size_t gains = 3;
+  GainValue gain(std::size_t i) const {
+    if (i == 0) return {Gain::proportional, settings_.proportional_W_per_m};
+    if (i == 1) return {Gain::derivative, settings_.derivative_Ws_per_m};
+    return {Gain::feedforward, settings_.feedforward_W_per_m};
+  }
+
  private:
+  PdFeedforwardSettings settings_;
   StateVariableFilter<Scalar, 2, Hold::first_order> filter_;
   Accumulator<Scalar> filter_gain_;
   Scalar proportional_;

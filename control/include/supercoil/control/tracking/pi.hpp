@@ -16,7 +16,8 @@ class Pi {
  public:
   /// dc_gain_m_per_W: metres that a watt of the law's own unit stands for.
   Pi(const PiSettings& settings, double dc_gain_m_per_W, double step_s)
-      : proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
+      : settings_(settings),
+        proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
         integral_step_(settings.integral_W_per_m_s * dc_gain_m_per_W * step_s) {}
 
   /// The integral is what the error leaves of the power.
@@ -38,7 +39,14 @@ class Pi {
     return wanted_;
   }
 
+  static constexpr std::size_t gains = 2;
+  GainValue gain(std::size_t i) const {
+    if (i == 0) return {Gain::proportional, settings_.proportional_W_per_m};
+    return {Gain::integral, settings_.integral_W_per_m_s};
+  }
+
  private:
+  PiSettings settings_;
   Scalar proportional_;
   Accumulator<Scalar> integral_step_;
   Accumulator<Scalar> integral_{};

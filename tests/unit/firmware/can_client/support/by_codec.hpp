@@ -116,6 +116,30 @@ inline Values timing(const hal::CanFrame& frame) {
                  supercoil_timing_overruns_decode(m.overruns),
                  supercoil_timing_dropped_frames_decode(m.dropped_frames)});
 }
+inline Values gain(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_gain_unpack);
+  return values({supercoil_gain_gain_decode(m.gain), supercoil_gain_value_decode(m.value)});
+}
+inline Values setting(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_setting_unpack);
+  return values({supercoil_setting_crc_decode(m.crc), supercoil_setting_counter_decode(m.counter),
+                 supercoil_setting_setting_decode(m.setting),
+                 supercoil_setting_refusal_decode(m.refusal),
+                 supercoil_setting_session_low_decode(m.session_low),
+                 supercoil_setting_value_decode(m.value)});
+}
+inline Values setting_write(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_setting_write_unpack);
+  return values({supercoil_setting_write_crc_decode(m.crc),
+                 supercoil_setting_write_counter_decode(m.counter),
+                 supercoil_setting_write_setting_decode(m.setting),
+                 supercoil_setting_write_session_decode(m.session),
+                 supercoil_setting_write_value_decode(m.value)});
+}
+inline Values setting_read(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_setting_read_unpack);
+  return values({supercoil_setting_read_setting_decode(m.setting)});
+}
 inline Values status(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_status_unpack);
   return values(
@@ -136,7 +160,7 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 13> codec_messages{{
+constexpr std::array<CodecMessage, 17> codec_messages{{
     {"Emergency", SUPERCOIL_EMERGENCY_FRAME_ID, SUPERCOIL_EMERGENCY_LENGTH, emergency},
     {"Command", SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, command},
     {"Acknowledge", SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH, acknowledge},
@@ -149,6 +173,11 @@ constexpr std::array<CodecMessage, 13> codec_messages{{
     {"Margin", SUPERCOIL_MARGIN_FRAME_ID, SUPERCOIL_MARGIN_LENGTH, margin},
     {"Limit", SUPERCOIL_LIMIT_FRAME_ID, SUPERCOIL_LIMIT_LENGTH, limit},
     {"Timing", SUPERCOIL_TIMING_FRAME_ID, SUPERCOIL_TIMING_LENGTH, timing},
+    {"Gain", SUPERCOIL_GAIN_FRAME_ID, SUPERCOIL_GAIN_LENGTH, gain},
+    {"Setting", SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH, setting},
+    {"SettingWrite", SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH,
+     setting_write},
+    {"SettingRead", SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_SETTING_READ_LENGTH, setting_read},
     {"Status", SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, status},
 }};
 

@@ -29,6 +29,20 @@ struct Master {
     telemetry::e2e::protect(made);
     return made;
   }
+  hal::CanFrame setting(std::uint8_t setting, float value) {
+    supercoil_setting_write_t m{};
+    m.counter = counter;
+    counter = static_cast<std::uint8_t>((counter + 1) % telemetry::e2e::counters);
+    m.setting = setting;
+    m.session = session;
+    m.value = value;
+    hal::CanFrame made;
+    made.id = static_cast<std::uint16_t>(SUPERCOIL_SETTING_WRITE_FRAME_ID - 1 + node);
+    made.length = SUPERCOIL_SETTING_WRITE_LENGTH;
+    supercoil_setting_write_pack(made.data.data(), &m, made.data.size());
+    telemetry::e2e::protect(made);
+    return made;
+  }
   hal::CanFrame frame(Verb verb, float value = 0.0F) {
     return frame(static_cast<std::uint8_t>(verb), value);
   }
@@ -37,6 +51,12 @@ struct Master {
 inline supercoil_acknowledge_t read_answer(const hal::CanFrame& frame) {
   supercoil_acknowledge_t m{};
   supercoil_acknowledge_unpack(&m, frame.data.data(), frame.length);
+  return m;
+}
+
+inline supercoil_setting_t read_setting(const hal::CanFrame& frame) {
+  supercoil_setting_t m{};
+  supercoil_setting_unpack(&m, frame.data.data(), frame.length);
   return m;
 }
 

@@ -1,0 +1,39 @@
+// What the active controller multiplies its signals by; an adaptive one changes it.
+
+import { element, show } from "./dom.js";
+import { significant, words } from "./format.js";
+
+// "" multiplies power, position and reference in watts at rest.
+const UNITS = { proportional: "W/m", integral: "W/(m·s)", derivative: "W·s/m", feedforward: "W/m" };
+
+export class Gains {
+  constructor(node, store) {
+    Object.assign(this, { node, store, rows: new Map() });
+    this.body = element("tbody");
+    this.none = element("p", { class: "hint" }, "This controller has none.");
+    this.element = element("section", { class: "card full-only", "aria-label": `gains of the controller, node ${node}` },
+      element("h2", {}, "Gains of the controller"), this.none,
+      element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
+        ...["gain", "value", "unit"].map((title) => element("th", { scope: "col" }, title)))), this.body));
+  }
+
+  update(now_s) {
+    const newest = this.store.round(this.node, "Gain", "gain", now_s);
+    newest.delete(0);
+    for (const [number, row] of this.rows) row.hidden = !newest.has(number);
+    for (const number of [...newest.keys()].sort((a, b) => a - b)) show(this.#row(number).cells[1], significant(newest.get(number).value));
+    this.none.hidden = newest.size > 0;
+  }
+
+  #row(number) {
+    if (!this.rows.has(number)) {
+      const name = this.store.word("Gain", "gain", number);
+      const row = element("tr", {}, element("th", { scope: "row" }, words(name)), element("td", { class: "value" }),
+        element("td", { class: "unit" }, UNITS[name] ?? ""));
+      const behind = [...this.rows.keys()].filter((other) => other > number).sort((a, b) => a - b)[0];
+      this.body.insertBefore(row, behind === undefined ? null : this.rows.get(behind));
+      this.rows.set(number, row);
+    }
+    return this.rows.get(number);
+  }
+}

@@ -1,0 +1,115 @@
+#include "telemetry/run_settings.hpp"
+
+#include <cmath>
+
+#include <supercoil.h>
+
+#include "telemetry/e2e.hpp"
+#include "telemetry/pack.hpp"
+
+namespace supercoil::telemetry {
+
+namespace {
+
+constexpr std::uint8_t most_power = 0;
+
+Message message_of(std::uint8_t setting) {
+  return static_cast<Message>(setting - 1);
+}
+
+}  // namespace
+
+std::string run_setting_name(std::uint8_t setting) {
+  if (setting == most_power) return "most_power_W";
+  return std::string(all_messages()[setting - 1U].name) + "_Hz";
+}
+
+std::vector<std::uint16_t> setting_ids(const CanSettings& settings, std::size_t channels) {
+  std::vector<std::uint16_t> ids;
+  for (const unsigned base : {SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_READ_FRAME_ID}) {
+    for (std::size_t i = 0; i < channels; ++i)
+      ids.push_back(static_cast<std::uint16_t>(base - 1 + settings.first_node + i));
+  }
+  return ids;
+}
+
+RunSettings::RunSettings(const CanSettings& can, const BoardSettings& board, Leases& leases,
+                         Publisher& publisher, Loop& loop)
+    : can_(can), tick_Hz_(board.rate_Hz), leases_(&leases), publisher_(&publisher), loop_(&loop) {
+  for (const ChannelSettings& channel : board.channels)
+    most_W_.push_back(channel.limiter.max_W);
+}
+
+std::optional<std::uint8_t> RunSettings::channel_of(const hal::CanFrame& frame,
+                                                    unsigned id_of_node_1) const {
+  const int channel = frame.id - static_cast<int>(id_of_node_1) + 1 - can_.first_node;
+  if (channel < 0 || channel >= static_cast<int>(most_W_.size())) return std::nullopt;
+  return static_cast<std::uint8_t>(channel);
+}
+
+RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
+  if (const auto channel = channel_of(frame, SUPERCOIL_SETTING_WRITE_FRAME_ID))
+    return take_write(*channel, frame, now);
+  const auto channel = channel_of(frame, SUPERCOIL_SETTING_READ_FRAME_ID);
+  if (!channel || frame.length != SUPERCOIL_SETTING_READ_LENGTH) return {};
+  supercoil_setting_read_t m{};
+  supercoil_setting_read_unpack(&m, frame.data.data(), frame.length);
+  const bool known = !std::isnan(value_of(*channel, m.setting));
+  return {{}, told(*channel, m.setting, known ? Refusal::none : Refusal::out_of_range, 0, 0)};
+}
+
+RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& frame,
+                                           hal::Time now) {
+  if (!e2e::intact(frame, SUPERCOIL_SETTING_WRITE_LENGTH)) return {channel, {}};
+  supercoil_setting_write_t m{};
+  supercoil_setting_write_unpack(&m, frame.data.data(), frame.length);
+  Taken taken;
+  Refusal refusal = leases_->check(channel, m.session, m.counter, now);
+  if (refusal == Refusal::wrong_counter) taken.damaged = channel;
+  if (refusal == Refusal::none) refusal = set(channel, m.setting, m.value);
+  taken.answer = told(channel, m.setting, refusal, m.counter, m.session);
+  return taken;
+}
+
+Refusal RunSettings::set(std::uint8_t channel, std::uint8_t setting, double value) {
+  if (std::isnan(value_of(channel, setting))) return Refusal::out_of_range;
+  if (setting != most_power) return set_rate(channel, message_of(setting), value);
+  if (!(value >= 0.0 && value <= most_W_[channel])) return Refusal::out_of_range;
+  loop_->channel(channel).allow_power(value);
+  return Refusal::none;
+}
+
+Refusal RunSettings::set_rate(std::uint8_t channel, Message message, double rate_Hz) {
+  if (!is_allowed(message, rate_Hz, tick_Hz_)) return Refusal::out_of_range;
+  std::vector<Rates> rates = publisher_->rates_Hz();
+  rates[channel][static_cast<std::size_t>(message)] = rate_Hz;
+  const double load = bus_load(rates, can_.bit_rate);
+  // Less is always allowed.
+  if (load > can_.most_load && load > bus_load(publisher_->rates_Hz(), can_.bit_rate))
+    return Refusal::out_of_range;
+  publisher_->set_rates(rates);
+  return Refusal::none;
+}
+
+double RunSettings::value_of(std::uint8_t channel, std::uint8_t setting) const {
+  if (setting == most_power) return loop_->channel(channel).most_power_W();
+  if (setting >= run_settings || !is_of(channel, message_of(setting))) return NAN;
+  return publisher_->rates_Hz()[channel][setting - 1U];
+}
+
+hal::CanFrame RunSettings::told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
+                                std::uint8_t counter, std::uint16_t session) const {
+  supercoil_setting_t m{};
+  m.counter = counter;
+  m.setting = setting;
+  m.refusal = static_cast<std::uint8_t>(refusal);
+  m.session_low = static_cast<std::uint8_t>(session);
+  m.value = static_cast<float>(value_of(channel, setting));
+  hal::CanFrame frame =
+      packed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH,
+             static_cast<Node>(can_.first_node + channel), m, supercoil_setting_pack);
+  e2e::protect(frame);
+  return frame;
+}
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,58 @@
+// What may be changed on a running board over CAN, until it starts again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loop/loop.hpp"
+#include "telemetry/leases.hpp"
+#include "telemetry/publisher.hpp"
+
+namespace supercoil::telemetry {
+
+/// 0: the power that a channel gets at most, in W, up to the configured maximum. The others: how
+/// often each message of its node is sent, in Hz, in the order of Message.
+inline constexpr std::uint8_t run_settings = 1 + messages;
+static_assert(run_settings <= 16, "a setting has 4 bits");
+/// As in the DBC, with its unit.
+std::string run_setting_name(std::uint8_t setting);
+
+/// Identifiers of SettingWrite and SettingRead of a board's channels.
+std::vector<std::uint16_t> setting_ids(const CanSettings& settings, std::size_t channels);
+
+/// Neither sends nor receives. Writing needs the channel's lease, as a command does; reading does
+/// not. Whatever came whole is answered with what holds from then on.
+class RunSettings {
+ public:
+  /// board: as the loop was made with. All others outlive it.
+  RunSettings(const CanSettings& can, const BoardSettings& board, Leases& leases,
+              Publisher& publisher, Loop& loop);
+
+  /// What became of a frame. Both empty: it has nothing to do with settings.
+  struct Taken {
+    std::optional<std::uint8_t> damaged;  ///< the channel whose write was damaged
+    std::optional<hal::CanFrame> answer;
+  };
+  Taken take(const hal::CanFrame& frame, hal::Time now);
+
+ private:
+  std::optional<std::uint8_t> channel_of(const hal::CanFrame& frame, unsigned id_of_node_1) const;
+  Taken take_write(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
+  Refusal set(std::uint8_t channel, std::uint8_t setting, double value);
+  Refusal set_rate(std::uint8_t channel, Message message, double rate_Hz);
+  /// NaN: there is no such setting of this channel.
+  double value_of(std::uint8_t channel, std::uint8_t setting) const;
+  hal::CanFrame told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
+                     std::uint8_t counter, std::uint16_t session) const;
+
+  CanSettings can_;
+  double tick_Hz_;
+  std::vector<double> most_W_;  ///< configured, of each channel
+  Leases* leases_;
+  Publisher* publisher_;
+  Loop* loop_;
+};
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,170 @@
+// What may be changed on a running board over CAN.
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/can_rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+constexpr std::uint8_t most_power = 0;
+constexpr auto rate_of(telemetry::Message message) {
+  return static_cast<std::uint8_t>(1 + static_cast<int>(message));
+}
+constexpr std::uint8_t position_rate = rate_of(telemetry::Message::measurement);
+
+hal::CanFrame read_frame(std::uint8_t setting) {
+  hal::CanFrame frame;
+  frame.id = SUPERCOIL_SETTING_READ_FRAME_ID;
+  frame.length = SUPERCOIL_SETTING_READ_LENGTH;
+  frame.data[0] = setting;
+  return frame;
+}
+
+Refusal refusal_in(const supercoil_setting_t& told) {
+  return static_cast<Refusal>(told.refusal);
+}
+
+}  // namespace
+
+/// The estimator begins at the muscle's values: it has to prove them only.
+RigSettings well_known() {
+  RigSettings settings = rough_board();
+  control::GradientSettings& gradient = settings.firmware.channels[0].estimators[0].gradient;
+  gradient.initial = gradient.scale.nominal;
+  return settings;
+}
+
+TEST_GROUP(Settings) {
+  CanRig rig{well_known()};
+  Master master;
+
+  Refusal write(std::uint8_t setting, float value) {
+    return refusal_in(rig.ask_setting(master.setting(setting, value)));
+  }
+  double read(std::uint8_t setting) {
+    return static_cast<double>(rig.ask_setting(read_frame(setting)).value);
+  }
+};
+
+TEST(Settings, AreReadByEverybody) {
+  rig.run(0.1);
+  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(most_power), 1e-6);
+  DOUBLES_EQUAL(100.0, read(position_rate), 0.0);
+  for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
+    const auto told = rig.ask_setting(read_frame(i));
+    LONGS_EQUAL(i, told.setting);
+    CHECK(refusal_in(told) == Refusal::none);
+  }
+  CHECK(refusal_in(rig.ask_setting(read_frame(telemetry::run_settings))) == Refusal::out_of_range);
+}
+
+TEST(Settings, AreWrittenUnderTheLeaseOnly) {
+  rig.run(0.1);
+  CHECK(write(most_power, 1.0F) == Refusal::no_lease);
+  CHECK(rig.claim(master) == Refusal::none);
+  Master other;
+  other.session = static_cast<std::uint16_t>(master.session + 1);
+  CHECK(refusal_in(rig.ask_setting(other.setting(most_power, 1.0F))) == Refusal::not_yours);
+  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(most_power), 1e-6);
+  const auto told = rig.ask_setting(master.setting(most_power, 1.0F));
+  CHECK(refusal_in(told) == Refusal::none);
+  LONGS_EQUAL(master.session & 0xFF, told.session_low);
+  DOUBLES_EQUAL(1.0, read(most_power), 0.0);
+}
+
+TEST(Settings, ShareTheSequenceOfCommands) {
+  rig.run(0.1);
+  rig.claim(master);
+  const hal::CanFrame once = master.setting(most_power, 1.0F);
+  CHECK(refusal_in(rig.ask_setting(once)) == Refusal::none);
+  CHECK(refusal_in(rig.ask_setting(once)) == Refusal::wrong_counter);
+  CHECK(rig.command(master, Verb::disarm) == Refusal::none);
+  CHECK(write(most_power, 2.0F) == Refusal::none);
+}
+
+TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
+  rig.start(master);
+  CHECK(rig.command(master, Verb::power, 2.0F) == Refusal::none);
+  rig.run(0.1);
+  CHECK(rig.true_power_W() > 1.0);
+  CHECK(write(most_power, 0.5F) == Refusal::none);
+  CHECK(rig.command(master, Verb::renew) == Refusal::none);
+  rig.run(0.05);
+  CHECK(rig.true_power_W() < 0.55);
+  CHECK(rig.loop.channel(0).snapshot().limited_by == LimitedBy::maximum);
+  for (const float wrong : {-0.1F, 1e6F, NAN, INFINITY})
+    CHECK(write(most_power, wrong) == Refusal::out_of_range);
+  DOUBLES_EQUAL(0.5, read(most_power), 0.0);
+}
+
+TEST(Settings, AMessageComesAsOftenAsItIsWritten) {
+  rig.run(0.1);
+  rig.claim(master);
+  CHECK(write(position_rate, 20.0F) == Refusal::none);
+  rig.heard_of.clear();
+  rig.run(2.0);
+  const int heard = rig.heard_of[SUPERCOIL_MEASUREMENT_FRAME_ID];
+  CHECK(heard >= 39 && heard <= 41);
+  rig.claim(master);
+  CHECK(write(position_rate, 0.0F) == Refusal::none);
+  rig.heard_of.clear();
+  rig.run(1.0);
+  LONGS_EQUAL(0, rig.heard_of[SUPERCOIL_MEASUREMENT_FRAME_ID]);
+}
+
+TEST(Settings, NeitherTheHeartbeatNorTheBusMayBeLost) {
+  rig.run(0.1);
+  rig.claim(master);
+  constexpr std::uint8_t heartbeat = rate_of(telemetry::Message::status);
+  for (const float wrong : {0.0F, 0.5F, NAN, -1.0F, 1001.0F})
+    CHECK(write(heartbeat, wrong) == Refusal::out_of_range);
+  for (const float wrong : {1e-30F, NAN, -1.0F, 1001.0F, INFINITY})
+    CHECK(write(position_rate, wrong) == Refusal::out_of_range);
+  // Each alone has room on the bus, all together have not.
+  int refused = 0;
+  for (std::uint8_t i = 1; i < telemetry::run_settings; ++i)
+    refused += write(i, 700.0F) == Refusal::out_of_range ? 1 : 0;
+  CHECK(refused > 5);
+  CHECK(telemetry::bus_load(rig.link.publisher().rates_Hz(), rig.can.bit_rate) <=
+        rig.can.most_load);
+}
+
+TEST(Settings, DamagedWritesAreNotObeyedAndCount) {
+  rig.run(16.0);
+  rig.claim(master);
+  for (int bit = 0; bit < 64; ++bit) {
+    hal::CanFrame frame = master.setting(most_power, 1.0F);
+    frame.data[static_cast<std::size_t>(bit / 8)] ^= static_cast<std::uint8_t>(1U << (bit % 8));
+    LONGS_EQUAL(0, rig.ask_setting(frame).counter);
+    CHECK(rig.settings_told.empty());
+  }
+  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(most_power), 1e-6);
+  CHECK(rig.fault() == Fault::command_damaged);
+}
+
+TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
+  rig.start(master);
+  CHECK(rig.command(master, Verb::store, 1.0F) == Refusal::not_ready);
+  CHECK(rig.command(master, Verb::store, 0.5F) == Refusal::out_of_range);
+  CHECK(rig.command(master, Verb::store, NAN) == Refusal::out_of_range);
+  storage::Lesson lesson;
+  CHECK_FALSE(rig.loop.channel(0).take_lesson(lesson));
+  CHECK(rig.command(master, Verb::store, 0.0F) == Refusal::none);
+  CHECK(rig.loop.channel(0).take_lesson(lesson));
+  CHECK_FALSE(lesson.has_value());
+  // Moved until its estimates may be trusted.
+  Refusal stored = Refusal::not_ready;
+  for (int i = 0; i < 4000 && stored == Refusal::not_ready; ++i) {
+    const double time_s = 0.05 * i;
+    const double power_W = 2.2 + 0.5 * (std::sin(0.3 * time_s) + std::sin(1.1 * time_s)) +
+                           0.5 * (std::sin(3.1 * time_s) + std::sin(9.0 * time_s));
+    CHECK(rig.command(master, Verb::power, static_cast<float>(power_W)) == Refusal::none);
+    rig.run(0.048);
+    if (i % 20 == 0) stored = rig.command(master, Verb::store, 1.0F);
+  }
+  CHECK(stored == Refusal::none);
+  CHECK(rig.loop.channel(0).take_lesson(lesson));
+  DOUBLES_EQUAL(16.0, lesson->muscle.stiffness_N_per_m, 3.0);
+}

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "program/exit_status.hpp"
+
 namespace supercoil::daemon {
 
 namespace {
@@ -38,6 +40,11 @@ void log(Level level, std::string_view text) {
   static const bool journal = std::getenv("JOURNAL_STREAM") != nullptr;
   std::fprintf(stderr, "%s%.*s\n", journal ? journal_prefix(level) : terminal_prefix(level),
                static_cast<int>(text.size()), text.data());
+}
+
+int fail(std::string_view why) {
+  log(Level::problem, why);
+  return exit_failed;
 }
 
 void log_steps(const std::vector<hal_linux::SetupStep>& steps) {

@@ -35,11 +35,6 @@ constexpr hal::Duration cool_within = std::chrono::seconds(2);
 /// Buses must not hold up the loop.
 constexpr int below_the_loop = 10;
 
-int fail(const std::string& why) {
-  log(Level::problem, why);
-  return exit_failed;
-}
-
 /// The daemon's parts, in the order in which they are made; they end in the opposite one.
 struct Parts {
   storage::PosixFiles files;

@@ -7,7 +7,7 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr std::string_view board = "Board";
+constexpr std::string_view board_node = "Board";
 
 /// The text with the first `old` in it replaced; unchanged when there is none.
 std::string with(std::string_view text, std::string_view old, const std::string& replacement) {
@@ -42,7 +42,7 @@ std::string of_node(std::string_view line, std::size_t at, int node) {
   result += std::string_view(end, line.data() + line.size());
   if (!line.starts_with("BO_ ")) return result;
   result = with(result, ":", named("", node) + ":");
-  return result.ends_with(board) ? result + named("", node) : result;
+  return result.ends_with(board_node) ? result + named("", node) : result;
 }
 
 /// A message with its signals, once for each node.
@@ -52,7 +52,7 @@ std::string message(std::string_view block, const std::vector<int>& nodes) {
     for (std::string_view rest = block; !rest.empty();) {
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(line.size() + 1);
-      const bool heard_by_board = line.starts_with(" SG_") && line.ends_with(board);
+      const bool heard_by_board = line.starts_with(" SG_") && line.ends_with(board_node);
       result +=
           line.starts_with("BO_ ") ? of_node(line, identifier_in(line), node) : std::string(line);
       result += heard_by_board ? named("", node) + "\n" : "\n";
@@ -79,11 +79,11 @@ std::string bus_dbc(std::string_view dbc, const std::vector<int>& nodes) {
     if (line.starts_with("BU_:")) {
       std::string boards;
       for (const int node : nodes)
-        boards += (boards.empty() ? "" : " ") + named(board, node);
-      result += with(line, board, boards) + "\n";
+        boards += (boards.empty() ? "" : " ") + named(board_node, node);
+      result += with(line, board_node, boards) + "\n";
     } else if (line.starts_with("CM_ BU_ Board ")) {
       for (const int node : nodes)
-        result += with(line, board, named(board, node)) + "\n";
+        result += with(line, board_node, named(board_node, node)) + "\n";
     } else if (at != std::string_view::npos) {
       for (const int node : nodes)
         result += of_node(line, at, node) + "\n";

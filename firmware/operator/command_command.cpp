@@ -3,7 +3,6 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <thread>
 
@@ -11,18 +10,13 @@
 
 #include "operator/board_link.hpp"
 #include "operator/commands.hpp"
+#include "operator/interrupted.hpp"
 
 namespace supercoil::operating {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) {
-  interrupted = 1;
-}
 
 /// A board's answer as an exit status; anything but "ok" is also said.
 int judged(const std::string& line, const std::string& answer) {
@@ -72,8 +66,7 @@ std::string line_at(const CommandOptions& options, double time_s) {
 
 /// Until its time is over or it is interrupted; then the muscle rests.
 int hold(BoardLink& board, const CommandOptions& options) {
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  watch_for_interrupts();
   const bool renews_itself = options.words.size() == 3;
   const auto begin = Clock::now();
   auto next = begin;

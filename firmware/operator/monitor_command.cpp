@@ -1,5 +1,4 @@
 // supercoil monitor: a bus or a log on a page.
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <thread>
@@ -7,6 +6,7 @@
 #include "operator/bus/bus_name.hpp"
 #include "operator/bus/log_file.hpp"
 #include "operator/commands.hpp"
+#include "operator/interrupted.hpp"
 #include "operator/monitor/api.hpp"
 #include "operator/monitor/listener.hpp"
 #include "operator/monitor/server_thread.hpp"
@@ -18,12 +18,6 @@ namespace supercoil::operating {
 namespace {
 
 constexpr int page_threads = 40;
-
-volatile std::sig_atomic_t interrupted = 0;
-
-void interrupt(int) {
-  interrupted = 1;
-}
 
 /// What is watched: a log that was read, or a listener on a bus.
 struct Source {
@@ -106,8 +100,7 @@ int serve_page(const MonitorOptions& options, Source& source) {
 int monitor_command(const MonitorOptions& options) {
   auto source = open_source(options);
   if (!source) return fail(exit_wrong_input, source.error());
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  watch_for_interrupts();
   if (!options.text) return serve_page(options, *source);
   return show_on_terminal(*source->recent, source->log, [] { return interrupted != 0; });
 }

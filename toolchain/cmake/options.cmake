@@ -18,3 +18,12 @@ if(SUPERCOIL_SANITIZE)
   endif()
   add_link_options(-fsanitize=${SUPERCOIL_SANITIZE})
 endif()
+
+# CLI11 takes 20 s to optimise, for what runs once.
+function(supercoil_reads_command_line file)
+  set(optimised -O1)
+  if(SUPERCOIL_SANITIZE)
+    set(optimised -O0)
+  endif()
+  set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS ${optimised})
+endfunction()

@@ -21,11 +21,6 @@ namespace {
 constexpr hal::Duration tell_every = std::chrono::seconds(2);
 constexpr double settling_s = 0.1;
 
-int fail(const std::string& why) {
-  log(Level::problem, why);
-  return exit_failed;
-}
-
 std::optional<BoardSettings> settings_of(const LatencyOptions& options) {
   BoardSettings settings;
   settings.rate_Hz = options.rate_Hz;

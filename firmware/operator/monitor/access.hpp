@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <httplib.h>
+#include "operator/monitor/httplib.hpp"
 
 namespace supercoil::operating {
 

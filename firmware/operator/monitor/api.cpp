@@ -117,9 +117,9 @@ void Api::serve_with(httplib::Server& server) {
   server.Get("/api/history", shown([this](const auto& q, auto& a) { history(q, a); }));
   server.Get("/api/stream", shown([this](const auto& q, auto& a) { stream(q, a); }));
   server.Get(R"(/api/fault/([a-z_]+))", [](const Request& request, Response& response) {
-    const Asset* page = find_asset(fault_pages(), request.matches[1].str());
-    if (page == nullptr) return refuse(response, 404, "there is no such fault");
-    answer_with(response, *page, "text/markdown; charset=utf-8");
+    const Asset* text = find_asset(fault_pages(), request.matches[1].str());
+    if (text == nullptr) return refuse(response, 404, "there is no such fault");
+    answer_with(response, *text, "text/markdown; charset=utf-8");
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
   server.Post("/api/alive", commanded([this](const auto& q, auto& a) { alive(q, a); }));

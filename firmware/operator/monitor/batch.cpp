@@ -45,25 +45,25 @@ void add_time(std::string& text, hal::Time time) {
   text += ',';
 }
 
-void add_column(std::string& json, std::string_view name, std::string& numbers) {
+void add_column(std::string& text, std::string_view name, std::string& numbers) {
   if (!numbers.empty()) numbers.pop_back();
-  json.append("\"").append(name).append("\":[").append(numbers).append("],");
+  text.append("\"").append(name).append("\":[").append(numbers).append("],");
 }
 
-void close(std::string& json) {
-  if (json.back() == ',') json.pop_back();
-  json += "},";
+void close(std::string& text) {
+  if (text.back() == ',') text.pop_back();
+  text += "},";
 }
 
 std::string figures_json(const BusFigures& bus) {
-  std::string json = "{\"load\":";
-  add_number(json, bus.load);
-  json += "\"frames_per_s\":";
-  add_number(json, bus.frames_per_s);
-  json += "\"foreign_per_s\":";
-  add_number(json, bus.foreign_per_s);
-  json.back() = '}';
-  return json;
+  std::string text = "{\"load\":";
+  add_number(text, bus.load);
+  text += "\"frames_per_s\":";
+  add_number(text, bus.frames_per_s);
+  text += "\"foreign_per_s\":";
+  add_number(text, bus.foreign_per_s);
+  text.back() = '}';
+  return text;
 }
 
 }  // namespace
@@ -78,28 +78,28 @@ std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures&
     for (std::size_t i = 0; i < decoded->message->signals.size(); ++i)
       add_number(columns.values.at(i), decoded->values.at(i));
   }
-  std::string json = "{";
+  std::string text = "{";
   if (!frames.empty()) {
-    json += "\"newest_s\":";
-    add_time(json, frames.back().received);
+    text += "\"newest_s\":";
+    add_time(text, frames.back().received);
   }
-  json += "\"nodes\":{";
+  text += "\"nodes\":{";
   int node = 0;
   for (auto& [key, columns] : all) {
     if (key.first != node) {
-      if (node != 0) close(json);
+      if (node != 0) close(text);
       node = key.first;
-      json += "\"" + std::to_string(node) + "\":{";
+      text += "\"" + std::to_string(node) + "\":{";
     }
-    json.append("\"").append(key.second->name).append("\":{");
-    add_column(json, "time_s", columns.time_s);
+    text.append("\"").append(key.second->name).append("\":{");
+    add_column(text, "time_s", columns.time_s);
     for (std::size_t i = 0; i < key.second->signals.size(); ++i)
-      add_column(json, key.second->signals[i].name, columns.values.at(i));
-    close(json);
+      add_column(text, key.second->signals[i].name, columns.values.at(i));
+    close(text);
   }
-  if (node != 0) close(json);
-  close(json);
-  return json + "\"bus\":" + figures_json(bus) + "}";
+  if (node != 0) close(text);
+  close(text);
+  return text + "\"bus\":" + figures_json(bus) + "}";
 }
 
 std::string protocol_json() {

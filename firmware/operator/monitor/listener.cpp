@@ -8,7 +8,7 @@ namespace supercoil::operating {
 namespace {
 
 constexpr std::size_t most_at_once = 1024;
-constexpr auto nap = std::chrono::milliseconds(5);
+constexpr auto pause = std::chrono::milliseconds(5);
 
 std::string why_lost(hal::CanState state) {
   switch (state) {
@@ -40,7 +40,7 @@ void Listener::run() {
       frames.push_back(frame);
     recent_->add(frames);
     recent_->set_lost(why_lost(bus_->state()));
-    if (frames.size() < most_at_once) std::this_thread::sleep_for(nap);
+    if (frames.size() < most_at_once) std::this_thread::sleep_for(pause);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <thread>
 
-#include <httplib.h>
+#include "operator/monitor/httplib.hpp"
 
 namespace supercoil::operating {
 

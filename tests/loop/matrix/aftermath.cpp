@@ -6,10 +6,6 @@ namespace supercoil::test {
 
 namespace {
 
-std::string text(Fault fault) {
-  return std::string(name(fault));
-}
-
 /// No detector trips.
 bool quiet(const Rig& rig) {
   return rig.loop.channel(Rig::tested).present_fault() == Fault::none &&

@@ -20,6 +20,10 @@ struct Within {
   double at(double period_s) const { return time_s + periods * period_s; }
 };
 
+inline std::string text(Fault fault) {
+  return std::string(name(fault));
+}
+
 struct FaultCase {
   Fault fault;
   std::string how = {};  ///< it comes about, when that is not the obvious way

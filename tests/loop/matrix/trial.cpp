@@ -7,10 +7,6 @@ namespace supercoil::test {
 
 namespace {
 
-std::string text(Fault fault) {
-  return std::string(name(fault));
-}
-
 /// Both ways of cutting, at the tick of the fault.
 std::string lines_wrong(Rig& rig, std::uint8_t channel) {
   const host_sim::MuscleChannel& muscle = rig.board.channel(channel);

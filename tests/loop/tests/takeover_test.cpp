@@ -57,13 +57,13 @@ void hold(Rig& rig) {
 }
 
 /// How far the muscle is, within a time after a switch, from where it would have been without.
-double moved_m(int from, int to, bool sine, int ticks) {
+double moved_m(int from, int to, bool moving, int ticks) {
   Twins twins(rough_board());
   twins.warm_up(Task::position, from);
-  if (!sine) twins.both([](Rig& rig) { rig.task = Task::nothing; });
-  twins.apart_m(warm_ticks, sine ? follow : hold);
+  if (!moving) twins.both([](Rig& rig) { rig.task = Task::nothing; });
+  twins.apart_m(warm_ticks, moving ? follow : hold);
   twins.switches.send(Verb::controller, to);
-  return twins.apart_m(ticks, sine ? follow : hold);
+  return twins.apart_m(ticks, moving ? follow : hold);
 }
 
 }  // namespace

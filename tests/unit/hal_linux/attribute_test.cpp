@@ -8,6 +8,7 @@
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
+#include "unit/hal_linux/support/check_status.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
@@ -16,10 +17,6 @@ using namespace supercoil::hal_linux;
 using namespace supercoil::test;
 
 namespace {
-
-void check_status(hal::Status expected, hal::Status status) {
-  STRCMP_EQUAL(hal::text(expected), hal::text(status));
-}
 
 /// No content of a file that is a number.
 const auto no_numbers = {

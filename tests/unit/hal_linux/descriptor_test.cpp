@@ -9,6 +9,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "unit/hal_linux/support/check_status.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
@@ -20,10 +21,6 @@ namespace {
 
 bool is_open(int number) {
   return ::fcntl(number, F_GETFD) >= 0;
-}
-
-void check_status(hal::Status expected, hal::Status status) {
-  STRCMP_EQUAL(hal::text(expected), hal::text(status));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "unit/hal_linux/support/check_status.hpp"
 #include "unit/hal_linux/support/pwm_kernel.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"
 
@@ -13,10 +14,6 @@ using namespace supercoil::hal_linux;
 using namespace supercoil::test;
 
 namespace {
-
-void check_status(hal::Status expected, hal::Status status) {
-  STRCMP_EQUAL(hal::text(expected), hal::text(status));
-}
 
 std::unique_ptr<SysfsPwm> opened(const PwmKernel& kernel) {
   auto pwm = SysfsPwm::open({"i2c-1/1-0040", 5, 1'000'000, 4000, kernel.root()});

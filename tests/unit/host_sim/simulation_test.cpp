@@ -9,15 +9,13 @@
 
 #include "runner/summary.hpp"
 #include "scenario/read_scenario.hpp"
+#include "unit/host_sim/support/scenarios.hpp"
 
 using namespace supercoil;
 using namespace supercoil::host_sim;
+using supercoil::test::read;
 
 namespace {
-
-Scenario read(const std::string& text) {
-  return parse_scenario(text, "test.toml").value();
-}
 
 std::vector<TickRecord> records_of(const Scenario& scenario) {
   Simulation simulation(scenario);

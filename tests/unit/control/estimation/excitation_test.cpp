@@ -17,14 +17,14 @@ using Phi = Vector<double, 4>;
 
 namespace {
 
-constexpr double step_s = 1e-2;
+constexpr double block_step_s = 1e-2;
 
 /// Sines of 1, 2, 3 and 4 periods in the window of 20 s are orthogonal over it.
 Phi orthogonal_sines(long tick, const Phi& amplitude) {
   Phi phi;
   for (int i = 0; i < 4; ++i) {
     const double omega = 2.0 * std::numbers::pi * (i + 1) / 20.0;
-    phi[i] = amplitude[i] * std::sin(omega * step_s * static_cast<double>(tick));
+    phi[i] = amplitude[i] * std::sin(omega * block_step_s * static_cast<double>(tick));
   }
   return phi;
 }
@@ -60,7 +60,7 @@ TEST(Excitation, SmallestEigenvalueIsTheClosedFormOfOrthogonalSines) {
           .householderQr()
           .householderQ();
   for (const Matrix<double, 4>& basis : {Matrix<double, 4>(Matrix<double, 4>::Identity()), turn}) {
-    ExcitationMonitor monitor({.window_s = 20.0}, step_s);
+    ExcitationMonitor monitor({.window_s = 20.0}, block_step_s);
     for (long k = 1; k < 2000; ++k) {
       monitor.step(basis * orthogonal_sines(k, amplitude), 0.0, Phi::Zero());
       DOUBLES_EQUAL(0.0, monitor.smallest_eigenvalue(), 0.0);  // not before a whole window
@@ -72,7 +72,7 @@ TEST(Excitation, SmallestEigenvalueIsTheClosedFormOfOrthogonalSines) {
 }
 
 TEST(Excitation, TheWindowForgetsWhatIsOlder) {
-  ExcitationMonitor monitor({.window_s = 20.0}, step_s);
+  ExcitationMonitor monitor({.window_s = 20.0}, block_step_s);
   for (long k = 0; k < 2000; ++k)
     monitor.step(orthogonal_sines(k, Phi::Constant(1.0)), 0.0, Phi::Zero());
   CHECK(monitor.smallest_eigenvalue() > 1.0);
@@ -90,10 +90,10 @@ TEST(Excitation, TheBoundHoldsForThePresentParametersHoweverTheyGotThere) {
     const double extra_frequency = *reals(0.1, 5.0);
     const auto seed = *rc::gen::arbitrary<unsigned>();
     std::mt19937_64 random(seed);
-    ExcitationMonitor monitor({.window_s = 1.6}, step_s);
+    ExcitationMonitor monitor({.window_s = 1.6}, block_step_s);
     for (long k = 0; k < 160; ++k) {
       Phi phi = orthogonal_sines(k, amplitude);
-      phi[0] += std::sin(extra_frequency * step_s * static_cast<double>(k));
+      phi[0] += std::sin(extra_frequency * block_step_s * static_cast<double>(k));
       for (int i = 0; i < 4; ++i)
         phi[i] += static_cast<double>(random() >> 11) * 0x1p-53 - 0.5;
       // Until the last tick the estimate is where its error does not show, as adaptation would have
@@ -108,7 +108,7 @@ TEST(Excitation, TheBoundHoldsForThePresentParametersHoweverTheyGotThere) {
 }
 
 TEST(Excitation, TheBoundIsReachedAlongTheWeakestDirection) {
-  ExcitationMonitor monitor({.window_s = 20.0}, step_s);
+  ExcitationMonitor monitor({.window_s = 20.0}, block_step_s);
   const Phi amplitude{3.0, 0.5, 2.0, 1.0};
   for (long k = 0; k < 2000; ++k) {
     const Phi phi = orthogonal_sines(k, amplitude);
@@ -140,7 +140,7 @@ TEST(Excitation, ARichInputIsTrustedOnceItsParametersAreRight) {
 TEST(Excitation, AnEstimatorOfKindNoneHasNoEstimate) {
   EstimatorSettings settings;
   settings.kind = EstimatorKind::none;
-  Estimator estimator(settings, step_s);
+  Estimator estimator(settings, block_step_s);
   estimator.step(0.01, 1.0);
   CHECK_FALSE(estimator.estimate().has_value());
 }

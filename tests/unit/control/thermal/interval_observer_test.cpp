@@ -13,7 +13,7 @@ using control::ThermalBounds;
 
 namespace {
 
-constexpr double step_s = 0.01;
+constexpr double slow_step_s = 0.01;
 constexpr ThermalBounds bounds{0.12, 0.20, 0.06, 0.20, 0.95, 1.05};
 
 double uniform(double low, double high) {
@@ -26,7 +26,7 @@ TEST_GROUP(IntervalObserver){};
 
 TEST(IntervalObserver, HoldsTheTruthThoughTheMuscleChangesUnderIt) {
   CHECK(rc::check("random muscles, also changing ones, and random powers", [] {
-    IntervalObserver observer(bounds, step_s);
+    IntervalObserver observer(bounds, slow_step_s);
     double truth_K = 0.0;
     for (int stretch = 0; stretch < 12; ++stretch) {
       const double mass = uniform(bounds.lowest_mass_J_per_K, bounds.highest_mass_J_per_K);
@@ -36,7 +36,7 @@ TEST(IntervalObserver, HoldsTheTruthThoughTheMuscleChangesUnderIt) {
       const double power_W = *rc::gen::element(0.0, uniform(0.0, 4.5), 4.5);
       for (int tick = 0; tick < 100; ++tick) {
         const double rest_K = part * power_W / transfer;
-        truth_K = rest_K + (truth_K - rest_K) * std::exp(-transfer / mass * step_s);
+        truth_K = rest_K + (truth_K - rest_K) * std::exp(-transfer / mass * slow_step_s);
         observer.step(power_W);
         RC_ASSERT(observer.lowest_K() <= truth_K + 1e-9);
         RC_ASSERT(observer.highest_K() >= truth_K - 1e-9);
@@ -46,7 +46,7 @@ TEST(IntervalObserver, HoldsTheTruthThoughTheMuscleChangesUnderIt) {
 }
 
 TEST(IntervalObserver, OfAKnownMuscleIsItsTemperature) {
-  IntervalObserver observer({0.162, 0.162, 0.089, 0.089}, step_s);
+  IntervalObserver observer({0.162, 0.162, 0.089, 0.089}, slow_step_s);
   for (int tick = 0; tick < 182; ++tick)
     observer.step(4.5);
   const double expected_K = 4.5 / 0.089 * (1.0 - std::exp(-0.089 / 0.162 * 1.82));
@@ -56,21 +56,21 @@ TEST(IntervalObserver, OfAKnownMuscleIsItsTemperature) {
 
 TEST(IntervalObserver, IsHotterWhileCoolingThanAnObserverWithBothLowerBounds) {
   // Why both lower bounds are not enough: after a pulse a heavier muscle stays hot for longer.
-  IntervalObserver observer({0.12, 0.20, 0.06, 0.06}, step_s);
+  IntervalObserver observer({0.12, 0.20, 0.06, 0.06}, slow_step_s);
   double light_K = 0.0;
   double heavy_K = 0.0;
   for (int tick = 0; tick < 2000; ++tick) {
     const double power_W = tick < 1000 ? 4.5 : 0.0;
     observer.step(power_W);
-    light_K += (power_W / 0.06 - light_K) * (1.0 - std::exp(-0.06 / 0.12 * step_s));
-    heavy_K += (power_W / 0.06 - heavy_K) * (1.0 - std::exp(-0.06 / 0.20 * step_s));
+    light_K += (power_W / 0.06 - light_K) * (1.0 - std::exp(-0.06 / 0.12 * slow_step_s));
+    heavy_K += (power_W / 0.06 - heavy_K) * (1.0 - std::exp(-0.06 / 0.20 * slow_step_s));
   }
   CHECK_COMPARE(light_K, <, heavy_K);
   CHECK_COMPARE(observer.highest_K(), >=, heavy_K);
 }
 
 TEST(IntervalObserver, AfterAnUnknownPastIsAnythingUpToWhatItIsTold) {
-  IntervalObserver observer(bounds, step_s);
+  IntervalObserver observer(bounds, slow_step_s);
   observer.reset(140.0);
   DOUBLES_EQUAL(0.0, observer.lowest_K(), 0.0);
   DOUBLES_EQUAL(140.0, observer.highest_K(), 0.0);

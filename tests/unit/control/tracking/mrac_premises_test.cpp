@@ -32,8 +32,6 @@ MracSettings changed(Change change) {
   return settings;
 }
 
-constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
 }  // namespace
 
 TEST_GROUP(MracPremises){};
@@ -50,17 +48,17 @@ TEST(MracPremises, Eq8AndTheDesignAreNotStrictlyPositiveRealWithThePapersPoles) 
 
 TEST(MracPremises, AnUnstableLambdaFailsAlone) {
   for (const Polynomial<2>& bad :
-       {Polynomial<2>{2.0, -3.0, 1.0}, {0.0, 3.0, 1.0}, {not_a_number, 3.0, 1.0}}) {
+       {Polynomial<2>{2.0, -3.0, 1.0}, {0.0, 3.0, 1.0}, {std::nan(""), 3.0, 1.0}}) {
     CHECK((failing(changed([&](auto& s) { s.lambda = bad; })) == Failing{lambda}));
   }
 }
 
 TEST(MracPremises, EachGainThatIsNotAllowedFailsAlone) {
   for (Eigen::Index i = 0; i < 6; ++i) {
-    for (const double bad : {0.0, -1.0, not_a_number})
+    for (const double bad : {0.0, -1.0, std::nan("")})
       CHECK((failing(changed([&](auto& s) { s.gain[i] = bad; })) == Failing{gains}));
   }
-  for (const double bad : {-1e-9, not_a_number}) {
+  for (const double bad : {-1e-9, std::nan("")}) {
     CHECK((failing(changed([&](auto& s) { s.sigma_gain = bad; })) == Failing{gains}));
     CHECK((failing(changed([&](auto& s) { s.damping = bad; })) == Failing{gains}));
   }
@@ -74,7 +72,7 @@ TEST(MracPremises, AModelWithAnotherPoleFailsOnlyItsFactors) {
 
 TEST(MracPremises, APoleThatIsNotPositiveIsNamed) {
   // It also spoils the factors, and p0 and p1 the positive realness.
-  for (const double bad : {0.0, -0.8, not_a_number}) {
+  for (const double bad : {0.0, -0.8, std::nan("")}) {
     CHECK((failing(changed([&](auto& s) { s.q0_rad_per_s = bad; })) == Failing{poles, factors}));
     CHECK(failing(changed([&](auto& s) { s.p0_rad_per_s = bad; })).contains(poles));
     CHECK(failing(changed([&](auto& s) { s.p1_rad_per_s = bad; })).contains(poles));
@@ -89,7 +87,7 @@ TEST(MracPremises, AnUnstableOrNegativeModelIsNamed) {
   ReferenceModelSettings negative = wm16_model();
   negative.gain *= -1.0;
   CHECK((failing(MracSettings{}, negative) == Failing{model, realness}));
-  negative.gain = not_a_number;
+  negative.gain = std::nan("");
   CHECK(failing(MracSettings{}, negative).contains(model));
 }
 

@@ -9,13 +9,13 @@ using namespace supercoil::control;
 
 namespace {
 
-constexpr double step_s = 1e-3;
+constexpr double fast_step_s = 1e-3;
 using Law = Mrac<double>;
 using Theta6 = Vector<double, 6>;
 
 /// Inputs that excite everything: an error of about the given size and a live reference.
 LawInput<double> lively(int tick, double error_W = 0.3) {
-  const double t = step_s * tick;
+  const double t = fast_step_s * tick;
   LawInput<double> in;
   in.reference = 2.0 + std::sin(t);
   in.model.position = 2.0 + std::sin(t - 0.5);
@@ -34,7 +34,7 @@ void warm_up(Law& law) {
 TEST_GROUP(MracSafeguards){};
 
 TEST(MracSafeguards, ThetaAndSigmaRestWhileThePowerIsLimited) {
-  Law law(MracSettings{}, step_s);
+  Law law(MracSettings{}, fast_step_s);
   warm_up(law);
   const Theta6 theta = law.theta();
   const double sigma = law.sigma();
@@ -55,7 +55,7 @@ TEST(MracSafeguards, ThetaAndSigmaRestWhileThePowerIsLimited) {
 TEST(MracSafeguards, WithoutFreezingTheyMoveAlsoAtTheLimit) {
   MracSettings settings;
   settings.freeze_when_limited = false;
-  Law law(settings, step_s);
+  Law law(settings, fast_step_s);
   warm_up(law);
   const Theta6 theta = law.theta();
   const double sigma = law.sigma();
@@ -70,7 +70,7 @@ TEST(MracSafeguards, LeakagePullsThetaToItsStart) {
   MracSettings settings;
   settings.initial[5] = 0.3;
   settings.sigma_modification = 0.05;
-  Law law(settings, step_s);
+  Law law(settings, fast_step_s);
   warm_up(law);
   // Without signals the filters empty (slowest: 1 rad/s) and only the leak is left.
   for (int k = 0; k < 40000; ++k)
@@ -85,7 +85,7 @@ TEST(MracSafeguards, LeakagePullsThetaToItsStart) {
 }
 
 TEST(MracSafeguards, WithoutLeakageThetaStaysWhenTheSignalsEnd) {
-  Law law(MracSettings{}, step_s);
+  Law law(MracSettings{}, fast_step_s);
   warm_up(law);
   for (int k = 0; k < 40000; ++k)
     law.step({});
@@ -98,7 +98,7 @@ TEST(MracSafeguards, WithoutLeakageThetaStaysWhenTheSignalsEnd) {
 TEST(MracSafeguards, InTheDeadZoneNothingIsLearnt) {
   MracSettings settings;
   settings.dead_zone_W = 0.01;
-  Law law(settings, step_s);
+  Law law(settings, fast_step_s);
   for (int k = 0; k < 3000; ++k)
     law.step(lively(k, 0.009));
   CHECK(law.theta() == Theta6(settings.initial));
@@ -112,7 +112,7 @@ TEST(MracSafeguards, InTheDeadZoneNothingIsLearnt) {
 TEST(MracSafeguards, ThetaNeverLeavesItsBounds) {
   MracSettings settings = MracSettings{}.scaled(10.0);
   settings.bounds = Box<double, 6>{Theta6::Constant(-0.05), Theta6::Constant(0.05)};
-  Law law(settings, step_s);
+  Law law(settings, fast_step_s);
   bool touched = false;
   for (int k = 0; k < 6000; ++k) {
     law.step(lively(k));

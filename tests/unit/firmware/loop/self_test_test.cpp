@@ -4,17 +4,19 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "unit/firmware/support/tick.hpp"
+
 using supercoil::SelfTest;
+using supercoil::test::tick_s;
 
 namespace {
 
-constexpr double step_s = 1e-3;
 constexpr double idle_A = 0.007;
 
 /// Runs it on a board whose current depends on what the lines are.
 template <class Current>
 SelfTest::Verdict verdict(Current current) {
-  SelfTest test({0.02}, step_s);
+  SelfTest test({0.02}, tick_s);
   for (int i = 0; i < 10000 && !test.passed() && !test.failed(); ++i) {
     test.step(true, current(test.lines()), idle_A);
   }
@@ -40,7 +42,7 @@ TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
 }
 
 TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
-  SelfTest test({0.02}, step_s);
+  SelfTest test({0.02}, tick_s);
   int pulses = 0;
   while (!test.passed()) {
     const auto lines = test.lines();
@@ -52,7 +54,7 @@ TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
 }
 
 TEST(SelfTest, WaitsForTheLastLifesChargePumpToDecayFirst) {
-  SelfTest test({0.02}, step_s);
+  SelfTest test({0.02}, tick_s);
   for (int i = 0; i < 20; ++i) {
     CHECK_FALSE(test.lines().pulse);
     test.step(true, 0.0, idle_A);
@@ -66,7 +68,7 @@ TEST(SelfTest, IsNotFailedByASingleNoisyReading) {
 }
 
 TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
-  SelfTest test({0.02}, step_s);
+  SelfTest test({0.02}, tick_s);
   int hot_ticks = 0;
   while (!test.passed() && !test.failed()) {
     const bool hot = test.lines().heartbeat;
@@ -78,7 +80,7 @@ TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
 }
 
 TEST(SelfTest, WaitsColdWhileItMayNotRunAndBeginsAgain) {
-  SelfTest test({0.02}, step_s);
+  SelfTest test({0.02}, tick_s);
   for (int i = 0; i < 90; ++i)
     test.step(true, 0.0, idle_A);
   CHECK(test.lines().pulse);
@@ -87,7 +89,7 @@ TEST(SelfTest, WaitsColdWhileItMayNotRunAndBeginsAgain) {
   int ticks = 0;
   for (; !test.passed(); ++ticks)
     test.step(true, 0.0, idle_A);
-  DOUBLES_EQUAL(test.duration_s(), ticks * step_s, 2e-3);
+  DOUBLES_EQUAL(test.duration_s(), ticks * tick_s, 2e-3);
 }
 
 TEST(SelfTest, FailsOnACurrentThatIsNoNumber) {

@@ -12,14 +12,10 @@
 #include "unit/firmware/storage/support/sets.hpp"
 
 using namespace supercoil::storage;
+using supercoil::test::answer;
 using supercoil::test::learned_sets;
 
 namespace {
-
-std::string answer(const std::string& text) {
-  const auto set = decode(text);
-  return set ? "in order" : set.error();
-}
 
 void check_answer(const char* expected, const std::string& text) {
   STRCMP_EQUAL(expected, answer(text).c_str());

@@ -11,15 +11,11 @@
 #include "unit/firmware/storage/support/sets.hpp"
 
 using namespace supercoil::storage;
+using supercoil::test::answer;
 using supercoil::test::learned_sets;
 using supercoil::test::nth_set;
 
 namespace {
-
-std::string answer(const std::string& text) {
-  const auto set = decode(text);
-  return set ? "in order" : set.error();
-}
 
 std::string replaced(std::string text, const std::string& what, const std::string& instead) {
   return text.replace(text.find(what), what.size(), instead);

@@ -69,14 +69,14 @@ TEST_GROUP(PowerCut) {
   /// What the board may find after the cut, and that it goes on from there.
   void check_survivor(const Start& start, const Content& content, int before) const {
     const int now = loaded(content);
-    expect(now == before || now == saved, "load() gives the old set or the new one");
+    expect(now == before || now == saved_set, "load() gives the old set or the new one");
     for (const std::string& bad : damaged_of(start.content))
       expect(holds(content, bad), "damaged files are kept");
     Disk disk(content);
     SimulatedFiles files(disk);
-    expect(LearnedStore("/d", channel, files).save(nth_set(saved)).has_value(), "saves again");
+    expect(LearnedStore("/d", channel, files).save(nth_set(saved_set)).has_value(), "saves again");
     for (const Content& later : disk.survivors())
-      expect(loaded(later) == saved, "what was saved again is there after another cut");
+      expect(loaded(later) == saved_set, "what was saved again is there after another cut");
   }
 
   /// Returns the number of disks that a power cut left.
@@ -87,12 +87,13 @@ TEST_GROUP(PowerCut) {
     const int before = loaded(start.content);
     Disk disk(start.content);
     SimulatedFiles files(disk, mishap);
-    const auto result = LearnedStore("/d", channel, files).save(nth_set(saved));
+    const auto result = LearnedStore("/d", channel, files).save(nth_set(saved_set));
     const int seen = loaded(disk.seen());
-    expect(seen == before || seen == saved, "the program goes on with the old set or the new one");
+    expect(seen == before || seen == saved_set,
+           "the program goes on with the old set or the new one");
     const auto survivors = disk.survivors();
     for (const Content& content : survivors) {
-      if (result) expect(loaded(content) == saved, "what is reported as saved survives");
+      if (result) expect(loaded(content) == saved_set, "what is reported as saved survives");
       if (checked.insert(content).second) check_survivor(start, content, before);
     }
     return static_cast<int>(survivors.size());
@@ -105,7 +106,7 @@ TEST(PowerCut, AtEveryCallOfASaveLeavesTheOldSetOrTheNewOneWhole) {
   for (const Start& start : starts()) {
     Disk disk(start.content);
     SimulatedFiles files(disk);
-    CHECK(LearnedStore("/d", channel, files).save(nth_set(saved)).has_value());
+    CHECK(LearnedStore("/d", channel, files).save(nth_set(saved_set)).has_value());
     std::set<Content> checked;
     for (int call = 0; call < files.calls(); ++call) {
       for (const Mishap& mishap : mishaps(call)) {
@@ -123,9 +124,9 @@ TEST(PowerCut, AfterASaveKeepsTheVersionBeforeAsWell) {
     const int before = loaded(start.content);
     Disk disk(start.content);
     SimulatedFiles files(disk);
-    CHECK(LearnedStore("/d", channel, files).save(nth_set(saved)).has_value());
+    CHECK(LearnedStore("/d", channel, files).save(nth_set(saved_set)).has_value());
     for (const Content& content : disk.survivors()) {
-      LONGS_EQUAL_TEXT(saved, set_in(content, current), start.name);
+      LONGS_EQUAL_TEXT(saved_set, set_in(content, current), start.name);
       if (before != none) LONGS_EQUAL_TEXT(before, set_in(content, previous), start.name);
     }
   }
@@ -167,7 +168,7 @@ TEST(PowerCut, NeverLeavesOneFileUnderBothNames) {
   for (int call = 0; call < 12; ++call) {
     Disk disk(two);
     SimulatedFiles files(disk, {call, 0, true, true});
-    static_cast<void>(LearnedStore("/d", channel, files).save(nth_set(saved)));
+    static_cast<void>(LearnedStore("/d", channel, files).save(nth_set(saved_set)));
     CHECK(disk.names[current] != disk.names[previous]);
   }
 }

@@ -3,12 +3,12 @@
 #include <CppUTest/TestHarness.h>
 
 #include "supervisor/detectors/heater.hpp"
+#include "unit/firmware/support/tick.hpp"
 
 using namespace supercoil::detectors;
+using supercoil::test::tick_s;
 
 namespace {
-
-constexpr double step_s = 1e-3;
 
 /// Ticks until a detector trips, or -1.
 template <class Step>
@@ -24,47 +24,47 @@ int ticks_until(Step step, int most = 100000) {
 TEST_GROUP(HeaterDetectors){};
 
 TEST(HeaterDetectors, OpenLoadTripsForDutyWithoutCurrent) {
-  OpenLoad detector({0.02, 0.5, 0.02}, step_s);
+  OpenLoad detector({0.02, 0.5, 0.02}, tick_s);
   LONGS_EQUAL(20, ticks_until([&](int) { return detector.step(0.3, 0.01); }));
 }
 
 TEST(HeaterDetectors, OpenLoadDoesNotJudgeASmallDutyNorTripForAGoodHeater) {
-  OpenLoad detector({0.02, 0.5, 0.02}, step_s);
+  OpenLoad detector({0.02, 0.5, 0.02}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.0); }, 1000));
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.3, 0.36); }, 1000));
   DOUBLES_EQUAL(0.15 / 0.36, detector.margin().used(), 1e-9);
 }
 
 TEST(HeaterDetectors, OpenLoadTripsForACurrentThatIsNoNumber) {
-  OpenLoad detector({0.02, 0.5, 0.002}, step_s);
+  OpenLoad detector({0.02, 0.5, 0.002}, tick_s);
   LONGS_EQUAL(2, ticks_until([&](int) { return detector.step(0.3, std::nan("")); }));
 }
 
 TEST(HeaterDetectors, ShortTripsAboveItsCurrent) {
-  Short detector({3.0, 0.002}, step_s);
+  Short detector({3.0, 0.002}, tick_s);
   CHECK_FALSE(detector.step(3.0));
   CHECK_FALSE(detector.step(5.0));
   CHECK(detector.step(5.0));
 }
 
 TEST(HeaterDetectors, StuckOnTripsForCurrentWhileOff) {
-  StuckOn detector({0.02, 0.05}, step_s);
+  StuckOn detector({0.02, 0.05}, tick_s);
   LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, 0.4); }));
 }
 
 TEST(HeaterDetectors, StuckOnAllowsTheSenseFilterToDecay) {
-  StuckOn detector({0.02, 0.05}, step_s);
+  StuckOn detector({0.02, 0.05}, tick_s);
   LONGS_EQUAL(
       -1, ticks_until(
-              [&](int tick) { return detector.step(true, 1.2 * std::exp(-tick * step_s / 0.01)); },
+              [&](int tick) { return detector.step(true, 1.2 * std::exp(-tick * tick_s / 0.01)); },
               1000));
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(false, 1.2); }, 1000));
 }
 
 TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
-  NotResponding detector({20.0, 0.3, 0.001}, step_s);
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   const int ticks = ticks_until([&](int tick) {
-    const double t = tick * step_s;
+    const double t = tick * tick_s;
     return detector.step(0.0003 * t / 20.0, 0.002 * t / 20.0);
   });
   LONGS_EQUAL(20000, ticks);
@@ -73,20 +73,20 @@ TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
 }
 
 TEST(HeaterDetectors, NotRespondingIsContentWithAMuscleThatMoves) {
-  NotResponding detector({20.0, 0.3, 0.001}, step_s);
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int tick) {
-    const double expected = 0.011 + 0.009 * std::sin(0.25 * tick * step_s);
+    const double expected = 0.011 + 0.009 * std::sin(0.25 * tick * tick_s);
     return detector.step(0.8 * expected, expected);
   }));
 }
 
 TEST(HeaterDetectors, NotRespondingDoesNotJudgeRest) {
-  NotResponding detector({20.0, 0.3, 0.001}, step_s);
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.011); }));
 }
 
 TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {
-  WrongDuty detector(0.003, step_s);
+  WrongDuty detector(0.003, tick_s);
   CHECK_FALSE(detector.step(100, 90));
   CHECK_FALSE(detector.step(100, 100));
   LONGS_EQUAL(3, ticks_until([&](int) { return detector.step(100, 90); }));

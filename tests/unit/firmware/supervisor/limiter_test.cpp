@@ -5,11 +5,13 @@
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
+#include "unit/firmware/support/tick.hpp"
+
 using namespace supercoil;
+using supercoil::test::tick_s;
 
 namespace {
 
-constexpr double step_s = 1e-3;
 constexpr double cool_C = 30.0;
 
 void check(Limiter::Result result, double power_W, LimitedBy by) {
@@ -22,12 +24,12 @@ void check(Limiter::Result result, double power_W, LimitedBy by) {
 TEST_GROUP(Limiter){};
 
 TEST(Limiter, LetsPassWhatIsAllowed) {
-  Limiter limiter({}, step_s);
+  Limiter limiter({}, tick_s);
   check(limiter.step(2.0, cool_C), 2.0, LimitedBy::nothing);
 }
 
 TEST(Limiter, SaysWhichLimitItWas) {
-  Limiter limiter({}, step_s);
+  Limiter limiter({}, tick_s);
   check(limiter.step(9.0, cool_C), 4.5, LimitedBy::maximum);
   check(limiter.step(-1.0, cool_C), 0.0, LimitedBy::minimum);
   check(limiter.step(4.0, 145.0), 2.25, LimitedBy::temperature);
@@ -38,7 +40,7 @@ TEST(Limiter, SaysWhichLimitItWas) {
 TEST(Limiter, SlowsRisesAndNeverFalls) {
   LimiterSettings settings;
   settings.slew_W_per_s = 100.0;
-  Limiter limiter(settings, step_s);
+  Limiter limiter(settings, tick_s);
   check(limiter.step(4.0, cool_C), 0.1, LimitedBy::slew);
   check(limiter.step(4.0, cool_C), 0.2, LimitedBy::slew);
   check(limiter.step(0.0, cool_C), 0.0, LimitedBy::nothing);
@@ -49,7 +51,7 @@ TEST(Limiter, SlowsRisesAndNeverFalls) {
 }
 
 TEST(Limiter, GivesNothingForWhatIsNoNumber) {
-  Limiter limiter({}, step_s);
+  Limiter limiter({}, tick_s);
   check(limiter.step(std::nan(""), cool_C), 0.0, LimitedBy::invalid);
   check(limiter.step(INFINITY, cool_C), 0.0, LimitedBy::invalid);
   check(limiter.step(2.0, std::nan("")), 0.0, LimitedBy::invalid);
@@ -57,7 +59,7 @@ TEST(Limiter, GivesNothingForWhatIsNoNumber) {
 
 TEST(Limiter, NeverGivesMoreThanAskedNorMoreThanAllowed) {
   CHECK(rc::check("limits", [] {
-    Limiter limiter({}, step_s);
+    Limiter limiter({}, tick_s);
     for (int i = 0; i < 20; ++i) {
       const double wanted = *rc::gen::inRange(-10000, 10000) * 1e-3;
       const double temperature = *rc::gen::inRange(0, 200);

@@ -4,12 +4,12 @@
 
 #include "supervisor/detectors/limits.hpp"
 #include "supervisor/detectors/muscle.hpp"
+#include "unit/firmware/support/tick.hpp"
 
 using namespace supercoil::detectors;
+using supercoil::test::tick_s;
 
-namespace {
-constexpr double step_s = 1e-3;
-}
+namespace {}
 
 TEST_GROUP(MuscleDetectors){};
 
@@ -22,23 +22,23 @@ TEST(MuscleDetectors, LimitTripsAtOnceAndForWhatIsNoNumber) {
 }
 
 TEST(MuscleDetectors, EnergyBudgetAllowsItsMeanPowerForEver) {
-  EnergyBudget detector({60.0, 30.0}, step_s);
+  EnergyBudget detector({60.0, 30.0}, tick_s);
   for (int i = 0; i < 500000; ++i)
     CHECK_FALSE(detector.step(1.999));
   DOUBLES_EQUAL(0.9995, detector.margin().used(), 1e-3);
 }
 
 TEST(MuscleDetectors, EnergyBudgetTripsForABurstThatIsTooLong) {
-  EnergyBudget detector({60.0, 30.0}, step_s);
+  EnergyBudget detector({60.0, 30.0}, tick_s);
   int ticks = 0;
   while (!detector.step(4.0))
     ++ticks;
   // 1 − e^(−t/30) = 60/(4·30)
-  DOUBLES_EQUAL(30.0 * std::log(2.0), ticks * step_s, 0.01);
+  DOUBLES_EQUAL(30.0 * std::log(2.0), ticks * tick_s, 0.01);
 }
 
 TEST(MuscleDetectors, ResistanceDriftTripsBothWays) {
-  ResistanceDrift detector({0.2, 0.003}, step_s);
+  ResistanceDrift detector({0.2, 0.003}, tick_s);
   const auto probed = [&](double measured_Ohm) {
     return detector.step(measured_Ohm, 10.0, 11.0, true);
   };
@@ -52,7 +52,7 @@ TEST(MuscleDetectors, ResistanceDriftTripsBothWays) {
 }
 
 TEST(MuscleDetectors, ResistanceOfAHeatingMuscleMustDriftForAWhile) {
-  ResistanceDrift detector({0.2, 0.003}, step_s);
+  ResistanceDrift detector({0.2, 0.003}, tick_s);
   const auto heating = [&](double measured_Ohm) {
     return detector.step(measured_Ohm, 10.0, 11.0, false);
   };
@@ -65,12 +65,12 @@ TEST(MuscleDetectors, ResistanceOfAHeatingMuscleMustDriftForAWhile) {
 }
 
 TEST(MuscleDetectors, SupplyTripsAboveAndBelowItsLimitsAfterTheirTime) {
-  Above over({14.0, 0.003}, step_s);
+  Above over({14.0, 0.003}, tick_s);
   CHECK_FALSE(over.step(15.0));
   CHECK_FALSE(over.step(15.0));
   CHECK(over.step(15.0));
   CHECK_FALSE(over.step(13.0));
-  Below under({10.0, 0.003}, step_s);
+  Below under({10.0, 0.003}, tick_s);
   CHECK_FALSE(under.step(9.0));
   CHECK_FALSE(under.step(9.0));
   CHECK(under.step(9.0));

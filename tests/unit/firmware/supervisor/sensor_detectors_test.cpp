@@ -3,18 +3,19 @@
 #include <CppUTest/TestHarness.h>
 
 #include "supervisor/detectors/sensor.hpp"
+#include "unit/firmware/support/tick.hpp"
 
 using namespace supercoil::detectors;
+using supercoil::test::tick_s;
 
 namespace {
-constexpr double step_s = 1e-3;
 const double nan_value = std::nan("");
 }  // namespace
 
 TEST_GROUP(SensorDetectors){};
 
 TEST(SensorDetectors, OutOfRangeTripsAfterItsTimeAndNotForOneWildReading) {
-  OutOfRange detector({0.0, 0.04, 0.005}, step_s);
+  OutOfRange detector({0.0, 0.04, 0.005}, tick_s);
   CHECK_FALSE(detector.step(0.05));
   for (int i = 0; i < 4; ++i)
     CHECK_FALSE(detector.step(0.02));
@@ -24,7 +25,7 @@ TEST(SensorDetectors, OutOfRangeTripsAfterItsTimeAndNotForOneWildReading) {
 }
 
 TEST(SensorDetectors, OutOfRangeTripsForALooseWireThatComesAndGoes) {
-  OutOfRange detector({0.0, 0.04, 0.005}, step_s);
+  OutOfRange detector({0.0, 0.04, 0.005}, tick_s);
   bool tripped = false;
   for (int i = 0; i < 20; ++i)
     tripped = detector.step(i % 2 == 0 ? -0.001 : 0.02) || tripped;
@@ -40,14 +41,14 @@ TEST(SensorDetectors, JumpTripsForABadContactThatComesAndGoes) {
 }
 
 TEST(SensorDetectors, OutOfRangeTripsForWhatIsNoNumber) {
-  OutOfRange detector({0.0, 0.04, 0.002}, step_s);
+  OutOfRange detector({0.0, 0.04, 0.002}, tick_s);
   CHECK_FALSE(detector.step(nan_value));
   CHECK(std::isinf(detector.margin().used()));
   CHECK(detector.step(nan_value));
 }
 
 TEST(SensorDetectors, OutOfRangeMarginIsHowNearTheEndIs) {
-  OutOfRange detector({0.0, 0.04, 0.005}, step_s);
+  OutOfRange detector({0.0, 0.04, 0.005}, tick_s);
   detector.step(0.03);
   DOUBLES_EQUAL(0.5, detector.margin().used(), 1e-9);
 }
@@ -61,7 +62,7 @@ TEST(SensorDetectors, AFlagTripsAtOnceAndUsesAllOrNothing) {
 }
 
 TEST(SensorDetectors, FrozenTripsOnlyWhileHot) {
-  Frozen detector({1e-6, 0.1}, step_s);
+  Frozen detector({1e-6, 0.1}, tick_s);
   for (int i = 0; i < 500; ++i)
     CHECK_FALSE(detector.step(0.01, false));
   int ticks = 0;
@@ -71,7 +72,7 @@ TEST(SensorDetectors, FrozenTripsOnlyWhileHot) {
 }
 
 TEST(SensorDetectors, FrozenDoesNotTripForALiveSensor) {
-  Frozen detector({1e-6, 0.1}, step_s);
+  Frozen detector({1e-6, 0.1}, tick_s);
   for (int i = 0; i < 1000; ++i) {
     CHECK_FALSE(detector.step(0.01 + (i % 3 == 0 ? 3e-6 : -3e-6), true));
   }
@@ -79,29 +80,29 @@ TEST(SensorDetectors, FrozenDoesNotTripForALiveSensor) {
 
 TEST(SensorDetectors, JumpTripsWhenTheReadingStaysAway) {
   Jump detector({0.5, 1e-4});
-  CHECK_FALSE(detector.step(0.010, step_s));
-  CHECK_FALSE(detector.step(0.0105, step_s));
-  CHECK_FALSE(detector.step(0.020, step_s));
-  CHECK(detector.step(0.020, step_s));
+  CHECK_FALSE(detector.step(0.010, tick_s));
+  CHECK_FALSE(detector.step(0.0105, tick_s));
+  CHECK_FALSE(detector.step(0.020, tick_s));
+  CHECK(detector.step(0.020, tick_s));
 }
 
 TEST(SensorDetectors, JumpForgivesOneGlitch) {
   Jump detector({0.5, 1e-4});
-  detector.step(0.010, step_s);
-  CHECK_FALSE(detector.step(0.035, step_s));
-  CHECK_FALSE(detector.step(0.010, step_s));
-  CHECK_FALSE(detector.step(0.010, step_s));
+  detector.step(0.010, tick_s);
+  CHECK_FALSE(detector.step(0.035, tick_s));
+  CHECK_FALSE(detector.step(0.010, tick_s));
+  CHECK_FALSE(detector.step(0.010, tick_s));
 }
 
 TEST(SensorDetectors, JumpAllowsWhatAMuscleCanMoveBetweenReadings) {
   Jump detector({0.5, 1e-4});
-  detector.step(0.010, step_s);
+  detector.step(0.010, tick_s);
   CHECK_FALSE(detector.step(0.0149, 0.01));
   DOUBLES_EQUAL(0.0049 / 0.0051, detector.margin().used(), 1e-9);
 }
 
 TEST(SensorDetectors, DisagreeTripsAfterItsTime) {
-  Disagree detector({20.0, 0.003}, step_s);
+  Disagree detector({20.0, 0.003}, tick_s);
   CHECK_FALSE(detector.step(50.0, 75.0));
   CHECK_FALSE(detector.step(50.0, 75.0));
   CHECK(detector.step(50.0, 75.0));

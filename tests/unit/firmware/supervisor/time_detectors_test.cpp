@@ -3,12 +3,12 @@
 #include <CppUTest/TestHarness.h>
 
 #include "supervisor/detectors/liveness.hpp"
+#include "unit/firmware/support/tick.hpp"
 
 using namespace supercoil::detectors;
+using supercoil::test::tick_s;
 
-namespace {
-constexpr double step_s = 1e-3;
-}
+namespace {}
 
 TEST_GROUP(TimeDetectors){};
 
@@ -23,7 +23,7 @@ TEST(TimeDetectors, InARowForgetsAtEachGoodOne) {
 }
 
 TEST(TimeDetectors, SilentTripsWhenTheCounterStands) {
-  Silent detector(0.01, step_s);
+  Silent detector(0.01, tick_s);
   for (std::uint32_t i = 1; i < 100; ++i)
     CHECK_FALSE(detector.step(i));
   for (int i = 0; i < 9; ++i)
@@ -33,7 +33,7 @@ TEST(TimeDetectors, SilentTripsWhenTheCounterStands) {
 }
 
 TEST(TimeDetectors, ExpiredTripsForACommandThatIsNotRenewed) {
-  Expired detector(0.25, step_s);
+  Expired detector(0.25, tick_s);
   CHECK_FALSE(detector.step(true, true));
   for (int i = 0; i < 250; ++i)
     CHECK_FALSE(detector.step(false, true));
@@ -41,7 +41,7 @@ TEST(TimeDetectors, ExpiredTripsForACommandThatIsNotRenewed) {
 }
 
 TEST(TimeDetectors, ExpiredDoesNotTripWhileRenewedOrCold) {
-  Expired detector(0.25, step_s);
+  Expired detector(0.25, tick_s);
   for (int i = 0; i < 5000; ++i)
     CHECK_FALSE(detector.step(i % 250 == 0, true));
   for (int i = 0; i < 5000; ++i)
@@ -49,7 +49,7 @@ TEST(TimeDetectors, ExpiredDoesNotTripWhileRenewedOrCold) {
 }
 
 TEST(TimeDetectors, AControllerIsLostWhenItHasWantedMoreForTooLong) {
-  ControllerLost detector(0.01, step_s);
+  ControllerLost detector(0.01, tick_s);
   for (int i = 0; i < 9; ++i)
     CHECK_FALSE(detector.step(4.5, true));
   CHECK_FALSE(detector.step(4.5, false));
@@ -62,7 +62,7 @@ TEST(TimeDetectors, AControllerIsLostWhenItHasWantedMoreForTooLong) {
 }
 
 TEST(TimeDetectors, AControllerIsLostAtOnceWhenItWantsWhatIsNoNumber) {
-  ControllerLost detector(10.0, step_s);
+  ControllerLost detector(10.0, tick_s);
   CHECK(detector.step(std::nan(""), false));
   CHECK(std::isinf(detector.margin().used()));
   CHECK(detector.step(INFINITY, false));

@@ -11,15 +11,13 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "unit/host_sim/support/content.hpp"
+
 namespace fs = std::filesystem;
 using supercoil::host_sim::OutputFolder;
+using supercoil::test::content;
 
 namespace {
-
-std::string content(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 /// Lets no file grow beyond a size while it lives, as a full disk does not.
 class SmallDisk {

@@ -11,17 +11,14 @@
 #include "report/reproduction_table.hpp"
 #include "report/run_plot.hpp"
 #include "report/trace_writer.hpp"
+#include "unit/host_sim/support/content.hpp"
 
 namespace fs = std::filesystem;
 using namespace supercoil;
 using namespace supercoil::host_sim;
+using supercoil::test::content;
 
 namespace {
-
-std::string content(const fs::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 Figure one_curve(const std::string& title) {
   Figure figure;

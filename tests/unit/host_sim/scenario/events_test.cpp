@@ -3,24 +3,12 @@
 #include <CppUTest/TestHarness.h>
 
 #include "scenario/read_scenario.hpp"
+#include "unit/host_sim/support/scenarios.hpp"
 
 using namespace supercoil;
 using namespace supercoil::host_sim;
-
-namespace {
-
-Scenario read(const std::string& text) {
-  auto scenario = parse_scenario(text, "test.toml");
-  if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
-  return *scenario;
-}
-
-std::string problems(const std::string& text) {
-  const auto scenario = parse_scenario(text, "test.toml");
-  return scenario ? "in order" : config::to_text(scenario.error());
-}
-
-}  // namespace
+using supercoil::test::problems;
+using supercoil::test::read;
 
 TEST_GROUP(Events){};
 
@@ -82,30 +70,30 @@ controller.integral_W_per_m_s = 500.0
 
 TEST(Events, WrongKeyIsReportedOnItsOwnLine) {
   STRCMP_EQUAL(
-      "test.toml:3: plant.stifness_N_per_m = 12: is not a key of [plant]; did you mean "
+      "s.toml:3: plant.stifness_N_per_m = 12: is not a key of [plant]; did you mean "
       "stiffness_N_per_m?\n",
       problems("[[event]]\nat_s = 3.0\nplant.stifness_N_per_m = 12.0\n").c_str());
 }
 
 TEST(Events, WithoutATimeAreRefused) {
-  STRCMP_EQUAL("test.toml:2: event.at_s: is missing: when does the event happen?\n",
+  STRCMP_EQUAL("s.toml:2: event.at_s: is missing: when does the event happen?\n",
                problems("\n[[event]]\nplant.stiffness_N_per_m = 12.0\n").c_str());
 }
 
 TEST(Events, AfterTheEndAreRefused) {
-  STRCMP_EQUAL("test.toml:4: event.at_s = 11: must be 0 to 10\n",
+  STRCMP_EQUAL("s.toml:4: event.at_s = 11: must be 0 to 10\n",
                problems("[simulation]\nduration_s = 10.0\n[[event]]\nat_s = 11.0\n").c_str());
 }
 
 TEST(Events, CannotChangeTheSimulationItself) {
-  STRCMP_EQUAL("test.toml:3: event.simulation: cannot change during a run\n",
+  STRCMP_EQUAL("s.toml:3: event.simulation: cannot change during a run\n",
                problems("[[event]]\nat_s = 1.0\nsimulation.seed = 2\n").c_str());
 }
 
 TEST(Events, InsideAnEventAreRefused) {
-  STRCMP_EQUAL("test.toml:3: event.event: cannot change during a run\n",
+  STRCMP_EQUAL("s.toml:3: event.event: cannot change during a run\n",
                problems("[[event]]\nat_s = 1.0\nevent = 3\n").c_str());
-  STRCMP_EQUAL("test.toml:3: event.event: cannot change during a run\n",
+  STRCMP_EQUAL("s.toml:3: event.event: cannot change during a run\n",
                problems("[[event]]\nat_s = 1.0\n[[event.event]]\nat_s = 2.0\n").c_str());
 }
 

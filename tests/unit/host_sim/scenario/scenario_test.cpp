@@ -4,19 +4,15 @@
 
 #include "scenario/builtin.hpp"
 #include "scenario/read_scenario.hpp"
+#include "unit/host_sim/support/scenarios.hpp"
 
 using namespace supercoil;
 using namespace supercoil::host_sim;
+using supercoil::test::read;
 
 namespace {
 
 /// Reads a scenario that must be in order.
-Scenario read(const std::string& text) {
-  auto scenario = parse_scenario(text, "test.toml");
-  if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
-  return *scenario;
-}
-
 }  // namespace
 
 TEST_GROUP(ReadScenario){};

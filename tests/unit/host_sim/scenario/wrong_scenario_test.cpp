@@ -4,15 +4,12 @@
 #include <CppUTest/TestHarness.h>
 
 #include "scenario/read_scenario.hpp"
+#include "unit/host_sim/support/scenarios.hpp"
 
 using namespace supercoil::host_sim;
+using supercoil::test::problems;
 
 namespace {
-
-std::string problems(const std::string& text) {
-  const auto scenario = parse_scenario(text, "s.toml");
-  return scenario ? "in order" : supercoil::config::to_text(scenario.error());
-}
 
 void check_answer(const char* expected, const std::string& text) {
   STRCMP_EQUAL((std::string(expected) + "\n").c_str(), problems(text).c_str());

@@ -22,6 +22,12 @@ inline storage::Learned nth_set(int n) {
   return set;
 }
 
+/// What decoding says of a file.
+inline std::string answer(const std::string& text) {
+  const auto set = storage::decode(text);
+  return set ? "in order" : set.error();
+}
+
 /// Which of the row a set is, whatever its version; −1 when it is none of them, or a mixture.
 inline int which(const storage::Learned& set) {
   const int n = static_cast<int>(std::lround(set.calibration.position_offset_m * 1e4));

@@ -13,7 +13,7 @@ namespace supercoil::test {
 inline const std::string current = "/d/learned-3.toml";
 inline const std::string previous = current + ".previous";
 inline constexpr int channel = 3;
-inline constexpr int saved = 9;  ///< which set the save is of
+inline constexpr int saved_set = 9;  ///< which set the save is of
 inline constexpr int none = -2;
 
 inline std::string text(int n, std::uint32_t version) {

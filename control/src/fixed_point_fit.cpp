@@ -87,6 +87,7 @@ std::optional<Violation> check_fit(const EstimatorSettings& settings, double ste
     return std::nullopt;
   Fit fit;
   fit.at_most("arithmetic", max_W, signal);
+  if (settings.kind != EstimatorKind::gradient) return fit.violation();
   const GradientSettings& g = settings.gradient;
   const Theta& nominal = g.scale.nominal;
   for (int i = 0; i < 4; ++i) {

@@ -9,9 +9,13 @@ namespace supercoil::test {
 
 class Muscle {
  public:
-  Muscle(const control::PhysicalParameters& parameters, double step_s) {
+  Muscle(const control::PhysicalParameters& parameters, double step_s) : step_s_(step_s) {
+    change(parameters);
+  }
+  /// It is another muscle from now on, as warm and as long as it is.
+  void change(const control::PhysicalParameters& parameters) {
     const auto system = control::state_space(parameters);
-    const auto discrete = control::zero_order_hold<3, 2>(system.a, system.b, step_s);
+    const auto discrete = control::zero_order_hold<3, 2>(system.a, system.b, step_s_);
     transition_ = discrete.transition;
     held_ = discrete.held;
   }
@@ -22,6 +26,7 @@ class Muscle {
   double position_m() const { return state_[1]; }
 
  private:
+  double step_s_;
   control::Matrix<double, 3> transition_;
   control::Matrix<double, 3, 2> held_;
   Eigen::Vector3d state_ = Eigen::Vector3d::Zero();

@@ -6,19 +6,28 @@
 
 #include "supercoil/control/estimation/excitation.hpp"
 #include "supercoil/control/estimation/gradient.hpp"
+#include "supercoil/control/estimation/least_squares.hpp"
 #include "supercoil/control/scalar/arithmetic.hpp"
 
 namespace supercoil::control {
 
-enum class EstimatorKind { none, gradient };
+enum class EstimatorKind { none, gradient, least_squares };
 
-inline constexpr Names<EstimatorKind, 2> estimator_names{
-    {{"none", EstimatorKind::none}, {"gradient", EstimatorKind::gradient}}};
+inline constexpr Names<EstimatorKind, 3> estimator_names{
+    {{"none", EstimatorKind::none},
+     {"gradient", EstimatorKind::gradient},
+     {"least_squares", EstimatorKind::least_squares}}};
+
+/// Least squares needs float or double: its covariance spans more than q8.24 does.
+constexpr bool supported(EstimatorKind kind, Arithmetic arithmetic) {
+  return kind != EstimatorKind::least_squares || arithmetic != Arithmetic::q8_24;
+}
 
 struct EstimatorSettings {
   EstimatorKind kind = EstimatorKind::gradient;
   Arithmetic arithmetic = Arithmetic::float64;
   GradientSettings gradient;
+  LeastSquaresSettings least_squares;
   ExcitationMonitor::Settings excitation;
 };
 
@@ -26,16 +35,22 @@ struct EstimatorSettings {
 std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W);
 
 struct Estimate {
-  Theta theta;                  ///< in θ's own units
-  double prediction_error_W;    ///< ε = z − θᵀφ, through 1/Λ
-  double excitation_W2s;        ///< λmin of ∫φφᵀ, see ExcitationMonitor
-  double relative_error_bound;  ///< of all parameters together; infinity at first
-  bool trusted;
+  Theta theta;                        ///< in θ's own units
+  double prediction_error_W = 0.0;    ///< ε = z − θᵀφ, through 1/Λ or 1/Λ'
+  double excitation_W2s = 0.0;        ///< λmin of ∫φφᵀ, see ExcitationMonitor; gradient only
+  double relative_error_bound = 0.0;  ///< of all parameters together; infinity at first
+  bool trusted = false;               ///< that bound is small enough
+  /// θ is near enough to go by, be it not yet trusted: see each estimator.
+  bool settled = false;
+  double bias_W = 0.0;  ///< of the power, constant; the gradient law knows none
+  /// Standard deviations, as least squares tells them; infinity where the law tells none.
+  Theta deviation = Theta::Constant(INFINITY);
+  double bias_deviation_W = INFINITY;
 };
 
 class Estimator {
  public:
-  /// Settings must be valid; step_s > 0 in seconds.
+  /// Settings must be valid, kind and arithmetic supported; step_s > 0 in seconds.
   Estimator(const EstimatorSettings& settings, double step_s);
   /// One tick: this tick's position, and the power really applied since the last one.
   void step(double position_m, double applied_power_W);
@@ -46,12 +61,19 @@ class Estimator {
 
  private:
   using Any = std::variant<std::monostate, GradientEstimator<double>, GradientEstimator<float>,
-                           GradientEstimator<Q8_24>>;
+                           GradientEstimator<Q8_24>, LeastSquaresEstimator<double>,
+                           LeastSquaresEstimator<float>>;
   static Any choose(const EstimatorSettings& settings, double step_s);
+  template <class Scalar>
+  Estimate told(const GradientEstimator<Scalar>& estimator) const;
+  template <class Scalar>
+  Estimate told(const LeastSquaresEstimator<Scalar>& estimator) const;
 
   Any any_;
   double to_watts_;
+  Theta nominal_;
   ExcitationMonitor excitation_;
+  double trusted_error_;
 };
 
 }  // namespace supercoil::control

@@ -1,0 +1,69 @@
+// How far off recursive least squares is, when the noise that it sees is white position noise.
+#pragma once
+
+#include "supercoil/control/estimation/filtered_regression.hpp"
+
+namespace supercoil::control {
+
+/// The covariance that recursive least squares carries is right for white residuals. Ours are
+/// position noise v through A(s)/Λ', A = θ1 m̂s³ + θ2 s² + θ3 s + θ4: correlated over seconds. With
+/// H = Σφφᵀ (forgotten) and v white with density S, the covariance of θ is
+///   H⁻¹ S (Σ φ'φ'ᵀ) H⁻¹,  φ' = φ filtered by A/Λ' (forgotten twice as fast).
+/// S follows from the residuals' mean square over ∫h², h being A/Λ's impulse response.
+/// All in double, 100 times a second; it decides nothing.
+class EstimateAccuracy {
+ public:
+  static constexpr int free = 3;
+  static constexpr int size = free + 5;  ///< in FilteredRegression's order
+  using Parameters = Vector<double, size>;
+  using Square = Matrix<double, size>;
+  using Derivatives = Vector<double, 5>;
+
+  struct Settings {
+    RegressionScale scale;
+    double update_s;         ///< between regressions
+    double averaging_s;      ///< of the residuals' mean square
+    double noise_m2_per_Hz;  ///< expected density of the position's noise (rms² · tick)
+    double counted_W2;       ///< R: what least squares takes the residual's variance for
+  };
+  explicit EstimateAccuracy(const Settings& settings);
+
+  /// The regression's filters start at rest.
+  void restart_filters();
+  /// Nothing is known of θ but these variances.
+  void forget(const Parameters& variances);
+  /// Nothing is known of the first parameters but these variances.
+  void forget_first(const Vector<double, free>& variances);
+
+  /// What one regression showed.
+  struct Seen {
+    Parameters theta;        ///< over nominal, the bias in W
+    double motion_W;         ///< the part of z that motion explains
+    Derivatives of_impulse;  ///< FilteredRegression's
+    Derivatives of_one;
+    double residual_W;
+    double growth;  ///< of the covariance by forgetting: 1/λ, or less at its cap
+  };
+  void step(const Seen& seen);
+
+  /// Standard deviations of θ1…θ4 over nominal, and of the bias in W.
+  Vector<double, 5> standard_deviations(const Square& covariance, const Parameters& theta) const;
+
+ private:
+  using Filter = StateVariableFilter<double, 5, Hold::zero_order>;
+
+  Vector<double, 4> polynomial(const Parameters& theta) const;
+  double noise_gain(const Parameters& theta) const;
+
+  Settings settings_;
+  Filter motion_;
+  Filter impulse_;
+  Filter one_;
+  Vector<double, 4> weights_;  // of 1, s, s², s³ in A
+  Matrix<double, 4> gram_;     // ∫ of the impulse responses of [1, s, s², s³]/Λ', two by two
+  double mean_square_W2_;
+  Parameters prior_ = Parameters::Zero();  // what forgotten knowledge adds to the scores
+  Square scores_ = Square::Zero();
+};
+
+}  // namespace supercoil::control

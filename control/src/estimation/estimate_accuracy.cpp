@@ -1,0 +1,105 @@
+#include "supercoil/control/estimation/estimate_accuracy.hpp"
+
+#include <algorithm>
+
+namespace supercoil::control {
+
+namespace {
+
+/// A residual of more standard deviations shows a change of the muscle, and not noise.
+constexpr double most_deviations = 3.0;
+
+/// Of the impulse responses of [1, s, s², s³]/Λ', which have ended after 30 s.
+Matrix<double, 4> gram_of_impulses() {
+  constexpr double step_s = 2e-3;
+  StateVariableFilter<double, 5, Hold::zero_order> filter(steep_lambda, step_s);
+  Vector<double, 5> impulse = Vector<double, 5>::Zero();
+  impulse[4] = steep_lambda_gain;
+  filter.set(impulse, 0.0);
+  Matrix<double, 4> gram = Matrix<double, 4>::Zero();
+  for (int k = 0; k < 15'000; ++k) {
+    filter.step(0.0);
+    const Vector<double, 4> h = filter.state().head<4>();
+    gram += h * h.transpose() * step_s;
+  }
+  return gram;
+}
+
+}  // namespace
+
+EstimateAccuracy::EstimateAccuracy(const Settings& settings)
+    : settings_(settings),
+      motion_(steep_lambda, settings.update_s),
+      impulse_(steep_lambda, settings.update_s),
+      one_(steep_lambda, settings.update_s),
+      gram_(gram_of_impulses()) {
+  const Theta& nominal = settings.scale.nominal;
+  weights_ << nominal[3], nominal[2], nominal[1], nominal[0] * settings.scale.moving_mass_kg;
+  mean_square_W2_ = settings.noise_m2_per_Hz * noise_gain(Parameters::Ones());
+}
+
+void EstimateAccuracy::restart_filters() {
+  motion_.settle(0.0);
+  impulse_.settle(0.0);
+  one_.settle(0.0);
+}
+
+void EstimateAccuracy::forget(const Parameters& variances) {
+  // A prior of variance C0 enters H as R/C0, and must give C0 by itself: H⁻¹ (R²/C0) H⁻¹.
+  const double square = settings_.counted_W2 * settings_.counted_W2;
+  for (int i = 0; i < size; ++i)
+    prior_[i] = variances[i] > 0.0 ? square / variances[i] : 0.0;
+  scores_.setZero();
+}
+
+void EstimateAccuracy::forget_first(const Vector<double, free>& variances) {
+  Parameters kept = prior_;
+  const Square scores = scores_;
+  Parameters all = Parameters::Zero();
+  all.head<free>() = variances;
+  forget(all);
+  prior_.tail<5>() = kept.tail<5>();
+  scores_.bottomRightCorner<5, 5>() = scores.bottomRightCorner<5, 5>();
+}
+
+Vector<double, 4> EstimateAccuracy::polynomial(const Parameters& theta) const {
+  return theta.segment<4>(free).reverse().cwiseProduct(weights_);
+}
+
+double EstimateAccuracy::noise_gain(const Parameters& theta) const {
+  const Vector<double, 4> a = polynomial(theta);
+  return a.dot(gram_ * a);
+}
+
+void EstimateAccuracy::step(const Seen& seen) {
+  const Vector<double, 4> a = polynomial(seen.theta);
+  motion_.step(seen.motion_W);
+  impulse_.step(a.dot(seen.of_impulse.head<4>()));
+  one_.step(a.dot(seen.of_one.head<4>()));
+  Parameters filtered;
+  filtered << impulse_.state().head<free>().reverse(),
+      motion_.state().head<4>().cwiseProduct(weights_).reverse(), one_.state()[0];
+  filtered *= steep_lambda_gain;
+  const double forgotten = 1.0 / (seen.growth * seen.growth);
+  scores_ = (scores_ + filtered * filtered.transpose()) * forgotten;
+  prior_ *= forgotten;
+
+  // It begins at what is expected: while θ is found, residuals are smaller than the noise.
+  const double most_W2 = most_deviations * most_deviations * mean_square_W2_;
+  const double share = settings_.update_s / settings_.averaging_s;
+  mean_square_W2_ +=
+      (std::min(seen.residual_W * seen.residual_W, most_W2) - mean_square_W2_) * share;
+}
+
+Vector<double, 5> EstimateAccuracy::standard_deviations(const Square& covariance,
+                                                        const Parameters& theta) const {
+  const double density = mean_square_W2_ / noise_gain(theta);
+  const Square inverse = covariance / settings_.counted_W2;  // H⁻¹
+  Square middle = scores_ * (density / settings_.update_s);
+  middle.diagonal() += prior_;
+  const Vector<double, size> variances =
+      (inverse * middle).cwiseProduct(inverse).rowwise().sum();  // the diagonal of H⁻¹ M H⁻¹
+  return variances.tail<5>().cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace supercoil::control

@@ -76,6 +76,12 @@ std::optional<Violation> check_fit(const ControllerSettings& settings, double st
     fit.at_most("feedforward_W_per_m", pd.feedforward_W_per_m * settings.dc_gain_m_per_W, signal);
     fit.at_most("derivative_filter_rad_per_s",
                 pd.derivative_filter_rad_per_s * pd.derivative_filter_rad_per_s, state);
+  } else if (settings.kind == ControllerKind::adaptive_ff) {
+    const AdaptiveFeedforwardSettings& a = settings.adaptive_ff;
+    fit.at_most("bandwidth_rad_per_s",
+                a.bandwidth_rad_per_s * a.scale.nominal[2] * a.scale.dc_gain_m_per_W, signal);
+    fit.at_most("derivative_filter_rad_per_s",
+                a.derivative_filter_rad_per_s * a.derivative_filter_rad_per_s, state);
   } else {
     check_mrac(fit, settings.mrac, step_s, std::max(reference_W, max_W));
   }

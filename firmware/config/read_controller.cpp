@@ -1,3 +1,4 @@
+#include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/tracking/mrac_premises.hpp"
 
 #include "config/read_control.hpp"
@@ -96,6 +97,14 @@ control::ControllerSettings read_controller(
         section.number("feedforward_W_per_m", pd.feedforward_W_per_m, {0.0, 1e7});
     pd.derivative_filter_rad_per_s =
         section.number("derivative_filter_rad_per_s", pd.derivative_filter_rad_per_s, {0.1, 1e4});
+  } else if (c.kind == ControllerKind::adaptive_ff) {
+    control::AdaptiveFeedforwardSettings& a = c.adaptive_ff;
+    a.scale = {control::theta_from(muscle), c.dc_gain_m_per_W, muscle.moving_mass_kg};
+    a.bandwidth_rad_per_s =
+        section.number("bandwidth_rad_per_s", a.bandwidth_rad_per_s, {0.01, 100.0});
+    a.derivative_filter_rad_per_s =
+        section.number("derivative_filter_rad_per_s", a.derivative_filter_rad_per_s, {0.1, 1e4});
+    a.follow_s = section.number("follow_s", a.follow_s, {0.02, 3600.0});
   } else if (c.kind == ControllerKind::mrac) {
     c.mrac = read_mrac(section, c.model);
   }

@@ -53,6 +53,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
     controllers_.emplace_back(controller, step_s_);
   for (const auto& estimator : settings.estimators)
     estimators_.emplace_back(estimator, step_s_);
+  estimate_ = estimator().estimate();
 }
 
 void Channel::supervise(const BoardNow& board) {
@@ -105,6 +106,7 @@ void Channel::supervise(const BoardNow& board) {
 void Channel::estimate() {
   if (!state_.may_heat() || !evidence_.position.present) return;
   estimator().step(evidence_.position.value, acting_.power_W);
+  estimate_ = estimator().estimate();
   // Once a second: what the estimator knows of cooling, when it may be trusted.
   if (++ticks_ < ticks_per_s_) return;
   ticks_ = 0;
@@ -121,6 +123,7 @@ void Channel::control() {
       input.position_m = evidence_.position.value;
       input.applied_power_W = acting_.power_W;
       input.limited = acting_.limited;
+      if (estimate_) controllers_[controller_].learn(*estimate_);
       wanted_ = controllers_[controller_].step(input);
       smooth_power_W_.step(acting_.power_W);
       smooth_error_m_.step(evidence_.position.value - wanted_.model_m);
@@ -222,10 +225,10 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.resistance_age_s = resistance_.age_s();
   s.coldest_C = heat_.coldest_C();
   s.hottest_C = heat_.hottest_C();
-  if (const auto estimate = estimator().estimate()) {
-    s.theta = estimate->theta;
-    s.error_bound = estimate->relative_error_bound;
-    s.trusted = estimate->trusted;
+  if (estimate_) {
+    s.theta = estimate_->theta;
+    s.error_bound = estimate_->relative_error_bound;
+    s.trusted = estimate_->trusted;
   }
   s.progress = mode_ == Mode::identify    ? identify_.progress()
                : mode_ == Mode::calibrate ? calibrate_.progress()

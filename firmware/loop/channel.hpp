@@ -75,7 +75,7 @@ class Channel {
   Fault present_board_fault() const { return supervisor_.verdict().board_fault(); }
   /// The fault that a detector sees now, latched or not.
   Fault present_fault() const { return present_fault_; }
-  std::optional<control::Estimate> estimates() const { return estimator().estimate(); }
+  const std::optional<control::Estimate>& estimates() const { return estimate_; }
   bool lines_ok() const { return lines_ok_; }
   /// Between ticks only: what the limiter allows from now on.
   void set_power_range(double min_W, double max_W) {
@@ -137,6 +137,7 @@ class Channel {
 
   std::vector<control::Controller> controllers_;
   std::vector<control::Estimator> estimators_;
+  std::optional<control::Estimate> estimate_;  ///< the chosen estimator's, as it is now
   std::size_t controller_ = 0;
   std::size_t estimator_ = 0;
   Mode mode_ = Mode::rest;

@@ -136,6 +136,7 @@ Refusal Channel::choose_estimator(double place) {
     return Refusal::out_of_range;
   estimator_ = static_cast<std::size_t>(place);
   estimator().restart();
+  estimate_ = estimator().estimate();
   return Refusal::none;
 }
 

@@ -75,11 +75,10 @@ void Channel::follow_probe(double supply_V) {
 }
 
 void Channel::learn_heat() {
-  const auto estimate = estimator().estimate();
-  if (!estimate || !estimate->trusted) return;
+  if (!estimate_ || !estimate_->trusted) return;
   const control::PhysicalParameters& m = settings_.muscle;
   const auto physical =
-      control::physical_from(estimate->theta, {m.force_per_kelvin_N_per_K, m.moving_mass_kg});
+      control::physical_from(estimate_->theta, {m.force_per_kelvin_N_per_K, m.moving_mass_kg});
   if (physical) heat_.learn(physical->thermal_pole_rad_per_s());
 }
 

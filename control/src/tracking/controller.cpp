@@ -13,6 +13,9 @@ Controller::Any Controller::make(const ControllerSettings& s, double step_s) {
                                 step_s);
     case ControllerKind::mrac:
       return MracFollower<Scalar>(s.model, Mrac<Scalar>(s.mrac, step_s), gain, step_s);
+    case ControllerKind::adaptive_ff:
+      return AdaptiveFollower<Scalar>(s.model, AdaptiveFeedforward<Scalar>(s.adaptive_ff, step_s),
+                                      gain, step_s);
     case ControllerKind::power:
       break;
   }
@@ -40,6 +43,10 @@ ControllerOutput Controller::step(const ControllerInput& input) {
 
 void Controller::start(const ControllerStart& at) {
   std::visit([&](auto& controller) { controller.start(at); }, any_);
+}
+
+void Controller::learn(const Estimate& estimate) {
+  std::visit([&](auto& controller) { controller.learn(estimate); }, any_);
 }
 
 ModelMotion<double> Controller::motion() const {

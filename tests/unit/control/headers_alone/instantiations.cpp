@@ -18,11 +18,15 @@ template class Fixed<16, 48>;
   template class ReferenceModel<Scalar>;                            \
   template class Pi<Scalar>;                                        \
   template class PdFeedforward<Scalar>;                             \
+  template class AdaptiveFeedforward<Scalar>;                       \
   template class Mrac<Scalar>;                                      \
   template class ModelFollower<Scalar, Mrac<Scalar>>
 
 SUPERCOIL_INSTANTIATE(double);
 SUPERCOIL_INSTANTIATE(float);
 SUPERCOIL_INSTANTIATE(Q8_24);
+
+template class LeastSquaresEstimator<double>;
+template class LeastSquaresEstimator<float>;
 
 }  // namespace supercoil::control

@@ -4,6 +4,7 @@
 #include <optional>
 #include <variant>
 
+#include "supercoil/control/estimation/estimate.hpp"
 #include "supercoil/control/estimation/excitation.hpp"
 #include "supercoil/control/estimation/gradient.hpp"
 #include "supercoil/control/estimation/least_squares.hpp"
@@ -33,20 +34,6 @@ struct EstimatorSettings {
 
 /// What q8.24 cannot hold of the settings (see controller.hpp).
 std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W);
-
-struct Estimate {
-  Theta theta;                        ///< in θ's own units
-  double prediction_error_W = 0.0;    ///< ε = z − θᵀφ, through 1/Λ or 1/Λ'
-  double excitation_W2s = 0.0;        ///< λmin of ∫φφᵀ, see ExcitationMonitor; gradient only
-  double relative_error_bound = 0.0;  ///< of all parameters together; infinity at first
-  bool trusted = false;               ///< that bound is small enough
-  /// θ is near enough to go by, be it not yet trusted: see each estimator.
-  bool settled = false;
-  double bias_W = 0.0;  ///< of the power, constant; the gradient law knows none
-  /// Standard deviations, as least squares tells them; infinity where the law tells none.
-  Theta deviation = Theta::Constant(INFINITY);
-  double bias_deviation_W = INFINITY;
-};
 
 class Estimator {
  public:

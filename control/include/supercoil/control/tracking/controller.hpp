@@ -8,18 +8,21 @@
 
 #include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/scalar/arithmetic.hpp"
+#include "supercoil/control/tracking/adaptive_feedforward.hpp"
 #include "supercoil/control/tracking/mrac.hpp"
 #include "supercoil/control/tracking/pd_feedforward.hpp"
 #include "supercoil/control/tracking/pi.hpp"
 
 namespace supercoil::control {
 
-enum class ControllerKind { power, pi, pd_ff, mrac };
+enum class ControllerKind { power, pi, pd_ff, mrac, adaptive_ff };
 
-inline constexpr Names<ControllerKind, 4> controller_names{{{"power", ControllerKind::power},
-                                                            {"pi", ControllerKind::pi},
-                                                            {"pd_ff", ControllerKind::pd_ff},
-                                                            {"mrac", ControllerKind::mrac}}};
+inline constexpr Names<ControllerKind, 5> controller_names{
+    {{"power", ControllerKind::power},
+     {"pi", ControllerKind::pi},
+     {"pd_ff", ControllerKind::pd_ff},
+     {"mrac", ControllerKind::mrac},
+     {"adaptive_ff", ControllerKind::adaptive_ff}}};
 
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::mrac;
@@ -29,6 +32,7 @@ struct ControllerSettings {
   PiSettings pi;
   PdFeedforwardSettings pd_ff;
   MracSettings mrac;
+  AdaptiveFeedforwardSettings adaptive_ff;
 };
 
 /// What q8.24 cannot hold of the settings; empty when all fits, and for other arithmetics. Fixed
@@ -65,6 +69,7 @@ struct ControllerStart {
 class OpenLoopPower {
  public:
   void start(const ControllerStart&) {}
+  void learn(const Estimate&) {}
   ControllerOutput step(const ControllerInput& in) const { return {in.reference_power_W, 0.0}; }
   ModelMotion<double> motion() const { return {}; }
   static GainValue gain(std::uint32_t) { return {}; }
@@ -99,6 +104,7 @@ class ModelFollower {
     input.reference = to<Scalar>(in.reference_m * to_watts_);
     input.position = to<Scalar>(in.position_m * to_watts_);
     input.model = model_.motion();
+    input.model_jerk = model_.jerk(input.reference);
     input.applied = to<Scalar>(in.applied_power_W);
     input.limited = in.limited;
     last_reference_ = input.reference;
@@ -111,6 +117,10 @@ class ModelFollower {
     const double bridged_W = wanted + bridge_W_;
     bridge_W_ *= fading_;
     return {bridged_W, static_cast<double>(input.model.position) * to_metres_};
+  }
+
+  void learn(const Estimate& estimate) {
+    if constexpr (requires { law_.learn(estimate); }) law_.learn(estimate);
   }
 
   ModelMotion<double> motion() const {
@@ -150,6 +160,8 @@ class Controller {
   ControllerOutput step(const ControllerInput& input);
   /// Before the first step, and when it takes over: starts from there instead of from zero.
   void start(const ControllerStart& at);
+  /// What is known of the muscle, each tick before step(); only laws with a model of it care.
+  void learn(const Estimate& estimate);
   /// Of its reference model, in metres; zero in open loop.
   ModelMotion<double> motion() const;
   /// One of its gains: turn is the part of a full turn, in 2⁻³², at which this one comes round.
@@ -162,9 +174,13 @@ class Controller {
   using PdFollower = ModelFollower<Scalar, PdFeedforward<Scalar>>;
   template <class Scalar>
   using MracFollower = ModelFollower<Scalar, Mrac<Scalar>>;
-  using Any = std::variant<OpenLoopPower, PiFollower<double>, PiFollower<float>, PiFollower<Q8_24>,
-                           PdFollower<double>, PdFollower<float>, PdFollower<Q8_24>,
-                           MracFollower<double>, MracFollower<float>, MracFollower<Q8_24>>;
+  template <class Scalar>
+  using AdaptiveFollower = ModelFollower<Scalar, AdaptiveFeedforward<Scalar>>;
+  using Any =
+      std::variant<OpenLoopPower, PiFollower<double>, PiFollower<float>, PiFollower<Q8_24>,
+                   PdFollower<double>, PdFollower<float>, PdFollower<Q8_24>, MracFollower<double>,
+                   MracFollower<float>, MracFollower<Q8_24>, AdaptiveFollower<double>,
+                   AdaptiveFollower<float>, AdaptiveFollower<Q8_24>>;
 
   template <class Scalar>
   static Any make(const ControllerSettings& settings, double step_s);

@@ -14,6 +14,7 @@ struct LawInput {
   Scalar reference{};         ///< r, this tick's
   Scalar position{};          ///< y, this tick's
   ModelMotion<Scalar> model;  ///< where the reference model is at this tick
+  Scalar model_jerk{};        ///< its third derivative from this tick on
   Scalar applied{};           ///< the power really applied since the last tick
   bool limited = false;       ///< that power was not the one asked for
 };

@@ -59,6 +59,9 @@ class ReferenceModel {
     return {to<Scalar>(x[0] * gain_), to<Scalar>(x[1] * gain_), to<Scalar>(x[2] * gain_)};
   }
 
+  /// The position's third derivative from this tick on, under the reference held until the next.
+  Scalar jerk(Scalar reference) const { return to<Scalar>(filter_.highest(reference) * gain_); }
+
  private:
   StateVariableFilter<Scalar, 3, Hold::zero_order> filter_;
   Accumulator<Scalar> gain_;

@@ -47,8 +47,9 @@ void controller(benchmark::State& state, ControllerKind kind, Arithmetic arithme
   }
 }
 
-void estimator(benchmark::State& state, Arithmetic arithmetic) {
+void estimator(benchmark::State& state, EstimatorKind kind, Arithmetic arithmetic) {
   EstimatorSettings settings;
+  settings.kind = kind;
   settings.arithmetic = arithmetic;
   Estimator under_test(settings, step_s);
   Signals signals;
@@ -90,9 +91,14 @@ BENCHMARK_CAPTURE(controller, pd_ff_q8_24, ControllerKind::pd_ff, q8_24);
 BENCHMARK_CAPTURE(controller, mrac_double, ControllerKind::mrac, float64);
 BENCHMARK_CAPTURE(controller, mrac_float, ControllerKind::mrac, float32);
 BENCHMARK_CAPTURE(controller, mrac_q8_24, ControllerKind::mrac, q8_24);
-BENCHMARK_CAPTURE(estimator, gradient_double, float64);
-BENCHMARK_CAPTURE(estimator, gradient_float, float32);
-BENCHMARK_CAPTURE(estimator, gradient_q8_24, q8_24);
+BENCHMARK_CAPTURE(controller, adaptive_ff_double, ControllerKind::adaptive_ff, float64);
+BENCHMARK_CAPTURE(controller, adaptive_ff_float, ControllerKind::adaptive_ff, float32);
+BENCHMARK_CAPTURE(controller, adaptive_ff_q8_24, ControllerKind::adaptive_ff, q8_24);
+BENCHMARK_CAPTURE(estimator, gradient_double, EstimatorKind::gradient, float64);
+BENCHMARK_CAPTURE(estimator, gradient_float, EstimatorKind::gradient, float32);
+BENCHMARK_CAPTURE(estimator, gradient_q8_24, EstimatorKind::gradient, q8_24);
+BENCHMARK_CAPTURE(estimator, least_squares_double, EstimatorKind::least_squares, float64);
+BENCHMARK_CAPTURE(estimator, least_squares_float, EstimatorKind::least_squares, float32);
 BENCHMARK_CAPTURE(mrac_and_gradient, double, float64);
 BENCHMARK_CAPTURE(mrac_and_gradient, float, float32);
 BENCHMARK_CAPTURE(mrac_and_gradient, q8_24, q8_24);

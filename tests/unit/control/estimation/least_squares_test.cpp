@@ -1,4 +1,4 @@
-// Figures of many seeds are tests/study's; here are one or two of each.
+// Figures of many seeds are least_squares_study.cpp's; here are one or two of each.
 #include "supercoil/control/estimation/least_squares.hpp"
 
 #include <CppUTest/TestHarness.h>

@@ -4,6 +4,7 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
 
+#include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/estimation/least_squares.hpp"
 
 #include "unit/control/support/muscle.hpp"

@@ -73,8 +73,10 @@ TEST(WrongScenario, NumberForAFlag) {
 }
 
 TEST(WrongScenario, UnknownNameListsTheNames) {
-  check_answer("s.toml:1: controller.kind = 'fuzzy': must be one of: power, pi, pd_ff, mrac",
-               "controller.kind = 'fuzzy'");
+  check_answer(
+      "s.toml:1: controller.kind = 'fuzzy': must be one of: power, pi, pd_ff, mrac, "
+      "adaptive_ff",
+      "controller.kind = 'fuzzy'");
 }
 
 TEST(WrongScenario, ValueForATable) {
@@ -170,6 +172,13 @@ TEST(WrongScenario, WhatFixedPointCannotHold) {
     CHECK_TEXT(answer.find("does not fit arithmetic = \"q8.24\"") != std::string::npos,
                (std::string(text) + " -> " + answer).c_str());
   }
+}
+
+TEST(WrongScenario, LeastSquaresIsRefusedInFixedPoint) {
+  check_answer(
+      "s.toml:1: estimator.arithmetic = 'q8.24': must be double or float: the covariance of "
+      "least_squares does not fit q8.24",
+      "estimator = {kind = 'least_squares', arithmetic = 'q8.24'}");
 }
 
 TEST(WrongScenario, DefaultThatDoesNotFitIsNamedAsOne) {

@@ -1,0 +1,85 @@
+// Least squares over many seeds: how soon it knows, how far off it stays, whether it says so. Fails
+// where a figure of docs/control.md no longer holds.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "unit/control/support/noisy_muscle.hpp"
+
+namespace {
+
+using namespace supercoil::control;
+using supercoil::test::Learning;
+
+int failures = 0;
+
+void expect_at_most(const std::string& what, double value, double most) {
+  std::printf("%-58s %8.4f, at most %.4f%s\n", what.c_str(), value, most,
+              value <= most ? "" : "  FAILED");
+  if (!(value <= most)) ++failures;
+}
+
+/// Smallest time that 95 % of 40 seeds need.
+template <class Time>
+double in_95_percent(Time time_of) {
+  std::vector<double> times_s;
+  for (unsigned seed = 1; seed <= 40; ++seed)
+    times_s.push_back(time_of(seed));
+  std::sort(times_s.begin(), times_s.end());
+  return times_s[37];
+}
+
+void from_rest() {
+  LeastSquaresSettings far;
+  far.initial = Theta{0.1, 5.0, 30.0, 20.0};
+  expect_at_most("s to 5 % from rest, 95 % of 40 seeds", in_95_percent([&](unsigned seed) {
+                   return Learning<double>(seed, far).outside_until(0.05, 10.0);
+                 }),
+                 2.0);
+}
+
+void after_a_change(double at_s, double most_s) {
+  const std::string at = std::to_string(std::lround(at_s));
+  expect_at_most("s to 5 % after 16 -> 12 N/m at " + at + " s", in_95_percent([&](unsigned seed) {
+                   Learning<double> learning(seed);
+                   learning.muscle.soften_at(at_s);
+                   learning.run_until(at_s);
+                   return learning.outside_until(0.05, at_s + 30.0) - at_s;
+                 }),
+                 most_s);
+}
+
+/// Scatter at a time over 60 seeds, and the published deviations (rms) over it.
+void scatter(double at_s, const std::array<double, 4>& most_percent) {
+  constexpr int seeds = 60;
+  Vector<double, 5> squares = Vector<double, 5>::Zero();
+  Vector<double, 5> published = Vector<double, 5>::Zero();
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    Learning<double> learning(seed);
+    learning.run_until(at_s);
+    squares += learning.off().cwiseAbs2() / seeds;
+    published += learning.estimator.standard_deviations().cwiseAbs2() / seeds;
+  }
+  for (int i = 0; i < 4; ++i) {
+    expect_at_most("% rms of theta" + std::to_string(i + 1), 100.0 * std::sqrt(squares[i]),
+                   most_percent[static_cast<std::size_t>(i)]);
+    // Sixty seeds tell a deviation to 9 %.
+    const double ratio = std::sqrt(published[i] / squares[i]);
+    expect_at_most("  published over seen", ratio, 1.3);
+    expect_at_most("  seen over published", 1.0 / ratio, 1.3);
+  }
+}
+
+}  // namespace
+
+int main() {
+  from_rest();
+  after_a_change(100.0, 10.0);
+  after_a_change(105.0, 15.5);  // the worst of six phases
+  after_a_change(115.0, 15.0);
+  scatter(100.0, {1.0, 0.03, 0.003, 0.002});
+  return failures == 0 ? 0 : 1;
+}

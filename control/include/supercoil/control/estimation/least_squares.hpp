@@ -57,8 +57,7 @@ class LeastSquaresEstimator {
   void restart() { begins_ = true; }
 
   /// The nearest point of the bounds. Only what is told is projected: a θ moved under the recursion
-  /// would no longer be what its covariance says (started far off, θ1 then stayed 5 % wrong for 20
-  /// s).
+  /// would no longer be what its covariance says (after changes it then did not converge at all).
   Parameters parameters() const {
     return project<double, 5>(theta_.template tail<5>().template cast<double>(), bounds_);
   }

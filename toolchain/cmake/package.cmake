@@ -1,0 +1,73 @@
+# What is installed beside the programs, and the Debian package. toolchain/cross builds it.
+set(SUPERCOIL_VERSION_SUFFIX "" CACHE STRING "For which Debian the package is, e.g. +deb12")
+set(package_version ${PROJECT_VERSION}${SUPERCOIL_VERSION_SUFFIX})
+set(package_files ${CMAKE_SOURCE_DIR}/toolchain/package)
+set(documents share/doc/supercoil)
+
+# Debian wants manual pages and changelogs compressed, and without a time in them.
+function(supercoil_install_compressed file folder)
+  get_filename_component(name ${file} NAME)
+  set(compressed ${CMAKE_BINARY_DIR}/compressed/${name}.gz)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/compressed)
+  execute_process(COMMAND gzip -9nc ${file} OUTPUT_FILE ${compressed} COMMAND_ERROR_IS_FATAL ANY)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  install(FILES ${compressed} DESTINATION ${folder})
+endfunction()
+
+foreach(section 1 8)
+  file(GLOB pages CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/man/*.${section})
+  foreach(page IN LISTS pages)
+    supercoil_install_compressed(${page} share/man/man${section})
+  endforeach()
+endforeach()
+configure_file(${package_files}/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)
+supercoil_install_compressed(${CMAKE_BINARY_DIR}/changelog ${documents})
+install(FILES ${package_files}/copyright DESTINATION ${documents})
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/ DESTINATION ${documents} PATTERN man EXCLUDE)
+install(FILES ${CMAKE_SOURCE_DIR}/examples/python/move_muscle.py ${CMAKE_SOURCE_DIR}/firmware/telemetry/supercoil.dbc
+        DESTINATION ${documents}/examples)
+
+# Files that the administrator may change: dpkg keeps what was changed. No board.toml among them: what is wired to a
+# board, no default can know, and without it the service does not start.
+file(GLOB boards CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/firmware/config/examples/*.toml)
+set(conffiles "")
+foreach(board IN LISTS boards)
+  get_filename_component(name ${board} NAME)
+  string(APPEND conffiles "/etc/supercoil/boards/${name}\n")
+endforeach()
+file(WRITE ${CMAKE_BINARY_DIR}/conffiles "${conffiles}")
+install(FILES ${boards} DESTINATION /etc/supercoil/boards)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME supercoil)
+set(CPACK_PACKAGE_VERSION ${package_version})
+set(CPACK_PACKAGE_CONTACT "supercoil's maintainers <maintainers@supercoil.invalid>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "firmware and tools for super-coiled polymer artificial muscles")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"supercoil heats super-coiled polymer muscles (coils of silver-plated nylon
+thread), learns their parameters while it runs, makes them follow a position,
+reports on a CAN bus, and keeps them from burning.
+
+supercoild is the firmware of a board, a service. supercoil is its operator's
+tool. supercoil-sim runs the same firmware over a simulated muscle.")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS systemd)
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "udev, gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "can-utils, gpiod, python3-can, python3-cantools")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_BINARY_DIR}/conffiles
+    ${package_files}/postinst ${package_files}/prerm ${package_files}/postrm)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL aarch64)
+  set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+endif()
+set(CPACK_STRIP_FILES ON)
+# Some files go to /etc.
+set(CPACK_SET_DESTDIR ON)
+set(CPACK_INSTALL_PREFIX /usr)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+# The programs are built when they are packed, and nothing else is.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+include(CPack)

@@ -87,8 +87,8 @@ void add_setting(CLI::App& app, SettingOptions& options) {
   setting->add_option("NODE", options.node, "1 to 63")
       ->required()
       ->check(CLI::Range(1, telemetry::most_nodes));
-  CLI::Option* name = setting->add_option("NAME", options.name, "e.g. most_power_W [all]");
-  setting->add_option("VALUE", options.value, "To write [read it]")->needs(name);
+  setting->add_option("NAME", options.name, "e.g. most_power_W [all]");
+  setting->add_option("VALUE", options.value, "To write [read it]");
   setting->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
       ->required();

@@ -39,7 +39,7 @@ constexpr std::array<ValueName, 31> names_of_fault{{
     {82, "self_test_failed"},
 }};
 
-constexpr std::array<ValueName, 12> names_of_gain{{
+constexpr std::array<ValueName, 16> names_of_gain{{
     {0, "none"},
     {1, "proportional"},
     {2, "integral"},
@@ -52,6 +52,10 @@ constexpr std::array<ValueName, 12> names_of_gain{{
     {9, "position"},
     {10, "reference"},
     {11, "sigma"},
+    {12, "feedforward_velocity"},
+    {13, "feedforward_acceleration"},
+    {14, "feedforward_jerk"},
+    {15, "bias"},
 }};
 
 constexpr std::array<ValueName, 6> names_of_limited_by{{

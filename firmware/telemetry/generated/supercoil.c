@@ -2122,12 +2122,12 @@ double supercoil_gain_gain_decode(uint8_t value)
 
 bool supercoil_gain_gain_is_in_range(uint8_t value)
 {
-    return (value <= 11u);
+    return (value <= 15u);
 }
 
 bool supercoil_gain_gain_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 11.0));
+    return ((value >= 0.0) && (value <= 15.0));
 }
 
 float supercoil_gain_value_encode(double value)

@@ -325,6 +325,10 @@ extern "C" {
 #define SUPERCOIL_GAIN_GAIN_POSITION_CHOICE (9u)
 #define SUPERCOIL_GAIN_GAIN_REFERENCE_CHOICE (10u)
 #define SUPERCOIL_GAIN_GAIN_SIGMA_CHOICE (11u)
+#define SUPERCOIL_GAIN_GAIN_FEEDFORWARD_VELOCITY_CHOICE (12u)
+#define SUPERCOIL_GAIN_GAIN_FEEDFORWARD_ACCELERATION_CHOICE (13u)
+#define SUPERCOIL_GAIN_GAIN_FEEDFORWARD_JERK_CHOICE (14u)
+#define SUPERCOIL_GAIN_GAIN_BIAS_CHOICE (15u)
 
 #define SUPERCOIL_SETTING_SETTING_MOST_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -1086,14 +1090,14 @@ struct supercoil_gain_t {
     /**
      * Which one this frame carries; none: the controller has none.
      *
-     * Range: 0..11 (0..11 -)
+     * Range: 0..15 (0..15 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t gain;
 
     /**
-     * proportional, feedforward: W/m. integral: W/(m s). derivative: W s/m. The others are theta and sigma of MRAC, which multiply power, position and reference in watts at rest. NaN: no gain.
+     * proportional, feedforward: W/m. integral: W/(m s). derivative, feedforward_velocity: W s/m. feedforward_acceleration: W s2/m. feedforward_jerk: W s3/m. bias: W. The others are theta and sigma of MRAC, which multiply power, position and reference in watts at rest. NaN: no gain.
      *
      * Range: -
      * Scale: 1

@@ -4,7 +4,10 @@ import { element, show } from "./dom.js";
 import { significant, words } from "./format.js";
 
 // "" multiplies power, position and reference in watts at rest.
-const UNITS = { proportional: "W/m", integral: "W/(m·s)", derivative: "W·s/m", feedforward: "W/m" };
+const UNITS = {
+  proportional: "W/m", integral: "W/(m·s)", derivative: "W·s/m", feedforward: "W/m", feedforward_velocity: "W·s/m",
+  feedforward_acceleration: "W·s²/m", feedforward_jerk: "W·s³/m", bias: "W",
+};
 
 export class Gains {
   constructor(node, store) {

@@ -14,7 +14,7 @@ using namespace supercoil::control;
 
 namespace {
 
-constexpr double step_s = 1e-3;
+constexpr double loop_step_s = 1e-3;
 /// 1.5 ms: one and a half ticks between the power's calculation and its acting.
 constexpr double delay_s = 1.5e-3;
 
@@ -38,9 +38,9 @@ double spectral_radius(const PhysicalParameters& muscle) {
   const AdaptiveFeedforwardSettings s;
   const double pole = s.derivative_filter_rad_per_s;
   const auto system = state_space(muscle);
-  const auto half = zero_order_hold<3, 2>(system.a, system.b, 0.5 * step_s);
+  const auto half = zero_order_hold<3, 2>(system.a, system.b, 0.5 * loop_step_s);
   const Companion<2> filter({pole * pole, 2.0 * pole, 1.0});
-  const auto held = first_order_hold<2, 1>(filter.a, filter.b, step_s);
+  const auto held = first_order_hold<2, 1>(filter.a, filter.b, loop_step_s);
   const Theta& nominal = s.scale.nominal;
   const double w = s.bandwidth_rad_per_s;
 
@@ -54,7 +54,7 @@ double spectral_radius(const PhysicalParameters& muscle) {
     next.segment<2>(3) =
         held.transition * x.segment<2>(3) + held.start * x[5] + held.end * plant[1];
     next[5] = plant[1];
-    next[6] = x[6] - plant[1] * w * nominal[3] * step_s;
+    next[6] = x[6] - plant[1] * w * nominal[3] * loop_step_s;
     next[7] = next[6] - plant[1] * w * nominal[2] - next[4] * pole * pole * w * nominal[1];
     next[8] = x[7];
     return next;
@@ -72,14 +72,15 @@ double modulus(const PhysicalParameters& muscle) {
   const Theta& nominal = s.scale.nominal;
   const Theta theta = theta_from(muscle);
   double least = 1.0;
-  for (double omega = 0.01; omega < std::numbers::pi / step_s; omega *= 1.01) {
+  for (double omega = 0.01; omega < std::numbers::pi / loop_step_s; omega *= 1.01) {
     const std::complex<double> p = 1i * omega;
     const auto lag = p / s.derivative_filter_rad_per_s + 1.0;
     const auto law =
         s.bandwidth_rad_per_s * (nominal[2] + nominal[3] / p + nominal[1] * p / (lag * lag));
     const auto plant =
         ((theta[0] * muscle.moving_mass_kg * p + theta[1]) * p + theta[2]) * p + theta[3];
-    least = std::fmin(least, std::abs(1.0 + law / plant * std::exp(-p * (delay_s + 0.5 * step_s))));
+    least = std::fmin(least,
+                      std::abs(1.0 + law / plant * std::exp(-p * (delay_s + 0.5 * loop_step_s))));
   }
   return least;
 }

@@ -30,11 +30,11 @@ class AdaptiveFeedforward {
   using Parameters = Vector<Wide, 5>;
 
   AdaptiveFeedforward(const AdaptiveFeedforwardSettings& s, double step_s)
-      : filter_({s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s,
+      : settings_(s),
+        filter_({s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s,
                  2.0 * s.derivative_filter_rad_per_s, 1.0},
                 step_s),
         filter_gain_(s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s),
-        nominal_(s.scale.nominal),
         follow_step_(step_s / s.follow_s) {
     const Theta units = s.scale.nominal * s.scale.dc_gain_m_per_W;
     weights_ << Wide(units[0] * s.scale.moving_mass_kg), Wide(units[1]), Wide(units[2]),
@@ -49,7 +49,8 @@ class AdaptiveFeedforward {
   void learn(const Estimate& estimate) {
     if (!estimate.settled) return;
     Parameters now;
-    now << estimate.theta.cwiseQuotient(nominal_).template cast<Wide>(), Wide(estimate.bias_W);
+    now << estimate.theta.cwiseQuotient(settings_.scale.nominal).template cast<Wide>(),
+        Wide(estimate.bias_W);
     theta_ += (now - theta_) * follow_step_;
   }
 
@@ -76,6 +77,30 @@ class AdaptiveFeedforward {
     return wanted_;
   }
 
+  static constexpr std::size_t gains = 8;
+  GainValue gain(std::size_t i) const {
+    const Theta& nominal = settings_.scale.nominal;
+    const Vector<double, 5> now = theta_.template cast<double>();
+    switch (i) {
+      case 0:
+        return {Gain::proportional, settings_.bandwidth_rad_per_s * nominal[2]};
+      case 1:
+        return {Gain::integral, settings_.bandwidth_rad_per_s * nominal[3]};
+      case 2:
+        return {Gain::derivative, settings_.bandwidth_rad_per_s * nominal[1]};
+      case 3:
+        return {Gain::feedforward, now[3] * nominal[3]};
+      case 4:
+        return {Gain::feedforward_velocity, now[2] * nominal[2]};
+      case 5:
+        return {Gain::feedforward_acceleration, now[1] * nominal[1]};
+      case 6:
+        return {Gain::feedforward_jerk, now[0] * nominal[0] * settings_.scale.moving_mass_kg};
+      default:
+        return {Gain::bias, now[4]};
+    }
+  }
+
   /// θ̄ over nominal, and its bias in W.
   const Parameters& theta() const { return theta_; }
 
@@ -93,9 +118,9 @@ class AdaptiveFeedforward {
            (in.model.velocity - velocity) * derivative_;
   }
 
+  AdaptiveFeedforwardSettings settings_;
   StateVariableFilter<Scalar, 2, Hold::first_order> filter_;
   Wide filter_gain_;
-  Theta nominal_;
   Wide follow_step_;
   Parameters weights_;
   Scalar proportional_{};

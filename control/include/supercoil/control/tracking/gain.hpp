@@ -23,11 +23,29 @@ enum class Gain : std::uint8_t {
   position = 9,       ///< of y
   reference = 10,     ///< of r: c0
   sigma = 11,         ///< σ of Eq. (16)
+  // Of the model's motion, beside `feedforward`.
+  feedforward_velocity = 12,      ///< W s/m
+  feedforward_acceleration = 13,  ///< W s²/m
+  feedforward_jerk = 14,          ///< W s³/m
+  bias = 15,                      ///< W
 };
 
-inline constexpr std::array<std::string_view, 12> gain_names{
-    "none",  "proportional",  "integral",     "derivative", "feedforward", "power_rate",
-    "power", "position_rate", "position_lag", "position",   "reference",   "sigma"};
+inline constexpr std::array<std::string_view, 16> gain_names{"none",
+                                                             "proportional",
+                                                             "integral",
+                                                             "derivative",
+                                                             "feedforward",
+                                                             "power_rate",
+                                                             "power",
+                                                             "position_rate",
+                                                             "position_lag",
+                                                             "position",
+                                                             "reference",
+                                                             "sigma",
+                                                             "feedforward_velocity",
+                                                             "feedforward_acceleration",
+                                                             "feedforward_jerk",
+                                                             "bias"};
 constexpr std::string_view name(Gain gain) {
   return gain_names[static_cast<std::size_t>(gain)];
 }

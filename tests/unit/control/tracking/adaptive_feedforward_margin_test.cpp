@@ -72,7 +72,12 @@ double modulus(const PhysicalParameters& muscle) {
   const Theta& nominal = s.scale.nominal;
   const Theta theta = theta_from(muscle);
   double least = 1.0;
-  for (double omega = 0.01; omega < std::numbers::pi / loop_step_s; omega *= 1.01) {
+  constexpr double lowest = 0.01;
+  constexpr double finer = 1.01;
+  const double highest = std::numbers::pi / loop_step_s;
+  const auto points = static_cast<int>(std::log(highest / lowest) / std::log(finer));
+  for (int i = 0; i <= points; ++i) {
+    const double omega = lowest * std::pow(finer, i);
     const std::complex<double> p = 1i * omega;
     const auto lag = p / s.derivative_filter_rad_per_s + 1.0;
     const auto law =

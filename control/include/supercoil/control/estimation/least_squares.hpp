@@ -170,7 +170,7 @@ class LeastSquaresEstimator {
   /// scaled, which keeps its factors: what is well known is then not forgotten either.
   double cap() {
     const Scalar largest = covariance_.largest_variance(free);
-    const Scalar most = to<Scalar>(settings_.prior_variance);
+    const auto most = to<Scalar>(settings_.prior_variance);
     if (!(largest > most)) return 1.0;
     covariance_.scale(most / largest);
     return static_cast<double>(most / largest);

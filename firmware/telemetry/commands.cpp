@@ -17,6 +17,7 @@ constexpr int command_base = SUPERCOIL_COMMAND_FRAME_ID - 1;
 
 std::vector<std::uint16_t> command_ids(const CanSettings& settings, std::size_t channels) {
   std::vector<std::uint16_t> ids;
+  ids.reserve(channels);
   const int first = command_base + settings.first_node;
   for (int i = 0; i < static_cast<int>(channels); ++i)
     ids.push_back(static_cast<std::uint16_t>(first + i));

@@ -1,6 +1,7 @@
 #include "telemetry/run_settings.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <supercoil.h>
 
@@ -33,9 +34,13 @@ std::vector<std::uint16_t> setting_ids(const CanSettings& settings, std::size_t 
   return ids;
 }
 
-RunSettings::RunSettings(const CanSettings& can, const BoardSettings& board, Leases& leases,
+RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& leases,
                          Publisher& publisher, Loop& loop)
-    : can_(can), tick_Hz_(board.rate_Hz), leases_(&leases), publisher_(&publisher), loop_(&loop) {
+    : can_(std::move(can)),
+      tick_Hz_(board.rate_Hz),
+      leases_(&leases),
+      publisher_(&publisher),
+      loop_(&loop) {
   for (const ChannelSettings& channel : board.channels)
     most_W_.push_back(channel.limiter.max_W);
 }

@@ -27,8 +27,8 @@ std::vector<std::uint16_t> setting_ids(const CanSettings& settings, std::size_t 
 class RunSettings {
  public:
   /// board: as the loop was made with. All others outlive it.
-  RunSettings(const CanSettings& can, const BoardSettings& board, Leases& leases,
-              Publisher& publisher, Loop& loop);
+  RunSettings(CanSettings can, const BoardSettings& board, Leases& leases, Publisher& publisher,
+              Loop& loop);
 
   /// What became of a frame. Both empty: it has nothing to do with settings.
   struct Taken {

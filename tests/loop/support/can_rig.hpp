@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "loop/support/rig.hpp"
@@ -13,8 +14,8 @@ namespace supercoil::test {
 
 class CanRig {
  public:
-  explicit CanRig(const RigSettings& rig_settings = rough_board())
-      : settings(rig_settings),
+  explicit CanRig(RigSettings rig_settings = rough_board())
+      : settings(std::move(rig_settings)),
         board(settings.board),
         loop(settings.firmware, board.devices()),
         executive(loop, board, settings.firmware.rate_Hz),

@@ -78,8 +78,10 @@ std::optional<Violation> check_fit(const ControllerSettings& settings, double st
                 pd.derivative_filter_rad_per_s * pd.derivative_filter_rad_per_s, state);
   } else if (settings.kind == ControllerKind::adaptive_ff) {
     const AdaptiveFeedforwardSettings& a = settings.adaptive_ff;
-    fit.at_most("bandwidth_rad_per_s",
-                a.bandwidth_rad_per_s * a.scale.nominal[2] * a.scale.dc_gain_m_per_W, signal);
+    const Theta units = a.scale.nominal * a.scale.dc_gain_m_per_W;
+    fit.at_most("bandwidth_rad_per_s", a.bandwidth_rad_per_s * std::max(units[1], units[2]),
+                signal);
+    fit.at_most("bandwidth_rad_per_s", a.bandwidth_rad_per_s * units[3] * step_s, state);
     fit.at_most("derivative_filter_rad_per_s",
                 a.derivative_filter_rad_per_s * a.derivative_filter_rad_per_s, state);
   } else {

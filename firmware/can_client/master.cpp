@@ -10,12 +10,20 @@ namespace supercoil::can_client {
 
 namespace e2e = telemetry::e2e;
 
+namespace {
+
+bool ends_lease(Refusal refusal) {
+  return refusal == Refusal::no_lease || refusal == Refusal::not_yours;
+}
+
+}  // namespace
+
 std::uint16_t acknowledge_id(std::uint8_t node) {
-  return static_cast<std::uint16_t>(SUPERCOIL_ACKNOWLEDGE_FRAME_ID - 1 + node);
+  return telemetry::id_of(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, node);
 }
 
 std::uint16_t setting_id(std::uint8_t node) {
-  return static_cast<std::uint16_t>(SUPERCOIL_SETTING_FRAME_ID - 1 + node);
+  return telemetry::id_of(SUPERCOIL_SETTING_FRAME_ID, node);
 }
 
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting) {
@@ -36,10 +44,8 @@ hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
   m.opcode = opcode;
   m.session = asked_as_;
   m.value = static_cast<float>(value);
-  hal::CanFrame made = telemetry::packed(SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH,
-                                         node_, m, supercoil_command_pack);
-  e2e::protect(made);
-  return made;
+  return telemetry::sealed(SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, node_, m,
+                           supercoil_command_pack);
 }
 
 hal::CanFrame Master::claim() {
@@ -61,11 +67,8 @@ hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {
   m.setting = setting;
   m.session = session_;
   m.value = static_cast<float>(value);
-  hal::CanFrame made =
-      telemetry::packed(SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH, node_, m,
-                        supercoil_setting_write_pack);
-  e2e::protect(made);
-  return made;
+  return telemetry::sealed(SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH, node_,
+                           m, supercoil_setting_write_pack);
 }
 
 std::optional<Master::Setting> Master::hear_setting(const hal::CanFrame& frame, bool of_write) {
@@ -76,7 +79,7 @@ std::optional<Master::Setting> Master::hear_setting(const hal::CanFrame& frame, 
   const bool mine = !of_write || (m.counter == counter_ && m.session_low == (asked_as_ & 0xFFU));
   if (!mine || m.refusal >= refusal_names.size()) return std::nullopt;
   const auto refusal = static_cast<Refusal>(m.refusal);
-  if (refusal == Refusal::no_lease || refusal == Refusal::not_yours) session_ = 0;
+  if (of_write && ends_lease(refusal)) session_ = 0;
   return Setting{m.setting, refusal, m.value};
 }
 
@@ -88,9 +91,9 @@ std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {
   if (m.counter != counter_ || m.session != asked_as_ || m.refusal >= refusal_names.size())
     return std::nullopt;
   const auto refusal = static_cast<Refusal>(m.refusal);
-  const bool over = refusal == Refusal::no_lease || refusal == Refusal::not_yours;
   if (m.opcode == telemetry::claim && refusal == Refusal::none) session_ = m.granted;
-  if (over || (m.opcode == telemetry::release && refusal == Refusal::none)) session_ = 0;
+  if (ends_lease(refusal) || (m.opcode == telemetry::release && refusal == Refusal::none))
+    session_ = 0;
   return Heard{m.opcode, refusal};
 }
 

@@ -20,8 +20,11 @@ telemetry::Rates read_rates(Section section, double tick_Hz) {
     const double least_Hz =
         message == telemetry::Message::status ? telemetry::least_status_Hz : 0.0;
     rates[i] = section.number(key, rates[i], {least_Hz, telemetry::most_rate(tick_Hz)});
-    if (!telemetry::is_allowed(message, rates[i], tick_Hz))
-      section.wrong(key, "must be 0, for never, or at least 0.01");
+    if (!telemetry::is_allowed(message, rates[i], tick_Hz)) {
+      std::ostringstream range;
+      range << "must be 0, for never, or at least " << telemetry::least_rate_Hz;
+      section.wrong(key, range.str());
+    }
   }
   section.finish();
   return rates;

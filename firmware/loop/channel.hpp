@@ -103,6 +103,8 @@ class Channel {
   void observe_heat(double supply_V, long periods);
   void follow_probe(double supply_V);
   void learn_heat();
+  /// Empty: no estimate is trusted, or it is no muscle's.
+  std::optional<control::PhysicalParameters> trusted_muscle() const;
   void step_identify();
   void step_calibrate();
   void end_calibrate(double cold_Ohm);

@@ -154,10 +154,8 @@ Refusal Channel::scale(double true_m) {
 Refusal Channel::store(double what) {
   if (what == 0.0) return lessons_.push(std::nullopt) ? Refusal::none : Refusal::too_many;
   if (what != 1.0) return Refusal::out_of_range;
-  const auto estimate = estimator().estimate();
-  if (!estimate || !estimate->trusted) return Refusal::not_ready;
-  const control::KnownParameters known{muscle_.force_per_kelvin_N_per_K, muscle_.moving_mass_kg};
-  const auto muscle = control::physical_from(estimate->theta, known);
+  if (!estimate_ || !estimate_->trusted) return Refusal::not_ready;
+  const auto muscle = trusted_muscle();
   return muscle && keep(*muscle, calibration_) ? Refusal::none : Refusal::out_of_range;
 }
 

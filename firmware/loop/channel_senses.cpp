@@ -74,12 +74,14 @@ void Channel::follow_probe(double supply_V) {
   if (evidence_.probed) resistance_.set(probed.resistance_Ohm);
 }
 
+std::optional<control::PhysicalParameters> Channel::trusted_muscle() const {
+  if (!estimate_ || !estimate_->trusted) return std::nullopt;
+  return control::physical_from(estimate_->theta,
+                                {muscle_.force_per_kelvin_N_per_K, muscle_.moving_mass_kg});
+}
+
 void Channel::learn_heat() {
-  if (!estimate_ || !estimate_->trusted) return;
-  const control::PhysicalParameters& m = settings_.muscle;
-  const auto physical =
-      control::physical_from(estimate_->theta, {m.force_per_kelvin_N_per_K, m.moving_mass_kg});
-  if (physical) heat_.learn(physical->thermal_pole_rad_per_s());
+  if (const auto muscle = trusted_muscle()) heat_.learn(muscle->thermal_pole_rad_per_s());
 }
 
 }  // namespace supercoil

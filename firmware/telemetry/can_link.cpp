@@ -1,5 +1,9 @@
 #include "telemetry/can_link.hpp"
 
+#include <supercoil.h>
+
+#include "telemetry/nodes.hpp"
+
 namespace supercoil::telemetry {
 
 namespace {
@@ -15,9 +19,12 @@ std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
 }  // namespace
 
 std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
-  std::vector<std::uint16_t> ids = command_ids(settings, channels);
-  const std::vector<std::uint16_t> others = setting_ids(settings, channels);
-  ids.insert(ids.end(), others.begin(), others.end());
+  std::vector<std::uint16_t> ids;
+  for (const unsigned id : {SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_SETTING_WRITE_FRAME_ID,
+                            SUPERCOIL_SETTING_READ_FRAME_ID}) {
+    for (std::size_t i = 0; i < channels; ++i)
+      ids.push_back(id_of(id, static_cast<Node>(settings.first_node + i)));
+  }
   return ids;
 }
 

@@ -8,63 +8,50 @@
 
 namespace supercoil::telemetry {
 
-namespace {
-
-/// The DBC describes node 1.
-constexpr int command_base = SUPERCOIL_COMMAND_FRAME_ID - 1;
-
-}  // namespace
-
-std::vector<std::uint16_t> command_ids(const CanSettings& settings, std::size_t channels) {
-  std::vector<std::uint16_t> ids;
-  ids.reserve(channels);
-  const int first = command_base + settings.first_node;
-  for (int i = 0; i < static_cast<int>(channels); ++i)
-    ids.push_back(static_cast<std::uint16_t>(first + i));
-  return ids;
-}
-
 Commands::Commands(const CanSettings& settings, Leases& leases)
     : first_node_(settings.first_node), leases_(&leases) {}
 
 Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
-  const int channel = frame.id - command_base - first_node_;
-  if (channel < 0 || channel >= static_cast<int>(leases_->channels())) return {};
+  const auto channel =
+      channel_of(frame, SUPERCOIL_COMMAND_FRAME_ID, first_node_, leases_->channels());
+  if (!channel) return {};
   Taken taken;
-  const auto index = static_cast<std::uint8_t>(channel);
   if (!e2e::intact(frame, SUPERCOIL_COMMAND_LENGTH)) {
-    taken.damaged = index;
+    taken.damaged = *channel;
     return taken;
   }
   supercoil_command_t m{};
   supercoil_command_unpack(&m, frame.data.data(), frame.length);
-  const Asked asked{index, m.opcode, m.counter, m.session};
+  const Asked asked{*channel, m.opcode, m.counter, m.session};
 
   // From everybody, whatever is wrong with lease and counter.
   const bool stop = m.opcode == static_cast<std::uint8_t>(Verb::disarm) && m.value == 0.0F;
   const Refusal checked = check(asked, m.value, now);
-  if (checked == Refusal::wrong_counter && !stop) taken.damaged = index;
+  if (checked == Refusal::wrong_counter && !stop) taken.damaged = *channel;
   if (checked != Refusal::none && !stop) {
     taken.answer = acknowledge(asked, checked);
   } else if (m.opcode == Opcode::claim) {
-    taken.answer = acknowledge(asked, Refusal::none, leases_->session(index));
+    taken.answer = acknowledge(asked, Refusal::none, leases_->session(*channel));
   } else if (m.opcode == Opcode::release) {
-    leases_->release(index);
+    leases_->release(*channel);
     taken.answer = acknowledge(asked, Refusal::none);
   } else if (waiting_.size() == most_waiting) {
     taken.answer = acknowledge(asked, Refusal::too_many);
   } else {
     waiting_.push_back(asked);
-    taken.command = Command{index, static_cast<Verb>(m.opcode), m.value, Source::can};
+    taken.command = Command{*channel, static_cast<Verb>(m.opcode), m.value, Source::can};
   }
   return taken;
 }
 
 Refusal Commands::check(const Asked& asked, float value, hal::Time now) {
-  if (asked.opcode != Opcode::claim)
-    return leases_->check(asked.channel, asked.session, asked.counter, now);
-  if (value != 0.0F) return Refusal::out_of_range;
-  return leases_->claim(asked.channel, asked.session, asked.counter, now);
+  if (asked.opcode == Opcode::claim && value == 0.0F)
+    return leases_->claim(asked.channel, asked.session, asked.counter, now);
+  const Refusal checked = leases_->check(asked.channel, asked.session, asked.counter, now);
+  // Also of a claim that means nothing, the holder's counter goes on: else a frame that was heard
+  // before it would be obeyed once more.
+  const bool meant = asked.opcode != Opcode::claim || checked == Refusal::wrong_counter;
+  return meant ? checked : Refusal::out_of_range;
 }
 
 std::optional<hal::CanFrame> Commands::answered(const Answer& answer) {
@@ -88,11 +75,8 @@ hal::CanFrame Commands::acknowledge(const Asked& asked, Refusal refusal,
   m.session = asked.session;
   m.refusal = static_cast<std::uint8_t>(refusal);
   m.granted = granted;
-  hal::CanFrame frame =
-      packed(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH,
-             static_cast<Node>(first_node_ + asked.channel), m, supercoil_acknowledge_pack);
-  e2e::protect(frame);
-  return frame;
+  return sealed(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH,
+                static_cast<Node>(first_node_ + asked.channel), m, supercoil_acknowledge_pack);
 }
 
 }  // namespace supercoil::telemetry

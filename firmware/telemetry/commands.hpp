@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <vector>
 
 #include "supercoil/hal/can_bus.hpp"
 
@@ -13,9 +12,6 @@
 #include "telemetry/settings.hpp"
 
 namespace supercoil::telemetry {
-
-/// Identifiers of the frames that command a board's channels, for the bus's receive filters.
-std::vector<std::uint16_t> command_ids(const CanSettings& settings, std::size_t channels);
 
 /// Judges frames; neither sends nor receives. Every frame of a Command is either damaged, or
 /// answered with a reason, or handed on; what is handed on is answered when the loop has done it.

@@ -10,12 +10,9 @@
 #include "supercoil/hal/can_bus.hpp"
 
 #include "loop/row.hpp"
+#include "telemetry/nodes.hpp"
 
 namespace supercoil::telemetry {
-
-/// Node 1 to 63: one channel of a board.
-using Node = std::uint8_t;
-inline constexpr int most_nodes = 63;
 
 /// What is sent at a rate of its own.
 enum class Message : std::uint8_t {

@@ -8,6 +8,9 @@
 
 #include "supercoil/hal/can_bus.hpp"
 
+#include "telemetry/e2e.hpp"
+#include "telemetry/nodes.hpp"
+
 namespace supercoil::telemetry {
 
 /// The raw value of a scaled signal. not_available: the one that the DBC reserves, the least of a
@@ -27,12 +30,21 @@ Raw scaled(double value, std::type_identity_t<Raw> not_available, Raw (*encode)(
 
 /// id: of node 1. pack: the codec's.
 template <class Signals>
-hal::CanFrame packed(unsigned id, unsigned length, std::uint8_t node, const Signals& signals,
+hal::CanFrame packed(unsigned id, unsigned length, Node node, const Signals& signals,
                      int (*pack)(std::uint8_t*, const Signals*, std::size_t)) {
   hal::CanFrame frame;
-  frame.id = static_cast<std::uint16_t>(id - 1 + node);
+  frame.id = id_of(id, node);
   frame.length = static_cast<std::uint8_t>(length);
   pack(frame.data.data(), &signals, frame.data.size());
+  return frame;
+}
+
+/// The same, protected: the codec wrote all but the checksum.
+template <class Signals>
+hal::CanFrame sealed(unsigned id, unsigned length, Node node, const Signals& signals,
+                     int (*pack)(std::uint8_t*, const Signals*, std::size_t)) {
+  hal::CanFrame frame = packed(id, length, node, signals, pack);
+  e2e::protect(frame);
   return frame;
 }
 

@@ -25,15 +25,6 @@ std::string run_setting_name(std::uint8_t setting) {
   return std::string(all_messages()[setting - 1U].name) + "_Hz";
 }
 
-std::vector<std::uint16_t> setting_ids(const CanSettings& settings, std::size_t channels) {
-  std::vector<std::uint16_t> ids;
-  for (const unsigned base : {SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_READ_FRAME_ID}) {
-    for (std::size_t i = 0; i < channels; ++i)
-      ids.push_back(static_cast<std::uint16_t>(base - 1 + settings.first_node + i));
-  }
-  return ids;
-}
-
 RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& leases,
                          Publisher& publisher, Loop& loop)
     : can_(std::move(can)),
@@ -45,17 +36,13 @@ RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& le
     most_W_.push_back(channel.limiter.max_W);
 }
 
-std::optional<std::uint8_t> RunSettings::channel_of(const hal::CanFrame& frame,
-                                                    unsigned id_of_node_1) const {
-  const int channel = frame.id - static_cast<int>(id_of_node_1) + 1 - can_.first_node;
-  if (channel < 0 || channel >= static_cast<int>(most_W_.size())) return std::nullopt;
-  return static_cast<std::uint8_t>(channel);
-}
-
 RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
-  if (const auto channel = channel_of(frame, SUPERCOIL_SETTING_WRITE_FRAME_ID))
+  const auto meant = [&](unsigned id) {
+    return channel_of(frame, id, can_.first_node, most_W_.size());
+  };
+  if (const auto channel = meant(SUPERCOIL_SETTING_WRITE_FRAME_ID))
     return take_write(*channel, frame, now);
-  const auto channel = channel_of(frame, SUPERCOIL_SETTING_READ_FRAME_ID);
+  const auto channel = meant(SUPERCOIL_SETTING_READ_FRAME_ID);
   if (!channel || frame.length != SUPERCOIL_SETTING_READ_LENGTH) return {};
   supercoil_setting_read_t m{};
   supercoil_setting_read_unpack(&m, frame.data.data(), frame.length);
@@ -110,11 +97,8 @@ hal::CanFrame RunSettings::told(std::uint8_t channel, std::uint8_t setting, Refu
   m.refusal = static_cast<std::uint8_t>(refusal);
   m.session_low = static_cast<std::uint8_t>(session);
   m.value = static_cast<float>(value_of(channel, setting));
-  hal::CanFrame frame =
-      packed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH,
-             static_cast<Node>(can_.first_node + channel), m, supercoil_setting_pack);
-  e2e::protect(frame);
-  return frame;
+  return sealed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH,
+                static_cast<Node>(can_.first_node + channel), m, supercoil_setting_pack);
 }
 
 }  // namespace supercoil::telemetry

@@ -19,9 +19,6 @@ static_assert(run_settings <= 16, "a setting has 4 bits");
 /// As in the DBC, with its unit.
 std::string run_setting_name(std::uint8_t setting);
 
-/// Identifiers of SettingWrite and SettingRead of a board's channels.
-std::vector<std::uint16_t> setting_ids(const CanSettings& settings, std::size_t channels);
-
 /// Neither sends nor receives. Writing needs the channel's lease, as a command does; reading does
 /// not. Whatever came whole is answered with what holds from then on.
 class RunSettings {
@@ -38,7 +35,6 @@ class RunSettings {
   Taken take(const hal::CanFrame& frame, hal::Time now);
 
  private:
-  std::optional<std::uint8_t> channel_of(const hal::CanFrame& frame, unsigned id_of_node_1) const;
   Taken take_write(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
   Refusal set(std::uint8_t channel, std::uint8_t setting, double value);
   Refusal set_rate(std::uint8_t channel, Message message, double rate_Hz);

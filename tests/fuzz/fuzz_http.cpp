@@ -42,13 +42,17 @@ class Page {
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(access_.port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    // Closed at once: thousands of connections a second would use up the ports while they linger.
+    const linger none{1, 0};
+    ::setsockopt(file, SOL_SOCKET, SO_LINGER, &none, sizeof(none));
+    fuzz::require(
+        ::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0,
+        "the page can be reached");
+    ::send(file, request.data(), request.size(), MSG_NOSIGNAL);
+    ::shutdown(file, SHUT_WR);
     std::string answer(64, '\0');
-    if (::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) {
-      ::send(file, request.data(), request.size(), MSG_NOSIGNAL);
-      ::shutdown(file, SHUT_WR);
-      const ssize_t size = ::recv(file, answer.data(), answer.size(), 0);
-      answer.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
-    }
+    const ssize_t size = ::recv(file, answer.data(), answer.size(), 0);
+    answer.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
     ::close(file);
     return answer;
   }

@@ -1,4 +1,6 @@
-"""Writes the seeds that are no text: python3 tests/fuzz/seeds.py
+"""Writes the seeds that are no text: .venv/bin/python tests/fuzz/seeds.py [--check]
+
+--check: only says whether the seeds in the tree are those that it would write.
 
 Boards and scenarios are the project's own examples, by links in corpus/; commands are there as they are. The whole
 firmware (fuzz_can_link) has the seeds of fuzz_frames.
@@ -6,35 +8,41 @@ firmware (fuzz_can_link) has the seeds of fuzz_frames.
 
 import pathlib
 import struct
+import sys
 import zlib
+
+import cantools
 
 CORPUS = pathlib.Path(__file__).parent / "corpus"
 # Bits of Step::how (steps.hpp).
 TO_CHANNEL, WITH_SESSION, WITH_COUNTER, SEALED, WHOLE = 1, 2, 4, 8, 16
 HOLDER = TO_CHANNEL | WITH_SESSION | WITH_COUNTER | SEALED | WHOLE
 STRANGER = TO_CHANNEL | SEALED | WHOLE
-NONE, ARM, DISARM, RESET, POSITION, POWER, RENEW, REST, IDENTIFY, CALIBRATE, SCALE, CONTROLLER, ESTIMATOR = range(13)
-CLAIM, RELEASE = 13, 14
+DBC = cantools.database.load_file(pathlib.Path(__file__).parents[2] / "firmware/telemetry/supercoil.dbc")
+OPCODE = {str(name): number for number, name in
+          DBC.get_message_by_name("Command").get_signal_by_name("opcode").choices.items()}
 
 
-def step(how, verb, value=0.0, wait=2, channel=0, session=0x1234):
-    return struct.pack("<BBH", how, wait, channel) + struct.pack("<BBHf", 0, verb << 4, session, value)
+def step(how, opcode, value=0.0, wait=2, channel=0, session=0x1234, counter=0):
+    return struct.pack("<BBHBBHf", how, wait, channel, 0, OPCODE[opcode] << 4 | counter, session, value)
 
 
-CLAIMED = step(STRANGER, CLAIM)
-ARMED = CLAIMED + step(HOLDER, ARM, wait=20)
+CLAIMED = step(STRANGER, "claim")
+ARMED = CLAIMED + step(HOLDER, "arm", wait=20)
 FRAMES = {
-    "arms_moves_rests_releases": ARMED + step(HOLDER, POSITION, 0.01, 10) + step(HOLDER, RENEW, wait=10)
-    + step(HOLDER, REST) + step(HOLDER, RELEASE),
-    "falls_silent": ARMED + step(HOLDER, POWER, 2.0, 200) + step(HOLDER, RENEW) + CLAIMED + step(HOLDER, RESET),
-    "is_stopped_by_a_stranger": ARMED + step(HOLDER, POSITION, 0.01, 10) + step(STRANGER, DISARM),
-    "a_stranger_is_refused": ARMED + step(STRANGER, POSITION, 0.01) + step(STRANGER, CLAIM),
-    "is_damaged": ARMED + 12 * step(HOLDER & ~SEALED, RENEW) + step(HOLDER, RESET),
-    "repeats_itself": ARMED + 3 * step(HOLDER & ~WITH_COUNTER, RENEW),
-    "learns": ARMED + step(HOLDER, CALIBRATE) + step(HOLDER, IDENTIFY, wait=9) + step(HOLDER, SCALE, 0.01)
-    + step(HOLDER, CONTROLLER, 2.0) + step(HOLDER, ESTIMATOR, 0.0),
-    "the_other_channel": step(STRANGER, CLAIM, channel=1) + step(HOLDER, ARM, wait=20, channel=1)
-    + step(HOLDER, POWER, 1.0, channel=1) + step(0, NONE),
+    "arms_moves_rests_releases": ARMED + step(HOLDER, "position", 0.01, 10) + step(HOLDER, "renew", wait=10)
+    + step(HOLDER, "rest") + step(HOLDER, "release"),
+    "falls_silent": ARMED + step(HOLDER, "power", 2.0, 200) + step(HOLDER, "renew") + CLAIMED + step(HOLDER, "reset"),
+    "is_stopped_by_a_stranger": ARMED + step(HOLDER, "position", 0.01, 10) + step(STRANGER, "disarm"),
+    "a_stranger_is_refused": ARMED + step(STRANGER, "position", 0.01) + step(STRANGER, "claim"),
+    "is_damaged": ARMED + 12 * step(HOLDER & ~SEALED, "renew") + step(HOLDER, "reset"),
+    "repeats_itself": ARMED + 3 * step(HOLDER & ~WITH_COUNTER, "renew"),
+    "counts_on_from_a_claim_that_means_nothing": CLAIMED
+    + step(HOLDER & ~WITH_COUNTER, "claim", 1.0, counter=5) + step(HOLDER & ~WITH_COUNTER, "arm", counter=1),
+    "learns": ARMED + step(HOLDER, "calibrate") + step(HOLDER, "identify", wait=9) + step(HOLDER, "scale", 0.01)
+    + step(HOLDER, "controller", 2.0) + step(HOLDER, "estimator", 0.0),
+    "the_other_channel": step(STRANGER, "claim", channel=1) + step(HOLDER, "arm", wait=20, channel=1)
+    + step(HOLDER, "power", 1.0, channel=1) + step(0, "none"),
 }
 
 
@@ -85,10 +93,19 @@ def envelope(body):
 
 STORED_SETS = {"body": STORED.encode(), "whole": envelope(STORED), "cut_off": envelope(STORED)[:-20]}
 
-if __name__ == "__main__":
+
+def main():
+    only_check = sys.argv[1:] == ["--check"]
     for target, seeds in {"fuzz_frames": FRAMES, "fuzz_recording": RECORDINGS,
                           "fuzz_stored_set": STORED_SETS}.items():
-        folder = CORPUS / target
-        folder.mkdir(parents=True, exist_ok=True)
         for name, content in seeds.items():
-            (folder / name).write_bytes(content)
+            file = CORPUS / target / name
+            if not only_check:
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(content)
+            elif not file.exists() or file.read_bytes() != content:
+                sys.exit(f"{file} is not what {__file__} writes: run it again")
+
+
+if __name__ == "__main__":
+    main()

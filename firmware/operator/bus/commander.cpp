@@ -13,6 +13,13 @@ constexpr auto answer_within = std::chrono::milliseconds(500);
 constexpr auto lease_lasts = std::chrono::milliseconds(400);
 constexpr auto nap = std::chrono::milliseconds(1);
 
+Refusal refusal_of(Refusal answer) {
+  return answer;
+}
+Refusal refusal_of(const can_client::Master::Setting& answer) {
+  return answer.refusal;
+}
+
 }  // namespace
 
 Commander::Commander(std::unique_ptr<hal::CanBus> bus, std::uint8_t node)
@@ -65,17 +72,19 @@ Commander::Answer Commander::command(Verb verb, double value) {
   return exchange(master_.command(verb, value));
 }
 
-/// The lease ran out meanwhile, or frames were lost before this one.
-bool Commander::once_more(Refusal refusal) {
-  return refusal == Refusal::no_lease || refusal == Refusal::wrong_counter;
+template <class Once>
+auto Commander::insist(const Once& once) {
+  drain();
+  auto answer = once();
+  const auto is = [&](Refusal refusal) { return answer && refusal_of(*answer) == refusal; };
+  // The lease ran out meanwhile, or frames were lost before this one.
+  if (is(Refusal::no_lease) || is(Refusal::wrong_counter)) answer = once();
+  if (is(Refusal::none)) lease_from_ = Clock::now();
+  return answer;
 }
 
 tl::expected<Refusal, std::string> Commander::ask(Verb verb, double value) {
-  drain();
-  Answer answer = command(verb, value);
-  if (answer && once_more(*answer)) answer = command(verb, value);
-  if (answer && *answer == Refusal::none) lease_from_ = Clock::now();
-  return answer;
+  return insist([&] { return command(verb, value); });
 }
 
 Commander::Setting Commander::read(std::uint8_t setting) {
@@ -90,19 +99,14 @@ Commander::Setting Commander::read(std::uint8_t setting) {
 }
 
 Commander::Setting Commander::write(std::uint8_t setting, double value) {
-  drain();
-  const auto once = [&]() -> Setting {
+  return insist([&]() -> Setting {
     const Answer claimed = claim();
     if (!claimed) return tl::unexpected(claimed.error());
     if (*claimed != Refusal::none) return can_client::Master::Setting{setting, *claimed, NAN};
     return exchange<can_client::Master::Setting>(
         master_.setting_write(setting, value),
         [&](const hal::CanFrame& frame) { return master_.hear_setting(frame, true); });
-  };
-  Setting answer = once();
-  if (answer && once_more(answer->refusal)) answer = once();
-  if (answer && answer->refusal == Refusal::none) lease_from_ = Clock::now();
-  return answer;
+  });
 }
 
 void Commander::release() {

@@ -43,7 +43,9 @@ class Commander {
   /// Refusal::none: the lease is held.
   Answer claim();
   Answer command(Verb verb, double value);
-  static bool once_more(Refusal refusal);
+  /// Asks under the lease, and once more where that can help.
+  template <class Once>
+  auto insist(const Once& once);
 
   std::unique_ptr<hal::CanBus> bus_;
   can_client::Master master_;

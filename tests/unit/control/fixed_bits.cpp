@@ -62,6 +62,7 @@ std::uint64_t run(const MracSettings& mrac, ControllerKind kind, double final_va
     hash.add(out.wanted_power_W);
     hash.add(out.model_m);
     const auto estimate = *estimator.estimate();
+    controller.learn(estimate);
     for (const double theta : estimate.theta)
       hash.add(theta);
     hash.add(estimate.prediction_error_W);
@@ -89,5 +90,6 @@ int main() {
   print("a", *mrac_preset("a"));
   print("pi", MracSettings{}, ControllerKind::pi);
   print("pd_ff", MracSettings{}, ControllerKind::pd_ff);
+  print("adapt_ff", MracSettings{}, ControllerKind::adaptive_ff);
   return 0;
 }

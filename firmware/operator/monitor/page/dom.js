@@ -15,3 +15,10 @@ export function element(name, attributes = {}, ...children) {
 export function show(where, text) {
   if (where.textContent !== text) where.textContent = text;
 }
+
+/** Puts a child where its number belongs among its numbered siblings. */
+export function place(parent, number, child) {
+  child.dataset.number = number;
+  const behind = [...parent.children].find((other) => Number(other.dataset.number) > number);
+  parent.insertBefore(child, behind ?? null);
+}

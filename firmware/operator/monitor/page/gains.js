@@ -1,6 +1,6 @@
 // What the active controller multiplies its signals by; an adaptive one changes it.
 
-import { element, show } from "./dom.js";
+import { element, place, show } from "./dom.js";
 import { significant, words } from "./format.js";
 
 // "" multiplies power, position and reference in watts at rest.
@@ -33,8 +33,7 @@ export class Gains {
       const name = this.store.word("Gain", "gain", number);
       const row = element("tr", {}, element("th", { scope: "row" }, words(name)), element("td", { class: "value" }),
         element("td", { class: "unit" }, UNITS[name] ?? ""));
-      const behind = [...this.rows.keys()].filter((other) => other > number).sort((a, b) => a - b)[0];
-      this.body.insertBefore(row, behind === undefined ? null : this.rows.get(behind));
+      place(this.body, number, row);
       this.rows.set(number, row);
     }
     return this.rows.get(number);

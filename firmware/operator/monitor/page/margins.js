@@ -1,6 +1,6 @@
 // How near each detector is to tripping: a bar each.
 
-import { element, show } from "./dom.js";
+import { element, place, show } from "./dom.js";
 import { significant, words } from "./format.js";
 
 // As docs/faults has them; "" is a count or a flag.
@@ -51,8 +51,7 @@ export class Margins {
     const item = element("li", {}, element("button", { type: "button", class: "link", onclick: () => this.on_fault(name) }, words(name)), meter, text);
     const bar = { item, meter, text };
     this.bars.set(number, bar);
-    const behind = [...this.bars.keys()].filter((other) => other > number).sort((a, b) => a - b)[0];
-    this.list.insertBefore(item, behind === undefined ? null : this.bars.get(behind).item);
+    place(this.list, number, item);
     return bar;
   }
 }

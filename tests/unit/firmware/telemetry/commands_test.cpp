@@ -159,6 +159,17 @@ TEST(CanCommands, ARepeatedOneIsRefusedAndCountsAsDamaged) {
   LONGS_EQUAL(10, read_answer(*repeated.answer).refusal);
 }
 
+TEST(CanCommands, AClaimThatMeansNothingCountsInTheSequenceToo) {
+  claim(master);
+  Master replayed = master;
+  CHECK(refusal_of(master.frame(Opcode::claim, 1.0F)) == Refusal::out_of_range);
+  CHECK(refusal_of(replayed.frame(Verb::arm)) == Refusal::wrong_counter);
+  CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
+  Master stranger;
+  stranger.nonce = 7;
+  CHECK(refusal_of(stranger.frame(Opcode::claim, 1.0F)) == Refusal::out_of_range);
+}
+
 TEST(CanCommands, ThreeMayBeLostInBetweenAndAfterMoreTheNextIsObeyed) {
   claim(master);
   for (int lost = 0; lost <= 6; ++lost) {

@@ -4,8 +4,8 @@
 #include <supercoil.h>
 
 #include "telemetry/commands.hpp"
-#include "telemetry/e2e.hpp"
 #include "telemetry/opcodes.hpp"
+#include "telemetry/pack.hpp"
 
 namespace supercoil::test {
 
@@ -17,31 +17,26 @@ struct Master {
 
   hal::CanFrame frame(std::uint8_t opcode, float value = 0.0F) {
     supercoil_command_t m{};
-    m.counter = counter;
-    counter = static_cast<std::uint8_t>((counter + 1) % telemetry::e2e::counters);
+    m.counter = next_counter();
     m.opcode = opcode;
     m.session = session;
     m.value = value;
-    hal::CanFrame made;
-    made.id = static_cast<std::uint16_t>(SUPERCOIL_COMMAND_FRAME_ID - 1 + node);
-    made.length = SUPERCOIL_COMMAND_LENGTH;
-    supercoil_command_pack(made.data.data(), &m, made.data.size());
-    telemetry::e2e::protect(made);
-    return made;
+    return telemetry::sealed(SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, node, m,
+                             supercoil_command_pack);
   }
   hal::CanFrame setting(std::uint8_t setting, float value) {
     supercoil_setting_write_t m{};
-    m.counter = counter;
-    counter = static_cast<std::uint8_t>((counter + 1) % telemetry::e2e::counters);
+    m.counter = next_counter();
     m.setting = setting;
     m.session = session;
     m.value = value;
-    hal::CanFrame made;
-    made.id = static_cast<std::uint16_t>(SUPERCOIL_SETTING_WRITE_FRAME_ID - 1 + node);
-    made.length = SUPERCOIL_SETTING_WRITE_LENGTH;
-    supercoil_setting_write_pack(made.data.data(), &m, made.data.size());
-    telemetry::e2e::protect(made);
-    return made;
+    return telemetry::sealed(SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH, node,
+                             m, supercoil_setting_write_pack);
+  }
+  std::uint8_t next_counter() {
+    const std::uint8_t now = counter;
+    counter = static_cast<std::uint8_t>((counter + 1) % telemetry::e2e::counters);
+    return now;
   }
   hal::CanFrame frame(Verb verb, float value = 0.0F) {
     return frame(static_cast<std::uint8_t>(verb), value);

@@ -13,6 +13,8 @@ namespace supercoil::can_client {
 /// Of the frames by which a node answers its masters.
 std::uint16_t acknowledge_id(std::uint8_t node);
 std::uint16_t setting_id(std::uint8_t node);
+/// Of its heartbeat.
+std::uint16_t status_id(std::uint8_t node);
 
 /// Asks for one setting of a node; needs no lease.
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);

@@ -44,8 +44,7 @@ Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedSt
       recorder_(config.storage_folder, static_cast<int>(config.settings.channels.size()),
                 config.settings.rate_Hz, files),
       relay_(rows_relayed(config.settings)),
-      last_(config.settings.channels.size()),
-      looked_(config.settings.channels.size()) {}
+      last_(config.settings.channels.size()) {}
 
 void Keeper::poll(Loop& loop, hal::Time now) {
   struct Tee {
@@ -65,9 +64,7 @@ void Keeper::poll(Loop& loop, hal::Time now) {
 void Keeper::store_learned(Loop& loop, std::size_t channel) {
   const std::string who = "channel " + std::to_string(channel + 1);
   storage::Lesson lesson;
-  bool any = false;
   while (loop.channel(channel).take_lesson(lesson)) {
-    any = true;
     if (!lesson) {
       forget(channel, who);
       continue;
@@ -79,10 +76,6 @@ void Keeper::store_learned(Loop& loop, std::size_t channel) {
       log(Level::problem, who + " learned, but it is not stored: " + saved.error());
     }
   }
-  if (looked_[channel] && !any) {
-    log(Level::warning, who + " found nothing that passes its validation; nothing is changed");
-  }
-  looked_[channel] = false;
 }
 
 void Keeper::forget(std::size_t channel, const std::string& who) {
@@ -121,10 +114,11 @@ void Keeper::watch(const Row& row) {
     }
     log(fault ? Level::problem : Level::info, text);
   }
-  const bool looking = static_cast<Mode>(before.mode) == Mode::identify;
-  // Its last row is a tick short of the whole.
-  constexpr float done = 0.99F;
-  if (looking && row.mode == 0 && before.progress > done) looked_[row.channel] = true;
+  if (row.result != before.result && static_cast<ModeResult>(row.result) > ModeResult::found) {
+    log(Level::warning, "channel " + std::to_string(row.channel + 1) +
+                            " found nothing to keep: " + recorder::result_name(row.result) + " (" +
+                            recorder::mode_name(before.mode) + ")");
+  }
   before = row;
 }
 

@@ -49,8 +49,7 @@ class Keeper {
   recorder::FlightRecorder recorder_;
   RowRelay relay_;
   std::size_t told_lost_ = 0;
-  std::vector<Row> last_;     ///< of each channel
-  std::vector<bool> looked_;  ///< identification ended by itself
+  std::vector<Row> last_;  ///< of each channel
   std::uint64_t rows_ = 0;
 };
 

@@ -233,6 +233,7 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.progress = mode_ == Mode::identify    ? identify_.progress()
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;
+  s.result = result_;
   const auto& faults = all_faults();
   turn_ += golden_turn;
   s.turn = faults[(std::uint64_t{turn_} * faults.size()) >> 32U].fault;

@@ -108,7 +108,8 @@ class Channel {
   void step_identify();
   void step_calibrate();
   void end_calibrate(double cold_Ohm);
-  bool keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
+  void end_mode(ModeResult result);
+  ModeResult keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
   void write_duty(int step);
   void write_enable(bool high);
   control::Estimator& estimator() { return estimators_[estimator_]; }
@@ -146,6 +147,7 @@ class Channel {
   double reference_ = 0.0;  ///< m, or W in open loop
   modes::Identify identify_;
   modes::Calibrate calibrate_{{}};
+  ModeResult result_ = ModeResult::none;  ///< of either
   control::ControllerOutput wanted_;
   Smoothed smooth_power_W_;
   Smoothed smooth_error_m_;  ///< position over the reference model

@@ -5,6 +5,16 @@
 
 namespace supercoil {
 
+namespace {
+
+/// To whoever wants something kept.
+Refusal answer_to(ModeResult kept) {
+  if (kept == ModeResult::not_stored) return Refusal::too_many;
+  return kept == ModeResult::found ? Refusal::none : Refusal::out_of_range;
+}
+
+}  // namespace
+
 Refusal Channel::obey(const Command& command, const BoardNow& board) {
   switch (command.verb) {
     case Verb::arm:
@@ -86,6 +96,7 @@ void Channel::enter(Mode mode) {
   const bool was_driven = mode_ == Mode::power || mode_ == Mode::position;
   if (!was_driven) smooth_power_W_.set(acting_.power_W);
   smooth_error_m_.set(0.0);
+  if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = mode;
   if (mode == Mode::position) {
     control::ControllerStart at = start_here();
@@ -95,8 +106,10 @@ void Channel::enter(Mode mode) {
     controllers_[controller_].start(at);
   } else if (mode == Mode::identify) {
     identify_.start();
+    result_ = ModeResult::running;
   } else if (mode == Mode::calibrate) {
     calibrate_.start();
+    result_ = ModeResult::running;
   }
 }
 
@@ -112,6 +125,7 @@ control::ControllerStart Channel::start_here() const {
 }
 
 void Channel::rest() {
+  if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = Mode::rest;
   reference_ = 0.0;
   limiter_.reset();
@@ -147,7 +161,7 @@ Refusal Channel::scale(double true_m) {
   if (!evidence_.position.present) return Refusal::not_ready;
   storage::Calibration found = calibration_;
   found.position_scale *= true_m / measured_m;
-  return true_m > 0.0 && keep(muscle_, found) ? Refusal::none : Refusal::out_of_range;
+  return true_m > 0.0 ? answer_to(keep(muscle_, found)) : Refusal::out_of_range;
 }
 
 /// A running channel goes on with what it knows: what was cleared is not known at the next start.
@@ -156,7 +170,7 @@ Refusal Channel::store(double what) {
   if (what != 1.0) return Refusal::out_of_range;
   if (!estimate_ || !estimate_->trusted) return Refusal::not_ready;
   const auto muscle = trusted_muscle();
-  return muscle && keep(*muscle, calibration_) ? Refusal::none : Refusal::out_of_range;
+  return muscle ? answer_to(keep(*muscle, calibration_)) : Refusal::out_of_range;
 }
 
 }  // namespace supercoil

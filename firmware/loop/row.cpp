@@ -43,6 +43,7 @@ Row row_of(const Snapshot& s) {
   row.margin_measured = narrow(s.margin.measured);
   row.margin_limit = narrow(s.margin.limit);
   row.gain = narrow(s.gain.value);
+  row.result = static_cast<std::uint8_t>(s.result);
   row.gain_turn = static_cast<std::uint8_t>(s.gain.gain);
   return row;
 }

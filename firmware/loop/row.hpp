@@ -44,7 +44,8 @@ struct Row {
   float margin_limit;
   float gain;
   std::uint8_t gain_turn;  ///< which of the controller's gains this row carries
-  std::array<std::uint8_t, 7> reserved;
+  std::uint8_t result;     ///< of ModeResult
+  std::array<std::uint8_t, 6> reserved;
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 

@@ -9,6 +9,7 @@
 #include "supercoil/control/tracking/gain.hpp"
 #include "supercoil/hal/clock.hpp"
 
+#include "modes/result.hpp"
 #include "supervisor/channel_state.hpp"
 #include "supervisor/detectors/margin.hpp"
 #include "supervisor/limiter.hpp"
@@ -48,6 +49,7 @@ struct Snapshot {
   control::Theta theta = control::Theta::Zero();
   double error_bound = 0.0;  ///< of the estimates, relative
   float progress = 0.0F;     ///< of identify and calibrate, 0 to 1
+  ModeResult result = ModeResult::none;
   /// One detector's margin in turn; each comes round within 55 ticks.
   Fault turn = Fault::none;
   detectors::Margin margin;

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "modes/result.hpp"
+
 namespace supercoil::modes {
 
 /// Waits until the muscle must be cold, takes the mean position over a second as its zero, and asks
 /// for a probe. A zero that moves while it is taken, or a resistance out of range, is no result.
 class Calibrate {
  public:
-  enum class Outcome { running, probe, found, failed };
   struct Settings {
     double cold_K = 1.0;
     double longest_wait_s = 120.0;
@@ -25,12 +26,15 @@ class Calibrate {
   double zero_m() const { return sum_m_ / static_cast<double>(count_); }
   double cold_resistance_Ohm() const { return resistance_Ohm_; }
 
-  /// One tick of waiting and averaging: probe once the zero is known.
-  Outcome step(double hottest_K, double position_m, double step_s) {
+  /// The probe may follow.
+  bool knows_zero() const { return knows_zero_; }
+
+  /// One tick of waiting and averaging.
+  ModeResult step(double hottest_K, double position_m, double step_s) {
     elapsed_s_ += step_s;
     if (count_ == 0 && hottest_K > settings_.cold_K) {
       progress_ = 0.5F * static_cast<float>(elapsed_s_ / settings_.longest_wait_s);
-      return elapsed_s_ > settings_.longest_wait_s ? Outcome::failed : Outcome::running;
+      return elapsed_s_ > settings_.longest_wait_s ? ModeResult::not_cold : ModeResult::running;
     }
     const auto ticks = static_cast<long>(settings_.mean_s / step_s);
     const long half = ticks / 2;
@@ -38,20 +42,19 @@ class Calibrate {
     sum_m_ += position_m;
     ++count_;
     progress_ = 0.5F + 0.4F * static_cast<float>(count_) / static_cast<float>(ticks);
-    if (count_ < ticks) return Outcome::running;
+    if (count_ < ticks) return ModeResult::running;
     const double first_m = first_half_m_ / static_cast<double>(half);
-    return std::abs(first_m - zero_m()) > settings_.most_motion_m ? Outcome::failed
-                                                                  : Outcome::probe;
+    knows_zero_ = std::abs(first_m - zero_m()) <= settings_.most_motion_m;
+    return knows_zero_ ? ModeResult::running : ModeResult::moved;
   }
 
   /// The probe's answer.
-  Outcome probed(double resistance_Ohm) {
-    if (count_ == 0) return Outcome::failed;
+  ModeResult probed(double resistance_Ohm) {
     resistance_Ohm_ = resistance_Ohm;
     progress_ = 1.0F;
     const bool plausible =
         resistance_Ohm >= settings_.lowest_Ohm && resistance_Ohm <= settings_.highest_Ohm;
-    return plausible ? Outcome::found : Outcome::failed;
+    return knows_zero_ && plausible ? ModeResult::found : ModeResult::implausible;
   }
 
  private:
@@ -60,6 +63,7 @@ class Calibrate {
   double sum_m_ = 0.0;
   double first_half_m_ = 0.0;
   long count_ = 0;
+  bool knows_zero_ = false;
   double resistance_Ohm_ = 0.0;
   float progress_ = 0.0F;
 };

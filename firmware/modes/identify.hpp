@@ -5,6 +5,7 @@
 #include "supercoil/control/estimation/batch_least_squares.hpp"
 
 #include "modes/excitation.hpp"
+#include "modes/result.hpp"
 
 namespace supercoil::modes {
 
@@ -13,7 +14,6 @@ namespace supercoil::modes {
 /// parameters exist; and each lies within its span of what the configuration believes.
 class Identify {
  public:
-  enum class Outcome { running, found, failed };
   struct Settings {
     double duration_s = 60.0;
     double most_unexplained = 0.01;  ///< of the unseen third's energy
@@ -33,11 +33,10 @@ class Identify {
   const control::PhysicalParameters& found() const { return found_; }
 
   /// One tick: this tick's position, and the power applied since the last one.
-  Outcome step(double position_m, double applied_power_W) {
+  ModeResult step(double position_m, double applied_power_W) {
     elapsed_s_ += step_s_;
     fit_.step(position_m, applied_power_W);
-    if (elapsed_s_ < settings_.duration_s) return Outcome::running;
-    return accept() ? Outcome::found : Outcome::failed;
+    return elapsed_s_ < settings_.duration_s ? ModeResult::running : judge();
   }
 
  private:
@@ -48,22 +47,22 @@ class Identify {
     return {s, settings_.duration_s, step_s_};
   }
 
-  bool accept() {
+  ModeResult judge() {
     const auto fit = fit_.fit();
-    if (!fit || !(fit->unexplained_part <= settings_.most_unexplained) ||
-        !(fit->relative_error_bound <= settings_.most_error)) {
-      return false;
-    }
+    if (!fit || !(fit->unexplained_part <= settings_.most_unexplained))
+      return ModeResult::not_explained;
+    if (!(fit->relative_error_bound <= settings_.most_error)) return ModeResult::uncertain;
     const control::Theta nominal = control::theta_from(believed_);
     for (int i = 0; i < 4; ++i) {
       const double part = fit->theta[i] / nominal[i];
-      if (!(part >= settings_.least_part && part <= settings_.most_part)) return false;
+      if (!(part >= settings_.least_part && part <= settings_.most_part))
+        return ModeResult::implausible;
     }
     const auto physical = control::physical_from(
         fit->theta, {believed_.force_per_kelvin_N_per_K, believed_.moving_mass_kg});
-    if (!physical || control::check(*physical)) return false;
+    if (!physical || control::check(*physical)) return ModeResult::implausible;
     found_ = *physical;
-    return true;
+    return ModeResult::found;
   }
 
   Settings settings_;

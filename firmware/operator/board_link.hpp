@@ -25,6 +25,8 @@ class BoardLink {
   virtual Answer ask(const std::string& line) = 0;
   /// What is known of the board, in lines.
   virtual Answer state() = 0;
+  /// How identify or calibrate ended, by its name (ModeResult). channel: as in a line.
+  virtual Answer result(const std::string& channel) = 0;
 };
 
 class LocalLink final : public BoardLink {
@@ -32,6 +34,7 @@ class LocalLink final : public BoardLink {
   explicit LocalLink(BoardSocket socket) : socket_(std::move(socket)) {}
   Answer ask(const std::string& line) override { return socket_.ask(line); }
   Answer state() override { return socket_.ask("state"); }
+  Answer result(const std::string& channel) override;
 
  private:
   BoardSocket socket_;
@@ -45,6 +48,8 @@ class CanLink final : public BoardLink {
   Answer ask(const std::string& line) override;
   /// Listens for a second and a half.
   Answer state() override;
+  /// From the next heartbeat.
+  Answer result(const std::string& channel) override;
 
  private:
   std::string bus_;

@@ -64,6 +64,19 @@ std::string line_at(const CommandOptions& options, double time_s) {
   return joined({options.words[0], options.words[1], text.data()});
 }
 
+/// Identify or calibrate is over: how.
+int ended(BoardLink& board, const CommandOptions& options) {
+  const std::string line = joined(options.words);
+  const auto result = board.result(options.words[0]);
+  if (options.json) {
+    nlohmann::ordered_json told{{"command", line}};
+    told[result ? "result" : "error"] = result ? *result : result.error();
+    std::printf("%s\n", told.dump().c_str());
+  }
+  if (!result) return fail(exit_failed, result.error());
+  return *result == "found" ? exit_done : fail(exit_failed, line + " ended: " + *result);
+}
+
 /// Until its time is over or it is interrupted; then the muscle rests.
 int hold(BoardLink& board, const CommandOptions& options) {
   watch_for_interrupts();
@@ -77,7 +90,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
         first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
     const auto answer = board.ask(line);
     // A mode that ends by itself is not renewed any more.
-    if (answer && !first && !renews_itself && *answer != "ok") return exit_done;
+    if (answer && !first && !renews_itself && *answer != "ok") return ended(board, options);
     if (!answer || *answer != "ok") return concluded(options, line, answer);
     if (interrupted != 0 || time_s >= options.hold_s) break;
     next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);

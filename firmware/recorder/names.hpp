@@ -22,6 +22,9 @@ inline std::string state_name(std::uint8_t number) {
 inline std::string mode_name(std::uint8_t number) {
   return named(mode_names, number);
 }
+inline std::string result_name(std::uint8_t number) {
+  return named(mode_result_names, number);
+}
 inline std::string limit_name(std::uint8_t number) {
   return named(limit_names, number);
 }

@@ -162,6 +162,7 @@ hal::CanFrame status(Node node, const Row& row, bool leased, std::uint8_t counte
   m.controller = row.controller;
   m.progress = scaled(row.progress, SUPERCOIL_STATUS_PROGRESS_NOT_AVAILABLE_CHOICE,
                       supercoil_status_progress_encode, supercoil_status_progress_decode);
+  m.result = row.result;
   m.counter = counter;
   m.protocol_version = protocol_version;
   return packed(SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, node, m, supercoil_status_pack);

@@ -45,6 +45,7 @@ int main() {
                                       {"limited_by", table(limit_names)},
                                       {"refusal", table(refusal_names)},
                                       {"opcode", table(telemetry::opcode_names())},
+                                      {"result", table(mode_result_names)},
                                       {"gain", table(control::gain_names)},
                                       {"setting", settings()},
                                       {"version", telemetry::protocol_version}};

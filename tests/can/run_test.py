@@ -43,7 +43,8 @@ COLUMNS = {
     "Limit": {"fault": "margin_of", "limit": "margin_limit"},
     "Gain": {"gain": "gain_of", "value": "gain"},
     "Status": {"state": "state", "mode": "mode", "fault": "fault", "limited_by": "limited_by", "probing": "probing",
-               "trusted": "trusted", "limited": "limited", "controller": "controller", "progress": "progress"},
+               "trusted": "trusted", "limited": "limited", "controller": "controller", "progress": "progress",
+               "result": "result"},
 }
 # Not in the recording: tested by what they mean.
 OTHERWISE = {"Tracking": {"error_m"},

@@ -128,7 +128,7 @@ class HostileClients(unittest.TestCase):
             while not ended.is_set():
                 element = listener.element()
                 if element.startswith("frame 701 "):
-                    statuses.append(int(element[-4:-2], 16))
+                    statuses.append(int(element[-6:-4], 16))
         listening = threading.Thread(target=listen, daemon=True)
         listening.start()
         # What the kernel holds for a connection, and the simulator's mebibyte, are less than this makes.

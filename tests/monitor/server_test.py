@@ -231,20 +231,20 @@ class Live(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn(f"port {served.port} of 127.0.0.1 cannot be had", done.stderr)
 
-    def test_a_script_commands_over_the_bus_and_a_second_master_is_refused(self):
-        def command(*words):
-            return subprocess.run([SUPERCOIL, "command", *words, "--can", self.source], capture_output=True, text=True,
-                                  timeout=60)
+    def command(self, *words):
+        return subprocess.run([SUPERCOIL, "command", *words, "--can", self.source], capture_output=True, text=True,
+                              timeout=60)
 
+    def test_a_script_commands_over_the_bus_and_a_second_master_is_refused(self):
         served = self.serve()
         self.arm(served)
         self.assertEqual(served.command("rest")[0], 200)
-        refused = command("1", "position", "0.002", "--json")
+        refused = self.command("1", "position", "0.002", "--json")
         self.assertEqual((refused.returncode, json.loads(refused.stdout)),
                          (1, {"command": "1 position 0.002", "answer": "refused: not_yours"}))
-        until(lambda: command("1", "power", "0.1").returncode == 0)
+        until(lambda: self.command("1", "power", "0.1").returncode == 0)
         until(lambda: served.state()[0] == "fault")
-        self.assertEqual(command("1", "reset").returncode, 0)
+        self.assertEqual(self.command("1", "reset").returncode, 0)
         self.arm(served)
         time.sleep(1.5)  # the lease of the page runs out
         held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "0.003", "--hold", "--can", self.source])
@@ -254,7 +254,17 @@ class Live(unittest.TestCase):
         held.send_signal(signal.SIGINT)
         self.assertEqual(held.wait(SLACK_S), 0)
         until(lambda: served.state()[0] == "armed")
-        self.assertIn("node 1: armed", command("state").stdout)
+        self.assertIn("node 1: armed", self.command("state").stdout)
+
+    def test_a_script_is_told_how_calibrate_ended(self):
+        for word in ("disarm", "reset"):
+            self.command("1", word)
+        until(lambda: self.command("1", "arm").returncode == 0)
+        until(lambda: self.command("1", "calibrate").returncode == 0)
+        self.assertEqual(self.command("1", "rest").returncode, 0)
+        self.assertIn("calibration: interrupted", self.command("state").stdout)
+        done = self.command("1", "calibrate", "--for", "60", "--json")
+        self.assertEqual((done.returncode, json.loads(done.stdout)), (0, {"command": "1 calibrate", "result": "found"}))
 
     def test_a_script_reads_and_writes_settings_over_the_bus(self):
         def setting(*words, source=self.source):
@@ -328,10 +338,10 @@ class Sources(unittest.TestCase):
 
     def test_text_shows_a_log_once(self):
         log = self.path / "can.log"
-        log.write_text("(0000000001.000000) can0 281#102700000000FFFF\n(0000000001.000000) can0 701#02000000FF0001\n")
+        log.write_text("(0000000001.000000) can0 281#102700000000FFFF\n(0000000001.000000) can0 701#02000000FF000102\n")
         done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn("node 1: active, rest", done.stdout)
+        self.assertIn("node 1: active, rest, last identification or calibration: found", done.stdout)
         self.assertRegex(done.stdout, r"position\s+1\.000 mm")
 
 

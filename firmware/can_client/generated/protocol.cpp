@@ -120,6 +120,19 @@ constexpr std::array<ValueName, 12> names_of_refusal{{
     {11, "too_many"},
 }};
 
+constexpr std::array<ValueName, 10> names_of_result{{
+    {0, "none"},
+    {1, "running"},
+    {2, "found"},
+    {3, "interrupted"},
+    {4, "not_cold"},
+    {5, "moved"},
+    {6, "not_explained"},
+    {7, "uncertain"},
+    {8, "implausible"},
+    {9, "not_stored"},
+}};
+
 constexpr std::array<ValueName, 12> names_of_setting{{
     {0, "most_power_W"},
     {1, "measurement_Hz"},
@@ -253,7 +266,7 @@ constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
     {"setting", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
 }};
 
-constexpr std::array<SignalInfo, 12> signals_of_Status{{
+constexpr std::array<SignalInfo, 13> signals_of_Status{{
     {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
     {"fault", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
@@ -266,6 +279,7 @@ constexpr std::array<SignalInfo, 12> signals_of_Status{{
     {"progress", "", 32, 8, Raw::unsigned_integer, 0.005, 255, always, {}},
     {"counter", "", 40, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"protocol_version", "", 48, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"result", "", 56, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_result},
 }};
 
 constexpr std::array<MessageInfo, 17> all{{
@@ -285,7 +299,7 @@ constexpr std::array<MessageInfo, 17> all{{
     {"Setting", 0x580, 8, signals_of_Setting},
     {"SettingWrite", 0x5c0, 8, signals_of_SettingWrite},
     {"SettingRead", 0x600, 1, signals_of_SettingRead},
-    {"Status", 0x700, 7, signals_of_Status},
+    {"Status", 0x700, 8, signals_of_Status},
 }};
 
 }  // namespace

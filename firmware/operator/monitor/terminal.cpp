@@ -57,6 +57,9 @@ std::string node_text(int number, const Newest& node) {
   const std::string mode = named(node, "Status", "mode");
   if (mode == "identify" || mode == "calibrate")
     text += ", " + std::to_string(std::lround(100.0 * progress)) + " %";
+  const std::string result = named(node, "Status", "result");
+  if (result != "none" && result != "running" && result != "-")
+    text += ", last identification or calibration: " + result;
   text += '\n';
   text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +
           shown("reference", 1e3 * value(node, "Tracking", "reference_m"), 3, "mm") +

@@ -2576,11 +2576,11 @@ int supercoil_status_pack(
     const struct supercoil_status_t *src_p,
     size_t size)
 {
-    if (size < 7u) {
+    if (size < 8u) {
         return (-EINVAL);
     }
 
-    memset(&dst_p[0], 0, 7);
+    memset(&dst_p[0], 0, 8);
 
     dst_p[0] |= pack_left_shift_u8(src_p->state, 0u, 0x0fu);
     dst_p[0] |= pack_left_shift_u8(src_p->mode, 4u, 0xf0u);
@@ -2594,8 +2594,9 @@ int supercoil_status_pack(
     dst_p[4] |= pack_left_shift_u8(src_p->progress, 0u, 0xffu);
     dst_p[5] |= pack_left_shift_u8(src_p->counter, 0u, 0xffu);
     dst_p[6] |= pack_left_shift_u8(src_p->protocol_version, 0u, 0xffu);
+    dst_p[7] |= pack_left_shift_u8(src_p->result, 0u, 0x0fu);
 
-    return (7);
+    return (8);
 }
 
 int supercoil_status_unpack(
@@ -2603,7 +2604,7 @@ int supercoil_status_unpack(
     const uint8_t *src_p,
     size_t size)
 {
-    if (size < 7u) {
+    if (size < 8u) {
         return (-EINVAL);
     }
 
@@ -2619,6 +2620,7 @@ int supercoil_status_unpack(
     dst_p->progress = unpack_right_shift_u8(src_p[4], 0u, 0xffu);
     dst_p->counter = unpack_right_shift_u8(src_p[5], 0u, 0xffu);
     dst_p->protocol_version = unpack_right_shift_u8(src_p[6], 0u, 0xffu);
+    dst_p->result = unpack_right_shift_u8(src_p[7], 0u, 0x0fu);
 
     return (0);
 }
@@ -2876,4 +2878,24 @@ bool supercoil_status_protocol_version_is_in_range(uint8_t value)
 bool supercoil_status_protocol_version_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_status_result_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_status_result_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_status_result_is_in_range(uint8_t value)
+{
+    return (value <= 9u);
+}
+
+bool supercoil_status_result_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 9.0));
 }

@@ -80,7 +80,7 @@ extern "C" {
 #define SUPERCOIL_SETTING_LENGTH (8u)
 #define SUPERCOIL_SETTING_WRITE_LENGTH (8u)
 #define SUPERCOIL_SETTING_READ_LENGTH (1u)
-#define SUPERCOIL_STATUS_LENGTH (7u)
+#define SUPERCOIL_STATUS_LENGTH (8u)
 
 /* Extended or standard frame types. */
 #define SUPERCOIL_EMERGENCY_IS_EXTENDED (0)
@@ -434,6 +434,17 @@ extern "C" {
 
 #define SUPERCOIL_STATUS_PROGRESS_NOT_AVAILABLE_CHOICE (255u)
 
+#define SUPERCOIL_STATUS_RESULT_NONE_CHOICE (0u)
+#define SUPERCOIL_STATUS_RESULT_RUNNING_CHOICE (1u)
+#define SUPERCOIL_STATUS_RESULT_FOUND_CHOICE (2u)
+#define SUPERCOIL_STATUS_RESULT_INTERRUPTED_CHOICE (3u)
+#define SUPERCOIL_STATUS_RESULT_NOT_COLD_CHOICE (4u)
+#define SUPERCOIL_STATUS_RESULT_MOVED_CHOICE (5u)
+#define SUPERCOIL_STATUS_RESULT_NOT_EXPLAINED_CHOICE (6u)
+#define SUPERCOIL_STATUS_RESULT_UNCERTAIN_CHOICE (7u)
+#define SUPERCOIL_STATUS_RESULT_IMPLAUSIBLE_CHOICE (8u)
+#define SUPERCOIL_STATUS_RESULT_NOT_STORED_CHOICE (9u)
+
 /* Frame Names. */
 #define SUPERCOIL_EMERGENCY_NAME "Emergency"
 #define SUPERCOIL_COMMAND_NAME "Command"
@@ -529,6 +540,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_PROGRESS_NAME "progress"
 #define SUPERCOIL_STATUS_COUNTER_NAME "counter"
 #define SUPERCOIL_STATUS_PROTOCOL_VERSION_NAME "protocol_version"
+#define SUPERCOIL_STATUS_RESULT_NAME "result"
 
 /**
  * Signals in message Emergency.
@@ -1356,6 +1368,15 @@ struct supercoil_status_t {
      * Offset: 0
      */
     uint8_t protocol_version;
+
+    /**
+     * How identify or calibrate ended, the last time that either was asked for; found: it is used from then on and stored, everything else changes nothing.
+     *
+     * Range: 0..9 (0..9 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t result;
 };
 
 /**
@@ -4986,6 +5007,46 @@ bool supercoil_status_protocol_version_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_status_protocol_version_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_status_result_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_status_result_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_result_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_result_is_in_phys_range(double value);
 
 
 #ifdef __cplusplus

@@ -12,6 +12,17 @@ const MEANS = {
   fault: "cold, needs a reset",
   silent: "its heartbeat was never heard",
 };
+// How identify and calibrate end.
+const RESULTS = {
+  found: "found and kept",
+  interrupted: "interrupted by a command or a fault",
+  not_cold: "the muscle did not cool within two minutes",
+  moved: "the position changed while its zero was taken",
+  not_explained: "the muscle did not do what the fit foretold",
+  uncertain: "the sensor is too noisy for these parameters",
+  implausible: "what was found is out of range, nothing is changed",
+  not_stored: "used, but not stored: the disk is behind",
+};
 
 export class StateCard {
   /** on_fault: called with a fault's name whose page is wanted. */
@@ -28,11 +39,12 @@ export class StateCard {
     this.bar = element("progress", { max: 1, "aria-label": "progress" });
     this.percent = element("span");
     this.progress = element("p", { class: "progress", hidden: true }, this.bar, " ", this.percent);
+    this.result = element("p", { class: "hint", role: "status", hidden: true });
     this.fault_button = element("button", { type: "button", class: "link", onclick: () => on_fault(this.fault_name) });
     this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
-      element("p", { class: "now" }, this.word, " ", this.means), this.fault, this.progress, this.facts);
+      element("p", { class: "now" }, this.word, " ", this.means), this.fault, this.progress, this.result, this.facts);
   }
 
   /** Returns the status in words, or null while there is none. */
@@ -57,6 +69,9 @@ export class StateCard {
       this.bar.value = row.progress;
       show(this.percent, `${status.mode}: ${fixed(100 * row.progress, 0)} %`);
     }
+    const result = status && !shows ? name("result") : "none";
+    this.result.hidden = !(result in RESULTS);
+    if (!this.result.hidden) show(this.result, `Last identify or calibrate: ${RESULTS[result]}.`);
     return status;
   }
 

@@ -276,7 +276,7 @@ TEST(WrongBoard, FileThatIsNotThere) {
 
 TEST(WrongBoard, CanBusThatWouldBeTooBusy) {
   check_answer(
-      "b.toml:43: can.bit_rate = 50000: the bus would be busy for 89 % with what is sent at a "
+      "b.toml:43: can.bit_rate = 50000: the bus would be busy for 90 % with what is sent at a "
       "rate, and 50 % is the most (most_load): choose lower rates",
       small_board + "[can]\nbit_rate = 50000\n");
 }

@@ -87,6 +87,7 @@ TEST(Recording, FieldsStandWhereTheDocumentationSays) {
   LONGS_EQUAL(96, offsetof(Row, margin_limit));
   LONGS_EQUAL(100, offsetof(Row, gain));
   LONGS_EQUAL(104, offsetof(Row, gain_turn));
+  LONGS_EQUAL(105, offsetof(Row, result));
 }
 
 TEST(Recording, TheHeaderIsTextThatSaysWhatFollows) {

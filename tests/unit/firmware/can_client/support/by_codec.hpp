@@ -150,7 +150,8 @@ inline Values status(const hal::CanFrame& frame) {
        supercoil_status_controller_decode(m.controller),
        unless(255, m.progress, supercoil_status_progress_decode),
        supercoil_status_counter_decode(m.counter),
-       supercoil_status_protocol_version_decode(m.protocol_version)});
+       supercoil_status_protocol_version_decode(m.protocol_version),
+       supercoil_status_result_decode(m.result)});
 }
 
 struct CodecMessage {

@@ -41,7 +41,9 @@ void read_heater(Section section, const BoardContext& context, const PwmAddress&
   read_probe(section, step_s, pwm, h);
   h.error_feedback = section.flag("error_feedback", h.error_feedback);
   const double longest_ms = 1e3 * step_s * static_cast<double>(board::OutputDelay::longest_ticks);
-  h.delay_s = 1e-3 * section.number("delay_ms", 0.0, {0.0, longest_ms});
+  // The thread of a PWM's bus sets a duty within the tick in which it was asked to.
+  const double usual_ms = pwm.access.buffered() ? 1e3 * step_s : 0.0;
+  h.delay_s = 1e-3 * section.number("delay_ms", usual_ms, {0.0, longest_ms});
   section.finish();
 }
 

@@ -5,7 +5,7 @@ supercoild is the ordinary program with an ordinary configuration (board.toml, 1
 When power goes off, and by which means, is what the plant's witness saw, outside of the board. Prints what was
 measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
 
-    tests/hil/firmware_test.py [--track SECONDS] [--only track|calls|deaths]
+    tests/hil/firmware_test.py [--track SECONDS] [--only track|captured|calls|deaths]
 """
 
 import argparse
@@ -64,6 +64,8 @@ def track(table, run, seconds):
     table.row("the plant's latest wake-up", max(s.late_us for s in steps), 0, 1000, "us")
 
 
+# Converters by the kernel's timer, into its buffers.
+CAPTURED_S = 30
 CALLS_S = 30
 
 
@@ -109,18 +111,19 @@ def deaths(table, run):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--track", metavar="SECONDS", type=int, default=60, help="of the board's time (default: 60)")
-    parser.add_argument("--only", choices=("track", "calls", "deaths"), help="one of the boards")
+    parser.add_argument("--only", choices=("track", "captured", "calls", "deaths"), help="one of the boards")
     wish = parser.parse_args()
     seconds = wish.track
     table = Table()
-    for name, part, arguments, options in (
-            ("track", lambda t, r: track(t, r, seconds), (seconds,), {}),
-            ("calls", calls, (100 * CALLS_S,), {}),
-            ("deaths", deaths, (), {"kernel_options": "panic=0"})):
+    for name, script, part, arguments, options in (
+            ("track", "track", lambda t, r: track(t, r, seconds), (seconds,), {}),
+            ("captured", "track", lambda t, r: track(t, r, CAPTURED_S), (CAPTURED_S, "captured"), {}),
+            ("calls", "calls", calls, (100 * CALLS_S,), {}),
+            ("deaths", "deaths", deaths, (), {"kernel_options": "panic=0"})):
         if wish.only not in (None, name):
             continue
         settings = rig.Settings(share=rig.BUILD / f"{name}_test", watchdog=True, time_out_s=600.0 + 4.0 * seconds, **options)
-        run = rig.run(rig.HERE / "scripts" / name, arguments, settings)
+        run = rig.run(rig.HERE / "scripts" / script, arguments, settings)
         table.judge(name, part, run)
     table.end()
 

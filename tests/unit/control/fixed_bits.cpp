@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/estimation/gradient.hpp"
 #include "supercoil/control/tracking/controller.hpp"
 
 #include "unit/control/support/muscle.hpp"
@@ -16,6 +16,8 @@
 using namespace supercoil::control;
 
 namespace {
+
+constexpr double step_s = 1e-3;
 
 /// FNV-1a over the bytes of doubles; those of the library's outputs hold its raw numbers exactly.
 class Hash {
@@ -38,58 +40,54 @@ double reference_m(double time_s) {
   return levels[static_cast<int>(time_s / 10.0) % 4];
 }
 
-std::uint64_t run(const MracSettings& mrac, ControllerKind kind, double final_values[2]) {
-  constexpr double step_s = 1e-3;
-  ControllerSettings settings;
-  settings.kind = kind;
-  settings.arithmetic = Arithmetic::q8_24;
-  settings.mrac = mrac;
-  Controller controller(settings, step_s);
-  EstimatorSettings learning;
-  learning.arithmetic = Arithmetic::q8_24;
-  Estimator estimator(learning, step_s);
+/// Laws and estimator by themselves: Controller and Estimator would bring every arithmetic along,
+/// whose compilation takes longer than all the rest.
+template <class Law>
+void print(const char* name, Law law) {
+  const ControllerSettings settings;
+  ModelFollower<Q8_24, Law> controller(settings.model, std::move(law), settings.dc_gain_m_per_W,
+                                       step_s);
+  const GradientSettings learning;
+  GradientEstimator<Q8_24> estimator(learning, step_s);
   supercoil::test::Muscle muscle(PhysicalParameters{}, step_s);
   Hash hash;
+  double position_m = 0.0;
   double applied_W = 0.0;
   bool limited = false;
   for (int k = 0; k < 40000; ++k) {
-    const double position_m = std::round(muscle.position_m() * 1e9) * 1e-9;
-    estimator.step(position_m, applied_W);
+    position_m = std::round(muscle.position_m() * 1e9) * 1e-9;
+    estimator.step(to<Q8_24>(position_m / settings.dc_gain_m_per_W), to<Q8_24>(applied_W));
+    controller.learn({.theta = estimator.theta(), .settled = true});
     const auto out = controller.step({.reference_m = reference_m(step_s * k),
                                       .position_m = position_m,
                                       .applied_power_W = applied_W,
                                       .limited = limited});
     hash.add(out.wanted_power_W);
     hash.add(out.model_m);
-    const auto estimate = *estimator.estimate();
-    controller.learn(estimate);
-    for (const double theta : estimate.theta)
+    for (const double theta : estimator.theta())
       hash.add(theta);
-    hash.add(estimate.prediction_error_W);
+    hash.add(static_cast<double>(estimator.error()));
     applied_W = PowerRange{}.clip(out.wanted_power_W);
     limited = applied_W != out.wanted_power_W;
     muscle.step(applied_W);
-    final_values[0] = position_m;
-    final_values[1] = estimate.theta[3];
   }
-  return hash.value();
+  // The values show at a glance that the loop did something.
+  std::printf("%-11s %016" PRIx64 " position %.9f m theta4 %.6f\n", name, hash.value(), position_m,
+              estimator.theta()[3]);
 }
 
-void print(const char* name, const MracSettings& mrac, ControllerKind kind = ControllerKind::mrac) {
-  double final_values[2];
-  const std::uint64_t hash = run(mrac, kind, final_values);
-  // The values show at a glance that the loop did something.
-  std::printf("%-8s %016" PRIx64 " position %.9f m theta4 %.6f\n", name, hash, final_values[0],
-              final_values[1]);
+void print(const char* name, const MracSettings& settings) {
+  print(name, Mrac<Q8_24>(settings, step_s));
 }
 
 }  // namespace
 
 int main() {
+  const ControllerSettings s;
   print("printed", MracSettings{}.scaled(10.0));
   print("a", *mrac_preset("a"));
-  print("pi", MracSettings{}, ControllerKind::pi);
-  print("pd_ff", MracSettings{}, ControllerKind::pd_ff);
-  print("adapt_ff", MracSettings{}, ControllerKind::adaptive_ff);
+  print("pi", Pi<Q8_24>(s.pi, s.dc_gain_m_per_W, step_s));
+  print("pd_ff", PdFeedforward<Q8_24>(s.pd_ff, s.dc_gain_m_per_W, step_s));
+  print("adaptive_ff", AdaptiveFeedforward<Q8_24>(s.adaptive_ff, step_s));
   return 0;
 }

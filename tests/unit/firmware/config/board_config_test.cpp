@@ -59,6 +59,7 @@ TEST(BoardConfig, SlowExampleFitsItsBuses) {
   const double duty_s = 5.0 * (29.0 / 400e3 + 20e-6);
   DOUBLES_EQUAL(4.0 * duty_s + reading_s, bus_time(c.wiring, c.wiring.buses[0]).total_s, 1e-12);
   DOUBLES_EQUAL(4.0 * reading_s, bus_time(c.wiring, c.wiring.buses[1]).total_s, 1e-12);
+  DOUBLES_EQUAL(0.01, c.settings.channels[0].heater.delay_s, 1e-12);
   const std::string text = describe(c);
   check_says(text, "four muscles, I2C: 4 channels at 100 Hz\n");
   check_says(text, "the charge pump opens the supply within 150 ms");
@@ -74,6 +75,7 @@ TEST(BoardConfig, FastExampleHasAMuscleNearSkin) {
   DOUBLES_EQUAL(1000.0, c.settings.rate_Hz, 0.0);
   UNSIGNED_LONGS_EQUAL(2, c.settings.channels.size());
   CHECK_FALSE(c.wiring.channels[0].pwm.access.buffered());
+  DOUBLES_EQUAL(0.0, c.settings.channels[0].heater.delay_s, 0.0);
   CHECK(c.wiring.supply.capture == (Capture{"supercoil", 64}));
   CHECK(c.wiring.channels[0].position.capture == c.wiring.supply.capture);
   CHECK_FALSE(c.wiring.channels[0].position.access.buffered());

@@ -84,7 +84,7 @@ std::optional<Violation> check_fit(const ControllerSettings& settings, double st
     fit.at_most("bandwidth_rad_per_s", a.bandwidth_rad_per_s * units[3] * step_s, state);
     fit.at_most("derivative_filter_rad_per_s",
                 a.derivative_filter_rad_per_s * a.derivative_filter_rad_per_s, state);
-  } else {
+  } else if (settings.kind == ControllerKind::mrac) {
     check_mrac(fit, settings.mrac, step_s, std::max(reference_W, max_W));
   }
   return fit.violation();

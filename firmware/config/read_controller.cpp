@@ -67,6 +67,24 @@ MracSettings read_mrac(Section& section, const control::ReferenceModelSettings& 
   return m;
 }
 
+control::MracLeastSquaresSettings read_mrac_ls(Section& section,
+                                               const control::RegressionScale& nominal) {
+  control::MracLeastSquaresSettings m;
+  m.scale = nominal;
+  m.filter_rad_per_s = section.number("filter_rad_per_s", m.filter_rad_per_s, {0.5, 100.0});
+  m.regression_rad_per_s =
+      section.number("regression_rad_per_s", m.regression_rad_per_s, {0.5, 100.0});
+  m.forgetting_s = section.number("forgetting_s", m.forgetting_s, {1.0, 3600.0});
+  m.change_W = section.number("change_W", m.change_W, {1e-6, 1e3});
+  m.hold_s = section.number("hold_s", m.hold_s, {0.0, 3600.0});
+  m.follow_s = section.number("follow_s", m.follow_s, {0.02, 3600.0});
+  m.bandwidth_rad_per_s =
+      section.number("bandwidth_rad_per_s", m.bandwidth_rad_per_s, {0.0, 100.0});
+  m.derivative_filter_rad_per_s =
+      section.number("derivative_filter_rad_per_s", m.derivative_filter_rad_per_s, {0.1, 1e4});
+  return m;
+}
+
 }  // namespace
 
 control::ControllerSettings read_controller(
@@ -76,10 +94,16 @@ control::ControllerSettings read_controller(
   control::ControllerSettings c;
   c.kind = section.choice("kind", c.kind, control::controller_names);
   c.dc_gain_m_per_W = muscle.dc_gain_m_per_W();
-  c.model = model.value_or(c.kind == ControllerKind::mrac ? control::wm16_model()
-                                                          : control::design_model());
+  const control::RegressionScale nominal{control::theta_from(muscle), c.dc_gain_m_per_W,
+                                         muscle.moving_mass_kg};
+  const bool is_mrac = c.kind == ControllerKind::mrac || c.kind == ControllerKind::mrac_ls;
+  c.model = model.value_or(is_mrac ? control::wm16_model() : control::design_model());
   if (c.kind != ControllerKind::power) {
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
+    if (!control::supported(c.kind, c.arithmetic)) {
+      section.wrong("arithmetic",
+                    "must be double or float: the covariance of mrac_ls does not fit q8.24");
+    }
   }
   if (c.kind == ControllerKind::pi) {
     c.pi.proportional_W_per_m =
@@ -99,12 +123,14 @@ control::ControllerSettings read_controller(
         section.number("derivative_filter_rad_per_s", pd.derivative_filter_rad_per_s, {0.1, 1e4});
   } else if (c.kind == ControllerKind::adaptive_ff) {
     control::AdaptiveFeedforwardSettings& a = c.adaptive_ff;
-    a.scale = {control::theta_from(muscle), c.dc_gain_m_per_W, muscle.moving_mass_kg};
+    a.scale = nominal;
     a.bandwidth_rad_per_s =
         section.number("bandwidth_rad_per_s", a.bandwidth_rad_per_s, {0.01, 100.0});
     a.derivative_filter_rad_per_s =
         section.number("derivative_filter_rad_per_s", a.derivative_filter_rad_per_s, {0.1, 1e4});
     a.follow_s = section.number("follow_s", a.follow_s, {0.02, 3600.0});
+  } else if (c.kind == ControllerKind::mrac_ls) {
+    c.mrac_ls = read_mrac_ls(section, nominal);
   } else if (c.kind == ControllerKind::mrac) {
     c.mrac = read_mrac(section, c.model);
   }

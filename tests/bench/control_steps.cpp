@@ -91,6 +91,8 @@ BENCHMARK_CAPTURE(controller, pd_ff_q8_24, ControllerKind::pd_ff, q8_24);
 BENCHMARK_CAPTURE(controller, mrac_double, ControllerKind::mrac, float64);
 BENCHMARK_CAPTURE(controller, mrac_float, ControllerKind::mrac, float32);
 BENCHMARK_CAPTURE(controller, mrac_q8_24, ControllerKind::mrac, q8_24);
+BENCHMARK_CAPTURE(controller, mrac_ls_double, ControllerKind::mrac_ls, float64);
+BENCHMARK_CAPTURE(controller, mrac_ls_float, ControllerKind::mrac_ls, float32);
 BENCHMARK_CAPTURE(controller, adaptive_ff_double, ControllerKind::adaptive_ff, float64);
 BENCHMARK_CAPTURE(controller, adaptive_ff_float, ControllerKind::adaptive_ff, float32);
 BENCHMARK_CAPTURE(controller, adaptive_ff_q8_24, ControllerKind::adaptive_ff, q8_24);

@@ -43,6 +43,8 @@ template ZeroOrderHold<3, 2> zero_order_hold<3, 2>(const Matrix<double, 3>&,
                                                    const Matrix<double, 3, 2>&, double);
 template ZeroOrderHold<5, 1> zero_order_hold<5, 1>(const Matrix<double, 5>&,
                                                    const Matrix<double, 5, 1>&, double);
+template ZeroOrderHold<7, 1> zero_order_hold<7, 1>(const Matrix<double, 7>&,
+                                                   const Matrix<double, 7, 1>&, double);
 template FirstOrderHold<1, 1> first_order_hold<1, 1>(const Matrix<double, 1>&,
                                                      const Matrix<double, 1, 1>&, double);
 template FirstOrderHold<2, 1> first_order_hold<2, 1>(const Matrix<double, 2>&,
@@ -53,5 +55,7 @@ template FirstOrderHold<3, 2> first_order_hold<3, 2>(const Matrix<double, 3>&,
                                                      const Matrix<double, 3, 2>&, double);
 template FirstOrderHold<5, 1> first_order_hold<5, 1>(const Matrix<double, 5>&,
                                                      const Matrix<double, 5, 1>&, double);
+template FirstOrderHold<7, 1> first_order_hold<7, 1>(const Matrix<double, 7>&,
+                                                     const Matrix<double, 7, 1>&, double);
 
 }  // namespace supercoil::control

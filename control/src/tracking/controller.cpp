@@ -13,6 +13,13 @@ Controller::Any Controller::make(const ControllerSettings& s, double step_s) {
                                 step_s);
     case ControllerKind::mrac:
       return MracFollower<Scalar>(s.model, Mrac<Scalar>(s.mrac, step_s), gain, step_s);
+    case ControllerKind::mrac_ls:
+      if constexpr (std::is_floating_point_v<Scalar>) {
+        return MracLeastSquaresFollower<Scalar>(
+            s.model, MracLeastSquares<Scalar>(s.mrac_ls, s.model, step_s), gain, step_s);
+      } else {
+        break;
+      }
     case ControllerKind::adaptive_ff:
       return AdaptiveFollower<Scalar>(s.model, AdaptiveFeedforward<Scalar>(s.adaptive_ff, step_s),
                                       gain, step_s);

@@ -79,3 +79,13 @@ TEST(UdCovariance, RenewingTheFirstLeavesWhatIsBelievedOfTheLast) {
   expected.bottomRightCorner<2, 2>() = before.bottomRightCorner<2, 2>();
   CHECK((covariance.matrix() - expected).norm() < 1e-12);
 }
+
+TEST(UdCovariance, InflatingAddsToEachVarianceAndToNothingElse) {
+  Regressors regressors;
+  UdCovariance<double, 4> covariance(Vector<double, 4>{0.0, 100.0, 100.0, 100.0});
+  for (int k = 0; k < 20; ++k)
+    covariance.update(regressors.next(), 0.1, 1.0, 0);
+  const Matrix<double, 4> expected = covariance.matrix() + 0.1 * Matrix<double, 4>::Identity();
+  covariance.inflate(0.1);
+  CHECK((covariance.matrix() - expected).norm() < 1e-12);
+}

@@ -28,5 +28,7 @@ SUPERCOIL_INSTANTIATE(Q8_24);
 
 template class LeastSquaresEstimator<double>;
 template class LeastSquaresEstimator<float>;
+template class MracLeastSquares<double>;
+template class MracLeastSquares<float>;
 
 }  // namespace supercoil::control

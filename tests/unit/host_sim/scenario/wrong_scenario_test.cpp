@@ -75,8 +75,15 @@ TEST(WrongScenario, NumberForAFlag) {
 TEST(WrongScenario, UnknownNameListsTheNames) {
   check_answer(
       "s.toml:1: controller.kind = 'fuzzy': must be one of: power, pi, pd_ff, mrac, "
-      "adaptive_ff",
+      "mrac_ls, adaptive_ff",
       "controller.kind = 'fuzzy'");
+}
+
+TEST(WrongScenario, MracByLeastSquaresInFixedPoint) {
+  check_answer(
+      "s.toml:1: controller.arithmetic = 'q8.24': must be double or float: the covariance of "
+      "mrac_ls does not fit q8.24",
+      "controller = {kind = 'mrac_ls', arithmetic = 'q8.24'}");
 }
 
 TEST(WrongScenario, ValueForATable) {

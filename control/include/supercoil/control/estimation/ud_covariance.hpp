@@ -59,6 +59,23 @@ class UdCovariance {
 
   void scale(Scalar factor) { d_ *= factor; }
 
+  /// Adds to the variance of each parameter (>= 0); what leans on what stays. The sum is factored
+  /// anew, last column first.
+  void inflate(Scalar variance) {
+    Matrix<Scalar, N> rest = matrix();
+    rest.diagonal().array() += variance;
+    for (int j = N - 1; j >= 0; --j) {
+      d_[j] = rest(j, j);
+      if (!(d_[j] > Scalar{})) continue;
+      for (int i = 0; i < j; ++i)
+        u_(i, j) = rest(i, j) / d_[j];
+      for (int i = 0; i < j; ++i) {
+        for (int k = 0; k <= i; ++k)
+          rest(k, i) -= u_(k, j) * u_(i, j) * d_[j];
+      }
+    }
+  }
+
   Scalar largest_variance(int first) const {
     Scalar largest{};
     for (int i = first; i < N; ++i) {

@@ -10,6 +10,16 @@ namespace supercoil::control {
 template <std::size_t Degree>
 using Polynomial = std::array<double, Degree + 1>;
 
+template <std::size_t A, std::size_t B>
+constexpr Polynomial<A + B> multiply(const Polynomial<A>& a, const Polynomial<B>& b) {
+  Polynomial<A + B> product{};
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j)
+      product[i + j] += a[i] * b[j];
+  }
+  return product;
+}
+
 /// All roots strictly in the left half plane (Routh's test). A leading coefficient that is not
 /// positive, or a NaN anywhere, is not Hurwitz.
 template <std::size_t Degree>

@@ -10,19 +10,26 @@
 #include "supercoil/control/scalar/arithmetic.hpp"
 #include "supercoil/control/tracking/adaptive_feedforward.hpp"
 #include "supercoil/control/tracking/mrac.hpp"
+#include "supercoil/control/tracking/mrac_least_squares.hpp"
 #include "supercoil/control/tracking/pd_feedforward.hpp"
 #include "supercoil/control/tracking/pi.hpp"
 
 namespace supercoil::control {
 
-enum class ControllerKind { power, pi, pd_ff, mrac, adaptive_ff };
+enum class ControllerKind { power, pi, pd_ff, mrac, mrac_ls, adaptive_ff };
 
-inline constexpr Names<ControllerKind, 5> controller_names{
+inline constexpr Names<ControllerKind, 6> controller_names{
     {{"power", ControllerKind::power},
      {"pi", ControllerKind::pi},
      {"pd_ff", ControllerKind::pd_ff},
      {"mrac", ControllerKind::mrac},
+     {"mrac_ls", ControllerKind::mrac_ls},
      {"adaptive_ff", ControllerKind::adaptive_ff}}};
+
+/// Least squares needs float or double: its covariance spans more than q8.24 does.
+constexpr bool supported(ControllerKind kind, Arithmetic arithmetic) {
+  return kind != ControllerKind::mrac_ls || arithmetic != Arithmetic::q8_24;
+}
 
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::mrac;
@@ -32,6 +39,7 @@ struct ControllerSettings {
   PiSettings pi;
   PdFeedforwardSettings pd_ff;
   MracSettings mrac;
+  MracLeastSquaresSettings mrac_ls;
   AdaptiveFeedforwardSettings adaptive_ff;
 };
 
@@ -154,7 +162,8 @@ class ModelFollower {
 
 class Controller {
  public:
-  /// Settings must be valid (the configuration checks them); step_s > 0 in seconds.
+  /// Settings must be valid (the configuration checks them), kind and arithmetic supported; step_s
+  /// > 0 in seconds.
   Controller(const ControllerSettings& settings, double step_s);
   /// One tick: no heap, no exception, no operating system.
   ControllerOutput step(const ControllerInput& input);
@@ -175,11 +184,14 @@ class Controller {
   template <class Scalar>
   using MracFollower = ModelFollower<Scalar, Mrac<Scalar>>;
   template <class Scalar>
+  using MracLeastSquaresFollower = ModelFollower<Scalar, MracLeastSquares<Scalar>>;
+  template <class Scalar>
   using AdaptiveFollower = ModelFollower<Scalar, AdaptiveFeedforward<Scalar>>;
   using Any =
       std::variant<OpenLoopPower, PiFollower<double>, PiFollower<float>, PiFollower<Q8_24>,
                    PdFollower<double>, PdFollower<float>, PdFollower<Q8_24>, MracFollower<double>,
-                   MracFollower<float>, MracFollower<Q8_24>, AdaptiveFollower<double>,
+                   MracFollower<float>, MracFollower<Q8_24>, MracLeastSquaresFollower<double>,
+                   MracLeastSquaresFollower<float>, AdaptiveFollower<double>,
                    AdaptiveFollower<float>, AdaptiveFollower<Q8_24>>;
 
   template <class Scalar>

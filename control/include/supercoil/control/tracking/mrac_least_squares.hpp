@@ -1,0 +1,278 @@
+// Direct model reference adaptive control whose parameters are found by least squares.
+#pragma once
+
+#include <algorithm>
+#include <type_traits>
+
+#include "supercoil/control/estimation/parametric_model.hpp"
+#include "supercoil/control/estimation/ud_covariance.hpp"
+#include "supercoil/control/tracking/law.hpp"
+#include "supercoil/control/tracking/mrac_matching.hpp"
+
+namespace supercoil::control {
+
+/// Design C of docs/control.md. The constants were found by trials on the paper's muscle at 10 µm
+/// of noise; signals are in watts at rest.
+struct MracLeastSquaresSettings {
+  /// θ1 (on s·u/λ, u/λ), θ2 (on s·y/λ, y/λ), θ3 (on y), c0 (on r), a power bias.
+  using Parameters = Vector<double, 7>;
+
+  RegressionScale scale;               ///< of the nominal muscle
+  double filter_rad_per_s = 10.0;      ///< λ = (s + this)²
+  double regression_rad_per_s = 12.0;  ///< F = 1/(s/this + 1)²
+  double forgetting_s = 30.0;          ///< in which an observation's weight falls to 1/e
+  double noise_W2 = 1e-4;              ///< R; what counts is how it stands to the prior
+  double prior_variance = 1.0;         ///< of each θ over its scale; no variance grows beyond
+  /// The muscle has changed when the residual's mean square over 0.2 s exceeds this one's square.
+  double change_W = 1e-3;
+  double boost = 0.1;     ///< added then to each variance
+  double hold_s = 6.0;    ///< after a change; the law goes by what it knew before
+  double follow_s = 1.0;  ///< time constant with which the law follows what is found
+  /// ωc of the fixed PID beside it: Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle.
+  double bandwidth_rad_per_s = 2.0;
+  double derivative_filter_rad_per_s = 60.0;  ///< of x, twice this pole
+};
+
+/// (s + pole)².
+constexpr Polynomial<2> squared_pole(double pole_rad_per_s) {
+  return {pole_rad_per_s * pole_rad_per_s, 2.0 * pole_rad_per_s, 1.0};
+}
+
+/// θ* of the nominal muscle; any valid one has it. Its compensator need not be stable (control.md).
+std::optional<MracMatching> match(const MracLeastSquaresSettings& settings,
+                                  const ReferenceModelSettings& model);
+
+/// The plant is a muscle with the model's relative degree, so some θ* makes the loop its model:
+///   u = θ*ᵀω + c0* r + d,  ω = [α/λ·u, α/λ·y, y],
+/// and then r = Wm⁻¹y whatever u is. Through Wm and F that is a regression in signals that are
+/// there,
+///   Wm F u = θ*ᵀ Wm F ω + c0* F y + d*,
+/// which holds in closed loop, limited or not, with whatever is added to u.
+template <class Scalar>
+class MracLeastSquares {
+  static_assert(std::is_floating_point_v<Scalar>, "a covariance spans more than fixed point does");
+
+ public:
+  using Wide = Accumulator<Scalar>;
+  static constexpr int size = 7;
+  using Parameters = Vector<Scalar, size>;
+
+  /// model: the one that the reference goes through.
+  /// step_s: the sampling period in seconds, > 0.
+  MracLeastSquares(const MracLeastSquaresSettings& s, const ReferenceModelSettings& model,
+                   double step_s)
+      : settings_(s),
+        ticks_per_update_(std::max(1L, std::lround(update_s / step_s))),
+        period_s_(step_s * static_cast<double>(ticks_per_update_)),
+        power_(squared_pole(s.filter_rad_per_s), step_s),
+        position_(squared_pole(s.filter_rad_per_s), step_s),
+        far_power_(all_poles(s, model), step_s),
+        far_position_(all_poles(s, model), step_s),
+        slope_(squared_pole(s.derivative_filter_rad_per_s), step_s),
+        slope_gain_(s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s),
+        scale_(scale_of(s, model)),
+        follow_step_(step_s / s.follow_s),
+        forgetting_(to<Scalar>(std::exp(-period_s_ / s.forgetting_s))),
+        change_share_(to<Scalar>(-std::expm1(-period_s_ / mean_square_s))),
+        covariance_(Parameters::Constant(to<Scalar>(s.prior_variance))) {
+    const Polynomial<2> lambda = squared_pole(s.filter_rad_per_s);
+    const Polynomial<5> inner = multiply<2, 3>(lambda, model.denominator);
+    const double gain = s.regression_rad_per_s * s.regression_rad_per_s;
+    for (int i = 0; i < 3; ++i)
+      lambda_[i] = Wide(lambda[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < 6; ++i)
+      inner_[i] = Wide(inner[static_cast<std::size_t>(i)] * gain);
+    model_gain_ = Wide(model.gain * gain);
+    const Theta units = s.scale.nominal * s.scale.dc_gain_m_per_W * s.bandwidth_rad_per_s;
+    proportional_ = to<Scalar>(units[2]);
+    derivative_ = to<Scalar>(units[1]);
+    integral_step_ = Wide(units[3] * step_s);
+    theta_ = WideParameters::Zero();
+    theta_[reference_at] = Wide(first_c0) / scale_[reference_at];
+    follower_ = theta_;
+  }
+
+  /// The filters as if the muscle had long moved as it does; to hold a power, the integral becomes
+  /// what the rest leaves of it.
+  void start(const LawStart<Scalar>& at) {
+    const Scalar rate = at.model.velocity;
+    power_.settle(at.power, rate);
+    position_.settle(at.position, rate);
+    far_power_.settle(at.power, rate);
+    far_position_.settle(at.position, rate);
+    slope_.settle(at.position, rate);
+    integral_ = Wide{};
+    wanted_ = at.power;
+    if (!at.hold) return;
+    LawInput<Scalar> now;
+    now.reference = at.reference;
+    now.position = at.position;
+    now.model = at.model;
+    integral_ = Wide(at.power - certain(now) - feedback(now));
+  }
+
+  /// Returns the wanted power. The integrator holds while the power is limited, unless the error
+  /// leads out of the limit.
+  Scalar step(const LawInput<Scalar>& in) {
+    power_.step(in.applied);
+    position_.step(in.position);
+    far_power_.step(in.applied);
+    far_position_.step(in.position);
+    slope_.step(in.position);
+    if (++tick_ == ticks_per_update_) update();
+    if (since_change_s() > settings_.hold_s) follower_ += (told() - follower_) * follow_step_;
+
+    const Scalar error = in.model.position - in.position;
+    const bool leads_out = (wanted_ > in.applied) == (error < Scalar(0));
+    if (!in.limited || leads_out) integral_ += Wide(error) * integral_step_;
+    wanted_ = certain(in) + feedback(in) + to<Scalar>(integral_);
+    return wanted_;
+  }
+
+  static constexpr std::size_t gains = 10;
+  GainValue gain(std::size_t i) const {
+    constexpr auto first = static_cast<std::size_t>(Gain::power_rate);
+    const Theta& nominal = settings_.scale.nominal;
+    const double bandwidth = settings_.bandwidth_rad_per_s;
+    if (i < bias_at) return {static_cast<Gain>(first + i), theta()[static_cast<Eigen::Index>(i)]};
+    if (i == bias_at) return {Gain::bias, theta()[bias_at]};
+    if (i == size) return {Gain::proportional, bandwidth * nominal[2]};
+    if (i == size + 1) return {Gain::integral, bandwidth * nominal[3]};
+    return {Gain::derivative, bandwidth * nominal[1]};
+  }
+
+  /// What the law goes by.
+  Vector<double, size> theta() const {
+    return follower_.cwiseProduct(scale_).template cast<double>();
+  }
+  long changes() const { return changes_; }
+
+ private:
+  using WideParameters = Vector<Wide, size>;
+
+  static constexpr int reference_at = 5;
+  static constexpr int bias_at = 6;
+  static constexpr double update_s = 0.01;
+  static constexpr double mean_square_s = 0.2;  ///< over which a change shows
+  static constexpr double blind_s = 10.0;       ///< at first errors are the start's, not a change's
+  static constexpr double change_every_s = 5.0;
+  static constexpr double first_c0 = 0.2;   ///< a fifth of what the nominal muscle at rest needs
+  static constexpr double lowest_c0 = 0.3;  ///< of the nominal one; the law goes by no other
+  static constexpr double highest_c0 = 3.0;
+  static constexpr double least_scale = 0.05;  ///< a θ* of about 0 is not known to be 0
+
+  /// |θ*| of the nominal muscle.
+  static WideParameters scale_of(const MracLeastSquaresSettings& s,
+                                 const ReferenceModelSettings& model) {
+    WideParameters scale = WideParameters::Ones();
+    if (const auto matched = match(s, model))
+      scale.template head<6>() =
+          matched->theta.cwiseAbs().cwiseMax(least_scale).template cast<Wide>();
+    return scale;
+  }
+  /// λ, Wm's denominator, and F's.
+  static Polynomial<7> all_poles(const MracLeastSquaresSettings& s,
+                                 const ReferenceModelSettings& model) {
+    return multiply<5, 2>(multiply<2, 3>(squared_pole(s.filter_rad_per_s), model.denominator),
+                          squared_pole(s.regression_rad_per_s));
+  }
+
+  double since_change_s() const {
+    return changes_ == 0 ? INFINITY : static_cast<double>(since_change_) * period_s_;
+  }
+
+  /// Wm F u, and [Wm F ω, F y, 1] in the units of the scale.
+  void update() {
+    tick_ = 0;
+    ++updates_;
+    const auto& u = far_power_.state();
+    const auto& y = far_position_.state();
+    const Wide target = lambda_.dot(u.template head<3>()) * model_gain_;
+    WideParameters phi;
+    phi << lambda_[1] * u[1] * model_gain_, lambda_[0] * u[0] * model_gain_,
+        lambda_[1] * y[1] * model_gain_, lambda_[0] * y[0] * model_gain_,
+        lambda_.dot(y.template head<3>()) * model_gain_, inner_.dot(y.template head<6>()), Wide(1);
+    phi = phi.cwiseProduct(scale_).eval();
+
+    const auto error = to<Scalar>(target - theta_.dot(phi));
+    const Parameters gain = covariance_.update(phi.template cast<Scalar>(),
+                                               to<Scalar>(settings_.noise_W2), forgetting_, 0);
+    theta_ += gain.template cast<Wide>() * Wide(error);
+    cap();
+    detect_change(error);
+  }
+
+  /// Without excitation forgetting alone would let the covariance grow for ever.
+  void cap() {
+    const Scalar largest = covariance_.largest_variance(0);
+    const auto most = to<Scalar>(settings_.prior_variance);
+    if (largest > most) covariance_.scale(most / largest);
+  }
+
+  void detect_change(Scalar error) {
+    error_square_ += (error * error - error_square_) * change_share_;
+    ++since_change_;
+    const bool blind =
+        static_cast<double>(updates_) * period_s_ < blind_s || since_change_s() < change_every_s;
+    if (blind || error_square_ < to<Scalar>(settings_.change_W * settings_.change_W)) return;
+    ++changes_;
+    since_change_ = 0;
+    error_square_ = Scalar{};
+    covariance_.inflate(to<Scalar>(settings_.boost));
+  }
+
+  /// What was found, with c0 within its bounds.
+  WideParameters told() const {
+    WideParameters told = theta_;
+    told[reference_at] = std::clamp(told[reference_at], Wide(lowest_c0), Wide(highest_c0));
+    return told;
+  }
+
+  Scalar certain(const LawInput<Scalar>& in) const {
+    const auto& u = power_.state();
+    const auto& y = position_.state();
+    WideParameters omega;
+    omega << u[1] * lambda_[1], u[0] * lambda_[0], y[1] * lambda_[1], y[0] * lambda_[0],
+        Wide(in.position), Wide(in.reference), Wide(1);
+    return to<Scalar>(follower_.cwiseProduct(scale_).dot(omega));
+  }
+
+  Scalar feedback(const LawInput<Scalar>& in) const {
+    const auto velocity = to<Scalar>(slope_.state()[1] * slope_gain_);
+    return (in.model.position - in.position) * proportional_ +
+           (in.model.velocity - velocity) * derivative_;
+  }
+
+  MracLeastSquaresSettings settings_;
+  long ticks_per_update_;
+  double period_s_;
+  StateVariableFilter<Scalar, 2, Hold::zero_order> power_;
+  StateVariableFilter<Scalar, 2, Hold::first_order> position_;
+  StateVariableFilter<Scalar, 7, Hold::zero_order> far_power_;
+  StateVariableFilter<Scalar, 7, Hold::first_order> far_position_;
+  StateVariableFilter<Scalar, 2, Hold::first_order> slope_;
+  Wide slope_gain_;
+  WideParameters scale_;
+  Wide follow_step_;
+  Scalar forgetting_;
+  Scalar change_share_;
+  UdCovariance<Scalar, size> covariance_;
+  Vector<Wide, 3> lambda_;
+  Vector<Wide, 6> inner_;  ///< λ and Wm's denominator, times F's gain
+  Wide model_gain_{};      ///< Wm's and F's
+  Scalar proportional_{};
+  Scalar derivative_{};
+  Wide integral_step_{};
+
+  WideParameters theta_;     ///< over scale_
+  WideParameters follower_;  ///< θ̄ over scale_
+  Wide integral_{};
+  Scalar wanted_{};
+  long tick_ = 0;
+  long updates_ = 0;
+  long since_change_ = 0;
+  long changes_ = 0;
+  Scalar error_square_{};
+};
+
+}  // namespace supercoil::control

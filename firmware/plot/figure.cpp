@@ -38,7 +38,9 @@ void write_data(std::ostream& out, const Figure& figure) {
       out << "$d" << block++ << " << EOD\n";
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
         if (std::isfinite(curve.y[i])) {
-          out << curve.x[i] << ' ' << curve.y[i] << '\n';
+          out << curve.x[i] << ' ' << curve.y[i];
+          if (!curve.bars_to.empty()) out << ' ' << curve.y[i] << ' ' << curve.bars_to[i];
+          out << '\n';
         } else {
           out << '\n';
         }
@@ -49,12 +51,26 @@ void write_data(std::ostream& out, const Figure& figure) {
   }
 }
 
+/// A number for each unit of x, or a name.
+void write_x_tics(std::ostream& out, const Panel& panel) {
+  if (panel.x_names.empty()) {
+    out << "set autoscale xfix\nset xtics norotate autofreq\n";
+    return;
+  }
+  out << "set logscale y\nset xrange [-0.7:" << static_cast<double>(panel.x_names.size()) - 0.3
+      << "]\nset xtics rotate by 30 right (";
+  for (std::size_t i = 0; i < panel.x_names.size(); ++i)
+    out << (i > 0 ? ", " : "") << quoted(panel.x_names[i]) << " " << i;
+  out << ")\n";
+}
+
 void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "set title " << quoted(panel.title) << "\n"
       << "set xlabel " << quoted(panel.x_label) << "\n"
       << "set ylabel " << quoted(panel.y_label) << "\n"
       << "set format y '%g'\n"
       << (panel.logarithmic ? "set" : "unset") << " logscale xy\n";
+  write_x_tics(out, panel);
   if (panel.y_low < panel.y_high) {
     out << "set yrange [" << panel.y_low << ":" << panel.y_high << "]\n";
   } else {
@@ -63,8 +79,9 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "plot ";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    out << (i > 0 ? ", " : "") << "$d" << block++ << " with lines lt " << curve.colour + 1
-        << (curve.dashed ? " dt 2" : "") << " title " << quoted(curve.label);
+    out << (i > 0 ? ", " : "") << "$d" << block++
+        << (curve.bars_to.empty() ? " with lines lt " : " with yerrorbars pt 7 ps 0.5 lt ")
+        << curve.colour + 1 << (curve.dashed ? " dt 2" : "") << " title " << quoted(curve.label);
   }
   out << "\n";
 }
@@ -83,7 +100,7 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
       << line_styles
       << "set grid lc rgb '#dddddd'\nset border 3 lc rgb '#888888'\nset tics nomirror\n"
       << "set key bmargin center horizontal samplen 2\n"
-      << "set lmargin 9\nset rmargin 3\nset autoscale xfix\n"
+      << "set lmargin 9\nset rmargin 3\n"
       << "set multiplot layout " << rows << "," << figure.columns << "\n";
   std::size_t block = 0;
   for (const Panel& panel : figure.panels)

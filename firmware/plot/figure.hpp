@@ -16,6 +16,8 @@ struct Curve {
   bool dashed = false;
   /// Which of the figure's colours; the same in every panel means the same thing.
   int colour = 0;
+  /// Not empty: points at y with bars up to here, in place of a line.
+  std::vector<double> bars_to{};
 };
 
 struct Panel {
@@ -26,6 +28,8 @@ struct Panel {
   double y_low = 0.0;  ///< with y_high equal: chosen by gnuplot
   double y_high = 0.0;
   bool logarithmic = false;  ///< both axes: values must be above 0
+  /// Not empty: what stands at x = 0, 1, …; y is then logarithmic.
+  std::vector<std::string> x_names{};
 };
 
 struct Figure {

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "compare/plan.hpp"
 #include "program/exit_status.hpp"
 
 namespace supercoil::host_sim {
@@ -37,6 +39,17 @@ struct ReproduceOptions {
   bool quiet = false;
 };
 int reproduce_command(const ReproduceOptions& options);
+
+struct CompareOptions {
+  compare::Selection selection;
+  std::vector<std::string> merge;  ///< runs.csv of several; nothing is run then
+  std::string out = "supercoil-out/compare";
+  int jobs = 0;  ///< 0: as many as there are processors
+  bool plot = true;
+  bool quiet = false;
+  bool list = false;  ///< only says what there is to compare
+};
+int compare_command(const CompareOptions& options);
 
 int list_command();
 

@@ -5,6 +5,7 @@
 #include <exception>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -64,6 +65,48 @@ void add_reproduce(CLI::App& app, ReproduceOptions& options) {
   reproduce->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
+/// "I/N"
+compare::Shard shard_of(const std::string& text) {
+  compare::Shard shard;
+  const char* end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  if (number.ec == std::errc{} && number.ptr != end && *number.ptr == '/') {
+    const auto of = std::from_chars(number.ptr + 1, end, shard.of);
+    if (of.ec == std::errc{} && of.ptr == end) return shard;
+  }
+  throw CLI::ValidationError("--shard", text + ": must be I/N with 1 <= I <= N");
+}
+
+void add_compare(CLI::App& app, CompareOptions& options) {
+  CLI::App* compare = app.add_subcommand(
+      "compare", "Compare controllers against disturbances over many seeds; goes on where it was");
+  const auto add_names = [&](const char* option, std::vector<std::string>& names,
+                             const char* what) {
+    compare->add_option(option, names, what)->delimiter(',')->type_name("NAMES");
+  };
+  add_names("--controllers", options.selection.controllers,
+            "Names, or files with [controller] and [estimator], separated by commas [all]");
+  add_names("--disturbances", options.selection.disturbances,
+            "Names, or scenario files, separated by commas; NAME+SECONDS is that much later [all]");
+  add_names("--arithmetic", options.selection.arithmetics, "double, float, q8.24 [double]");
+  compare->add_option("--seeds", options.selection.seeds, "Seeds, from 1 on [20]");
+  compare->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
+      ->check(CLI::Range(1, 1024));
+  compare->add_option("--out", options.out, "Folder for the results [supercoil-out/compare]");
+  CLI::Option* shard = compare->add_option_function<std::string>(
+      "--shard", [&](const std::string& text) { options.selection.shard = shard_of(text); },
+      "I/N: only the I-th of N parts of all runs");
+  shard->type_name("PART");
+  compare
+      ->add_option("--merge", options.merge,
+                   "Run nothing: make the table of several parts' runs.csv")
+      ->type_name("FILES")
+      ->excludes(shard);
+  compare->add_flag("!--no-plot", options.plot, "Write no compare.svg");
+  compare->add_flag("--quiet", options.quiet, "Print nothing but errors");
+  compare->add_flag("--list", options.list, "Say what there is to compare");
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.",
                "supercoil-sim"};
@@ -71,8 +114,10 @@ int run_program(int count, char** arguments) {
   app.require_subcommand(1);
   RunOptions run;
   ReproduceOptions reproduce;
+  CompareOptions compare;
   add_run(app, run);
   add_reproduce(app, reproduce);
+  add_compare(app, compare);
   app.add_subcommand("list", "List built-in scenarios, presets and reference models");
   try {
     app.parse(count, arguments);
@@ -82,6 +127,7 @@ int run_program(int count, char** arguments) {
   }
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("reproduce")) return reproduce_command(reproduce);
+  if (app.got_subcommand("compare")) return compare_command(compare);
   return list_command();
 }
 

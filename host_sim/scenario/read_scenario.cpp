@@ -14,21 +14,6 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// Moves the keys of `from` over those of `into`, table by table. A table that names its kind
-/// replaces the old one, whose keys may not fit. Moving (not copying) keeps each node's line.
-void overlay(toml::table& into, toml::table&& from) {
-  for (auto&& [key, node] : from) {
-    toml::table* inner = into.get_as<toml::table>(key.str());
-    toml::table* given = node.as_table();
-    if (inner != nullptr && given != nullptr && !given->contains("kind")) {
-      overlay(*inner, std::move(*given));
-    } else {
-      node.visit(
-          [&, name = key.str()](auto& value) { into.insert_or_assign(name, std::move(value)); });
-    }
-  }
-}
-
 void read_simulation(const toml::table& document, Scenario& scenario,
                      config::Diagnostics& diagnostics) {
   config::Section section = config::Section(&document, "", diagnostics).section("simulation");
@@ -104,12 +89,32 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
 
 }  // namespace
 
+// Moving (not copying) keeps each node's line.
+void lay_over(toml::table& document, toml::table&& changes) {
+  for (auto&& [key, node] : changes) {
+    toml::table* inner = document.get_as<toml::table>(key.str());
+    toml::table* given = node.as_table();
+    if (inner != nullptr && given != nullptr && !given->contains("kind")) {
+      lay_over(*inner, std::move(*given));
+    } else {
+      node.visit([&, name = key.str()](auto& value) {
+        document.insert_or_assign(name, std::move(value));
+      });
+    }
+  }
+}
+
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
                                   const std::optional<storage::Learned>& learned) {
   config::Diagnostics diagnostics(name);
   toml::table document = config::parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
+  return scenario_from(std::move(document), name, learned);
+}
 
+ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
+                                 const std::optional<storage::Learned>& learned) {
+  config::Diagnostics diagnostics(name);
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
   read_simulation(document, scenario, diagnostics);
@@ -129,7 +134,7 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
     moment.reset |= event->reset;
     moment.new_controller |= event->changes.contains("controller");
     moment.new_estimator |= event->changes.contains("estimator");
-    overlay(document, std::move(event->changes));
+    lay_over(document, std::move(event->changes));
     const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
     if (last_of_its_time) {
       moment.conditions = read_conditions(document, believed, scenario.step_s(), diagnostics);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <tl/expected.hpp>
+#include <toml++/toml.h>
 
 #include "config/diagnostics.hpp"
 #include "scenario/scenario.hpp"
@@ -23,5 +24,13 @@ ScenarioOrProblems read_scenario(const std::string& path,
 /// The same from text; name: how messages call it.
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
                                   const std::optional<storage::Learned>& learned = {});
+
+/// Lays one document over another, as an event is laid over what was before it: a table that names
+/// its kind replaces the old one, other keys come beside those that are there.
+void lay_over(toml::table& document, toml::table&& changes);
+
+/// The same from a document.
+ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
+                                 const std::optional<storage::Learned>& learned = {});
 
 }  // namespace supercoil::host_sim

@@ -1,0 +1,80 @@
+#include "cli/compare_results.hpp"
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <utility>
+
+#include "compare/catalogue.hpp"
+#include "compare/plot.hpp"
+
+namespace supercoil::host_sim {
+
+using compare::Results;
+
+int conclude_comparison(const Results& results, OutputFolder& folder,
+                        const CompareOptions& options) {
+  const auto table = compare::table_of(results);
+  const std::string markdown = compare::to_markdown(table);
+  const std::array<std::pair<const char*, std::string>, 3> files{
+      {{runs_name, compare::to_file(results)},
+       {"compare.csv", compare::to_csv(table)},
+       {"compare.md", markdown}}};
+  for (const auto& [name, content] : files) {
+    if (const auto written = folder.write(name, content); !written)
+      return fail(exit_failed, written.error());
+  }
+  if (options.plot) {
+    if (const auto drawn = draw(compare::figure_of(table), folder.temporary("compare.svg"));
+        !drawn) {
+      folder.drop("compare.svg");
+      std::fprintf(stderr, "supercoil-sim: compare.svg is not written: %s\n",
+                   drawn.error().c_str());
+    }
+  }
+  if (const auto done = folder.commit(); !done) return fail(exit_failed, done.error());
+  if (!options.quiet) {
+    std::fputs(markdown.c_str(), stdout);
+    std::printf("\n%zu runs, written to %s\n", results.size(), folder.path().c_str());
+  }
+  return exit_done;
+}
+
+int merge_comparisons(const CompareOptions& options) {
+  Results results;
+  for (const std::string& path : options.merge) {
+    if (!std::filesystem::exists(path))
+      return fail(exit_wrong_input, path + ": there is no such file");
+    const auto read = compare::read_results(path);
+    if (!read) return fail(exit_wrong_input, read.error());
+    if (read->torn)
+      return fail(exit_wrong_input, path +
+                                        ": its last line is torn: the run was interrupted; go "
+                                        "on with it first");
+    const auto merged = compare::merge(results, read->results, path);
+    if (!merged) return fail(exit_wrong_input, merged.error());
+  }
+  auto folder = OutputFolder::open(options.out);
+  if (!folder) return fail(exit_wrong_input, folder.error());
+  return conclude_comparison(results, *folder, options);
+}
+
+int list_compared() {
+  const auto print = [](const char* title, const std::vector<BuiltinScenario>& entries) {
+    std::puts(title);
+    for (const BuiltinScenario& entry : entries) {
+      std::printf("  %-18.*s %.*s\n", static_cast<int>(entry.name.size()), entry.name.data(),
+                  static_cast<int>(description(entry).size()), description(entry).data());
+    }
+  };
+  print("Controllers:", compare::controllers());
+  print("\nDisturbances (most at 100 s; NAME+SECONDS: so much later):", compare::disturbances());
+  std::puts("\nMeasures, of the true position against each controller's reference model:");
+  for (const compare::Measure& measure : compare::measures) {
+    std::printf("  %-18.*s %.*s\n", static_cast<int>(measure.name.size()), measure.name.data(),
+                static_cast<int>(measure.meaning.size()), measure.meaning.data());
+  }
+  return exit_done;
+}
+
+}  // namespace supercoil::host_sim

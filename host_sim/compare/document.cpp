@@ -1,0 +1,86 @@
+#include "compare/document.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <utility>
+
+#include "compare/catalogue.hpp"
+#include "config/toml_file.hpp"
+
+namespace supercoil::host_sim::compare {
+
+namespace {
+
+tl::expected<Document, std::string> find(const std::string& name, const char* what,
+                                         const std::vector<BuiltinScenario>& entries) {
+  if (name.find_first_of("./") != std::string::npos) {
+    config::Diagnostics diagnostics(name);
+    std::string text = config::read_text(name, diagnostics);
+    if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
+    const std::string stem = std::filesystem::path(name).stem().string();
+    if (stem.find_first_of(",\"\n|") == std::string::npos) return Document{stem, std::move(text)};
+    return tl::unexpected(name + ": its name must have no comma, quote, bar or line break\n");
+  }
+  std::string known;
+  for (const BuiltinScenario& entry : entries) {
+    if (entry.name == name) return Document{name, std::string(entry.text)};
+    known += (known.empty() ? "" : ", ") + std::string(entry.name);
+  }
+  return tl::unexpected(std::string(what) + " " + name +
+                        ": must be a .toml file or one of: " + known + "\n");
+}
+
+/// NAME+SECONDS; in a file's name there may be a + too.
+tl::expected<Document, std::string> find_disturbance(const std::string& name) {
+  const std::size_t plus = name.rfind('+');
+  if (plus == std::string::npos || name.ends_with(".toml"))
+    return find(name, "--disturbances", disturbances());
+  double later_s = 0.0;
+  const char* end = name.data() + name.size();
+  const auto read = std::from_chars(name.data() + plus + 1, end, later_s);
+  constexpr double latest_s = 1e5;
+  if (read.ec != std::errc{} || read.ptr != end || !(later_s >= 0.0 && later_s <= latest_s)) {
+    return tl::unexpected("--disturbances " + name +
+                          ": after + must come seconds, from 0 to 100000\n");
+  }
+  auto document = find(name.substr(0, plus), "--disturbances", disturbances());
+  if (document) {
+    document->name += name.substr(plus);
+    document->later_s = later_s;
+  }
+  return document;
+}
+
+template <class Find>
+Documents find_all(const std::vector<std::string>& names, Find find_one) {
+  std::vector<Document> documents;
+  std::string problems;
+  for (const std::string& name : names) {
+    auto document = find_one(name);
+    if (!document) {
+      problems += document.error();
+      continue;
+    }
+    const bool twice = std::any_of(documents.begin(), documents.end(), [&](const Document& other) {
+      return other.name == document->name;
+    });
+    if (twice) problems += name + ": " + document->name + " is there twice\n";
+    documents.push_back(std::move(*document));
+  }
+  if (!problems.empty()) return tl::unexpected(problems);
+  return documents;
+}
+
+}  // namespace
+
+Documents find_controllers(const std::vector<std::string>& names) {
+  return find_all(
+      names, [](const std::string& name) { return find(name, "--controllers", controllers()); });
+}
+
+Documents find_disturbances(const std::vector<std::string>& names) {
+  return find_all(names, find_disturbance);
+}
+
+}  // namespace supercoil::host_sim::compare

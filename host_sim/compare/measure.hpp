@@ -1,0 +1,68 @@
+// By what a run is compared with others: the true error against the controller's reference model.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "runner/summary.hpp"
+#include "scenario/scenario.hpp"
+
+namespace supercoil::host_sim::compare {
+
+enum class How {
+  rms,       ///< root mean square, m
+  largest,   ///< m
+  settling,  ///< from the window's begin until the error stays below settled_m, s
+};
+
+struct Measure {
+  std::string_view name;  ///< its unit is the last part
+  How how;
+  std::string_view meaning;
+};
+
+inline constexpr double settled_m = 200e-6;
+
+/// Every measure that there is. A run has those for which its scenario has room.
+inline constexpr std::array<Measure, 8> measures{{
+    {"start_rms_m", How::rms, "0 to 3 s, without an event"},
+    {"early_rms_m", How::rms, "3 to 10 s, without an event"},
+    {"learned_rms_m", How::rms, "10 to 20 s, without an event"},
+    {"steady_rms_m", How::rms, "the last 40 s before the first event, or before the end"},
+    {"changed_rms_m", How::rms, "the first 10 s after the first event"},
+    {"peak_m", How::largest, "the largest error within 60 s after the first event"},
+    {"settling_s", How::settling, "from the first event until the error stays below 0.2 mm"},
+    {"after_rms_m", How::rms, "from 60 s after the first event to the end"},
+}};
+
+/// Of one run, as `measures` has them; NaN: it has none such. Infinite: the muscle was no longer
+/// made to follow (a fault), or never settled.
+using Values = std::array<double, measures.size()>;
+
+/// Where each measure looks in this scenario, empty (from_s >= to_s) where there is no room for it.
+std::array<Window, measures.size()> windows_of(const Scenario& scenario);
+
+/// Takes the measures of a run as it goes.
+class Meters {
+ public:
+  explicit Meters(const Scenario& scenario);
+
+  void add(const TickRecord& record);
+  Values values() const;
+
+ private:
+  struct Meter {
+    Window window;
+    ErrorMeter errors;
+    double outside_until_s = 0.0;  ///< the end of the last tick whose error was not below settled_m
+    double seen_until_s = 0.0;
+    bool lost = false;
+  };
+  double value(std::size_t measure) const;
+
+  double step_s_;
+  std::array<Meter, measures.size()> meters_;
+};
+
+}  // namespace supercoil::host_sim::compare

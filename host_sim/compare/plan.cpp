@@ -1,0 +1,145 @@
+#include "compare/plan.hpp"
+
+#include <utility>
+
+#include <boost/crc.hpp>
+
+#include "compare/catalogue.hpp"
+#include "compare/document.hpp"
+#include "config/toml_file.hpp"
+#include "scenario/read_scenario.hpp"
+
+namespace supercoil::host_sim::compare {
+
+namespace {
+
+std::vector<std::string> names_of(const std::vector<BuiltinScenario>& entries) {
+  std::vector<std::string> names;
+  for (const BuiltinScenario& entry : entries)
+    names.emplace_back(entry.name);
+  return names;
+}
+
+std::uint32_t checksum(const Document& controller, const Document& disturbance,
+                       const std::string& arithmetic) {
+  boost::crc_32_type crc;
+  for (const std::string* text :
+       {&controller.text, &disturbance.text, &disturbance.name, &arithmetic})
+    crc.process_bytes(text->c_str(), text->size() + 1);
+  return crc.checksum();
+}
+
+/// Where least squares cannot be in fixed point, it is in float.
+void set_arithmetic(toml::table& document, const std::string& arithmetic) {
+  lay_over(document, toml::table{{"controller", toml::table{{"arithmetic", arithmetic}}}});
+  const auto kind = document["estimator"]["kind"].value_or<std::string>("gradient");
+  if (kind == "none") return;
+  const bool narrow = kind == "least_squares" && arithmetic == "q8.24";
+  lay_over(document,
+           toml::table{{"estimator", toml::table{{"arithmetic", narrow ? "float" : arithmetic}}}});
+}
+
+tl::expected<Case, std::string> combine(const Document& controller, const Document& disturbance,
+                                        const std::string& arithmetic) {
+  const std::string name = controller.name + " with " + disturbance.name + " in " + arithmetic;
+  const auto parse = [](const Document& document, config::Diagnostics& diagnostics) {
+    return config::parse(document.text, diagnostics);
+  };
+  config::Diagnostics of_controller(controller.name);
+  config::Diagnostics of_disturbance(disturbance.name);
+  toml::table document = parse(disturbance, of_disturbance);
+  toml::table chosen = parse(controller, of_controller);
+  if (!of_controller.empty() || !of_disturbance.empty()) {
+    return tl::unexpected(config::to_text(of_controller.problems()) +
+                          config::to_text(of_disturbance.problems()));
+  }
+  // Whatever the disturbance was written for: all controllers meet the same.
+  for (const char* table : {"controller", "estimator", "reference_model"})
+    document.erase(table);
+  lay_over(document, std::move(chosen));
+  set_arithmetic(document, arithmetic);
+  auto scenario = scenario_from(std::move(document), name);
+  if (!scenario) return tl::unexpected(config::to_text(scenario.error()));
+  scenario->duration_s += disturbance.later_s;
+  for (Event& event : scenario->events)
+    event.at_s += disturbance.later_s;
+  return Case{controller.name, disturbance.name, arithmetic,
+              checksum(controller, disturbance, arithmetic), std::move(*scenario)};
+}
+
+/// What fixed point cannot hold is left out; all else must be in order.
+tl::expected<void, std::string> add_cases(Plan& plan, const std::vector<Document>& controllers,
+                                          const std::vector<Document>& disturbances,
+                                          const std::vector<std::string>& arithmetics) {
+  for (const Document& controller : controllers) {
+    for (const Document& disturbance : disturbances) {
+      for (const std::string& arithmetic : arithmetics) {
+        auto made = combine(controller, disturbance, arithmetic);
+        if (made) {
+          plan.cases.push_back(std::move(*made));
+        } else if (arithmetic == "q8.24" && combine(controller, disturbance, "double")) {
+          plan.left_out.push_back(made.error());
+        } else {
+          return tl::unexpected(made.error());
+        }
+      }
+    }
+  }
+  return {};
+}
+
+std::string check(const Selection& s) {
+  std::string problems;
+  constexpr long most_seeds = 100'000;
+  if (s.seeds < 1 || s.seeds > most_seeds)
+    problems += "--seeds " + std::to_string(s.seeds) + ": must be 1 to 100000\n";
+  if (s.shard.of < 1 || s.shard.number < 1 || s.shard.number > s.shard.of) {
+    problems += "--shard " + std::to_string(s.shard.number) + "/" + std::to_string(s.shard.of) +
+                ": must be I/N with 1 <= I <= N\n";
+  }
+  for (const std::string& arithmetic : s.arithmetics) {
+    if (!control::find_named(control::arithmetic_names, arithmetic))
+      problems += "--arithmetic " + arithmetic + ": must be one of: double, float, q8.24\n";
+  }
+  return problems;
+}
+
+}  // namespace
+
+std::vector<std::string> default_controllers() {
+  return names_of(controllers());
+}
+
+std::vector<std::string> default_disturbances() {
+  std::vector<std::string> names = names_of(disturbances());
+  // The softening at ten more phases of the sine, whose period is 25.1 s.
+  for (const char* later : {"2.5", "5", "7.5", "10", "12.5", "15", "17.5", "20", "22.5", "25"})
+    names.push_back(std::string("stiffness+") + later);
+  return names;
+}
+
+tl::expected<Plan, std::string> make_plan(const Selection& selection) {
+  std::string problems = check(selection);
+  const auto or_all = [](const std::vector<std::string>& chosen, std::vector<std::string> all) {
+    return chosen.empty() ? std::move(all) : chosen;
+  };
+  const auto chosen = find_controllers(or_all(selection.controllers, default_controllers()));
+  const auto met = find_disturbances(or_all(selection.disturbances, default_disturbances()));
+  if (!chosen) problems += chosen.error();
+  if (!met) problems += met.error();
+  if (!problems.empty()) return tl::unexpected(problems);
+
+  Plan plan;
+  const auto added = add_cases(plan, *chosen, *met, or_all(selection.arithmetics, {"double"}));
+  if (!added) return tl::unexpected(added.error());
+  long index = 0;
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(selection.seeds); ++seed) {
+    for (std::size_t of = 0; of < plan.cases.size(); ++of) {
+      if (index++ % selection.shard.of == selection.shard.number - 1)
+        plan.runs.push_back({of, seed});
+    }
+  }
+  return plan;
+}
+
+}  // namespace supercoil::host_sim::compare

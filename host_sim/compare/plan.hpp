@@ -1,0 +1,57 @@
+// Which runs a comparison is made of.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "scenario/scenario.hpp"
+
+namespace supercoil::host_sim::compare {
+
+/// Part number of all, from 1 on: every so-manieth run.
+struct Shard {
+  long number = 1;
+  long of = 1;
+};
+
+/// Empty lists are the built-in ones. A name with a dot or a slash is a scenario's file.
+/// A disturbance's name may end in +SECONDS: its events, and its end, come so much later.
+struct Selection {
+  std::vector<std::string> controllers;
+  std::vector<std::string> disturbances;
+  std::vector<std::string> arithmetics;
+  long seeds = 20;  ///< 1 to this
+  Shard shard;
+};
+
+/// The controllers and disturbances that an empty selection compares.
+std::vector<std::string> default_controllers();
+std::vector<std::string> default_disturbances();
+
+/// A line of the table.
+struct Case {
+  std::string controller;
+  std::string disturbance;
+  std::string arithmetic;
+  std::uint32_t definition;  ///< checksum of what makes its scenario
+  Scenario scenario;         ///< for any seed
+};
+
+struct Run {
+  std::size_t of;  ///< which of the plan's cases
+  std::uint64_t seed;
+};
+
+struct Plan {
+  std::vector<Case> cases;
+  std::vector<Run> runs;              ///< of the shard; all cases of a seed before the next seed
+  std::vector<std::string> left_out;  ///< what cannot be, and why
+};
+
+/// The error says all that is wrong with the selection, a line each.
+tl::expected<Plan, std::string> make_plan(const Selection& selection);
+
+}  // namespace supercoil::host_sim::compare

@@ -1,0 +1,12 @@
+// compare.svg: every measure of every controller against every disturbance.
+#pragma once
+
+#include "compare/table.hpp"
+#include "plot/figure.hpp"
+
+namespace supercoil::host_sim::compare {
+
+/// A panel a measure; a point a contender, at the mean, with a bar to the worst seed.
+Figure figure_of(const std::vector<Row>& table);
+
+}  // namespace supercoil::host_sim::compare

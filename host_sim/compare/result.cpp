@@ -1,0 +1,161 @@
+#include "compare/result.hpp"
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace supercoil::host_sim::compare {
+
+namespace {
+
+constexpr std::size_t key_columns = 4;
+constexpr std::size_t columns = key_columns + 2 + measures.size();
+
+std::string head() {
+  std::string text = "# supercoil-sim " SUPERCOIL_VERSION
+                     " compare, a line a run; inf: no longer followed, or never settled\n"
+                     "controller,disturbance,arithmetic,seed,definition,fault";
+  for (const Measure& measure : measures)
+    text += "," + std::string(measure.name);
+  return text + "\n";
+}
+
+/// The shortest text that reads back as the same value; nothing for NaN.
+std::string number(double value) {
+  if (std::isnan(value)) return {};
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+  return {text.data(), end};
+}
+
+template <class Value, class... Base>
+bool read(std::string_view text, Value& value, Base... base) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base...);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = line.find(',');
+    fields.push_back(line.substr(0, comma));
+    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
+  }
+  return fields;
+}
+
+std::optional<std::pair<Key, Result>> read_line(std::string_view line) {
+  const auto fields = fields_of(line);
+  if (fields.size() != columns) return std::nullopt;
+  Key key{std::string(fields[0]), std::string(fields[1]), std::string(fields[2]), 0};
+  Result result;
+  constexpr int hexadecimal = 16;
+  bool right = read(fields[3], key.seed) && read(fields[4], result.definition, hexadecimal);
+  result.fault = fields[5];
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    const std::string_view field = fields[key_columns + 2 + i];
+    result.values[i] = NAN;
+    right = right && (field.empty() || read(field, result.values[i]));
+  }
+  if (!right) return std::nullopt;
+  return std::pair(std::move(key), std::move(result));
+}
+
+std::string described(const Key& key) {
+  return key.controller + " with " + key.disturbance + " in " + key.arithmetic + ", seed " +
+         std::to_string(key.seed);
+}
+
+}  // namespace
+
+bool Result::same_as(const Result& other) const {
+  bool same = definition == other.definition && fault == other.fault;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    same = same &&
+           std::bit_cast<std::uint64_t>(values[i]) == std::bit_cast<std::uint64_t>(other.values[i]);
+  }
+  return same;
+}
+
+std::string to_line(const Key& key, const Result& result) {
+  std::array<char, 16> definition{};
+  constexpr int hexadecimal = 16;
+  const auto end = std::to_chars(definition.data(), definition.data() + definition.size(),
+                                 result.definition, hexadecimal)
+                       .ptr;
+  std::string line = key.controller + "," + key.disturbance + "," + key.arithmetic + "," +
+                     std::to_string(key.seed) + "," + std::string(definition.data(), end) + "," +
+                     result.fault;
+  for (const double value : result.values)
+    line += "," + number(value);
+  return line + "\n";
+}
+
+std::string to_file(const Results& results) {
+  std::string text = head();
+  for (const auto& [key, result] : results)
+    text += to_line(key, result);
+  return text;
+}
+
+tl::expected<ReadResults, std::string> read_results(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  ReadResults read;
+  if (!in && !std::filesystem::exists(path)) return read;
+  const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  if (!in.good() && !in.eof()) return tl::unexpected(path.string() + ": cannot be read");
+  const std::string expected = head();
+  if (all.size() < expected.size() && expected.starts_with(all)) {
+    read.torn = !all.empty();
+    return read;
+  }
+  if (!all.starts_with(expected)) {
+    return tl::unexpected(path.string() + ":1: is not of this version: it begins \"" +
+                          all.substr(0, std::min(all.find('\n'), std::size_t{80})) +
+                          "\"; must be \"" + expected.substr(0, expected.find('\n')) + "\"");
+  }
+  std::string_view rest = std::string_view(all).substr(expected.size());
+  for (long line = 3; !rest.empty(); ++line) {
+    const std::size_t end = rest.find('\n');
+    if (end == std::string_view::npos) {
+      read.torn = true;
+      break;
+    }
+    auto one = read_line(rest.substr(0, end));
+    const std::string where = path.string() + ":" + std::to_string(line) + ": ";
+    if (!one) {
+      return tl::unexpected(
+          where + "is damaged: must be " + std::to_string(columns) +
+          " fields, seed and measures numbers: " + std::string(rest.substr(0, end)));
+    }
+    const auto merged = merge(read.results, {std::move(*one)}, where);
+    if (!merged) return tl::unexpected(merged.error());
+    rest.remove_prefix(end + 1);
+  }
+  return read;
+}
+
+tl::expected<void, std::string> merge(Results& into, const Results& from, const std::string& name) {
+  for (const auto& [key, result] : from) {
+    const auto [there, is_new] = into.try_emplace(key, result);
+    if (!is_new && !there->second.same_as(result)) {
+      return tl::unexpected(name + ": " + described(key) + " gave something else before");
+    }
+    Key first = key;
+    first.seed = 0;
+    const auto other = into.lower_bound(first);
+    if (other->second.definition != result.definition) {
+      return tl::unexpected(name + ": " + described(key) +
+                            " was made by another definition than seed " +
+                            std::to_string(other->first.seed));
+    }
+  }
+  return {};
+}
+
+}  // namespace supercoil::host_sim::compare

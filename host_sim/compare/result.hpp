@@ -1,0 +1,55 @@
+// What a run gave, and the file that keeps it: runs.csv.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "compare/measure.hpp"
+
+namespace supercoil::host_sim::compare {
+
+/// Which run it was.
+struct Key {
+  std::string controller;
+  std::string disturbance;
+  std::string arithmetic;
+  std::uint64_t seed = 0;
+
+  friend auto operator<=>(const Key&, const Key&) = default;
+};
+
+struct Result {
+  std::uint32_t definition = 0;  ///< checksum of what made its scenario (Case)
+  std::string fault;             ///< the first; empty without
+  Values values{};
+
+  /// The same, to the bit.
+  bool same_as(const Result& other) const;
+};
+
+using Results = std::map<Key, Result>;
+
+/// A line of runs.csv with its line break; equal results give equal bytes.
+std::string to_line(const Key& key, const Result& result);
+/// The whole file: what made it, the columns' names, all lines in order.
+std::string to_file(const Results& results);
+
+struct ReadResults {
+  Results results;
+  bool torn = false;  ///< the last line was not whole, and is left out
+};
+/// A file of another version, a damaged line and two results for one run are errors, which name the
+/// file and the line. An absent file has no results.
+tl::expected<ReadResults, std::string> read_results(const std::filesystem::path& path);
+
+/// Adds what was read from a file to the results. The error names a run for which both say
+/// something else, or which was made by another definition.
+tl::expected<void, std::string> merge(Results& into, const Results& from, const std::string& name);
+
+}  // namespace supercoil::host_sim::compare

@@ -1,0 +1,39 @@
+// The results of all seeds together: compare.csv and a table to read.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/result.hpp"
+#include "compare/statistics.hpp"
+
+namespace supercoil::host_sim::compare {
+
+/// A controller in an arithmetic, against one disturbance.
+struct Row {
+  std::string controller;
+  std::string disturbance;
+  std::string arithmetic;
+  std::array<std::optional<Statistics>, measures.size()> statistics;
+  long faults = 0;  ///< runs in which one latched
+
+  /// For tables: the arithmetic only where it is not double.
+  std::string contender() const {
+    return arithmetic == "double" ? controller : controller + " " + arithmetic;
+  }
+};
+
+/// In the order of the built-in controllers and disturbances, others after them.
+std::vector<Row> table_of(const Results& results);
+
+/// controller,disturbance,arithmetic,measure,runs,mean,ci95_low,ci95_high,worst,goal,met.
+std::string to_csv(const std::vector<Row>& table);
+/// Markdown: a table a measure, mean ± half of the 95 % interval (worst), in µm and s.
+std::string to_markdown(const std::vector<Row>& table);
+
+/// What a controller is built to reach, in the measure's unit; empty where nothing was set.
+std::optional<double> goal_of(const Row& row, std::string_view measure);
+
+}  // namespace supercoil::host_sim::compare

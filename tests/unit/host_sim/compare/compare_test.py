@@ -1,0 +1,175 @@
+"""supercoil-sim compare as a user meets it: the same bytes whatever the jobs, resumed, in parts, and damaged."""
+
+import csv
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = os.environ["SUPERCOIL_SIM"]
+# Two cells of two seeds, short, each with an event.
+BRIEF = "[simulation]\nduration_s = 30.0\n[[event]]\nat_s = 25.0\nplant.stiffness_N_per_m = 12.0\n"
+CELLS = ["--controllers", "pi,mrac-a", "--disturbances", "brief.toml", "--seeds", "2", "--no-plot"]
+
+
+class Compare(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+        (self.path / "brief.toml").write_text(BRIEF)
+
+    def compare(self, *arguments, status=0):
+        done = subprocess.run([PROGRAM, "compare", *map(str, arguments)], capture_output=True, text=True,
+                              cwd=self.path, timeout=300)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def files(self, folder):
+        return {file.name: file.read_bytes() for file in (self.path / folder).iterdir()}
+
+    def whole(self):
+        self.compare(*CELLS, "--out", "whole", "--jobs", 1)
+        return self.files("whole")
+
+    def test_the_same_bytes_whatever_the_jobs(self):
+        whole = self.whole()
+        self.assertEqual(sorted(whole), ["compare.csv", "compare.md", "runs.csv"])
+        self.compare(*CELLS, "--out", "two", "--jobs", 2)
+        self.assertEqual(self.files("two"), whole)
+
+    def test_a_run_through_run_gives_the_same_figures(self):
+        self.whole()
+        text = BRIEF + "[controller]\nkind = 'pi'\n[estimator]\nkind = 'none'\n"
+        (self.path / "s.toml").write_text(text.replace("[simulation]", "[simulation]\nseed = 2"))
+        subprocess.run([PROGRAM, "run", "s.toml", "--window", "20:25", "--out", "run", "--no-plot", "--no-trace"],
+                       check=True, cwd=self.path, capture_output=True)
+        summary = (self.path / "run/summary.json").read_text()
+        with open(self.path / "whole/runs.csv") as file:
+            next(file)
+            row, = [row for row in csv.DictReader(file) if (row["controller"], row["seed"]) == ("pi", "2")]
+        self.assertIn(row["steady_rms_m"][:15], summary)
+
+    def test_statistics_are_of_the_runs(self):
+        self.whole()
+        with open(self.path / "whole/runs.csv") as file:
+            next(file)
+            peaks = [float(row["peak_m"]) for row in csv.DictReader(file) if row["controller"] == "mrac-a"]
+        with open(self.path / "whole/compare.csv") as file:
+            self.assertIn("95 %", next(file))
+            row, = [row for row in csv.DictReader(file) if (row["controller"], row["measure"]) == ("mrac-a", "peak_m")]
+        mean = sum(peaks) / 2
+        half = 12.7062 * abs(peaks[0] - peaks[1]) / 2  # Student's t of one degree of freedom
+        self.assertAlmostEqual(float(row["mean"]), mean, delta=1e-5 * mean)
+        self.assertAlmostEqual(float(row["worst"]), max(peaks), delta=1e-5 * mean)
+        self.assertAlmostEqual(float(row["ci95_high"]), mean + half, delta=1e-5 * mean)
+        self.assertAlmostEqual(float(row["ci95_low"]), mean - half, delta=1e-5 * mean)
+
+    def test_it_goes_on_after_it_was_killed(self):
+        whole = self.whole()
+        for number in (signal.SIGKILL, signal.SIGINT):
+            out = self.path / number.name
+            with subprocess.Popen([PROGRAM, "compare", *CELLS, "--out", out, "--jobs", "1"], cwd=self.path,
+                                  stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as running:
+                while not (out / "runs.csv").is_file() or (out / "runs.csv").read_text().count("\n") < 3:
+                    self.assertIsNone(running.poll(), "it ended before a run had")
+                    time.sleep(0.001)
+                running.send_signal(number)
+                said = running.communicate()[1]
+            if running.returncode == 130:
+                self.assertIn("the same command goes on from there", said)
+            self.assertIn("are already in", self.compare(*CELLS, "--out", out).stderr)
+            self.assertEqual(self.files(out), whole)
+
+    def test_only_what_is_missing_is_run_again(self):
+        whole = self.whole()
+        runs = self.path / "whole/runs.csv"
+        lines = runs.read_text().splitlines(keepends=True)
+        runs.write_text("".join(lines[:-1]) + lines[-1][:20])
+        said = self.compare(*CELLS, "--out", "whole").stderr
+        self.assertIn("its last line is torn; that run is repeated", said)
+        self.assertIn("3 of 4 runs are already in", said)
+        self.assertEqual(self.files("whole"), whole)
+
+    def test_parts_merged_are_the_whole(self):
+        whole = self.whole()
+        for part in (1, 2, 3):
+            self.compare(*CELLS, "--out", f"part{part}", "--shard", f"{part}/3")
+        parts = [f"part{part}/runs.csv" for part in (3, 1, 2)]
+        self.compare("--merge", *parts, "--out", "merged", "--no-plot")
+        self.assertEqual(self.files("merged"), whole)
+
+    def damaged(self, old, new, message):
+        self.whole()
+        runs = self.path / "whole/runs.csv"
+        text = runs.read_text()
+        self.assertIn(old, text)
+        runs.write_text(text.replace(old, new, 1))
+        before = self.files("whole")
+        self.assertIn(message, self.compare(*CELLS, "--out", "whole", status=2).stderr)
+        self.assertEqual(self.files("whole"), before)
+
+    def test_a_damaged_line_is_told_with_its_number(self):
+        self.damaged(",double,1,", ",double,x,", "runs.csv:3: is damaged")
+
+    def test_another_version_is_refused(self):
+        self.damaged("# supercoil-sim ", "# supercoil-sim 9", "runs.csv:1: is not of this version")
+
+    def test_another_definition_is_refused(self):
+        self.whole()
+        (self.path / "brief.toml").write_text(BRIEF.replace("12.0", "13.0"))
+        said = self.compare(*CELLS, "--out", "whole", status=2).stderr
+        self.assertIn("runs.csv: its pi with brief was made by another definition", said)
+        self.compare(*CELLS, "--out", "other")
+        said = self.compare("--merge", "whole/runs.csv", "other/runs.csv", "--out", "merged", status=2).stderr
+        self.assertIn("gave something else before", said)
+        self.assertFalse((self.path / "merged").exists())
+
+    def test_what_cannot_be_chosen_is_refused_before_anything_is_written(self):
+        for arguments, message in [
+                (["--controllers", "pid"], "--controllers pid: must be a .toml file or one of: pi, pd_ff, "),
+                (["--disturbances", "stiffness+x"], "--disturbances stiffness+x: after + must come seconds"),
+                (["--disturbances", "none.toml"], "none.toml: there is no such file"),
+                (["--arithmetic", "half"], "--arithmetic half: must be one of: double, float, q8.24"),
+                (["--seeds", "0"], "--seeds 0: must be 1 to 100000"),
+                (["--shard", "3/2"], "--shard 3/2: must be I/N with 1 <= I <= N"),
+                (["--shard", "half"], "half: must be I/N"),
+                (["--merge", "none.csv"], "none.csv: there is no such file")]:
+            with self.subTest(arguments):
+                self.assertIn(message, self.compare(*arguments, "--out", "out", status=2).stderr)
+                self.assertFalse((self.path / "out").exists())
+
+    def test_what_fixed_point_cannot_hold_is_left_out(self):
+        said = self.compare("--controllers", "pi,mrac-c", "--disturbances", "brief.toml", "--arithmetic",
+                            "double,q8.24", "--seeds", "1", "--no-plot", "--out", "out").stderr
+        self.assertIn("left out: ", said)
+        self.assertIn("the covariance of mrac_ls does not fit q8.24", said)
+        text = (self.path / "out/runs.csv").read_text()
+        self.assertIn("pi,brief,q8.24,1,", text)
+        self.assertNotIn("mrac-c,brief,q8.24", text)
+
+    def test_a_fault_is_counted_and_the_muscle_not_followed(self):
+        (self.path / "broken.toml").write_text(BRIEF.replace("plant.stiffness_N_per_m = 12.0", "trouble.heater_open = true"))
+        self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--no-plot", "--out", "out")
+        with open(self.path / "out/runs.csv") as file:
+            next(file)
+            row, = csv.DictReader(file)
+        self.assertEqual((row["fault"], row["peak_m"], row["settling_s"]), ("heater_open", "inf", "inf"))
+        self.assertIn("∞", (self.path / "out/compare.md").read_text())
+
+    def test_a_later_disturbance_has_later_windows(self):
+        self.compare("--controllers", "pi", "--disturbances", "brief.toml+5", "--seeds", "1", "--no-plot", "--out", "out")
+        self.assertIn("pi,brief+5,double,1,", (self.path / "out/runs.csv").read_text())
+
+    def test_list_names_all(self):
+        listed = self.compare("--list").stdout
+        for name in ("adaptive_ff", "mrac-c", "far_start", "settling_s"):
+            self.assertIn(name, listed)
+        self.assertFalse((self.path / "supercoil-out").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -19,6 +19,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = ROOT / "build" / "hil"
+IMAGE = ROOT / "build" / "image"
 PROGRAMS = ROOT / "build" / "arm64" / "bin"
 
 # How a run ended, when not by its script.
@@ -35,6 +36,9 @@ class Settings:
     watchdog: bool = False  # an i6300esb: /dev/watchdog; not fed, it switches the board off
     can: bool = False  # can0 and can1, on one bus
     system: bool = False  # Debian's systemd from a disk, with supercoild as its service
+    image: pathlib.Path | None = None  # boots this card by U-Boot instead (image.py); what is written stays
+    write_log: pathlib.Path | None = None  # records what the board writes to its card (write_log.py)
+    cpus: int = 1  # several only with free_running: counted instructions need one
     free_running: bool = False  # the guest's time is the host's: latencies then mean nothing
     instruction_shift: int = 3  # an instruction lasts 2^shift ns of the guest's time
     kernel_options: str = ""
@@ -56,12 +60,9 @@ def qemu_command(settings):
         "-icount", f"shift={settings.instruction_shift},align=off,sleep=off", "-rtc", "base=2026-01-01,clock=vm"]
     exchange = settings.share / ".rig"
     command = [
-        "qemu-system-aarch64", "-M", "virt,gic-version=3", "-accel", "tcg", "-cpu", "cortex-a53", "-smp", "1",
+        "qemu-system-aarch64", "-M", "virt,gic-version=3", "-accel", "tcg", "-cpu", "cortex-a53", "-smp", str(settings.cpus),
         "-m", "512", "-nodefaults", "-no-user-config", "-nographic", "-monitor", "none", "-no-reboot", "-net", "none",
-        *clock, "-serial", "stdio", "-kernel", str(BUILD / "vmlinuz"), "-initrd", str(BUILD / "initramfs.cpio"),
-        # Without kaslr the kernel keeps its own page tables in system calls, and QEMU its cache of them:
-        # a run costs this machine half, and repeats.
-        "-append", f"console=ttyAMA0 quiet panic=-1 nokaslr mitigations=off {settings.kernel_options}",
+        *clock, "-serial", "stdio", *start_command(settings),
         "-fsdev", f"local,id=share,path={settings.share},security_model=none",
         "-device", "virtio-9p-pci,fsdev=share,mount_tag=share",
         "-fsdev", f"local,id=programs,path={PROGRAMS},security_model=none,readonly=on",
@@ -79,6 +80,20 @@ def qemu_command(settings):
     if settings.can:
         command += ["-object", "can-bus,id=bus", "-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
     return command
+
+
+def start_command(settings):
+    """What the board boots from, and by what."""
+    if settings.image:
+        card = f"driver=file,node-name=file,filename={settings.image}"
+        top = "driver=raw,node-name=card,file=file"
+        if settings.write_log:
+            top = f"driver=blklogwrites,node-name=card,file=file,log.driver=file,log.filename={settings.write_log}"
+        return ["-bios", str(IMAGE / "u-boot.bin"), "-blockdev", card, "-blockdev", top, "-device", "virtio-blk-pci,drive=card"]
+    return ["-kernel", str(BUILD / "vmlinuz"), "-initrd", str(BUILD / "initramfs.cpio"),
+            # Without kaslr the kernel keeps its own page tables in system calls, and QEMU its cache of them:
+            # a run costs this machine half, and repeats.
+            "-append", f"console=ttyAMA0 quiet panic=-1 nokaslr mitigations=off {settings.kernel_options}"]
 
 
 def fill_share(settings, script, arguments):
@@ -129,6 +144,8 @@ def run(script, arguments=(), settings=None):
     for needed in (BUILD / "vmlinuz", BUILD / "initramfs.cpio", PROGRAMS, *([BUILD / "system.ext4"] if settings.system else [])):
         if not needed.exists():
             raise FileNotFoundError(f"{needed} is missing: run tests/hil/prepare")
+    if settings.image and not (IMAGE / "u-boot.bin").exists():
+        raise FileNotFoundError(f"{IMAGE} is missing: run toolchain/image")
     with alone_in(settings.share):
         fill_share(settings, pathlib.Path(script), [str(argument) for argument in arguments])
         return boot(settings)

@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""The image that toolchain/image makes, on the emulated board: from power-on to a disarmed, reporting board without
+anybody, then on command over CAN to a tracking muscle; and what it says to a wrong key in its text file.
+
+Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
+
+    .venv/bin/python tests/hil/image_test.py [--track SECONDS]
+"""
+
+import argparse
+import dataclasses
+import re
+import sys
+
+import image
+import rig
+import telemetry_test
+import witness
+from table import Table
+
+BIT_RATE = 250000
+POWER_ON_S = 1767225600  # 2026-01-01 UTC, where the board's date begins (rig.py)
+CENTRE_M, AMPLITUDE_M = 0.010, 0.003
+
+
+def board_toml():
+    """The rig's board on a CAN bus; its watchdog waits for this processor's starts."""
+    text = (rig.HERE / "board.toml").read_text()
+    text = text.replace('name = "rig"', 'name = "Rig no. 1"').replace("timeout_s = 5.0", "timeout_s = 30.0")
+    return f'{text}\n[can]\ninterface = "can0"\nbit_rate = {BIT_RATE}\n'
+
+
+def said(run, pattern):
+    return re.findall(pattern, run.console.replace("\r", ""), re.M)
+
+
+def judge_start(table, run, frames):
+    table.row("the script ended with", run.status, 0, 0, "")
+    status = [(time, signals) for time, node, message, signals in frames if message.name == "Status" and node == 1]
+    # The board's clock is set by its RTC, to the second.
+    table.row("power-on to the first heartbeat on the bus", status[0][0] - POWER_ON_S, 1, 60, "s")
+    table.row("    which says disarmed", str(status[0][1]["state"]) == "disarmed", 1, 1, "")
+    table.row("    nodes heard", len({node for _, node, message, _ in frames if message.name == "Status"}), 2, 2, "")
+    table.row("units that failed", len(said(run, r"^failed (.+)")), 0, 0, "")
+    table.row("the host's name is the board's", said(run, r"^host (.*)") == ["rig-no-1"], 1, 1, "")
+    table.row("bit rate of can0", int(said(run, r"^can0 bit_rate (\d+)")[0]), BIT_RATE, BIT_RATE, "")
+    table.row("its queue", int(said(run, r"^can0 queue (\d+)")[0]), 100, 100, "")
+    table.row("the kernel is real-time", "PREEMPT_RT" in said(run, r"^kernel (.*)")[0], 1, 1, "")
+    table.row("root read, learned written", sorted(said(run, r"^mount (.*)")) == ["/ ro", "/var/lib/supercoil rw"], 1, 1, "")
+    table.row("    the root can be written", len(said(run, r"^the root can be written")), 0, 0, "")
+
+
+def judge_tracking(table, run, frames):
+    marks, _ = witness.said(run.console)
+    table.row("over CAN: armed and identified after", marks["identified"] - marks["disarmed"], 50, 120, "s")
+    looks = witness.looks(run.witness)
+    half_s = (marks["identified"] + marks["tracked"]) / 2
+    positions = [look.channels[0].position_m for look in looks if half_s <= look.time_s <= marks["tracked"]]
+    table.row("tracking a sine of 10 s: the muscle's lowest", min(positions) * 1e3, 6.5, 7.5, "mm")
+    table.row("    and highest position", max(positions) * 1e3, 12.5, 13.5, "mm")
+    table.row("    power a second after disarm", looks[-1].channels[0].power_W, 0, 0, "W")
+    table.row("faults told on the bus", sum(message.name == "Status" and str(signals["state"]) == "fault"
+                                            for _, _, message, signals in frames), 0, 0, "")
+    table.row("what it learned is kept", len(said(run, r"^kept learned-1.toml$")), 1, 1, "")
+
+
+def judge_again(table, run):
+    table.row("the next power-on: the script ended with", run.status, 0, 0, "")
+    table.row("    what it learned is there", len(said(run, r"^kept learned-1.toml$")), 1, 1, "")
+    table.row("    supercoild runs", said(run, r"^service (\w+)") == ["active"], 1, 1, "")
+
+
+def judge_four(table, run):
+    table.row("with four CPUs: the script ended with", run.status, 0, 0, "")
+    table.row("    isolated is the last", said(run, r"^isolated (.*)") == ["3"], 1, 1, "")
+    table.row("    and has the loop, which is one thread", said(run, r"^allowed (.*)").count("3"), 1, 1, "")
+
+
+def judge_refused(what, message):
+    def judge(table, run):
+        console = run.console.replace("\r", "")
+        table.row(f"{what}: the script ended with", run.status, 0, 0, "")
+        before = console.split("rig: script begins")[0]
+        table.row("    the console says so", bool(re.search(message, before)), 1, 1, "")
+        table.row("    and the journal", bool(re.search(rf"^journal .*{message}", console, re.M)), 1, 1, "")
+        table.row("    supercoild does not run", said(run, r"^service (\w+)") == ["inactive"], 1, 1, "")
+        table.row("    failed is", said(run, r"^failed (.*)")[0].split() == ["supercoil-set-up.service"], 1, 1, "")
+        table.row("    frames from it", int(said(run, r"^frames (\d+)")[0]), 0, 0, "")
+        table.row("    most duty ever", max(channel.duty for look in witness.looks(run.witness) for channel in look.channels), 0, 0, "")
+    return judge
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--track", metavar="SECONDS", type=int, default=30, help="of the board's time (default: 30)")
+    wish = parser.parse_args()
+    table = Table()
+    try:
+        card = image.prepared("image_test")
+    except OSError as error:
+        sys.exit(f"image_test: {error}")
+    share = rig.BUILD / "image_test"
+    (share / "can.log").unlink(missing_ok=True)
+    settings = rig.Settings(share=share, watchdog=True, can=True, image=card, time_out_s=1200.0)
+
+    image.put_board(card, board_toml())
+    run = image.run("image", (wish.track,), settings)
+
+    def judge(table, run):
+        frames = list(telemetry_test.decoded(telemetry_test.protocol(), (share / "can.log").read_text()))
+        judge_start(table, run, frames)
+        judge_tracking(table, run, frames)
+    table.judge("image", judge, run)
+    table.judge("again", judge_again, image.run("image", (0,), settings))
+
+    table.judge("four CPUs", judge_four, image.run("image", (0,), dataclasses.replace(settings, cpus=4, free_running=True)))
+
+    for what, text, message in (
+            ("a wrong key", board_toml().replace("bit_rate", "bitrate"), r"board\.toml:\d+: can\.bitrate = 250000: .* bit_rate\?"),
+            ("no file", None, r"there is no board\.toml on the boot partition")):
+        image.put_board(card, text)
+        table.judge(what, judge_refused(what, message), image.run("image", (0,), settings))
+    table.end()
+
+
+if __name__ == "__main__":
+    main()

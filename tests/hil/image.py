@@ -1,7 +1,8 @@
 """A copy of the image that toolchain/image made, as a card for the emulated board (rig.Settings.image).
 
-The copy gets the rig's two services and three empty folders; nothing that the image has is changed. So what is tried is
-the image: its boot loader, kernel, set-up and service. The configuration is put on it as on a PC: into its FAT partition.
+The copy gets the rig's two services and three empty folders, and no login on its console, which is the script's; nothing
+else is changed. So what is tried is the image: its boot loader, kernel, set-up and service. The configuration is put on it
+as on a PC: into its FAT partition.
 """
 
 import pathlib
@@ -29,7 +30,8 @@ def prepared(name):
         raise FileNotFoundError(f"{FILE} is missing: run toolchain/image")
     card = rig.BUILD / f"{name}.img"
     subprocess.run(["cp", "--sparse=always", FILE, card], check=True)
-    orders = ["mkdir /rig", "mkdir /share", "mkdir /programs"]
+    orders = ["mkdir /rig", "mkdir /share", "mkdir /programs",
+              "symlink /etc/systemd/system/serial-getty@ttyAMA0.service /dev/null"]
     for service in SERVICES:
         orders += [f"write {rig.HERE / 'guest' / service} /etc/systemd/system/{service}",
                    f"symlink /etc/systemd/system/multi-user.target.wants/{service} ../{service}"]

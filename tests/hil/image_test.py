@@ -110,15 +110,15 @@ def main():
         judge_start(table, run, frames)
         judge_tracking(table, run, frames)
     table.judge("image", judge, run)
-    table.judge("again", judge_again, image.run("image", (0,), settings))
-
-    table.judge("four CPUs", judge_four, image.run("image", (0,), dataclasses.replace(settings, cpus=4, free_running=True)))
-
     for what, text, message in (
             ("a wrong key", board_toml().replace("bit_rate", "bitrate"), r"board\.toml:\d+: can\.bitrate = 250000: .* bit_rate\?"),
             ("no file", None, r"there is no board\.toml on the boot partition")):
         image.put_board(card, text)
         table.judge(what, judge_refused(what, message), image.run("image", (0,), settings))
+    image.put_board(card, board_toml())
+    table.judge("again", judge_again, image.run("image", (0,), settings))
+
+    table.judge("four CPUs", judge_four, image.run("image", (0,), dataclasses.replace(settings, cpus=4, free_running=True)))
     table.end()
 
 

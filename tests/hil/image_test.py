@@ -100,7 +100,7 @@ def main():
         sys.exit(f"image_test: {error}")
     share = rig.BUILD / "image_test"
     (share / "can.log").unlink(missing_ok=True)
-    settings = rig.Settings(share=share, watchdog=True, can=True, image=card, time_out_s=1200.0)
+    settings = rig.Settings(share=share, watchdog=True, can=True, image=card, time_out_s=3600.0)
 
     image.put_board(card, board_toml())
     run = image.run("image", (wish.track,), settings)

@@ -37,7 +37,6 @@ class Settings:
     can: bool = False  # can0 and can1, on one bus
     system: bool = False  # Debian's systemd from a disk, with supercoild as its service
     image: pathlib.Path | None = None  # boots this card by U-Boot instead (image.py); what is written stays
-    write_log: pathlib.Path | None = None  # records what the board writes to its card (write_log.py)
     cpus: int = 1  # several only with free_running: counted instructions need one
     free_running: bool = False  # the guest's time is the host's: latencies then mean nothing
     instruction_shift: int = 3  # an instruction lasts 2^shift ns of the guest's time
@@ -85,11 +84,8 @@ def qemu_command(settings):
 def start_command(settings):
     """What the board boots from, and by what."""
     if settings.image:
-        card = f"driver=file,node-name=file,filename={settings.image}"
-        top = "driver=raw,node-name=card,file=file"
-        if settings.write_log:
-            top = f"driver=blklogwrites,node-name=card,file=file,log.driver=file,log.filename={settings.write_log}"
-        return ["-bios", str(IMAGE / "u-boot.bin"), "-blockdev", card, "-blockdev", top, "-device", "virtio-blk-pci,drive=card"]
+        card = f"driver=raw,node-name=card,file.driver=file,file.filename={settings.image}"
+        return ["-bios", str(IMAGE / "u-boot.bin"), "-blockdev", card, "-device", "virtio-blk-pci,drive=card"]
     return ["-kernel", str(BUILD / "vmlinuz"), "-initrd", str(BUILD / "initramfs.cpio"),
             # Without kaslr the kernel keeps its own page tables in system calls, and QEMU its cache of them:
             # a run costs this machine half, and repeats.

@@ -1,8 +1,13 @@
-// Any controller closed over the paper's muscle, seen by a noisy sensor of 16 bits.
+// Any controller and estimator, closed over the paper's muscle, seen by a noisy sensor of 16 bits.
 #pragma once
+
+#include <optional>
 
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/normal_distribution.hpp>
+
+#include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/tracking/controller.hpp"
 
 #include "unit/control/support/muscle.hpp"
 
@@ -18,6 +23,8 @@ struct NoisyLoop {
   static constexpr double step_s = 1e-3;
 
   control::ControllerSettings controller;
+  std::optional<control::EstimatorSettings> estimator{};
+  control::Estimate believed{};  ///< if settled, what the controller has long learned at the start
   double noise_rms_m = 10e-6;
   double soft_from_s = 1e9;  ///< from then on the stiffness is 12 N/m
   double (*reference_m)(double) = paper_sine_m;
@@ -27,6 +34,10 @@ struct NoisyLoop {
   void run(double duration_s, See see) const {
     constexpr double count_m = 0.040 / 65536;
     control::Controller law(controller, step_s);
+    std::optional<control::Estimator> learning;
+    if (estimator) learning.emplace(*estimator, step_s);
+    for (int k = 0; believed.settled && k < 30'000; ++k)
+      law.learn(believed);
     boost::random::mt19937 source(1);
     boost::random::normal_distribution<double> noise(0.0, noise_rms_m);
     control::PhysicalParameters truth;
@@ -42,6 +53,10 @@ struct NoisyLoop {
       }
       const double seen_m =
           std::nearbyint((muscle.position_m() + noise(source)) / count_m) * count_m;
+      if (learning) {
+        learning->step(seen_m, power_W);
+        law.learn(*learning->estimate());
+      }
       const auto out = law.step({.reference_m = reference_m(time_s),
                                  .position_m = seen_m,
                                  .applied_power_W = power_W,

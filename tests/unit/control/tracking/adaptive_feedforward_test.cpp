@@ -2,146 +2,61 @@
 #include "supercoil/control/tracking/adaptive_feedforward.hpp"
 
 #include <CppUTest/TestHarness.h>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/normal_distribution.hpp>
 
-#include "supercoil/control/estimation/estimator.hpp"
-#include "supercoil/control/tracking/controller.hpp"
-
-#include "unit/control/support/muscle.hpp"
+#include "unit/control/support/noisy_loop.hpp"
 
 using namespace supercoil::control;
+using supercoil::test::NoisyLoop;
 
 namespace {
 
-/// 5, 15, 8 and 20 mm, 20 s each.
-double steps_m(double time_s) {
-  constexpr std::array<double, 4> levels_m{0.005, 0.015, 0.008, 0.020};
-  return levels_m[static_cast<std::size_t>(time_s / 20.0) % levels_m.size()];
+/// first_part: of the true θ: what estimator and feedforward begin with.
+NoisyLoop feedforward_loop(double first_part = 1.0) {
+  NoisyLoop loop;
+  loop.controller.kind = ControllerKind::adaptive_ff;
+  loop.controller.model = design_model();
+  EstimatorSettings estimator;
+  estimator.kind = EstimatorKind::least_squares;
+  estimator.least_squares.initial *= first_part;
+  loop.estimator = estimator;
+  loop.believed = {.theta = estimator.least_squares.initial, .settled = true};
+  return loop;
 }
-
-struct Loop {
-  double first_part = 1.0;   ///< of the true θ: what estimator and feedforward begin with
-  double soft_from_s = 1e9;  ///< from then on the stiffness is 12 N/m
-  double (*reference_m)(double) = supercoil::test::paper_sine_m;
-  Arithmetic arithmetic = Arithmetic::float64;
-
-  /// see(time_s, true error in µm) at each tick.
-  template <class See>
-  void run(double duration_s, See see) const {
-    ControllerSettings c;
-    c.kind = ControllerKind::adaptive_ff;
-    c.arithmetic = arithmetic;
-    c.model = design_model();
-    EstimatorSettings e;
-    e.kind = EstimatorKind::least_squares;
-    e.least_squares.initial *= first_part;
-    Controller controller(c, step_s);
-    Estimator estimator(e, step_s);
-    const Estimate first{.theta = e.least_squares.initial, .settled = true};
-    for (int k = 0; k < 30'000; ++k)  // until its θ̄ is there
-      controller.learn(first);
-
-    boost::random::mt19937 source(1);
-    boost::random::normal_distribution<double> noise(0.0, 10e-6);
-    PhysicalParameters truth;
-    supercoil::test::Muscle muscle(truth, step_s);
-    const PowerRange range;
-    double power_W = 0.0;
-    bool limited = false;
-    for (long k = 0; k < std::lround(duration_s / step_s); ++k) {
-      const double time_s = static_cast<double>(k) * step_s;
-      if (k == std::lround(soft_from_s / step_s)) {
-        truth.stiffness_N_per_m = 12.0;
-        muscle.change(truth);
-      }
-      const double seen_m =
-          std::nearbyint((muscle.position_m() + noise(source)) / count_m) * count_m;
-      estimator.step(seen_m, power_W);
-      controller.learn(*estimator.estimate());
-      const auto out = controller.step({.reference_m = reference_m(time_s),
-                                        .position_m = seen_m,
-                                        .applied_power_W = power_W,
-                                        .limited = limited});
-      see(time_s, 1e6 * (out.model_m - muscle.position_m()));
-      power_W = range.clip(out.wanted_power_W);
-      limited = power_W != out.wanted_power_W;
-      muscle.step(power_W);
-    }
-  }
-
-  static constexpr double step_s = 1e-3;
-  static constexpr double count_m = 0.040 / 65536;
-};
-
-/// Of the errors within a span of time.
-class Errors {
- public:
-  Errors(double from_s, double to_s) : from_s_(from_s), to_s_(to_s) {}
-  void add(double time_s, double error) {
-    if (time_s < from_s_ || time_s >= to_s_) return;
-    squares_ += error * error;
-    largest_ = std::fmax(largest_, std::abs(error));
-    count_ += 1.0;
-  }
-  double rms() const { return std::sqrt(squares_ / count_); }
-  double largest() const { return largest_; }
-
- private:
-  double from_s_;
-  double to_s_;
-  double squares_ = 0.0;
-  double largest_ = 0.0;
-  double count_ = 0.0;
-};
 
 }  // namespace
 
 TEST_GROUP(AdaptiveFeedforward){};
 
 TEST(AdaptiveFeedforward, FollowsTheSineWithin2MicrometresAndAgainAfterAChange) {
-  Errors before(25.0, 50.0);
-  Errors at_once(50.0, 51.0);
-  Errors soon(51.0, 60.0);
-  Errors after(110.0, 130.0);
-  Loop{.soft_from_s = 50.0}.run(130.0, [&](double time_s, double error_um) {
-    for (Errors* errors : {&before, &at_once, &soon, &after})
-      errors->add(time_s, error_um);
-  });
-  UT_PRINT(StringFromFormat("um: %.2f rms, change %.0f most, then %.0f most, %.2f rms",
-                            before.rms(), at_once.largest(), soon.largest(), after.rms())
-               .asCharString());
-  CHECK(before.rms() <= 2.0);
-  CHECK(after.rms() <= 3.0);
+  NoisyLoop loop = feedforward_loop();
+  loop.soft_from_s = 50.0;
+  const auto um = loop.rms_um<3>({{{25.0, 50.0}, {50.0, 60.0}, {110.0, 130.0}}});
+  UT_PRINT(
+      StringFromFormat("um: %.2f, change %.0f, then %.2f rms", um[0], um[1], um[2]).asCharString());
+  CHECK(um[0] <= 2.0);
+  CHECK(um[1] <= 200.0);
+  CHECK(um[2] <= 3.0);
 }
 
 TEST(AdaptiveFeedforward, FollowsStepsWithin5Micrometres) {
-  Errors late(60.0, 100.0);
-  Loop{.reference_m = steps_m}.run(
-      100.0, [&](double time_s, double error_um) { late.add(time_s, error_um); });
-  UT_PRINT(StringFromFormat("um: %.2f rms", late.rms()).asCharString());
-  CHECK(late.rms() <= 5.0);
+  NoisyLoop loop = feedforward_loop();
+  loop.reference_m = supercoil::test::paper_steps_m;
+  const auto um = loop.rms_um<1>({{{60.0, 100.0}}});
+  UT_PRINT(StringFromFormat("um: %.2f rms", um[0]).asCharString());
+  CHECK(um[0] <= 5.0);
 }
 
 TEST(AdaptiveFeedforward, StartsFrom55PercentOfTheTrueParameters) {
-  Errors first(0.0, 3.0);
-  Errors second(3.0, 10.0);
-  Errors third(10.0, 20.0);
-  Loop{.first_part = 0.55}.run(20.0, [&](double time_s, double error_um) {
-    for (Errors* errors : {&first, &second, &third})
-      errors->add(time_s, error_um);
-  });
-  UT_PRINT(StringFromFormat("um: %.0f, %.0f, %.1f rms", first.rms(), second.rms(), third.rms())
-               .asCharString());
-  CHECK(third.rms() <= 10.0);
+  const auto um = feedforward_loop(0.55).rms_um<3>({{{0.0, 3.0}, {3.0, 10.0}, {10.0, 20.0}}});
+  UT_PRINT(StringFromFormat("um: %.0f, %.0f, %.1f rms", um[0], um[1], um[2]).asCharString());
+  CHECK(um[2] <= 10.0);
 }
 
 TEST(AdaptiveFeedforward, FloatAndFixedPointFollowAsWell) {
+  NoisyLoop loop = feedforward_loop();
   for (const Arithmetic arithmetic : {Arithmetic::float32, Arithmetic::q8_24}) {
-    Errors late(25.0, 40.0);
-    Loop{.arithmetic = arithmetic}.run(
-        40.0, [&](double time_s, double error_um) { late.add(time_s, error_um); });
-    CHECK(late.rms() <= 2.0);
+    loop.controller.arithmetic = arithmetic;
+    CHECK(loop.rms_um<1>({{{25.0, 40.0}}})[0] <= 2.0);
   }
 }
 

@@ -9,7 +9,7 @@ import tempfile
 import time
 import unittest
 
-PROGRAM = os.environ["SUPERCOIL_SIM"]
+PROGRAM = pathlib.Path(os.environ["SUPERCOIL_SIM"]).resolve()
 # Two cells of two seeds, short, each with an event.
 BRIEF = "[simulation]\nduration_s = 30.0\n[[event]]\nat_s = 25.0\nplant.stiffness_N_per_m = 12.0\n"
 CELLS = ["--controllers", "pi,mrac-a", "--disturbances", "brief.toml", "--seeds", "2", "--no-plot"]

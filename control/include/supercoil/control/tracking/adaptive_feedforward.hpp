@@ -3,6 +3,7 @@
 
 #include "supercoil/control/estimation/estimate.hpp"
 #include "supercoil/control/estimation/parametric_model.hpp"
+#include "supercoil/control/tracking/fixed_pid.hpp"
 #include "supercoil/control/tracking/law.hpp"
 
 namespace supercoil::control {
@@ -31,17 +32,11 @@ class AdaptiveFeedforward {
 
   AdaptiveFeedforward(const AdaptiveFeedforwardSettings& s, double step_s)
       : settings_(s),
-        filter_({s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s,
-                 2.0 * s.derivative_filter_rad_per_s, 1.0},
-                step_s),
-        filter_gain_(s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s),
+        pid_(s.scale, s.bandwidth_rad_per_s, s.derivative_filter_rad_per_s, step_s),
         follow_step_(step_s / s.follow_s) {
     const Theta units = s.scale.nominal * s.scale.dc_gain_m_per_W;
     weights_ << Wide(units[0] * s.scale.moving_mass_kg), Wide(units[1]), Wide(units[2]),
         Wide(units[3]), Wide(1);
-    proportional_ = to<Scalar>(s.bandwidth_rad_per_s * units[2]);
-    derivative_ = to<Scalar>(s.bandwidth_rad_per_s * units[1]);
-    integral_step_ = Wide(s.bandwidth_rad_per_s * units[3] * step_s);
     theta_ << Wide(1), Wide(1), Wide(1), Wide(1), Wide{};
   }
 
@@ -56,38 +51,26 @@ class AdaptiveFeedforward {
 
   /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
   void start(const LawStart<Scalar>& at) {
-    filter_.settle(at.position, at.model.velocity);
-    integral_ = Wide{};
-    wanted_ = at.power;
+    pid_.start(at);
     if (!at.hold) return;
     LawInput<Scalar> now;
     now.position = at.position;
     now.model = at.model;
-    integral_ = Wide(at.power - feedforward(now) - feedback(now));
+    pid_.hold(now, at.power, feedforward(now));
   }
 
-  /// Returns the wanted power. The integrator holds while the power is limited, unless the error
-  /// leads out of the limit.
+  /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
-    filter_.step(in.position);
-    const Scalar error = in.model.position - in.position;
-    const bool leads_out = (wanted_ > in.applied) == (error < Scalar(0));
-    if (!in.limited || leads_out) integral_ += Wide(error) * integral_step_;
-    wanted_ = feedforward(in) + feedback(in) + to<Scalar>(integral_);
-    return wanted_;
+    pid_.see(in.position);
+    return pid_.step(in, feedforward(in));
   }
 
-  static constexpr std::size_t gains = 8;
+  static constexpr std::size_t gains = FixedPid<Scalar>::gains + 5;
   GainValue gain(std::size_t i) const {
     const Theta& nominal = settings_.scale.nominal;
     const Vector<double, 5> now = theta_.template cast<double>();
+    if (i < FixedPid<Scalar>::gains) return pid_.gain(i);
     switch (i) {
-      case 0:
-        return {Gain::proportional, settings_.bandwidth_rad_per_s * nominal[2]};
-      case 1:
-        return {Gain::integral, settings_.bandwidth_rad_per_s * nominal[3]};
-      case 2:
-        return {Gain::derivative, settings_.bandwidth_rad_per_s * nominal[1]};
       case 3:
         return {Gain::feedforward, now[3] * nominal[3]};
       case 4:
@@ -112,23 +95,11 @@ class AdaptiveFeedforward {
     return to<Scalar>(theta_.cwiseProduct(weights_).dot(motion));
   }
 
-  Scalar feedback(const LawInput<Scalar>& in) const {
-    const auto velocity = to<Scalar>(filter_.state()[1] * filter_gain_);
-    return (in.model.position - in.position) * proportional_ +
-           (in.model.velocity - velocity) * derivative_;
-  }
-
   AdaptiveFeedforwardSettings settings_;
-  StateVariableFilter<Scalar, 2, Hold::first_order> filter_;
-  Wide filter_gain_;
+  FixedPid<Scalar> pid_;
   Wide follow_step_;
   Parameters weights_;
-  Scalar proportional_{};
-  Scalar derivative_{};
-  Wide integral_step_{};
   Parameters theta_;
-  Wide integral_{};
-  Scalar wanted_{};
 };
 
 }  // namespace supercoil::control

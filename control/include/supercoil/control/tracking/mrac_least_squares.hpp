@@ -6,6 +6,7 @@
 
 #include "supercoil/control/estimation/parametric_model.hpp"
 #include "supercoil/control/estimation/ud_covariance.hpp"
+#include "supercoil/control/tracking/fixed_pid.hpp"
 #include "supercoil/control/tracking/law.hpp"
 #include "supercoil/control/tracking/mrac_matching.hpp"
 
@@ -68,8 +69,7 @@ class MracLeastSquares {
         position_(squared_pole(s.filter_rad_per_s), step_s),
         far_power_(all_poles(s, model), step_s),
         far_position_(all_poles(s, model), step_s),
-        slope_(squared_pole(s.derivative_filter_rad_per_s), step_s),
-        slope_gain_(s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s),
+        pid_(s.scale, s.bandwidth_rad_per_s, s.derivative_filter_rad_per_s, step_s),
         scale_(scale_of(s, model)),
         follow_step_(step_s / s.follow_s),
         forgetting_(to<Scalar>(std::exp(-period_s_ / s.forgetting_s))),
@@ -83,10 +83,6 @@ class MracLeastSquares {
     for (int i = 0; i < 6; ++i)
       inner_[i] = Wide(inner[static_cast<std::size_t>(i)] * gain);
     model_gain_ = Wide(model.gain * gain);
-    const Theta units = s.scale.nominal * s.scale.dc_gain_m_per_W * s.bandwidth_rad_per_s;
-    proportional_ = to<Scalar>(units[2]);
-    derivative_ = to<Scalar>(units[1]);
-    integral_step_ = Wide(units[3] * step_s);
     theta_ = WideParameters::Zero();
     theta_[reference_at] = Wide(first_c0) / scale_[reference_at];
     follower_ = theta_;
@@ -100,45 +96,33 @@ class MracLeastSquares {
     position_.settle(at.position, rate);
     far_power_.settle(at.power, rate);
     far_position_.settle(at.position, rate);
-    slope_.settle(at.position, rate);
-    integral_ = Wide{};
-    wanted_ = at.power;
+    pid_.start(at);
     if (!at.hold) return;
     LawInput<Scalar> now;
     now.reference = at.reference;
     now.position = at.position;
     now.model = at.model;
-    integral_ = Wide(at.power - certain(now) - feedback(now));
+    pid_.hold(now, at.power, certain(now));
   }
 
-  /// Returns the wanted power. The integrator holds while the power is limited, unless the error
-  /// leads out of the limit.
+  /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
     power_.step(in.applied);
     position_.step(in.position);
     far_power_.step(in.applied);
     far_position_.step(in.position);
-    slope_.step(in.position);
+    pid_.see(in.position);
     if (++tick_ == ticks_per_update_) update();
     if (since_change_s() > settings_.hold_s) follower_ += (told() - follower_) * follow_step_;
-
-    const Scalar error = in.model.position - in.position;
-    const bool leads_out = (wanted_ > in.applied) == (error < Scalar(0));
-    if (!in.limited || leads_out) integral_ += Wide(error) * integral_step_;
-    wanted_ = certain(in) + feedback(in) + to<Scalar>(integral_);
-    return wanted_;
+    return pid_.step(in, certain(in));
   }
 
-  static constexpr std::size_t gains = 10;
+  static constexpr std::size_t gains = size + FixedPid<Scalar>::gains;
   GainValue gain(std::size_t i) const {
     constexpr auto first = static_cast<std::size_t>(Gain::power_rate);
-    const Theta& nominal = settings_.scale.nominal;
-    const double bandwidth = settings_.bandwidth_rad_per_s;
     if (i < bias_at) return {static_cast<Gain>(first + i), theta()[static_cast<Eigen::Index>(i)]};
     if (i == bias_at) return {Gain::bias, theta()[bias_at]};
-    if (i == size) return {Gain::proportional, bandwidth * nominal[2]};
-    if (i == size + 1) return {Gain::integral, bandwidth * nominal[3]};
-    return {Gain::derivative, bandwidth * nominal[1]};
+    return pid_.gain(i - size);
   }
 
   /// What the law goes by.
@@ -165,9 +149,10 @@ class MracLeastSquares {
   static WideParameters scale_of(const MracLeastSquaresSettings& s,
                                  const ReferenceModelSettings& model) {
     WideParameters scale = WideParameters::Ones();
-    if (const auto matched = match(s, model))
+    if (const auto matched = match(s, model)) {
       scale.template head<6>() =
           matched->theta.cwiseAbs().cwiseMax(least_scale).template cast<Wide>();
+    }
     return scale;
   }
   /// λ, Wm's denominator, and F's.
@@ -237,12 +222,6 @@ class MracLeastSquares {
     return to<Scalar>(follower_.cwiseProduct(scale_).dot(omega));
   }
 
-  Scalar feedback(const LawInput<Scalar>& in) const {
-    const auto velocity = to<Scalar>(slope_.state()[1] * slope_gain_);
-    return (in.model.position - in.position) * proportional_ +
-           (in.model.velocity - velocity) * derivative_;
-  }
-
   MracLeastSquaresSettings settings_;
   long ticks_per_update_;
   double period_s_;
@@ -250,8 +229,7 @@ class MracLeastSquares {
   StateVariableFilter<Scalar, 2, Hold::first_order> position_;
   StateVariableFilter<Scalar, 7, Hold::zero_order> far_power_;
   StateVariableFilter<Scalar, 7, Hold::first_order> far_position_;
-  StateVariableFilter<Scalar, 2, Hold::first_order> slope_;
-  Wide slope_gain_;
+  FixedPid<Scalar> pid_;
   WideParameters scale_;
   Wide follow_step_;
   Scalar forgetting_;
@@ -260,14 +238,9 @@ class MracLeastSquares {
   Vector<Wide, 3> lambda_;
   Vector<Wide, 6> inner_;  ///< λ and Wm's denominator, times F's gain
   Wide model_gain_{};      ///< Wm's and F's
-  Scalar proportional_{};
-  Scalar derivative_{};
-  Wide integral_step_{};
 
   WideParameters theta_;     ///< over scale_
   WideParameters follower_;  ///< θ̄ over scale_
-  Wide integral_{};
-  Scalar wanted_{};
   long tick_ = 0;
   long updates_ = 0;
   long since_change_ = 0;

@@ -1,0 +1,76 @@
+// A PID of fixed gains, for the errors that a law's own knowledge leaves.
+#pragma once
+
+#include "supercoil/control/estimation/parametric_model.hpp"
+#include "supercoil/control/linear/filter.hpp"
+#include "supercoil/control/tracking/law.hpp"
+
+namespace supercoil::control {
+
+/// Kp e + Kd ė + Ki ∫e, e = xm − x, with Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle:
+/// of the open loop that leaves about ωc/s.
+template <class Scalar>
+class FixedPid {
+ public:
+  using Wide = Accumulator<Scalar>;
+
+  /// bandwidth: ωc. filter: of the derivative of x, twice this pole. step_s: > 0, in seconds.
+  FixedPid(const RegressionScale& scale, double bandwidth_rad_per_s, double filter_rad_per_s,
+           double step_s)
+      : nominal_gains_(scale.nominal * bandwidth_rad_per_s),
+        slope_({filter_rad_per_s * filter_rad_per_s, 2.0 * filter_rad_per_s, 1.0}, step_s),
+        slope_gain_(filter_rad_per_s * filter_rad_per_s) {
+    const Theta units = nominal_gains_ * scale.dc_gain_m_per_W;
+    proportional_ = to<Scalar>(units[2]);
+    derivative_ = to<Scalar>(units[1]);
+    integral_step_ = Wide(units[3] * step_s);
+  }
+
+  /// As if the muscle had long moved as the model does; the integral is zero.
+  void start(const LawStart<Scalar>& at) {
+    slope_.settle(at.position, at.model.velocity);
+    integral_ = Wide{};
+    wanted_ = at.power;
+  }
+  /// What the rest, at the start's motion, leaves of the power to the integral.
+  void hold(const LawInput<Scalar>& at, Scalar power, Scalar rest) {
+    integral_ = Wide(power - rest - feedback(at));
+  }
+
+  /// The wanted power: the rest and this. The integrator holds while the power is limited, unless
+  /// the error leads out of the limit.
+  Scalar step(const LawInput<Scalar>& in, Scalar rest) {
+    const Scalar error = in.model.position - in.position;
+    const bool leads_out = (wanted_ > in.applied) == (error < Scalar(0));
+    if (!in.limited || leads_out) integral_ += Wide(error) * integral_step_;
+    wanted_ = rest + feedback(in) + to<Scalar>(integral_);
+    return wanted_;
+  }
+  /// Before step(), once a tick.
+  void see(Scalar position) { slope_.step(position); }
+
+  static constexpr std::size_t gains = 3;
+  GainValue gain(std::size_t i) const {
+    if (i == 0) return {Gain::proportional, nominal_gains_[2]};
+    if (i == 1) return {Gain::integral, nominal_gains_[3]};
+    return {Gain::derivative, nominal_gains_[1]};
+  }
+
+ private:
+  Scalar feedback(const LawInput<Scalar>& in) const {
+    const auto velocity = to<Scalar>(slope_.state()[1] * slope_gain_);
+    return (in.model.position - in.position) * proportional_ +
+           (in.model.velocity - velocity) * derivative_;
+  }
+
+  Theta nominal_gains_;
+  StateVariableFilter<Scalar, 2, Hold::first_order> slope_;
+  Wide slope_gain_;
+  Scalar proportional_{};
+  Scalar derivative_{};
+  Wide integral_step_{};
+  Wide integral_{};
+  Scalar wanted_{};
+};
+
+}  // namespace supercoil::control

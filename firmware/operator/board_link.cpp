@@ -15,7 +15,7 @@ namespace supercoil::operating {
 /// The last word of the channel's line.
 BoardLink::Answer LocalLink::result(const std::string& channel) {
   const auto lines = state();
-  if (!lines) return lines;
+  if (!lines) return tl::unexpected(lines.error());
   std::istringstream text(*lines);
   for (std::string line; std::getline(text, line);) {
     if (line.starts_with(channel + " ")) return line.substr(line.rfind(' ') + 1);

@@ -47,10 +47,10 @@ int merge_comparisons(const CompareOptions& options) {
       return fail(exit_wrong_input, path + ": there is no such file");
     const auto read = compare::read_results(path);
     if (!read) return fail(exit_wrong_input, read.error());
-    if (read->torn)
-      return fail(exit_wrong_input, path +
-                                        ": its last line is torn: the run was interrupted; go "
-                                        "on with it first");
+    if (read->torn) {
+      return fail(exit_wrong_input,
+                  path + ": its last line is torn: the run was interrupted; go on with it first");
+    }
     const auto merged = compare::merge(results, read->results, path);
     if (!merged) return fail(exit_wrong_input, merged.error());
   }

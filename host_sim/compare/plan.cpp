@@ -15,6 +15,7 @@ namespace {
 
 std::vector<std::string> names_of(const std::vector<BuiltinScenario>& entries) {
   std::vector<std::string> names;
+  names.reserve(entries.size());
   for (const BuiltinScenario& entry : entries)
     names.emplace_back(entry.name);
   return names;
@@ -120,8 +121,9 @@ std::vector<std::string> default_disturbances() {
 
 tl::expected<Plan, std::string> make_plan(const Selection& selection) {
   std::string problems = check(selection);
-  const auto or_all = [](const std::vector<std::string>& chosen, std::vector<std::string> all) {
-    return chosen.empty() ? std::move(all) : chosen;
+  const auto or_all = [](const std::vector<std::string>& chosen,
+                         const std::vector<std::string>& all) {
+    return chosen.empty() ? all : chosen;
   };
   const auto chosen = find_controllers(or_all(selection.controllers, default_controllers()));
   const auto met = find_disturbances(or_all(selection.disturbances, default_disturbances()));

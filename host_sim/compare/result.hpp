@@ -21,7 +21,7 @@ struct Key {
   std::string arithmetic;
   std::uint64_t seed = 0;
 
-  friend auto operator<=>(const Key&, const Key&) = default;
+  friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct Result {

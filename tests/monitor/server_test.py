@@ -182,9 +182,13 @@ class Live(unittest.TestCase):
         stop_port = served.stop_port()
         self.arm(served)
         with contextlib.ExitStack() as crowd:
+            def one_more():
+                return crowd.enter_context(served.open_stream()).recv(12) == b"HTTP/1.1 200"
+
+            # Streams of pages that have just gone count for a moment.
             for _ in range(24):
-                crowd.enter_context(served.open_stream())
-            until(lambda: served.ask("GET", "/api/stream")[0] == 503)
+                until(one_more)
+            until(lambda: not one_more())
             # Nobody is left to serve the page: these say nothing and stay.
             for _ in range(64):
                 crowd.enter_context(socket.create_connection(("127.0.0.1", served.port)))

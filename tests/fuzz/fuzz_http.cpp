@@ -1,7 +1,12 @@
 // What comes to the monitor's page over HTTP: the whole server, a connection for each input.
+#include <cerrno>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
@@ -37,21 +42,14 @@ class Page {
 
   /// The answer's first bytes.
   std::string ask(std::string_view request) const {
-    const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(access_.port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    // Closed at once: thousands of connections a second would use up the ports while they linger.
-    const linger none{1, 0};
-    ::setsockopt(file, SOL_SOCKET, SO_LINGER, &none, sizeof(none));
-    fuzz::require(
-        ::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0,
-        "the page can be reached");
+    const int file = connected();
     ::send(file, request.data(), request.size(), MSG_NOSIGNAL);
     ::shutdown(file, SHUT_WR);
     std::string answer(64, '\0');
-    const ssize_t size = ::recv(file, answer.data(), answer.size(), 0);
+    ssize_t size = -1;
+    do {
+      size = ::recv(file, answer.data(), answer.size(), 0);
+    } while (size < 0 && errno == EINTR);
     answer.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
     ::close(file);
     return answer;
@@ -59,6 +57,32 @@ class Page {
   bool was_asked() const { return asked_; }
 
  private:
+  /// libFuzzer's own timer interrupts a connection now and then, and thousands a second may use up
+  /// the ports for a while.
+  int connected() const {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(access_.port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    int error = 0;
+    for (int tries = 0; tries < 30; ++tries) {
+      const int file = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+      // Closed at once, not lingering.
+      const linger none{1, 0};
+      ::setsockopt(file, SOL_SOCKET, SO_LINGER, &none, sizeof(none));
+      if (::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0)
+        return file;
+      error = errno;
+      ::close(file);
+      if (error == EADDRNOTAVAIL)
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+      else if (error != EINTR)
+        break;
+    }
+    std::fprintf(stderr, "connect: %s\n", std::strerror(error));
+    fuzz::require(false, "the page can be reached");
+    return -1;
+  }
   Hand::OpenBus bus() {
     return [this]() -> tl::expected<std::unique_ptr<hal::CanBus>, std::string> {
       asked_ = true;

@@ -115,9 +115,9 @@ void Keeper::watch(const Row& row) {
     log(fault ? Level::problem : Level::info, text);
   }
   if (row.result != before.result && static_cast<ModeResult>(row.result) > ModeResult::found) {
-    log(Level::warning, "channel " + std::to_string(row.channel + 1) +
-                            " found nothing to keep: " + recorder::result_name(row.result) + " (" +
-                            recorder::mode_name(before.mode) + ")");
+    log(Level::warning, "channel " + std::to_string(row.channel + 1) + ": " +
+                            recorder::mode_name(before.mode) +
+                            " ended, nothing is stored: " + recorder::result_name(row.result));
   }
   before = row;
 }

@@ -7,7 +7,7 @@
 
 namespace supercoil {
 
-/// Of the last time that either was asked for. Whatever is not found changes nothing.
+/// Of the last time that either was asked for. All but found and not_stored changes nothing.
 enum class ModeResult : std::uint8_t {
   none = 0,           ///< never, since the start
   running = 1,        ///< it has not ended yet

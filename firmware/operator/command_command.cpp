@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "loop/command_text.hpp"
 #include "operator/board_link.hpp"
 #include "operator/commands.hpp"
 #include "operator/interrupted.hpp"
@@ -64,10 +65,17 @@ std::string line_at(const CommandOptions& options, double time_s) {
   return joined({options.words[0], options.words[1], text.data()});
 }
 
-/// Identify or calibrate is over: how.
+/// A mode ended by itself, or was ended: of identify and calibrate, how.
 int ended(BoardLink& board, const CommandOptions& options) {
+  if (options.words[1] != name(Verb::identify) && options.words[1] != name(Verb::calibrate))
+    return exit_done;
   const std::string line = joined(options.words);
-  const auto result = board.result(options.words[0]);
+  auto result = board.result(options.words[0]);
+  // What is told of the board's state may be a moment older than its refusal.
+  for (int i = 0; result && *result == "running" && i < 10; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    result = board.result(options.words[0]);
+  }
   if (options.json) {
     nlohmann::ordered_json told{{"command", line}};
     told[result ? "result" : "error"] = result ? *result : result.error();
@@ -89,8 +97,8 @@ int hold(BoardLink& board, const CommandOptions& options) {
     const std::string line =
         first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
     const auto answer = board.ask(line);
-    // A mode that ends by itself is not renewed any more.
-    if (answer && !first && !renews_itself && *answer != "ok") return ended(board, options);
+    const bool is_over = answer && *answer == answer_text(Refusal::wrong_state);
+    if (is_over && !first && !renews_itself) return ended(board, options);
     if (!answer || *answer != "ok") return concluded(options, line, answer);
     if (interrupted != 0 || time_s >= options.hold_s) break;
     next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);

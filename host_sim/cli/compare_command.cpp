@@ -108,7 +108,7 @@ int compare_command(const CompareOptions& options) {
   if (const auto kept = folder->commit(); !kept) return fail(exit_failed, kept.error());
   std::ofstream file(path, std::ios::binary | std::ios::app);
   catch_interrupts();
-  const bool complete = run_all(*plan, *todo, results, file, options);
+  const bool complete = todo->empty() || run_all(*plan, *todo, results, file, options);
   if (!file) return fail(exit_failed, path.string() + ": cannot be written");
   if (!complete) {
     return fail(exit_interrupted, "interrupted; " + std::to_string(results.size()) +

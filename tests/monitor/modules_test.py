@@ -52,6 +52,13 @@ class ModulesTest(unittest.TestCase):
         self.assertEqual(points[2], 1000)
         self.assertAlmostEqual(points[3] / 1000, 123457 / 360000, delta=0.002)
 
+    def test_numbered_children_stand_in_order_however_they_come(self):
+        self.assertEqual(self.ask("""const { place } = await import("/dom.js");
+            const page = document.implementation.createHTMLDocument();
+            const list = page.createElement("ul");
+            for (const number of [30, 2, 100, 10]) place(list, number, page.createElement("li"));
+            return [...list.children].map((child) => Number(child.dataset.number));"""), [2, 10, 30, 100])
+
     def test_points_of_a_pixel_come_in_their_order(self):
         self.assertEqual(self.ask("""const table = full(0, 4, (i) => [5, 4, 1, 2][i]);
             return decimate(table, ["v"], 0, 0.04, 1, 1)[0];"""), [5, 1])

@@ -167,6 +167,15 @@ class PageTest(PageCase):
         self.assertEqual(page.find(".value input").get_attribute("value"), str(TARGET_MM))
         page.wait(lambda: "stopped node" in page.text("#stop-notice"), STOP_S, "stop is confirmed")
 
+    def test_it_says_how_calibrate_ended(self):
+        page = self.page()
+        page.arm()
+        page.click("input[value=calibrate] + span")
+        page.click(".go")
+        page.wait(lambda: "calibrate:" in page.text(".state .progress"), 5.0, "calibrates")
+        page.press_space()
+        page.wait(lambda: "interrupted by a command or a fault" in page.text(".state"), 5.0, "told that it was stopped")
+
     def test_gains_of_the_controller_are_shown_by_name(self):
         page = self.page()
         gains = "section[aria-label='gains of the controller, node 1']"

@@ -1370,7 +1370,7 @@ struct supercoil_status_t {
     uint8_t protocol_version;
 
     /**
-     * How identify or calibrate ended, the last time that either was asked for; found: it is used from then on and stored, everything else changes nothing.
+     * How identify or calibrate ended, the last time that either was asked for; found: it is used from then on and stored; not_stored: used; all else changes nothing.
      *
      * Range: 0..9 (0..9 -)
      * Scale: 1

@@ -1,0 +1,107 @@
+// What a master takes for itself of the answers that pass on the bus.
+#include "can_client/master.hpp"
+
+#include <supercoil.h>
+
+#include <CppUTest/TestHarness.h>
+
+#include "telemetry/opcodes.hpp"
+#include "telemetry/pack.hpp"
+
+using namespace supercoil;
+using can_client::Master;
+
+namespace {
+
+constexpr std::uint8_t node = 3;
+constexpr std::uint16_t granted = 0x5678;
+
+std::uint8_t counter_of(const hal::CanFrame& asked) {
+  return asked.data[1] & 0x0FU;
+}
+
+/// What the node answers to a frame that carried this session.
+hal::CanFrame answer(const hal::CanFrame& asked, std::uint8_t opcode, std::uint16_t session,
+                     Refusal refusal) {
+  supercoil_acknowledge_t m{};
+  m.counter = counter_of(asked);
+  m.opcode = opcode;
+  m.session = session;
+  m.refusal = static_cast<std::uint8_t>(refusal);
+  m.granted = granted;
+  return telemetry::sealed(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH, node, m,
+                           supercoil_acknowledge_pack);
+}
+
+hal::CanFrame setting_answer(std::uint8_t counter, std::uint16_t session, Refusal refusal) {
+  supercoil_setting_t m{};
+  m.counter = counter;
+  m.session_low = static_cast<std::uint8_t>(session);
+  m.refusal = static_cast<std::uint8_t>(refusal);
+  m.setting = 1;
+  m.value = 4.5F;
+  return telemetry::sealed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH, node, m,
+                           supercoil_setting_pack);
+}
+
+}  // namespace
+
+TEST_GROUP(MasterAnswers) {
+  Master master{node, 0x1234};
+
+  void setup() override {
+    const auto claim = master.claim();
+    CHECK(master.hear(answer(claim, telemetry::claim, 0x1234, Refusal::none)).has_value());
+    CHECK_TRUE(master.holds_lease());
+  }
+};
+
+TEST(MasterAnswers, ClaimIsGrantedByTheAnswerToItsOwnNonceOnly) {
+  Master other{node, 0x4321};
+  const auto claim = other.claim();
+  CHECK_FALSE(other.hear(answer(claim, telemetry::claim, 0x1234, Refusal::none)).has_value());
+  CHECK_FALSE(other.holds_lease());
+}
+
+TEST(MasterAnswers, LeaseEndsByWhatTheNodeSaysOfIt) {
+  for (const auto refusal : {Refusal::no_lease, Refusal::not_yours}) {
+    Master holder = master;
+    const auto asked = holder.command(Verb::rest, 0.0);
+    const auto verb = static_cast<std::uint8_t>(Verb::rest);
+    CHECK(holder.hear(answer(asked, verb, granted, refusal)).has_value());
+    CHECK_FALSE(holder.holds_lease());
+  }
+}
+
+TEST(MasterAnswers, LeaseOutlivesRefusalsThatAreNotAboutIt) {
+  const auto asked = master.command(Verb::position, 1.0);
+  const auto heard = master.hear(
+      answer(asked, static_cast<std::uint8_t>(Verb::position), granted, Refusal::out_of_range));
+  CHECK(heard && heard->refusal == Refusal::out_of_range);
+  CHECK_TRUE(master.holds_lease());
+}
+
+TEST(MasterAnswers, LeaseEndsByTheAnswerToItsOwnWrite) {
+  const auto asked = master.setting_write(1, 4.0);
+  const auto heard =
+      master.hear_setting(setting_answer(counter_of(asked), granted, Refusal::not_yours), true);
+  CHECK(heard && heard->refusal == Refusal::not_yours);
+  CHECK_FALSE(master.holds_lease());
+}
+
+TEST(MasterAnswers, SomebodyElsesWriteEndsNoLease) {
+  const auto asked = master.setting_write(1, 4.0);
+  const auto theirs = setting_answer(counter_of(asked), granted + 1, Refusal::not_yours);
+  CHECK_FALSE(master.hear_setting(theirs, true).has_value());
+  // Who reads hears it as the setting's value: the lease is no matter of theirs.
+  CHECK(master.hear_setting(theirs, false).has_value());
+  CHECK_TRUE(master.holds_lease());
+}
+
+TEST(MasterAnswers, DamagedAnswerIsNone) {
+  const auto asked = master.command(Verb::rest, 0.0);
+  auto damaged = answer(asked, static_cast<std::uint8_t>(Verb::rest), granted, Refusal::no_lease);
+  damaged.data[2] ^= 0x10U;
+  CHECK_FALSE(master.hear(damaged).has_value());
+  CHECK_TRUE(master.holds_lease());
+}

@@ -13,7 +13,7 @@ import unittest
 import urllib.parse
 
 from browser import Browser
-from programs import ROOT, log_of, monitor, simulated_board
+from programs import ROOT, log_of, monitor, simulated_board, with_second_node
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
@@ -314,6 +314,24 @@ class PageTest(PageCase):
         page.click("#replay button")
         page.wait(lambda: number(page.text("#replay output")) > 206.0, 5.0, "it plays")
         self.assertLess(number(page.text("#replay output")), 210.0)
+
+    def test_two_nodes_have_a_tab_each_and_one_that_shows_both(self):
+        folder = self.enterContext(tempfile.TemporaryDirectory())
+        own = monitor(with_second_node(log_of("first-motion", folder), lag_s=60.0))
+        self.addCleanup(own.stop)
+        page = self.page(own.found[0])
+        page.wait(lambda: len(page.text("#tabs").splitlines()) == 3, 5.0, "a tab each, and one for both")
+        page.run("""const slider = document.querySelector('#replay input');
+            slider.value = 205; slider.dispatchEvent(new Event('input'))""")
+        page.wait(lambda: page.text("#tabs").splitlines() == ["node 1 fault", "node 2 active", "side by side"], 5.0,
+                  "each has the state of its own at 205 s")
+        shown = ".node:not([hidden]) .state h2"
+        titles = lambda: [title.text for title in page.driver.find_elements("css selector", shown)]  # noqa: E731
+        self.assertEqual(titles(), ["Node 1"])
+        page.find("#tabs [aria-selected=true]").send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(titles(), ["Node 2"])
+        page.click("#tabs [role=tab]:last-child")
+        self.assertEqual(titles(), ["Node 1", "Node 2"])
 
     def test_fault_leads_to_its_page(self):
         page = self.page()

@@ -76,6 +76,20 @@ def log_of(scenario, folder):
     return pathlib.Path(folder) / "can.log"
 
 
+def with_second_node(log, lag_s):
+    """The same log with the same muscle once more, later, as node 2: the identifiers that follow node 1's."""
+    frames = []
+    for line in log.read_text().splitlines():
+        time_s, interface, frame = line.split()
+        identifier, _, data = frame.partition("#")
+        frames.append((float(time_s.strip("()")), interface, int(identifier, 16), data))
+    frames += [(time_s + lag_s, interface, identifier + 1, data) for time_s, interface, identifier, data in frames]
+    both = log.with_name("both.log")
+    both.write_text("".join(f"({time_s:.6f}) {interface} {identifier:03X}#{data}\n"
+                            for time_s, interface, identifier, data in sorted(frames)))
+    return both
+
+
 def monitor(source, *options):
     """Its .found[0] is the page's address as it is printed, .found[1] without the token."""
     program = os.environ.get("SUPERCOIL", BIN / "supercoil")

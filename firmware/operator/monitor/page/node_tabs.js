@@ -23,7 +23,7 @@ export class NodeTabs {
 
   #tab(name, text) {
     const tab = element("button", { type: "button", role: "tab", "aria-controls": name === ALL ? this.stage.id : `node-${name}`,
-      onclick: () => this.choose(name) }, text, element("span", { class: "word" }));
+      onclick: () => this.choose(name) }, `${text} `, element("span", { class: "word" }));
     this.tabs.set(name, tab);
   }
 

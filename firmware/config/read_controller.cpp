@@ -104,6 +104,7 @@ control::ControllerSettings read_controller(
       section.wrong("arithmetic",
                     "must be double or float: the covariance of mrac_ls does not fit q8.24");
     }
+    if (section.flag("shape_reference", false)) c.shaped_for = nominal;
   }
   if (c.kind == ControllerKind::pi) {
     c.pi.proportional_W_per_m =

@@ -123,6 +123,8 @@ void Channel::control() {
       input.position_m = evidence_.position.value;
       input.applied_power_W = acting_.power_W;
       input.limited = acting_.limited;
+      input.range = {limiter_.min_W(),
+                     std::fmin(limiter_.max_W(), supply_V_ * supply_V_ / resistance_.value_Ohm())};
       if (estimate_) controllers_[controller_].learn(*estimate_);
       wanted_ = controllers_[controller_].step(input);
       smooth_power_W_.step(acting_.power_W);
@@ -151,6 +153,14 @@ void Channel::limit() {
   } else {
     allowed_ = {};
   }
+}
+
+/// A reference that was shaped says why, where the limiter knows nothing better.
+LimitedBy Channel::limited_by() const {
+  using control::Infeasible;
+  const bool at_an_end = allowed_.by <= LimitedBy::maximum;
+  if (!at_an_end || wanted_.infeasible == Infeasible::nothing) return allowed_.by;
+  return wanted_.infeasible == Infeasible::cooling ? LimitedBy::cooling : LimitedBy::maximum;
 }
 
 void Channel::drive() {
@@ -209,7 +219,7 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.state = state_.state();
   s.mode = mode_;
   s.fault = state_.first_cause();
-  s.limited_by = allowed_.by;
+  s.limited_by = limited_by();
   s.controller = static_cast<std::uint8_t>(controller_);
   s.probing = probe_.running();
   s.reference = reference_;

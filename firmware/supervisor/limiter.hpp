@@ -16,10 +16,11 @@ enum class LimitedBy : std::uint8_t {
   slew = 3,         ///< power may not rise faster
   temperature = 4,  ///< derated: the muscle is near its limit
   invalid = 5,      ///< the wanted power was no number; none is given
+  cooling = 6,      ///< the reference falls faster than the muscle cools, and was shaped
 };
 
-inline constexpr std::array<std::string_view, 6> limit_names{"nothing", "minimum",     "maximum",
-                                                             "slew",    "temperature", "invalid"};
+inline constexpr std::array<std::string_view, 7> limit_names{
+    "nothing", "minimum", "maximum", "slew", "temperature", "invalid", "cooling"};
 constexpr std::string_view name(LimitedBy limit) {
   return limit_names[static_cast<std::size_t>(limit)];
 }
@@ -51,6 +52,7 @@ class Limiter {
   }
   /// From whoever commands: a lower maximum than the one that is set.
   void set_most(double most_W) { most_W_ = most_W; }
+  double min_W() const { return settings_.min_W; }
   double max_W() const { return most_W_ < settings_.max_W ? most_W_ : settings_.max_W; }
   /// The channel was made safe: the next rise starts from nothing.
   void reset() { last_W_ = 0.0; }

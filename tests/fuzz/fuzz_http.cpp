@@ -74,10 +74,9 @@ class Page {
         return file;
       error = errno;
       ::close(file);
-      if (error == EADDRNOTAVAIL)
-        std::this_thread::sleep_for(std::chrono::milliseconds(100));
-      else if (error != EINTR)
-        break;
+      if (error == EINTR) continue;
+      if (error != EADDRNOTAVAIL) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     std::fprintf(stderr, "connect: %s\n", std::strerror(error));
     fuzz::require(false, "the page can be reached");

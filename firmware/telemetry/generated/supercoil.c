@@ -1002,12 +1002,12 @@ double supercoil_power_limited_by_decode(uint8_t value)
 
 bool supercoil_power_limited_by_is_in_range(uint8_t value)
 {
-    return (value <= 5u);
+    return (value <= 6u);
 }
 
 bool supercoil_power_limited_by_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 5.0));
+    return ((value >= 0.0) && (value <= 6.0));
 }
 
 uint8_t supercoil_power_limited_encode(double value)
@@ -2706,12 +2706,12 @@ double supercoil_status_limited_by_decode(uint8_t value)
 
 bool supercoil_status_limited_by_is_in_range(uint8_t value)
 {
-    return (value <= 5u);
+    return (value <= 6u);
 }
 
 bool supercoil_status_limited_by_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 5.0));
+    return ((value >= 0.0) && (value <= 6.0));
 }
 
 uint8_t supercoil_status_probing_encode(double value)

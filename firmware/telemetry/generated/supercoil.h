@@ -221,6 +221,7 @@ extern "C" {
 #define SUPERCOIL_POWER_LIMITED_BY_SLEW_CHOICE (3u)
 #define SUPERCOIL_POWER_LIMITED_BY_TEMPERATURE_CHOICE (4u)
 #define SUPERCOIL_POWER_LIMITED_BY_INVALID_CHOICE (5u)
+#define SUPERCOIL_POWER_LIMITED_BY_COOLING_CHOICE (6u)
 
 #define SUPERCOIL_HEATER_SUPPLY_V_NOT_AVAILABLE_CHOICE (65535u)
 
@@ -431,6 +432,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_LIMITED_BY_SLEW_CHOICE (3u)
 #define SUPERCOIL_STATUS_LIMITED_BY_TEMPERATURE_CHOICE (4u)
 #define SUPERCOIL_STATUS_LIMITED_BY_INVALID_CHOICE (5u)
+#define SUPERCOIL_STATUS_LIMITED_BY_COOLING_CHOICE (6u)
 
 #define SUPERCOIL_STATUS_PROGRESS_NOT_AVAILABLE_CHOICE (255u)
 
@@ -794,9 +796,9 @@ struct supercoil_power_t {
     int32_t applied_w;
 
     /**
-     * The limit that took the rest. Not a fault.
+     * The limit that took the rest, or for which the reference was shaped. Not a fault.
      *
-     * Range: 0..5 (0..5 -)
+     * Range: 0..6 (0..6 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1291,7 +1293,7 @@ struct supercoil_status_t {
     /**
      * As in Power.
      *
-     * Range: 0..5 (0..5 -)
+     * Range: 0..6 (0..6 -)
      * Scale: 1
      * Offset: 0
      */

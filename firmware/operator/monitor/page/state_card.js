@@ -59,7 +59,7 @@ export class StateCard {
     show(this.means, state === "silent" && row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : MEANS[state] ?? "");
     const facts = row
       ? [name("mode"), `no. ${row.controller}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
-        row.limited ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
+        row.limited || name("limited_by") === "cooling" ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
       : ["–", "–", "–", "–"];
     this.values.forEach((value, i) => show(value, facts[i]));
     this.#show_fault(status, row);

@@ -60,7 +60,8 @@ struct NoisyLoop {
       const auto out = law.step({.reference_m = reference_m(time_s),
                                  .position_m = seen_m,
                                  .applied_power_W = power_W,
-                                 .limited = limited});
+                                 .limited = limited,
+                                 .range = range});
       see(time_s, 1e6 * (out.model_m - muscle.position_m()));
       power_W = range.clip(out.wanted_power_W);
       limited = power_W != out.wanted_power_W;

@@ -104,27 +104,31 @@ TEST(Csv, NumbersWithoutANameAreShownAsNumbers) {
   r.state = 9;
   r.mode = 200;
   r.fault = 99;
-  r.limited_by = 6;
+  r.limited_by = 7;
   recording.rows = {r};
   const auto fields = split(lines()[1], ',');
   STRCMP_EQUAL("9", fields[2].c_str());
   STRCMP_EQUAL("200", fields[3].c_str());
   STRCMP_EQUAL("99", fields[4].c_str());
-  STRCMP_EQUAL("6", fields[5].c_str());
+  STRCMP_EQUAL("7", fields[5].c_str());
   STRCMP_EQUAL("none", fields[28].c_str());
 }
 
 TEST(Csv, EveryStateModeAndLimitHasItsName) {
-  for (std::uint8_t i = 0; i < 6; ++i) {
+  for (std::uint8_t i = 0; i < 7; ++i) {
     Row r{};
     r.state = r.mode = r.limited_by = i;
     recording.rows.push_back(r);
   }
   const auto all = lines();
-  const char* expected[] = {"disarmed,rest,none,nothing,",   "armed,position,none,minimum,",
-                            "active,power,none,maximum,",    "fault,identify,none,slew,",
-                            "4,calibrate,none,temperature,", "5,5,none,invalid,"};
-  for (std::size_t i = 0; i < 6; ++i)
+  const char* expected[] = {"disarmed,rest,none,nothing,",
+                            "armed,position,none,minimum,",
+                            "active,power,none,maximum,",
+                            "fault,identify,none,slew,",
+                            "4,calibrate,none,temperature,",
+                            "5,5,none,invalid,",
+                            "6,6,none,cooling,"};
+  for (std::size_t i = 0; i < 7; ++i)
     STRCMP_CONTAINS(expected[i], all[i + 1].c_str());
 }
 

@@ -13,6 +13,7 @@
 #include "supercoil/control/tracking/mrac_least_squares.hpp"
 #include "supercoil/control/tracking/pd_feedforward.hpp"
 #include "supercoil/control/tracking/pi.hpp"
+#include "supercoil/control/tracking/reference_shaper.hpp"
 
 namespace supercoil::control {
 
@@ -41,6 +42,8 @@ struct ControllerSettings {
   MracSettings mrac;
   MracLeastSquaresSettings mrac_ls;
   AdaptiveFeedforwardSettings adaptive_ff;
+  /// The muscle for which references are shaped; empty: they are taken as they are.
+  std::optional<RegressionScale> shaped_for;
 };
 
 /// What q8.24 cannot hold of the settings; empty when all fits, and for other arithmetics. Fixed
@@ -57,11 +60,13 @@ struct ControllerInput {
   double position_m = 0.0;
   double applied_power_W = 0.0;  ///< really applied since the last tick
   bool limited = false;          ///< that power was not the one wanted
+  PowerRange range{};            ///< that the muscle may get: for shaping
 };
 
 struct ControllerOutput {
   double wanted_power_W = 0.0;
   double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
+  Infeasible infeasible = Infeasible::nothing;  ///< of the reference, which was shaped
 };
 
 /// Where a controller starts, or takes over from another while the muscle is hot.
@@ -78,7 +83,9 @@ class OpenLoopPower {
  public:
   void start(const ControllerStart&) {}
   void learn(const Estimate&) {}
-  ControllerOutput step(const ControllerInput& in) const { return {in.reference_power_W, 0.0}; }
+  ControllerOutput step(const ControllerInput& in) const {
+    return {.wanted_power_W = in.reference_power_W};
+  }
   ModelMotion<double> motion() const { return {}; }
   static GainValue gain(std::uint32_t) { return {}; }
 };
@@ -108,8 +115,10 @@ class ModelFollower {
 
   ControllerOutput step(const ControllerInput& in) {
     model_.step(last_reference_);
+    const FeasibleReference asked = shaper_ ? shaper_->step(in.reference_m, motion(), in.range)
+                                            : FeasibleReference{in.reference_m};
     LawInput<Scalar> input;
-    input.reference = to<Scalar>(in.reference_m * to_watts_);
+    input.reference = to<Scalar>(asked.reference_m * to_watts_);
     input.position = to<Scalar>(in.position_m * to_watts_);
     input.model = model_.motion();
     input.model_jerk = model_.jerk(input.reference);
@@ -124,10 +133,13 @@ class ModelFollower {
     }
     const double bridged_W = wanted + bridge_W_;
     bridge_W_ *= fading_;
-    return {bridged_W, static_cast<double>(input.model.position) * to_metres_};
+    return {bridged_W, static_cast<double>(input.model.position) * to_metres_, asked.what};
   }
 
+  void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
+
   void learn(const Estimate& estimate) {
+    if (shaper_) shaper_->learn(estimate);
     if constexpr (requires { law_.learn(estimate); }) law_.learn(estimate);
   }
 
@@ -148,6 +160,7 @@ class ModelFollower {
  private:
   ReferenceModel<Scalar> model_;
   Law law_;
+  std::optional<ReferenceShaper> shaper_;
   /// Slower than every law here: the loop, not the fading, decides where the muscle is.
   static constexpr double bridge_s = 10.0;
 

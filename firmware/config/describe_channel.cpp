@@ -48,14 +48,26 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const ChannelL
       << std::nearbyint(c.thermal.ambient_C + c.thermal.boot_rise_K) << " °C at boot\n";
 }
 
-void describe_control(std::ostream& out, const ChannelSettings& c) {
+void describe_margin(std::ostream& out, const control::ControllerSettings& controller,
+                     const ChannelSettings& c, double step_s) {
+  const auto law = control::fixed_law(controller, c.muscle);
+  const auto margin = margin_of(controller, c, step_s);
+  if (!law || !margin) return;
+  const double span = control::tolerated_span(*law, c.muscle, step_s, loop_delay_s(c, step_s));
+  out << ", margin " << std::nearbyint(100.0 * margin->modulus) / 100.0
+      << ", holds if no parameter is off by more than " << std::nearbyint(100.0 * span) << " %";
+}
+
+void describe_control(std::ostream& out, const ChannelSettings& c, double step_s) {
   out << "  controllers ";
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     const control::ControllerSettings& k = c.controllers[i];
-    out << (i == 0 ? "" : ", ") << i << ": " << control::name_of(control::controller_names, k.kind);
+    out << (i == 0 ? "" : "\n              ") << i << ": "
+        << control::name_of(control::controller_names, k.kind);
     if (k.kind != control::ControllerKind::power) {
       out << " in " << control::name_of(control::arithmetic_names, k.arithmetic);
     }
+    describe_margin(out, k, c, step_s);
   }
   out << "\n  estimators  ";
   for (std::size_t i = 0; i < c.estimators.size(); ++i) {
@@ -78,7 +90,7 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   out << title << (label.name == title ? "" : ": " + label.name) << "\n";
   describe_wiring(out, config.wiring.channels[index], c);
   describe_limits(out, c, label);
-  describe_control(out, c);
+  describe_control(out, c, config.settings.step_s());
   return out.str();
 }
 

@@ -1,5 +1,7 @@
 #include "config/read_channel.hpp"
 
+#include <sstream>
+
 #include "config/read_control.hpp"
 
 namespace supercoil::config {
@@ -39,6 +41,17 @@ void read_current(Section section, const std::string& owner, const BoardContext&
   section.finish();
 }
 
+/// What would not even hold the muscle that is configured.
+void refuse_unstable(Section& table, const control::ControllerSettings& controller,
+                     const ChannelSettings& channel, double step_s) {
+  const auto margin = margin_of(controller, channel, step_s);
+  if (!margin || margin->stable()) return;
+  std::ostringstream message;
+  message << "is unstable on this muscle with " << 1e3 * loop_delay_s(channel, step_s)
+          << " ms of delay: lower its gains, or shorten the delay";
+  table.wrong("kind", message.str());
+}
+
 /// [[channel.controller]], [[channel.estimator]], [channel.reference_model].
 void read_control(Section& section, double step_s, ChannelSettings& c) {
   const auto model = read_reference_model(section.section("reference_model"));
@@ -50,8 +63,10 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
   c.controllers.clear();
   for (Section& table : tables("controller")) {
     const auto controller = read_controller(table, c.muscle, model);
-    refuse_misfit(
-        table, control::check_fit(controller, step_s, c.supervision.max_travel_m, c.limiter.max_W));
+    const auto misfit =
+        control::check_fit(controller, step_s, c.supervision.max_travel_m, c.limiter.max_W);
+    refuse_misfit(table, misfit);
+    if (!misfit) refuse_unstable(table, controller, c, step_s);
     c.controllers.push_back(controller);
   }
   c.estimators.clear();

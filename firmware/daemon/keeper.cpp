@@ -17,6 +17,16 @@ std::size_t rows_relayed(const BoardSettings& board) {
   return static_cast<std::size_t>(relayed_s * board.rate_Hz) * board.channels.size();
 }
 
+/// What the configuration's muscle allowed, the one that was found may not.
+void tell_unstable(const ChannelSettings& channel, std::size_t index, double step_s) {
+  for (std::size_t i = 0; i < channel.controllers.size(); ++i) {
+    const auto margin = margin_of(channel.controllers[i], channel, step_s);
+    if (!margin || margin->stable()) continue;
+    log(Level::problem, "channel " + std::to_string(index + 1) + ": controller " +
+                            std::to_string(i) + " is unstable on the muscle that it knows");
+  }
+}
+
 }  // namespace
 
 tl::expected<void, std::string> remember(config::BoardConfig& config,
@@ -33,6 +43,7 @@ tl::expected<void, std::string> remember(config::BoardConfig& config,
     log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +
                          ") knows its muscle from version " +
                          std::to_string(loaded->learned->version));
+    tell_unstable(channel, i, config.settings.step_s());
   }
   return {};
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "supercoil/control/actuator/conversions.hpp"
+
 namespace supercoil {
 
 namespace {
@@ -50,7 +52,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
   for (const auto& controller : settings.controllers)
-    controllers_.emplace_back(controller, step_s_);
+    controllers_.emplace_back(controller, step_s_).suit(control::theta_from(muscle_));
   for (const auto& estimator : settings.estimators)
     estimators_.emplace_back(estimator, step_s_);
   estimate_ = estimator().estimate();

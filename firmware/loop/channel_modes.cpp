@@ -1,4 +1,6 @@
 // What a channel finds out about its muscle when it is asked to.
+#include "supercoil/control/actuator/conversions.hpp"
+
 #include "loop/channel.hpp"
 
 namespace supercoil {
@@ -41,6 +43,8 @@ ModeResult Channel::keep(const control::PhysicalParameters& muscle,
   if (storage::check(learned)) return ModeResult::implausible;
   if (found != calibration_) supervisor_.restart();  // every position moves with it
   muscle_ = muscle;
+  for (control::Controller& controller : controllers_)
+    controller.suit(control::theta_from(muscle));
   calibration_ = found;
   return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }

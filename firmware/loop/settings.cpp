@@ -4,6 +4,13 @@
 
 namespace supercoil {
 
+std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,
+                                             const ChannelSettings& channel, double step_s) {
+  const auto law = control::fixed_law(controller, channel.muscle);
+  if (!law) return std::nullopt;
+  return control::loop_margin(*law, channel.muscle, step_s, loop_delay_s(channel, step_s));
+}
+
 std::string check(const BoardSettings& settings) {
   std::ostringstream wrong;
   const BoardSupervision& s = settings.supervision;

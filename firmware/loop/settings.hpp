@@ -6,6 +6,7 @@
 
 #include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
+#include "supercoil/control/tracking/loop_margin.hpp"
 
 #include "board/heat.hpp"
 #include "board/measurement.hpp"
@@ -56,6 +57,16 @@ struct BoardSettings {
 
   double step_s() const { return 1.0 / rate_Hz; }
 };
+
+/// From the sampling of a position, which may be a tick old, until the power acts that answers it.
+inline double loop_delay_s(const ChannelSettings& channel, double step_s) {
+  return step_s + channel.heater.delay_s;
+}
+
+/// The room that a controller with fixed gains leaves on the channel's muscle. Empty: it adapts, or
+/// works in open loop.
+std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,
+                                             const ChannelSettings& channel, double step_s);
 
 /// What makes settings unusable whoever wrote them; empty when they may run. (Ranges of single
 /// values are the configuration's to check.)

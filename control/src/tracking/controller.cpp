@@ -59,6 +59,10 @@ void Controller::start(const ControllerStart& at) {
   std::visit([&](auto& controller) { controller.start(at); }, any_);
 }
 
+void Controller::suit(const Theta& theta) {
+  std::visit([&](auto& controller) { controller.suit(theta); }, any_);
+}
+
 void Controller::learn(const Estimate& estimate) {
   std::visit([&](auto& controller) { controller.learn(estimate); }, any_);
 }

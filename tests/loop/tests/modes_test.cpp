@@ -3,6 +3,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "supercoil/control/actuator/conversions.hpp"
+
 #include "runner/simulation.hpp"
 #include "scenario/read_scenario.hpp"
 
@@ -14,17 +16,23 @@ namespace {
 struct Ending {
   std::optional<storage::Learned> learned;
   std::string result;
+  double proportional_W_per_m = 0.0;  ///< the controller's gain, as published last
 };
 
 Ending ending(const std::string& text) {
   const auto scenario = parse_scenario(text, "modes.toml");
   if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
   Simulation simulation(*scenario);
-  while (!simulation.done())
+  Ending ended;
+  const Snapshot& snapshot = simulation.loop().channel(0).snapshot();
+  while (!simulation.done()) {
     simulation.step();
-  const auto result = simulation.loop().channel(0).snapshot().result;
-  return {simulation.learned(),
-          std::string(mode_result_names.at(static_cast<std::size_t>(result)))};
+    if (snapshot.gain.gain == control::Gain::proportional)
+      ended.proportional_W_per_m = snapshot.gain.value;
+  }
+  ended.learned = simulation.learned();
+  ended.result = mode_result_names.at(static_cast<std::size_t>(snapshot.result));
+  return ended;
 }
 
 /// A run that learned nothing, and why.
@@ -55,6 +63,16 @@ TEST(Modes, IdentifyFindsTheMuscleWithinAMinute) {
   }
 }
 
+TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
+  const Ending ended = ending(identify + "[controller]\nkind = 'adaptive_ff'\n");
+  CHECK(ended.learned.has_value());
+  const control::AdaptiveFeedforwardSettings settings;
+  const double theta3 = control::theta_from(ended.learned->muscle)[2];
+  DOUBLES_EQUAL(settings.bandwidth_rad_per_s * theta3, ended.proportional_W_per_m, 1e-6);
+  // It was configured as another muscle's, by which it would be a third more.
+  DOUBLES_EQUAL(8.0 * 322.09, ended.proportional_W_per_m, 0.05 * 8.0 * 322.09);
+}
+
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesUnderway) {
   check_nothing("not_explained",
                 identify + "[[event]]\nat_s = 50.0\nplant.stiffness_N_per_m = 11.0\n");
@@ -82,10 +100,10 @@ TEST(Modes, IdentifyStoresNothingWhenCommandsStop) {
 
 TEST(Modes, CalibrateFindsZeroAndColdResistance) {
   // The load pulls the resting muscle to −3.1 mm, which the sensor sees as 0: so it is raised.
-  const auto [found, result] =
-      ending(calibrate + "[plant]\nload_N = -0.05\nresistance_Ohm = 9.5\n");
+  const Ending ended = ending(calibrate + "[plant]\nload_N = -0.05\nresistance_Ohm = 9.5\n");
+  const auto& found = ended.learned;
   CHECK(found.has_value());
-  STRCMP_EQUAL("found", result.c_str());
+  STRCMP_EQUAL("found", ended.result.c_str());
   DOUBLES_EQUAL(0.05 / 16.0, found->calibration.position_offset_m, 5e-6);
   DOUBLES_EQUAL(9.5, found->calibration.cold_resistance_Ohm, 0.05);
 }

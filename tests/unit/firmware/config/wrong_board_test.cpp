@@ -183,6 +183,15 @@ TEST(WrongBoard, ThermalBoundsOutOfOrder) {
                  "highest_transfer_W_per_K");
 }
 
+TEST(WrongBoard, LawThatDoesNotHoldItsMuscle) {
+  check_replaced("max_travel_m = 0.025",
+                 "max_travel_m = 0.025\n"
+                 "[channel.controller]\nkind = 'pi'\nproportional_W_per_m = 50000.0\n",
+                 "b.toml:43: channel[1].controller.kind = 'pi': is unstable on this muscle with 1 "
+                 "ms of delay: "
+                 "lower its gains, or shorten the delay");
+}
+
 TEST(WrongBoard, PowerBeyondTheSupply) {
   check_replaced(
       "max_W = 4.5", "max_W = 12.0",

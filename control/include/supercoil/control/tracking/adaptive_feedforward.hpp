@@ -18,7 +18,7 @@ namespace supercoil::control {
 struct AdaptiveFeedforwardSettings {
   RegressionScale scale;  ///< of the nominal muscle; θ̄(0)
   /// ωc. At 8 the loop holds for ±20 % of all six physical parameters at once with 1.5 ms of delay
-  /// (adaptive_feedforward_margin_test.cpp).
+  /// (loop_margin_test.cpp).
   double bandwidth_rad_per_s = 8.0;
   double derivative_filter_rad_per_s = 60.0;  ///< of x, twice this pole
   double follow_s = 1.0;                      ///< time constant with which θ̄ follows
@@ -38,6 +38,13 @@ class AdaptiveFeedforward {
     weights_ << Wide(units[0] * s.scale.moving_mass_kg), Wide(units[1]), Wide(units[2]),
         Wide(units[3]), Wide(1);
     theta_ << Wide(1), Wide(1), Wide(1), Wide(1), Wide{};
+  }
+
+  /// The muscle was identified: θ̄ and the PID's gains are its own. For a law that does not run.
+  void suit(const Theta& theta) {
+    pid_.suit(theta);
+    const Theta relative = theta.cwiseQuotient(settings_.scale.nominal);
+    theta_.template head<4>() = relative.template cast<Wide>();
   }
 
   /// What the estimator tells, once a tick before step().

@@ -83,6 +83,7 @@ class OpenLoopPower {
  public:
   void start(const ControllerStart&) {}
   void learn(const Estimate&) {}
+  void suit(const Theta&) {}
   ControllerOutput step(const ControllerInput& in) const {
     return {.wanted_power_W = in.reference_power_W};
   }
@@ -137,6 +138,10 @@ class ModelFollower {
   }
 
   void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
+  void suit(const Theta& theta) {
+    if (shaper_) shaper_->suit(theta);
+    if constexpr (requires { law_.suit(theta); }) law_.suit(theta);
+  }
 
   void learn(const Estimate& estimate) {
     if (shaper_) shaper_->learn(estimate);
@@ -182,6 +187,9 @@ class Controller {
   ControllerOutput step(const ControllerInput& input);
   /// Before the first step, and when it takes over: starts from there instead of from zero.
   void start(const ControllerStart& at);
+  /// The muscle was identified, or is known from before: gains that follow from it are its own from
+  /// then on. theta: in its own units. Before start(), not while it runs.
+  void suit(const Theta& theta);
   /// What is known of the muscle, each tick before step(); only laws with a model of it care.
   void learn(const Estimate& estimate);
   /// Of its reference model, in metres; zero in open loop.

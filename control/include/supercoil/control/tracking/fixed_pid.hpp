@@ -7,8 +7,8 @@
 
 namespace supercoil::control {
 
-/// Kp e + Kd ė + Ki ∫e, e = xm − x, with Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle:
-/// of the open loop that leaves about ωc/s.
+/// Kp e + Kd ė + Ki ∫e, e = xm − x, with Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle,
+/// or of the one that was found since: of the open loop that leaves about ωc/s.
 template <class Scalar>
 class FixedPid {
  public:
@@ -17,13 +17,21 @@ class FixedPid {
   /// bandwidth: ωc. filter: of the derivative of x, twice this pole. step_s: > 0, in seconds.
   FixedPid(const RegressionScale& scale, double bandwidth_rad_per_s, double filter_rad_per_s,
            double step_s)
-      : nominal_gains_(scale.nominal * bandwidth_rad_per_s),
+      : bandwidth_rad_per_s_(bandwidth_rad_per_s),
+        dc_gain_m_per_W_(scale.dc_gain_m_per_W),
+        step_s_(step_s),
         slope_({filter_rad_per_s * filter_rad_per_s, 2.0 * filter_rad_per_s, 1.0}, step_s),
         slope_gain_(filter_rad_per_s * filter_rad_per_s) {
-    const Theta units = nominal_gains_ * scale.dc_gain_m_per_W;
+    suit(scale.nominal);
+  }
+
+  /// Gains for another muscle than the nominal one, in the same units. For a law that does not run.
+  void suit(const Theta& theta) {
+    gains_ = theta * bandwidth_rad_per_s_;
+    const Theta units = gains_ * dc_gain_m_per_W_;
     proportional_ = to<Scalar>(units[2]);
     derivative_ = to<Scalar>(units[1]);
-    integral_step_ = Wide(units[3] * step_s);
+    integral_step_ = Wide(units[3] * step_s_);
   }
 
   /// As if the muscle had long moved as the model does; the integral is zero.
@@ -51,9 +59,9 @@ class FixedPid {
 
   static constexpr std::size_t gains = 3;
   GainValue gain(std::size_t i) const {
-    if (i == 0) return {Gain::proportional, nominal_gains_[2]};
-    if (i == 1) return {Gain::integral, nominal_gains_[3]};
-    return {Gain::derivative, nominal_gains_[1]};
+    if (i == 0) return {Gain::proportional, gains_[2]};
+    if (i == 1) return {Gain::integral, gains_[3]};
+    return {Gain::derivative, gains_[1]};
   }
 
  private:
@@ -63,7 +71,10 @@ class FixedPid {
            (in.model.velocity - velocity) * derivative_;
   }
 
-  Theta nominal_gains_;
+  double bandwidth_rad_per_s_;
+  double dc_gain_m_per_W_;
+  double step_s_;
+  Theta gains_;
   StateVariableFilter<Scalar, 2, Hold::first_order> slope_;
   Wide slope_gain_;
   Scalar proportional_{};

@@ -90,6 +90,9 @@ class MracLeastSquares {
 
   /// The filters as if the muscle had long moved as it does; to hold a power, the integral becomes
   /// what the rest leaves of it.
+  /// The muscle was identified: the PID's gains are its own. For a law that does not run.
+  void suit(const Theta& theta) { pid_.suit(theta); }
+
   void start(const LawStart<Scalar>& at) {
     const Scalar rate = at.model.velocity;
     power_.settle(at.power, rate);

@@ -1,0 +1,50 @@
+// How much room a fixed law leaves on a muscle, sampled and delayed.
+#pragma once
+
+#include <optional>
+
+#include "supercoil/control/tracking/controller.hpp"
+
+namespace supercoil::control {
+
+/// Kp + Ki/s + Kd s/(s/ω + 1)², on small errors and within its limits.
+struct FixedLaw {
+  double proportional_W_per_m = 0.0;
+  double integral_W_per_m_s = 0.0;
+  double derivative_Ws_per_m = 0.0;
+  double derivative_filter_rad_per_s = 60.0;
+};
+
+/// What a controller does to errors on a muscle that its gains follow from. Empty: it adapts, or
+/// works in open loop.
+std::optional<FixedLaw> fixed_law(const ControllerSettings& settings,
+                                  const PhysicalParameters& muscle);
+
+struct LoopMargin {
+  double spectral_radius = 0.0;  ///< of the sampled loop, for each tick; stable below 1
+  /// Least |1 + L(jω)|, the distance of the loop's frequency response from −1: 1 over the largest
+  /// amplification of disturbances. Says nothing when unstable.
+  double modulus = 1.0;
+  bool stable() const { return spectral_radius < 1.0; }
+};
+
+/// step_s: of the loop, > 0. delay_s: from a position's sampling until the power that answers it
+/// acts, beyond the hold of a tick; 0 to 100 ticks. Allocates.
+LoopMargin loop_margin(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
+                       double delay_s);
+
+/// Of the muscles at the 64 corners where each parameter is (1 ± span) times as large, the one with
+/// the least room. span: 0 to less than 1.
+struct WorstCorner {
+  LoopMargin margin;
+  PhysicalParameters muscle;
+  int unstable = 0;  ///< corners of 64
+};
+WorstCorner worst_corner(const FixedLaw& law, const PhysicalParameters& nominal, double span,
+                         double step_s, double delay_s);
+
+/// The largest span, to 1 %, up to which all corners are stable; 0.9 at most.
+double tolerated_span(const FixedLaw& law, const PhysicalParameters& nominal, double step_s,
+                      double delay_s);
+
+}  // namespace supercoil::control

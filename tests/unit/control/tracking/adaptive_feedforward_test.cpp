@@ -49,7 +49,7 @@ TEST(AdaptiveFeedforward, FollowsStepsWithin5Micrometres) {
 TEST(AdaptiveFeedforward, StartsFrom55PercentOfTheTrueParameters) {
   const auto um = feedforward_loop(0.55).rms_um<3>({{{0.0, 3.0}, {3.0, 10.0}, {10.0, 20.0}}});
   UT_PRINT(StringFromFormat("um: %.0f, %.0f, %.1f rms", um[0], um[1], um[2]).asCharString());
-  CHECK(um[2] <= 10.0);
+  CHECK(um[2] <= 5.0);
 }
 
 TEST(AdaptiveFeedforward, FloatAndFixedPointFollowAsWell) {

@@ -21,7 +21,7 @@ struct AdaptiveFeedforwardSettings {
   /// (loop_margin_test.cpp).
   double bandwidth_rad_per_s = 8.0;
   double derivative_filter_rad_per_s = 60.0;  ///< of x, twice this pole
-  double follow_s = 1.0;                      ///< time constant with which θ̄ follows
+  double follow_s = 0.5;                      ///< time constant with which θ̄ follows
 };
 
 template <class Scalar>
@@ -53,23 +53,28 @@ class AdaptiveFeedforward {
     Parameters now;
     now << estimate.theta.cwiseQuotient(settings_.scale.nominal).template cast<Wide>(),
         Wide(estimate.bias_W);
-    theta_ += (now - theta_) * follow_step_;
+    const Parameters change = (now - theta_) * follow_step_;
+    theta_ += change;
+    // What the feedforward takes over, the integral has held until now.
+    pid_.give_up(change.cwiseProduct(weights_).dot(motion_));
   }
 
   /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
   void start(const LawStart<Scalar>& at) {
     pid_.start(at);
+    motion_ = Parameters::Zero();
     if (!at.hold) return;
     LawInput<Scalar> now;
     now.position = at.position;
     now.model = at.model;
-    pid_.hold(now, at.power, feedforward(now));
+    pid_.hold(now, at.power, feedforward(motion_of(now)));
   }
 
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
     pid_.see(in.position);
-    return pid_.step(in, feedforward(in));
+    motion_ = motion_of(in);
+    return pid_.step(in, feedforward(motion_));
   }
 
   static constexpr std::size_t gains = FixedPid<Scalar>::gains + 5;
@@ -95,10 +100,13 @@ class AdaptiveFeedforward {
   const Parameters& theta() const { return theta_; }
 
  private:
-  Scalar feedforward(const LawInput<Scalar>& in) const {
+  static Parameters motion_of(const LawInput<Scalar>& in) {
     Parameters motion;
     motion << Wide(in.model_jerk), Wide(in.model.acceleration), Wide(in.model.velocity),
         Wide(in.model.position), Wide(1);
+    return motion;
+  }
+  Scalar feedforward(const Parameters& motion) const {
     return to<Scalar>(theta_.cwiseProduct(weights_).dot(motion));
   }
 
@@ -107,6 +115,7 @@ class AdaptiveFeedforward {
   Wide follow_step_;
   Parameters weights_;
   Parameters theta_;
+  Parameters motion_ = Parameters::Zero();  ///< the model's, at the last tick
 };
 
 }  // namespace supercoil::control

@@ -54,6 +54,8 @@ class FixedPid {
     wanted_ = rest + feedback(in) + to<Scalar>(integral_);
     return wanted_;
   }
+  /// The rest gives so much more from now on, which was the integral's to give.
+  void give_up(Wide power) { integral_ -= power; }
   /// Before step(), once a tick.
   void see(Scalar position) { slope_.step(position); }
 

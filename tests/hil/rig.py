@@ -37,6 +37,8 @@ class Settings:
     can: bool = False  # can0 and can1, on one bus
     system: bool = False  # Debian's systemd from a disk, with supercoild as its service
     image: pathlib.Path | None = None  # boots this card by U-Boot instead (image.py); what is written stays
+    disk: pathlib.Path | None = None  # a disk of its own, not of system or image: /dev/vda; what is written stays
+    write_log: pathlib.Path | None = None  # with disk: gets all that is written to it (write_log.py)
     cpus: int = 1  # several only with free_running: counted instructions need one
     free_running: bool = False  # the guest's time is the host's: latencies then mean nothing
     instruction_shift: int = 3  # an instruction lasts 2^shift ns of the guest's time
@@ -76,9 +78,21 @@ def qemu_command(settings):
         # What the board writes is forgotten with it.
         command += ["-drive", f"file={BUILD / 'system.ext4'},if=none,id=disk,format=raw,snapshot=on",
                     "-device", "virtio-blk-pci,drive=disk"]
+    if settings.disk:
+        command += disk_options(settings.disk, settings.write_log)
     if settings.can:
         command += ["-object", "can-bus,id=bus", "-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
     return command
+
+
+def disk_options(disk, write_log):
+    """The board's flushes need not reach this machine's disk: only QEMU's end is survived, which loses nothing."""
+    def file(name, path):
+        return ["-blockdev", f"driver=raw,node-name={name},cache.no-flush=on,file.driver=file,file.filename={path}"]
+    options = file("content", disk)
+    if write_log:
+        options += [*file("log", write_log), "-blockdev", "driver=blklogwrites,node-name=logged,file=content,log=log"]
+    return [*options, "-device", f"virtio-blk-pci,drive={'logged' if write_log else 'content'}"]
 
 
 def start_command(settings):

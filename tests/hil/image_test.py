@@ -4,7 +4,7 @@ anybody, then on command over CAN to a tracking muscle; and what it says to a wr
 
 Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
 
-    .venv/bin/python tests/hil/image_test.py [--track SECONDS]
+    .venv/bin/python tests/hil/image_test.py [--track SECONDS] [--only PART]
 """
 
 import argparse
@@ -89,36 +89,49 @@ def judge_refused(what, message):
     return judge
 
 
+def started(table, name, card, settings, track_s):
+    """From power-on to tracking, and a second power-on with what was learned."""
+    log = settings.share / "can.log"
+    log.unlink(missing_ok=True)
+
+    def judge(table, run):
+        frames = list(telemetry_test.decoded(telemetry_test.protocol(), log.read_text()))
+        judge_start(table, run, frames)
+        judge_tracking(table, run, frames)
+    table.judge(name, judge, image.run("image", (track_s,), settings))
+    table.judge(f"{name}, again", judge_again, image.run("image", (0,), settings))
+
+
+def refused(table, name, card, settings, text, message):
+    image.put_board(card, text)
+    table.judge(name, judge_refused(name, message), image.run("image", (0,), settings))
+
+
+def with_four(table, name, card, settings):
+    table.judge(name, judge_four, image.run("image", (0,), dataclasses.replace(settings, cpus=4, free_running=True)))
+
+
+PARTS = {"start": started, "wrong_key": refused, "no_file": refused, "four_cpus": with_four}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--track", metavar="SECONDS", type=int, default=30, help="of the board's time (default: 30)")
+    parser.add_argument("--only", choices=PARTS, help="one of the boards")
     wish = parser.parse_args()
+    more = {"start": (wish.track,), "no_file": (None, r"there is no board\.toml on the boot partition"),
+            "wrong_key": (board_toml().replace("bit_rate", "bitrate"), r"board\.toml:\d+: can\.bitrate = 250000: .* bit_rate\?")}
     table = Table()
-    try:
-        card = image.prepared("image_test")
-    except OSError as error:
-        sys.exit(f"image_test: {error}")
-    share = rig.BUILD / "image_test"
-    (share / "can.log").unlink(missing_ok=True)
-    settings = rig.Settings(share=share, watchdog=True, can=True, image=card, time_out_s=3600.0)
-
-    image.put_board(card, board_toml())
-    run = image.run("image", (wish.track,), settings)
-
-    def judge(table, run):
-        frames = list(telemetry_test.decoded(telemetry_test.protocol(), (share / "can.log").read_text()))
-        judge_start(table, run, frames)
-        judge_tracking(table, run, frames)
-    table.judge("image", judge, run)
-    for what, text, message in (
-            ("a wrong key", board_toml().replace("bit_rate", "bitrate"), r"board\.toml:\d+: can\.bitrate = 250000: .* bit_rate\?"),
-            ("no file", None, r"there is no board\.toml on the boot partition")):
-        image.put_board(card, text)
-        table.judge(what, judge_refused(what, message), image.run("image", (0,), settings))
-    image.put_board(card, board_toml())
-    table.judge("again", judge_again, image.run("image", (0,), settings))
-
-    table.judge("four CPUs", judge_four, image.run("image", (0,), dataclasses.replace(settings, cpus=4, free_running=True)))
+    for name, part in PARTS.items():
+        if wish.only not in (None, name):
+            continue
+        try:
+            card = image.prepared(f"image_{name}_test")
+        except OSError as error:
+            sys.exit(f"image_test: {error}")
+        image.put_board(card, board_toml())
+        settings = rig.Settings(share=rig.BUILD / f"image_{name}_test", watchdog=True, can=True, image=card, time_out_s=3600.0)
+        part(table, name, card, settings, *more.get(name, ()))
     table.end()
 
 

@@ -51,6 +51,15 @@ struct CompareOptions {
 };
 int compare_command(const CompareOptions& options);
 
+struct EstimatorsOptions {
+  long seeds = 20;  ///< 1 to this
+  int jobs = 0;     ///< 0: as many as there are processors
+  std::string out = "supercoil-out/estimators";
+  bool plot = true;
+  bool quiet = false;
+};
+int estimators_command(const EstimatorsOptions& options);
+
 int list_command();
 
 }  // namespace supercoil::host_sim

@@ -107,6 +107,19 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   compare->add_flag("--list", options.list, "Say what there is to compare");
 }
 
+void add_estimators(CLI::App& app, EstimatorsOptions& options) {
+  CLI::App* estimators = app.add_subcommand(
+      "estimators", "Compare estimators on the same data over many seeds, beside what is possible");
+  constexpr long most_seeds = 1000000;
+  estimators->add_option("--seeds", options.seeds, "Seeds, from 1 on [20]")
+      ->check(CLI::Range(1L, most_seeds));
+  estimators->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
+      ->check(CLI::Range(1, 1024));
+  estimators->add_option("--out", options.out, "Folder for the results [supercoil-out/estimators]");
+  estimators->add_flag("!--no-plot", options.plot, "Write no estimators.svg");
+  estimators->add_flag("--quiet", options.quiet, "Print nothing but errors");
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.",
                "supercoil-sim"};
@@ -115,9 +128,11 @@ int run_program(int count, char** arguments) {
   RunOptions run;
   ReproduceOptions reproduce;
   CompareOptions compare;
+  EstimatorsOptions estimators;
   add_run(app, run);
   add_reproduce(app, reproduce);
   add_compare(app, compare);
+  add_estimators(app, estimators);
   app.add_subcommand("list", "List built-in scenarios, presets and reference models");
   try {
     app.parse(count, arguments);
@@ -128,6 +143,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("reproduce")) return reproduce_command(reproduce);
   if (app.got_subcommand("compare")) return compare_command(compare);
+  if (app.got_subcommand("estimators")) return estimators_command(estimators);
   return list_command();
 }
 

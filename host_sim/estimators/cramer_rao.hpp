@@ -1,0 +1,50 @@
+// How exactly anybody could know the muscle's parameters from what the sensor saw.
+#pragma once
+
+#include <functional>
+
+#include "estimators/muscle_state.hpp"
+
+namespace supercoil::host_sim::estimators {
+
+/// What is not known, beside θ.
+struct Unknown {
+  bool motion = true;  ///< position, velocity and acceleration at the begin
+  bool bias = true;    ///< a constant one of the power
+};
+
+/// An experiment on a muscle whose position is seen with white noise.
+struct Experiment {
+  State begin;  ///< the muscle and its motion at begin_s
+  double begin_s = 0.0;
+  double moving_mass_kg = control::PhysicalParameters{}.moving_mass_kg;
+  std::function<double(double time_s)> power_W;
+  double noise_density_m2_s = 1e-13;  ///< rms² · sampling period: 10 µm at 1 kHz
+};
+
+/// The Cramér–Rao bound: the smallest standard deviation, relative, that an unbiased estimate of
+/// θ1…θ4 can have from what is seen of it. The Fisher information is summed from the derivatives of
+/// the muscle's exact motion by its parameters and its first state.
+class CramerRaoBound {
+ public:
+  CramerRaoBound(const Experiment& experiment, const Unknown& unknown);
+
+  /// What is seen from begin_s to that time, later than any before. Infinite while it is too
+  /// little.
+  control::Theta until(double time_s);
+
+ private:
+  void step();
+
+  /// The sensitivities are smooth: 5 ms in place of the sensor's 1 ms changes no printed digit.
+  static constexpr double step_s = 5e-3;
+
+  Experiment experiment_;
+  Unknown unknown_;
+  long steps_ = 0;
+  State state_;
+  Covariance sensitivity_ = Covariance::Identity();  ///< of the state now to that at begin_s
+  Covariance information_ = Covariance::Zero();
+};
+
+}  // namespace supercoil::host_sim::estimators

@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "estimators/bounds.hpp"
 #include "unit/control/support/noisy_muscle.hpp"
 
 namespace {
 
+using namespace supercoil;
 using namespace supercoil::control;
 using supercoil::test::Learning;
 
@@ -52,7 +54,9 @@ void after_a_change(double at_s, double most_s) {
                  most_s);
 }
 
-/// Scatter at a time over 60 seeds, and the published deviations (rms) over it.
+/// Scatter at a time over 60 seeds, how near that is to the Cramér–Rao bound of a steady window of
+/// twice the forgetting time (the same unknowns: θ, bias, motion), and the published deviations
+/// (rms) over it.
 void scatter(double at_s, const std::array<double, 4>& most_percent) {
   constexpr int seeds = 60;
   Vector<double, 5> squares = Vector<double, 5>::Zero();
@@ -63,9 +67,12 @@ void scatter(double at_s, const std::array<double, 4>& most_percent) {
     squares += learning.off().cwiseAbs2() / seeds;
     published += learning.estimator.standard_deviations().cwiseAbs2() / seeds;
   }
+  const host_sim::estimators::Trial trial{.name = "", .meaning = "", .change_at_s = at_s};
+  const Theta bound = host_sim::estimators::bounds_of(trial).steady;
   for (int i = 0; i < 4; ++i) {
     expect_at_most("% rms of theta" + std::to_string(i + 1), 100.0 * std::sqrt(squares[i]),
                    most_percent[static_cast<std::size_t>(i)]);
+    expect_at_most("  over its Cramer-Rao bound", std::sqrt(squares[i]) / bound[i], 1.5);
     // Sixty seeds tell a deviation to 9 %.
     const double ratio = std::sqrt(published[i] / squares[i]);
     expect_at_most("  published over seen", ratio, 1.3);

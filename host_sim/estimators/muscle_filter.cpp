@@ -1,6 +1,7 @@
 #include "estimators/muscle_filter.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace supercoil::host_sim::estimators {
 
@@ -15,7 +16,7 @@ MuscleFilter::MuscleFilter(Predict predict, const FilterSettings& settings, doub
       settings_(settings),
       step_s_(step_s),
       belief_{state_of(settings.initial), Covariance::Zero()},
-      lowest_(State::Constant(-INFINITY)),
+      lowest_(State::Constant(-std::numeric_limits<double>::infinity())),
       highest_(State::Constant(INFINITY)) {
   const State nominal = state_of(settings.scale.nominal);
   for (int i = at_ln_theta_1; i < at_bias; ++i) {

@@ -64,6 +64,7 @@ const std::vector<double>& plotted_s() {
     constexpr double first_s = 0.1;
     constexpr double last_s = 99.0;
     std::vector<double> times;
+    times.reserve(points);
     for (int i = 0; i < points; ++i)
       times.push_back(first_s * std::pow(last_s / first_s, static_cast<double>(i) / (points - 1)));
     return times;

@@ -30,7 +30,7 @@ inline constexpr double narrow_band = 0.01;
 inline constexpr double steady_s = 40.0;
 
 /// Runs it to the end; empty when it was stopped.
-std::optional<Outcome> run(const ContenderKind& contender, const Trial& trial, std::uint64_t seed,
+std::optional<Outcome> run(const ContenderKind& kind, const Trial& trial, std::uint64_t seed,
                            const std::atomic<bool>& stop);
 
 }  // namespace supercoil::host_sim::estimators

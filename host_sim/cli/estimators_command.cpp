@@ -16,7 +16,6 @@ namespace supercoil::host_sim {
 namespace {
 
 using estimators::Key;
-using estimators::Outcome;
 using estimators::Outcomes;
 
 /// All runs, of a seed before the next seed.

@@ -13,6 +13,7 @@ Costs measure_costs() {
   constexpr int attempts = 20;
   Bench bench(trials[0], 1);
   std::vector<Bench::Tick> ticks;
+  ticks.reserve(steps);
   for (int i = 0; i < steps; ++i)
     ticks.push_back(bench.next());
   Costs costs{};

@@ -34,8 +34,8 @@ control::Theta CramerRaoBound::until(double time_s) {
   const Eigen::MatrixXd information = information_(unknowns, unknowns);
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<Eigen::MatrixXd> factors(scale.asDiagonal() * information * scale.asDiagonal());
-  const control::Theta none = control::Theta::Constant(INFINITY);
-  if (!scale.allFinite() || !factors.isPositive() || factors.rcond() < 1e-14) return none;
+  if (!scale.allFinite() || !factors.isPositive() || factors.rcond() < 1e-14)
+    return control::Theta::Constant(INFINITY);
   const Eigen::MatrixXd inverse =
       factors.solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
   const Eigen::VectorXd deviations = inverse.diagonal().cwiseSqrt().cwiseProduct(scale);

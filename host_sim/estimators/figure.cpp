@@ -63,9 +63,10 @@ Figure figure_of(const Outcomes& outcomes, const AllBounds& bounds) {
             outcomes, i, changed ? &Outcome::squares_after_change : &Outcome::squares_from_rest,
             parameter));
       }
-      if (const auto& bound = bounds[drawn_trial])
+      if (const auto& bound = bounds[drawn_trial]) {
         panel.curves.push_back(
             bound_curve(changed ? bound->after_change : bound->from_rest, parameter));
+      }
       figure.panels.push_back(std::move(panel));
     }
   }

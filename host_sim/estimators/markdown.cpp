@@ -57,6 +57,7 @@ std::string table_of(const Measure& measure, const Outcomes& outcomes, const All
       if (cell.empty()) continue;
       for (int i = 0; i < 4; ++i) {
         std::vector<double> values;
+        values.reserve(cell.size());
         for (const Outcome& outcome : cell)
           values.push_back((outcome.*measure.value)[i] * measure.shown_unit);
         const compare::Statistics s = compare::statistics_of(values);

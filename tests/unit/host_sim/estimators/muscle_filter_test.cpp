@@ -99,9 +99,10 @@ TEST(MuscleFilter, ItsErrorsAreAsLargeAsItSays) {
       settings.prior_bias_W = 0.005;
       settings.forgetting_s = INFINITY;
       settings.first_forgetting_s = INFINITY;
-      for (int i = 0; i < 4; ++i)
+      for (int i = 0; i < 4; ++i) {
         settings.initial[i] =
             bench.truth()[i] * std::exp(settings.prior_logarithm * normal(source));
+      }
       MuscleFilter filter(predict, settings, tick_s);
       learn(filter, bench, 3.0);
       const Theta error = (filter.theta().cwiseQuotient(bench.truth())).array().log();

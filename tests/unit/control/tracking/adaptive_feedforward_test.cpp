@@ -67,10 +67,30 @@ TEST(AdaptiveFeedforward, DoesNotFollowAnEstimateThatHasNotSettled) {
   CHECK((law.theta() - AdaptiveFeedforward<double>::Parameters{1.0, 1.0, 1.0, 1.0, 0.0}).norm() ==
         0);
   estimate.settled = true;
-  for (int k = 0; k < 1000; ++k)
+  const long ticks = std::lround(AdaptiveFeedforwardSettings{}.follow_s / 1e-3);
+  for (long k = 0; k < ticks; ++k)
     law.learn(estimate);
   DOUBLES_EQUAL(3.0 - 2.0 * std::exp(-1.0), law.theta()[0], 1e-3);
   DOUBLES_EQUAL(1.0 - std::exp(-1.0), law.theta()[4], 1e-3);
+}
+
+TEST(AdaptiveFeedforward, LearningDoesNotChangeThePower) {
+  AdaptiveFeedforward<double> law({}, 1e-3);
+  LawInput<double> moving;
+  moving.model = {1.5, 0.4, -0.1};
+  moving.model_jerk = 0.2;
+  moving.position = moving.model.position;
+  LawStart<double> begin;
+  begin.position = moving.position;
+  begin.model = moving.model;
+  law.start(begin);
+  const double before_W = law.step(moving);
+  const Estimate estimate{.theta = RegressionScale{}.nominal * 1.3, .settled = true, .bias_W = 0.2};
+  for (int k = 0; k < 5000; ++k)
+    law.learn(estimate);
+  DOUBLES_EQUAL(1.3, law.theta()[3], 1e-4);
+  // Its derivative's filter has gone on by a tick.
+  DOUBLES_EQUAL(before_W, law.step(moving), 0.01);
 }
 
 TEST(AdaptiveFeedforward, TakesAHeldPowerOver) {

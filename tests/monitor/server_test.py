@@ -261,24 +261,26 @@ class Live(unittest.TestCase):
         until(lambda: served.state()[0] == "armed")
         self.assertIn("node 1: armed", self.command("state").stdout)
 
-    def begin_calibrating(self):
+    def arm_by_script(self):
         for word in ("disarm", "reset"):
             self.command("1", word)
         until(lambda: self.command("1", "arm").returncode == 0)
-        until(lambda: self.command("1", "calibrate").returncode == 0)
 
     def test_a_script_is_told_how_calibrate_ended(self):
-        self.begin_calibrating()
+        self.arm_by_script()
+        until(lambda: self.command("1", "calibrate").returncode == 0)
         self.assertEqual(self.command("1", "rest").returncode, 0)
         self.assertIn("calibration: interrupted", self.command("state").stdout)
         done = self.command("1", "calibrate", "--for", "60", "--json")
         self.assertEqual((done.returncode, json.loads(done.stdout)), (0, {"command": "1 calibrate", "result": "found"}))
 
     def test_a_script_is_told_that_calibrate_was_interrupted(self):
-        self.begin_calibrating()
+        self.arm_by_script()
+        # A warm muscle must cool first: long enough to be seen.
+        until(lambda: self.command("1", "power", "2.5", "--for", "3").returncode == 0)
         held = subprocess.Popen([SUPERCOIL, "command", "1", "calibrate", "--for", "60", "--can", self.source],
                                 stderr=subprocess.PIPE, text=True)
-        time.sleep(0.5)  # it renews now
+        until(lambda: "node 1: active, calibrate" in self.command("state").stdout)
         self.assertIsNone(held.poll())
         self.command("1", "disarm")
         self.assertEqual((held.communicate(timeout=SLACK_S)[1], held.returncode),

@@ -54,8 +54,10 @@ void describe_margin(std::ostream& out, const control::ControllerSettings& contr
   const auto margin = margin_of(controller, c, step_s);
   if (!law || !margin) return;
   const double span = control::tolerated_span(*law, c.muscle, step_s, loop_delay_s(c, step_s));
-  out << ", margin " << std::nearbyint(100.0 * margin->modulus) / 100.0
-      << ", holds if no parameter is off by more than " << std::nearbyint(100.0 * span) << " %";
+  const bool adapts = control::adapts(controller.kind);
+  out << (adapts ? ", once adapted margin " : ", margin ")
+      << std::nearbyint(100.0 * margin->modulus) / 100.0 << ", holds if no parameter "
+      << (adapts ? "moves" : "is off") << " by more than " << std::nearbyint(100.0 * span) << " %";
 }
 
 void describe_control(std::ostream& out, const ChannelSettings& c, double step_s) {

@@ -41,14 +41,23 @@ void read_current(Section section, const std::string& owner, const BoardContext&
   section.finish();
 }
 
-/// What would not even hold the muscle that is configured.
+const char* what_to_change(control::ControllerKind kind) {
+  using control::ControllerKind;
+  if (kind == ControllerKind::mrac) return "take slower filters or a slower reference model";
+  if (kind == ControllerKind::mrac_ls) return "lower its bandwidth_rad_per_s";
+  return "lower its gains";
+}
+
+/// What would not even hold the muscle that is configured, be it adapted to it.
 void refuse_unstable(Section& table, const control::ControllerSettings& controller,
                      const ChannelSettings& channel, double step_s) {
   const auto margin = margin_of(controller, channel, step_s);
   if (!margin || margin->stable()) return;
   std::ostringstream message;
-  message << "is unstable on this muscle with " << 1e3 * loop_delay_s(channel, step_s)
-          << " ms of delay: lower its gains, or shorten the delay";
+  message << "is unstable on this muscle"
+          << (control::adapts(controller.kind) ? ", even when it has adapted to it," : "")
+          << " with " << 1e3 * loop_delay_s(channel, step_s)
+          << " ms of delay: " << what_to_change(controller.kind) << ", or shorten the delay";
   table.wrong("kind", message.str());
 }
 

@@ -63,8 +63,8 @@ inline double loop_delay_s(const ChannelSettings& channel, double step_s) {
   return step_s + channel.heater.delay_s;
 }
 
-/// The room that a controller with fixed gains leaves on the channel's muscle. Empty: it adapts, or
-/// works in open loop.
+/// The room that a controller leaves on the channel's muscle, when it has adapted to it if it
+/// adapts. Empty: it works in open loop.
 std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,
                                              const ChannelSettings& channel, double step_s);
 

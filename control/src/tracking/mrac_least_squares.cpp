@@ -2,15 +2,19 @@
 
 namespace supercoil::control {
 
+MracSettings filters_of(const MracLeastSquaresSettings& settings) {
+  MracSettings filters;
+  filters.lambda = squared_pole(settings.filter_rad_per_s);
+  filters.alpha = {filters.lambda[1], filters.lambda[0]};
+  return filters;
+}
+
 std::optional<MracMatching> match(const MracLeastSquaresSettings& settings,
                                   const ReferenceModelSettings& model) {
-  MracSettings equivalent;
-  equivalent.lambda = squared_pole(settings.filter_rad_per_s);
-  equivalent.alpha = {equivalent.lambda[1], equivalent.lambda[0]};
   const Theta& theta = settings.scale.nominal;
   const double cubic = theta[0] * settings.scale.moving_mass_kg;
   const double b0 = theta[3] / cubic;
-  return match({b0, theta[2] / cubic, theta[1] / cubic, b0}, equivalent, model);
+  return match({b0, theta[2] / cubic, theta[1] / cubic, b0}, filters_of(settings), model);
 }
 
 }  // namespace supercoil::control

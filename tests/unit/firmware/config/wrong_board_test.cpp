@@ -190,6 +190,12 @@ TEST(WrongBoard, LawThatDoesNotHoldItsMuscle) {
                  "b.toml:43: channel[1].controller.kind = 'pi': is unstable on this muscle with 1 "
                  "ms of delay: "
                  "lower its gains, or shorten the delay");
+  check_replaced("max_travel_m = 0.025",
+                 "max_travel_m = 0.025\n"
+                 "[channel.controller]\nkind = 'mrac_ls'\nbandwidth_rad_per_s = 5.0\n",
+                 "b.toml:43: channel[1].controller.kind = 'mrac_ls': is unstable on this muscle, "
+                 "even when it has adapted to it, with 1 ms of delay: lower its "
+                 "bandwidth_rad_per_s, or shorten the delay");
 }
 
 TEST(WrongBoard, PowerBeyondTheSupply) {

@@ -1,24 +1,9 @@
 // How much room a fixed law leaves on a muscle, sampled and delayed.
 #pragma once
 
-#include <optional>
-
-#include "supercoil/control/tracking/controller.hpp"
+#include "supercoil/control/tracking/fixed_law.hpp"
 
 namespace supercoil::control {
-
-/// Kp + Ki/s + Kd s/(s/ω + 1)², on small errors and within its limits.
-struct FixedLaw {
-  double proportional_W_per_m = 0.0;
-  double integral_W_per_m_s = 0.0;
-  double derivative_Ws_per_m = 0.0;
-  double derivative_filter_rad_per_s = 60.0;
-};
-
-/// What a controller does to errors on a muscle that its gains follow from. Empty: it adapts, or
-/// works in open loop.
-std::optional<FixedLaw> fixed_law(const ControllerSettings& settings,
-                                  const PhysicalParameters& muscle);
 
 struct LoopMargin {
   double spectral_radius = 0.0;  ///< of the sampled loop, for each tick; stable below 1
@@ -29,7 +14,7 @@ struct LoopMargin {
 };
 
 /// step_s: of the loop, > 0. delay_s: from a position's sampling until the power that answers it
-/// acts, beyond the hold of a tick; 0 to 100 ticks. Allocates.
+/// acts, beyond the hold of a tick; >= 0. Allocates.
 LoopMargin loop_margin(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                        double delay_s);
 
@@ -42,6 +27,10 @@ struct WorstCorner {
 };
 WorstCorner worst_corner(const FixedLaw& law, const PhysicalParameters& nominal, double span,
                          double step_s, double delay_s);
+/// The same with the law that follows from each corner itself. Not for open loop.
+WorstCorner worst_corner_adapted(const ControllerSettings& settings,
+                                 const PhysicalParameters& nominal, double span, double step_s,
+                                 double delay_s);
 
 /// The largest span, to 1 %, up to which all corners are stable; 0.9 at most.
 double tolerated_span(const FixedLaw& law, const PhysicalParameters& nominal, double step_s,

@@ -39,6 +39,9 @@ constexpr Polynomial<2> squared_pole(double pole_rad_per_s) {
   return {pole_rad_per_s * pole_rad_per_s, 2.0 * pole_rad_per_s, 1.0};
 }
 
+/// λ and α of the same law with constants of its own.
+MracSettings filters_of(const MracLeastSquaresSettings& settings);
+
 /// θ* of the nominal muscle; any valid one has it. Its compensator need not be stable (control.md).
 std::optional<MracMatching> match(const MracLeastSquaresSettings& settings,
                                   const ReferenceModelSettings& model);
@@ -88,11 +91,11 @@ class MracLeastSquares {
     follower_ = theta_;
   }
 
-  /// The filters as if the muscle had long moved as it does; to hold a power, the integral becomes
-  /// what the rest leaves of it.
   /// The muscle was identified: the PID's gains are its own. For a law that does not run.
   void suit(const Theta& theta) { pid_.suit(theta); }
 
+  /// The filters as if the muscle had long moved as it does; to hold a power, the integral becomes
+  /// what the rest leaves of it.
   void start(const LawStart<Scalar>& at) {
     const Scalar rate = at.model.velocity;
     power_.settle(at.power, rate);

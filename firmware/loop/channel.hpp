@@ -98,6 +98,7 @@ class Channel {
   Refusal choose_estimator(double place);
   void enter(Mode mode);
   control::ControllerStart start_here() const;
+  void start_controller(std::size_t place, const control::ControllerStart& at);
   void rest();
   void sample_position(hal::Time now);
   void observe_heat(double supply_V, long periods);

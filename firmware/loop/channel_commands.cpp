@@ -103,7 +103,7 @@ void Channel::enter(Mode mode) {
     at.motion = {evidence_.position.value, 0.0, 0.0};
     at.position_m = evidence_.position.value;
     at.hold = was_driven;
-    controllers_[controller_].start(at);
+    start_controller(controller_, at);
   } else if (mode == Mode::identify) {
     identify_.start();
     result_ = ModeResult::running;
@@ -124,6 +124,12 @@ control::ControllerStart Channel::start_here() const {
   return at;
 }
 
+/// With the gains of the muscle that is known by now: one that runs would jump at others.
+void Channel::start_controller(std::size_t place, const control::ControllerStart& at) {
+  controllers_[place].suit(control::theta_from(muscle_));
+  controllers_[place].start(at);
+}
+
 void Channel::rest() {
   if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = Mode::rest;
@@ -139,7 +145,7 @@ Refusal Channel::choose_controller(double place) {
   if (mode_ == Mode::position) {
     control::ControllerStart at = start_here();
     at.hold = true;
-    controllers_[chosen].start(at);
+    start_controller(chosen, at);
   }
   controller_ = chosen;
   return Refusal::none;

@@ -43,8 +43,6 @@ ModeResult Channel::keep(const control::PhysicalParameters& muscle,
   if (storage::check(learned)) return ModeResult::implausible;
   if (found != calibration_) supervisor_.restart();  // every position moves with it
   muscle_ = muscle;
-  for (control::Controller& controller : controllers_)
-    controller.suit(control::theta_from(muscle));
   calibration_ = found;
   return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }

@@ -64,7 +64,9 @@ TEST(Modes, IdentifyFindsTheMuscleWithinAMinute) {
 }
 
 TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
-  const Ending ended = ending(identify + "[controller]\nkind = 'adaptive_ff'\n");
+  const Ending ended = ending(
+      identify +
+      "[controller]\nkind = 'adaptive_ff'\n[[event]]\nat_s = 63.0\noperator.wish = 'track'\n");
   CHECK(ended.learned.has_value());
   const control::AdaptiveFeedforwardSettings settings;
   const double theta3 = control::theta_from(ended.learned->muscle)[2];

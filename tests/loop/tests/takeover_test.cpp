@@ -56,6 +56,13 @@ void hold(Rig& rig) {
   rig.send(Verb::position, 0.010);
 }
 
+/// What tells an estimator all of the muscle.
+void excite(Rig& rig) {
+  const double time_s = rig.time_s();
+  rig.send(Verb::power, 2.2 + 0.5 * (std::sin(0.3 * time_s) + std::sin(1.1 * time_s)) +
+                            0.5 * (std::sin(3.1 * time_s) + std::sin(9.0 * time_s)));
+}
+
 /// How far the muscle is, within a time after a switch, from where it would have been without.
 double moved_m(int from, int to, bool moving, int ticks) {
   Twins twins(rough_board());
@@ -64,6 +71,17 @@ double moved_m(int from, int to, bool moving, int ticks) {
   twins.apart_m(warm_ticks, moving ? follow : hold);
   twins.switches.send(Verb::controller, to);
   return twins.apart_m(ticks, moving ? follow : hold);
+}
+
+/// As told next, within a second.
+double proportional_W_per_m(Rig& rig) {
+  const control::GainValue& told = rig.snapshot().gain;
+  for (int i = 0; i < 1000 && told.gain != control::Gain::proportional; ++i) {
+    hold(rig);
+    rig.tick();
+  }
+  CHECK(told.gain == control::Gain::proportional);
+  return told.value;
 }
 
 }  // namespace
@@ -106,4 +124,42 @@ TEST(Takeover, FromOpenLoopDoesNotJerkTheMuscle) {
     printf("power -> %d: %.2f um\n", to, moved * 1e6);
     CHECK_COMPARE(moved, <, noise_rms_m);
   }
+}
+
+/// Gains that follow from the muscle are those of the one that is known at a controller's start.
+TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
+  RigSettings settings = rough_board();
+  ChannelSettings& channel = settings.firmware.channels[Rig::tested];
+  channel.controllers.resize(1);
+  channel.controllers[0].kind = control::ControllerKind::adaptive_ff;
+  channel.estimators[0] = {};
+  channel.estimators[0].kind = control::EstimatorKind::least_squares;
+  settings.board.channels[Rig::tested].plant.stiffness_N_per_m = 14.0;
+  Twins twins(settings);
+  twins.warm_up(Task::power, 0);
+  twins.both([](Rig& rig) { rig.task = Task::nothing; });
+  twins.apart_m(warm_ticks, excite);
+  twins.apart_m(1000, hold);
+  CHECK_TRUE(twins.switches.snapshot().trusted);
+  const double before = proportional_W_per_m(twins.switches);
+  proportional_W_per_m(twins.stays);
+
+  twins.switches.send(Verb::store, 1.0);
+  DOUBLES_EQUAL(0.0, twins.apart_m(2000, hold), 0.0);
+  storage::Lesson lesson;
+  CHECK_TRUE(twins.switches.loop.channel(Rig::tested).take_lesson(lesson));
+  DOUBLES_EQUAL(14.0, lesson->muscle.stiffness_N_per_m, 0.5);
+  DOUBLES_EQUAL(before, proportional_W_per_m(twins.switches), 0.0);
+  proportional_W_per_m(twins.stays);
+
+  twins.both([](Rig& rig) {
+    rig.send(Verb::rest);
+    rig.run(0.1);
+    CHECK(rig.state() == State::armed);
+    rig.heat(Task::position);
+    rig.task = Task::nothing;
+  });
+  DOUBLES_EQUAL(before, proportional_W_per_m(twins.stays), 0.0);
+  DOUBLES_EQUAL(before * 14.0 / 16.0, proportional_W_per_m(twins.switches), 0.1 * before);
+  CHECK(proportional_W_per_m(twins.switches) < 0.98 * before);
 }

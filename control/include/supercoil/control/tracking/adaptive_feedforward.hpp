@@ -40,7 +40,8 @@ class AdaptiveFeedforward {
     theta_ << Wide(1), Wide(1), Wide(1), Wide(1), Wide{};
   }
 
-  /// The muscle was identified: θ̄ and the PID's gains are its own. For a law that does not run.
+  /// The muscle was identified: θ̄ and the PID's gains are its own, and the bias stays. For a law
+  /// that does not run.
   void suit(const Theta& theta) {
     pid_.suit(theta);
     const Theta relative = theta.cwiseQuotient(settings_.scale.nominal);

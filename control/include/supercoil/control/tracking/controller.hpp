@@ -139,6 +139,8 @@ class ModelFollower {
 
   void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
   void suit(const Theta& theta) {
+    if (suited_ == theta) return;
+    suited_ = theta;
     if (shaper_) shaper_->suit(theta);
     if constexpr (requires { law_.suit(theta); }) law_.suit(theta);
   }
@@ -166,6 +168,7 @@ class ModelFollower {
   ReferenceModel<Scalar> model_;
   Law law_;
   std::optional<ReferenceShaper> shaper_;
+  std::optional<Theta> suited_;
   /// Slower than every law here: the loop, not the fading, decides where the muscle is.
   static constexpr double bridge_s = 10.0;
 
@@ -188,7 +191,8 @@ class Controller {
   /// Before the first step, and when it takes over: starts from there instead of from zero.
   void start(const ControllerStart& at);
   /// The muscle was identified, or is known from before: gains that follow from it are its own from
-  /// then on. theta: in its own units. Before start(), not while it runs.
+  /// then on. The same muscle again changes nothing that was learned since. theta: in its own
+  /// units. Before start(), not while it runs.
   void suit(const Theta& theta);
   /// What is known of the muscle, each tick before step(); only laws with a model of it care.
   void learn(const Estimate& estimate);

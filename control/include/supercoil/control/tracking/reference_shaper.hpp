@@ -32,11 +32,8 @@ class ReferenceShaper {
   ReferenceShaper(const ReferenceModelSettings& model, const RegressionScale& muscle)
       : model_(model), theta_(muscle.nominal), moving_mass_kg_(muscle.moving_mass_kg) {}
 
-  /// The muscle was identified.
-  void suit(const Theta& theta) {
-    theta_ = theta;
-    bias_W_ = 0.0;
-  }
+  /// The muscle was identified. What else pulls at it is not the muscle's.
+  void suit(const Theta& theta) { theta_ = theta; }
   /// Goes by the estimate while that is trusted, then by the last that was.
   void learn(const Estimate& estimate) {
     if (!estimate.trusted) return;

@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <thread>
 #include <utility>
 
 #include "cli/commands.hpp"
@@ -10,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "cli/run_results.hpp"
 #include "compare/carry_out.hpp"
+#include "compare/in_parallel.hpp"
 #include "report/output_folder.hpp"
 
 namespace supercoil::host_sim {
@@ -52,10 +51,8 @@ tl::expected<std::vector<compare::Run>, std::string> missing(const compare::Plan
 bool run_all(const compare::Plan& plan, const std::vector<compare::Run>& todo, Results& results,
              std::ofstream& file, const CompareOptions& options) {
   Progress progress("comparing", options.quiet);
-  const auto jobs = options.jobs > 0 ? static_cast<unsigned>(options.jobs)
-                                     : std::max(1U, std::thread::hardware_concurrency());
   std::size_t ended = 0;
-  carry_out(plan.cases, todo, jobs,
+  carry_out(plan.cases, todo, compare::threads_for(options.jobs),
             {[&](const compare::Run& run, const compare::Result& result) {
                const compare::Key key = key_of(plan, run);
                file << compare::to_line(key, result) << std::flush;

@@ -1,10 +1,9 @@
 #include "cli/compare_results.hpp"
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
-#include <utility>
 
+#include "cli/tables.hpp"
 #include "compare/catalogue.hpp"
 #include "compare/plot.hpp"
 
@@ -16,28 +15,13 @@ int conclude_comparison(const Results& results, OutputFolder& folder,
                         const CompareOptions& options) {
   const auto table = compare::table_of(results);
   const std::string markdown = compare::to_markdown(table);
-  const std::array<std::pair<const char*, std::string>, 3> files{
-      {{runs_name, compare::to_file(results)},
-       {"compare.csv", compare::to_csv(table)},
-       {"compare.md", markdown}}};
-  for (const auto& [name, content] : files) {
-    if (const auto written = folder.write(name, content); !written)
-      return fail(exit_failed, written.error());
-  }
-  if (options.plot) {
-    if (const auto drawn = draw(compare::figure_of(table), folder.temporary("compare.svg"));
-        !drawn) {
-      folder.drop("compare.svg");
-      std::fprintf(stderr, "supercoil-sim: compare.svg is not written: %s\n",
-                   drawn.error().c_str());
-    }
-  }
-  if (const auto done = folder.commit(); !done) return fail(exit_failed, done.error());
-  if (!options.quiet) {
-    std::fputs(markdown.c_str(), stdout);
-    std::printf("\n%zu runs, written to %s\n", results.size(), folder.path().c_str());
-  }
-  return exit_done;
+  if (options.plot) draw_into(folder, compare::figure_of(table), "compare.svg");
+  return conclude_tables({{{runs_name, compare::to_file(results)},
+                           {"compare.csv", compare::to_csv(table)},
+                           {"compare.md", markdown}},
+                          markdown,
+                          results.size()},
+                         folder, options.quiet);
 }
 
 int merge_comparisons(const CompareOptions& options) {

@@ -1,12 +1,9 @@
-#include <algorithm>
-#include <array>
-#include <cstdio>
-#include <thread>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_results.hpp"
+#include "cli/tables.hpp"
 #include "compare/in_parallel.hpp"
 #include "estimators/results.hpp"
 #include "report/output_folder.hpp"
@@ -32,11 +29,9 @@ std::vector<Key> runs_of(long seeds) {
 
 Outcomes try_all(const std::vector<Key>& runs, const EstimatorsOptions& options) {
   Progress progress("comparing estimators", options.quiet);
-  const auto jobs = options.jobs > 0 ? static_cast<unsigned>(options.jobs)
-                                     : std::max(1U, std::thread::hardware_concurrency());
   Outcomes outcomes;
   compare::in_parallel(
-      runs.size(), jobs,
+      runs.size(), compare::threads_for(options.jobs),
       [&](std::size_t number, const std::atomic<bool>& stop) -> compare::Handover {
         const Key& key = runs[number];
         auto outcome = estimators::run(estimators::contenders[key.contender],
@@ -73,27 +68,12 @@ int estimators_command(const EstimatorsOptions& options) {
   const auto bounds = all_bounds();
   const std::string markdown =
       estimators::to_markdown(outcomes, bounds, estimators::measure_costs());
-  const std::array<std::pair<const char*, std::string>, 2> files{
-      {{"estimators.csv", estimators::to_csv(outcomes, bounds)}, {"estimators.md", markdown}}};
-  for (const auto& [name, content] : files) {
-    if (const auto written = folder->write(name, content); !written)
-      return fail(exit_failed, written.error());
-  }
-  constexpr const char* picture = "estimators.svg";
-  if (options.plot) {
-    const auto figure = estimators::figure_of(outcomes, bounds);
-    if (const auto drawn = draw(figure, folder->temporary(picture)); !drawn) {
-      folder->drop(picture);
-      std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", picture,
-                   drawn.error().c_str());
-    }
-  }
-  if (const auto done = folder->commit(); !done) return fail(exit_failed, done.error());
-  if (!options.quiet) {
-    std::fputs(markdown.c_str(), stdout);
-    std::printf("\n%zu runs, written to %s\n", runs.size(), folder->path().c_str());
-  }
-  return exit_done;
+  if (options.plot) draw_into(*folder, estimators::figure_of(outcomes, bounds), "estimators.svg");
+  return conclude_tables(
+      {{{"estimators.csv", estimators::to_csv(outcomes, bounds)}, {"estimators.md", markdown}},
+       markdown,
+       runs.size()},
+      *folder, options.quiet);
 }
 
 }  // namespace supercoil::host_sim

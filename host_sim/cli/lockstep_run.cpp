@@ -5,6 +5,7 @@
 #include "cli/progress.hpp"
 #include "cli/run_results.hpp"
 #include "cli/runs.hpp"
+#include "cli/tables.hpp"
 #include "report/can_log.hpp"
 #include "report/run_plot.hpp"
 #include "report/trace_writer.hpp"
@@ -80,13 +81,7 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
       return fail(exit_failed, finished.error());
     }
   }
-  if (plot) {
-    if (const auto drawn = draw(plot->figure(), folder.temporary("plot.svg")); !drawn) {
-      // The run's results are worth more than their picture.
-      folder.drop("plot.svg");
-      std::fprintf(stderr, "supercoil-sim: plot.svg is not written: %s\n", drawn.error().c_str());
-    }
-  }
+  if (plot) draw_into(folder, plot->figure(), "plot.svg");
   const auto concluded =
       conclude(summary, scenario, simulation, progress.elapsed_s(), folder, options.quiet);
   return concluded ? exit_done : fail(exit_failed, concluded.error());

@@ -1,5 +1,6 @@
 #include "compare/in_parallel.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -68,6 +69,11 @@ class Work {
 };
 
 }  // namespace
+
+unsigned threads_for(int wished) {
+  if (wished > 0) return static_cast<unsigned>(wished);
+  return std::max(1U, std::thread::hardware_concurrency());
+}
 
 void in_parallel(std::size_t count, unsigned jobs, const Task& task,
                  const std::function<bool()>& stop) {

@@ -7,6 +7,9 @@
 
 namespace supercoil::host_sim::compare {
 
+/// As many as are wished; of 0, as there are processors.
+unsigned threads_for(int wished);
+
 /// What to do with a task's result, on the calling thread; empty when it was given up.
 using Handover = std::function<void()>;
 /// Does the task of that number, on any thread; looks at stop now and then, and gives up.

@@ -73,7 +73,6 @@ class MuscleFilter {
   long restarts() const { return restarts_; }
 
  private:
-  void begin(double position_m);
   Covariance prior() const;
   void correct(double position_m);
   void forget();

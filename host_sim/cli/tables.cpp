@@ -1,0 +1,28 @@
+#include "cli/tables.hpp"
+
+#include <cstdio>
+
+namespace supercoil::host_sim {
+
+void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name) {
+  const auto drawn = draw(figure, folder.temporary(name));
+  if (drawn) return;
+  folder.drop(name);
+  std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", name.c_str(),
+               drawn.error().c_str());
+}
+
+int conclude_tables(const Tables& tables, OutputFolder& folder, bool quiet) {
+  for (const auto& [name, content] : tables.files) {
+    if (const auto written = folder.write(name, content); !written)
+      return fail(exit_failed, written.error());
+  }
+  if (const auto done = folder.commit(); !done) return fail(exit_failed, done.error());
+  if (!quiet) {
+    std::fputs(tables.markdown.c_str(), stdout);
+    std::printf("\n%zu runs, written to %s\n", tables.runs, folder.path().c_str());
+  }
+  return exit_done;
+}
+
+}  // namespace supercoil::host_sim

@@ -4,8 +4,7 @@
 #include <numbers>
 
 #include "supercoil/control/actuator/conversions.hpp"
-
-#include "sampled_loop.hpp"
+#include "supercoil/control/tracking/sampled_loop.hpp"
 
 namespace supercoil::control {
 

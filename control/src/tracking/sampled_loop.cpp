@@ -1,4 +1,4 @@
-#include "sampled_loop.hpp"
+#include "supercoil/control/tracking/sampled_loop.hpp"
 
 #include <Eigen/Eigenvalues>
 

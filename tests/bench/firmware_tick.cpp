@@ -40,13 +40,16 @@ struct Closed final : hal::DigitalInput {
 /// that every stage runs.
 class Bench {
  public:
-  explicit Bench(std::size_t channels) {
+  Bench(std::size_t channels, const control::ControllerSettings& controller,
+        const control::EstimatorSettings& estimator) {
     BoardSettings settings;
     settings.supply.scaling.per_count = 1e-3;
     settings.channels.resize(channels);
     for (ChannelSettings& channel : settings.channels) {
       channel.position.scaling.per_count = 1e-6;
       channel.heater.current.scaling.per_count = 1e-6;
+      channel.controllers = {controller};
+      channel.estimators = {estimator};
       channel.supervision.frozen_s = INFINITY;
       channel.supervision.responding_part = 0.0;
       channel.supervision.stuck_on_s = INFINITY;
@@ -103,9 +106,10 @@ class Bench {
 };
 
 /// The budget: 300 ns a channel, also of one alone.
-void firmware_tick(benchmark::State& state) {
+void firmware_tick(benchmark::State& state, const control::ControllerSettings& controller,
+                   const control::EstimatorSettings& estimator) {
   const auto channels = static_cast<std::size_t>(state.range(0));
-  Bench bench(channels);
+  Bench bench(channels, controller, estimator);
   for (auto _ : state)
     bench.tick(Verb::position);
   if (!bench.active()) {
@@ -116,6 +120,29 @@ void firmware_tick(benchmark::State& state) {
       static_cast<double>(channels),
       benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
-BENCHMARK(firmware_tick)->Arg(1)->Arg(4)->Arg(16);
+
+control::ControllerSettings shaped(control::ControllerKind kind) {
+  control::ControllerSettings settings;
+  settings.kind = kind;
+  settings.shaped_for.emplace();
+  return settings;
+}
+control::EstimatorSettings least_squares() {
+  control::EstimatorSettings settings;
+  settings.kind = control::EstimatorKind::least_squares;
+  return settings;
+}
+
+BENCHMARK_CAPTURE(firmware_tick, mrac_gradient, {}, {})->Arg(1)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(firmware_tick, adaptive_ff_all, shaped(control::ControllerKind::adaptive_ff),
+                  least_squares())
+    ->Arg(1)
+    ->Arg(4)
+    ->Arg(16);
+BENCHMARK_CAPTURE(firmware_tick, mrac_ls_all, shaped(control::ControllerKind::mrac_ls),
+                  least_squares())
+    ->Arg(1)
+    ->Arg(4)
+    ->Arg(16);
 
 }  // namespace

@@ -131,7 +131,7 @@ def main():
         except OSError as error:
             sys.exit(f"image_test: {error}")
         image.put_board(card, board_toml())
-        settings = rig.Settings(share=rig.BUILD / f"image_{name}_test", watchdog=True, can=True, image=card, time_out_s=3600.0)
+        settings = rig.Settings(share=rig.BUILD / f"image_{name}_test", watchdog=True, can=2, image=card, time_out_s=3600.0)
         part(table, name, card, settings, *more.get(name, ()))
     table.end()
 

@@ -34,7 +34,7 @@ class Settings:
     share: pathlib.Path = BUILD / "share"
     time_out_s: float = 120.0  # of the host's time; of the guest's nothing is known
     watchdog: bool = False  # an i6300esb: /dev/watchdog; not fed, it switches the board off
-    can: bool = False  # can0 and can1, on one bus
+    can: int = 0  # controllers on one bus: can0, can1, ...
     system: bool = False  # Debian's systemd from a disk, with supercoild as its service
     image: pathlib.Path | None = None  # boots this card by U-Boot instead (image.py); what is written stays
     disk: pathlib.Path | None = None  # a disk of its own, not of system or image: /dev/vda; what is written stays
@@ -81,7 +81,7 @@ def qemu_command(settings):
     if settings.disk:
         command += disk_options(settings.disk, settings.write_log)
     if settings.can:
-        command += ["-object", "can-bus,id=bus", "-device", "kvaser_pci,canbus=bus", "-device", "kvaser_pci,canbus=bus"]
+        command += ["-object", "can-bus,id=bus", *(settings.can * ["-device", "kvaser_pci,canbus=bus"])]
     return command
 
 

@@ -136,7 +136,7 @@ def run_python():
         (share / "source" / name).parent.mkdir(parents=True)
         shutil.copy(rig.ROOT / name, share / "source" / name)
     shutil.copytree(rig.BUILD / "python", share / "python", copy_function=os.link, symlinks=True)
-    settings = rig.Settings(share=share, watchdog=True, can=True, time_out_s=900.0)
+    settings = rig.Settings(share=share, watchdog=True, can=2, time_out_s=900.0)
     return rig.run(rig.HERE / "scripts" / "python", (), settings)
 
 
@@ -145,7 +145,7 @@ def main():
     dbc = protocol()
     share = rig.BUILD / "telemetry_test"
     (share / "can.log").unlink(missing_ok=True)
-    settings = rig.Settings(share=share, watchdog=True, can=True, time_out_s=900.0)
+    settings = rig.Settings(share=share, watchdog=True, can=2, time_out_s=900.0)
     run = rig.run(rig.HERE / "scripts" / "telemetry", (disarm_frame(dbc),), settings)
     table.judge("telemetry", lambda t, r: judge(t, r, dbc, (share / "can.log").read_text()), run)
     table.judge("Python", judge_python, run_python())

@@ -90,7 +90,7 @@ def main():
     newer_package(share / "newer.deb")
     # Without a bus, which costs this processor more than all the rest.
     image.put_board(card, image_test.board_toml().split("[can]")[0])
-    run = image.run("upgrade", (), rig.Settings(share=share, watchdog=True, can=True, image=card, time_out_s=3600.0))
+    run = image.run("upgrade", (), rig.Settings(share=share, watchdog=True, can=2, image=card, time_out_s=3600.0))
     table.judge("upgrade", judge, run)
     table.end()
 

@@ -104,6 +104,8 @@ int run_program(int count, char** arguments) {
   app.add_option("--seed", plant.seed, "Of the sensors' noise")->capture_default_str();
   app.add_option("--priority", options.priority, "SCHED_FIFO")->capture_default_str();
   app.add_option("--i2c-bus", plant.i2c_bus)->capture_default_str();
+  app.add_option("--pwm-address", plant.pwm_address)->capture_default_str();
+  app.add_option("--first-converter", plant.first_converter)->capture_default_str();
   app.add_option("--lines", plant.lines, "A folder of each line")->capture_default_str();
   app.add_option("--witness", options.witness, "Where lines are written; else standard output");
   app.add_option("--troubles", options.troubles, "FIFO from which troubles are ordered");

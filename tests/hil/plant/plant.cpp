@@ -4,16 +4,6 @@ namespace supercoil::rig {
 
 namespace {
 
-// As guest/functions gives them to i2c-stub and the drivers.
-constexpr int pwm_address = 0x40;
-constexpr int supply_address = 0x48;
-constexpr int position_address(int channel) {
-  return 0x49 + 2 * channel;
-}
-constexpr int current_address(int channel) {
-  return 0x4a + 2 * channel;
-}
-
 // An ADS1115 whose full scale is 4.096 V: 125 uV a count, none below 0 V.
 host_sim::ConverterSettings converter(double unit_per_V, double noise_rms) {
   constexpr double full_scale_V = 32767 * 125e-6;
@@ -41,15 +31,17 @@ host_sim::SimulatedBoardSettings board_of(const PlantSettings& settings) {
 
 Plant::Plant(const PlantSettings& settings)
     : board_(board_of(settings)),
-      pwm_(settings.i2c_bus, pwm_address),
-      supply_(settings.i2c_bus, supply_address),
+      pwm_(settings.i2c_bus, settings.pwm_address),
+      supply_(settings.i2c_bus, settings.first_converter),
       heartbeat_line_(settings.lines + "/HEARTBEAT"),
       stop_line_(settings.lines + "/STOP"),
       light_line_(settings.lines + "/LIGHT"),
       duties_(static_cast<std::size_t>(settings.channels)) {
   for (int channel = 0; channel < settings.channels; ++channel) {
-    positions_.emplace_back(settings.i2c_bus, position_address(channel));
-    currents_.emplace_back(settings.i2c_bus, current_address(channel));
+    // As guest/functions gives them to i2c-stub and the drivers.
+    const int position = settings.first_converter + 1 + 2 * channel;
+    positions_.emplace_back(settings.i2c_bus, position);
+    currents_.emplace_back(settings.i2c_bus, position + 1);
     enable_lines_.emplace_back(settings.lines + "/ENABLE" + std::to_string(channel));
   }
 }

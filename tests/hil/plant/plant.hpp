@@ -14,6 +14,8 @@ namespace supercoil::rig {
 
 struct PlantSettings {
   std::string i2c_bus = "/dev/i2c-0";
+  int pwm_address = 0x40;
+  int first_converter = 0x48;  ///< the supply's; position and current of each channel follow
   std::string lines = "/run/rig/lines";  ///< one folder for each line, by its name
   int channels = 2;                      ///< 1 to 4
   double rate_Hz = 1000.0;

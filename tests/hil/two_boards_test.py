@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""Two boards on one CAN bus: each with a supercoild of its own, commanded from a third controller, one of them killed.
+
+Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did not do their part.
+
+    .venv/bin/python tests/hil/two_boards_test.py
+"""
+
+import re
+
+import rig
+import telemetry_test
+import witness
+from table import Table
+
+PROTECTED_MS = 150.0 + 20.0  # the charge pump's decay, and a step of the plant
+
+
+def steady_mm(looks, begin_s, end_s):
+    positions = [look.channels[0].position_m * 1e3 for look in looks if begin_s <= look.time_s <= end_s]
+    return min(positions), max(positions)
+
+
+def judge(table, run, share):
+    marks, _ = witness.said(run.console)
+    console = run.console.replace("\r", "")
+    told = dict(re.findall(r"^(arm \d|arm dead \d|held \d|first ended with|second ended with) (\d+)$", console, re.M))
+    table.row("the script ended with", run.status, 0, 0, "")
+    frames = list(telemetry_test.decoded(telemetry_test.protocol(), (share / "can.log").read_text()))
+    nodes = {node for _, node, message, _ in frames if message.name == "Status"}
+    table.row("nodes heard: 5, 6 of one board, 9 of the other", nodes == {5, 6, 9}, 1, 1, "")
+    for node in (5, 9):
+        table.row(f"arm {node} ended with", int(told[f"arm {node}"]), 0, 0, "")
+    first = witness.looks(run.witness)
+    second = witness.looks((share / "witness-2").read_text().splitlines())
+    low, high = steady_mm(first, marks["held"] - 2, marks["held"])
+    table.row("both hold: the first at least at", low, 4.9, 5.1, "mm")
+    table.row("    at most", high, 4.9, 5.1, "mm")
+    low, high = steady_mm(second, marks["held"] - 2, marks["held"])
+    table.row("    the second at least at", low, 7.9, 8.1, "mm")
+    table.row("    at most", high, 7.9, 8.1, "mm")
+    off = witness.first(second, marks["held"], lambda look: look.channels[0].power_W == 0)
+    table.row("the second is killed: its power is off after", (off.time_s - marks["held"]) * 1e3, 0, PROTECTED_MS + 100, "ms")
+    table.row("    who held it is told so", int(told["held 9"]), 1, 1, "")
+    table.row("    and a command to it is not answered", int(told["arm dead 9"]), 1, 1, "")
+    low, high = steady_mm(first, marks["killed"], marks["alone"])
+    table.row("    the first goes on, at least at", low, 4.9, 5.1, "mm")
+    table.row("    at most", high, 4.9, 5.1, "mm")
+    warm = [look for look in second if off.time_s < look.time_s and look.channels[0].power_W > 0]
+    table.row("    the second was heated again, looks", len(warm), 0, 0, "")
+    table.row("    and is disarmed when it comes back", console.count("seen 9 disarmed"), 2, 2, "")
+    table.row("the first was held to the end", int(told["held 5"]), 0, 0, "")
+    faults = [node for _, node, message, signals in frames if message.name == "Status" and str(signals["state"]) == "fault"]
+    table.row("faults told by anybody", len(faults), 0, 0, "")
+    errors = [int(count) for count in re.findall(r"^errors can\d (\d+)$", console, re.M)]
+    table.row("errors that three controllers counted", sum(errors) if len(errors) == 3 else None, 0, 0, "")
+    for which in ("first", "second"):
+        table.row(f"SIGTERM ended the {which} with", int(told[f"{which} ended with"]), 0, 0, "")
+
+
+def main():
+    table = Table()
+    share = rig.BUILD / "two_boards_test"
+    for old in ("can.log", "witness-2"):
+        (share / old).unlink(missing_ok=True)
+    # One processor does the work of two, so it is twice as fast.
+    settings = rig.Settings(share=share, watchdog=True, can=3, instruction_shift=2, time_out_s=1800.0)
+    table.judge("two boards", lambda t, r: judge(t, r, share), rig.run(rig.HERE / "scripts" / "two_boards", (), settings))
+    table.end()
+
+
+if __name__ == "__main__":
+    main()

@@ -11,7 +11,7 @@
 namespace supercoil::can_client {
 
 /// More than any message has; decode() checks it.
-inline constexpr std::size_t most_signals = 16;
+inline constexpr std::size_t most_signals = 20;
 
 struct Decoded {
   const MessageInfo* message;

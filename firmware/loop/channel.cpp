@@ -24,6 +24,11 @@ constexpr double smoothing_s = 0.2;
 /// telemetry does; counting up, every fifth would show a fifth of the detectors.
 constexpr std::uint32_t golden_turn = 2654435769U;
 
+/// Infinity is an estimator's word for what it cannot tell.
+double nan_if_infinite(double deviation) {
+  return std::isfinite(deviation) ? deviation : std::nan("");
+}
+
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
@@ -214,6 +219,23 @@ void Channel::write_enable(bool high) {
   written_enable_ = static_cast<int>(high);
 }
 
+void Channel::publish_estimate() {
+  control::Estimate e{.theta = control::Theta::Constant(std::nan("")),
+                      .relative_error_bound = std::nan("")};
+  if (estimate_) e = *estimate_;
+  Snapshot& s = snapshot_;
+  s.theta = e.theta;
+  s.error_bound = e.relative_error_bound;
+  s.trusted = e.trusted;
+  s.deviation = e.deviation.unaryExpr(&nan_if_infinite);
+  s.bias_deviation_W = nan_if_infinite(e.bias_deviation_W);
+  // Who cannot tell how far off a bias may be has none.
+  const bool told = !std::isnan(s.bias_deviation_W);
+  s.bias_W = told ? e.bias_W : s.bias_deviation_W;
+  constexpr std::uint64_t asides = aside_names.size() - 1;
+  s.aside = told ? static_cast<std::uint8_t>(1 + (turn_ * asides >> 32U)) : std::uint8_t{0};
+}
+
 const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_verdict) {
   Snapshot& s = snapshot_;
   s.time = board.time;
@@ -237,17 +259,13 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.resistance_age_s = resistance_.age_s();
   s.coldest_C = heat_.coldest_C();
   s.hottest_C = heat_.hottest_C();
-  if (estimate_) {
-    s.theta = estimate_->theta;
-    s.error_bound = estimate_->relative_error_bound;
-    s.trusted = estimate_->trusted;
-  }
   s.progress = mode_ == Mode::identify    ? identify_.progress()
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;
   s.result = result_;
   const auto& faults = all_faults();
   turn_ += golden_turn;
+  publish_estimate();
   s.turn = faults[(std::uint64_t{turn_} * faults.size()) >> 32U].fault;
   const Verdict& judge = board_verdict.judges(s.turn) ? board_verdict : supervisor_.verdict();
   s.margin = judge.margin(s.turn);

@@ -112,6 +112,7 @@ class Channel {
   void end_mode(ModeResult result);
   ModeResult keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
   LimitedBy limited_by() const;
+  void publish_estimate();
   void write_duty(int step);
   void write_enable(bool high);
   control::Estimator& estimator() { return estimators_[estimator_]; }

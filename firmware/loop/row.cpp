@@ -1,11 +1,20 @@
 #include "loop/row.hpp"
 
+#include <cmath>
+
 namespace supercoil {
 
 namespace {
 
 float narrow(double value) {
   return static_cast<float>(value);
+}
+
+double aside_of(const Snapshot& s) {
+  if (s.aside == 0) return std::nan("");
+  const std::array<double, aside_names.size() - 1> all{
+      s.bias_W, s.deviation[0], s.deviation[1], s.deviation[2], s.deviation[3], s.bias_deviation_W};
+  return all.at(s.aside - 1U);
 }
 
 }  // namespace
@@ -44,6 +53,8 @@ Row row_of(const Snapshot& s) {
   row.margin_limit = narrow(s.margin.limit);
   row.gain = narrow(s.gain.value);
   row.result = static_cast<std::uint8_t>(s.result);
+  row.aside = narrow(aside_of(s));
+  row.aside_turn = s.aside;
   row.gain_turn = static_cast<std::uint8_t>(s.gain.gain);
   return row;
 }

@@ -45,7 +45,10 @@ struct Row {
   float gain;
   std::uint8_t gain_turn;  ///< which of the controller's gains this row carries
   std::uint8_t result;     ///< of ModeResult
-  std::array<std::uint8_t, 6> reserved;
+  /// What the estimator tells beside theta is in one of these in each row, in turn.
+  std::uint8_t aside_turn;  ///< place in aside_names
+  std::uint8_t reserved;
+  float aside;
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 

@@ -22,6 +22,17 @@ enum class Mode : std::uint8_t { rest, position, power, identify, calibrate };
 inline constexpr std::array<std::string_view, 5> mode_names{"rest", "position", "power", "identify",
                                                             "calibrate"};
 
+/// What an estimator may tell beside theta: a bias of the power, and standard deviations.
+inline constexpr std::array<std::string_view, 7> aside_names{
+    "none",
+    "bias",
+    "theta1_deviation",
+    "theta2_deviation",
+    "theta3_deviation",
+    "theta4_deviation",
+    "bias_deviation",
+};
+
 /// Quantities that could not be measured are NaN. Powers act from this tick to the next.
 struct Snapshot {
   hal::Time time{};
@@ -47,8 +58,12 @@ struct Snapshot {
   double coldest_C = 0.0;  ///< the muscle's temperature lies between these
   double hottest_C = 0.0;
   control::Theta theta = control::Theta::Zero();
-  double error_bound = 0.0;  ///< of the estimates, relative
-  float progress = 0.0F;     ///< of identify and calibrate, 0 to 1
+  double error_bound = 0.0;                           ///< of theta, relative
+  double bias_W = 0.0;                                ///< as what follows, NaN while none is told
+  control::Theta deviation = control::Theta::Zero();  ///< standard, of theta
+  double bias_deviation_W = 0.0;
+  std::uint8_t aside = 0;  ///< whose turn it is: place in aside_names, each within 13 ticks
+  float progress = 0.0F;   ///< of identify and calibrate, 0 to 1
   ModeResult result = ModeResult::none;
   /// One detector's margin in turn; each comes round within 55 ticks.
   Fault turn = Fault::none;

@@ -14,7 +14,7 @@ constexpr std::string_view columns =
     "time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,"
     "model_m,position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,"
     "resistance_age_s,coldest_C,hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,"
-    "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result\n";
+    "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result,aside_of,aside\n";
 
 /// Never in exponents, which some spreadsheets take for text.
 template <class Number>
@@ -55,6 +55,8 @@ void add_row(std::string& line, const Row& row, double time_s) {
   add(line, gain_name(row.gain_turn));
   add(line, row.gain);
   add(line, result_name(row.result));
+  add(line, aside_name(row.aside_turn));
+  add(line, row.aside);
   line.back() = '\n';
 }
 

@@ -168,8 +168,23 @@ hal::CanFrame status(Node node, const Row& row, bool leased, std::uint8_t counte
   return packed(SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, node, m, supercoil_status_pack);
 }
 
+void Asides::take(const Row& row) {
+  if (row.aside_turn == 0) {
+    *this = {};
+  } else if (row.aside_turn <= newest_.size()) {
+    newest_.at(row.aside_turn - 1U) = row.aside;
+  }
+}
+
+std::uint8_t Asides::parameters() const {
+  constexpr std::uint8_t first = SUPERCOIL_ESTIMATE_PARAMETER_BIAS_CHOICE;
+  const bool some_lack =
+      std::ranges::any_of(newest_, [](float value) { return std::isnan(value); });
+  return some_lack ? first : static_cast<std::uint8_t>(first + newest_.size());
+}
+
 hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
-                       const control::KnownParameters& known) {
+                       const control::KnownParameters& known, const Asides& asides) {
   const control::Theta theta(row.theta[0], row.theta[1], row.theta[2], row.theta[3]);
   const auto muscle = control::physical_from(theta, known);
   const auto of_muscle = [&](double control::PhysicalParameters::*member) {
@@ -189,6 +204,12 @@ hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
   m.heat_transfer_w_per_k = of_muscle(&control::PhysicalParameters::heat_transfer_W_per_K);
   m.stiffness_n_per_m = of_muscle(&control::PhysicalParameters::stiffness_N_per_m);
   m.damping_ns_per_m = of_muscle(&control::PhysicalParameters::damping_Ns_per_m);
+  m.bias_w = asides.of(1);
+  m.theta1_deviation = asides.of(2);
+  m.theta2_deviation = asides.of(3);
+  m.theta3_deviation = asides.of(4);
+  m.theta4_deviation = asides.of(5);
+  m.bias_deviation_w = asides.of(6);
   return packed(SUPERCOIL_ESTIMATE_FRAME_ID, SUPERCOIL_ESTIMATE_LENGTH, node, m,
                 supercoil_estimate_pack);
 }

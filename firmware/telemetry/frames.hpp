@@ -55,10 +55,22 @@ hal::CanFrame tracking(Node node, const Row& row);
 hal::CanFrame power(Node node, const Row& row);
 hal::CanFrame heater(Node node, const Row& row);
 hal::CanFrame temperature(Node node, const Row& row);
-/// parameter: 0 to 7, as the DBC counts them.
-inline constexpr std::uint8_t parameters = 8;
+/// What rows carry in turn: the newest of each.
+class Asides {
+ public:
+  Asides() { newest_.fill(NAN); }
+  void take(const Row& row);
+  /// place: in aside_names, from 1. NaN: not told.
+  float of(std::size_t place) const { return newest_.at(place - 1); }
+  /// How many parameters, from 0 on as the DBC counts them, there is something to say of: asides
+  /// are the last ones, once all are told.
+  std::uint8_t parameters() const;
+
+ private:
+  std::array<float, aside_names.size() - 1> newest_{};
+};
 hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
-                       const control::KnownParameters& known);
+                       const control::KnownParameters& known, const Asides& asides = {});
 hal::CanFrame margin(Node node, const Row& row);
 hal::CanFrame limit(Node node, const Row& row);
 hal::CanFrame gain(Node node, const Row& row);

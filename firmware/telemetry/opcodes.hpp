@@ -11,7 +11,7 @@ namespace supercoil::telemetry {
 
 /// Of firmware/telemetry/supercoil.dbc; a change that an old reader would misunderstand gives a new
 /// number.
-inline constexpr std::uint8_t protocol_version = 2;
+inline constexpr std::uint8_t protocol_version = 3;
 
 /// A verb has its own number; the lease's follow.
 enum Opcode : std::uint8_t { claim = verb_names.size(), release };

@@ -31,6 +31,7 @@ void Publisher::offer(const Row& row) {
   Channel& channel = channels_[row.channel];
   const bool changed = row.fault != (channel.known ? channel.row.fault : 0);
   channel.row = row;
+  channel.asides.take(row);
   channel.known = true;
   if (!changed) return;
   push(emergencies_, emergency(static_cast<Node>(first_node_ + row.channel), row));
@@ -67,8 +68,9 @@ hal::CanFrame Publisher::frame_of(Node node, Channel& channel, Message message, 
     case Message::temperature:
       return temperature(node, row);
     case Message::estimate:
-      channel.parameter = static_cast<std::uint8_t>((channel.parameter + 1) % parameters);
-      return estimate(node, row, channel.parameter, channel.muscle);
+      channel.parameter =
+          static_cast<std::uint8_t>((channel.parameter + 1) % channel.asides.parameters());
+      return estimate(node, row, channel.parameter, channel.muscle, channel.asides);
     case Message::margin:
       return margin(node, row);
     case Message::limit:

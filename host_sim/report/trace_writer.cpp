@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <system_error>
 
 namespace supercoil::host_sim {
@@ -13,7 +14,8 @@ constexpr std::size_t flush_bytes = 1 << 20;
 constexpr const char* header =
     "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,temperature_rise_K,"
     "limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,coldest_K,hottest_K,state,"
-    "fault,limited_by\n";
+    "fault,limited_by,bias_W,theta1_deviation,theta2_deviation,theta3_deviation,theta4_deviation,"
+    "bias_deviation_W\n";
 
 }  // namespace
 
@@ -56,6 +58,15 @@ void TraceWriter::add(const TickRecord& record, const std::optional<control::Est
     buffer_ += ',';
     buffer_ += word;
   }
+  const bool deviates = estimate && std::isfinite(estimate->bias_deviation_W);
+  buffer_ += ',';
+  if (deviates) number(estimate->bias_W);
+  for (int i = 0; i < 4; ++i) {
+    buffer_ += ',';
+    if (deviates) number(estimate->deviation[i]);
+  }
+  buffer_ += ',';
+  if (deviates) number(estimate->bias_deviation_W);
   buffer_ += '\n';
   if (buffer_.size() >= flush_bytes) flush();
 }

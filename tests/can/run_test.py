@@ -19,9 +19,12 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DBC = ROOT / "firmware" / "telemetry" / "supercoil.dbc"
 LINE = re.compile(r"\((\d{10})\.(\d{6})\) can0 ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8})\n")
 TICK_S = 1e-3
-# Moves, is limited, and breaks: the flight recording has every tick of the 10 s before.
+# Moves, estimates otherwise, is limited, and breaks: the flight recording has every tick of the 10 s before.
 SCENARIO = """\
 simulation.duration_s = 13.5
+[[event]]
+at_s = 5.0
+estimator.kind = "least_squares"
 [[event]]
 at_s = 7.0
 power.max_W = 1.0
@@ -29,6 +32,10 @@ power.max_W = 1.0
 at_s = 12.0
 trouble.heater_open = true
 """
+# Told by least squares only, one a tick in turn: what is sent of them is at most so many ticks old.
+ASIDES = {"bias_W": "bias", "theta1_deviation": "theta1_deviation", "theta2_deviation": "theta2_deviation",
+          "theta3_deviation": "theta3_deviation", "theta4_deviation": "theta4_deviation", "bias_deviation_W": "bias_deviation"}
+MOST_TICKS = 13
 # Signals by message, and the recording's columns that they show.
 COLUMNS = {
     "Measurement": {"position_m": "position_m", "resistance_Ohm": "resistance_Ohm",
@@ -46,9 +53,9 @@ COLUMNS = {
                "trusted": "trusted", "limited": "limited", "controller": "controller", "progress": "progress",
                "result": "result"},
 }
-# Not in the recording: tested by what they mean.
+# Not in the recording's row of the same tick: tested by what they mean.
 OTHERWISE = {"Tracking": {"error_m"},
-             "Estimate": {"parameter", "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m",
+             "Estimate": {*ASIDES, "parameter", "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m",
                           "damping_Ns_per_m"},
              "Timing": {"late_s", "execution_s", "overruns", "dropped_frames"},
              "Status": {"leased", "counter", "protocol_version"},
@@ -177,11 +184,30 @@ class Run(unittest.TestCase):
                 self.assertLessEqual(abs(values["error_m"] - truth), 0.5e-6 * (1 + 1e-6), tick)
 
     def test_parameters_come_one_after_the_other(self):
-        estimates = [values for _, message, values, _ in self.frames if message == "Estimate"]
-        order = [str(values["parameter"]) for values in estimates]
-        self.assertEqual(len(set(order)), 8)
-        for before, after in zip(order, order[8:]):
-            self.assertEqual(before, after)
+        order = []
+        for tick, message, _, raw in self.frames:
+            if message == "Estimate":
+                told = {self.trace[tick - ago]["bias_deviation_W"] != "" for ago in (0, MOST_TICKS)}
+                order.append((told, raw["parameter"]))
+        for (_, before), (told, after) in zip(order, order[1:]):
+            self.assertIn(after, [(before + 1) % (14 if all_told else 8) for all_told in told])
+        for told, count in ((False, 8), (True, 14)):
+            self.assertEqual({parameter for ticks, parameter in order if ticks == {told}}, set(range(count)))
+
+    def test_what_is_told_beside_theta_is_the_newest_of_its_kind(self):
+        recorded, traced = set(), set()
+        for tick, message, values, _ in self.frames:
+            for name in values.keys() & ASIDES.keys() if message == "Estimate" else ():
+                ticks = range(tick, tick - MOST_TICKS, -1)
+                truth = next((t for t in ticks if self.recorded.get(t, {}).get("aside_of") == ASIDES[name]), None)
+                if truth is not None:
+                    self.assert_shows("Estimate", name, values[name], self.recorded[truth]["aside"], f"tick {tick}")
+                    self.assert_shows("Estimate", name, values[name], self.trace[truth][name], f"tick {tick}")
+                    recorded.add(name)
+                self.assertIn(values[name], [single(float(self.trace[t][name])) for t in ticks], f"tick {tick}: {name}")
+                traced.add(name)
+        self.assertEqual(recorded, ASIDES.keys())
+        self.assertEqual(traced, ASIDES.keys())
 
     def test_the_muscle_is_that_of_theta(self):
         seen = set()
@@ -209,7 +235,7 @@ class Run(unittest.TestCase):
         self.assertEqual(counters, [(counters[0] + i) % 256 for i in range(len(counters))])
         for _, message, values, raw in self.frames:
             if message == "Status":
-                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 2))
+                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 3))
             elif message == "Timing":
                 self.assertEqual((values["late_s"], values["execution_s"]), (0, 0))
                 self.assertEqual((raw["overruns"], raw["dropped_frames"]), (0, 0))

@@ -20,13 +20,14 @@ DATABASE = cantools.database.load_file(ROOT / "firmware" / "telemetry" / "superc
 PROTOCOL = {message.name: {signal.name: {"unit": signal.unit or "", "values": {
     str(number): str(name) for number, name in (signal.choices or {}).items()}} for signal in message.signals}
     for message in DATABASE.messages}
-CONSTANT = {"state": 2, "mode": 1, "fault": 0, "leased": 1, "protocol_version": 1, "error_bound": 0.1}
+PARAMETERS = len(PROTOCOL["Estimate"]["parameter"]["values"])
+CONSTANT = {"state": 2, "mode": 1, "fault": 0, "leased": 1, "protocol_version": 3, "error_bound": 0.1}
 
 
 def value(signal, time_s, node, turn):
     """A motion with a tremble; what comes round comes round."""
     if signal in ("parameter", "counter"):
-        return turn % 8
+        return turn % PARAMETERS
     if signal in CONSTANT:
         return CONSTANT[signal]
     return round(0.01 * (1 + math.sin(0.3 * time_s + node)) + 1e-5 * math.sin(997.0 * time_s), 7)

@@ -103,6 +103,39 @@ class ModulesTest(unittest.TestCase):
             store.append(batch(5));
             return [begun, store.oldest_s, length(store.table(1, "M"))];"""), [1, 5, 100])
 
+    def test_a_parameter_has_its_deviation_while_the_estimator_tells_one(self):
+        told, not_told, none = self.ask("""const { Parameters } = await import("/parameters.js");
+            const { protocol } = await (await fetch("/api/about")).json();
+            const numbers = Object.fromEntries(Object.entries(protocol.Estimate.parameter.values).map(([n, name]) => [name, Number(n)]));
+            const store = new Store(protocol, false);
+            const parameters = new Parameters(1, store);
+            const shown = () => { parameters.update(Infinity); return Object.fromEntries([...parameters.element.querySelectorAll("tbody tr")]
+                .map((row) => [row.children[0].textContent, [...row.children].slice(1).map((cell) => cell.textContent)])); };
+            let time_s = 0;
+            const hear = (values, error_bound) => {
+                for (const [name, value] of Object.entries(values)) {
+                    const signal = { bias: "bias_W", bias_deviation: "bias_deviation_W", stiffness: "stiffness_N_per_m" }[name] ?? name;
+                    const row = { time_s: [time_s += 0.1], parameter: [numbers[name]], trusted: [1], error_bound: [error_bound], [signal]: [value] };
+                    store.append({ newest_s: time_s, nodes: { 1: { Estimate: row } } });
+                }
+                return shown();
+            };
+            const of_theta = { theta1: 18.8, theta2: 38.6, theta3: 322, theta4: 166, stiffness: 16 };
+            const told = hear({ ...of_theta, bias: -0.0321, theta1_deviation: 0.5, theta2_deviation: 0.006, theta3_deviation: 1.5,
+                theta4_deviation: 2.5, bias_deviation: 0.0004 }, 0.0123);
+            for (let i = 0; i < 6; ++i) hear(of_theta, 0.2);
+            const not_told = shown();
+            return [told, not_told, hear({ theta1: null }, null)];""")
+        self.assertEqual(told["θ1"], ["18.8", "m", "± 0.500", "± 1 %", "✓ trusted"])
+        self.assertEqual(told["θ2"], ["38.6", "W·s²/m", "± 0.00600", "± 1 %", "✓ trusted"])
+        self.assertEqual(told["θ3"], ["322", "W·s/m", "± 1.50", "± 1 %", "✓ trusted"])
+        self.assertEqual(told["θ4"], ["166", "W/m", "± 2.50", "± 1 %", "✓ trusted"])
+        self.assertEqual(told["bias"], ["−0.0321", "W", "± 4.00e−4", "–", "✓ trusted"])
+        self.assertEqual(told["stiffness"], ["16.0", "N/m", "–", "± 1 %", "✓ trusted"])
+        self.assertEqual(not_told["θ1"], ["18.8", "m", "–", "± 20 %", "✓ trusted"])
+        self.assertEqual(not_told["bias"], ["–", "W", "–", "–", "–"])
+        self.assertEqual(none["θ1"][:4], ["–", "m", "–", "–"])
+
     def test_page_of_a_fault_becomes_elements_and_never_script(self):
         html = self.ask("""const text = "# 30 a <b>\\n\\nTwo ways:\\n- one `x`\\n  more\\n- **two**\\n\\n1. [other](over_travel.md)\\n";
             const link = (label) => document.createTextNode(`(${label})`);

@@ -95,7 +95,7 @@ constexpr std::array<ValueName, 16> names_of_opcode{{
     {15, "release"},
 }};
 
-constexpr std::array<ValueName, 8> names_of_parameter{{
+constexpr std::array<ValueName, 14> names_of_parameter{{
     {0, "theta1"},
     {1, "theta2"},
     {2, "theta3"},
@@ -104,6 +104,12 @@ constexpr std::array<ValueName, 8> names_of_parameter{{
     {5, "heat_transfer"},
     {6, "stiffness"},
     {7, "damping"},
+    {8, "bias"},
+    {9, "theta1_deviation"},
+    {10, "theta2_deviation"},
+    {11, "theta3_deviation"},
+    {12, "theta4_deviation"},
+    {13, "bias_deviation"},
 }};
 
 constexpr std::array<ValueName, 12> names_of_refusal{{
@@ -209,7 +215,7 @@ constexpr std::array<SignalInfo, 2> signals_of_Temperature{{
     {"hottest_C", "degC", 16, 16, Raw::signed_integer, 0.01, -32768, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 11> signals_of_Estimate{{
+constexpr std::array<SignalInfo, 17> signals_of_Estimate{{
     {"parameter", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_parameter},
     {"trusted", "", 8, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"error_bound", "", 16, 16, Raw::unsigned_integer, 0.0001, 65535, always, {}},
@@ -221,6 +227,12 @@ constexpr std::array<SignalInfo, 11> signals_of_Estimate{{
     {"heat_transfer_W_per_K", "W/K", 32, 32, Raw::floating, 1.0, no_value, 5, {}},
     {"stiffness_N_per_m", "N/m", 32, 32, Raw::floating, 1.0, no_value, 6, {}},
     {"damping_Ns_per_m", "Ns/m", 32, 32, Raw::floating, 1.0, no_value, 7, {}},
+    {"bias_W", "W", 32, 32, Raw::floating, 1.0, no_value, 8, {}},
+    {"theta1_deviation", "m", 32, 32, Raw::floating, 1.0, no_value, 9, {}},
+    {"theta2_deviation", "W s2/m", 32, 32, Raw::floating, 1.0, no_value, 10, {}},
+    {"theta3_deviation", "W s/m", 32, 32, Raw::floating, 1.0, no_value, 11, {}},
+    {"theta4_deviation", "W/m", 32, 32, Raw::floating, 1.0, no_value, 12, {}},
+    {"bias_deviation_W", "W", 32, 32, Raw::floating, 1.0, no_value, 13, {}},
 }};
 
 constexpr std::array<SignalInfo, 3> signals_of_Margin{{

@@ -1252,14 +1252,20 @@ int supercoil_estimate_pack(
     const struct supercoil_estimate_t *src_p,
     size_t size)
 {
+    uint32_t bias_deviation_w;
+    uint32_t bias_w;
     uint32_t damping_ns_per_m;
     uint32_t heat_transfer_w_per_k;
     uint32_t stiffness_n_per_m;
     uint32_t thermal_mass_j_per_k;
     uint32_t theta1;
+    uint32_t theta1_deviation;
     uint32_t theta2;
+    uint32_t theta2_deviation;
     uint32_t theta3;
+    uint32_t theta3_deviation;
     uint32_t theta4;
+    uint32_t theta4_deviation;
 
     if (size < 8u) {
         return (-EINVAL);
@@ -1338,6 +1344,54 @@ int supercoil_estimate_pack(
         dst_p[7] |= pack_right_shift_u32(damping_ns_per_m, 24u, 0xffu);
         break;
 
+    case 8:
+        memcpy(&bias_w, &src_p->bias_w, sizeof(bias_w));
+        dst_p[4] |= pack_left_shift_u32(bias_w, 0u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(bias_w, 8u, 0xffu);
+        dst_p[6] |= pack_right_shift_u32(bias_w, 16u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(bias_w, 24u, 0xffu);
+        break;
+
+    case 9:
+        memcpy(&theta1_deviation, &src_p->theta1_deviation, sizeof(theta1_deviation));
+        dst_p[4] |= pack_left_shift_u32(theta1_deviation, 0u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(theta1_deviation, 8u, 0xffu);
+        dst_p[6] |= pack_right_shift_u32(theta1_deviation, 16u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(theta1_deviation, 24u, 0xffu);
+        break;
+
+    case 10:
+        memcpy(&theta2_deviation, &src_p->theta2_deviation, sizeof(theta2_deviation));
+        dst_p[4] |= pack_left_shift_u32(theta2_deviation, 0u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(theta2_deviation, 8u, 0xffu);
+        dst_p[6] |= pack_right_shift_u32(theta2_deviation, 16u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(theta2_deviation, 24u, 0xffu);
+        break;
+
+    case 11:
+        memcpy(&theta3_deviation, &src_p->theta3_deviation, sizeof(theta3_deviation));
+        dst_p[4] |= pack_left_shift_u32(theta3_deviation, 0u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(theta3_deviation, 8u, 0xffu);
+        dst_p[6] |= pack_right_shift_u32(theta3_deviation, 16u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(theta3_deviation, 24u, 0xffu);
+        break;
+
+    case 12:
+        memcpy(&theta4_deviation, &src_p->theta4_deviation, sizeof(theta4_deviation));
+        dst_p[4] |= pack_left_shift_u32(theta4_deviation, 0u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(theta4_deviation, 8u, 0xffu);
+        dst_p[6] |= pack_right_shift_u32(theta4_deviation, 16u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(theta4_deviation, 24u, 0xffu);
+        break;
+
+    case 13:
+        memcpy(&bias_deviation_w, &src_p->bias_deviation_w, sizeof(bias_deviation_w));
+        dst_p[4] |= pack_left_shift_u32(bias_deviation_w, 0u, 0xffu);
+        dst_p[5] |= pack_right_shift_u32(bias_deviation_w, 8u, 0xffu);
+        dst_p[6] |= pack_right_shift_u32(bias_deviation_w, 16u, 0xffu);
+        dst_p[7] |= pack_right_shift_u32(bias_deviation_w, 24u, 0xffu);
+        break;
+
     default:
         break;
     }
@@ -1350,14 +1404,20 @@ int supercoil_estimate_unpack(
     const uint8_t *src_p,
     size_t size)
 {
+    uint32_t bias_deviation_w;
+    uint32_t bias_w;
     uint32_t damping_ns_per_m;
     uint32_t heat_transfer_w_per_k;
     uint32_t stiffness_n_per_m;
     uint32_t thermal_mass_j_per_k;
     uint32_t theta1;
+    uint32_t theta1_deviation;
     uint32_t theta2;
+    uint32_t theta2_deviation;
     uint32_t theta3;
+    uint32_t theta3_deviation;
     uint32_t theta4;
+    uint32_t theta4_deviation;
 
     if (size < 8u) {
         return (-EINVAL);
@@ -1434,6 +1494,54 @@ int supercoil_estimate_unpack(
         memcpy(&dst_p->damping_ns_per_m, &damping_ns_per_m, sizeof(dst_p->damping_ns_per_m));
         break;
 
+    case 8:
+        bias_w = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+        bias_w |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+        bias_w |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+        bias_w |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+        memcpy(&dst_p->bias_w, &bias_w, sizeof(dst_p->bias_w));
+        break;
+
+    case 9:
+        theta1_deviation = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+        theta1_deviation |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+        theta1_deviation |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+        theta1_deviation |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+        memcpy(&dst_p->theta1_deviation, &theta1_deviation, sizeof(dst_p->theta1_deviation));
+        break;
+
+    case 10:
+        theta2_deviation = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+        theta2_deviation |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+        theta2_deviation |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+        theta2_deviation |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+        memcpy(&dst_p->theta2_deviation, &theta2_deviation, sizeof(dst_p->theta2_deviation));
+        break;
+
+    case 11:
+        theta3_deviation = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+        theta3_deviation |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+        theta3_deviation |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+        theta3_deviation |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+        memcpy(&dst_p->theta3_deviation, &theta3_deviation, sizeof(dst_p->theta3_deviation));
+        break;
+
+    case 12:
+        theta4_deviation = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+        theta4_deviation |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+        theta4_deviation |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+        theta4_deviation |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+        memcpy(&dst_p->theta4_deviation, &theta4_deviation, sizeof(dst_p->theta4_deviation));
+        break;
+
+    case 13:
+        bias_deviation_w = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+        bias_deviation_w |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+        bias_deviation_w |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+        bias_deviation_w |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+        memcpy(&dst_p->bias_deviation_w, &bias_deviation_w, sizeof(dst_p->bias_deviation_w));
+        break;
+
     default:
         break;
     }
@@ -1462,12 +1570,12 @@ double supercoil_estimate_parameter_decode(uint8_t value)
 
 bool supercoil_estimate_parameter_is_in_range(uint8_t value)
 {
-    return (value <= 7u);
+    return (value <= 13u);
 }
 
 bool supercoil_estimate_parameter_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 7.0));
+    return ((value >= 0.0) && (value <= 13.0));
 }
 
 uint8_t supercoil_estimate_trusted_encode(double value)
@@ -1696,6 +1804,150 @@ bool supercoil_estimate_damping_ns_per_m_is_in_range(float value)
 }
 
 bool supercoil_estimate_damping_ns_per_m_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_estimate_bias_w_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_estimate_bias_w_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_estimate_bias_w_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_estimate_bias_w_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_estimate_theta1_deviation_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_estimate_theta1_deviation_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_estimate_theta1_deviation_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_estimate_theta1_deviation_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_estimate_theta2_deviation_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_estimate_theta2_deviation_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_estimate_theta2_deviation_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_estimate_theta2_deviation_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_estimate_theta3_deviation_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_estimate_theta3_deviation_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_estimate_theta3_deviation_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_estimate_theta3_deviation_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_estimate_theta4_deviation_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_estimate_theta4_deviation_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_estimate_theta4_deviation_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_estimate_theta4_deviation_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_estimate_bias_deviation_w_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_estimate_bias_deviation_w_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_estimate_bias_deviation_w_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_estimate_bias_deviation_w_is_in_phys_range(double value)
 {
     (void)value;
 

@@ -241,6 +241,12 @@ extern "C" {
 #define SUPERCOIL_ESTIMATE_PARAMETER_HEAT_TRANSFER_CHOICE (5u)
 #define SUPERCOIL_ESTIMATE_PARAMETER_STIFFNESS_CHOICE (6u)
 #define SUPERCOIL_ESTIMATE_PARAMETER_DAMPING_CHOICE (7u)
+#define SUPERCOIL_ESTIMATE_PARAMETER_BIAS_CHOICE (8u)
+#define SUPERCOIL_ESTIMATE_PARAMETER_THETA1_DEVIATION_CHOICE (9u)
+#define SUPERCOIL_ESTIMATE_PARAMETER_THETA2_DEVIATION_CHOICE (10u)
+#define SUPERCOIL_ESTIMATE_PARAMETER_THETA3_DEVIATION_CHOICE (11u)
+#define SUPERCOIL_ESTIMATE_PARAMETER_THETA4_DEVIATION_CHOICE (12u)
+#define SUPERCOIL_ESTIMATE_PARAMETER_BIAS_DEVIATION_CHOICE (13u)
 
 #define SUPERCOIL_ESTIMATE_ERROR_BOUND_NOT_AVAILABLE_CHOICE (65535u)
 
@@ -507,6 +513,12 @@ extern "C" {
 #define SUPERCOIL_ESTIMATE_HEAT_TRANSFER_W_PER_K_NAME "heat_transfer_W_per_K"
 #define SUPERCOIL_ESTIMATE_STIFFNESS_N_PER_M_NAME "stiffness_N_per_m"
 #define SUPERCOIL_ESTIMATE_DAMPING_NS_PER_M_NAME "damping_Ns_per_m"
+#define SUPERCOIL_ESTIMATE_BIAS_W_NAME "bias_W"
+#define SUPERCOIL_ESTIMATE_THETA1_DEVIATION_NAME "theta1_deviation"
+#define SUPERCOIL_ESTIMATE_THETA2_DEVIATION_NAME "theta2_deviation"
+#define SUPERCOIL_ESTIMATE_THETA3_DEVIATION_NAME "theta3_deviation"
+#define SUPERCOIL_ESTIMATE_THETA4_DEVIATION_NAME "theta4_deviation"
+#define SUPERCOIL_ESTIMATE_BIAS_DEVIATION_W_NAME "bias_deviation_W"
 #define SUPERCOIL_MARGIN_FAULT_NAME "fault"
 #define SUPERCOIL_MARGIN_USED_NAME "used"
 #define SUPERCOIL_MARGIN_MEASURED_NAME "measured"
@@ -880,15 +892,15 @@ struct supercoil_temperature_t {
 /**
  * Signals in message Estimate.
  *
- * What the board has learned of the muscle: one parameter after the other, each with its trust.
+ * What the board has learned of the muscle: one parameter after the other, each with its trust. A round is the first 8, 0.8 s at the usual rate; while the estimator tells standard deviations (least_squares) it is all 14, 1.4 s.
  *
  * All signal values are as on the CAN bus.
  */
 struct supercoil_estimate_t {
     /**
-     * Which one this frame carries; one after the other.
+     * Which one this frame carries; one after the other. bias and the deviations, as they were at most 13 ticks before, are left out while the estimator tells none.
      *
-     * Range: 0..7 (0..7 -)
+     * Range: 0..13 (0..13 -)
      * Scale: 1
      * Offset: 0
      */
@@ -904,7 +916,7 @@ struct supercoil_estimate_t {
     uint8_t trusted;
 
     /**
-     * Of the estimates together, relative: 0.1 is 10 %. A larger one is shown as the largest.
+     * Of theta1 to theta4 together, relative: 0.1 is 10 %. A larger one is shown as the largest.
      *
      * Range: 0..65534 (0..6.5534 -)
      * Scale: 0.0001
@@ -983,6 +995,60 @@ struct supercoil_estimate_t {
      * Offset: 0
      */
     float damping_ns_per_m;
+
+    /**
+     * Constant power that is estimated beside theta: a load, a wrong zero. NaN: none is known.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float bias_w;
+
+    /**
+     * Standard deviation of theta1. NaN: none is known.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float theta1_deviation;
+
+    /**
+     * Standard deviation of theta2. NaN: none is known.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float theta2_deviation;
+
+    /**
+     * Standard deviation of theta3. NaN: none is known.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float theta3_deviation;
+
+    /**
+     * Standard deviation of theta4. NaN: none is known.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float theta4_deviation;
+
+    /**
+     * Standard deviation of bias_W. NaN: none is known.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float bias_deviation_w;
 };
 
 /**
@@ -3313,6 +3379,246 @@ bool supercoil_estimate_damping_ns_per_m_is_in_range(float value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_estimate_damping_ns_per_m_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_estimate_bias_w_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_estimate_bias_w_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_bias_w_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_bias_w_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_estimate_theta1_deviation_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_estimate_theta1_deviation_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta1_deviation_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta1_deviation_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_estimate_theta2_deviation_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_estimate_theta2_deviation_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta2_deviation_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta2_deviation_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_estimate_theta3_deviation_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_estimate_theta3_deviation_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta3_deviation_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta3_deviation_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_estimate_theta4_deviation_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_estimate_theta4_deviation_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta4_deviation_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_theta4_deviation_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_estimate_bias_deviation_w_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_estimate_bias_deviation_w_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_bias_deviation_w_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_bias_deviation_w_is_in_phys_range(double value);
 
 /**
  * Pack message Margin.

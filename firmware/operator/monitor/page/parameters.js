@@ -1,4 +1,4 @@
-// What the board has learned of the muscle, with its trust.
+// What the board has learned of the muscle, with its trust and, of an estimator that tells them, standard deviations.
 
 import { element, show } from "./dom.js";
 import { NONE, fixed, significant } from "./format.js";
@@ -8,38 +8,48 @@ const SIGNALS = {
   heat_transfer: ["heat_transfer_W_per_K", "heat transfer"],
   stiffness: ["stiffness_N_per_m", "stiffness"],
   damping: ["damping_Ns_per_m", "damping"],
-  theta1: ["theta1", "θ1"],
-  theta2: ["theta2", "θ2"],
-  theta3: ["theta3", "θ3"],
-  theta4: ["theta4", "θ4"],
+  theta1: ["theta1", "θ1", "theta1_deviation"],
+  theta2: ["theta2", "θ2", "theta2_deviation"],
+  theta3: ["theta3", "θ3", "theta3_deviation"],
+  theta4: ["theta4", "θ4", "theta4_deviation"],
+  bias: ["bias_W", "bias", "bias_deviation_W"],
 };
+const KINDS = ["value", "deviation", "bound", "trusted"];
 const UNITS = { "W s2/m": "W·s²/m", "W s/m": "W·s/m", "Ns/m": "N·s/m" };
 
 export class Parameters {
   constructor(node, store) {
     Object.assign(this, { node, store, rows: new Map() });
     const body = element("tbody");
-    for (const [name, [signal, title]] of Object.entries(SIGNALS)) {
-      const cells = ["value", "bound", "trusted"].map((kind) => element("td", { class: kind }, NONE));
+    for (const [name, [signal, title, deviation]] of Object.entries(SIGNALS)) {
+      const cells = KINDS.map((kind) => element("td", { class: kind }, NONE));
       const unit = store.protocol.Estimate?.[signal]?.unit ?? "";
-      body.append(element("tr", {}, element("th", { scope: "row" }, title), cells[0], element("td", { class: "unit" }, UNITS[unit] ?? unit), cells[1], cells[2]));
-      this.rows.set(name, { signal, cells });
+      body.append(element("tr", {}, element("th", { scope: "row" }, title), cells[0], element("td", { class: "unit" }, UNITS[unit] ?? unit), ...cells.slice(1)));
+      this.rows.set(name, { signal, deviation, cells });
     }
     this.element = element("section", { class: "card full-only", "aria-label": `parameters of node ${node}` },
       element("h2", {}, "Parameters"),
       element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
-        ...["parameter", "value", "unit", "bound", "trust"].map((title) => element("th", { scope: "col" }, title)))), body));
+        ...["parameter", "value", "unit", "deviation", "bound", "trust"].map((title) => element("th", { scope: "col" }, title)))), body));
   }
 
   update(now_s) {
-    const newest = this.store.round(this.node, "Estimate", "parameter", now_s);
-    for (const [number, row] of newest) {
-      const { signal, cells } = this.rows.get(this.store.word("Estimate", "parameter", number)) ?? {};
-      if (!signal) continue;
-      const texts = [significant(row[signal]), row.error_bound >= 6.5 ? "> 650 %" : `± ${fixed(100 * row.error_bound, 0)} %`,
-        row.trusted ? "✓ trusted" : "not yet"];
+    const newest = new Map();
+    for (const [number, row] of this.store.round(this.node, "Estimate", "parameter", now_s))
+      newest.set(this.store.word("Estimate", "parameter", number), row);
+    for (const [name, { signal, deviation, cells }] of this.rows) {
+      const row = newest.get(name);
+      const deviates = newest.get(`${name}_deviation`)?.[deviation];
+      const texts = [significant(row?.[signal]), deviates >= 0 ? `± ${significant(deviates)}` : NONE,
+        name === "bias" ? NONE : bound(row), !row ? NONE : row.trusted ? "✓ trusted" : "not yet"];
       cells.forEach((cell, i) => show(cell, texts[i]));
-      cells[2].classList.toggle("yes", row.trusted === 1);
+      cells.at(-1).classList.toggle("yes", row?.trusted === 1);
     }
   }
+}
+
+/** Of θ, all together. */
+function bound(row) {
+  if (!(row?.error_bound >= 0)) return NONE;
+  return row.error_bound >= 6.5 ? "> 650 %" : `± ${fixed(100 * row.error_bound, 0)} %`;
 }

@@ -88,6 +88,8 @@ TEST(Recording, FieldsStandWhereTheDocumentationSays) {
   LONGS_EQUAL(100, offsetof(Row, gain));
   LONGS_EQUAL(104, offsetof(Row, gain_turn));
   LONGS_EQUAL(105, offsetof(Row, result));
+  LONGS_EQUAL(106, offsetof(Row, aside_turn));
+  LONGS_EQUAL(108, offsetof(Row, aside));
 }
 
 TEST(Recording, TheHeaderIsTextThatSaysWhatFollows) {

@@ -179,6 +179,35 @@ TEST(Frames, FloatsGoAsTheyAre) {
   CHECK(std::isnan(unpacked(margin(1, row), supercoil_margin_unpack).measured));
 }
 
+TEST(Frames, BiasAndDeviationsAreTheNewestThatWereToldAndNoneIsNaN) {
+  Asides asides;
+  const auto carried = [&](std::size_t place) {
+    const auto parameter = static_cast<std::uint8_t>(7 + place);
+    const auto m = unpacked(estimate(1, {}, parameter, {1, 1}, asides), supercoil_estimate_unpack);
+    LONGS_EQUAL(parameter, m.parameter);
+    const float of[] = {m.bias_w,           m.theta1_deviation, m.theta2_deviation,
+                        m.theta3_deviation, m.theta4_deviation, m.bias_deviation_w};
+    return of[place - 1];
+  };
+  for (std::uint8_t place = 6; place > 0; --place) {
+    LONGS_EQUAL(8, asides.parameters());
+    CHECK(std::isnan(carried(place)));
+    Row row{};
+    row.aside_turn = place;
+    for (const float value : {99.0F, 0.5F * static_cast<float>(place)}) {
+      row.aside = value;
+      asides.take(row);
+    }
+  }
+  LONGS_EQUAL(14, asides.parameters());
+  for (std::uint8_t place = 1; place <= 6; ++place)
+    CHECK(carried(place) == 0.5F * static_cast<float>(place));
+  asides.take({});
+  LONGS_EQUAL(8, asides.parameters());
+  for (std::uint8_t place = 1; place <= 6; ++place)
+    CHECK(std::isnan(carried(place)));
+}
+
 TEST(Frames, TrackingIsAvailableInModePositionOnly) {
   Row row{};
   row.reference = 3.0F;  // watts

@@ -58,6 +58,33 @@ TEST(Publisher, SendsTheNewestRowAtItsRateUnderItsNode) {
   LONGS_EQUAL(10, micrometres(bus.sent[50]) - micrometres(bus.sent[49]));
 }
 
+TEST(Publisher, ParametersComeRoundAndWhatTheEstimatorCannotTellIsLeftOut) {
+  Publisher publisher(only(Message::estimate, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
+  int expected = 0;
+  const auto hear = [&](int from_ms, bool told, int all) {
+    bus.sent.clear();
+    for (int ms = from_ms; ms < from_ms + 30; ++ms) {
+      Row row = row_at(ms * 1ms);
+      for (std::uint8_t place = 1; told && place <= 6; ++place) {
+        row.aside_turn = place;
+        row.aside = 0.5F;
+        publisher.offer(row);
+      }
+      publisher.offer(row);
+      publisher.poll(ms * 1ms, [](std::uint8_t) { return false; });
+    }
+    CHECK(bus.sent.size() >= 28);
+    for (const hal::CanFrame& frame : bus.sent) {
+      expected = (expected + 1) % all;
+      LONGS_EQUAL(expected, frame.data[0]);
+    }
+  };
+  hear(0, true, 14);
+  CHECK(expected < 8);
+  hear(30, false, 8);
+  hear(60, true, 14);
+}
+
 TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
   Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
   bus.answer = hal::Status::busy;

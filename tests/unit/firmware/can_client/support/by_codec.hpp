@@ -97,7 +97,13 @@ inline Values estimate(const hal::CanFrame& frame) {
                  only(4, supercoil_estimate_thermal_mass_j_per_k_decode(m.thermal_mass_j_per_k)),
                  only(5, supercoil_estimate_heat_transfer_w_per_k_decode(m.heat_transfer_w_per_k)),
                  only(6, supercoil_estimate_stiffness_n_per_m_decode(m.stiffness_n_per_m)),
-                 only(7, supercoil_estimate_damping_ns_per_m_decode(m.damping_ns_per_m))});
+                 only(7, supercoil_estimate_damping_ns_per_m_decode(m.damping_ns_per_m)),
+                 only(8, supercoil_estimate_bias_w_decode(m.bias_w)),
+                 only(9, supercoil_estimate_theta1_deviation_decode(m.theta1_deviation)),
+                 only(10, supercoil_estimate_theta2_deviation_decode(m.theta2_deviation)),
+                 only(11, supercoil_estimate_theta3_deviation_decode(m.theta3_deviation)),
+                 only(12, supercoil_estimate_theta4_deviation_decode(m.theta4_deviation)),
+                 only(13, supercoil_estimate_bias_deviation_w_decode(m.bias_deviation_w))});
 }
 inline Values margin(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_margin_unpack);

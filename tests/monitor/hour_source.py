@@ -81,7 +81,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if path == "/api/about":
             return self.answer("application/json", json.dumps(
                 {"version": "0", "source": "an hour", "kind": "live", "read_only": True, "may_command": False,
-                 "stop_port": 1, "page_timeout_s": 1.5, "protocol": PROTOCOL}).encode())
+                 "stop_port": 1, "page_timeout_s": 1.5, "protocol_version": CONSTANT["protocol_version"], "protocol": PROTOCOL}).encode())
         if path == "/api/history":
             return self.answer("application/json", b'{"newest_s": null, "nodes": {}}')
         file = FILES.get(path, PAGE / path.removeprefix("/"))

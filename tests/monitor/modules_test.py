@@ -136,6 +136,22 @@ class ModulesTest(unittest.TestCase):
         self.assertEqual(not_told["bias"], ["–", "W", "–", "–", "–"])
         self.assertEqual(none["θ1"][:4], ["–", "m", "–", "–"])
 
+    def test_a_board_of_another_protocol_is_told(self):
+        told = self.ask("""const { StateCard } = await import("/state_card.js");
+            const { protocol } = await (await fetch("/api/about")).json();
+            const store = new Store(protocol, false);
+            const card = new StateCard(1, store, () => {}, 3);
+            card.element.dataset = {};  // this document is an image
+            const shown = (version) => {
+                store.append({ newest_s: version, nodes: { 1: { Status: { time_s: [version], state: [0], protocol_version: [version] } } } });
+                card.update(Infinity);
+                return card.foreign.hidden || card.foreign.textContent;
+            };
+            return [shown(2), shown(3), shown(4)];""")
+        self.assertEqual(told[1], True)
+        self.assertIn("version 2 of the protocol, this page 3", told[0])
+        self.assertIn("version 4 of the protocol, this page 3", told[2])
+
     def test_page_of_a_fault_becomes_elements_and_never_script(self):
         html = self.ask("""const text = "# 30 a <b>\\n\\nTwo ways:\\n- one `x`\\n  more\\n- **two**\\n\\n1. [other](over_travel.md)\\n";
             const link = (label) => document.createTextNode(`(${label})`);

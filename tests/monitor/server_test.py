@@ -8,6 +8,7 @@ import http.client
 import json
 import os
 import pathlib
+import re
 import signal
 import socket
 import subprocess
@@ -363,6 +364,11 @@ class Sources(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("node 1: active, rest, last identification or calibration: found", done.stdout)
         self.assertRegex(done.stdout, r"position\s+1\.000 mm")
+        self.assertRegex(done.stdout, r"\n  it speaks version 1 of the protocol, this program \d+: numbers may be wrong")
+        own = re.search(r"this program (\d+)", done.stdout)[1]
+        log.write_text(f"(0000000001.000000) can0 701#02000000FF00{int(own):02X}02\n")
+        done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
+        self.assertNotIn("version", done.stdout)
 
 
 if __name__ == "__main__":

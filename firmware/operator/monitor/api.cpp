@@ -10,6 +10,7 @@
 #include "operator/monitor/assets.hpp"
 #include "operator/monitor/batch.hpp"
 #include "operator/monitor/order.hpp"
+#include "telemetry/opcodes.hpp"
 
 namespace supercoil::operating {
 
@@ -135,7 +136,8 @@ void Api::about(const Request& request, Response& response) const {
                   {"may_command", may},
                   {"stop_port", about_.stop_port},
                   {"page_timeout_s", std::chrono::duration<double>(Hand::page_timeout).count()},
-                  {"protocol", json::parse(protocol_json())}};
+                  {"protocol", json::parse(protocol_json())},
+                  {"protocol_version", telemetry::protocol_version}};
   response.set_content(told.dump(), json_type);
 }
 

@@ -11,6 +11,7 @@
 
 #include "can_client/decode.hpp"
 #include "program/exit_status.hpp"
+#include "telemetry/opcodes.hpp"
 
 namespace supercoil::operating {
 
@@ -61,6 +62,12 @@ std::string node_text(int number, const Newest& node) {
   if (result != "none" && result != "running" && result != "-")
     text += ", last identification or calibration: " + result;
   text += '\n';
+  const double version = value(node, "Status", "protocol_version");
+  if (std::isfinite(version) && version != telemetry::protocol_version) {
+    text += "  it speaks version " + std::to_string(std::lround(version)) +
+            " of the protocol, this program " + std::to_string(telemetry::protocol_version) +
+            ": numbers may be wrong; take the supercoil that belongs to it\n";
+  }
   text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +
           shown("reference", 1e3 * value(node, "Tracking", "reference_m"), 3, "mm") +
           shown("error", 1e6 * value(node, "Tracking", "error_m"), 0, "um") + '\n';

@@ -21,7 +21,7 @@ export class NodeView {
     Object.assign(this, { node, view, store });
     this.hand = new Hand(node, about.page_timeout_s);
     this.journal = new Journal(node, store);
-    this.state = new StateCard(node, store, on_fault);
+    this.state = new StateCard(node, store, on_fault, about.protocol_version);
     this.panel = new ControlPanel(this.hand, may, (text, kind) => this.journal.add(text, kind));
     this.panel.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);

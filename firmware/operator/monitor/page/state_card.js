@@ -25,9 +25,9 @@ const RESULTS = {
 };
 
 export class StateCard {
-  /** on_fault: called with a fault's name whose page is wanted. */
-  constructor(node, store, on_fault) {
-    Object.assign(this, { node, store, fault_name: "none" });
+  /** on_fault: called with a fault's name whose page is wanted. version: of the protocol that is understood here. */
+  constructor(node, store, on_fault, version) {
+    Object.assign(this, { node, store, version, fault_name: "none" });
     this.word = element("strong", { class: "word", role: "status" });
     this.means = element("span", { class: "means" });
     this.facts = element("dl", { class: "facts" });
@@ -42,9 +42,10 @@ export class StateCard {
     this.result = element("p", { class: "hint", role: "status", hidden: true });
     this.fault_button = element("button", { type: "button", class: "link", onclick: () => on_fault(this.fault_name) });
     this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
+    this.foreign = element("p", { class: "fault", role: "alert", hidden: true });
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
-      element("p", { class: "now" }, this.word, " ", this.means), this.fault, this.progress, this.result, this.facts);
+      element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.fault, this.progress, this.result, this.facts);
   }
 
   /** Returns the status in words, or null while there is none. */
@@ -63,6 +64,11 @@ export class StateCard {
       : ["–", "–", "–", "–"];
     this.values.forEach((value, i) => show(value, facts[i]));
     this.#show_fault(status, row);
+    this.foreign.hidden = !row || row.protocol_version === this.version;
+    if (!this.foreign.hidden) {
+      show(this.foreign, `It speaks version ${row.protocol_version} of the protocol, this page ${this.version}: ` +
+        "numbers may be wrong. Take the supercoil that belongs to it.");
+    }
     const shows = status && (status.mode === "identify" || status.mode === "calibrate") && Number.isFinite(row.progress);
     this.progress.hidden = !shows;
     if (shows) {

@@ -89,13 +89,14 @@ def examined(table, fault, run):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", choices=FAULTS, help="one of the boards")
+    rig.add_architecture(parser)
     wish = parser.parse_args()
     table = Table()
     for fault in FAULTS:
         if wish.only not in (None, fault):
             continue
         # A direct call has 20 us on a real processor; the usual shift is one a fifth as fast.
-        settings = rig.Settings(share=rig.BUILD / "doctor_test", watchdog=True, can=2 if fault == "can_default" else 0,
+        settings = rig.Settings(wish.architecture, "doctor_test", watchdog=True, can=2 if fault == "can_default" else 0,
                                 time_out_s=600.0, instruction_shift=1)
         run = rig.run(rig.HERE / "scripts" / "doctor", (fault,), settings)
         table.judge(fault, lambda t, r: examined(t, fault, r), run)

@@ -3,7 +3,11 @@
 
 Works PWM, lines, converters and watchdog of the board by hand (scripts/), and compares what the drivers read with what
 the plant's witness saw. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not work.
+
+    tests/hil/drivers_test.py [--architecture amd64]
 """
+
+import argparse
 
 import can_rows
 import rig
@@ -88,10 +92,13 @@ def watchdog(table, run):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    rig.add_architecture(parser)
+    architecture = parser.parse_args().architecture
     table = Table()
-    for part, options in ((drivers, {}), (can_rows.can, {"can": True}), (panic, {}), (watchdog, {"watchdog": True})):
+    for part, options in ((drivers, {}), (can_rows.can, {"can": 2}), (panic, {}), (watchdog, {"watchdog": True})):
         name = part.__name__
-        settings = rig.Settings(share=rig.BUILD / f"{name}_test", **options)
+        settings = rig.Settings(architecture, f"{name}_test", **options)
         run = rig.run(rig.HERE / "scripts" / name, settings=settings)
         table.judge(name, part, run)
     table.end()

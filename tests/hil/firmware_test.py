@@ -5,7 +5,7 @@ supercoild is the ordinary program with an ordinary configuration (board.toml, 1
 When power goes off, and by which means, is what the plant's witness saw, outside of the board. Prints what was
 measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
 
-    tests/hil/firmware_test.py [--track SECONDS] [--only track|captured|calls|deaths]
+    tests/hil/firmware_test.py [--track SECONDS] [--only track|captured|calls|deaths] [--architecture amd64]
 """
 
 import argparse
@@ -112,6 +112,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--track", metavar="SECONDS", type=int, default=60, help="of the board's time (default: 60)")
     parser.add_argument("--only", choices=("track", "captured", "calls", "deaths"), help="one of the boards")
+    rig.add_architecture(parser)
     wish = parser.parse_args()
     seconds = wish.track
     table = Table()
@@ -122,7 +123,7 @@ def main():
             ("deaths", "deaths", deaths, (), {"kernel_options": "panic=0"})):
         if wish.only not in (None, name):
             continue
-        settings = rig.Settings(share=rig.BUILD / f"{name}_test", watchdog=True, time_out_s=600.0 + 4.0 * seconds, **options)
+        settings = rig.Settings(wish.architecture, f"{name}_test", watchdog=True, time_out_s=600.0 + 4.0 * seconds, **options)
         run = rig.run(rig.HERE / "scripts" / script, arguments, settings)
         table.judge(name, part, run)
     table.end()

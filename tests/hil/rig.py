@@ -18,20 +18,42 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = pathlib.Path(__file__).resolve().parent
-BUILD = ROOT / "build" / "hil"
+BUILD = ROOT / "build" / "hil"  # of arm64
 IMAGE = ROOT / "build" / "image"
-PROGRAMS = ROOT / "build" / "arm64" / "bin"
 
 # How a run ended, when not by its script.
 TIMED_OUT = 124
 DIED = 125
 
 
+@dataclasses.dataclass(frozen=True)
+class Architecture:
+    """What differs between the boards here; prepare has the rest."""
+
+    build: pathlib.Path  # what prepare made, and what the tests leave
+    programs: pathlib.Path
+    machine: tuple
+    console: str
+
+
+ARCHITECTURES = {
+    "arm64": Architecture(BUILD, ROOT / "build" / "arm64" / "bin",
+                          ("qemu-system-aarch64", "-M", "virt,gic-version=3", "-cpu", "cortex-a53"), "ttyAMA0"),
+    "amd64": Architecture(ROOT / "build" / "hil-amd64", ROOT / "build" / "release" / "bin",
+                          ("qemu-system-x86_64", "-M", "q35", "-cpu", "max"), "ttyS0"),
+}
+
+
+def add_architecture(parser):
+    parser.add_argument("--architecture", choices=ARCHITECTURES, default="arm64", help="of the board (default: arm64)")
+
+
 @dataclasses.dataclass
 class Settings:
     """What the board is, beside its script."""
 
-    share: pathlib.Path = BUILD / "share"
+    architecture: str = "arm64"
+    share: pathlib.Path | str = "share"  # a name is that of a folder in the architecture's own
     time_out_s: float = 120.0  # of the host's time; of the guest's nothing is known
     watchdog: bool = False  # an i6300esb: /dev/watchdog; not fed, it switches the board off
     can: int = 0  # controllers on one bus: can0, can1, ...
@@ -44,6 +66,13 @@ class Settings:
     instruction_shift: int = 3  # an instruction lasts 2^shift ns of the guest's time
     kernel_options: str = ""
     echo: bool = False  # the console on standard output too
+
+    def __post_init__(self):
+        self.share = self.board.build / self.share
+
+    @property
+    def board(self):
+        return ARCHITECTURES[self.architecture]
 
 
 @dataclasses.dataclass
@@ -61,12 +90,12 @@ def qemu_command(settings):
         "-icount", f"shift={settings.instruction_shift},align=off,sleep=off", "-rtc", "base=2026-01-01,clock=vm"]
     exchange = settings.share / ".rig"
     command = [
-        "qemu-system-aarch64", "-M", "virt,gic-version=3", "-accel", "tcg", "-cpu", "cortex-a53", "-smp", str(settings.cpus),
+        *settings.board.machine, "-accel", "tcg", "-smp", str(settings.cpus),
         "-m", "512", "-nodefaults", "-no-user-config", "-nographic", "-monitor", "none", "-no-reboot", "-net", "none",
         *clock, "-serial", "stdio", *start_command(settings),
         "-fsdev", f"local,id=share,path={settings.share},security_model=none",
         "-device", "virtio-9p-pci,fsdev=share,mount_tag=share",
-        "-fsdev", f"local,id=programs,path={PROGRAMS},security_model=none,readonly=on",
+        "-fsdev", f"local,id=programs,path={settings.board.programs},security_model=none,readonly=on",
         "-device", "virtio-9p-pci,fsdev=programs,mount_tag=programs",
         # Without an event loop between the board's write and the file: it costs the board no waiting,
         # and a line that was written is there whatever the board does next.
@@ -76,7 +105,7 @@ def qemu_command(settings):
         command += ["-device", "i6300esb", "-watchdog-action", "poweroff"]
     if settings.system:
         # What the board writes is forgotten with it.
-        command += ["-drive", f"file={BUILD / 'system.ext4'},if=none,id=disk,format=raw,snapshot=on",
+        command += ["-drive", f"file={settings.board.build / 'system.ext4'},if=none,id=disk,format=raw,snapshot=on",
                     "-device", "virtio-blk-pci,drive=disk"]
     if settings.disk:
         command += disk_options(settings.disk, settings.write_log)
@@ -100,10 +129,11 @@ def start_command(settings):
     if settings.image:
         card = f"driver=raw,node-name=card,file.driver=file,file.filename={settings.image}"
         return ["-bios", str(IMAGE / "u-boot.bin"), "-blockdev", card, "-device", "virtio-blk-pci,drive=card"]
-    return ["-kernel", str(BUILD / "vmlinuz"), "-initrd", str(BUILD / "initramfs.cpio"),
+    board = settings.board
+    return ["-kernel", str(board.build / "vmlinuz"), "-initrd", str(board.build / "initramfs.cpio"),
             # Without kaslr the kernel keeps its own page tables in system calls, and QEMU its cache of them:
             # a run costs this machine half, and repeats.
-            "-append", f"console=ttyAMA0 quiet panic=-1 nokaslr mitigations=off {settings.kernel_options}"]
+            "-append", f"console={board.console} quiet panic=-1 nokaslr mitigations=off {settings.kernel_options}"]
 
 
 def fill_share(settings, script, arguments):
@@ -151,9 +181,11 @@ def follow(process, deadline, echo):
 
 def run(script, arguments=(), settings=None):
     settings = settings or Settings()
-    for needed in (BUILD / "vmlinuz", BUILD / "initramfs.cpio", PROGRAMS, *([BUILD / "system.ext4"] if settings.system else [])):
+    board = settings.board
+    for needed in (*(board.build / name for name in ("vmlinuz", "initramfs.cpio", *(["system.ext4"] if settings.system else []))),
+                   board.programs):
         if not needed.exists():
-            raise FileNotFoundError(f"{needed} is missing: run tests/hil/prepare")
+            raise FileNotFoundError(f"{needed} is missing: run tests/hil/prepare --architecture {settings.architecture}")
     if settings.image and not (IMAGE / "u-boot.bin").exists():
         raise FileNotFoundError(f"{IMAGE} is missing: run toolchain/image")
     with alone_in(settings.share):

@@ -4,9 +4,10 @@
 Every frame must decode by the DBC. Prints what was measured; ends with 1 if any of it is wrong, 2 if the board did not
 do its part.
 
-    .venv/bin/python tests/hil/telemetry_test.py
+    .venv/bin/python tests/hil/telemetry_test.py [--architecture amd64]
 """
 
+import argparse
 import os
 import re
 import shutil
@@ -128,27 +129,31 @@ def judge_python(table, run):
     table.row("SIGTERM ended supercoild with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 
 
-def run_python():
+def run_python(architecture):
     """The example and Python lie beside the script, as links: QEMU shares one folder."""
-    share = rig.BUILD / "python_test"
+    build = rig.ARCHITECTURES[architecture].build
+    share = build / "python_test"
     shutil.rmtree(share, ignore_errors=True)
     for name in ("examples/python/move_muscle.py", "firmware/telemetry/supercoil.dbc"):
         (share / "source" / name).parent.mkdir(parents=True)
         shutil.copy(rig.ROOT / name, share / "source" / name)
-    shutil.copytree(rig.BUILD / "python", share / "python", copy_function=os.link, symlinks=True)
-    settings = rig.Settings(share=share, watchdog=True, can=2, time_out_s=900.0)
+    shutil.copytree(build / "python", share / "python", copy_function=os.link, symlinks=True)
+    settings = rig.Settings(architecture, share, watchdog=True, can=2, time_out_s=900.0)
     return rig.run(rig.HERE / "scripts" / "python", (), settings)
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    rig.add_architecture(parser)
+    architecture = parser.parse_args().architecture
     table = Table()
     dbc = protocol()
-    share = rig.BUILD / "telemetry_test"
-    (share / "can.log").unlink(missing_ok=True)
-    settings = rig.Settings(share=share, watchdog=True, can=2, time_out_s=900.0)
+    settings = rig.Settings(architecture, "telemetry_test", watchdog=True, can=2, time_out_s=900.0)
+    log = settings.share / "can.log"
+    log.unlink(missing_ok=True)
     run = rig.run(rig.HERE / "scripts" / "telemetry", (disarm_frame(dbc),), settings)
-    table.judge("telemetry", lambda t, r: judge(t, r, dbc, (share / "can.log").read_text()), run)
-    table.judge("Python", judge_python, run_python())
+    table.judge("telemetry", lambda t, r: judge(t, r, dbc, log.read_text()), run)
+    table.judge("Python", judge_python, run_python(architecture))
     table.end()
 
 

@@ -3,9 +3,10 @@
 
 Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did not do their part.
 
-    .venv/bin/python tests/hil/two_boards_test.py
+    .venv/bin/python tests/hil/two_boards_test.py [--architecture amd64]
 """
 
+import argparse
 import re
 
 import rig
@@ -59,12 +60,15 @@ def judge(table, run, share):
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    rig.add_architecture(parser)
+    # One processor does the work of two, so it is twice as fast.
+    settings = rig.Settings(parser.parse_args().architecture, "two_boards_test", watchdog=True, can=3, instruction_shift=2,
+                            time_out_s=1800.0)
+    share = settings.share
     table = Table()
-    share = rig.BUILD / "two_boards_test"
     for old in ("can.log", "witness-2"):
         (share / old).unlink(missing_ok=True)
-    # One processor does the work of two, so it is twice as fast.
-    settings = rig.Settings(share=share, watchdog=True, can=3, instruction_shift=2, time_out_s=1800.0)
     table.judge("two boards", lambda t, r: judge(t, r, share), rig.run(rig.HERE / "scripts" / "two_boards", (), settings))
     table.end()
 

@@ -1,6 +1,5 @@
 #include "daemon/telemetry.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 
@@ -8,14 +7,11 @@
 
 #include "supercoil/hal_linux/monotonic_clock.hpp"
 
+#include "daemon/rounds.hpp"
+
 namespace supercoil::daemon {
 
 namespace {
-/// A command waits for its answer at most a tick and this.
-constexpr std::chrono::milliseconds usual_round{5};
-/// Left to others when a round's work takes longer than a round.
-constexpr std::chrono::milliseconds least_pause{1};
-
 /// Asked to end, although the main thread has not noticed: it may be waiting for the disk.
 bool ending_is_asked() {
   sigset_t pending;
@@ -34,18 +30,15 @@ tl::expected<void, std::string> Telemetry::start() {
 
 void Telemetry::run() {
   hal_linux::MonotonicClock clock;
-  // On a grid, whatever a round's work takes: rounds that drift against the ticks would see some
-  // ticks twice and others never.
-  hal::Time next = clock.now();
+  Rounds rounds(clock.now());
   while (!ending_.load(std::memory_order_relaxed)) {
     loop_->health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
     if (ending_is_asked()) cool();
     const bool cooling = cooling_.load(std::memory_order_relaxed);
     if (cooling) disarm_all();
-    const hal::Time now = clock.now();
-    if (next <= now) next = std::max(next + usual_round, now + least_pause);
-    const auto wait_ms =
-        static_cast<int>(std::chrono::ceil<std::chrono::milliseconds>(next - now).count());
+    // A command waits for its answer at most a tick and this.
+    const auto wait_ms = static_cast<int>(
+        std::chrono::ceil<std::chrono::milliseconds>(rounds.wait(clock.now())).count());
     if (commands_ && !cooling) {
       commands_->serve(*loop_, rows_, wait_ms);
     } else {

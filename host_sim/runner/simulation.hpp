@@ -41,6 +41,7 @@ class Simulation {
  public:
   /// The boot is over when the scenario begins: the muscle is armed, cold and at rest.
   explicit Simulation(const Scenario& scenario);
+  explicit Simulation(Scenario&&) = delete;  // it would be gone
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 

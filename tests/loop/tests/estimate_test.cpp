@@ -36,9 +36,10 @@ bool deviates(const Snapshot& s) {
 TEST_GROUP(PublishedEstimate){};
 
 TEST(PublishedEstimate, OfLeastSquaresHasItsBiasAndDeviationsAndThatOfNoneHasNothing) {
-  Simulation simulation(
-      of_estimators("[estimator]\nkind = 'least_squares'\ntrusted_error = 100.0\n[[event]]\nat_s = "
-                    "15.0\nestimator.kind = 'none'\n"));
+  const Scenario scenario = of_estimators(
+      "[estimator]\nkind = 'least_squares'\ntrusted_error = 100.0\n[[event]]\nat_s = "
+      "15.0\nestimator.kind = 'none'\n");
+  Simulation simulation(scenario);
   bool trusted = false;
   while (!simulation.done()) {
     simulation.step();
@@ -63,7 +64,8 @@ TEST(PublishedEstimate, OfLeastSquaresHasItsBiasAndDeviationsAndThatOfNoneHasNot
 }
 
 TEST(PublishedEstimate, OfTheGradientLawHasNeitherBiasNorDeviations) {
-  Simulation simulation(of_estimators("[estimator]\nkind = 'gradient'\n"));
+  const Scenario scenario = of_estimators("[estimator]\nkind = 'gradient'\n");
+  Simulation simulation(scenario);
   while (!simulation.done()) {
     simulation.step();
     CHECK_FALSE(deviates(simulation.loop().channel(0).snapshot()));

@@ -42,7 +42,7 @@ export class StateCard {
     this.result = element("p", { class: "hint", role: "status", hidden: true });
     this.fault_button = element("button", { type: "button", class: "link", onclick: () => on_fault(this.fault_name) });
     this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
-    this.foreign = element("p", { class: "fault", role: "alert", hidden: true });
+    this.foreign = element("p", { class: "foreign", role: "alert", hidden: true });
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
       element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.fault, this.progress, this.result, this.facts);

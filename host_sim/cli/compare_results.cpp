@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/run_results.hpp"
 #include "cli/tables.hpp"
 #include "compare/catalogue.hpp"
 #include "compare/plot.hpp"

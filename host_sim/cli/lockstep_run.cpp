@@ -5,7 +5,6 @@
 #include "cli/progress.hpp"
 #include "cli/run_results.hpp"
 #include "cli/runs.hpp"
-#include "cli/tables.hpp"
 #include "report/can_log.hpp"
 #include "report/run_plot.hpp"
 #include "report/trace_writer.hpp"

@@ -71,4 +71,12 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
   return {};
 }
 
+void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name) {
+  const auto drawn = draw(figure, folder.temporary(name));
+  if (drawn) return;
+  folder.drop(name);
+  std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", name.c_str(),
+               drawn.error().c_str());
+}
+
 }  // namespace supercoil::host_sim

@@ -6,6 +6,7 @@
 #include <tl/expected.hpp>
 
 #include "cli/commands.hpp"
+#include "plot/figure.hpp"
 #include "recorder/flight_recorder.hpp"
 #include "report/output_folder.hpp"
 #include "runner/summary.hpp"
@@ -27,5 +28,8 @@ tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
 tl::expected<void, std::string> conclude(const Summary& summary, const Scenario& scenario,
                                          const Simulation& simulation, double wall_s,
                                          OutputFolder& folder, bool quiet);
+
+/// Draws the figure into the folder, or says why not: results are worth more than their picture.
+void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);
 
 }  // namespace supercoil::host_sim

@@ -4,14 +4,6 @@
 
 namespace supercoil::host_sim {
 
-void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name) {
-  const auto drawn = draw(figure, folder.temporary(name));
-  if (drawn) return;
-  folder.drop(name);
-  std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", name.c_str(),
-               drawn.error().c_str());
-}
-
 int conclude_tables(const Tables& tables, OutputFolder& folder, bool quiet) {
   for (const auto& [name, content] : tables.files) {
     if (const auto written = folder.write(name, content); !written)

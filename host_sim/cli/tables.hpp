@@ -1,4 +1,4 @@
-// What a comparison leaves: its files, a picture, and its tables on the terminal.
+// What a comparison leaves: its files, and its tables on the terminal.
 #pragma once
 
 #include <string>
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cli/commands.hpp"
-#include "plot/figure.hpp"
 #include "report/output_folder.hpp"
 
 namespace supercoil::host_sim {
@@ -16,9 +15,6 @@ struct Tables {
   std::string markdown;                                    ///< for the terminal
   std::size_t runs = 0;
 };
-
-/// Draws the figure into the folder, or says why not: results are worth more than their picture.
-void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);
 
 /// Writes the files, commits the folder, prints the tables unless quiet. Returns the program's exit
 /// status, as the commands do.

@@ -161,6 +161,7 @@ class PageTest(PageCase):
         page = self.page()
         page.bring_to(TARGET_MM)
         self.assertGreater(page.value("power"), 0.0)
+        self.assertEqual(page.text(".state .foreign"), "", "board and page are of one version")
         # The focus is in the number's field: there, too, the space bar stops.
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")

@@ -51,15 +51,6 @@ PhysicalParameters corner_of(const PhysicalParameters& nominal, double span, int
 
 constexpr int corners = 1 << physical_ranges.size();
 
-}  // namespace
-
-LoopMargin loop_margin(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
-                       double delay_s) {
-  return {spectral_radius(law, muscle, step_s, delay_s), modulus(law, muscle, step_s, delay_s)};
-}
-
-namespace {
-
 /// margin_of: what a muscle's loop has.
 template <class Margin>
 WorstCorner worst_of_corners(const PhysicalParameters& nominal, double span,
@@ -82,6 +73,11 @@ WorstCorner worst_of_corners(const PhysicalParameters& nominal, double span,
 }
 
 }  // namespace
+
+LoopMargin loop_margin(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
+                       double delay_s) {
+  return {spectral_radius(law, muscle, step_s, delay_s), modulus(law, muscle, step_s, delay_s)};
+}
 
 WorstCorner worst_corner(const FixedLaw& law, const PhysicalParameters& nominal, double span,
                          double step_s, double delay_s) {

@@ -141,6 +141,7 @@ TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
   twins.apart_m(warm_ticks, excite);
   twins.apart_m(1000, hold);
   CHECK_TRUE(twins.switches.snapshot().trusted);
+  // Always of both: it takes ticks, and they are to stay alike.
   const double before = proportional_W_per_m(twins.switches);
   proportional_W_per_m(twins.stays);
 

@@ -10,10 +10,10 @@ namespace supercoil::control {
 
 /// u = θ1ᵀα/λ u + (θ2ᵀα/λ + θ3) x of direct adaptation, whose θ rests.
 struct FilteredFeedback {
-  Polynomial<2> lambda{};                     ///< λ(s), monic
-  std::array<double, 2> on_power{};           ///< θ1ᵀα, ascending
-  std::array<double, 2> on_position_W_per_m;  ///< θ2ᵀα, ascending
-  double direct_W_per_m = 0.0;                ///< θ3
+  Polynomial<2> lambda{};                       ///< λ(s), monic
+  std::array<double, 2> on_power{};             ///< θ1ᵀα, ascending
+  std::array<double, 2> on_position_W_per_m{};  ///< θ2ᵀα, ascending
+  double direct_W_per_m = 0.0;                  ///< θ3
 };
 
 /// Kp + Ki/s + Kd s/(s/ω + 1)² on the error, and filtered feedback beside it. On small errors and

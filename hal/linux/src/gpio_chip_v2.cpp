@@ -18,7 +18,6 @@ struct Free {
   }
 };
 
-using ChipInfo = std::unique_ptr<gpiod_chip_info, Free<gpiod_chip_info_free>>;
 using LineInfo = std::unique_ptr<gpiod_line_info, Free<gpiod_line_info_free>>;
 using Settings = std::unique_ptr<gpiod_line_settings, Free<gpiod_line_settings_free>>;
 using LineConfig = std::unique_ptr<gpiod_line_config, Free<gpiod_line_config_free>>;
@@ -53,7 +52,7 @@ Bias bias_of(gpiod_line_info* info) {
 
 struct GpioChip::Handle {
   gpiod_chip* chip;
-  ChipInfo info;
+  gpiod_chip_info* info;
 };
 
 struct HeldLine::Handle {
@@ -62,6 +61,7 @@ struct HeldLine::Handle {
 };
 
 void GpioChip::Close::operator()(Handle* handle) const noexcept {
+  gpiod_chip_info_free(handle->info);
   gpiod_chip_close(handle->chip);
   delete handle;
 }
@@ -74,21 +74,21 @@ void HeldLine::Release::operator()(Handle* handle) const noexcept {
 Result<GpioChip> GpioChip::open(const std::string& path) {
   gpiod_chip* const chip = gpiod_chip_open(path.c_str());
   if (chip == nullptr) return problem("cannot open " + path, errno);
-  std::unique_ptr<Handle, Close> handle(new Handle{chip, ChipInfo(gpiod_chip_get_info(chip))});
-  if (!handle->info) return problem("cannot ask " + path + " what it is", errno);
+  std::unique_ptr<Handle, Close> handle(new Handle{chip, gpiod_chip_get_info(chip)});
+  if (handle->info == nullptr) return problem("cannot ask " + path + " what it is", errno);
   return GpioChip(std::move(handle));
 }
 
 std::string GpioChip::name() const {
-  return gpiod_chip_info_get_name(handle_->info.get());
+  return gpiod_chip_info_get_name(handle_->info);
 }
 
 std::string GpioChip::label() const {
-  return gpiod_chip_info_get_label(handle_->info.get());
+  return gpiod_chip_info_get_label(handle_->info);
 }
 
 unsigned GpioChip::line_count() const {
-  return static_cast<unsigned>(gpiod_chip_info_get_num_lines(handle_->info.get()));
+  return static_cast<unsigned>(gpiod_chip_info_get_num_lines(handle_->info));
 }
 
 LineAbout GpioChip::about(unsigned offset) const {

@@ -6,6 +6,8 @@ set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+# That GCC 10.1 passed some arguments otherwise is no news: all of it is compiled by one.
+set(CMAKE_CXX_FLAGS_INIT -Wno-psabi)
 
 # Debian keeps foreign libraries in /usr/lib/<triplet>, headers and header-only packages in /usr:
 # there is no sysroot. What could be found wrongly is the host's own /usr/lib/<its triplet>.

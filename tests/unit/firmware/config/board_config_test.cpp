@@ -44,7 +44,7 @@ TEST(BoardConfig, SlowExampleIsFourChannelsBehindI2c) {
   STRCMP_EQUAL("pinctrl-bcm2711", c.wiring.channels[3].enable.chip.c_str());
   LONGS_EQUAL(3, c.wiring.channels[3].pwm.number);
   LONGS_EQUAL(4095, c.wiring.channels[3].pwm.steps);
-  STRCMP_EQUAL("i2c-4/4-004b", c.wiring.channels[3].current.device.c_str());
+  STRCMP_EQUAL("i2c-5/5-004b", c.wiring.channels[3].current.device.c_str());
   CHECK(c.wiring.channels[3].position.access.buffered());
   DOUBLES_EQUAL(0.03, c.settings.channels[0].position.max_age_s, 1e-12);
   DOUBLES_EQUAL(4.5, c.settings.channels[0].limiter.max_W, 0.0);

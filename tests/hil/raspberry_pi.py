@@ -6,6 +6,7 @@ here. Of the parts that QEMU lacks, those without which Debian's kernel stops ar
 
 import contextlib
 import os
+import pathlib
 import re
 import selectors
 import signal
@@ -46,8 +47,8 @@ def prepared():
 
 def from_boot(card, name):
     """A file of the boot partition, in FOLDER."""
-    subprocess.run(["mcopy", "-o", "-i", f"{card}@@{image.offsets(card)[0]}", f"::{name}", FOLDER / name], check=True)
-    return FOLDER / name
+    subprocess.run(["mcopy", "-o", "-i", f"{card}@@{image.offsets(card)[0]}", f"::{name}", FOLDER], check=True)
+    return FOLDER / pathlib.Path(name).name
 
 
 def options(card):

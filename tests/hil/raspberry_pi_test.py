@@ -15,10 +15,9 @@ import time
 
 import image
 import raspberry_pi
-import rig
 from table import Table
 
-BOARD = rig.ROOT / "firmware" / "config" / "examples" / "raspberry-pi-pwm-ads1115.toml"
+BOARD = "raspberry-pi-pwm-ads1115.toml"  # of the card's folder boards
 PWM = "fe203000.pwm"  # as raspberry_pi.py moved it
 CONVERTERS = ("1-0048", "1-0049", "1-004a", "3-0048", "3-0049")
 
@@ -76,6 +75,7 @@ def judge_missing(table, console):
     findings = {finding["what"]: finding for finding in json.loads(console.ask("supercoil doctor --json 2>/dev/null"))["findings"]}
     for what in ("kernel", "priority", "frequency", "processors", "watchdog"):
         table.row(f"doctor: {what} in order", findings[what]["verdict"] == "ok", 1, 1, "")
+    table.row("    clocks at their highest", "governor 'performance'" in findings["frequency"]["found"], 1, 1, "")
     # How long a call takes is QEMU's affair.
     for what, line in (("heartbeat", "GPIO17"), ("light", "GPIO22"), ("channel 1, enable", "GPIO23"), ("channel 2, enable", "GPIO24")):
         table.row(f"doctor: {what} is there, low", findings[what]["found"].startswith(f"{line} of pinctrl-bcm2711, low"), 1, 1, "")
@@ -104,8 +104,8 @@ def main():
     try:
         card = raspberry_pi.prepared()
         look(table, card, "no board.toml", judge_no_file)
-        image.put_board(card, BOARD.read_text().replace("fe20c000.pwm", PWM))
-        look(table, card, BOARD.name, judge_start, judge_wiring, judge_missing)
+        image.put_board(card, raspberry_pi.from_boot(card, f"boards/{BOARD}").read_text().replace("fe20c000.pwm", PWM))
+        look(table, card, BOARD, judge_start, judge_wiring, judge_missing)
         raspberry_pi.rename_boot(card, "OTHER")
         look(table, card, "no boot partition", judge_emergency)
     except (OSError, EOFError, ValueError, KeyError, subprocess.CalledProcessError) as error:

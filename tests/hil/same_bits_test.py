@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Simulations on the emulated board and on this machine: the same to the bit, every value of every tick and every frame.
 
-Prints what was compared; ends with 1 if any of it is wrong, 2 if the board did not do its part.
+Prints what was compared; ends with 1 if any of it is wrong, 2 if the board did not do its part. This machine's simulator is
+that of build/release: tests/hil/prepare --architecture amd64.
 
     tests/hil/same_bits_test.py [--architecture amd64]
 """
@@ -32,13 +33,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     rig.add_architecture(parser)
     settings = rig.Settings(parser.parse_args().architecture, "same_bits_test", time_out_s=1200.0, free_running=True)
+    if not SIMULATOR.exists():
+        parser.error(f"{SIMULATOR} is missing: run tests/hil/prepare --architecture amd64")
     table = Table()
 
     def judge(table, run):
         there = re.findall(r"^result (\w+)", run.console.replace("\r", ""), re.M)[0]
-        table.row(f"{scenario}: trace and CAN log are the same to the bit", there == result_here(scenario), 1, 1, "")
+        table.row(f"{scenario}: trace and CAN log are the same to the bit", there == here, 1, 1, "")
 
     for scenario in SCENARIOS:
+        here = result_here(scenario)
         table.judge(scenario, judge, rig.run(rig.HERE / "scripts" / "same_bits", (scenario,), settings))
     table.end()
 

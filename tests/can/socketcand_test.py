@@ -118,12 +118,13 @@ class Commanded(OnTheBus):
         self.assert_nothing_but_starved()
 
     def test_random_frames_are_not_obeyed_and_do_not_disturb_the_control(self):
-        def tracks(master):
-            return abs(master.newest["Tracking"]["error_m"]) < 2e-4
+        def off_track_m(master):
+            return abs(master.newest["Tracking"]["error_m"])
         chance = random.Random(20261120)
         noisy = self.new_master()
         foreign = [i for i in range(0x800) if i not in FROM_BOARD]  # two must never send the same identifier
-        self.master.steer_until(TARGET_M, is_there)
+        # The controller still learns when the muscle is there for the first time.
+        self.master.steer_until(TARGET_M, lambda m: is_there(m) and off_track_m(m) < 1e-4)
         answered, asked, starved = len(self.master.answers), self.master.asked, len(self.master.faults)
         for _ in range(50):
             for i in range(200):
@@ -133,7 +134,7 @@ class Commanded(OnTheBus):
                                            is_extended_id=False))
             self.end_row_of_damaged()
             if len(self.master.faults) == starved:
-                self.assertTrue(tracks(self.master), self.master.newest)
+                self.assertLess(off_track_m(self.master), 5e-4, self.master.newest)
         self.assert_nothing_but_starved()
         obeyed = [told for told in self.master.answers[answered:] if told["refusal"] == "none"]
         self.assertLessEqual(len(obeyed), self.master.asked - asked)

@@ -19,6 +19,7 @@ DBC = next(file for file in (HERE.with_name("supercoil.dbc"), HERE.parents[2] / 
            if file.exists())
 PROTOCOL = cantools.database.load_file(DBC)
 COMMAND = PROTOCOL.get_message_by_name("Command")
+OURS = {message.frame_id for message in PROTOCOL.messages}  # of the first node
 counter, session, signals = 0, 0x1234, {}
 
 
@@ -40,6 +41,8 @@ def command(opcode, value=0.0):
     bus.send(can.Message(arbitration_id=COMMAND.frame_id, data=data, is_extended_id=False))
     end = time.monotonic() + 1.0
     while time.monotonic() < end and (frame := bus.recv(1.0)):
+        if frame.arbitration_id not in OURS:
+            continue  # another node's, of before the kernel had the filters
         heard = PROTOCOL.decode_message(frame.arbitration_id, frame.data)
         signals.update({name: round(x, 7) if isinstance(x, float) else x for name, x in heard.items()})
         if "refusal" in heard and (heard["session"], heard["counter"]) == (session, counter):
@@ -48,8 +51,8 @@ def command(opcode, value=0.0):
 
 
 if __name__ == "__main__":
-    ours = [{"can_id": message.frame_id, "can_mask": 0x7FF, "extended": False} for message in PROTOCOL.messages]
-    with can.Bus(can_filters=ours, **dict(word.split("=") for word in sys.argv[1:])) as bus:
+    filters = [{"can_id": frame_id, "can_mask": 0x7FF, "extended": False} for frame_id in OURS]
+    with can.Bus(can_filters=filters, **dict(word.split("=") for word in sys.argv[1:])) as bus:
         session = command("claim")["granted"]
         command("arm")
         time.sleep(0.2)  # a probe measures the heater

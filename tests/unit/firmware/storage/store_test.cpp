@@ -114,6 +114,18 @@ TEST(LearnedStore, LeavesNothingButItsFilesBehind) {
   LONGS_EQUAL(2, disk.names.size());
 }
 
+/// As a power cut between the two renames of a save may leave them: a third name could not be
+/// renamed over the second of the same file.
+TEST(LearnedStore, LeavesNothingBehindWhereBothNamesAreOneFile) {
+  save(1);
+  save(2);
+  disk.names.at(path + ".previous") = disk.names.at(path);
+  save(3);
+  LONGS_EQUAL(2, disk.names.size());
+  check_loaded(Source::current, 3);
+  LONGS_EQUAL(2, which(*decode(text_of(path + ".previous"))));
+}
+
 TEST(LearnedStore, ChannelsDoNotMeet) {
   LearnedStore other("/d", 4, files);
   save(1);

@@ -86,12 +86,16 @@ TEST(Publisher, ParametersComeRoundAndWhatTheEstimatorCannotTellIsLeftOut) {
 }
 
 TEST(Publisher, WaitsForABusyBusDropsTheOldestAndCounts) {
+  test::TestBus free;
+  Publisher twin(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, free);
+  publish(twin, 0, 20);
+  const std::size_t dropped = free.sent.size() - 8;
   Publisher publisher(only(Message::measurement, 1000.0), {1, {0.0086, 0.09}}, timing, bus);
   bus.answer = hal::Status::busy;
   publish(publisher, 0, 20);
   LONGS_EQUAL(0, bus.sent.size());
   LONGS_EQUAL(8, publisher.waiting());
-  const std::uint32_t dropped = publisher.dropped();
+  LONGS_EQUAL(dropped, publisher.dropped());
   bus.answer = hal::Status::ok;
   publish(publisher, 20, 21);
   // The newest eight of those that waited, and the new one, in their order.

@@ -69,6 +69,10 @@ def options(card):
             "-drive", f"file={inside}/{card.name},if=sd,format=raw", "-serial", "stdio"]
 
 
+PROMPT = r"root@\S+:~#"
+EMERGENCY = "Press Enter for maintenance"
+
+
 class Console:
     """What the board says, and a shell on it."""
 
@@ -91,6 +95,15 @@ class Console:
             (FOLDER / "console").write_text(self.text)
         return found
 
+    def press_enter_until(self, pattern, presses=20, each_s=5.0):
+        """Again and again: what is typed before somebody reads may be thrown away."""
+        for _ in range(presses):
+            self.process.stdin.write(b"\n")
+            self.process.stdin.flush()
+            with contextlib.suppress(TimeoutError):
+                return self.wait_for(pattern, each_s)
+        raise TimeoutError(f"no {pattern!r} after {presses} times Enter")
+
     def ask(self, command, time_out_s=180):
         """What the command prints there."""
         begin = len(self.text)
@@ -112,10 +125,8 @@ def board(card, time_out_s=900):
                                start_new_session=True)
     try:
         console = Console(process)
-        if "Press Enter" in console.wait_for(r"root@\S+:~#|Press Enter for maintenance", time_out_s)[0]:
-            process.stdin.write(b"\n")
-            process.stdin.flush()
-            console.wait_for(r"root@\S+:~#", time_out_s)
+        if console.wait_for(f"{PROMPT}|{EMERGENCY}", time_out_s)[0] == EMERGENCY:
+            console.press_enter_until(PROMPT)
         console.ask("export SYSTEMD_PAGER= TERM=dumb")
         yield console
     finally:

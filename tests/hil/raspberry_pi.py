@@ -32,6 +32,7 @@ CARD = "/soc/mmc@7e300000"
 # What the board file needs and QEMU has elsewhere: the third I2C bus of older Raspberry Pis, and for the PWM registers
 # that swallow what is written (of I2S).
 MOVED = {"/soc/i2c@7e205600": ("7e805000", "200"), "/soc/pwm@7e20c000": ("7e203000", "28")}
+PWM, PWM_HERE = "fe20c000.pwm", "fe203000.pwm"  # which thus has another name
 
 
 def prepared():

@@ -18,7 +18,6 @@ import raspberry_pi
 from table import Table
 
 BOARD = "raspberry-pi-pwm-ads1115.toml"  # of the card's folder boards
-PWM = "fe203000.pwm"  # as raspberry_pi.py moved it
 CONVERTERS = ("1-0048", "1-0049", "1-004a", "3-0048", "3-0049")
 
 
@@ -49,7 +48,7 @@ def judge_wiring(table, console):
     lines = console.ask("gpioinfo pinctrl-bcm2711")
     table.row("lines with the example's names", sum(f'"{name}"' in lines for name in ("GPIO17", "GPIO22", "GPIO23", "GPIO24", "GPIO27")),
               5, 5, "")
-    table.row("the PWM, with both outputs", int(console.ask(f"cat /sys/devices/platform/soc/{PWM}/pwm/pwmchip*/npwm")), 2, 2, "")
+    table.row("the PWM, with both outputs", int(console.ask(f"cat /sys/devices/platform/soc/{raspberry_pi.PWM_HERE}/pwm/pwmchip*/npwm")), 2, 2, "")
     told = console.ask("for d in /sys/bus/i2c/devices/*; do echo ${d##*/} $(cat $d/name); done")
     table.row("converters told to the kernel, at their addresses", sum(f"{name} ads1115" in told for name in CONVERTERS), 5, 5, "")
     table.row("    on buses with their numbers", sum(int(console.ask(f"ls -d /sys/bus/i2c/devices/i2c-{bus} | wc -l")) for bus in (1, 3)), 2, 2, "")
@@ -104,7 +103,8 @@ def main():
     try:
         card = raspberry_pi.prepared()
         look(table, card, "no board.toml", judge_no_file)
-        image.put_board(card, raspberry_pi.from_boot(card, f"boards/{BOARD}").read_text().replace("fe20c000.pwm", PWM))
+        example = raspberry_pi.from_boot(card, f"boards/{BOARD}").read_text()
+        image.put_board(card, example.replace(raspberry_pi.PWM, raspberry_pi.PWM_HERE))
         look(table, card, BOARD, judge_start, judge_wiring, judge_missing)
         raspberry_pi.rename_boot(card, "OTHER")
         look(table, card, "no boot partition", judge_emergency)

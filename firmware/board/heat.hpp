@@ -10,9 +10,12 @@
 
 namespace supercoil::board {
 
-/// What is known of the muscle's heat. Power parts: true power over measured power.
+/// What is known of the muscle's heat.
 struct ThermalSettings {
-  control::ThermalBounds bounds{0.13, 0.20, 0.045, 0.18, 0.95, 1.05};
+  control::ThermalBounds bounds{0.13, 0.20, 0.045, 0.18};
+  /// Heat in the muscle over electrical power, besides what the senses are wrong by.
+  double min_power_ratio = 1.0;
+  double max_power_ratio = 1.0;
   double thermal_mass_J_per_K = 0.162;  ///< ψ0, weighed or by calorimetry
   double boot_rise_K = 135.0;           ///< how hot it may be at boot: the history is unknown
   double ambient_C = 25.0;              ///< the warmest that the air can be
@@ -33,10 +36,10 @@ class Heat {
     expected_.learn(muscle.thermal_pole_rad_per_s());
   }
 
-  /// What acted since the last tick lies between least_W and most_W, and was probably_W.
-  void step(double least_W, double most_W, double probably_W) {
-    interval_.step(least_W, most_W);
-    learned_.step(most_W);
+  /// What acted since the last tick lies between min_W and max_W, and was probably_W.
+  void step(double min_W, double max_W, double probably_W) {
+    interval_.step(min_W, max_W);
+    learned_.step(max_W);
     expected_.step(probably_W);
   }
   /// The muscle's thermal pole, as estimated and trusted.

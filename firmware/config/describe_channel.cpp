@@ -1,4 +1,6 @@
 #include <cmath>
+#include <ctime>
+#include <iomanip>
 #include <sstream>
 
 #include "config/describe.hpp"
@@ -6,6 +8,14 @@
 namespace supercoil::config {
 
 namespace {
+
+/// At the supply voltage at which they are furthest apart.
+board::PowerBounds::Interval true_over_told_power(const ChannelSettings& c,
+                                                  const BoardSettings& board) {
+  const board::PowerBounds bounds = power_bounds(c, board);
+  return {bounds.true_over_told(board.supervision.highest_supply_V).min,
+          bounds.true_over_told(board.supervision.lowest_supply_V).max};
+}
 
 double mm(double metres) {
   return std::nearbyint(1e6 * metres) / 1e3;
@@ -27,19 +37,22 @@ void describe_wiring(std::ostream& out, const ChannelWiring& w, const ChannelSet
       << " mA a count; up to " << 1e3 * c.supervision.off_current_A << " mA counts as none\n";
 }
 
-void describe_limits(std::ostream& out, const ChannelSettings& c, const ChannelLabel& label) {
+void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSettings& board,
+                     const ChannelLabel& label) {
   const ChannelSupervision& s = c.supervision;
   out << "  heater      " << c.heater.cold_resistance_Ohm << " Ohm when cold; probed with "
       << 100.0 * c.heater.probe_duty << " % for " << 1e3 * c.heater.probe_s << " ms\n"
       << "  power       " << c.limiter.min_W << " to " << c.limiter.max_W << " W; more than "
       << s.max_measured_W << " W measured is a fault, and more than " << s.energy_J << " J in "
       << s.energy_window_s << " s\n"
+      << "  senses      " << describe_senses(c, board) << "\n"
       << "  travel      up to " << mm(s.max_travel_m) << " mm\n"
       << "  temperature " << (label.preset == Preset::skin ? "near skin: " : "")
       << "full power up to " << c.limiter.derate_from_C << " °C, none from " << s.trip_C
       << " °C on, where it trips\n";
   const control::ThermalBounds& b = c.thermal.bounds;
-  const double rest_K = c.limiter.max_W * b.highest_power_part / b.lowest_transfer_W_per_K;
+  const double rest_K =
+      c.limiter.max_W * true_over_told_power(c, board).max / b.lowest_transfer_W_per_K;
   out << "              from " << b.lowest_mass_J_per_K << " to " << b.highest_mass_J_per_K
       << " J/K and " << b.lowest_transfer_W_per_K << " to " << b.highest_transfer_W_per_K
       << " W/K; " << c.limiter.max_W << " W for good may heat it to "
@@ -84,6 +97,22 @@ void describe_control(std::ostream& out, const ChannelSettings& c, double step_s
 
 }  // namespace
 
+std::string describe_senses(const ChannelSettings& c, const BoardSettings& board) {
+  const auto [min_ratio, max_ratio] = true_over_told_power(c, board);
+  std::ostringstream out;
+  out.precision(3);
+  if (c.senses.compared()) {
+    const auto when = static_cast<std::time_t>(c.senses.compared_s);
+    std::tm utc{};
+    gmtime_r(&when, &utc);
+    out << "compared with a meter on " << std::put_time(&utc, "%F") << ", ";
+  } else {
+    out << "until they are compared with a meter (supercoil doctor --compare-senses), ";
+  }
+  out << "the true power is " << min_ratio << " to " << max_ratio << " times the told one";
+  return out.str();
+}
+
 std::string describe_channel(const BoardConfig& config, std::size_t index) {
   std::ostringstream out;
   const ChannelSettings& c = config.settings.channels[index];
@@ -91,7 +120,7 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   const std::string title = "channel " + std::to_string(index + 1);
   out << title << (label.name == title ? "" : ": " + label.name) << "\n";
   describe_wiring(out, config.wiring.channels[index], c);
-  describe_limits(out, c, label);
+  describe_limits(out, c, config.settings, label);
   describe_control(out, c, config.settings.step_s());
   return out.str();
 }

@@ -57,13 +57,14 @@ void read_muscle(Section muscle, Section thermal, const BoardContext& context, C
   board::ThermalSettings& t = c.thermal;
   for (const Bound& bound : thermal_bounds)
     read_bound(thermal, bound, c.muscle, t.bounds);
-  const auto part = thermal.numbers(
-      "power_part", {t.bounds.lowest_power_part, t.bounds.highest_power_part}, {0.1, 10.0}, 2, 2);
-  if (part[0] > 1.0 || part[1] < 1.0) {
-    thermal.wrong("power_part", "must be [a, b] with a <= 1 <= b");
+  thermal.allow({"power_part"});
+  if (thermal.has("power_part")) {
+    thermal.wrong(
+        "power_part",
+        "contradicts detectors.resistance_part, below which no error of the senses is "
+        "noticed; leave it out: the bounds of power follow from that until the senses are "
+        "compared with a meter (supercoil doctor --compare-senses)");
   }
-  t.bounds.lowest_power_part = part[0];
-  t.bounds.highest_power_part = part[1];
   t.thermal_mass_J_per_K =
       thermal.number("weighed_mass_J_per_K", c.muscle.thermal_mass_J_per_K, {1e-4, 1e3});
   const bool weighed = thermal.has("weighed_mass_J_per_K");  // else said above

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "config/describe.hpp"
 #include "daemon/log.hpp"
 #include "recorder/names.hpp"
 #include "recorder/pump.hpp"
@@ -36,8 +37,12 @@ tl::expected<void, std::string> remember(config::BoardConfig& config,
     if (!loaded) return tl::unexpected(loaded.error());
     for (const std::string& problem : loaded->problems)
       log(Level::warning, problem);
-    if (!loaded->learned) continue;
     ChannelSettings& channel = config.settings.channels[i];
+    if (loaded->learned) channel.senses = loaded->learned->senses;
+    log(channel.senses.compared() ? Level::info : Level::warning,
+        "channel " + std::to_string(i + 1) +
+            ": senses: " + config::describe_senses(channel, config.settings));
+    if (!loaded->learned) continue;
     channel.muscle = loaded->learned->muscle;
     channel.calibration = loaded->learned->calibration;
     log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +

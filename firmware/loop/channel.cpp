@@ -43,10 +43,12 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       ticks_per_s_(std::lround(board.rate_Hz)),
       index_(index),
       calibration_(settings.calibration),
+      senses_(settings.senses),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
                   board.supervision.lowest_supply_V, board.step_s()),
       muscle_(settings.muscle),
       resistance_(resistance_settings(settings.heater), board.step_s()),
+      power_bounds_(power_bounds(settings, board)),
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
       identify_({}, settings.muscle, board.step_s()),
@@ -64,12 +66,12 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
 }
 
 void Channel::supervise(const BoardNow& board) {
-  supply_V_ = board.supply_V;
-  observe_heat(board.supply_V, board.periods);
-  follow_probe(board.supply_V);
+  supply_V_ = board.supply_V * senses_.supply_gain;
+  observe_heat(board.periods);
+  follow_probe(supply_V_);
 
   Evidence& e = evidence_;
-  e.supply_V = board.supply_V;
+  e.supply_V = supply_V_;
   e.hot = heat_.hottest_K() > hot_K;
   e.heating = state_.may_heat();
   e.off = acting_.duty == 0.0 || !state_.enable();
@@ -82,12 +84,11 @@ void Channel::supervise(const BoardNow& board) {
   heat_known_ = heat_known_ || heat_.hottest_C() < settings_.limiter.derate_from_C;
   e.hottest_C = heat_known_ ? heat_.hottest_C() : settings_.thermal.ambient_C;
   e.applied_W = acting_.power_W;
-  const double cold_Ohm = calibration_.cold_resistance_Ohm;
-  const double per_K = settings_.heater.temperature_coefficient_per_K;
   e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
   e.resistance_Ohm = resistance_.value_Ohm();
-  e.least_Ohm = cold_Ohm * (1.0 + per_K * heat_.coldest_K());
-  e.most_Ohm = cold_Ohm * (1.0 + per_K * heat_.hottest_K());
+  const auto [least_Ohm, most_Ohm] = calibrated_Ohm();
+  e.least_Ohm = least_Ohm;
+  e.most_Ohm = most_Ohm;
   e.wanted_W = wanted_.wanted_power_W;
   e.limited = acting_.limited;
   present_fault_ = supervisor_.step(e);

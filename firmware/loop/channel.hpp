@@ -101,7 +101,8 @@ class Channel {
   void start_controller(std::size_t place, const control::ControllerStart& at);
   void rest();
   void sample_position(hal::Time now);
-  void observe_heat(double supply_V, long periods);
+  void observe_heat(long periods);
+  board::PowerBounds::Interval calibrated_Ohm() const;
   void follow_probe(double supply_V);
   void learn_heat();
   /// Empty: no estimate is trusted, or it is no muscle's.
@@ -128,6 +129,7 @@ class Channel {
   std::uint8_t index_;
 
   storage::Calibration calibration_;
+  storage::SenseComparison senses_;
   ChannelState state_;
   ChannelSupervisor supervisor_;
   Evidence evidence_;
@@ -137,6 +139,7 @@ class Channel {
   hal::Time position_taken_{-1};
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
   board::Resistance resistance_;
+  board::PowerBounds power_bounds_;
   board::Heat heat_;
   board::Probe probe_;
   double supply_V_ = 0.0;

@@ -39,7 +39,7 @@ void Channel::end_mode(ModeResult result) {
 /// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
 ModeResult Channel::keep(const control::PhysicalParameters& muscle,
                          const storage::Calibration& found) {
-  const storage::Learned learned{muscle, found, 0};
+  const storage::Learned learned{muscle, found, senses_, 0};
   if (storage::check(learned)) return ModeResult::implausible;
   if (found != calibration_) supervisor_.restart();  // every position moves with it
   muscle_ = muscle;

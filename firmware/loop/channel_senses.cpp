@@ -20,6 +20,7 @@ void Channel::sample(hal::Time now) {
   const InputSettings& input = settings_.heater.current;
   board::measure(devices_.current->latest(), input.scaling, now, input.max_age_s,
                  evidence_.current);
+  evidence_.current.value *= senses_.current_gain;
 }
 
 void Channel::sample_position(hal::Time now) {
@@ -34,25 +35,34 @@ void Channel::sample_position(hal::Time now) {
   if (fresh) position_taken_ = sample.taken;
 }
 
-/// The muscle's temperature, from the power that acted and the power that was measured: if a switch
+/// What a heater that is as it was calibrated has at the muscle's coldest and hottest.
+board::PowerBounds::Interval Channel::calibrated_Ohm() const {
+  const double cold_Ohm = calibration_.cold_resistance_Ohm;
+  const double per_K = settings_.heater.temperature_coefficient_per_K;
+  return {cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
+          cold_Ohm * (1.0 + per_K * heat_.hottest_K())};
+}
+
+/// The muscle's temperature, from the power that was set and the one that was measured: if a switch
 /// conducts by itself, only the current knows.
-void Channel::observe_heat(double supply_V, long periods) {
-  const bool measures = evidence_.current.present && supply_V > 0.0;
-  if (measures) resistance_.step(acting_.duty, supply_V, evidence_.current.value);
-  const double told_W = acting_.power_W;
-  const double noise_A = settings_.supervision.current_noise_A;
-  const double measured_W = measures ? supply_V * evidence_.current.value : limiter_.max_W();
-  // A measured power takes part only where it differs by more than the sense's own error.
-  const double tolerance_W = supply_V * noise_A + 0.05 * told_W;
-  const bool differs = std::abs(measured_W - told_W) > tolerance_W;
-  // The cold end may as well be too cold: nothing is protected by it.
-  const double least_W = std::min(told_W, measured_W) - supply_V * noise_A;
-  const double most_W = differs ? std::max(told_W, measured_W) : told_W;
-  heat_.step(std::max(0.0, least_W), most_W, told_W);
+void Channel::observe_heat(long periods) {
+  const board::Measured& current = evidence_.current;
+  if (current.present && supply_V_ > 0.0) resistance_.step(acting_.duty, supply_V_, current.value);
+  // Senses that lied while the resistance was calibrated cannot narrow the bounds by that.
+  const double as_configured =
+      settings_.heater.cold_resistance_Ohm / calibration_.cold_resistance_Ohm;
+  const auto [min_Ohm, max_Ohm] = calibrated_Ohm();
+  const auto power_W = power_bounds_.step(
+      acting_.duty, supply_V_, current,
+      {min_Ohm * std::min(1.0, as_configured), max_Ohm * std::max(1.0, as_configured)});
+  heat_.step(power_W.min, power_W.max, acting_.power_W);
+  const double measured_W =
+      current.present ? supply_V_ * (current.value - settings_.supervision.current_noise_A)
+                      : limiter_.max_W();
+  evidence_.measured_W = std::max(acting_.power_W, measured_W);
   // In periods that were left out the power may have gone on, or the charge pump have cut it.
   for (long i = 1; i < periods; ++i)
-    heat_.step(0.0, most_W, told_W);
-  evidence_.most_W = most_W;
+    heat_.step(0.0, power_W.max, acting_.power_W);
 
   const double per_K = settings_.heater.temperature_coefficient_per_K;
   evidence_.from_resistance_K = evidence_.from_position_K = 0.0;

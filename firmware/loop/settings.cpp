@@ -11,6 +11,18 @@ std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& 
   return control::loop_margin(*law, channel.muscle, step_s, loop_delay_s(channel, step_s));
 }
 
+board::PowerBounds power_bounds(const ChannelSettings& channel, const BoardSettings& board) {
+  board::PowerBounds bounds({.min_supply_V = board.supervision.lowest_supply_V,
+                             .max_supply_V = board.supervision.highest_supply_V,
+                             .resistance_tolerance_ratio = channel.supervision.resistance_part,
+                             .current_noise_A = channel.supervision.current_noise_A,
+                             .max_W = channel.limiter.max_W,
+                             .min_power_ratio = channel.thermal.min_power_ratio,
+                             .max_power_ratio = channel.thermal.max_power_ratio});
+  bounds.set(channel.senses);
+  return bounds;
+}
+
 std::string check(const BoardSettings& settings) {
   std::ostringstream wrong;
   const BoardSupervision& s = settings.supervision;

@@ -10,6 +10,7 @@
 
 #include "board/heat.hpp"
 #include "board/measurement.hpp"
+#include "board/power_bounds.hpp"
 #include "storage/learned.hpp"
 #include "supervisor/limiter.hpp"
 #include "supervisor/supervision.hpp"
@@ -39,6 +40,7 @@ struct HeaterSettings {
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
   storage::Calibration calibration;    ///< its cold resistance is HeaterSettings' when not learned
+  storage::SenseComparison senses;     ///< with a meter, as stored
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;
@@ -62,6 +64,9 @@ struct BoardSettings {
 inline double loop_delay_s(const ChannelSettings& channel, double step_s) {
   return step_s + channel.heater.delay_s;
 }
+
+/// The true power of a channel, from what its senses and its calibration may be wrong by.
+board::PowerBounds power_bounds(const ChannelSettings& channel, const BoardSettings& board);
 
 /// The room that a controller leaves on the channel's muscle, when it has adapted to it if it
 /// adapts. Empty: it works in open loop.

@@ -17,10 +17,22 @@ struct Calibration {
   friend bool operator==(const Calibration&, const Calibration&) = default;
 };
 
+/// What a comparison of the channel's senses with a meter found.
+struct SenseComparison {
+  double supply_gain = 1.0;   ///< true over measured supply voltage, 0.5 to 2
+  double current_gain = 1.0;  ///< true over measured current, 0.5 to 2
+  double error_ratio = 0.0;  ///< that may remain of each after its gain, up to 0.2; 0: not compared
+  double compared_s = 0.0;   ///< when, in seconds since 1970
+
+  bool compared() const { return error_ratio > 0.0; }
+  friend bool operator==(const SenseComparison&, const SenseComparison&) = default;
+};
+
 /// One whole set: parameters and calibration belong together, as one was found under the other.
 struct Learned {
   control::PhysicalParameters muscle;
   Calibration calibration;
+  SenseComparison senses;
   std::uint32_t version = 0;  ///< counts the saves of a channel, from 1; LearnedStore sets it
 
   friend bool operator==(const Learned&, const Learned&) = default;

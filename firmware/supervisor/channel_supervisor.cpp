@@ -104,7 +104,7 @@ void ChannelSupervisor::judge_muscle(const Evidence& e) {
   if (e.position.present && inside(e.sensor_m)) {
     verdict_.note(over_travel, travel_.step(e.position.value), travel_);
   }
-  verdict_.note(energy_budget_exceeded, energy_.step(e.most_W), energy_);
+  verdict_.note(energy_budget_exceeded, energy_.step(e.measured_W), energy_);
   // While heating as well: a sense that tells too little current makes the power stage give more.
   if (e.resistance_fresh) {
     verdict_.note(resistance_drift,

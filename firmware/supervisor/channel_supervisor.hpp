@@ -28,7 +28,7 @@ struct Evidence {
   double expected_m = 0.0;  ///< where the model of the muscle is
   double hottest_C = 0.0;
   double applied_W = 0.0;          ///< as it was set
-  double most_W = 0.0;             ///< as it may have been, the measured current considered
+  double measured_W = 0.0;         ///< the larger of that and what the senses tell
   double from_resistance_K = 0.0;  ///< the temperature that it tells; 0 when it tells none,
   double from_position_K = 0.0;    ///< and then this as well
   bool probed = false;             ///< a probe ended at this tick with the next value

@@ -59,11 +59,12 @@ board::ThermalSettings thermal_of(const Conditions& c) {
   t.bounds = {m.thermal_mass_J_per_K * spans.mass_part[0],
               m.thermal_mass_J_per_K * spans.mass_part[1],
               m.heat_transfer_W_per_K * spans.transfer_part[0],
-              m.heat_transfer_W_per_K * spans.transfer_part[1],
-              spans.power_part[0],
-              spans.power_part[1]};
+              m.heat_transfer_W_per_K * spans.transfer_part[1]};
+  t.min_power_ratio = spans.power_part[0];
+  t.max_power_ratio = spans.power_part[1];
   t.thermal_mass_J_per_K = m.thermal_mass_J_per_K;
-  t.ambient_C = t.coldest_ambient_C = spans.ambient_C;
+  t.ambient_C = c.ambient.warmest_C;
+  t.coldest_ambient_C = c.ambient.coldest_C;
   return t;
 }
 
@@ -117,6 +118,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
   channel.heater.cold_resistance_Ohm = c.plant.resistance_Ohm;
   channel.heater.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
   channel.calibration = scenario.calibration;
+  channel.senses.error_ratio = c.sense_error_ratio;
   channel.heater.error_feedback = c.power.error_feedback;
   channel.heater.delay_s = c.power.delay_s;
   channel.thermal = thermal_of(c);

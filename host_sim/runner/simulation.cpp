@@ -150,7 +150,7 @@ TickRecord Simulation::step() {
 
 TickRecord Simulation::record(double time_s, double reference) const {
   const Snapshot& s = loop_.channel(0).snapshot();
-  const double ambient_C = conditions_->thermal.ambient_C;
+  const double ambient_C = conditions_->ambient.air_C;
   TickRecord r;
   r.time_s = time_s;
   r.reference = reference;

@@ -46,10 +46,18 @@ struct PowerSettings {
 struct ThermalSpans {
   std::array<double, 2> mass_part{0.75, 1.35};
   std::array<double, 2> transfer_part{0.45, 2.2};
-  std::array<double, 2> power_part{0.95, 1.05};
-  double ambient_C = 25.0;
+  std::array<double, 2> power_part{1.0, 1.0};  ///< besides what the senses are wrong by
 
   friend bool operator==(const ThermalSpans&, const ThermalSpans&) = default;
+};
+
+/// The air around the muscle, and what the board believes of it.
+struct Ambient {
+  double air_C = 25.0;
+  double warmest_C = 25.0;
+  double coldest_C = 25.0;
+
+  friend bool operator==(const Ambient&, const Ambient&) = default;
 };
 
 /// What whoever commands the board wants of it.
@@ -70,6 +78,8 @@ struct Conditions {
   PositionSensorSettings position_sensor;
   PowerSettings power;
   ThermalSpans thermal;
+  Ambient ambient;
+  double sense_error_ratio = 0.02;  ///< that a comparison with a meter left; 0: never compared
   Trouble trouble;
   Wish wish = Wish::track;
   Reference reference;

@@ -82,9 +82,27 @@ ThermalSpans read_thermal(Section section) {
   t.mass_part = read_span(section, "mass_part", t.mass_part);
   t.transfer_part = read_span(section, "transfer_part", t.transfer_part);
   t.power_part = read_span(section, "power_part", t.power_part);
-  t.ambient_C = section.number("ambient_C", t.ambient_C, {-40.0, 60.0});
   section.finish();
   return t;
+}
+
+Ambient read_ambient(Section section) {
+  constexpr config::Range air{-40.0, 80.0};
+  Ambient a;
+  a.air_C = section.number("air_C", a.air_C, air);
+  a.warmest_C = section.number("warmest_C", a.warmest_C, air);
+  a.coldest_C = section.number("coldest_C", a.coldest_C, air);
+  if (a.coldest_C > a.warmest_C) section.wrong("coldest_C", "must not exceed warmest_C");
+  section.finish();
+  return a;
+}
+
+/// What the board was told of its senses by a comparison with a meter.
+double read_senses(Section section) {
+  const double error_ratio =
+      section.number("error_ratio", Conditions{}.sense_error_ratio, {0.0, 0.2});
+  section.finish();
+  return error_ratio;
 }
 
 Trouble read_trouble(Section section) {
@@ -141,6 +159,8 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   sensor.finish();
   c.power = read_power(root.section("power"), c.plant.resistance_Ohm, step_s);
   c.thermal = read_thermal(root.section("thermal"));
+  c.ambient = read_ambient(root.section("ambient"));
+  c.sense_error_ratio = read_senses(root.section("senses"));
   c.trouble = read_trouble(root.section("trouble"));
   c.wish = read_wish(root.section("operator"));
   Section reference = root.section("reference");

@@ -38,7 +38,7 @@ Heat heat_of(const Scenario& scenario) {
     heat.widest_K = std::fmax(heat.widest_K, r.hottest_K - r.coldest_K);
     if (r.fault != Fault::none) heat.fault = r.fault;
   }
-  heat.hottest_C = scenario.start.thermal.ambient_C + simulation.plant().peak_temperature_rise_K();
+  heat.hottest_C = scenario.start.ambient.air_C + simulation.plant().peak_temperature_rise_K();
   return heat;
 }
 
@@ -83,7 +83,8 @@ TEST(Heat, IsContainedWhenTheMuscleChangesUnderway) {
   check_contained("eta x 0.5", read(sine + event + "plant.heat_transfer_W_per_K = 0.0445\n"));
   check_contained("psi x 1.3", read(sine + event + "plant.thermal_mass_J_per_K = 0.21\n"));
   check_contained("psi x 0.8", read(sine + event + "plant.thermal_mass_J_per_K = 0.13\n"));
-  check_contained("power + 5 %", read(sine + event + "power.gain = 1.05\n"));
+  check_contained("power + 5 %", read(sine + ("thermal.power_part = [1.0, 1.05]\n" + event) +
+                                      "power.gain = 1.05\n"));
   check_contained("load -0.05 N", read(sine + event + "plant.load_N = 0.05\n"));
   check_contained("stiffness 16 -> 12", read(sine + event + "plant.stiffness_N_per_m = 12.0\n"));
 }
@@ -119,4 +120,85 @@ TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {
     check_contained(trouble, read(sine + std::string("[[event]]\nat_s = 60.0\ntrouble.") + trouble +
                                   " = true\n"));
   }
+}
+
+namespace {
+
+/// What the senses of a muscle tell that is stiff enough to show little of 11 W.
+struct LyingSenses {
+  double supply_gain = 1.0;  ///< measured over true
+  double current_gain = 1.0;
+  bool compared = false;  ///< the board believes that they were compared with a meter
+};
+
+/// Counts mean more to the board than to the converter: it reads `gain` of the truth.
+void scale(ConverterSettings& converter, double gain) {
+  converter.low /= gain;
+  converter.high /= gain;
+}
+
+Heat heat_of_power(const LyingSenses& senses, double power_W) {
+  test::RigSettings settings = test::rough_board();
+  // So wide a range that 0.83 times 12 V is no fault.
+  settings.firmware.supervision.lowest_supply_V = 9.0;
+  settings.firmware.supervision.highest_supply_V = 15.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    MuscleChannelSettings& muscle = settings.board.channels[i];
+    muscle.plant.stiffness_N_per_m = 64.0;
+    muscle.temperature_coefficient_per_K = 0.0;
+    ChannelSettings& channel = settings.firmware.channels[i];
+    channel.muscle = muscle.plant;
+    // As badly cooled and as light as the board's bounds allow.
+    muscle.plant.heat_transfer_W_per_K = channel.thermal.bounds.lowest_transfer_W_per_K;
+    muscle.plant.thermal_mass_J_per_K = channel.thermal.bounds.lowest_mass_J_per_K;
+    channel.heater.temperature_coefficient_per_K = 0.0;
+    channel.limiter.max_W = 11.0;
+    channel.supervision.max_measured_W = 14.0;
+    channel.supervision.energy_J = 1e4;
+    if (senses.compared) channel.senses.error_ratio = 0.02;
+    scale(muscle.current, senses.current_gain);
+  }
+  scale(settings.board.supply, senses.supply_gain);
+  test::Rig rig(settings);
+  rig.boot();
+  rig.arm();
+  rig.run(0.1);
+  rig.heat(test::Task::nothing);
+  Heat heat;
+  for (int tick = 0; tick < 60'000 && rig.state() != State::fault; ++tick) {
+    rig.send(Verb::power, power_W);
+    rig.run_ticks(1);
+    heat.hottest_C = std::fmax(heat.hottest_C, 25.0 + rig.muscle().plant().temperature_rise_K());
+  }
+  heat.fault = rig.fault();
+  heat.outside_ticks = rig.interval_missed ? 1 : 0;
+  return heat;
+}
+
+}  // namespace
+
+TEST(Heat, IsContainedByABoardWhoseSensesWereNeverCompared) {
+  // Wrong by less than resistance_drift notices, in the direction that heats more.
+  struct Lie {
+    const char* what;
+    LyingSenses senses;
+  };
+  for (const Lie& lie :
+       {Lie{"current x 0.78", {1.0, 0.78}}, Lie{"supply x 0.83", {0.83, 1.0}},
+        Lie{"supply x 0.83, current x 0.64", {0.83, 0.64}}, Lie{"both x 0.83", {0.83, 0.83}}}) {
+    const Heat heat = heat_of_power(lie.senses, 11.0);
+    printf("%-28s hottest %6.1f C, fault %d\n", lie.what, heat.hottest_C,
+           static_cast<int>(heat.fault));
+    LONGS_EQUAL(0, heat.outside_ticks);
+    CHECK_COMPARE(heat.hottest_C, <, trip_C + overshoot_K);
+  }
+}
+
+TEST(Heat, OfComparedSensesComesNearerToTheLimit) {
+  const Heat wide = heat_of_power({}, 11.0);
+  const Heat narrow = heat_of_power({.compared = true}, 11.0);
+  printf("hottest %.1f C, compared %.1f C\n", wide.hottest_C, narrow.hottest_C);
+  LONGS_EQUAL(0, narrow.outside_ticks);
+  CHECK_COMPARE(narrow.hottest_C, >, wide.hottest_C + 10.0);
+  CHECK_COMPARE(narrow.hottest_C, <, trip_C);
 }

@@ -60,7 +60,12 @@ gain = 0.9
 mass_part = [0.8, 1.2]
 transfer_part = [0.5, 2.0]
 power_part = [0.9, 1.1]
-ambient_C = 20.0
+[ambient]
+air_C = 21.0
+warmest_C = 30.0
+coldest_C = 10.0
+[senses]
+error_ratio = 0.05
 [trouble]
 heater_open = true
 [operator]

@@ -5,14 +5,12 @@
 
 namespace supercoil::control {
 
-/// Bounds that are known to hold: ψ and η of the muscle, and true over reported power.
+/// Bounds that are known to hold of the muscle's ψ and η.
 struct ThermalBounds {
   double lowest_mass_J_per_K;
   double highest_mass_J_per_K;
   double lowest_transfer_W_per_K;
   double highest_transfer_W_per_K;
-  double lowest_power_part = 1.0;
-  double highest_power_part = 1.0;
 };
 
 /// An interval observer of ψφ̇ = −ηφ + P (paper, Eq. (1)). φ̇ lies between the least and the greatest
@@ -24,10 +22,10 @@ class IntervalObserver {
  public:
   /// All bounds positive and in order; step_s > 0.
   IntervalObserver(const ThermalBounds& bounds, double step_s)
-      : hot_{bounds.highest_power_part / bounds.lowest_transfer_W_per_K,
+      : hot_{1.0 / bounds.lowest_transfer_W_per_K,
              decay(bounds.lowest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s),
              decay(bounds.lowest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s)},
-        cold_{bounds.lowest_power_part / bounds.highest_transfer_W_per_K,
+        cold_{1.0 / bounds.highest_transfer_W_per_K,
               decay(bounds.highest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s),
               decay(bounds.highest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s)} {}
 

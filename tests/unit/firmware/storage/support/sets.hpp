@@ -60,7 +60,7 @@ inline rc::Gen<storage::Learned> learned_sets() {
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
          double scale, double resistance, std::uint32_t version) {
         return storage::Learned{
-            {psi, eta, rho, mu, mass, gamma}, {offset, scale, resistance}, version};
+            {psi, eta, rho, mu, mass, gamma}, {offset, scale, resistance}, {}, version};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),

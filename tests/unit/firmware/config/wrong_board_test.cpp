@@ -183,6 +183,15 @@ TEST(WrongBoard, ThermalBoundsOutOfOrder) {
                  "highest_transfer_W_per_K");
 }
 
+TEST(WrongBoard, BoundOfPowerNarrowerThanWhatTheSensesMayHide) {
+  check_replaced("highest_transfer_W_per_K = 0.18",
+                 "highest_transfer_W_per_K = 0.18\npower_part = [0.95, 1.05]",
+                 "b.toml:39: channel[1].thermal.power_part = [0.95, 1.05]: contradicts "
+                 "detectors.resistance_part, below which no error of the senses is noticed; leave "
+                 "it out: the bounds of power follow from that until the senses are compared with "
+                 "a meter (supercoil doctor --compare-senses)");
+}
+
 TEST(WrongBoard, LawThatDoesNotHoldItsMuscle) {
   check_replaced("max_travel_m = 0.025",
                  "max_travel_m = 0.025\n"

@@ -106,7 +106,9 @@ trusted_error = 0.1
   DOUBLES_EQUAL(0.2, c.muscle.thermal_mass_J_per_K, 0.0);
   CHECK(c.position_sensor == (PositionSensorSettings{5e-6, 12, 0.030}));
   CHECK(c.power == (PowerSettings{4.0, 0.1, 12, 10.0, false, 0.004, 0.9}));
-  CHECK(c.thermal == (ThermalSpans{{0.8, 1.2}, {0.5, 2.0}, {0.9, 1.1}, 20.0}));
+  CHECK(c.thermal == (ThermalSpans{{0.8, 1.2}, {0.5, 2.0}, {0.9, 1.1}}));
+  CHECK(c.ambient == (Ambient{21.0, 30.0, 10.0}));
+  DOUBLES_EQUAL(0.05, c.sense_error_ratio, 0.0);
   CHECK(c.trouble == Trouble{.heater_open = true});
   CHECK(c.wish == Wish::identify);
   CHECK(c.reference.kind == ReferenceKind::multisine);

@@ -29,6 +29,19 @@ void answer(int client, const std::string& text) {
   }
 }
 
+/// Makes the socket with its permissions, which bind() takes from the descriptor less the umask. A
+/// chmod() of the path afterwards would follow a link that the folder's owner put there meanwhile.
+int bind_for_group(const hal_linux::Descriptor& listener, const sockaddr_un& address) {
+  if (::fchmod(listener.number(), 0660) != 0) return -1;
+  const mode_t usual = ::umask(0);
+  const int result =
+      ::bind(listener.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  const int error = errno;
+  ::umask(usual);
+  errno = error;
+  return result;
+}
+
 }  // namespace
 
 tl::expected<LocalCommands, std::string> LocalCommands::open(const std::string& path) {
@@ -46,9 +59,7 @@ tl::expected<LocalCommands, std::string> LocalCommands::open(const std::string& 
       ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!listener.is_open()) return fail("no socket for commands");
   ::unlink(path.c_str());
-  const auto* where = reinterpret_cast<const sockaddr*>(&address);
-  if (::bind(listener.number(), where, sizeof(address)) != 0) return fail("cannot be made");
-  if (::chmod(path.c_str(), 0660) != 0) return fail("its permissions cannot be set");
+  if (bind_for_group(listener, address) != 0) return fail("cannot be made");
   if (::listen(listener.number(), backlog) != 0) return fail("cannot be listened to");
   return LocalCommands(std::move(listener));
 }

@@ -6,6 +6,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace supercoil::linux_board {
@@ -14,6 +15,29 @@ namespace {
 
 std::string reason(int error) {
   return std::generic_category().message(error);
+}
+
+/// What is wrong with what was opened. Empty: nothing. Its folder may belong to the service's user,
+/// who could put anything in the lock's place: root must not write into a file of somebody else's.
+std::string objection(const hal_linux::Descriptor& file, const std::string& path) {
+  struct stat found {};
+  if (::fstat(file.number(), &found) != 0) return "cannot be looked at: " + reason(errno);
+  if (!S_ISREG(found.st_mode)) return "is not a regular file";
+  if (found.st_nlink != 1)
+    return "has " + std::to_string(found.st_nlink) + " names (hard links) and may be another file";
+  const std::string folder = path.substr(0, path.rfind('/') + 1) + ".";
+  struct stat above {};
+  const bool known = ::stat(folder.c_str(), &above) == 0;
+  const uid_t owner = found.st_uid;
+  if (owner == 0 || owner == ::geteuid() || (known && owner == above.st_uid)) return {};
+  return "belongs to user " + std::to_string(owner) +
+         ", not to root, to this user or to its folder's owner";
+}
+
+/// Of open() on what is there instead of a file.
+std::string why_not_opened(int error) {
+  if (error == ELOOP) return "the lock file is a symbolic link, which is not followed";
+  return "the lock file cannot be made: " + reason(error);
 }
 
 std::string content(const hal_linux::Descriptor& file) {
@@ -28,10 +52,12 @@ std::string content(const hal_linux::Descriptor& file) {
 }  // namespace
 
 tl::expected<LockFile, std::string> LockFile::take(const std::string& path) {
-  hal_linux::Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644));
-  if (!file.is_open()) {
-    return tl::unexpected(path + ": the lock file cannot be made: " + reason(errno));
-  }
+  // Without O_NONBLOCK a device in the file's place could hold up the start for ever.
+  constexpr int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
+  hal_linux::Descriptor file(::open(path.c_str(), flags, 0644));
+  if (!file.is_open()) return tl::unexpected(path + ": " + why_not_opened(errno));
+  if (const std::string wrong = objection(file, path); !wrong.empty())
+    return tl::unexpected(path + ": the lock file " + wrong);
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) {
     const int error = errno;
     if (error != EWOULDBLOCK) return tl::unexpected(path + ": cannot be locked: " + reason(error));

@@ -12,7 +12,9 @@ namespace supercoil::linux_board {
 /// Holds a lock for as long as it lives. The kernel drops it with the process, however that ends.
 class LockFile {
  public:
-  /// Makes the file. The error names who holds it.
+  /// Makes the file, and writes into nothing but a regular file of one name that belongs to root,
+  /// to this user or to its folder's owner: no link is followed. The error names who holds it, or
+  /// what is wrong with the path.
   static tl::expected<LockFile, std::string> take(const std::string& path);
 
  private:

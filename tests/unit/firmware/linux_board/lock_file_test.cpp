@@ -1,5 +1,8 @@
 #include "linux_board/lock_file.hpp"
 
+#include <string>
+#include <string_view>
+
 #include <unistd.h>
 
 #include <CppUTest/TestHarness.h>
@@ -11,6 +14,14 @@ using supercoil::test::TemporaryFolder;
 
 TEST_GROUP(LockFile) {
   TemporaryFolder folder;
+
+  /// Not taken, for this reason, and not because somebody else has it.
+  void refused(std::string_view why) {
+    const auto lock = LockFile::take(folder / "lock");
+    CHECK_FALSE(lock.has_value());
+    STRCMP_EQUAL((folder / "lock" + ": the lock file " + std::string(why)).c_str(),
+                 lock.error().c_str());
+  }
 };
 
 TEST(LockFile, OnlyOneHoldsIt) {
@@ -31,4 +42,55 @@ TEST(LockFile, WithoutItsFolderItSaysSo) {
   const std::string why =
       folder / "none/lock" + ": the lock file cannot be made: No such file or directory";
   STRCMP_EQUAL(why.c_str(), lock.error().c_str());
+}
+
+TEST(LockFile, NoSymbolicLinkIsFollowed) {
+  folder.write("other", "of somebody else");
+  folder.link("lock", "other");
+  refused("is a symbolic link, which is not followed");
+  STRCMP_EQUAL("of somebody else", folder.read("other").c_str());
+}
+
+TEST(LockFile, NoFileIsMadeWhereALinkPoints) {
+  folder.link("lock", "absent");
+  refused("is a symbolic link, which is not followed");
+  CHECK(::access((folder / "absent").c_str(), F_OK) != 0);
+}
+
+TEST(LockFile, AFileOfTwoNamesIsLeftAlone) {
+  folder.write("other", "of somebody else");
+  CHECK_EQUAL(0, ::link((folder / "other").c_str(), (folder / "lock").c_str()));
+  refused("has 2 names (hard links) and may be another file");
+  STRCMP_EQUAL("of somebody else", folder.read("other").c_str());
+}
+
+TEST(LockFile, APipeIsRefusedWithoutWaiting) {
+  folder.make_pipe("lock");
+  refused("is not a regular file");
+}
+
+TEST(LockFile, AFolderIsRefused) {
+  folder.make_folder("lock");
+  refused("cannot be made: Is a directory");
+}
+
+/// Only root can give a file away.
+TEST(LockFile, AFileOfAForeignUserIsLeftAlone) {
+  if (::geteuid() != 0) return;
+  constexpr uid_t somebody = 65534;
+  folder.write("lock", "of somebody else");
+  CHECK_EQUAL(0, ::chown((folder / "lock").c_str(), somebody, somebody));
+  refused("belongs to user 65534, not to root, to this user or to its folder's owner");
+  STRCMP_EQUAL("of somebody else", folder.read("lock").c_str());
+}
+
+/// As root's doctor finds it: the service's user owns both.
+TEST(LockFile, TheOwnerOfItsFolderMayOwnIt) {
+  if (::geteuid() != 0) return;
+  constexpr uid_t service = 65534;
+  folder.write("lock", "1\n");
+  for (const std::string& path : {folder.path(), folder / "lock"})
+    CHECK_EQUAL(0, ::chown(path.c_str(), service, service));
+  CHECK(LockFile::take(folder / "lock").has_value());
+  STRCMP_EQUAL((std::to_string(::getpid()) + "\n").c_str(), folder.read("lock").c_str());
 }

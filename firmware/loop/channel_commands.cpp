@@ -61,7 +61,7 @@ Refusal Channel::arm(const BoardNow& board) {
   const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
   if (!board.proven || !measured || !quiet || !heat_known_) return Refusal::not_ready;
   state_.arm();
-  supervisor_.restart();
+  supervisor_.rearmed();
   probe_.start();
   return Refusal::none;
 }

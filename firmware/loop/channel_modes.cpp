@@ -41,7 +41,7 @@ ModeResult Channel::keep(const control::PhysicalParameters& muscle,
                          const storage::Calibration& found) {
   const storage::Learned learned{muscle, found, senses_, 0};
   if (storage::check(learned)) return ModeResult::implausible;
-  if (found != calibration_) supervisor_.restart();  // every position moves with it
+  if (found != calibration_) supervisor_.recalibrated();
   muscle_ = muscle;
   calibration_ = found;
   return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;

@@ -53,11 +53,6 @@ Fault ChannelSupervisor::step(const Evidence& e) {
   return verdict_.fault();
 }
 
-void ChannelSupervisor::restart() {
-  not_responding_.reset();
-  lost_.reset();
-}
-
 void ChannelSupervisor::judge_sensors(const Evidence& e) {
   using enum Fault;
   const bool absent = !e.position.present || !e.current.present;

@@ -61,8 +61,10 @@ class ChannelSupervisor {
   bool inside(double sensor_m) const {
     return sensor_m >= settings_.lowest_position_m && sensor_m <= settings_.highest_position_m;
   }
-  /// The channel was made safe or armed anew: what accumulates while heating starts again.
-  void restart();
+  /// The channel was armed anew. What watches the muscle goes on: re-arming proves nothing of it.
+  void rearmed() { lost_.reset(); }
+  /// A new calibration moved every position.
+  void recalibrated() { not_responding_.reset(); }
 
  private:
   void judge_sensors(const Evidence& e);

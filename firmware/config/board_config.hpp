@@ -20,6 +20,7 @@ enum class Preset { nylon, skin };
 struct ChannelLabel {
   std::string name;
   Preset preset = Preset::nylon;
+  std::optional<double> thermal_fuse_C;  ///< at which it opens; 0: there is none; empty: not said
 };
 
 struct BoardConfig {

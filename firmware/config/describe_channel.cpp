@@ -41,8 +41,11 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
                      const ChannelLabel& label) {
   const ChannelSupervision& s = c.supervision;
   out << "  heater      " << c.heater.cold_resistance_Ohm << " Ohm when cold; probed with "
-      << 100.0 * c.heater.probe_duty << " % for " << 1e3 * c.heater.probe_s << " ms\n"
-      << "  power       " << c.limiter.min_W << " to " << c.limiter.max_W << " W; more than "
+      << 100.0 * c.heater.probe_duty << " % for " << 1e3 * c.heater.probe_s << " ms\n";
+  if (label.thermal_fuse_C.value_or(0.0) > 0.0) {
+    out << "              its thermal fuse opens at " << *label.thermal_fuse_C << " °C\n";
+  }
+  out << "  power       " << c.limiter.min_W << " to " << c.limiter.max_W << " W; more than "
       << s.max_measured_W << " W measured is a fault, and more than " << s.energy_J << " J in "
       << s.energy_window_s << " s\n"
       << "  senses      " << describe_senses(c, board) << "\n"

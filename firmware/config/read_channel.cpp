@@ -100,7 +100,7 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
   channel.wiring.pwm = context.wiring.pwm(section.section("pwm"), owner + "'s PWM");
   read_position(section.section("position"), owner, context, channel);
   read_current(section.section("current"), owner, context, channel);
-  read_heater(section.section("heater"), context, channel.wiring.pwm, c);
+  read_heater(section.section("heater"), context, channel.wiring.pwm, c, channel.label);
   read_limits(section.section("limits"), context, c, channel.label);
   read_muscle(section.section("muscle"), section.section("thermal"), context, c);
   read_detectors(section.section("detectors"), context, channel.wiring.pwm, c);

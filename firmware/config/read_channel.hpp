@@ -37,7 +37,7 @@ void read_limits(Section section, const BoardContext& context, ChannelSettings& 
                  ChannelLabel& label);
 /// [channel.heater]. After the current.
 void read_heater(Section section, const BoardContext& context, const PwmAddress& pwm,
-                 ChannelSettings& c);
+                 ChannelSettings& c, ChannelLabel& label);
 /// [channel.detectors]. After everything else but control.
 void read_detectors(Section section, const BoardContext& context, const PwmAddress& pwm,
                     ChannelSettings& c);

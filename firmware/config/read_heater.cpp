@@ -26,10 +26,24 @@ void read_probe(Section& section, double step_s, const PwmAddress& pwm, HeaterSe
   h.probe_every_s = section.number("probe_every_s", h.probe_every_s, {0.5, 600.0});
 }
 
+void read_thermal_fuse(Section& section, ChannelLabel& label) {
+  if (!section.has("thermal_fuse_C")) {
+    section.allow({"thermal_fuse_C"});
+    return;
+  }
+  // None is made for less than 60 °C, and nylon melts at 260 °C.
+  constexpr Range range_C{60.0, 260.0};
+  const double opens_at_C = section.number("thermal_fuse_C", 0.0, {0.0, range_C.highest});
+  label.thermal_fuse_C = opens_at_C;
+  if (opens_at_C > 0.0 && opens_at_C < range_C.lowest) {
+    section.wrong("thermal_fuse_C", "must be 60 to 260, or 0 where there is no thermal fuse");
+  }
+}
+
 }  // namespace
 
 void read_heater(Section section, const BoardContext& context, const PwmAddress& pwm,
-                 ChannelSettings& c) {
+                 ChannelSettings& c, ChannelLabel& label) {
   HeaterSettings& h = c.heater;
   const double step_s = context.board.step_s();
   h.cold_resistance_Ohm = section.required_number("cold_resistance_Ohm", {0.1, 1e4});
@@ -39,6 +53,7 @@ void read_heater(Section section, const BoardContext& context, const PwmAddress&
   h.resistance_filter_s =
       1e-3 * section.number("resistance_filter_ms", 1e3 * h.resistance_filter_s, {0.0, 10e3});
   read_probe(section, step_s, pwm, h);
+  read_thermal_fuse(section, label);
   h.error_feedback = section.flag("error_feedback", h.error_feedback);
   const double longest_ms = 1e3 * step_s * static_cast<double>(board::OutputDelay::longest_ticks);
   // The thread of a PWM's bus sets a duty within the tick in which it was asked to.

@@ -1,7 +1,9 @@
 // Which detectors a configuration leaves blind: better read before the muscle is heated than after.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
+#include <string_view>
 
 #include "config/describe.hpp"
 #include "supervisor/fault.hpp"
@@ -12,6 +14,9 @@ namespace {
 
 /// Counts of current below which a probe says little.
 constexpr double least_probe_counts = 10.0;
+/// Ratings come in steps of up to 25 K, and the smallest is for 72 °C: near skin nothing else is to
+/// be had.
+constexpr double highest_fuse_above_trip_K = 30.0;
 
 /// One finding, with the channels that share it.
 struct Finding {
@@ -23,8 +28,9 @@ class Findings {
  public:
   void enter(std::size_t channel) { channel_ = channel; }
 
-  void add(Fault fault, const std::string& reason) {
-    const std::string text = std::string(name(fault)) + ": " + reason;
+  void add(Fault fault, const std::string& reason) { add(name(fault), reason); }
+  void add(std::string_view what, const std::string& reason) {
+    const std::string text = std::string(what) + ": " + reason;
     const auto same = [&](const Finding& finding) { return finding.text == text; };
     const auto found = std::find_if(findings_.begin(), findings_.end(), same);
     if (found == findings_.end()) {
@@ -97,6 +103,26 @@ void judge_muscle(const ChannelSettings& c, Findings& findings) {
   }
 }
 
+/// The only part that sees how hot one place of the thread is, and that cuts without a board.
+void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
+                        Findings& findings) {
+  std::ostringstream reason;
+  if (!opens_at_C) {
+    reason << "heater.thermal_fuse_C is not given: state the temperature at which it opens";
+  } else if (*opens_at_C == 0.0) {
+    reason << "there is none: nothing sees hot spots and shorted turns";
+  } else if (*opens_at_C < trip_C) {
+    reason << "opens at " << *opens_at_C << " °C, below trip_C = " << trip_C
+           << " °C: it may open in ordinary use, and for good";
+  } else if (*opens_at_C > trip_C + highest_fuse_above_trip_K) {
+    reason << "opens at " << *opens_at_C << " °C, more than " << highest_fuse_above_trip_K
+           << " K above trip_C = " << trip_C << " °C: what is too hot stays on until then";
+  } else {
+    return;
+  }
+  findings.add("thermal fuse", reason.str());
+}
+
 }  // namespace
 
 std::vector<std::string> weaknesses(const BoardConfig& config) {
@@ -107,6 +133,7 @@ std::vector<std::string> weaknesses(const BoardConfig& config) {
     judge_sensors(c, findings);
     judge_heater(c, config.settings, findings);
     judge_muscle(c, findings);
+    judge_thermal_fuse(config.labels[i].thermal_fuse_C, c.supervision.trip_C, findings);
   }
   std::vector<std::string> lines = findings.lines();
   lines.push_back("board: " + std::string(name(Fault::duty_wrong)) +

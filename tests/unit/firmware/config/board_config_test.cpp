@@ -157,6 +157,22 @@ TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
   check_says(coarse, "channel 1: resistance_drift: a probe's 21.6 mA are only 4.32 counts");
 }
 
+TEST(BoardConfig, ThermalFuseIsAskedForAndJudgedAgainstTheTrip) {
+  const auto described = [](const std::string& fuse) {
+    const std::string heater = "cold_resistance_Ohm = 10.0\n";
+    return describe(read(test::small_board_with(heater, heater + fuse)));
+  };
+  check_says(described(""), "channel 1: thermal fuse: heater.thermal_fuse_C is not given");
+  check_says(described("thermal_fuse_C = 0\n"), "channel 1: thermal fuse: there is none");
+  check_says(described("thermal_fuse_C = 152.0\n"), "opens at 152 °C, below trip_C = 160 °C");
+  check_says(described("thermal_fuse_C = 216\n"), "opens at 216 °C, more than 30 K above trip_C");
+  for (const char* suits : {"160", "169", "190"}) {
+    const std::string text = described("thermal_fuse_C = " + std::string(suits) + "\n");
+    check_says(text, "its thermal fuse opens at " + std::string(suits) + " °C");
+    CHECK_TEXT(text.find("thermal fuse: ") == std::string::npos, text.c_str());
+  }
+}
+
 TEST(BoardConfig, MemoryCountsRingAndRecorder) {
   const Memory memory = memory_of(read(test::small_board).settings);
   UNSIGNED_LONGS_EQUAL(1 * 1000 * 112, memory.ring);

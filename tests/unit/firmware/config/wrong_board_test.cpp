@@ -51,6 +51,12 @@ TEST(WrongBoard, NotANumber) {
                  "b.toml:40: channel[1].limits.max_W = nan: must be 0.001 to 1000");
 }
 
+TEST(WrongBoard, ThermalFuseThatNobodyMakes) {
+  check_replaced("cold_resistance_Ohm = 10.0", "cold_resistance_Ohm = 10.0\nthermal_fuse_C = 45",
+                 "b.toml:34: channel[1].heater.thermal_fuse_C = 45: must be 60 to 260, or 0 where "
+                 "there is no thermal fuse");
+}
+
 TEST(WrongBoard, TextForANumber) {
   check_replaced("max_W = 4.5", "max_W = '4.5 W'",
                  "b.toml:40: channel[1].limits.max_W = '4.5 W': must be a number, 0.001 to 1000");

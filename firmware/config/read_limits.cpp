@@ -45,12 +45,12 @@ void read_power(Section& section, const BoardContext& context, ChannelSettings& 
   }
   // Absent keys follow max_W; while that is missing any number will do.
   const double max_W = std::isfinite(l.max_W) ? l.max_W : 1.0;
-  s.max_measured_W = section.number("max_measured_W", 1.25 * max_W + 0.3, {1e-3, 1e4});
+  s.max_measured_W = section.number("max_measured_W", default_max_measured_W(max_W), {1e-3, 1e4});
   if (s.max_measured_W <= l.max_W) {
     section.wrong("max_measured_W", "must exceed max_W: it is where too much power is a fault");
   }
   s.energy_window_s = section.number("energy_window_s", s.energy_window_s, {0.1, 3600.0});
-  s.energy_J = section.number("energy_J", 1.1 * max_W * s.energy_window_s, {1e-3, 1e6});
+  s.energy_J = section.number("energy_J", default_energy_J(max_W, s.energy_window_s), {1e-3, 1e6});
 }
 
 void read_temperatures(Section& section, const BoardContext& context, ChannelSettings& c,

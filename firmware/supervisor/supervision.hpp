@@ -3,6 +3,18 @@
 
 namespace supercoil {
 
+/// How much measured power is a fault, where nothing else is said.
+constexpr double default_max_measured_W(double max_W) {
+  return 1.25 * max_W + 0.3;
+}
+
+/// Likewise for energy. Holding max_W for good is no fault: how hot that makes the muscle is for
+/// the interval of its temperature to judge. More than this flows only when more was measured than
+/// was asked for.
+constexpr double default_energy_J(double max_W, double window_s) {
+  return 1.1 * max_W * window_s;
+}
+
 /// Defaults suit the paper's muscle. Times are the detection times that docs/faults states.
 struct ChannelSupervision {
   // Sensors
@@ -29,11 +41,11 @@ struct ChannelSupervision {
   // Muscle
   double trip_C = 160.0;
   double max_travel_m = 0.035;
-  double energy_J = 240.0;  ///< within the window
   double energy_window_s = 60.0;
+  double energy_J = default_energy_J(4.5, 60.0);  ///< within the window
   double resistance_part = 0.3;  ///< drift of the cold resistance
   // Supply, of the channel
-  double max_measured_W = 5.5;
+  double max_measured_W = default_max_measured_W(4.5);
   double over_power_s = 0.1;
   // Command
   double command_timeout_s = 0.25;

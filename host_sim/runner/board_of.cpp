@@ -47,8 +47,8 @@ ChannelSupervision supervision_of(const Scenario& scenario) {
   if (c.position_sensor.noise_rms_m < s.position_noise_rms_m) s.frozen_s = INFINITY;
   s.out_of_range_s = std::max(s.out_of_range_s, 2.0 * scenario.step_s());
   s.least_resistance_Ohm = 0.5 * c.plant.resistance_Ohm;
-  s.max_measured_W = 1.25 * max_W + 0.3;
-  s.energy_J = 1.1 * max_W * s.energy_window_s;
+  s.max_measured_W = default_max_measured_W(max_W);
+  s.energy_J = default_energy_J(max_W, s.energy_window_s);
   return s;
 }
 

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <thread>
 
+#include <sys/resource.h>
+
 #include "operator/bus/bus_name.hpp"
 #include "operator/bus/log_file.hpp"
 #include "operator/commands.hpp"
@@ -48,7 +50,17 @@ tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
   return source;
 }
 
+/// Connections to the page are not counted: whoever opens a thousand must not take the descriptors
+/// that STOP's own port needs.
+void allow_many_connections() {
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+}
+
 int serve_page(const MonitorOptions& options, Source& source) {
+  allow_many_connections();
   Access access{options.listen, options.port, new_token(), is_loopback(options.listen),
                 options.read_only};
   httplib::Server server;

@@ -7,6 +7,7 @@ import re
 import select
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -32,10 +33,10 @@ def free_ports():
 class Program:
     """A program that runs until stop(); it is ready when it has printed what is waited for."""
 
-    def __init__(self, command, ready, patience_s=20.0):
+    def __init__(self, command, ready, patience_s=20.0, prepare=None):
         self.folder = tempfile.TemporaryDirectory()  # of its own, for what it writes
         self.process = subprocess.Popen([str(word) for word in command], stdout=subprocess.PIPE, text=True, bufsize=1,
-                                        cwd=self.folder.name)
+                                        cwd=self.folder.name, preexec_fn=prepare)
         end_s = time.monotonic() + patience_s
         while True:
             left_s = end_s - time.monotonic()
@@ -90,8 +91,13 @@ def with_second_node(log, lag_s):
     return both
 
 
-def monitor(source, *options):
-    """Its .found[0] is the page's address as it is printed, .found[1] without the token."""
+def monitor(source, *options, prepare=None):
+    """Its .found[0] is the page's address as it is printed, .found[1] without the token. prepare: called in its process."""
     program = os.environ.get("SUPERCOIL", BIN / "supercoil")
     return Program([program, "monitor", source, "--port", free_ports(), *options],
-                   r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")
+                   r"(http://[^#\s]+/)(#token=[0-9a-f]+)?", prepare=prepare)
+
+
+def trickle(port, count=1000):
+    """So many connections to the port that never end a request."""
+    return Program([sys.executable, ROOT / "tests" / "monitor" / "trickle.py", port, count], "trickling")

@@ -29,18 +29,20 @@ export const refusal_words = (refusal) => WHY[refusal] ?? words(refusal);
 export class Hand extends EventTarget {
   constructor(node, timeout_s) {
     super();
-    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0 });
+    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, let_go_count: 0 });
   }
 
   /** Resolves to {obeyed, text}. */
   async send(opcode, value = 0) {
+    const let_go_count = this.let_go_count;
     try {
       const refusal = await command(this.node, opcode, value);
       if (refusal !== "none") return { obeyed: false, text: `refused: ${refusal_words(refusal)}` };
     } catch (problem) {
       return { obeyed: false, text: problem.message };
     }
-    if (HEATS.has(opcode)) this.#hold(opcode);
+    // What was let go before the answer came is not held after it.
+    if (HEATS.has(opcode) && let_go_count === this.let_go_count) this.#hold(opcode);
     if (COOLS.has(opcode)) this.let_go();
     return { obeyed: true, text: "obeyed" };
   }
@@ -55,6 +57,7 @@ export class Hand extends EventTarget {
 
   /** This page commands nothing any more that heats. */
   let_go(notice = "", alarming = true) {
+    ++this.let_go_count;
     clearInterval(this.timer);
     this.timer = 0;
     this.holds = null;

@@ -14,6 +14,9 @@ function take_token() {
   return sessionStorage.getItem(KEY) ?? "";
 }
 
+// Of STOP; then there is another way to try.
+const STOP_WITHIN_MS = 500;
+
 async function ask(path, options = {}) {
   const headers = { ...options.headers, ...(token && { "X-Supercoil-Token": token }) };
   const answer = await fetch(path, { cache: "no-store", ...options, headers });
@@ -22,8 +25,17 @@ async function ask(path, options = {}) {
   throw new Error(body.error ?? `${path}: ${answer.status} ${answer.statusText}`);
 }
 
-const post = (path, body) =>
-  ask(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
+const post = (path, body, options) =>
+  ask(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body), ...options });
+
+/** Gives up after a time, also while the answer is being read. act: is given the options for fetch. */
+async function within(limit_ms, act) {
+  try {
+    return await act({ signal: AbortSignal.timeout(limit_ms) });
+  } catch (problem) {
+    throw problem.name === "TimeoutError" ? new Error(`no answer within ${limit_ms / 1e3} s`) : problem;
+  }
+}
 
 export const about = async () => (await ask("/api/about")).json();
 
@@ -36,23 +48,27 @@ export async function history_of(from_s, to_s) {
 }
 
 /** Resolves to the refusal's name, "none" when it was obeyed. */
-export async function command(node, opcode, value = 0) {
-  return (await (await post("/api/command", { node, opcode, value })).json()).refusal;
+export async function command(node, opcode, value = 0, options = {}) {
+  return (await (await post("/api/command", { node, opcode, value }, options)).json()).refusal;
 }
+
+/** STOP's other way: an ordinary command, with a deadline. */
+export const disarm_within = (limit_ms, node) => within(limit_ms, (options) => command(node, "disarm", 0, options));
 
 /** This page lives and wants the node to stay hot: {holding, reason}. */
 export const alive = async (node) =>
   (await post("/api/alive", { node }).then((answer) => answer.json()));
 
 /** Disarms all nodes, by a port that nothing else can keep busy. Resolves to the nodes. */
-export async function stop(port) {
+export function stop(port) {
   const address = `${location.protocol}//${location.hostname}:${port}/stop`;
-  // text/plain and no header of our own: the browser asks nothing beforehand.
-  const options = { method: "POST", headers: { "Content-Type": "text/plain" }, body: token, cache: "no-store" };
-  const answer = await fetch(address, options);
-  const body = await answer.json().catch(() => ({}));
-  if (!answer.ok) throw new Error(body.error ?? `${answer.status} ${answer.statusText}`);
-  return body.nodes ?? [];
+  return within(STOP_WITHIN_MS, async (options) => {
+    // text/plain and no header of our own: the browser asks nothing beforehand.
+    const answer = await fetch(address, { method: "POST", headers: { "Content-Type": "text/plain" }, body: token, cache: "no-store", ...options });
+    const body = await answer.json().catch((problem) => ({ error: problem.message }));
+    if (!answer.ok) throw new Error(body.error ?? `${answer.status} ${answer.statusText}`);
+    return body.nodes ?? [];
+  });
 }
 
 /** A fault's page, as Markdown. */

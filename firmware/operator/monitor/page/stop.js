@@ -2,12 +2,15 @@
 
 import { show } from "./dom.js";
 import { clock_now } from "./format.js";
-import { command, stop } from "./server.js";
+import { disarm_within, stop } from "./server.js";
+
+// Of the other way. A board that is there answers within half a second.
+const DISARM_WITHIN_MS = 1500;
 
 export class Stop {
-  /** nodes: a function that tells the known nodes; on_stop: called when the nodes were stopped. */
-  constructor(button, notice, about, nodes, on_stop) {
-    Object.assign(this, { button, notice, port: about.stop_port, nodes, on_stop });
+  /** nodes: a function that tells the known nodes; let_go: ends all that this page keeps hot, without asking anybody. */
+  constructor(button, notice, about, nodes, let_go) {
+    Object.assign(this, { button, notice, port: about.stop_port, nodes, let_go });
     button.hidden = about.kind === "log";
     button.disabled = about.read_only;
     if (button.disabled) button.title = "this monitor is read-only: use the board's stop button";
@@ -27,10 +30,11 @@ export class Stop {
   }
 
   async press() {
+    // First, as it needs no answer: what nobody renews any more expires on the board by itself.
+    this.let_go();
     this.button.classList.add("pressed");
     try {
       const nodes = await stop(this.port);
-      this.on_stop();
       this.#say(nodes.length ? `stopped node ${nodes.join(", ")} (${clock_now()})` : "stopped; no node was ever heard", "done");
     } catch (problem) {
       await this.#by_commands(problem);
@@ -42,10 +46,9 @@ export class Stop {
   /** The other way there is, when the stop's own port does not answer. */
   async #by_commands(problem) {
     this.#say(`STOP did not get through (${problem.message}); disarming each node …`, "failed");
-    const answers = await Promise.allSettled(this.nodes().map((node) => command(node, "disarm")));
+    const answers = await Promise.allSettled(this.nodes().map((node) => disarm_within(DISARM_WITHIN_MS, node)));
     const obeyed = answers.length > 0 && answers.every(({ value }) => value === "none");
     if (obeyed) {
-      this.on_stop();
       this.#say(`disarmed each node; the stop's own port did not answer: ${problem.message}`, "done");
     } else {
       this.#say(`STOP FAILED: ${problem.message}. Use the stop button of the board.`, "failed");

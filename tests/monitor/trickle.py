@@ -1,0 +1,56 @@
+"""Connections to a port that send a byte now and then and never end a request, opened anew when they are closed.
+
+    trickle.py PORT COUNT       until it is killed; prints "trickling" when all were open once
+"""
+
+import contextlib
+import itertools
+import resource
+import socket
+import sys
+import time
+
+BYTE_EVERY_S = 0.1
+
+
+class Trickle:
+    def __init__(self, port):
+        self.port = port
+        self.connection = None
+
+    def drip(self):
+        try:
+            if self.connection and self.connection.recv(64, socket.MSG_DONTWAIT) == b"":
+                raise ConnectionResetError
+        except BlockingIOError:
+            pass
+        except OSError:
+            self.close()
+        try:
+            self.connection = self.connection or socket.create_connection(("127.0.0.1", self.port), timeout=5)
+            self.connection.send(b"P")
+        except OSError:
+            self.close()
+
+    def close(self):
+        if self.connection:
+            self.connection.close()
+        self.connection = None
+
+
+def main(port, count):
+    _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+    trickles = [Trickle(port) for _ in range(count)]
+    for turn in itertools.count():
+        begin_s = time.monotonic()
+        for trickle in trickles:
+            trickle.drip()
+        if turn == 0:
+            print("trickling", flush=True)
+        time.sleep(max(0.0, begin_s + BYTE_EVERY_S - time.monotonic()))
+
+
+if __name__ == "__main__":
+    with contextlib.suppress(KeyboardInterrupt):
+        main(int(sys.argv[1]), int(sys.argv[2]))

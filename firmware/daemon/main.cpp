@@ -1,4 +1,5 @@
 // supercoild: the firmware as a program.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -56,7 +57,7 @@ void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
 int run_program(int count, char** arguments) {
   CLI::App app{
       "The firmware of a board that drives super-coiled polymer muscles.\n"
-      "Drives the board until SIGTERM or SIGINT, which cool first. It starts disarmed.",
+      "Drives the board until SIGTERM, SIGINT or SIGHUP, which cool first. It starts disarmed.",
       "supercoild"};
   app.set_version_flag("--version", SUPERCOIL_VERSION);
   std::string file;
@@ -101,6 +102,8 @@ int run_program(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  // A log or a result that nobody reads any more is no reason to drop the muscles.
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     const int status = run_program(count, arguments);
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;

@@ -12,7 +12,7 @@ struct RunOptions {
   int cpu = -1;                               ///< negative: any
 };
 
-/// Until SIGTERM or SIGINT, which cool first. Returns the program's exit status.
+/// Until SIGTERM, SIGINT or SIGHUP, which cool first. Returns the program's exit status.
 int run_command(const RunOptions& options);
 
 }  // namespace supercoil::daemon

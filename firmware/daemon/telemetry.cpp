@@ -1,25 +1,15 @@
 #include "daemon/telemetry.hpp"
 
 #include <chrono>
-#include <csignal>
 
 #include <poll.h>
 
 #include "supercoil/hal_linux/monotonic_clock.hpp"
 
+#include "daemon/ending_signals.hpp"
 #include "daemon/rounds.hpp"
 
 namespace supercoil::daemon {
-
-namespace {
-/// Asked to end, although the main thread has not noticed: it may be waiting for the disk.
-bool ending_is_asked() {
-  sigset_t pending;
-  sigemptyset(&pending);
-  sigpending(&pending);
-  return sigismember(&pending, SIGTERM) == 1 || sigismember(&pending, SIGINT) == 1;
-}
-}  // namespace
 
 tl::expected<void, std::string> Telemetry::start() {
   auto thread = hal_linux::Thread::start({"telemetry"}, [this] { run(); });
@@ -33,7 +23,8 @@ void Telemetry::run() {
   Rounds rounds(clock.now());
   while (!ending_.load(std::memory_order_relaxed)) {
     loop_->health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
-    if (ending_is_asked()) cool();
+    // Although the main thread has not noticed: it may be waiting for the disk.
+    if (ending_signal_is_pending()) cool();
     const bool cooling = cooling_.load(std::memory_order_relaxed);
     if (cooling) disarm_all();
     // A command waits for its answer at most a tick and this.

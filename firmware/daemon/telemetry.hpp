@@ -18,7 +18,7 @@
 namespace supercoil::daemon {
 
 /// Takes the loop's rows, speaks on the CAN bus, serves commands, and shows the loop that it lives.
-/// Touches no disk: so it is the one that cools at a SIGTERM or SIGINT that is blocked and pending,
+/// Touches no disk: so it is the one that cools at an ending signal that is blocked and pending,
 /// however long the main thread waits for a disk. The loop's commands, answers and rows are this
 /// thread's alone.
 class Telemetry {

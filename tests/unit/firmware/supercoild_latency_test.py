@@ -95,14 +95,37 @@ class Latency(unittest.TestCase):
         self.assertTrue(done.stdout.startswith("50 ticks"))
         self.assertIn("supercoild: problem: none/a.svg.gnuplot: cannot be written\n", done.stderr)
 
+    def start(self, *arguments, **options):
+        program = subprocess.Popen([PROGRAM, *GENTLE, *map(str, arguments), "--json"], cwd=self.path,
+                                   stdout=subprocess.PIPE, text=True, **options)
+        self.addCleanup(program.stdout.close)
+        return program
+
     def test_a_signal_ends_it_with_what_was_measured(self):
-        program = subprocess.Popen([PROGRAM, *GENTLE, "--seconds", "600", "--json"], cwd=self.path,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for ends in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            with self.subTest(ends.name):
+                program = self.start("--seconds", 600)
+                time.sleep(1)
+                program.send_signal(ends)
+                out, _ = program.communicate(timeout=60)
+                self.assertEqual(program.returncode, 0)
+                self.assertLess(0, json.loads(out)["ticks"])
+
+    def test_under_nohup_it_goes_on_when_its_terminal_is_closed(self):
+        program = self.start("--ticks", 2000, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
         time.sleep(1)
-        program.send_signal(signal.SIGINT)
-        out, err = program.communicate(timeout=60)
-        self.assertEqual(program.returncode, 0, err)
-        self.assertLess(0, json.loads(out)["ticks"])
+        program.send_signal(signal.SIGHUP)
+        out, _ = program.communicate(timeout=60)
+        self.assertEqual((program.returncode, json.loads(out)["ticks"]), (0, 2000))
+
+    def test_it_goes_on_when_nobody_reads_its_log_any_more(self):
+        reader, log = os.pipe()
+        os.close(reader)
+        # Long enough to say every second how far it is.
+        program = self.start("--ticks", 2500, stderr=log)
+        os.close(log)
+        out, _ = program.communicate(timeout=60)
+        self.assertEqual((program.returncode, json.loads(out)["ticks"]), (0, 2500))
 
     def test_wrong_options(self):
         for arguments in (("--rate", 500), ("--json",), ("--latency", "--rate", 50), ("--latency", "--ticks", 0),

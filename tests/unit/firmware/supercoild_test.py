@@ -20,8 +20,8 @@ class Program(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
 
     def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *map(str, arguments)], stderr=subprocess.PIPE, text=True,
-                              cwd=self.path, timeout=60, **{"stdout": subprocess.PIPE, **options})
+        return subprocess.run([PROGRAM, *map(str, arguments)], text=True, cwd=self.path, timeout=60,
+                              **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
     def changed(self, old, new):
         text = SLOW.read_text()
@@ -119,6 +119,12 @@ class Program(unittest.TestCase):
                           done.stderr)
         self.assertIn("b.toml: channel 3, pwm: ", done.stderr)
         self.assertTrue(done.stderr.endswith("supercoild: problem: nothing was started\n"), done.stderr)
+
+    def test_a_log_that_nobody_reads_does_not_end_it_by_a_signal(self):
+        reader, log = os.pipe()
+        os.close(reader)
+        self.addCleanup(os.close, log)
+        self.assertEqual(self.run_program(*self.no_such_board(), stderr=log).returncode, 1)
 
     def test_a_folder_that_is_missing(self):
         arguments = self.no_such_board()

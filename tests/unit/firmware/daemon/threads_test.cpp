@@ -7,6 +7,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "daemon/ending_signals.hpp"
 #include "daemon/keeper.hpp"
 #include "daemon/local_commands.hpp"
 #include "daemon/loop_thread.hpp"
@@ -67,14 +68,12 @@ TEST_GROUP(DaemonThreads) {
   supercoil::telemetry::CanLink can{{}, settings.firmware, loop, bus, 1};
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
-  sigset_t ending{};
   sigset_t before{};
 
   void setup() override {
     // As the daemon does, before there are threads.
-    sigemptyset(&ending);
-    sigaddset(&ending, SIGTERM);
-    pthread_sigmask(SIG_BLOCK, &ending, &before);
+    pthread_sigmask(SIG_BLOCK, nullptr, &before);
+    block_ending_signals();
     for (std::size_t i = 0; i < loop.channels(); ++i)
       stores.emplace_back(folder.path(), static_cast<int>(i + 1), files);
     keeper = std::make_unique<Keeper>(config, stores, files);
@@ -120,6 +119,18 @@ TEST_GROUP(DaemonThreads) {
     until([&] { return ask(socket, "1 arm") == "ok"; });
     until_state(socket, "1 armed");
   }
+  void cools_at(int signal) {
+    const BoardSocket socket = client();
+    arm(socket);
+    kill(getpid(), signal);
+    until([&] { return keeper->all_off(); });
+    sigset_t sent;
+    sigemptyset(&sent);
+    sigaddset(&sent, signal);
+    int taken = 0;
+    sigwait(&sent, &taken);
+    LONGS_EQUAL(signal, taken);
+  }
 };
 
 TEST(DaemonThreads, ACommandThatIsNotRenewedExpires) {
@@ -163,14 +174,16 @@ TEST(DaemonThreads, AMasterOnTheBusIsAnsweredThereAndLocalProgramsHere) {
   until([&] { return !bus.heard(status).empty() && !bus.heard(status + 1).empty(); });
 }
 
-TEST(DaemonThreads, APendingSignalCoolsWhileTheMainThreadIsBusyElsewhere) {
-  const BoardSocket socket = client();
-  arm(socket);
-  kill(getpid(), SIGTERM);
-  until([&] { return keeper->all_off(); });
-  int taken = 0;
-  sigwait(&ending, &taken);
-  LONGS_EQUAL(SIGTERM, taken);
+TEST(DaemonThreads, APendingSigtermCoolsWhileTheMainThreadIsBusyElsewhere) {
+  cools_at(SIGTERM);
+}
+
+TEST(DaemonThreads, APendingSigintCoolsWhileTheMainThreadIsBusyElsewhere) {
+  cools_at(SIGINT);
+}
+
+TEST(DaemonThreads, APendingSighupCoolsWhileTheMainThreadIsBusyElsewhere) {
+  cools_at(SIGHUP);
 }
 
 TEST(DaemonThreads, ClientsThatGoAwayTakeNobodysAnswers) {

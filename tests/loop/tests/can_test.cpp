@@ -59,6 +59,24 @@ TEST(OverCan, ARefusalOfTheLoopIsToldToTheMaster) {
   LONGS_EQUAL(static_cast<int>(Verb::arm), rig.answers.back().opcode);
 }
 
+TEST(OverCan, ACommandThatTheLoopCannotTakeIsAnsweredAllTheSame) {
+  rig.run(0.1);
+  rig.claim(master);
+  // Somebody on the board itself has filled the loop's ring.
+  while (rig.loop.send({0, Verb::disarm})) {
+  }
+  rig.answers.clear();
+  for (int i = 0; i < 5; ++i)
+    rig.bus.deliver(master.frame(Verb::renew));
+  rig.link.poll(rig.board.now());
+  rig.run(0.05);
+  LONGS_EQUAL(5, rig.answers.size());
+  for (const auto& answer : rig.answers)
+    CHECK(static_cast<Refusal>(answer.refusal) == Refusal::too_many);
+  // What comes later is answered for itself.
+  CHECK(rig.command(master, Verb::renew) == Refusal::wrong_state);
+}
+
 TEST(OverCan, TenDamagedCommandsAreAFault) {
   rig.start(master);
   for (int i = 0; i < 10; ++i) {

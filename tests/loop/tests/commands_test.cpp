@@ -38,10 +38,32 @@ TEST(Commands, NothingIsArmedBeforeTheSelfTestHasPassed) {
   CHECK(rig.state() == State::disarmed);
 }
 
+TEST(Commands, AMuscleThatIsColdAtBootWaitsForTheSelfTestAllTheSame) {
+  RigSettings settings = rough_board();
+  for (ChannelSettings& channel : settings.firmware.channels)
+    channel.thermal.boot_rise_K = 0.0;
+  Rig cold(settings);
+  while (!cold.loop.self_test().passed()) {
+    cold.last_refusal = Refusal::none;
+    cold.send(Verb::arm);
+    cold.tick();
+    CHECK(cold.last_refusal == Refusal::not_ready);
+    CHECK(cold.state() == State::disarmed);
+  }
+  cold.run_ticks(1);
+  cold.arm();
+  CHECK(cold.state() == State::armed);
+}
+
 TEST(Commands, NothingIsArmedWhileTheMuscleMayBeHotFromBefore) {
   rig.run_until([&] { return rig.loop.self_test().passed(); }, 2.0);
-  CHECK(answer_to(Verb::arm) == Refusal::not_ready);
-  rig.boot();
+  const double full_power_to_C = rough_board().firmware.channels[0].limiter.derate_from_C;
+  CHECK(rig.snapshot().hottest_C > full_power_to_C);
+  while (rig.snapshot().hottest_C >= full_power_to_C) {
+    CHECK(answer_to(Verb::arm) == Refusal::not_ready);
+    rig.run(0.1);
+  }
+  rig.run_ticks(1);
   CHECK(answer_to(Verb::arm) == Refusal::none);
 }
 
@@ -162,4 +184,34 @@ TEST(Commands, ScaleIsRefusedWhileAControllerFollowsAPosition) {
   rig.heat(Task::position);
   rig.run(1.0);
   CHECK(answer_to(Verb::scale, 0.005) == Refusal::wrong_state);
+}
+
+TEST(Commands, PeriodsThatAreLeftOutCountForACommandThatExpires) {
+  arm();
+  rig.heat(Task::power);
+  rig.run(1.0);
+  rig.commands_flow = false;
+  const double silent_since_s = rig.time_s();
+  // Every other tick takes three periods more than it has: half of all periods are left out.
+  for (int i = 0; rig.state() == State::active && i < 1000; ++i) {
+    rig.board.lose_in_tick(3.1 * rig.period_s());
+    rig.run_ticks(3);
+  }
+  CHECK(rig.fault() == Fault::command_timeout);
+  DOUBLES_EQUAL(0.25, rig.time_s() - silent_since_s, 0.02);
+}
+
+TEST(Commands, AreAllAnsweredThatTheRingTakes) {
+  rig.boot();
+  long taken = 0;
+  while (rig.loop.send({Rig::tested, Verb::disarm}))
+    ++taken;
+  CHECK_COMPARE(taken, >=, 256);
+  long answered = 0;
+  for (int i = 0; i < 10; ++i) {
+    rig.executive.run_tick();
+    for (Answer answer; rig.loop.answer(answer);)
+      answered += answer.refusal == Refusal::none ? 1 : 0;
+  }
+  LONGS_EQUAL(taken, answered);
 }

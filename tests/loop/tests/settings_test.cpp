@@ -94,9 +94,12 @@ TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
   rig.run(0.05);
   CHECK(rig.true_power_W() < 0.55);
   CHECK(rig.loop.channel(0).snapshot().limited_by == LimitedBy::maximum);
-  for (const float wrong : {-0.1F, 1e6F, NAN, INFINITY})
+  const auto configured_W = static_cast<float>(rig.settings.firmware.channels[0].limiter.max_W);
+  for (const float wrong : {-0.1F, 1.001F * configured_W, 1e6F, NAN, INFINITY})
     CHECK(write(most_power, wrong) == Refusal::out_of_range);
   DOUBLES_EQUAL(0.5, read(most_power), 0.0);
+  CHECK(write(most_power, configured_W) == Refusal::none);
+  DOUBLES_EQUAL(configured_W, read(most_power), 0.0);
 }
 
 TEST(Settings, AMessageComesAsOftenAsItIsWritten) {

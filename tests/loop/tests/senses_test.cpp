@@ -1,0 +1,92 @@
+// What the loop makes of readings and of its own duties: which channel they are of, whether they
+// are there, when they act.
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+constexpr double most_boot_s = 2.0;
+
+bool tested_at_last(Rig& rig) {
+  return rig.run_until(
+      [&] { return rig.loop.self_test().passed() || rig.loop.self_test().failed(); }, most_boot_s);
+}
+
+}  // namespace
+
+TEST_GROUP(Senses) {
+  Rig rig{rough_board()};
+};
+
+TEST(Senses, TheSelfTestLooksAtTheCurrentOfEveryChannel) {
+  for (const std::size_t broken : {0U, 1U}) {
+    Rig each(rough_board());
+    each.board.channel(broken).trouble.switch_stuck_on = true;
+    CHECK(tested_at_last(each));
+    CHECK(each.loop.self_test().verdict() == SelfTest::Verdict::enable_does_not_cut);
+    each.run_ticks(2);
+    CHECK(each.loop.board_fault() == Fault::self_test_failed);
+  }
+}
+
+TEST(Senses, TheSelfTestWaitsForTheFirstCurrentOfEveryChannel) {
+  for (const std::size_t late : {0U, 1U}) {
+    Rig each(rough_board());
+    each.board.channel(late).current.set({.status = hal::Status::not_ready});
+    // Within the time in which converters may be without a value.
+    for (int i = 0; i < 95; ++i) {
+      each.tick();
+      CHECK(each.loop.self_test().verdict() == SelfTest::Verdict::waiting);
+      CHECK_FALSE(each.board.supply_closed());
+    }
+    each.board.channel(late).current.set(host_sim::ConverterTrouble{});
+    CHECK(tested_at_last(each));
+    CHECK(each.loop.self_test().passed());
+    CHECK(each.fault() == Fault::none);
+  }
+}
+
+TEST(Senses, APositionFromOutsideIsNoPosition) {
+  rig.boot();
+  rig.arm();
+  rig.run(0.2);
+  rig.heat(Task::position);
+  rig.run(1.0);
+  CHECK_FALSE(std::isnan(rig.snapshot().position_m));
+  const control::Theta before = rig.snapshot().theta;
+  rig.muscle().position.set({.loose = true});
+  rig.tick();
+  // One reading is no fault yet; but nobody controls by it or learns from it.
+  CHECK(rig.state() == State::active);
+  CHECK(std::isnan(rig.snapshot().position_m));
+  CHECK(rig.snapshot().theta == before);
+  DOUBLES_EQUAL(0.0, rig.snapshot().wanted_W, 0.0);
+  CHECK(rig.last_refusal == Refusal::none);
+}
+
+TEST(Senses, PowerIsToldWhenItActsAndNotWhenItIsSet) {
+  constexpr int delay_ticks = 7;
+  RigSettings settings = rough_board();
+  settings.firmware.channels[0].heater.delay_s = delay_ticks * settings.firmware.step_s();
+  settings.board.channels[0].pwm_delay_s = settings.firmware.channels[0].heater.delay_s;
+  Rig late(settings);
+  late.boot();
+  late.arm();
+  late.run(0.2);
+  late.send(Verb::power, 1.8);
+  late.tick();
+  CHECK_COMPARE(late.snapshot().duty, >, 0.05);
+  for (int i = 0; i < delay_ticks; ++i) {
+    DOUBLES_EQUAL(0.0, late.snapshot().applied_W, 0.0);
+    late.tick();
+  }
+  DOUBLES_EQUAL(1.8, late.snapshot().applied_W, 0.01);
+  late.tick();
+  DOUBLES_EQUAL(late.muscle().true_power_W(), late.snapshot().applied_W, 0.1);
+}

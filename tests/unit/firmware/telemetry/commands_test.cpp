@@ -137,6 +137,35 @@ TEST(CanCommands, FramesOfEveryEarlierSessionAreRefused) {
   CHECK(sessions.size() > 95);
 }
 
+TEST(CanCommands, TheNextSessionDiffersWhateverTheRandomNumbersAre) {
+  // Seeds whose first two sessions would be the same, and whose first would be nobody's.
+  constexpr std::uint32_t repeats = 52120;
+  constexpr std::uint32_t begins_with_none = 43117;
+  std::mt19937 random(repeats);
+  const auto session = static_cast<std::uint16_t>(random());
+  LONGS_EQUAL(session, static_cast<std::uint16_t>(random()));
+  Leases twice{settings.lease_s, 1, repeats};
+  CHECK(twice.claim(0, 1, 0, now) == Refusal::none);
+  LONGS_EQUAL(session, twice.session(0));
+  twice.release(0);
+  CHECK(twice.claim(0, 1, 0, now) == Refusal::none);
+  CHECK(twice.session(0) != session);
+
+  LONGS_EQUAL(0, static_cast<std::uint16_t>(std::mt19937(begins_with_none)()));
+  Leases none{settings.lease_s, 1, begins_with_none};
+  CHECK(none.claim(0, 1, 0, now) == Refusal::none);
+  CHECK(none.session(0) != 0);
+}
+
+TEST(CanCommands, MoreThanTheLoopCanTakeAreAnsweredAtOnce) {
+  claim(master);
+  for (int i = 0; i < 256; ++i)
+    CHECK(take(master.frame(Verb::renew)).command.has_value());
+  const auto taken = take(master.frame(Verb::renew));
+  CHECK_FALSE(taken.command.has_value());
+  CHECK(static_cast<Refusal>(read_answer(*taken.answer).refusal) == Refusal::too_many);
+}
+
 TEST(CanCommands, AClaimWhoseAnswerWasLostIsGrantedAgainToTheSameOnly) {
   const std::uint16_t session = claim(master);
   LONGS_EQUAL(session, claim(master));

@@ -1,0 +1,64 @@
+#include "board/heat.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/support/tick.hpp"
+
+using namespace supercoil;
+using namespace supercoil::board;
+using supercoil::test::tick_s;
+
+namespace {
+
+constexpr double power_W = 2.0;
+
+double hottest_after_K(const ThermalSettings& settings, double learned_pole_rad_per_s,
+                       double time_s) {
+  Heat heat(settings, {}, tick_s);
+  heat.learn(learned_pole_rad_per_s);
+  for (double t_s = 0.0; t_s < time_s; t_s += tick_s)
+    heat.step(power_W, power_W, power_W);
+  return heat.hottest_K();
+}
+
+}  // namespace
+
+TEST_GROUP(HotEnd) {
+  ThermalSettings settings;
+  double slowest_pole =
+      -settings.bounds.lowest_transfer_W_per_K / settings.bounds.highest_mass_J_per_K;
+  double fastest_pole =
+      -settings.bounds.highest_transfer_W_per_K / settings.bounds.lowest_mass_J_per_K;
+};
+
+TEST(HotEnd, WhatIsLearnedOfCoolingIsNotBelievedBeyondTheConfiguredBounds) {
+  const double rest_K = power_W / (-slowest_pole * settings.thermal_mass_J_per_K);
+  for (const double absurd : {-1e-9, 0.01 * slowest_pole, slowest_pole})
+    DOUBLES_EQUAL(rest_K, hottest_after_K(settings, absurd, 60.0), 0.01);
+}
+
+TEST(HotEnd, IsTheHotterOfWhatIsConfiguredAndWhatIsLearned) {
+  const double configured_K = power_W / settings.bounds.lowest_transfer_W_per_K;
+  DOUBLES_EQUAL(configured_K, hottest_after_K(settings, fastest_pole, 60.0), 0.01);
+  DOUBLES_EQUAL(configured_K, hottest_after_K(settings, 100.0 * fastest_pole, 60.0), 0.01);
+  const double slower_pole = 1.05 * slowest_pole;
+  DOUBLES_EQUAL(power_W / (-slower_pole * settings.thermal_mass_J_per_K),
+                hottest_after_K(settings, slower_pole, 60.0), 0.01);
+}
+
+TEST(HotEnd, MayBeAnythingUpToTheConfiguredAtBoot) {
+  Heat heat(settings, {}, tick_s);
+  DOUBLES_EQUAL(settings.ambient_C + settings.boot_rise_K, heat.hottest_C(), 1e-9);
+  DOUBLES_EQUAL(settings.coldest_ambient_C, heat.coldest_C(), 1e-9);
+  DOUBLES_EQUAL(0.0, heat.expected_m(), 0.0);
+}
+
+TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
+  const control::PhysicalParameters muscle;
+  Heat heat(settings, muscle, tick_s);
+  for (int i = 0; i < 120'000; ++i)
+    heat.step(1.0, 3.0, 2.0);
+  DOUBLES_EQUAL(1.0 / settings.bounds.highest_transfer_W_per_K, heat.coldest_K(), 0.01);
+  DOUBLES_EQUAL(3.0 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
+  DOUBLES_EQUAL(2.0 * muscle.dc_gain_m_per_W(), heat.expected_m(), 1e-5);
+}

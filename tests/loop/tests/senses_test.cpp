@@ -90,3 +90,17 @@ TEST(Senses, PowerIsToldWhenItActsAndNotWhenItIsSet) {
   late.tick();
   DOUBLES_EQUAL(late.muscle().true_power_W(), late.snapshot().applied_W, 0.1);
 }
+
+TEST(Senses, PeriodsThatAreLeftOutCountForTheTemperatureToo) {
+  Rig slow(rough_board());
+  for (Rig* each : {&rig, &slow})
+    each->run(0.5);
+  for (int i = 0; i < 40; ++i) {
+    slow.board.lose_in_tick(3.1 * slow.period_s());
+    slow.run_ticks(2);
+  }
+  rig.run(slow.time_s() - rig.time_s());
+  CHECK_COMPARE(slow.loop.overruns(), >=, 100);
+  DOUBLES_EQUAL(rig.time_s(), slow.time_s(), 1.5 * rig.period_s());
+  DOUBLES_EQUAL(rig.snapshot().hottest_C, slow.snapshot().hottest_C, 0.1);
+}

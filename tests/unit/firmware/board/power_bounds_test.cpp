@@ -44,9 +44,9 @@ Reading read(double duty, double true_V, double supply_gain, double current_gain
 }
 
 void check_holds(const PowerBounds& bounds, const Reading& r) {
-  const auto power_W = bounds.step(r.duty, r.supply_V, present(r.current_A), {cold_Ohm, cold_Ohm});
-  RC_ASSERT(power_W.min <= r.true_W + 1e-12);
-  RC_ASSERT(power_W.max >= r.true_W - 1e-12);
+  const auto bound_W = bounds.step(r.duty, r.supply_V, present(r.current_A), {cold_Ohm, cold_Ohm});
+  RC_ASSERT(bound_W.min <= r.true_W + 1e-12);
+  RC_ASSERT(bound_W.max >= r.true_W - 1e-12);
 }
 
 }  // namespace

@@ -84,8 +84,11 @@ tl::expected<Learned, std::string> read(const toml::table& file) {
   if (const auto wrong = read_version(file.get("version"), learned.version)) {
     return tl::unexpected("version " + *wrong);
   }
+  learned.knows_muscle = file.contains("muscle") || file.contains("calibration");
   for (const Field& field : fields) {
     const toml::table* table = file[field.table].as_table();
+    const bool left_out = field.table == "senses" ? table == nullptr : !learned.knows_muscle;
+    if (left_out) continue;
     const toml::node* node = table == nullptr ? nullptr : table->get(field.key);
     if (const auto wrong = read_number(node, field.of(learned))) {
       return tl::unexpected(path(field) + " " + *wrong);
@@ -109,6 +112,7 @@ std::string encode(const Learned& learned) {
   Learned copy = learned;
   std::string_view table;
   for (const Field& field : fields) {
+    if (!is_stored(field, learned)) continue;
     if (field.table != table) body += "\n[" + std::string(field.table) + "]\n";
     table = field.table;
     body += std::string(field.key) + " = " + number(field.of(copy)) + "\n";

@@ -15,7 +15,7 @@ struct Field {
 };
 
 /// In the order of the file; the fields of a table stand together.
-inline constexpr std::array<Field, 9> fields{{
+inline constexpr std::array<Field, 13> fields{{
     {"muscle", "thermal_mass_J_per_K",
      [](Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
     {"muscle", "heat_transfer_W_per_K",
@@ -32,6 +32,16 @@ inline constexpr std::array<Field, 9> fields{{
      [](Learned& l) -> double& { return l.calibration.position_scale; }},
     {"calibration", "cold_resistance_Ohm",
      [](Learned& l) -> double& { return l.calibration.cold_resistance_Ohm; }},
+    {"senses", "supply_gain", [](Learned& l) -> double& { return l.senses.supply_gain; }},
+    {"senses", "current_gain", [](Learned& l) -> double& { return l.senses.current_gain; }},
+    {"senses", "error_ratio", [](Learned& l) -> double& { return l.senses.error_ratio; }},
+    {"senses", "compared_s", [](Learned& l) -> double& { return l.senses.compared_s; }},
 }};
+
+/// A set without a comparison has no table of senses, as no file had before there was one; one
+/// without a muscle has no other.
+inline bool is_stored(const Field& field, const Learned& learned) {
+  return field.table == "senses" ? learned.senses != SenseComparison{} : learned.knows_muscle;
+}
 
 }  // namespace supercoil::storage

@@ -5,16 +5,23 @@
 namespace supercoil::storage {
 
 bool same_content(const Learned& a, const Learned& b) {
-  return a.muscle == b.muscle && a.calibration == b.calibration;
+  return a.muscle == b.muscle && a.calibration == b.calibration && a.senses == b.senses &&
+         a.knows_muscle == b.knows_muscle;
 }
 
 std::optional<control::Violation> check(const Learned& learned) {
   if (const auto violation = control::check(learned.muscle)) return violation;
   const Calibration& c = learned.calibration;
-  const std::array<control::Violation, 3> rules{{
+  const SenseComparison& s = learned.senses;
+  constexpr double year_9999_s = 253'402'300'799.0;
+  const std::array<control::Violation, 7> rules{{
       {"position_offset_m", c.position_offset_m, -1.0, 1.0},
       {"position_scale", c.position_scale, 0.1, 10.0},
       {"cold_resistance_Ohm", c.cold_resistance_Ohm, 1e-2, 1e4},
+      {"supply_gain", s.supply_gain, 0.5, 2.0},
+      {"current_gain", s.current_gain, 0.5, 2.0},
+      {"error_ratio", s.error_ratio, 0.0, 0.2},
+      {"compared_s", s.compared_s, 0.0, year_9999_s},
   }};
   for (const control::Violation& rule : rules) {
     // Written so that a NaN fails.

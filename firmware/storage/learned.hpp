@@ -34,14 +34,16 @@ struct Learned {
   Calibration calibration;
   SenseComparison senses;
   std::uint32_t version = 0;  ///< counts the saves of a channel, from 1; LearnedStore sets it
+  /// False: only the senses are known, which are the board's; muscle and calibration mean nothing.
+  bool knows_muscle = true;
 
   friend bool operator==(const Learned&, const Learned&) = default;
 };
 
-/// What a channel hands to whoever stores it; empty: what is stored is to be forgotten.
+/// What a channel hands to whoever stores it; empty: the muscle is to be forgotten.
 using Lesson = std::optional<Learned>;
 
-/// The same muscle and calibration, whichever version they are.
+/// The same muscle, calibration and senses, whichever version they are.
 bool same_content(const Learned& a, const Learned& b);
 
 /// The first quantity that is NaN or out of its range; the muscle's ranges are control::check's.

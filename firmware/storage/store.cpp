@@ -81,8 +81,24 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const Learned& learn
 }
 
 tl::expected<void, std::string> LearnedStore::forget() {
+  const auto before = load();
+  if (before && before->learned && !knows_muscle()) return {};
   if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text);
+  if (!before || !before->learned || !before->learned->senses.compared()) return {};
+  Learned senses_only;
+  senses_only.senses = before->learned->senses;
+  senses_only.knows_muscle = false;
+  if (const auto saved = save(senses_only); !saved) return tl::unexpected(saved.error());
   return {};
+}
+
+/// Of either file that is whole; a damaged one may.
+bool LearnedStore::knows_muscle() const {
+  const auto may_know = [&](const std::string& path) {
+    const Examined file = examine(*files_, path);
+    return file.damaged() || (file.learned && file.learned->knows_muscle);
+  };
+  return may_know(path_) || may_know(previous_path_);
 }
 
 /// What load() would give goes last: until then it gives that, never an older set or an error.

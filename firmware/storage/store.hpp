@@ -55,15 +55,16 @@ class LearnedStore {
   /// may be stored or not, and load() says which; saving again is always allowed.
   tl::expected<std::uint32_t, std::string> save(const Learned& learned);
 
-  /// From now on nothing is stored, and versions count from 1 again. The current file stays for
-  /// examination. When the power fails meanwhile, or a call, the current set is still there, or
-  /// nothing is.
+  /// From now on no muscle is stored, and versions count from 1 again; a comparison of the senses
+  /// is kept, as it is the board's. The current file stays for examination. When the power fails
+  /// meanwhile, or a call, the current set is still there, or nothing is.
   tl::expected<void, std::string> forget();
 
  private:
   /// Makes the current file a file of this content, and a good current file the previous one.
   Result<void> replace(const Examined& current, const Examined& previous,
                        const std::string& content);
+  bool knows_muscle() const;
   Result<void> clear();
   Result<void> write_new(const std::string& content);
   /// Gives a damaged file another name by which it stays when its own is taken.

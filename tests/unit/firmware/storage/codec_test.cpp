@@ -21,9 +21,16 @@ void check_answer(const char* expected, const std::string& text) {
   STRCMP_EQUAL(expected, answer(text).c_str());
 }
 
+/// With every table that a file may have.
+Learned full_set() {
+  Learned set;
+  set.senses = {1.25, 0.875, 0.0625, 1795219200.0};
+  return set;
+}
+
 /// What the file says behind its first line, with something in it exchanged, and sealed anew.
 std::string sealed_with(const std::string& what, const std::string& instead) {
-  const std::string text = encode(Learned{});
+  const std::string text = encode(full_set());
   std::string body = text.substr(text.find('\n') + 1);
   const std::size_t at = body.find(what);
   CHECK_TEXT(at != std::string::npos, what.c_str());
@@ -59,6 +66,41 @@ TEST(Codec, WritesWhatAPersonCanRead) {
       encode(set).c_str());
 }
 
+TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
+  // As the firmware before wrote it.
+  const std::string before =
+      "# supercoil learned, format 1, 352 bytes, CRC-32 b7433581\n"
+      "# Written by supercoild. An edited file counts as damaged and is not used.\n"
+      "version = 3\n\n[muscle]\nthermal_mass_J_per_K = 0.162\nheat_transfer_W_per_K = 0.089\n"
+      "stiffness_N_per_m = 16.0\ndamping_Ns_per_m = 2.0\nmoving_mass_kg = 0.09\n"
+      "force_per_kelvin_N_per_K = 0.0086\n\n[calibration]\nposition_offset_m = -0.00125\n"
+      "position_scale = 1.0\ncold_resistance_Ohm = 10.0\n";
+  const auto read = decode(before);
+  CHECK(read.has_value());
+  CHECK(read->knows_muscle);
+  CHECK_FALSE(read->senses.compared());
+  CHECK(read->senses == SenseComparison{});
+}
+
+TEST(Codec, AComparisonHasATableOfItsOwn) {
+  STRCMP_CONTAINS(
+      "\n[senses]\nsupply_gain = 1.25\ncurrent_gain = 0.875\nerror_ratio = 0.0625\n"
+      "compared_s = 1795219200.0\n",
+      encode(full_set()).c_str());
+}
+
+TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
+  Learned set = full_set();
+  set.knows_muscle = false;
+  set.version = 1;
+  CHECK(encode(set).find("muscle") == std::string::npos);
+  CHECK(encode(set).find("calibration") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+  // And neither, when the comparison was forgotten as well.
+  set.senses = {};
+  CHECK(decode(encode(set)) == set);
+}
+
 TEST(Codec, EveryValidSetComesBackBitForBit) {
   CHECK(rc::check("round trip", [] {
     Learned set = *learned_sets();
@@ -75,8 +117,8 @@ TEST(Codec, EveryValidSetComesBackBitForBit) {
 
 TEST(Codec, NoInvalidSetIsAccepted) {
   for (const Field& field : fields) {
-    for (const double bad : {-1e9, 1e9}) {
-      Learned set;
+    for (const double bad : {-1e15, 1e15}) {
+      Learned set = full_set();
       field.of(set) = bad;
       STRCMP_CONTAINS(" is out of range: must be ", answer(encode(set)).c_str());
     }
@@ -105,7 +147,8 @@ TEST(Codec, RefusesAMissingKey) {
     check_answer((path + " is missing").c_str(), sealed_with(key, "# " + key));
   }
   check_answer("version is missing", sealed_with("version", "# version"));
-  check_answer("muscle.thermal_mass_J_per_K is missing", seal("version = 1\n"));
+  check_answer("muscle.thermal_mass_J_per_K is missing",
+               seal("version = 1\n[calibration]\nposition_scale = 1.0\n"));
 }
 
 TEST(Codec, RefusesAnUnknownKey) {

@@ -20,7 +20,7 @@ TEST(Learned, CheckNamesTheQuantityThatIsWrong) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const Field& field : fields) {
     for (const double bad :
-         {-1e9, 1e9, infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
+         {-1e15, 1e15, infinity, -infinity, std::numeric_limits<double>::quiet_NaN()}) {
       Learned set;
       field.of(set) = bad;
       const auto violation = check(set);

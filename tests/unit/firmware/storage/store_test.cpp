@@ -49,6 +49,23 @@ TEST(LearnedStore, ForgetsAllAndBeginsAnew) {
   LONGS_EQUAL(3, which(*decode(text_of(path + ".cleared"))));
 }
 
+TEST(LearnedStore, KeepsTheComparisonOfTheSensesWhenTheMuscleIsForgotten) {
+  Learned set = nth_set(1);
+  set.senses = {1.25, 0.875, 0.0625, 1.7e9};
+  CHECK(store.save(nth_set(2)).has_value());
+  CHECK(store.save(set).has_value());
+  for (int i = 0; i < 2; ++i) {
+    CHECK(store.forget().has_value());
+    const auto kept = store.load()->learned;
+    CHECK(kept.has_value());
+    CHECK_FALSE(kept->knows_muscle);
+    CHECK(kept->senses == set.senses);
+    LONGS_EQUAL(1, kept->version);
+    // Still the muscle, when there was none to forget.
+    CHECK(decode(text_of(path + ".cleared"))->knows_muscle);
+  }
+}
+
 TEST(LearnedStore, StillSavesWhenTheVersionsHaveRunOut) {
   Learned last = nth_set(1);
   last.version = std::numeric_limits<std::uint32_t>::max();

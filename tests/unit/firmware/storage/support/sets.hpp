@@ -54,17 +54,29 @@ inline rc::Gen<double> any_offset() {
   return rc::gen::apply([](double a, double b) { return a * b; }, sign, size);
 }
 
+/// None, or one with all its bits at random.
+inline rc::Gen<storage::SenseComparison> comparisons() {
+  return rc::gen::oneOf(rc::gen::just(storage::SenseComparison{}),
+                        rc::gen::apply(
+                            [](double supply, double current, double error, double time) {
+                              return storage::SenseComparison{supply, current, error, time};
+                            },
+                            any_magnitude(0.5, 2.0), any_magnitude(0.5, 2.0),
+                            any_magnitude(1e-3, 0.2), any_magnitude(1.0, 2e11)));
+}
+
 /// Any set that passes check(), the ends of the ranges among them.
 inline rc::Gen<storage::Learned> learned_sets() {
   return rc::gen::apply(
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
-         double scale, double resistance, std::uint32_t version) {
+         double scale, double resistance, const storage::SenseComparison& senses,
+         std::uint32_t version) {
         return storage::Learned{
-            {psi, eta, rho, mu, mass, gamma}, {offset, scale, resistance}, {}, version};
+            {psi, eta, rho, mu, mass, gamma}, {offset, scale, resistance}, senses, version};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),
-      any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4),
+      any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4), comparisons(),
       rc::gen::resize(100, rc::gen::arbitrary<std::uint32_t>()));
 }
 

@@ -61,7 +61,8 @@ hal::CanFrame Master::release() {
 }
 
 hal::CanFrame Master::command(Verb verb, double value) {
-  return frame(static_cast<std::uint8_t>(verb), value);
+  const auto sent = telemetry::sent(verb, value);
+  return frame(sent.opcode, sent.value);
 }
 
 hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {

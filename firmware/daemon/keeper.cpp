@@ -1,6 +1,7 @@
 #include "daemon/keeper.hpp"
 
 #include <algorithm>
+#include <ctime>
 
 #include "config/describe.hpp"
 #include "daemon/log.hpp"
@@ -42,7 +43,8 @@ tl::expected<void, std::string> remember(config::BoardConfig& config,
     log(channel.senses.compared() ? Level::info : Level::warning,
         "channel " + std::to_string(i + 1) +
             ": senses: " + config::describe_senses(channel, config.settings));
-    if (!loaded->learned) continue;
+    channel.knows_muscle = loaded->learned && loaded->learned->knows_muscle;
+    if (!channel.knows_muscle) continue;
     channel.muscle = loaded->learned->muscle;
     channel.calibration = loaded->learned->calibration;
     log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +
@@ -60,7 +62,10 @@ Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedSt
       recorder_(config.storage_folder, static_cast<int>(config.settings.channels.size()),
                 config.settings.rate_Hz, files),
       relay_(rows_relayed(config.settings)),
-      last_(config.settings.channels.size()) {}
+      last_(config.settings.channels.size()) {
+  for (const ChannelSettings& channel : config.settings.channels)
+    senses_.push_back(channel.senses);
+}
 
 void Keeper::poll(Loop& loop, hal::Time now) {
   struct Tee {
@@ -85,6 +90,7 @@ void Keeper::store_learned(Loop& loop, std::size_t channel) {
       forget(channel, who);
       continue;
     }
+    date(channel, who, lesson->senses);
     const auto saved = (*stores_)[channel].save(*lesson);
     if (saved) {
       log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
@@ -92,6 +98,23 @@ void Keeper::store_learned(Loop& loop, std::size_t channel) {
       log(Level::problem, who + " learned, but it is not stored: " + saved.error());
     }
   }
+}
+
+/// The loop has no calendar: a comparison that it made has its date from here.
+void Keeper::date(std::size_t channel, const std::string& who, storage::SenseComparison& senses) {
+  storage::SenseComparison& known = senses_[channel];
+  const bool is_known = senses.supply_gain == known.supply_gain &&
+                        senses.current_gain == known.current_gain &&
+                        senses.error_ratio == known.error_ratio;
+  if (is_known) {
+    senses.compared_s = known.compared_s;
+    return;
+  }
+  if (senses.compared()) senses.compared_s = static_cast<double>(std::time(nullptr));
+  known = senses;
+  ChannelSettings now = config_->settings.channels[channel];
+  now.senses = senses;
+  log(Level::info, who + ": senses: " + config::describe_senses(now, config_->settings));
 }
 
 void Keeper::forget(std::size_t channel, const std::string& who) {

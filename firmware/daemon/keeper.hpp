@@ -14,8 +14,9 @@
 
 namespace supercoil::daemon {
 
-/// What channels learned before, into the settings. The error says what cannot be read; a board
-/// does not start without what it knew, for a lost zero is a wrong position.
+/// What channels learned before, into the settings of a board that a keeper is made for then. The
+/// error says what cannot be read; a board does not start without what it knew, for a lost zero is
+/// a wrong position.
 tl::expected<void, std::string> remember(config::BoardConfig& config,
                                          std::vector<storage::LearnedStore>& stores);
 
@@ -42,6 +43,7 @@ class Keeper {
   void watch(const Row& row);
   void store_learned(Loop& loop, std::size_t channel);
   void forget(std::size_t channel, const std::string& who);
+  void date(std::size_t channel, const std::string& who, storage::SenseComparison& senses);
   void tell_notes();
 
   const config::BoardConfig* config_;
@@ -49,7 +51,8 @@ class Keeper {
   recorder::FlightRecorder recorder_;
   RowRelay relay_;
   std::size_t told_lost_ = 0;
-  std::vector<Row> last_;  ///< of each channel
+  std::vector<storage::SenseComparison> senses_;  ///< that each channel goes by
+  std::vector<Row> last_;                         ///< of each channel
   std::uint64_t rows_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 
 #include <poll.h>
@@ -40,6 +41,18 @@ int bind_for_group(const hal_linux::Descriptor& listener, const sockaddr_un& add
   ::umask(usual);
   errno = error;
   return result;
+}
+
+/// A line for each channel, "1 1.02 0.985 0.021": gains of supply and current, and the error that a
+/// comparison with a meter left.
+std::string senses_text(const Loop& loop) {
+  std::ostringstream text;
+  text.precision(9);
+  for (std::size_t i = 0; i < loop.channels(); ++i) {
+    const storage::SenseComparison s = loop.channel(i).senses();
+    text << i + 1 << ' ' << s.supply_gain << ' ' << s.current_gain << ' ' << s.error_ratio << '\n';
+  }
+  return text.str();
 }
 
 }  // namespace
@@ -102,6 +115,10 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
     text.remove_suffix(1);
   if (text == "state") {
     answer(client.number(), rows.describe());
+    return true;
+  }
+  if (text == "senses") {
+    answer(client.number(), senses_text(loop));
     return true;
   }
   const auto command = parse_command(text, loop.channels());

@@ -29,6 +29,13 @@ double nan_if_infinite(double deviation) {
   return std::isfinite(deviation) ? deviation : std::nan("");
 }
 
+board::MeterComparison::Settings comparison_settings(const ChannelSettings& channel,
+                                                     const BoardSettings& board) {
+  return {board.supervision.lowest_supply_V, board.supervision.highest_supply_V,
+          channel.supervision.resistance_part, board.supply.scaling.per_count,
+          channel.heater.current.scaling.per_count};
+}
+
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
@@ -44,9 +51,11 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       index_(index),
       calibration_(settings.calibration),
       senses_(settings.senses),
+      comparison_(comparison_settings(settings, board), board.step_s()),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
                   board.supervision.lowest_supply_V, board.step_s()),
       muscle_(settings.muscle),
+      knows_muscle_(settings.knows_muscle),
       resistance_(resistance_settings(settings.heater), board.step_s()),
       power_bounds_(power_bounds(settings, board)),
       heat_(settings.thermal, settings.muscle, board.step_s()),
@@ -58,6 +67,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
+  told_senses_.set(senses_);
   for (const auto& controller : settings.controllers)
     controllers_.emplace_back(controller, step_s_).suit(control::theta_from(muscle_));
   for (const auto& estimator : settings.estimators)
@@ -142,6 +152,7 @@ void Channel::control() {
     case Mode::power:
       wanted_.wanted_power_W = reference_;
       smooth_power_W_.set(acting_.power_W);
+      follow_comparison();
       break;
     case Mode::identify:
       step_identify();
@@ -196,6 +207,7 @@ void Channel::disarm(Fault cause, const detectors::Margin& margin) {
   if (state_.state() != State::fault) first_margin_ = margin;
   state_.disarm(cause);
   probe_.stop();
+  comparison_.forget();
   rest();
   write_duty(0);
   write_enable(false);

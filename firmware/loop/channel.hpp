@@ -8,6 +8,7 @@
 #include "board/applied_power.hpp"
 #include "board/devices.hpp"
 #include "board/heat.hpp"
+#include "board/meter_comparison.hpp"
 #include "board/power_stage.hpp"
 #include "board/probe.hpp"
 #include "board/resistance.hpp"
@@ -31,6 +32,25 @@ struct BoardNow {
   bool testing = true;        ///< the self-test runs: nothing is latched
   bool proven = false;        ///< it has passed: both ways of cutting cut
   long periods = 1;           ///< since the last tick
+};
+
+/// The gains and the error that remains, from the loop to other threads.
+class ToldSenses {
+ public:
+  void set(const storage::SenseComparison& senses) {
+    supply_.store(senses.supply_gain, std::memory_order_relaxed);
+    current_.store(senses.current_gain, std::memory_order_relaxed);
+    error_.store(senses.error_ratio, std::memory_order_relaxed);
+  }
+  storage::SenseComparison get() const {
+    return {supply_.load(std::memory_order_relaxed), current_.load(std::memory_order_relaxed),
+            error_.load(std::memory_order_relaxed), 0.0};
+  }
+
+ private:
+  std::atomic<double> supply_{1.0};
+  std::atomic<double> current_{1.0};
+  std::atomic<double> error_{0.0};
 };
 
 class Channel {
@@ -86,6 +106,8 @@ class Channel {
   /// configured maximum. most_W: at least 0.
   void allow_power(double most_W) { most_power_W_.store(most_W, std::memory_order_relaxed); }
   double most_power_W() const { return most_power_W_.load(std::memory_order_relaxed); }
+  /// By which the readings are corrected, without its date; from any thread.
+  storage::SenseComparison senses() const { return told_senses_.get(); }
   /// What identify or calibrate found, or was asked to store or clear; from one other thread.
   bool take_lesson(storage::Lesson& lesson) { return lessons_.pop(lesson); }
 
@@ -94,6 +116,9 @@ class Channel {
   Refusal heat(Mode mode, double value, const BoardNow& board);
   Refusal scale(double true_m);
   Refusal store(double what);
+  Refusal compare(board::MeterComparison::Sense sense, double meter);
+  Refusal go_by(const storage::SenseComparison& senses);
+  void follow_comparison();
   Refusal choose_controller(double place);
   Refusal choose_estimator(double place);
   void enter(Mode mode);
@@ -130,6 +155,8 @@ class Channel {
 
   storage::Calibration calibration_;
   storage::SenseComparison senses_;
+  ToldSenses told_senses_;
+  board::MeterComparison comparison_;
   ChannelState state_;
   ChannelSupervisor supervisor_;
   Evidence evidence_;
@@ -138,6 +165,7 @@ class Channel {
 
   hal::Time position_taken_{-1};
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
+  bool knows_muscle_;                   ///< learned before or since: what is stored has it
   board::Resistance resistance_;
   board::PowerBounds power_bounds_;
   board::Heat heat_;

@@ -49,6 +49,10 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
       return choose_estimator(command.value);
     case Verb::store:
       return store(command.value);
+    case Verb::compare_supply:
+      return compare(board::MeterComparison::supply, command.value);
+    case Verb::compare_current:
+      return compare(board::MeterComparison::current, command.value);
     case Verb::none:
       break;
   }
@@ -85,6 +89,7 @@ Refusal Channel::heat(Mode mode, double value, const BoardNow& board) {
     state_.activate();
     estimator().restart();
   }
+  if (mode != mode_ || value != reference_) comparison_.restart();
   reference_ = value;
   if (mode != mode_) enter(mode);
   evidence_.renewed = true;
@@ -172,7 +177,11 @@ Refusal Channel::scale(double true_m) {
 
 /// A running channel goes on with what it knows: what was cleared is not known at the next start.
 Refusal Channel::store(double what) {
-  if (what == 0.0) return lessons_.push(std::nullopt) ? Refusal::none : Refusal::too_many;
+  if (what == 0.0) {
+    if (!lessons_.push(std::nullopt)) return Refusal::too_many;
+    knows_muscle_ = false;
+    return Refusal::none;
+  }
   if (what != 1.0) return Refusal::out_of_range;
   if (!estimate_ || !estimate_->trusted) return Refusal::not_ready;
   const auto muscle = trusted_muscle();

@@ -39,11 +39,12 @@ void Channel::end_mode(ModeResult result) {
 /// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
 ModeResult Channel::keep(const control::PhysicalParameters& muscle,
                          const storage::Calibration& found) {
-  const storage::Learned learned{muscle, found, senses_, 0};
+  const storage::Learned learned{muscle, found, senses_, 0, true};
   if (storage::check(learned)) return ModeResult::implausible;
   if (found != calibration_) supervisor_.recalibrated();
   muscle_ = muscle;
   calibration_ = found;
+  knows_muscle_ = true;
   return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }
 

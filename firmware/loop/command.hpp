@@ -11,25 +11,28 @@ namespace supercoil {
 
 enum class Verb : std::uint8_t {
   none = 0,
-  arm = 1,          ///< probes the heater; armed when that went well
-  disarm = 2,       ///< cold, from everywhere, for everybody
-  reset = 3,        ///< leaves `fault` when its cause is gone
-  position = 4,     ///< follow a position: value in m; renews
-  power = 5,        ///< open loop: value in W; renews
-  renew = 6,        ///< the last command to heat still holds
-  rest = 7,         ///< active → armed
-  identify = 8,     ///< learn the muscle; renewed like every command to heat
-  calibrate = 9,    ///< cold zero and cold resistance
-  scale = 10,       ///< value: the true position now, in m
-  controller = 11,  ///< value: place in the configuration
-  estimator = 12,   ///< value: place in the configuration
-  store = 13,       ///< value: 1 keeps the trusted estimates for the next start, 0 forgets all that
-                    ///< is kept
+  arm = 1,              ///< probes the heater; armed when that went well
+  disarm = 2,           ///< cold, from everywhere, for everybody
+  reset = 3,            ///< leaves `fault` when its cause is gone
+  position = 4,         ///< follow a position: value in m; renews
+  power = 5,            ///< open loop: value in W; renews
+  renew = 6,            ///< the last command to heat still holds
+  rest = 7,             ///< active → armed
+  identify = 8,         ///< learn the muscle; renewed like every command to heat
+  calibrate = 9,        ///< cold zero and cold resistance
+  scale = 10,           ///< value: the true position now, in m
+  controller = 11,      ///< value: place in the configuration
+  estimator = 12,       ///< value: place in the configuration
+  store = 13,           ///< value: 1 keeps the trusted estimates for the next start, 0 forgets the
+                        ///< muscle that is kept
+  compare_supply = 14,  ///< value: what a meter shows at the supply, in V; 0 forgets the comparison
+  compare_current = 15,  ///< value: what a meter shows in the channel's line, in A
 };
 
-inline constexpr std::array<std::string_view, 14> verb_names{
-    "none", "arm",      "disarm",    "reset", "position",   "power",     "renew",
-    "rest", "identify", "calibrate", "scale", "controller", "estimator", "store"};
+inline constexpr std::array<std::string_view, 16> verb_names{
+    "none",      "arm",   "disarm",         "reset",          "position", "power",
+    "renew",     "rest",  "identify",       "calibrate",      "scale",    "controller",
+    "estimator", "store", "compare_supply", "compare_current"};
 constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }

@@ -14,7 +14,8 @@ namespace {
 /// The others take none.
 bool has_value(Verb verb) {
   return verb == Verb::position || verb == Verb::power || verb == Verb::scale ||
-         verb == Verb::controller || verb == Verb::estimator;
+         verb == Verb::controller || verb == Verb::estimator || verb == Verb::compare_supply ||
+         verb == Verb::compare_current;
 }
 
 template <class Number>

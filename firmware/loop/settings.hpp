@@ -39,6 +39,7 @@ struct HeaterSettings {
 
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
+  bool knows_muscle = false;           ///< it and the calibration were learned before
   storage::Calibration calibration;    ///< its cold resistance is HeaterSettings' when not learned
   storage::SenseComparison senses;     ///< with a meter, as stored
   InputSettings position;

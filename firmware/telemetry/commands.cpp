@@ -39,7 +39,9 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
     taken.answer = acknowledge(asked, Refusal::too_many);
   } else {
     waiting_.push_back(asked);
-    taken.command = Command{*channel, static_cast<Verb>(m.opcode), m.value, Source::can};
+    taken.command = meant(m.opcode, static_cast<double>(m.value));
+    taken.command->channel = *channel;
+    taken.command->source = Source::can;
   }
   return taken;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "loop/command.hpp"
@@ -13,16 +14,36 @@ namespace supercoil::telemetry {
 /// number.
 inline constexpr std::uint8_t protocol_version = 3;
 
-/// A verb has its own number; the lease's follow.
-enum Opcode : std::uint8_t { claim = verb_names.size(), release };
+/// An opcode has 4 bits, and each means something. A verb has its own number, but for the two that
+/// compare senses with a meter: they share what is no verb's, and the value's sign tells which.
+enum Opcode : std::uint8_t { compare = 0, claim = 14, release = 15 };
 
-inline constexpr std::size_t opcodes = verb_names.size() + 2;
-static_assert(opcodes == 16, "an opcode has 4 bits, and each means something");
+inline constexpr std::size_t opcodes = 16;
+
+/// A command as it is sent.
+struct Sent {
+  std::uint8_t opcode;
+  double value;
+};
+constexpr Sent sent(Verb verb, double value) {
+  // A meter's value of the wrong sign must not become the other sense's.
+  constexpr double nonsense = std::numeric_limits<double>::quiet_NaN();
+  if (verb == Verb::compare_supply) return {compare, value >= 0.0 ? value : nonsense};
+  if (verb == Verb::compare_current) return {compare, value > 0.0 ? -value : nonsense};
+  return {static_cast<std::uint8_t>(verb), value};
+}
+/// What was sent; opcode: neither claim nor release. A NaN is no current.
+constexpr Command meant(std::uint8_t opcode, double value) {
+  if (opcode != compare) return {0, static_cast<Verb>(opcode), value};
+  return value < 0.0 ? Command{0, Verb::compare_current, -value}
+                     : Command{0, Verb::compare_supply, value};
+}
 
 constexpr std::array<std::string_view, opcodes> opcode_names() {
   std::array<std::string_view, opcodes> names{};
-  for (std::size_t i = 0; i < verb_names.size(); ++i)
+  for (std::size_t i = 0; i < claim; ++i)
     names[i] = verb_names[i];
+  names[compare] = "compare";
   names[claim] = "claim";
   names[release] = "release";
   return names;

@@ -1,5 +1,6 @@
 #include "telemetry/run_settings.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,6 +23,10 @@ Message message_of(std::uint8_t setting) {
 
 std::string run_setting_name(std::uint8_t setting) {
   if (setting == most_power) return "most_power_W";
+  if (setting >= supply_gain) {
+    constexpr std::array names{"supply_gain", "current_gain", "sense_error_ratio"};
+    return names.at(static_cast<std::size_t>(setting - supply_gain));
+  }
   return std::string(all_messages()[setting - 1U].name) + "_Hz";
 }
 
@@ -64,7 +69,8 @@ RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanF
 }
 
 Refusal RunSettings::set(std::uint8_t channel, std::uint8_t setting, double value) {
-  if (std::isnan(value_of(channel, setting))) return Refusal::out_of_range;
+  const bool only_read = setting >= supply_gain;
+  if (only_read || std::isnan(value_of(channel, setting))) return Refusal::out_of_range;
   if (setting != most_power) return set_rate(channel, message_of(setting), value);
   if (!(value >= 0.0 && value <= most_W_[channel])) return Refusal::out_of_range;
   loop_->channel(channel).allow_power(value);
@@ -85,6 +91,10 @@ Refusal RunSettings::set_rate(std::uint8_t channel, Message message, double rate
 
 double RunSettings::value_of(std::uint8_t channel, std::uint8_t setting) const {
   if (setting == most_power) return loop_->channel(channel).most_power_W();
+  const storage::SenseComparison senses = loop_->channel(channel).senses();
+  if (setting == supply_gain) return senses.supply_gain;
+  if (setting == current_gain) return senses.current_gain;
+  if (setting == sense_error) return senses.error_ratio;
   if (setting >= run_settings || !is_of(channel, message_of(setting))) return NAN;
   return publisher_->rates_Hz()[channel][setting - 1U];
 }

@@ -77,7 +77,7 @@ constexpr std::array<ValueName, 5> names_of_mode{{
 }};
 
 constexpr std::array<ValueName, 16> names_of_opcode{{
-    {0, "none"},
+    {0, "compare"},
     {1, "arm"},
     {2, "disarm"},
     {3, "reset"},
@@ -140,7 +140,7 @@ constexpr std::array<ValueName, 10> names_of_result{{
     {9, "not_stored"},
 }};
 
-constexpr std::array<ValueName, 12> names_of_setting{{
+constexpr std::array<ValueName, 15> names_of_setting{{
     {0, "most_power_W"},
     {1, "measurement_Hz"},
     {2, "tracking_Hz"},
@@ -153,6 +153,9 @@ constexpr std::array<ValueName, 12> names_of_setting{{
     {9, "timing_Hz"},
     {10, "status_Hz"},
     {11, "gain_Hz"},
+    {12, "supply_gain"},
+    {13, "current_gain"},
+    {14, "sense_error_ratio"},
 }};
 
 constexpr std::array<ValueName, 4> names_of_state{{

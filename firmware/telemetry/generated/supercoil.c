@@ -2521,12 +2521,12 @@ double supercoil_setting_setting_decode(uint8_t value)
 
 bool supercoil_setting_setting_is_in_range(uint8_t value)
 {
-    return (value <= 11u);
+    return (value <= 14u);
 }
 
 bool supercoil_setting_setting_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 11.0));
+    return ((value >= 0.0) && (value <= 14.0));
 }
 
 uint8_t supercoil_setting_refusal_encode(double value)
@@ -2710,12 +2710,12 @@ double supercoil_setting_write_setting_decode(uint8_t value)
 
 bool supercoil_setting_write_setting_is_in_range(uint8_t value)
 {
-    return (value <= 11u);
+    return (value <= 14u);
 }
 
 bool supercoil_setting_write_setting_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 11.0));
+    return ((value >= 0.0) && (value <= 14.0));
 }
 
 uint16_t supercoil_setting_write_session_encode(double value)
@@ -2815,12 +2815,12 @@ double supercoil_setting_read_setting_decode(uint8_t value)
 
 bool supercoil_setting_read_setting_is_in_range(uint8_t value)
 {
-    return (value <= 11u);
+    return (value <= 14u);
 }
 
 bool supercoil_setting_read_setting_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 11.0));
+    return ((value >= 0.0) && (value <= 14.0));
 }
 
 int supercoil_status_pack(

@@ -152,7 +152,7 @@ extern "C" {
 #define SUPERCOIL_EMERGENCY_STATE_ACTIVE_CHOICE (2u)
 #define SUPERCOIL_EMERGENCY_STATE_FAULT_CHOICE (3u)
 
-#define SUPERCOIL_COMMAND_OPCODE_NONE_CHOICE (0u)
+#define SUPERCOIL_COMMAND_OPCODE_COMPARE_CHOICE (0u)
 #define SUPERCOIL_COMMAND_OPCODE_ARM_CHOICE (1u)
 #define SUPERCOIL_COMMAND_OPCODE_DISARM_CHOICE (2u)
 #define SUPERCOIL_COMMAND_OPCODE_RESET_CHOICE (3u)
@@ -169,7 +169,7 @@ extern "C" {
 #define SUPERCOIL_COMMAND_OPCODE_CLAIM_CHOICE (14u)
 #define SUPERCOIL_COMMAND_OPCODE_RELEASE_CHOICE (15u)
 
-#define SUPERCOIL_ACKNOWLEDGE_OPCODE_NONE_CHOICE (0u)
+#define SUPERCOIL_ACKNOWLEDGE_OPCODE_COMPARE_CHOICE (0u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_ARM_CHOICE (1u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_DISARM_CHOICE (2u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_RESET_CHOICE (3u)
@@ -349,6 +349,9 @@ extern "C" {
 #define SUPERCOIL_SETTING_SETTING_TIMING_HZ_CHOICE (9u)
 #define SUPERCOIL_SETTING_SETTING_STATUS_HZ_CHOICE (10u)
 #define SUPERCOIL_SETTING_SETTING_GAIN_HZ_CHOICE (11u)
+#define SUPERCOIL_SETTING_SETTING_SUPPLY_GAIN_CHOICE (12u)
+#define SUPERCOIL_SETTING_SETTING_CURRENT_GAIN_CHOICE (13u)
+#define SUPERCOIL_SETTING_SETTING_SENSE_ERROR_RATIO_CHOICE (14u)
 
 #define SUPERCOIL_SETTING_REFUSAL_NONE_CHOICE (0u)
 #define SUPERCOIL_SETTING_REFUSAL_WRONG_STATE_CHOICE (1u)
@@ -375,6 +378,9 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_SETTING_TIMING_HZ_CHOICE (9u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_STATUS_HZ_CHOICE (10u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_GAIN_HZ_CHOICE (11u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_SUPPLY_GAIN_CHOICE (12u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_CURRENT_GAIN_CHOICE (13u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_SENSE_ERROR_RATIO_CHOICE (14u)
 
 #define SUPERCOIL_SETTING_READ_SETTING_MOST_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_READ_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -388,6 +394,9 @@ extern "C" {
 #define SUPERCOIL_SETTING_READ_SETTING_TIMING_HZ_CHOICE (9u)
 #define SUPERCOIL_SETTING_READ_SETTING_STATUS_HZ_CHOICE (10u)
 #define SUPERCOIL_SETTING_READ_SETTING_GAIN_HZ_CHOICE (11u)
+#define SUPERCOIL_SETTING_READ_SETTING_SUPPLY_GAIN_CHOICE (12u)
+#define SUPERCOIL_SETTING_READ_SETTING_CURRENT_GAIN_CHOICE (13u)
+#define SUPERCOIL_SETTING_READ_SETTING_SENSE_ERROR_RATIO_CHOICE (14u)
 
 #define SUPERCOIL_STATUS_STATE_DISARMED_CHOICE (0u)
 #define SUPERCOIL_STATUS_STATE_ARMED_CHOICE (1u)
@@ -637,7 +646,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets all that is kept. All others: 0.
+     * position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative; 0 forgets the comparison. All others: 0.
      *
      * Range: -
      * Scale: 1
@@ -1215,7 +1224,7 @@ struct supercoil_setting_t {
     /**
      * Which one.
      *
-     * Range: 0..11 (0..11 -)
+     * Range: 0..14 (0..14 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1240,7 +1249,7 @@ struct supercoil_setting_t {
     uint8_t session_low;
 
     /**
-     * most_power_W: W. Rates: Hz. NaN: no such setting.
+     * most_power_W: W. Rates: Hz. supply_gain, current_gain: true over measured, of a comparison with a meter; sense_error_ratio: what it left, 0: not compared. NaN: no such setting.
      *
      * Range: -
      * Scale: 1
@@ -1278,7 +1287,7 @@ struct supercoil_setting_write_t {
     /**
      * Which one.
      *
-     * Range: 0..11 (0..11 -)
+     * Range: 0..14 (0..14 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1294,7 +1303,7 @@ struct supercoil_setting_write_t {
     uint16_t session;
 
     /**
-     * most_power_W: W, 0 to the configured maximum. Rates: Hz; 0: never.
+     * most_power_W: W, 0 to the configured maximum. Rates: Hz; 0: never. Those of the senses are only read: compare changes them.
      *
      * Range: -
      * Scale: 1
@@ -1314,7 +1323,7 @@ struct supercoil_setting_read_t {
     /**
      * Which one.
      *
-     * Range: 0..11 (0..11 -)
+     * Range: 0..14 (0..14 -)
      * Scale: 1
      * Offset: 0
      */

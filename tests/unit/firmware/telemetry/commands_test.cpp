@@ -1,5 +1,6 @@
 // Leases, sessions and damaged frames.
 #include <bit>
+#include <cmath>
 #include <random>
 #include <set>
 
@@ -289,4 +290,24 @@ TEST(CanCommands, TheChecksumIsThatOfTheProfile) {
   master.counter = 5;
   master.session = 0xBEEF;
   LONGS_EQUAL(0xE7, master.frame(Verb::position, 0.012F).data[0]);
+}
+
+TEST_GROUP(Opcodes){};
+
+TEST(Opcodes, EveryCommandIsMeantAsItWasSent) {
+  for (std::size_t i = 1; i < verb_names.size(); ++i) {
+    const auto verb = static_cast<Verb>(i);
+    const Sent on_the_wire = sent(verb, 0.25);
+    CHECK(on_the_wire.opcode < Opcode::claim);
+    CHECK(meant(on_the_wire.opcode, on_the_wire.value).verb == verb);
+    DOUBLES_EQUAL(0.25, meant(on_the_wire.opcode, on_the_wire.value).value, 0.0);
+  }
+}
+
+TEST(Opcodes, AReadingOfTheWrongSignIsNoneOfTheOtherSense) {
+  for (const Verb verb : {Verb::compare_supply, Verb::compare_current})
+    CHECK(std::isnan(sent(verb, -0.25).value));
+  // Nor does an ampere too few forget the comparison, as 0 V does.
+  CHECK(std::isnan(sent(Verb::compare_current, 0.0).value));
+  DOUBLES_EQUAL(0.0, sent(Verb::compare_supply, 0.0).value, 0.0);
 }

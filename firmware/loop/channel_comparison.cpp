@@ -1,0 +1,64 @@
+// A channel's senses, compared with a meter that a person reads.
+#include "loop/channel.hpp"
+
+namespace supercoil {
+
+namespace {
+
+/// What the senses tell of a resistance, over what they would tell without gains.
+double resistance_gain(const storage::SenseComparison& senses) {
+  return senses.supply_gain / senses.current_gain;
+}
+
+}  // namespace
+
+/// Averages what the senses tell while a power is held.
+void Channel::follow_comparison() {
+  const board::Measured& current = evidence_.current;
+  const bool steady = allowed_.by <= LimitedBy::maximum && current.present && supply_V_ > 0.0;
+  if (steady) {
+    comparison_.step(acting_.duty, supply_V_, current.value);
+  } else {
+    comparison_.restart();
+  }
+}
+
+/// What the meter shows. Of the supply, 0 forgets the comparison.
+Refusal Channel::compare(board::MeterComparison::Sense sense, double meter) {
+  const bool active = state_.state() == State::active;
+  if (sense == board::MeterComparison::supply && meter == 0.0)
+    return active ? Refusal::wrong_state : go_by({});
+  if (!active || mode_ != Mode::power) return Refusal::wrong_state;
+  // Not the calibrated resistance: the senses that are in question measured that.
+  const double cold_Ohm = settings_.heater.cold_resistance_Ohm;
+  const double per_K = settings_.heater.temperature_coefficient_per_K;
+  const Refusal refusal = comparison_.read(
+      sense, meter, senses_,
+      {cold_Ohm * (1.0 + per_K * heat_.coldest_K()), cold_Ohm * (1.0 + per_K * heat_.hottest_K())});
+  if (refusal != Refusal::none) return refusal;
+  const auto found = comparison_.found();
+  return found ? go_by(*found) : Refusal::none;
+}
+
+/// From now on, and kept for the next start. What cannot be kept changes nothing.
+Refusal Channel::go_by(const storage::SenseComparison& senses) {
+  const double more_Ohm = resistance_gain(senses) / resistance_gain(senses_);
+  storage::Calibration calibration = calibration_;
+  // A learned resistance was told by the senses as they were; a configured one was not.
+  if (calibration.cold_resistance_Ohm != settings_.heater.cold_resistance_Ohm)
+    calibration.cold_resistance_Ohm *= more_Ohm;
+  const storage::Learned learned{muscle_, calibration, senses, 0, knows_muscle_};
+  if (storage::check(learned)) return Refusal::out_of_range;
+  if (!lessons_.push(learned)) return Refusal::too_many;
+  calibration_ = calibration;
+  resistance_.set(resistance_.value_Ohm() * more_Ohm);
+  evidence_.current.value *= senses.current_gain / senses_.current_gain;
+  senses_ = senses;
+  told_senses_.set(senses_);
+  power_bounds_.set(senses_);
+  comparison_.forget();
+  comparison_.restart();
+  return Refusal::none;
+}
+
+}  // namespace supercoil

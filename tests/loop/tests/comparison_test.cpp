@@ -1,0 +1,245 @@
+// Senses that lie, compared with a meter.
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/can_rig.hpp"
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+
+/// A person with a meter, and a channel at a power.
+TEST_GROUP(Comparison) {
+  static constexpr double supply_gain = 0.9;  ///< measured over true
+  static constexpr double current_gain = 0.8;
+  static constexpr double supply_V = 12.0;
+
+  /// A converter whose board believes that it reads so much of the truth.
+  static void lie(host_sim::ConverterSettings & converter, double gain) {
+    converter.low /= gain;
+    converter.high /= gain;
+  }
+  static test::RigSettings lying_board() {
+    test::RigSettings lying = test::rough_board();
+    lying.firmware.supervision.lowest_supply_V = 9.0;
+    lying.firmware.supervision.highest_supply_V = 15.0;
+    lie(lying.board.supply, supply_gain);
+    lie(lying.board.channels[0].current, current_gain);
+    // With a resistance that tells its temperature, sensors_disagree would notice such a lie.
+    lying.board.channels[0].temperature_coefficient_per_K = 0.0;
+    lying.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
+    return lying;
+  }
+
+  test::RigSettings settings = lying_board();
+  test::Rig rig{settings};
+
+  Channel& channel() {
+    return rig.loop.channel(test::Rig::tested);
+  }
+  void start() {
+    rig.boot();
+    rig.arm();
+    rig.run(0.1);
+  }
+  void hold(double power_W, double time_s = 2.5) {
+    for (double end_s = rig.time_s() + time_s; rig.time_s() < end_s;) {
+      rig.send(Verb::power, power_W);
+      rig.run(0.05);
+    }
+  }
+  Refusal ask(Verb verb, double value) {
+    rig.last_refusal = Refusal::none;
+    rig.send(verb, value);
+    rig.run_ticks(1);
+    return rig.last_refusal;
+  }
+  /// The mean of what flows, as a meter in the line shows it.
+  double line_A() {
+    double sum_A = 0.0;
+    for (int i = 0; i < 100; ++i) {
+      if (i % 50 == 0) rig.send(Verb::renew);
+      rig.run_ticks(1);
+      sum_A += rig.muscle().true_power_W() / supply_V;
+    }
+    return sum_A / 100.0;
+  }
+  void check(Refusal expected, Refusal refusal) {
+    STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(refusal)).c_str());
+  }
+  void read_both() {
+    check(Refusal::none, ask(Verb::compare_supply, supply_V));
+    check(Refusal::none, ask(Verb::compare_current, line_A()));
+  }
+  std::optional<storage::Learned> lesson() {
+    storage::Lesson lesson;
+    channel().take_lesson(lesson);
+    return lesson;
+  }
+  /// As wide as before: nothing is stored, and the readings are those of lying senses.
+  void check_nothing_changed() {
+    CHECK_FALSE(lesson().has_value());
+    DOUBLES_EQUAL(supply_gain * supply_V, rig.snapshot().supply_V, 0.02);
+    CHECK(rig.fault() == Fault::none);
+    CHECK_FALSE(rig.interval_missed);
+  }
+  /// Of the temperature's interval at this power, when it has settled.
+  double width_K(double power_W) {
+    hold(power_W, 25.0);
+    return rig.snapshot().hottest_C - rig.snapshot().coldest_C;
+  }
+};
+
+TEST(Comparison, FindsTheGainsAndNarrowsTheBounds) {
+  start();
+  const double wide_K = width_K(0.5);
+  read_both();
+  check_nothing_changed();
+  hold(1.0);
+  read_both();
+  const auto found = lesson();
+  CHECK(found.has_value());
+  DOUBLES_EQUAL(1.0 / supply_gain, found->senses.supply_gain, 0.005);
+  DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.01);
+  CHECK(found->senses.error_ratio >= 0.02);
+  CHECK(found->senses.error_ratio <= 0.05);
+  CHECK_FALSE(found->knows_muscle);  // it was never learned: the configured one is not stored
+
+  const double narrow_K = width_K(0.5);
+  printf("%.1f K wide, compared %.1f K\n", wide_K, narrow_K);
+  CHECK_COMPARE(narrow_K, <, 0.6 * wide_K);
+  DOUBLES_EQUAL(supply_V, rig.snapshot().supply_V, 0.05);
+  DOUBLES_EQUAL(line_A(), rig.snapshot().current_A, 0.005);
+  hold(4.0, 30.0);
+  hold(0.0, 30.0);
+  hold(2.0, 30.0);
+  CHECK_FALSE(rig.interval_missed);
+  CHECK(rig.fault() == Fault::none);
+}
+
+TEST(Comparison, OneMistypedReadingChangesNothing) {
+  start();
+  hold(0.5);
+  read_both();
+  hold(1.0);
+  check(Refusal::none, ask(Verb::compare_supply, supply_V));
+  check(Refusal::out_of_range, ask(Verb::compare_current, 1.1 * line_A()));
+  check_nothing_changed();
+  // Nobody knows which reading was wrong, so the right one alone does not do it either.
+  read_both();
+  check_nothing_changed();
+}
+
+TEST(Comparison, SwappedReadingsChangeNothing) {
+  start();
+  for (const double power_W : {0.5, 1.0}) {
+    hold(power_W);
+    check(Refusal::out_of_range, ask(Verb::compare_supply, line_A()));
+    check(Refusal::out_of_range, ask(Verb::compare_current, supply_V));
+  }
+  check_nothing_changed();
+}
+
+TEST(Comparison, ReadingsOfOnePowerChangeNothing) {
+  start();
+  hold(0.5);
+  read_both();
+  read_both();
+  hold(0.6);
+  check(Refusal::not_ready, ask(Verb::compare_supply, supply_V));
+  check_nothing_changed();
+}
+
+TEST(Comparison, ReadingsFromBeforeADisarmAreForgotten) {
+  start();
+  hold(0.5);
+  read_both();
+  rig.send(Verb::disarm);
+  rig.run(0.1);
+  rig.arm();
+  rig.run(0.1);
+  hold(1.0);
+  read_both();
+  check_nothing_changed();
+}
+
+TEST(Comparison, AsksForASteadyPower) {
+  start();
+  check(Refusal::wrong_state, ask(Verb::compare_supply, supply_V));
+  hold(0.5, 0.6);
+  check(Refusal::not_ready, ask(Verb::compare_supply, supply_V));
+  rig.send(Verb::position, 0.002);
+  rig.run(0.1);
+  check(Refusal::wrong_state, ask(Verb::compare_supply, supply_V));
+  check(Refusal::wrong_state, ask(Verb::compare_current, 0.05));
+  check_nothing_changed();
+}
+
+TEST(Comparison, IsForgottenWhenAskedTo) {
+  start();
+  for (const double power_W : {0.5, 1.0}) {
+    hold(power_W);
+    read_both();
+  }
+  CHECK(lesson()->senses.compared());
+  check(Refusal::wrong_state, ask(Verb::compare_supply, 0.0));
+  rig.send(Verb::rest);
+  check(Refusal::none, ask(Verb::compare_supply, 0.0));
+  const auto forgotten = lesson();
+  CHECK(forgotten.has_value());
+  CHECK(forgotten->senses == storage::SenseComparison{});
+  rig.run(0.1);
+  DOUBLES_EQUAL(supply_gain * supply_V, rig.snapshot().supply_V, 0.02);
+}
+
+TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {
+  // As calibrate found it through senses of which the one tells 0.9 and the other 0.8.
+  const double told_Ohm = 10.0 * supply_gain / current_gain;
+  settings.firmware.channels[0].calibration.cold_resistance_Ohm = told_Ohm;
+  settings.firmware.channels[0].knows_muscle = true;
+  test::Rig calibrated(settings);
+  calibrated.boot();
+  calibrated.arm();
+  calibrated.run(0.1);
+  storage::Lesson found;
+  for (const double power_W : {0.5, 1.0}) {
+    for (int i = 0; i < 50; ++i) {
+      calibrated.send(Verb::power, power_W);
+      calibrated.run(0.05);
+    }
+    calibrated.send(Verb::compare_supply, supply_V);
+    calibrated.send(Verb::compare_current, calibrated.muscle().true_power_W() / supply_V);
+    calibrated.run_ticks(1);
+  }
+  CHECK(calibrated.loop.channel(0).take_lesson(found));
+  CHECK(found->knows_muscle);
+  DOUBLES_EQUAL(10.0, found->calibration.cold_resistance_Ohm, 0.2);
+  for (int i = 0; i < 100; ++i) {
+    calibrated.send(Verb::power, 1.0);
+    calibrated.run(0.05);
+  }
+  CHECK(calibrated.fault() == Fault::none);
+  CHECK_FALSE(calibrated.interval_missed);
+}
+
+TEST(Comparison, IsMadeOverCanToo) {
+  test::CanRig can(lying_board());
+  test::Master master;
+  can.run(16.0);
+  can.claim(master);
+  can.command(master, Verb::arm);
+  can.run(0.2);
+  for (const float power_W : {0.5F, 1.0F}) {
+    for (int i = 0; i < 20; ++i) {
+      can.command(master, Verb::power, power_W);
+      can.run(0.1);
+    }
+    const auto line_A = static_cast<float>(can.true_power_W() / supply_V);
+    CHECK(can.command(master, telemetry::compare, 12.0F) == Refusal::none);
+    CHECK(can.command(master, telemetry::compare, -line_A) == Refusal::none);
+  }
+  storage::Lesson found;
+  CHECK(can.loop.channel(0).take_lesson(found));
+  DOUBLES_EQUAL(1.0 / supply_gain, found->senses.supply_gain, 0.005);
+  DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.02);
+}

@@ -65,10 +65,14 @@ std::string line_at(const CommandOptions& options, double time_s) {
   return joined({options.words[0], options.words[1], text.data()});
 }
 
-/// A mode ended by itself, or was ended: of identify and calibrate, how.
+/// identify and calibrate end by themselves, with a result.
+bool has_result(const CommandOptions& options) {
+  return options.words[1] == name(Verb::identify) || options.words[1] == name(Verb::calibrate);
+}
+
+/// A mode ended by itself, or was ended: if it has a result, which.
 int ended(BoardLink& board, const CommandOptions& options) {
-  if (options.words[1] != name(Verb::identify) && options.words[1] != name(Verb::calibrate))
-    return exit_done;
+  if (!has_result(options)) return exit_done;
   const std::string line = joined(options.words);
   auto result = board.result(options.words[0]);
   // What is told of the board's state may be a moment older than its refusal.
@@ -104,7 +108,10 @@ int hold(BoardLink& board, const CommandOptions& options) {
     next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);
     std::this_thread::sleep_until(next);
   }
-  return ask(board, options, options.words[0] + " rest");
+  const std::string rest = options.words[0] + " rest";
+  if (!has_result(options)) return ask(board, options, rest);
+  const auto answer = board.ask(rest);
+  return answer ? ended(board, options) : concluded(options, rest, answer);
 }
 
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const CommandOptions& options) {

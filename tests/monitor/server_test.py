@@ -345,6 +345,28 @@ class Live(unittest.TestCase):
         self.assertEqual((held.communicate(timeout=SLACK_S)[1], held.returncode),
                          ("supercoil: 1 calibrate ended: interrupted\n", 1))
 
+    def identify_by_script(self, *words, meanwhile=lambda program: None):
+        """Status and texts. Again while it is refused: the probe of arming takes a moment, and so does a machine that stalls."""
+        while True:
+            self.arm_by_script()
+            program = subprocess.Popen([SUPERCOIL, "command", "1", "identify", *words, "--can", self.source],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            meanwhile(program)
+            out, err = program.communicate(timeout=60)
+            if "refused" not in err:
+                return program.returncode, out, err
+
+    def test_identify_that_is_cut_short_is_no_success(self):
+        ended = "supercoil: 1 identify ended: interrupted\n"
+        self.assertEqual(self.identify_by_script("--for", "2", "--json"),
+                         (1, '{"command":"1 identify","result":"interrupted"}\n', ended))
+
+        def interrupt(program):
+            until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
+            program.send_signal(signal.SIGINT)
+
+        self.assertEqual(self.identify_by_script("--hold", meanwhile=interrupt), (1, "", ended))
+
     def test_a_script_reads_and_writes_settings_over_the_bus(self):
         def setting(*words, source=self.source):
             return subprocess.run([SUPERCOIL, "setting", *words, "--can", source], capture_output=True, text=True,

@@ -136,6 +136,30 @@ class ModulesTest(unittest.TestCase):
         self.assertEqual(not_told["bias"], ["–", "W", "–", "–", "–"])
         self.assertEqual(none["θ1"][:4], ["–", "m", "–", "–"])
 
+    def test_state_says_how_hot_a_muscle_may_be_and_never_that_it_is_cold(self):
+        told = self.ask("""const { StateCard } = await import("/state_card.js");
+            const { protocol, protocol_version } = await (await fetch("/api/about")).json();
+            const told = {};
+            for (const [number, state] of Object.entries(protocol.Status.state.values)) {
+                const store = new Store(protocol, false);
+                const card = new StateCard(1, store, () => {}, protocol_version);
+                card.element.dataset = {};  // this document is an image
+                const shown = (time_s, hottest_C) => {
+                    const status = { time_s: [time_s], state: [Number(number)], protocol_version: [protocol_version] };
+                    const temperature = hottest_C === undefined ? {} : { Temperature: { time_s: [time_s], hottest_C: [hottest_C] } };
+                    store.append({ newest_s: time_s, nodes: { 1: { Status: status, ...temperature } } });
+                    card.update(time_s);
+                    return card.means.textContent;
+                };
+                told[state] = [shown(1), shown(2, 82.3), shown(3, 26.9), shown(4, null), shown(6)];
+            }
+            return told;""")
+        for state, is_said in (("disarmed", "off, cannot heat"), ("armed", "off, ready to heat"), ("active", "heats"),
+                               ("fault", "off, needs a reset")):
+            unknown = f"{is_said}; temperature not known"
+            self.assertEqual(told[state], [unknown, f"{is_said}; may still be at 83 °C", f"{is_said}; at most 27 °C",
+                                           unknown, unknown], state)
+
     def test_a_board_of_another_protocol_is_told(self):
         told = self.ask("""const { StateCard } = await import("/state_card.js");
             const { protocol } = await (await fetch("/api/about")).json();

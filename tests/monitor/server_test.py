@@ -442,6 +442,7 @@ class Sources(unittest.TestCase):
         log.write_text("(0000000001.000000) can0 281#102700000000FFFF\n(0000000001.000000) can0 701#02000000FF000102\n")
         done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertNotIn("off", done.stdout)
         self.assertIn("node 1: active, rest, last identification or calibration: found", done.stdout)
         self.assertRegex(done.stdout, r"position\s+1\.000 mm")
         self.assertRegex(done.stdout, r"\n  it speaks version 1 of the protocol, this program \d+: numbers may be wrong")
@@ -449,6 +450,18 @@ class Sources(unittest.TestCase):
         log.write_text(f"(0000000001.000000) can0 701#02000000FF00{int(own):02X}02\n")
         done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
         self.assertNotIn("version", done.stdout)
+
+    def test_text_says_how_hot_a_muscle_may_be_that_is_off(self):
+        log = self.path / "can.log"
+        for state, word in enumerate(("disarmed", "armed", "fault")):
+            for hottest, said in (("2620", "off; may still be at 83 C"), ("820a", "off; at most 27 C"),
+                                  ("0080", "off; temperature not known")):
+                number = 3 if word == "fault" else state
+                log.write_text(f"(0000000001.000000) can0 381#D007{hottest}\n"
+                               f"(0000000001.000000) can0 701#{number:02X}00000000000302\n")
+                done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
+                self.assertIn(f"node 1: {word}, rest, {said}", done.stdout)
+                self.assertNotIn("cold,", done.stdout)
 
 
 if __name__ == "__main__":

@@ -47,10 +47,22 @@ std::string shown(const char* what, double quantity, int digits, const char* uni
   return text.data();
 }
 
+/// Off is not cold: how hot it may be, by the hot end of its interval.
+std::string off_text(const Newest& node) {
+  const double hottest_C = value(node, "Temperature", "hottest_C");
+  if (std::isnan(hottest_C)) return "off; temperature not known";
+  // Skin that is touched for hours is burnt from here on (docs/safety.md).
+  constexpr double hot_C = 43.0;
+  return (hottest_C < hot_C ? "off; at most " : "off; may still be at ") +
+         std::to_string(std::lround(std::ceil(hottest_C))) + " C";
+}
+
 std::string node_text(int number, const Newest& node) {
   const std::string fault = named(node, "Status", "fault");
-  std::string text = "node " + std::to_string(number) + ": " + named(node, "Status", "state") +
-                     ", " + named(node, "Status", "mode");
+  const std::string state = named(node, "Status", "state");
+  std::string text =
+      "node " + std::to_string(number) + ": " + state + ", " + named(node, "Status", "mode");
+  if (state == "disarmed" || state == "armed" || state == "fault") text += ", " + off_text(node);
   if (fault != "none" && fault != "-") text += ", FAULT " + fault;
   const std::string limit = named(node, "Power", "limited_by");
   if (limit != "nothing" && limit != "-") text += ", limited by " + limit;

@@ -1339,7 +1339,7 @@ struct supercoil_setting_read_t {
  */
 struct supercoil_status_t {
     /**
-     * disarmed and fault: cold. armed: cold, ready. active: may be hot.
+     * disarmed and fault: off. armed: off, ready. active: heats. Off is not cold: hottest_C says what it may be.
      *
      * Range: 0..3 (0..3 -)
      * Scale: 1

@@ -6,12 +6,21 @@ import { duration, fixed, words } from "./format.js";
 // A heartbeat comes every 100 ms.
 const SILENT_S = 1;
 const MEANS = {
-  disarmed: "cold, cannot heat",
-  armed: "cold, ready",
-  active: "may be hot",
-  fault: "cold, needs a reset",
-  silent: "its heartbeat was never heard",
+  disarmed: "off, cannot heat",
+  armed: "off, ready to heat",
+  active: "heats",
+  fault: "off, needs a reset",
 };
+// Skin that is touched for hours is burnt from here on (docs/safety.md).
+const HOT_C = 43;
+
+/** How hot the muscle may be, by the hot end of its interval: off is not cold. */
+export function how_hot(hottest_C) {
+  if (!Number.isFinite(hottest_C)) return "temperature not known";
+  const whole_C = fixed(Math.ceil(hottest_C), 0);
+  return hottest_C < HOT_C ? `at most ${whole_C} °C` : `may still be at ${whole_C} °C`;
+}
+
 // How identify and calibrate end.
 const RESULTS = {
   found: "found and kept",
@@ -53,11 +62,12 @@ export class StateCard {
     const row = this.store.at(this.node, "Status", now_s);
     const name = (signal) => this.store.word("Status", signal, row[signal]);
     const silent_s = row ? now_s - row.time_s + this.store.silent_s : Infinity;
-    const status = row && { state: silent_s > SILENT_S ? "silent" : name("state"), mode: name("mode"), fault: name("fault") };
+    const status = row && { state: silent_s > SILENT_S ? "silent" : name("state"), mode: name("mode"), fault: name("fault"), time_s: row.time_s };
     const state = status?.state ?? "silent";
     this.element.dataset.state = state;
     show(this.word, state);
-    show(this.means, state === "silent" && row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : MEANS[state] ?? "");
+    show(this.means, state in MEANS ? `${MEANS[state]}; ${how_hot(this.#hottest_C(now_s))}`
+      : row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : "its heartbeat was never heard");
     const facts = row
       ? [name("mode"), `no. ${row.controller}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
         row.limited || name("limited_by") === "cooling" ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
@@ -79,6 +89,11 @@ export class StateCard {
     this.result.hidden = !(result in RESULTS);
     if (!this.result.hidden) show(this.result, `Last identify or calibrate: ${RESULTS[result]}.`);
     return status;
+  }
+
+  #hottest_C(now_s) {
+    const row = this.store.at(this.node, "Temperature", now_s);
+    return row && now_s - row.time_s <= SILENT_S ? row.hottest_C : NaN;
   }
 
   #show_fault(status, row) {

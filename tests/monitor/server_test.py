@@ -9,7 +9,6 @@ import json
 import os
 import pathlib
 import re
-import resource
 import signal
 import socket
 import subprocess
@@ -17,7 +16,7 @@ import tempfile
 import time
 import unittest
 
-from programs import BIN, free_ports, monitor, simulated_board, trickle
+from programs import BIN, free_ports, monitor, simulated_board
 
 SUPERCOIL = os.environ.get("SUPERCOIL", BIN / "supercoil")
 # As the page says (page_timeout_s), and as a board of the bench lets a command expire.
@@ -199,63 +198,6 @@ class Live(unittest.TestCase):
             self.assertEqual(served.post("/stop", "", stop_port)[1], {"nodes": [1]})
             self.assertLess(time.monotonic() - begin_s, 1.0)
         until(lambda: served.state() == ("disarmed", 0.0))
-
-    def crowd(self, port, count, text):
-        connections = self.enterContext(contextlib.ExitStack())
-        for _ in range(count):
-            connection = connections.enter_context(socket.create_connection(("127.0.0.1", port), timeout=SLACK_S))
-            connection.sendall(text)
-            yield connection
-
-    def test_stop_s_port_closes_whoever_does_not_end_a_request(self):
-        served = self.serve()
-        for text in (b"", b"POST /stop HTTP/1.1\r\nContent-Length: 4\r\n\r\nabc"):
-            for connection in self.crowd(served.stop_port(), 2, text):
-                with contextlib.suppress(ConnectionResetError):
-                    self.assertEqual(connection.recv(64), b"", text)
-
-    def test_stop_is_obeyed_though_many_say_half_of_a_request_to_its_port(self):
-        served = self.serve()
-        stop_port = served.stop_port()
-        for text in (b"", b"P", b"POST /stop HTTP/1.1\r\nX: " + 4000 * b"x"):
-            list(self.crowd(stop_port, 400, text))
-            self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
-
-    def test_stop_s_port_answers_what_is_no_stop(self):
-        served = self.serve()
-        stop_port = served.stop_port()
-        self.assertEqual(served.ask("GET", "/stop", port=stop_port)[0], 404)
-        self.assertEqual(served.post("/", "", stop_port)[0], 404)
-        self.assertEqual(served.post("/stop", "", stop_port, origin=f"http://127.0.0.1:{stop_port}")[0], 403)
-        for text in (b"\0\xff\r\n\r\n", b"POST /stop HTTP/1.1\r\nX: " + 20000 * b"x",
-                     b"POST /stop HTTP/1.1\r\nContent-Length: 5000\r\n\r\n"):
-            connection, = self.crowd(stop_port, 1, text)
-            with contextlib.suppress(ConnectionResetError):
-                self.assertEqual(connection.recv(64), b"", text)
-        self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
-
-    def test_stop_is_obeyed_though_the_page_has_more_connections_than_a_program_may_have_files(self):
-        program = monitor(self.source, prepare=lambda: resource.setrlimit(
-            resource.RLIMIT_NOFILE, (256, resource.getrlimit(resource.RLIMIT_NOFILE)[1])))
-        self.addCleanup(program.stop)
-        served = Served(program)
-        until(lambda: "1" in served.get("/api/history")[1]["nodes"])
-        stop_port = served.stop_port()
-        self.addCleanup(trickle(served.port, 400).stop)
-        self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
-
-    def test_stop_is_obeyed_after_its_connection_to_the_bus_was_lost(self):
-        board = simulated_board()
-        self.addCleanup(board.stop)
-        program = monitor(f"socketcand:{board.found[1]}")
-        self.addCleanup(program.stop)
-        served = Served(program)
-        until(lambda: "1" in served.get("/api/history")[1]["nodes"])
-        stop_port = served.stop_port()
-        self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
-        board.stop()
-        self.addCleanup(simulated_board(board.found[1]).stop)
-        self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
 
     def test_read_only_serves_no_stop_and_no_command(self):
         program = monitor(self.source, "--read-only")

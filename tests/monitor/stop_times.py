@@ -1,6 +1,6 @@
 """How long after the click on STOP the board is disarmed, while a thousand connections trickle on STOP's own port.
 
-    stop_times.py [CLICKS]      in a real browser, over a simulated board; prints the figures of docs/monitor.md
+    stop_times.py [CLICKS [CONNECTIONS]]    in a real browser, over a simulated board; prints the figures of docs/monitor.md
 
 A click's time is the browser's, the board's is that of its answer on the bus; both are of this machine's clock.
 """
@@ -65,7 +65,7 @@ def measure(page, answers):
             return 1e3 * (answers.first_after(clicked_s) - clicked_s)
 
 
-def main(clicks):
+def main(clicks=100, connections=1000):
     board = simulated_board()
     own = monitor(f"socketcand:{board.found[1]}")
     crowd = None
@@ -74,7 +74,7 @@ def main(clicks):
         with Page() as page:
             page.open(own.found[0])
             page.run(NOTES_CLICKS)
-            crowd = trickle(page.stop_port())
+            crowd = trickle(page.stop_port(), connections)
             times_ms = sorted(measure(page, answers) for _ in range(clicks))
     finally:
         for program in filter(None, (crowd, own, board)):
@@ -85,4 +85,4 @@ def main(clicks):
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 100)
+    main(*map(int, sys.argv[1:]))

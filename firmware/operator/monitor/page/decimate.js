@@ -21,26 +21,26 @@ export function bucket_times(from_s, to_s, buckets) {
 export function decimate(table, columns, from_s, to_s, buckets, gap_s) {
   const lines = columns.map((column) => new Line(table.columns.indexOf(column), buckets));
   const bucket_s = (to_s - from_s) / buckets;
+  const bucket_of = (time_s) => Math.floor((time_s - from_s) / bucket_s);
+  const pause_s = Math.max(gap_s, 2 * bucket_s);
+  // Blocks do when a bucket holds several of them.
+  const blocks = table.period_s * BLOCK * 2 < bucket_s;
   let before_s = NaN;
   for (const chunk of table.chunks) {
     if (chunk.last_s < from_s || chunk.first_s > to_s) continue;
-    const first = chunk.lower_bound(from_s);
     const end = chunk.lower_bound(to_s);
-    const row_s = (chunk.last_s - chunk.first_s) / chunk.count;
-    // Blocks do when a bucket holds several of them.
-    const step = row_s * BLOCK * 2 < bucket_s ? BLOCK : 1;
-    for (let row = first - (first % step); row < end; row += step) {
+    let row = chunk.lower_bound(from_s);
+    if (blocks) row -= row % BLOCK;
+    for (let rows; row < end; row += rows) {
       const time_s = chunk.time_s[row];
-      const bucket = Math.floor((time_s - from_s) / bucket_s);
+      rows = blocks && row % BLOCK === 0 && !pauses(chunk, row, pause_s) ? Math.min(BLOCK, chunk.count - row) : 1;
+      const bucket = bucket_of(time_s);
       if (bucket < 0 || bucket >= buckets) continue;
-      if (time_s - before_s > Math.max(gap_s, 2 * bucket_s)) {
-        const middle = Math.floor(((time_s + before_s) / 2 - from_s) / bucket_s);
-        for (const line of lines) line.break_at(middle);
-      }
-      before_s = chunk.time_s[Math.min(row + step, chunk.count) - 1];
+      if (time_s - before_s > pause_s) for (const line of lines) line.break_between(bucket_of(before_s), bucket);
+      before_s = chunk.time_s[row + rows - 1];
       for (const line of lines) {
         if (line.column < 0) continue;
-        if (step === 1) {
+        if (rows === 1) {
           const value = chunk.values[line.column][row];
           line.add(bucket, value, value);
         } else {
@@ -52,10 +52,14 @@ export function decimate(table, columns, from_s, to_s, buckets, gap_s) {
   return lines.map((line) => line.finish());
 }
 
+/** Whether there is a pause within the block that begins with the row: then its rows are looked at one by one. */
+function pauses(chunk, row, pause_s) {
+  return chunk.time_s[Math.min(row + BLOCK, chunk.count) - 1] - chunk.time_s[row] > pause_s;
+}
+
 class Line {
   constructor(column, buckets) {
     this.column = column;
-    this.buckets = buckets;
     this.points = new Array(2 * buckets); // holes: undefined
     this.bucket = -1;
   }
@@ -79,8 +83,9 @@ class Line {
     }
   }
 
-  break_at(bucket) {
-    if (bucket >= 0 && bucket < this.buckets) this.points[2 * bucket] = null;
+  /** Nothing in all of it: a single null would leave a line with a hole of one pixel. */
+  break_between(before, after) {
+    this.points.fill(null, 2 * Math.max(0, before + 1), 2 * after);
   }
 
   #put() {

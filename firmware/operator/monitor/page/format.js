@@ -18,6 +18,14 @@ export function significant(value) {
   return fixed(value, Math.max(0, 2 - Math.floor(Math.log10(size))));
 }
 
+/** Of a tick's label, so that labels of ticks that lie evenly do so too: 2.5 → 1. */
+export function decimals_of(step) {
+  const most = 9;
+  let decimals = 0;
+  while (decimals < most && Math.abs(step * 10 ** decimals - Math.round(step * 10 ** decimals)) > 1e-6) ++decimals;
+  return decimals;
+}
+
 // Beyond 1973 a time is one of a calendar; before, it is counted from a start.
 const CALENDAR_S = 1e8;
 
@@ -37,6 +45,15 @@ export function duration(seconds) {
   if (seconds < 120) return `${Math.floor(seconds)} s`;
   return seconds < 7200 ? `${Math.floor(seconds / 60)} min` : `${Math.floor(seconds / 3600)} h`;
 }
+
+/** What is held while it cannot be measured has its age beside it. */
+export const AGES = { resistance_Ohm: "resistance_age_s" };
+const OLD_S = 1;
+
+/** An age that is not available is longer than can be said. */
+export const is_old = (age_s) => !(age_s <= OLD_S);
+
+export const measured_ago = (age_s) => (Number.isFinite(age_s) ? `measured ${duration(age_s)} ago` : "not measured for long, or ever");
 
 /** over_temperature → over temperature */
 export const words = (name) => name.replaceAll("_", " ");

@@ -51,7 +51,7 @@ function begin(about) {
   store.addEventListener("batch", ({ detail }) => {
     for (const node of views()) node.journal.read(detail.nodes?.[node.node]);
   });
-  new Stop(by_id("stop"), by_id("stop-notice"), about, () => [...tabs.views.keys()], () =>
+  const stop = new Stop(by_id("stop"), by_id("stop-notice"), about, () => [...tabs.views.keys()], () => store.newest_s, () =>
     views().forEach(({ hand, journal }) => {
       hand.let_go();
       journal.add("STOP");
@@ -65,7 +65,7 @@ function begin(about) {
   // A log is seen as a whole at first.
   if (is_log) store.addEventListener("batch", () => view.span(Math.max(1, store.newest_s - store.oldest_s)), { once: true });
   connect_tools(view, replay, export_csv, fault_page);
-  draw_forever({ store, view, replay, tabs, status });
+  draw_forever({ store, view, replay, tabs, status, stop });
   stream.open();
   feed.fill();
 }
@@ -97,7 +97,7 @@ function connect_tools(view, replay, export_csv, fault_page) {
 }
 
 /** Plots when there is something new, texts ten times a second. */
-function draw_forever({ store, view, replay, tabs, status }) {
+function draw_forever({ store, view, replay, tabs, status, stop }) {
   let stale = true; // something new came
   let asked = true; // somebody waits for it
   let plots_ms = 0;
@@ -121,6 +121,7 @@ function draw_forever({ store, view, replay, tabs, status }) {
       status.update();
       for (const node of tabs.views.values()) node.update();
       tabs.update();
+      stop.observe([...tabs.views.values()].map((node) => node.status));
     }
   };
   requestAnimationFrame(frame);

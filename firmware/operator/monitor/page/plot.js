@@ -2,7 +2,7 @@
 
 import { bucket_times, decimate } from "./decimate.js";
 import { element, show } from "./dom.js";
-import { bus_time, fixed, significant } from "./format.js";
+import { AGES, bus_time, decimals_of, fixed, is_old, measured_ago, significant } from "./format.js";
 
 const HEIGHT_PX = 176;
 const TIME_STEPS_S = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600];
@@ -66,8 +66,8 @@ export class Plot {
       scales: { x: { time: false }, y: { range: (_, least, greatest) => this.#span(least, greatest) } },
       axes: [
         { ...axis, size: 27, gap: 8, incrs: TIME_STEPS_S, space: 70,
-          values: (_, times) => times.map((time) => bus_time(time, this.view.span_s < 5 ? 1 : 0)) },
-        { ...axis, size: 46, gap: 4, space: 28, values: (_, values, axis, space, step) => values.map((value) => fixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)))) },
+          values: (_, times, axis, space, step) => times.map((time) => bus_time(time, decimals_of(step))) },
+        { ...axis, size: 46, gap: 4, space: 28, values: (_, values, axis, space, step) => values.map((value) => fixed(value, decimals_of(step))) },
       ],
       series: [{}, ...spec.lines.map((line) => ({
         stroke: () => colour(line.colour), width: line.width ?? 1.5, dash: line.dash, points: { show: false },
@@ -109,8 +109,7 @@ export class Plot {
 
   /** A pause of rows that is none of their rhythm. */
   #gap_s(table) {
-    const last = table.chunks.at(-1);
-    return Math.max(GAP_S, (4 * (last.last_s - last.first_s)) / last.count);
+    return Math.max(GAP_S, 4 * table.period_s);
   }
 
   #points(message, columns, range, buckets) {
@@ -178,8 +177,11 @@ export class Plot {
     const hovers = this.hover != null && this.chart;
     show(this.when, hovers ? ` at ${bus_time(this.chart.data[0][this.hover], 2)}` : "");
     spec.lines.forEach((line, i) => {
-      const value = hovers ? this.#under_cursor(i) : this.store.at(this.node, line.message, this.view.range.to_s)?.[line.column];
-      show(this.legend[i], fixed(hovers ? value : value * spec.factor, spec.decimals));
+      const row = this.store.at(this.node, line.message, hovers ? this.chart.data[0][this.hover] : this.view.range.to_s);
+      show(this.legend[i], fixed(hovers ? this.#under_cursor(i) : row?.[line.column] * spec.factor, spec.decimals));
+      const old = row && line.column in AGES && is_old(row[AGES[line.column]]);
+      this.legend[i].classList.toggle("old", Boolean(old));
+      this.legend[i].title = old ? measured_ago(row[AGES[line.column]]) : "";
     });
   }
 

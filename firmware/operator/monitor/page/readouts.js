@@ -1,7 +1,7 @@
 // The newest numbers of a node, large.
 
 import { element, show } from "./dom.js";
-import { fixed } from "./format.js";
+import { AGES, fixed, is_old, measured_ago } from "./format.js";
 
 const NUMBERS = [
   ["position", "mm", 3, "Measurement", "position_m", 1e3],
@@ -25,8 +25,11 @@ export class Readouts {
 
   update(now_s) {
     NUMBERS.forEach(([, , decimals, message, column, factor], i) => {
-      const value = this.store.at(this.node, message, now_s)?.[column];
-      show(this.values[i], fixed(value * factor, decimals));
+      const row = this.store.at(this.node, message, now_s);
+      show(this.values[i], fixed(row?.[column] * factor, decimals));
+      const age_s = row && AGES[column] ? row[AGES[column]] : 0;
+      this.values[i].classList.toggle("old", is_old(age_s));
+      this.values[i].title = is_old(age_s) ? measured_ago(age_s) : "";
     });
     const row = this.store.at(this.node, "Temperature", now_s);
     show(this.temperature, `${fixed(row?.coldest_C, 1)} … ${fixed(row?.hottest_C, 1)}`);

@@ -15,10 +15,10 @@ const MEANS = {
 const HOT_C = 43;
 
 /** How hot the muscle may be, by the hot end of its interval: off is not cold. */
-export function how_hot(hottest_C) {
+function how_hot(state, hottest_C) {
   if (!Number.isFinite(hottest_C)) return "temperature not known";
   const whole_C = fixed(Math.ceil(hottest_C), 0);
-  return hottest_C < HOT_C ? `at most ${whole_C} °C` : `may still be at ${whole_C} °C`;
+  return hottest_C < HOT_C ? `at most ${whole_C} °C` : `may ${state === "active" ? "" : "still "}be at ${whole_C} °C`;
 }
 
 // How identify and calibrate end.
@@ -66,7 +66,7 @@ export class StateCard {
     const state = status?.state ?? "silent";
     this.element.dataset.state = state;
     show(this.word, state);
-    show(this.means, state in MEANS ? `${MEANS[state]}; ${how_hot(this.#hottest_C(now_s))}`
+    show(this.means, state in MEANS ? `${MEANS[state]}; ${how_hot(state, this.#hottest_C(now_s))}`
       : row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : "its heartbeat was never heard");
     const facts = row
       ? [name("mode"), `no. ${row.controller}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",

@@ -7,10 +7,12 @@ import { disarm_within, stop } from "./server.js";
 // Of the other way. A board that is there answers within half a second.
 const DISARM_WITHIN_MS = 1500;
 
+const OFF = new Set(["disarmed", "fault"]);
+
 export class Stop {
-  /** nodes: a function that tells the known nodes; let_go: ends all that this page keeps hot, without asking anybody. */
-  constructor(button, notice, about, nodes, let_go) {
-    Object.assign(this, { button, notice, port: about.stop_port, nodes, let_go });
+  /** nodes, newest_s: functions that tell the known nodes and the newest time that was heard; let_go: ends all that this page keeps hot, without asking anybody. */
+  constructor(button, notice, about, nodes, newest_s, let_go) {
+    Object.assign(this, { button, notice, port: about.stop_port, nodes, newest_s, let_go });
     button.hidden = about.kind === "log";
     button.disabled = about.read_only;
     if (button.disabled) button.title = "this monitor is read-only: use the board's stop button";
@@ -29,9 +31,17 @@ export class Stop {
     act();
   }
 
+  /** statuses: of all nodes, as StateCard tells them, null where nothing was heard. What they show since is better than what failed. */
+  observe(statuses) {
+    if (this.notice.dataset.kind !== "failed" || this.notice.hidden || statuses.length === 0) return;
+    if (!statuses.every((status) => status && OFF.has(status.state) && status.time_s > this.pressed_s)) return;
+    this.#say(`every muscle is off, by its node's own word (${clock_now()}); STOP itself failed: ${this.problem}`, "done");
+  }
+
   async press() {
     // First, as it needs no answer: what nobody renews any more expires on the board by itself.
     this.let_go();
+    this.pressed_s = this.newest_s();
     this.button.classList.add("pressed");
     try {
       const nodes = await stop(this.port);
@@ -45,6 +55,7 @@ export class Stop {
 
   /** The other way there is, when the stop's own port does not answer. */
   async #by_commands(problem) {
+    this.problem = problem.message;
     this.#say(`STOP did not get through (${problem.message}); disarming each node …`, "failed");
     const answers = await Promise.allSettled(this.nodes().map((node) => disarm_within(DISARM_WITHIN_MS, node)));
     const obeyed = answers.length > 0 && answers.every(({ value }) => value === "none");

@@ -6,6 +6,7 @@
 
 export const BLOCK = 64;
 const CHUNK_ROWS = 64 * BLOCK;
+const PERIOD_ROWS = 10;
 
 class Chunk {
   constructor(columns, rows) {
@@ -84,6 +85,14 @@ export class Table {
 
   get last_s() {
     return this.empty ? NaN : this.chunks.at(-1).last_s;
+  }
+
+  /** Usual time from row to row, by the newest of them: a pause among these does not count. */
+  get period_s() {
+    if (this.empty) return 0;
+    const newest = [...this.chunks.at(-1).time_s.subarray(0, this.chunks.at(-1).count).slice(-PERIOD_ROWS)];
+    const periods_s = newest.slice(1).map((time_s, i) => time_s - newest[i]).sort((a, b) => a - b);
+    return periods_s[Math.floor((periods_s.length - 1) / 2)] ?? 0;
   }
 
   /** Appends what is newer than all that is there; the rest is known already. */

@@ -87,10 +87,11 @@ void Simulation::happen(const Event& event) {
 
 void Simulation::break_things(const Trouble& t) {
   MuscleChannel& muscle = board_.channel(0);
-  muscle.trouble = {t.heater_open, t.heater_short ? 0.5 : 0.0, t.switch_stuck_on, false,
-                    t.muscle_slack};
-  muscle.position.set(ConverterTrouble{t.position_silent, t.position_frozen, t.position_loose, 0.0,
-                                       hal::Status::ok});
+  muscle.trouble = {t.heater_open,  t.heater_short ? 0.5 : 0.0, t.switch_stuck_on, false,
+                    t.muscle_slack, t.switch_leak_ratio};
+  muscle.position.set(ConverterTrouble{t.position_silent, t.position_frozen, t.position_loose});
+  muscle.current.set(ConverterTrouble{.gain = t.current_gain});
+  board_.supply.set(ConverterTrouble{.gain = t.supply_gain});
   muscle.pwm.refuses = t.pwm_refuses ? hal::Status::io_error : hal::Status::ok;
   board_.stop_circuit.level.high = !t.stop_pressed;
 }

@@ -109,6 +109,9 @@ Trouble read_trouble(Section section) {
   Trouble trouble;
   for (const TroubleName& known : trouble_names)
     trouble.*known.member = section.flag(known.name, false);
+  for (const TroubleNumber& known : trouble_numbers)
+    trouble.*known.member =
+        section.number(known.name, Trouble{}.*known.member, {known.min, known.max});
   section.finish();
   return trouble;
 }

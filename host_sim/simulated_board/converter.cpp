@@ -19,7 +19,7 @@ std::int32_t SimulatedConverter::convert(double value) {
   // Pulled to a rail below everything that the sensor gives.
   if (trouble_.loose) return static_cast<std::int32_t>(-0.2 * full_scale_);
   if (trouble_.frozen && last_.status == hal::Status::ok) return last_.counts;
-  double reading = value + trouble_.offset;
+  double reading = trouble_.gain * value + trouble_.offset;
   if (settings_.noise_rms > 0.0) reading += settings_.noise_rms * normal_(generator_);
   return nearest(std::clamp((reading - settings_.low) * counts_per_unit_, 0.0, full_scale_));
 }

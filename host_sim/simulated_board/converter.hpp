@@ -30,6 +30,7 @@ struct ConverterTrouble {
   bool loose = false;   ///< the wire is off: far outside of the range
   double offset = 0.0;  ///< added to the truth
   hal::Status status = hal::Status::ok;
+  double gain = 1.0;  ///< reading over truth
 
   friend bool operator==(const ConverterTrouble&, const ConverterTrouble&) = default;
 };

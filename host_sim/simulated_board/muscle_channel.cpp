@@ -23,7 +23,9 @@ void MuscleChannel::set(const MuscleChannelSettings& settings) {
 
 void MuscleChannel::advance(hal::Time from, double supply_V) {
   const bool enabled = enable.high() || trouble.enable_stuck_on;
-  const double duty = trouble.switch_stuck_on ? 1.0 : enabled ? pwm.duty(from) : 0.0;
+  const double driven = enabled ? pwm.duty(from) : 0.0;
+  const double leaked = trouble.switch_stuck_on ? 1.0 : trouble.switch_leak_ratio;
+  const double duty = driven + (1.0 - driven) * leaked;
   const double warm = 1.0 + settings_.temperature_coefficient_per_K * plant_.temperature_rise_K();
   const double resistance_Ohm = settings_.resistance_Ohm * warm;
   const double through_A = trouble.wire_open ? 0.0 : duty * supply_V / resistance_Ohm;

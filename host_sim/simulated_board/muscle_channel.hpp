@@ -26,7 +26,8 @@ struct MuscleTrouble {
   double short_Ohm = 0.0;  ///< across the muscle; 0: none
   bool switch_stuck_on = false;
   bool enable_stuck_on = false;
-  bool slack = false;  ///< heat no longer moves the sensor's end
+  bool slack = false;              ///< heat no longer moves the sensor's end
+  double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
 };
 
 class MuscleChannel {

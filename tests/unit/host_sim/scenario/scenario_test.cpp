@@ -125,6 +125,13 @@ trusted_error = 0.1
   DOUBLES_EQUAL(30.0, c.estimator.excitation.window_s, 0.0);
 }
 
+TEST(ReadScenario, TroublesThatAreNumbersArriveWhereTheyBelong) {
+  const Trouble trouble =
+      read("trouble = {current_gain = 0.8, supply_gain = 1.1, switch_leak_ratio = 0.05}")
+          .start.trouble;
+  CHECK(trouble == (Trouble{.current_gain = 0.8, .supply_gain = 1.1, .switch_leak_ratio = 0.05}));
+}
+
 TEST(ReadScenario, MracTakesAPresetAndWhatIsWrittenBesideIt) {
   const Scenario s = read(R"(
 [controller]

@@ -1,0 +1,49 @@
+// What is done to a board and its muscle, while it does what.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace supercoil::test {
+
+/// Over the heat transfer that the board believes in: about the least that it was configured with,
+/// 0.045 / 0.089.
+inline constexpr double worst_configured_cooling = 0.51;
+
+struct Attack {
+  std::string name;
+  double current_gain = 1.0;  ///< what a sense reads, over the truth
+  double supply_gain = 1.0;
+  double cooling_ratio = worst_configured_cooling;
+  bool blocked = false;            ///< heat does not move the sensor
+  double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
+  double air_C = 30.0;             ///< the board believes that it is at most 30 °C
+  bool from_start = false;         ///< not only once the muscle is warm
+  /// What of the board protects where the firmware does not; empty: the limit must be kept.
+  std::string_view guard;
+  /// Why the published interval may miss the truth; empty: it must hold it.
+  std::string_view blindness;
+};
+
+std::vector<Attack> all_attacks();
+
+/// What the board is asked for when the attack begins, or is from the start.
+enum class Activity { disarmed, hold, power, ramp, rearm, identify, calibrate };
+inline constexpr std::array<std::string_view, 7> activity_names{
+    "disarmed", "hold", "power", "ramp", "re-arm", "identify", "calibrate"};
+
+struct Muscle {
+  std::string_view name;
+  double stiffness_N_per_m;
+  double max_W;
+  double min_supply_V;  ///< what the board takes for a good supply, of 12 V
+  double max_supply_V;
+};
+/// The paper's muscle at a supply that may vary far, which leaves its sense the more room to lie;
+/// and a stiff one that may be given more power than it can stand for good.
+inline constexpr std::array<Muscle, 2> muscles{
+    {{"soft", 16.0, 4.5, 7.5, 16.5}, {"stiff", 64.0, 11.0, 10.8, 13.2}}};
+
+}  // namespace supercoil::test

@@ -1,0 +1,90 @@
+#include <cstdio>
+
+#include "attack/attack.hpp"
+
+namespace supercoil::test {
+
+namespace {
+
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
+void add_lying_senses(std::vector<Attack>& attacks) {
+  constexpr std::array<double, 8> gains{0.5, 0.64, 0.78, 0.9, 1.1, 1.3, 1.4, 1.5};
+  const auto add = [&](double current, double supply) {
+    Attack a;
+    if (current != 1.0) a.name = "current × " + text_of(current);
+    if (supply != 1.0) {
+      a.name += (a.name.empty() ? "supply × " : ", supply × ") + text_of(supply);
+    }
+    a.current_gain = current;
+    a.supply_gain = supply;
+    a.from_start = true;
+    attacks.push_back(a);
+  };
+  for (const double gain : gains)
+    add(gain, 1.0);
+  for (const double gain : gains)
+    add(1.0, gain);
+  // What their quotient shows, the resistance, is right or nearly so.
+  for (const double gain : gains)
+    add(gain, gain);
+  add(0.64, 0.83);
+  add(0.78, 0.95);
+  add(1.3, 1.05);
+  add(0.5, 1.5);
+  add(1.5, 0.5);
+}
+
+void add_cooling(std::vector<Attack>& attacks) {
+  for (const bool blocked : {false, true}) {
+    for (const double ratio : {0.2, 0.25, 0.4, worst_configured_cooling, 1.0, 2.0}) {
+      Attack a;
+      a.name = (blocked ? "blocked, cooling × " : "cooling × ") + text_of(ratio);
+      a.cooling_ratio = ratio;
+      a.blocked = blocked;
+      if (ratio < worst_configured_cooling) {
+        a.guard = "thermal fuse";
+        a.blindness = "the cooling is worse than `lowest_transfer_W_per_K` says";
+      }
+      attacks.push_back(a);
+    }
+  }
+}
+
+void add_leaks(std::vector<Attack>& attacks) {
+  for (const double percent : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
+    Attack a;
+    a.name = percent < 100.0 ? "switch leaks " + text_of(percent) + " %" : "switch stuck on";
+    a.switch_leak_ratio = 0.01 * percent;
+    if (percent <= 5.0) a.blindness = "10 mA of it pass for the sense's noise";
+    attacks.push_back(a);
+  }
+}
+
+void add_hot_air(std::vector<Attack>& attacks) {
+  for (const double air_C : {40.0, 60.0}) {
+    Attack a;
+    a.name = "air at " + text_of(air_C) + " °C";
+    a.air_C = air_C;
+    a.from_start = true;
+    a.blindness = "the air is warmer than `ambient.warmest_C` says";
+    attacks.push_back(a);
+  }
+}
+
+}  // namespace
+
+std::vector<Attack> all_attacks() {
+  std::vector<Attack> attacks;
+  add_lying_senses(attacks);
+  add_cooling(attacks);
+  add_leaks(attacks);
+  add_hot_air(attacks);
+  return attacks;
+}
+
+}  // namespace supercoil::test

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <sstream>
 
 #include "config/read_board.hpp"
@@ -50,9 +51,9 @@ telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t cha
   }
   can.bit_rate = static_cast<double>(
       section.integer("bit_rate", std::lround(can.bit_rate), 10'000, 1'000'000));
-  const auto last_first = telemetry::most_nodes + 1 - static_cast<long>(channels);
+  const auto last_first = telemetry::most_nodes + 1 - static_cast<std::int64_t>(channels);
   can.first_node = static_cast<telemetry::Node>(
-      section.integer("first_node", can.first_node, 1, std::max(last_first, 1L)));
+      section.integer("first_node", can.first_node, 1, std::max<std::int64_t>(last_first, 1)));
   can.most_load = section.number("most_load", can.most_load, {0.01, 0.9});
   can.lease_s = 1e-3 * section.number("lease_ms", 1e3 * can.lease_s, {100.0, 60e3});
   can.rates_Hz = read_rates(section.section("rates"), tick_Hz);

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 
@@ -90,7 +91,8 @@ double Section::number(std::string_view key, double fallback, Range range) {
   return fallback;
 }
 
-long Section::integer(std::string_view key, long fallback, long lowest, long highest) {
+std::int64_t Section::integer(std::string_view key, std::int64_t fallback, std::int64_t lowest,
+                              std::int64_t highest) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
   const std::string allowed = std::to_string(lowest) + " to " + std::to_string(highest);
@@ -99,7 +101,7 @@ long Section::integer(std::string_view key, long fallback, long lowest, long hig
     return fallback;
   }
   const std::int64_t value = *node->value<std::int64_t>();
-  if (value >= lowest && value <= highest) return static_cast<long>(value);
+  if (value >= lowest && value <= highest) return static_cast<std::int64_t>(value);
   wrong(key, "must be " + allowed);
   return fallback;
 }
@@ -148,7 +150,8 @@ double Section::required_number(std::string_view key, Range range) {
   return number(key, std::numeric_limits<double>::quiet_NaN(), range);
 }
 
-long Section::required_integer(std::string_view key, long lowest, long highest) {
+std::int64_t Section::required_integer(std::string_view key, std::int64_t lowest,
+                                       std::int64_t highest) {
   if (!has(key)) {
     missing_.push_back({std::string(key), "a whole number, " + std::to_string(lowest) + " to " +
                                               std::to_string(highest)});

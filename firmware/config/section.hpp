@@ -37,7 +37,8 @@ class Section {
   Section over(const toml::table* under, std::string under_path) const;
 
   double number(std::string_view key, double fallback, Range range);
-  long integer(std::string_view key, long fallback, long lowest, long highest);
+  std::int64_t integer(std::string_view key, std::int64_t fallback, std::int64_t lowest,
+                       std::int64_t highest);
   bool flag(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::string_view fallback);
   /// Between least and most numbers, each in range.
@@ -63,7 +64,7 @@ class Section {
   /// As number(), integer() and text(), for keys without a default. NaN, the lowest or empty when
   /// it is absent or wrong.
   double required_number(std::string_view key, Range range);
-  long required_integer(std::string_view key, long lowest, long highest);
+  std::int64_t required_integer(std::string_view key, std::int64_t lowest, std::int64_t highest);
   std::string required_text(std::string_view key);
 
   /// Keys that somebody else reads.

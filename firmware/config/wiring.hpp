@@ -2,6 +2,7 @@
 // opened here.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,7 @@ struct Access {
 struct PwmAddress {
   std::string device;  ///< the chip's name, or the end of its device path when it holds a slash
   int number = 0;      ///< of the output on its chip
-  long period_ns = 0;
+  std::int64_t period_ns = 0;
   int steps = 4095;  ///< of a period
   Access access;
 };

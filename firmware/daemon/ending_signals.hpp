@@ -40,7 +40,7 @@ inline bool ending_signal_is_pending() {
 /// Waits so long, less than a second, for one of them; whether it came.
 inline bool ending_signal_within(hal::Duration most) {
   const sigset_t signals = ending_signals();
-  const timespec time{0, static_cast<long>(most.count())};
+  const timespec time{0, static_cast<decltype(timespec::tv_nsec)>(most.count())};
   return sigtimedwait(&signals, nullptr, &time) >= 0;
 }
 

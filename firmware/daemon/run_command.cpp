@@ -1,6 +1,7 @@
 #include "daemon/run_command.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -111,7 +112,7 @@ bool cool(Parts& parts) {
   parts.telemetry->cool();
   hal_linux::MonotonicClock clock;
   const hal::Time asked = clock.now();
-  const timespec a_round{0, static_cast<long>(round.count())};
+  const timespec a_round{0, static_cast<decltype(timespec::tv_nsec)>(round.count())};
   do {
     nanosleep(&a_round, nullptr);
     parts.keeper->poll(*parts.loop, clock.now());

@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 
@@ -23,7 +24,7 @@ std::string_view variable(const char* name) {
 
 Service::Service() : socket_(variable("NOTIFY_SOCKET")) {
   const std::string_view text = variable("WATCHDOG_USEC");
-  long interval_us = 0;
+  std::int64_t interval_us = 0;
   std::from_chars(text.data(), text.data() + text.size(), interval_us);
   alive_every_ = std::chrono::microseconds(interval_us / 2);
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "supercoil/control/actuator/conversions.hpp"
 
@@ -15,7 +16,7 @@ board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
 
 /// Longer than every hold time at 1 kHz but the slowest; so many overruns are a fault by
 /// themselves.
-constexpr long most_repeats = 1000;
+constexpr std::int64_t most_repeats = 1000;
 
 /// Long against the sensor's noise, short against the muscle's motion.
 constexpr double smoothing_s = 0.2;
@@ -47,7 +48,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
     : settings_(settings),
       devices_(devices),
       step_s_(board.step_s()),
-      ticks_per_s_(std::lround(board.rate_Hz)),
+      ticks_per_s_(std::llround(board.rate_Hz)),
       index_(index),
       calibration_(settings.calibration),
       senses_(settings.senses),
@@ -105,8 +106,8 @@ void Channel::supervise(const BoardNow& board) {
   // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.
   e.renewed = e.damaged_command = e.refused_command = e.obeyed_command = false;
   e.position_elapsed_s = 0.0;
-  const long more = std::min(board.periods, most_repeats);
-  for (long i = 1; i < more && present_fault_ == Fault::none; ++i)
+  const std::int64_t more = std::min(board.periods, most_repeats);
+  for (std::int64_t i = 1; i < more && present_fault_ == Fault::none; ++i)
     present_fault_ = supervisor_.step(e);
   if (!supervisor_.inside(e.sensor_m)) e.position.present = false;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 
 #include <boost/lockfree/spsc_queue.hpp>
 
@@ -31,7 +32,7 @@ struct BoardNow {
   detectors::Margin margin;   ///< of that fault
   bool testing = true;        ///< the self-test runs: nothing is latched
   bool proven = false;        ///< it has passed: both ways of cutting cut
-  long periods = 1;           ///< since the last tick
+  std::int64_t periods = 1;   ///< since the last tick
 };
 
 /// The gains and the error that remains, from the loop to other threads.
@@ -126,7 +127,7 @@ class Channel {
   void start_controller(std::size_t place, const control::ControllerStart& at);
   void rest();
   void sample_position(hal::Time now);
-  void observe_heat(long periods);
+  void observe_heat(std::int64_t periods);
   board::PowerBounds::Interval calibrated_Ohm() const;
   void follow_probe(double supply_V);
   void learn_heat();
@@ -150,7 +151,7 @@ class Channel {
   ChannelSettings settings_;
   board::ChannelDevices devices_;
   double step_s_;
-  long ticks_per_s_;
+  std::int64_t ticks_per_s_;
   std::uint8_t index_;
 
   storage::Calibration calibration_;
@@ -199,7 +200,7 @@ class Channel {
   bool reset_asked_ = false;
   bool heat_known_ = false;  ///< the muscle has been cool since boot, whatever was before
   std::uint32_t turn_ = 0;   ///< of a full turn
-  long ticks_ = 0;           ///< of learning, in this second
+  std::int64_t ticks_ = 0;   ///< of learning, in this second
   Snapshot snapshot_;
   boost::lockfree::spsc_queue<storage::Lesson, boost::lockfree::capacity<4>> lessons_;
 };

@@ -1,6 +1,7 @@
 // What a channel knows of its muscle.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "loop/channel.hpp"
 
@@ -45,7 +46,7 @@ board::PowerBounds::Interval Channel::calibrated_Ohm() const {
 
 /// The muscle's temperature, from the power that was set and the one that was measured: if a switch
 /// conducts by itself, only the current knows.
-void Channel::observe_heat(long periods) {
+void Channel::observe_heat(std::int64_t periods) {
   const board::Measured& current = evidence_.current;
   if (current.present && supply_V_ > 0.0) resistance_.step(acting_.duty, supply_V_, current.value);
   // Senses that lied while the resistance was calibrated cannot narrow the bounds by that.
@@ -61,7 +62,7 @@ void Channel::observe_heat(long periods) {
                       : limiter_.max_W();
   evidence_.measured_W = std::max(acting_.power_W, measured_W);
   // In periods that were left out the power may have gone on, or the charge pump have cut it.
-  for (long i = 1; i < periods; ++i)
+  for (std::int64_t i = 1; i < periods; ++i)
     heat_.step(0.0, power_W.max, acting_.power_W);
 
   const double per_K = settings_.heater.temperature_coefficient_per_K;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace supercoil {
 
@@ -13,7 +14,7 @@ constexpr int most_commands_per_tick = 64;
 /// Buffered converters need so long to have their first values, and filters to settle.
 constexpr double settling_s = 0.1;
 /// After a longer stall the muscles are cold.
-constexpr long most_periods = 200'000;
+constexpr std::int64_t most_periods = 200'000;
 
 SelfTest::Settings self_test_settings(const BoardSettings& s) {
   double filter_s = 0.0;
@@ -34,7 +35,7 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
       devices_(devices),
       supervisor_(settings.supervision, settings.step_s()),
       self_test_(self_test_settings(settings), settings.step_s()),
-      settling_ticks_(std::lround(settling_s * settings.rate_Hz)),
+      settling_ticks_(std::llround(settling_s * settings.rate_Hz)),
       rows_(ring_rows(settings)) {
   for (std::size_t i = 0; i < settings.channels.size(); ++i) {
     channels_.push_back(std::make_unique<Channel>(
@@ -42,7 +43,7 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
   }
 }
 
-void Loop::tick(hal::Time due, hal::Time woke, long skipped) {
+void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   times_.late.add(woke - due);
 
   // Sample: counts become volts, amperes and metres, each with its age.
@@ -130,7 +131,7 @@ void Loop::reset_board() {
   self_test_.restart();
 }
 
-void Loop::judge_board(hal::Time now, double late_s, long skipped) {
+void Loop::judge_board(hal::Time now, double late_s, std::int64_t skipped) {
   overruns_ += skipped;
   BoardEvidence& e = evidence_;
   board::measure(devices_.supply->latest(), settings_.supply.scaling, now,
@@ -219,7 +220,7 @@ void Loop::shine() {
     armed = armed || channel->state().state() == State::armed;
   }
   const double half_period_s = fault ? 0.1 : 0.5;
-  const long half_period = static_cast<long>(half_period_s * settings_.rate_Hz);
+  const std::int64_t half_period = static_cast<std::int64_t>(half_period_s * settings_.rate_Hz);
   if (++blink_ticks_ >= half_period) {
     blink_ticks_ = 0;
     blink_ = !blink_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -42,7 +43,7 @@ struct LoopTiming {
   std::atomic<std::uint32_t> overruns{0};        ///< periods left out since boot
 
   /// In the tick.
-  void add(hal::Duration late, hal::Duration execution, long skipped) {
+  void add(hal::Duration late, hal::Duration execution, std::int64_t skipped) {
     raise(late_ns, late.count());
     raise(execution_ns, execution.count());
     if (skipped > 0) overruns.fetch_add(static_cast<std::uint32_t>(skipped));
@@ -62,7 +63,7 @@ class Loop {
   Loop(const BoardSettings& settings, const board::Devices& devices);
 
   /// One tick that was due at `due` and woke at `woke`, after `skipped` periods were left out.
-  void tick(hal::Time due, hal::Time woke, long skipped);
+  void tick(hal::Time due, hal::Time woke, std::int64_t skipped);
 
   /// From one other thread (each): false when the ring is full.
   bool send(const Command& command) { return commands_.push(command); }
@@ -81,12 +82,12 @@ class Loop {
   const BoardSupervisor& supervisor() const { return supervisor_; }
   const SelfTest& self_test() const { return self_test_; }
   const LoopTimes& times() const { return times_; }
-  long overruns() const { return overruns_; }
-  long lost_rows() const { return lost_rows_; }
+  std::int64_t overruns() const { return overruns_; }
+  std::int64_t lost_rows() const { return lost_rows_; }
 
  private:
   void obey();
-  void judge_board(hal::Time now, double late_s, long skipped);
+  void judge_board(hal::Time now, double late_s, std::int64_t skipped);
   void latch(Fault cause, const detectors::Margin& margin);
   void reset_board();
   bool may_test() const;
@@ -108,12 +109,12 @@ class Loop {
   bool lines_ok_ = true;
   int light_ = -1;
   bool blink_ = false;
-  long blink_ticks_ = 0;
-  long ticks_ = 0;
-  long overruns_ = 0;
-  long lost_rows_ = 0;
+  std::int64_t blink_ticks_ = 0;
+  std::int64_t ticks_ = 0;
+  std::int64_t overruns_ = 0;
+  std::int64_t lost_rows_ = 0;
   LoopTimes times_;
-  long settling_ticks_;
+  std::int64_t settling_ticks_;
   Health health_;
   LoopTiming timing_;
   boost::lockfree::spsc_queue<Command, boost::lockfree::capacity<256>> commands_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "modes/result.hpp"
 
@@ -36,8 +37,8 @@ class Calibrate {
       progress_ = 0.5F * static_cast<float>(elapsed_s_ / settings_.longest_wait_s);
       return elapsed_s_ > settings_.longest_wait_s ? ModeResult::not_cold : ModeResult::running;
     }
-    const auto ticks = static_cast<long>(settings_.mean_s / step_s);
-    const long half = ticks / 2;
+    const auto ticks = static_cast<std::int64_t>(settings_.mean_s / step_s);
+    const std::int64_t half = ticks / 2;
     if (count_ < half) first_half_m_ += position_m;
     sum_m_ += position_m;
     ++count_;
@@ -62,7 +63,7 @@ class Calibrate {
   double elapsed_s_ = 0.0;
   double sum_m_ = 0.0;
   double first_half_m_ = 0.0;
-  long count_ = 0;
+  std::int64_t count_ = 0;
   bool knows_zero_ = false;
   double resistance_Ohm_ = 0.0;
   float progress_ = 0.0F;

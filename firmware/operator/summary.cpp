@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cinttypes>
 #include <cmath>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 
@@ -56,7 +58,7 @@ void tell_extent(Lines& lines, const Recording& recording) {
   const double rate_Hz = recording.header.rate_Hz;
   if (rate_Hz <= 0.0) return;
   lines.add("  %d channels at %g Hz", recording.header.channels, rate_Hz);
-  long gaps = 0;
+  std::int64_t gaps = 0;
   double longest_s = 0.0, longest_at_s = 0.0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double before_s = recording.time_s(rows[i - 1]);
@@ -67,7 +69,7 @@ void tell_extent(Lines& lines, const Recording& recording) {
     longest_s = std::max(longest_s, gap_s);
   }
   if (gaps > 0) {
-    lines.add("  ticks are missing: %ld gap%s, the longest of %.3f s from %.3f s on", gaps,
+    lines.add("  ticks are missing: %" PRId64 " gap%s, the longest of %.3f s from %.3f s on", gaps,
               gaps == 1 ? "" : "s", longest_s, longest_at_s);
   }
 }
@@ -93,7 +95,7 @@ struct Channel {
   const Row* last_before = nullptr;
   const Row* hottest = nullptr;
   double sum_W = 0.0;
-  long powers = 0;
+  std::int64_t powers = 0;
   float most_W = 0.0F;
   std::map<int, const Row*> margins;  ///< the last of each detector, up to the fault
 

@@ -18,9 +18,9 @@ namespace supercoil {
 struct BoardEvidence {
   board::Measured supply;  ///< in V
   hal::Level stop_circuit;
-  double late_s = 0.0;   ///< how much after its time this tick woke
-  long skipped = 0;      ///< periods that the last tick overran
-  bool lines_ok = true;  ///< every line of the last tick was set
+  double late_s = 0.0;       ///< how much after its time this tick woke
+  std::int64_t skipped = 0;  ///< periods that the last tick overran
+  bool lines_ok = true;      ///< every line of the last tick was set
   std::uint32_t telemetry_beats = 0;
   hal::CanState bus = hal::CanState::active;
   bool configuration_changed = false;

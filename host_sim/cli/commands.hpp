@@ -21,7 +21,7 @@ struct RunOptions {
   std::string scenario;
   std::string out;     ///< empty: supercoil-out/NAME
   std::string window;  ///< "FROM:TO" in seconds, either may be empty
-  long every = 1;
+  std::int64_t every = 1;
   bool trace = true;
   bool plot = true;
   bool can = true;
@@ -52,8 +52,8 @@ struct CompareOptions {
 int compare_command(const CompareOptions& options);
 
 struct EstimatorsOptions {
-  long seeds = 20;  ///< 1 to this
-  int jobs = 0;     ///< 0: as many as there are processors
+  std::int64_t seeds = 20;  ///< 1 to this
+  int jobs = 0;             ///< 0: as many as there are processors
   std::string out = "supercoil-out/estimators";
   bool plot = true;
   bool quiet = false;

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <utility>
@@ -23,8 +24,8 @@ compare::Key key_of(const compare::Plan& plan, const compare::Run& run) {
 }
 
 std::string duration(double seconds) {
-  const long whole = std::lround(seconds);
-  constexpr long minute = 60;
+  const std::int64_t whole = std::llround(seconds);
+  constexpr std::int64_t minute = 60;
   if (whole < 2 * minute) return std::to_string(whole) + " s";
   return std::to_string((whole + minute / 2) / minute) + " min";
 }

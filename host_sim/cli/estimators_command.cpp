@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <utility>
 
 #include "cli/commands.hpp"
@@ -16,7 +17,7 @@ using estimators::Key;
 using estimators::Outcomes;
 
 /// All runs, of a seed before the next seed.
-std::vector<Key> runs_of(long seeds) {
+std::vector<Key> runs_of(std::int64_t seeds) {
   std::vector<Key> runs;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds); ++seed) {
     for (std::size_t trial = 0; trial < estimators::trials.size(); ++trial) {

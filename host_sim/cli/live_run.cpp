@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cinttypes>
 #include <cstdio>
 #include <memory>
 
@@ -58,7 +59,7 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
     pace.wait();
   }
   if (pace.slips() > 0) {
-    std::fprintf(stderr, "supercoil-sim: warning: this machine was too slow %ld times\n",
+    std::fprintf(stderr, "supercoil-sim: warning: this machine was too slow %" PRId64 " times\n",
                  pace.slips());
   }
   if (const auto kept = keep(recorder, simulation, store, options); !kept)

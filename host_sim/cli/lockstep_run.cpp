@@ -1,3 +1,5 @@
+#include <cinttypes>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -17,9 +19,9 @@ namespace {
 /// Runs with whatever of trace and plot is wanted. False when it was interrupted before its end.
 bool simulate(Simulation& simulation, Summary& summary, TraceWriter* trace, RunPlot* plot,
               Progress& progress) {
-  constexpr long look_every = 16384;
+  constexpr std::int64_t look_every = 16384;
   while (!simulation.done()) {
-    const long tick = simulation.tick();
+    const std::int64_t tick = simulation.tick();
     const TickRecord record = simulation.step();
     summary.add(record);
     if (trace != nullptr && trace->wants(tick)) trace->add(record, simulation.estimate());
@@ -27,7 +29,8 @@ bool simulate(Simulation& simulation, Summary& summary, TraceWriter* trace, RunP
     if (tick % look_every == 0) {
       if (interrupted()) return false;
       const double done = static_cast<double>(tick) / static_cast<double>(simulation.ticks());
-      progress.show(done, std::to_string(static_cast<long>(record.time_s)) + " s simulated");
+      progress.show(done,
+                    std::to_string(static_cast<std::int64_t>(record.time_s)) + " s simulated");
     }
   }
   return true;
@@ -62,11 +65,11 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
                 "interrupted; nothing of this run is kept but recordings of faults");
   }
   if (summary.not_finite_ticks() > 0) {
-    std::fprintf(
-        stderr,
-        "supercoil-sim: warning: the controller's power was no number in %ld ticks, first at %g s; "
-        "none was applied then\n",
-        summary.not_finite_ticks(), summary.first_not_finite_s());
+    std::fprintf(stderr,
+                 "supercoil-sim: warning: the controller's power was no number in %" PRId64
+                 " ticks, first at %g s; "
+                 "none was applied then\n",
+                 summary.not_finite_ticks(), summary.first_not_finite_s());
   }
   if (const auto kept = keep(recorder, simulation, store, options); !kept)
     return fail(exit_failed, kept.error());

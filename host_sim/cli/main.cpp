@@ -37,7 +37,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("--window", options.window,
                   "FROM:TO in seconds, for the tracking error [the whole run]");
   run->add_option("--every", options.every, "One row of trace.csv for so many ticks [1]")
-      ->check(CLI::Range(1L, 1000000L));
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
   run->add_option("--learned", options.learned,
                   "Folder of what the board learned: used at its start, and renewed");
   run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
@@ -110,9 +110,9 @@ void add_compare(CLI::App& app, CompareOptions& options) {
 void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   CLI::App* estimators = app.add_subcommand(
       "estimators", "Compare estimators on the same data over many seeds, beside what is possible");
-  constexpr long most_seeds = 1000000;
+  constexpr std::int64_t most_seeds = 1000000;
   estimators->add_option("--seeds", options.seeds, "Seeds, from 1 on [20]")
-      ->check(CLI::Range(1L, most_seeds));
+      ->check(CLI::Range(std::int64_t{1}, most_seeds));
   estimators->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
       ->check(CLI::Range(1, 1024));
   estimators->add_option("--out", options.out, "Folder for the results [supercoil-out/estimators]");

@@ -1,4 +1,5 @@
 #include <charconv>
+#include <cinttypes>
 #include <cstdio>
 #include <optional>
 
@@ -59,7 +60,7 @@ int run_command(const RunOptions& options) {
                                       std::to_string(scenario->duration_s));
   }
   if (options.check) {
-    std::printf("%s: in order, %ld ticks, %zu events\n", options.scenario.c_str(),
+    std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenario.c_str(),
                 scenario->ticks(), scenario->events.size());
     return exit_done;
   }

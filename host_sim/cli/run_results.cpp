@@ -1,6 +1,8 @@
 #include "cli/run_results.hpp"
 
+#include <cinttypes>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -16,8 +18,8 @@ void note_signal(int) {
 }
 
 void print_summary(const nlohmann::ordered_json& json, const std::string& folder) {
-  std::printf("%s: %ld ticks in %.2f s, %.0f x real time\n",
-              json["scenario"].get<std::string>().c_str(), json["ticks"].get<long>(),
+  std::printf("%s: %" PRId64 " ticks in %.2f s, %.0f x real time\n",
+              json["scenario"].get<std::string>().c_str(), json["ticks"].get<std::int64_t>(),
               json["wall_s"].get<double>(), json["realtime_factor"].get<double>());
   if (!json["tracking_rms_m"].is_null()) {
     std::printf("tracking error %.1f um rms, %.1f um at most (%g to %g s)\n",

@@ -1,6 +1,7 @@
 #include "compare/carry_out.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 
 #include "compare/in_parallel.hpp"
@@ -11,7 +12,7 @@ namespace supercoil::host_sim::compare {
 
 namespace {
 
-constexpr long look_every_ticks = 4096;
+constexpr std::int64_t look_every_ticks = 4096;
 
 /// Empty when it was given up.
 std::optional<Result> simulate(const Case& of, std::uint64_t seed, const std::atomic<bool>& stop) {

@@ -1,5 +1,6 @@
 #include "compare/plan.hpp"
 
+#include <cstdint>
 #include <utility>
 
 #include <boost/crc.hpp>
@@ -91,7 +92,7 @@ tl::expected<void, std::string> add_cases(Plan& plan, const std::vector<Document
 
 std::string check(const Selection& s) {
   std::string problems;
-  constexpr long most_seeds = 100'000;
+  constexpr std::int64_t most_seeds = 100'000;
   if (s.seeds < 1 || s.seeds > most_seeds)
     problems += "--seeds " + std::to_string(s.seeds) + ": must be 1 to 100000\n";
   if (s.shard.of < 1 || s.shard.number < 1 || s.shard.number > s.shard.of) {
@@ -134,7 +135,7 @@ tl::expected<Plan, std::string> make_plan(const Selection& selection) {
   Plan plan;
   const auto added = add_cases(plan, *chosen, *met, or_all(selection.arithmetics, {"double"}));
   if (!added) return tl::unexpected(added.error());
-  long index = 0;
+  std::int64_t index = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(selection.seeds); ++seed) {
     for (std::size_t of = 0; of < plan.cases.size(); ++of) {
       if (index++ % selection.shard.of == selection.shard.number - 1)

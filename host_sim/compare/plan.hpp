@@ -13,8 +13,8 @@ namespace supercoil::host_sim::compare {
 
 /// Part number of all, from 1 on: every so-manieth run.
 struct Shard {
-  long number = 1;
-  long of = 1;
+  std::int64_t number = 1;
+  std::int64_t of = 1;
 };
 
 /// Empty lists are the built-in ones. A name with a dot or a slash is a scenario's file.
@@ -23,7 +23,7 @@ struct Selection {
   std::vector<std::string> controllers;
   std::vector<std::string> disturbances;
   std::vector<std::string> arithmetics;
-  long seeds = 20;  ///< 1 to this
+  std::int64_t seeds = 20;  ///< 1 to this
   Shard shard;
 };
 

@@ -3,6 +3,7 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -120,7 +121,7 @@ tl::expected<ReadResults, std::string> read_results(const std::filesystem::path&
                           "\"; must be \"" + expected.substr(0, expected.find('\n')) + "\"");
   }
   std::string_view rest = std::string_view(all).substr(expected.size());
-  for (long line = 3; !rest.empty(); ++line) {
+  for (std::int64_t line = 3; !rest.empty(); ++line) {
     const std::size_t end = rest.find('\n');
     if (end == std::string_view::npos) {
       read.torn = true;

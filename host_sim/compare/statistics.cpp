@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <boost/math/distributions/students_t.hpp>
 
@@ -9,7 +10,7 @@ namespace supercoil::host_sim::compare {
 
 Statistics statistics_of(const std::vector<double>& values) {
   Statistics s;
-  s.runs = static_cast<long>(values.size());
+  s.runs = static_cast<std::int64_t>(values.size());
   const auto count = static_cast<double>(values.size());
   for (const double value : values)
     s.mean += value / count;

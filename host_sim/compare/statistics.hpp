@@ -1,12 +1,13 @@
 // Of the same measure over several seeds.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace supercoil::host_sim::compare {
 
 struct Statistics {
-  long runs = 0;
+  std::int64_t runs = 0;
   double mean = 0.0;
   /// 95 % confidence interval of the mean: mean ± this, by Student's t with runs − 1 degrees of
   /// freedom. NaN for a single run or where a value is infinite.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ struct Row {
   std::string disturbance;
   std::string arithmetic;
   std::array<std::optional<Statistics>, measures.size()> statistics;
-  long faults = 0;  ///< runs in which one latched
+  std::int64_t faults = 0;  ///< runs in which one latched
 
   /// For tables: the arithmetic only where it is not double.
   std::string contender() const {

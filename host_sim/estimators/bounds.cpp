@@ -1,6 +1,7 @@
 #include "estimators/bounds.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 #include "estimators/contender.hpp"
 #include "estimators/cramer_rao.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 Experiment experiment_of(const Trial& trial, double begin_s) {
   Bench bench(trial, 0);
-  for (long left = std::lround(begin_s / tick_s); left > 0; --left)
+  for (std::int64_t left = std::llround(begin_s / tick_s); left > 0; --left)
     bench.next();
   return {.begin = bench.state(),
           .begin_s = begin_s,

@@ -1,5 +1,6 @@
 #include "estimators/cramer_rao.hpp"
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -22,7 +23,7 @@ void CramerRaoBound::step() {
 }
 
 control::Theta CramerRaoBound::until(double time_s) {
-  const long steps = std::lround((time_s - experiment_.begin_s) / step_s);
+  const std::int64_t steps = std::llround((time_s - experiment_.begin_s) / step_s);
   while (steps_ < steps)
     step();
   std::vector<int> unknowns;

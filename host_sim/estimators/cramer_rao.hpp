@@ -1,6 +1,7 @@
 // How exactly anybody could know the muscle's parameters from what the sensor saw.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "estimators/muscle_state.hpp"
@@ -41,7 +42,7 @@ class CramerRaoBound {
 
   Experiment experiment_;
   Unknown unknown_;
-  long steps_ = 0;
+  std::int64_t steps_ = 0;
   State state_;
   Covariance sensitivity_ = Covariance::Identity();  ///< of the state now to that at begin_s
   Covariance information_ = Covariance::Zero();

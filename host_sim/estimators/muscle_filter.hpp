@@ -1,6 +1,8 @@
 // A Kalman filter of the muscle's state and parameters, whichever way it predicts.
 #pragma once
 
+#include <cstdint>
+
 #include "supercoil/control/estimation/parametric_model.hpp"
 
 #include "estimators/muscle_state.hpp"
@@ -68,9 +70,9 @@ class MuscleFilter {
   /// Of θ, relative.
   control::Theta standard_deviations() const;
   /// Changes of the muscle that were detected.
-  long changes() const { return changes_; }
+  std::int64_t changes() const { return changes_; }
   /// How often rounding had made the covariance indefinite, and it began anew.
-  long restarts() const { return restarts_; }
+  std::int64_t restarts() const { return restarts_; }
 
  private:
   Covariance prior() const;
@@ -88,8 +90,8 @@ class MuscleFilter {
   bool begun_ = false;
   double since_s_ = 0.0;      ///< the start or the last change
   double mean_square_ = 1.0;  ///< of normalised innovations, low-passed
-  long changes_ = 0;
-  long restarts_ = 0;
+  std::int64_t changes_ = 0;
+  std::int64_t restarts_ = 0;
 };
 
 }  // namespace supercoil::host_sim::estimators

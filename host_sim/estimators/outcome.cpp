@@ -1,6 +1,7 @@
 #include "estimators/outcome.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace supercoil::host_sim::estimators {
 
@@ -8,8 +9,8 @@ using control::Theta;
 
 namespace {
 
-constexpr long look_every_ticks = 10;
-constexpr long ask_every_ticks = 4096;
+constexpr std::int64_t look_every_ticks = 10;
+constexpr std::int64_t ask_every_ticks = 4096;
 /// An exit so shortly before the end counts as never within the band.
 constexpr double unsettled_s = 1.0;
 

@@ -1,6 +1,7 @@
 #include "estimators/trial.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 #include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/estimation/gradient.hpp"
@@ -25,8 +26,8 @@ Bench::Bench(const Trial& trial, std::uint64_t seed)
       truth_(control::theta_from(plant_.parameters())),
       source_(static_cast<std::uint32_t>(seed)),
       noise_(0.0, 1.0),
-      change_at_(std::lround(trial.change_at_s / tick_s)),
-      end_(std::lround(trial.duration_s / tick_s)) {}
+      change_at_(std::llround(trial.change_at_s / tick_s)),
+      end_(std::llround(trial.duration_s / tick_s)) {}
 
 Bench::Tick Bench::next() {
   const double power_W = excitation_.at(static_cast<double>(ticks_) * tick_s);

@@ -28,7 +28,9 @@ struct Trial {
   /// θ(0).
   control::Theta initial() const;
   /// The size of a count; 0 without quantisation.
-  double count_m() const { return bits > 0 ? 0.040 / static_cast<double>(1L << bits) : 0.0; }
+  double count_m() const {
+    return bits > 0 ? 0.040 / static_cast<double>(std::int64_t{1} << bits) : 0.0;
+  }
   /// Of what the sensor adds, as if its rounding were white noise too: rms² · sampling period.
   double noise_density_m2_s() const {
     constexpr double variance_of_rounding = 1.0 / 12.0;
@@ -64,7 +66,7 @@ class Bench {
   /// The muscle and its motion as they are now.
   State state() const;
   bool done() const { return ticks_ >= end_; }
-  long ticks() const { return ticks_; }
+  std::int64_t ticks() const { return ticks_; }
 
  private:
   void soften();
@@ -75,9 +77,9 @@ class Bench {
   control::Theta truth_;
   boost::random::mt19937 source_;
   boost::random::normal_distribution<double> noise_;
-  long ticks_ = 0;
-  long change_at_;
-  long end_;
+  std::int64_t ticks_ = 0;
+  std::int64_t change_at_;
+  std::int64_t end_;
 };
 
 }  // namespace supercoil::host_sim::estimators

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/estimation/gradient.hpp"
@@ -49,8 +50,8 @@ Convergence converge() {
   const double to_watts = 1.0 / parameters.dc_gain_m_per_W();
   Convergence result{{}, {}, {}, empty_figure(truth)};
   double power = 0.0;
-  const long ticks = std::lround(duration_s / step_s);
-  for (long tick = 0; tick <= ticks; ++tick) {
+  const std::int64_t ticks = std::llround(duration_s / step_s);
+  for (std::int64_t tick = 0; tick <= ticks; ++tick) {
     const double t = static_cast<double>(tick) * step_s;
     estimator.step(plant.position_m() * to_watts, power);
     const control::Theta theta = estimator.theta();
@@ -63,7 +64,7 @@ Convergence converge() {
         curve.y.push_back(theta[i]);
       }
     }
-    if (tick == std::lround(quoted_at_s / step_s)) result.error_at_quoted = error;
+    if (tick == std::llround(quoted_at_s / step_s)) result.error_at_quoted = error;
     result.error_at_end = error;
     power = excitation.at(t);
     plant.step(power);

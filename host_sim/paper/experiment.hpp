@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/tracking/law.hpp"
@@ -69,9 +70,9 @@ void run(Law&& law, Target target, const control::ReferenceModelSettings& model_
   TransferFunctionPlant plant(parameters);
   control::ReferenceModel<double> model(model_settings, step_s);
   control::LawInput<double> in;
-  const long ticks = std::lround(end_s / step_s);
-  const long change = std::lround(change_at_s / step_s);
-  for (long tick = 0; tick <= ticks; ++tick) {
+  const std::int64_t ticks = std::llround(end_s / step_s);
+  const std::int64_t change = std::llround(change_at_s / step_s);
+  for (std::int64_t tick = 0; tick <= ticks; ++tick) {
     const double t = static_cast<double>(tick) * step_s;
     if (tick == change) {
       parameters.stiffness_N_per_m = stiffness_after_N_per_m;

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "paper/reproduction.hpp"
 #include "runner/simulation.hpp"
@@ -57,7 +58,7 @@ std::array<ErrorMeter, 3> track(Scenario scenario, const Contender& contender, P
   Curve at{contender.label, {}, {}, false, colour};
   Curve off = at;
   while (!simulation.done()) {
-    const long tick = simulation.tick();
+    const std::int64_t tick = simulation.tick();
     const TickRecord r = simulation.step();
     for (std::size_t i = 0; i < windows.size(); ++i) {
       const Window& w = windows[i].window;
@@ -77,8 +78,8 @@ std::array<ErrorMeter, 3> track(Scenario scenario, const Contender& contender, P
 
 void add_reference(Panel& panel, const Scenario& scenario) {
   Curve curve{"reference", {}, {}, true, 6};
-  const long last = std::lround(scenario.duration_s * 10.0);
-  for (long tenth = 600; tenth < last; ++tenth) {
+  const std::int64_t last = std::llround(scenario.duration_s * 10.0);
+  for (std::int64_t tenth = 600; tenth < last; ++tenth) {
     const double t = static_cast<double>(tenth) * 0.1;
     curve.x.push_back(t);
     curve.y.push_back(scenario.start.reference.at(t) * 1e3);

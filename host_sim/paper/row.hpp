@@ -1,6 +1,7 @@
 // A row of the table that sets the paper's figures beside ours.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct MeanInWindow {
   double from_s;
   double to_s;
   double sum = 0.0;
-  long count = 0;
+  std::int64_t count = 0;
 
   void add(double time_s, double value) {
     if (time_s < from_s || time_s > to_s) return;

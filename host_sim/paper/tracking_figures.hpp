@@ -17,7 +17,7 @@ struct LoopCurves {
   std::vector<double> error;
 
   void add(const Moment& m) {
-    if (std::lround(m.time_s / step_s) % 100 != 0) return;
+    if (std::llround(m.time_s / step_s) % 100 != 0) return;
     time_s.push_back(m.time_s);
     reference.push_back(m.reference);
     position.push_back(m.position);

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace supercoil::host_sim {
 
 namespace {
 
-constexpr long points = 2000;
+constexpr std::int64_t points = 2000;
 constexpr double mm = 1e3;
 constexpr double um = 1e6;
 
@@ -19,7 +20,7 @@ double followed(const TickRecord& record, double value) {
 }  // namespace
 
 RunPlot::RunPlot(const Scenario& scenario)
-    : scenario_(&scenario), every_(std::max(1L, scenario.ticks() / points)) {}
+    : scenario_(&scenario), every_(std::max<std::int64_t>(1, scenario.ticks() / points)) {}
 
 void RunPlot::add(const TickRecord& record, const std::optional<control::Estimate>& estimate) {
   records_.push_back(record);

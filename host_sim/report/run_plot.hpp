@@ -1,6 +1,8 @@
 // plot.svg: what one run looked like.
 #pragma once
 
+#include <cstdint>
+
 #include "plot/figure.hpp"
 #include "runner/simulation.hpp"
 
@@ -12,13 +14,13 @@ class RunPlot {
  public:
   explicit RunPlot(const Scenario& scenario);
 
-  bool wants(long tick) const { return tick % every_ == 0; }
+  bool wants(std::int64_t tick) const { return tick % every_ == 0; }
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
   Figure figure() const;
 
  private:
   const Scenario* scenario_;
-  long every_;
+  std::int64_t every_;
   std::vector<TickRecord> records_;
   std::vector<control::Theta> theta_;
 };

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <system_error>
 
 namespace supercoil::host_sim {
@@ -19,7 +20,7 @@ constexpr const char* header =
 
 }  // namespace
 
-TraceWriter::TraceWriter(const std::filesystem::path& path, long every)
+TraceWriter::TraceWriter(const std::filesystem::path& path, std::int64_t every)
     : out_(path, std::ios::binary), every_(every), buffer_(header) {
   buffer_.reserve(flush_bytes + 4096);
 }

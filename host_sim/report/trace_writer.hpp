@@ -1,6 +1,7 @@
 // trace.csv: one row a tick.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -15,10 +16,10 @@ namespace supercoil::host_sim {
 class TraceWriter {
  public:
   /// every: one row for so many ticks, from the first on.
-  TraceWriter(const std::filesystem::path& path, long every);
+  TraceWriter(const std::filesystem::path& path, std::int64_t every);
 
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
-  bool wants(long tick) const { return tick % every_ == 0; }
+  bool wants(std::int64_t tick) const { return tick % every_ == 0; }
   /// The error says why the file is not complete.
   tl::expected<void, std::string> finish();
 
@@ -27,7 +28,7 @@ class TraceWriter {
   void flush();
 
   std::ofstream out_;
-  long every_;
+  std::int64_t every_;
   std::string buffer_;
 };
 

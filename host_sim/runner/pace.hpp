@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <thread>
 
 namespace supercoil::host_sim {
@@ -23,7 +24,7 @@ class Pace {
     std::this_thread::sleep_until(next_);
   }
   /// How often it was a second behind.
-  long slips() const { return slips_; }
+  std::int64_t slips() const { return slips_; }
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
  private:
@@ -31,7 +32,7 @@ class Pace {
   Clock::duration step_;
   Clock::time_point begin_ = Clock::now();
   Clock::time_point next_ = begin_;
-  long slips_ = 0;
+  std::int64_t slips_ = 0;
 };
 
 }  // namespace supercoil::host_sim

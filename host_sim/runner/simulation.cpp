@@ -1,5 +1,6 @@
 #include "runner/simulation.hpp"
 
+#include <cstdint>
 #include <utility>
 
 #include "runner/board_of.hpp"
@@ -27,8 +28,8 @@ Simulation::Simulation(const Scenario& scenario)
 }
 
 void Simulation::boot() {
-  const long boot_ticks = std::lround(boot_s * scenario_->rate_Hz);
-  for (long i = 0; i < boot_ticks; ++i) {
+  const std::int64_t boot_ticks = std::llround(boot_s * scenario_->rate_Hz);
+  for (std::int64_t i = 0; i < boot_ticks; ++i) {
     // Asked for at the first tick after the self-test.
     const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;

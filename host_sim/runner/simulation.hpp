@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 
 #include "loop/executive.hpp"
@@ -49,8 +50,8 @@ class Simulation {
   /// One tick: events, what is asked for, and the firmware's tick.
   TickRecord step();
 
-  long tick() const { return tick_; }
-  long ticks() const { return ticks_; }
+  std::int64_t tick() const { return tick_; }
+  std::int64_t ticks() const { return ticks_; }
   const Conditions& conditions() const { return *conditions_; }
   /// Empty when the scenario has no estimator.
   std::optional<control::Estimate> estimate() const { return loop_.channel(0).estimates(); }
@@ -81,9 +82,9 @@ class Simulation {
 
   const Scenario* scenario_;
   const Conditions* conditions_;
-  long ticks_;
+  std::int64_t ticks_;
   double step_s_;
-  long tick_ = 0;
+  std::int64_t tick_ = 0;
   std::size_t next_event_ = 0;
   std::size_t controllers_used_ = 0;
   std::size_t estimators_used_ = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -26,12 +27,12 @@ class ErrorMeter {
   }
   double rms() const { return std::sqrt(square_sum_ / static_cast<double>(count_)); }
   double largest() const { return largest_; }
-  long count() const { return count_; }
+  std::int64_t count() const { return count_; }
 
  private:
   double square_sum_ = 0.0;
   double largest_ = 0.0;
-  long count_ = 0;
+  std::int64_t count_ = 0;
 };
 
 /// Collects a run's figures as it goes. Tracking is the true position against the controller's own
@@ -55,7 +56,7 @@ class Summary {
   }
   const ErrorMeter& tracking() const { return tracking_; }
   /// Ticks at which the muscle was not within the firmware's bounds of its temperature.
-  long outside_interval_ticks() const { return outside_interval_ticks_; }
+  std::int64_t outside_interval_ticks() const { return outside_interval_ticks_; }
   struct FaultAt {
     Fault fault;
     double time_s;
@@ -63,7 +64,7 @@ class Summary {
   /// In the order in which they latched.
   const std::vector<FaultAt>& faults() const { return faults_; }
   /// Ticks at which the controller's power was no number, and the time of the first.
-  long not_finite_ticks() const { return not_finite_ticks_; }
+  std::int64_t not_finite_ticks() const { return not_finite_ticks_; }
   double first_not_finite_s() const { return first_not_finite_s_; }
 
   /// summary.json; wall_s: how long the run took.
@@ -89,11 +90,11 @@ class Summary {
   Fault fault_ = Fault::none;
   Fault board_fault_ = Fault::none;
   std::vector<FaultAt> faults_;
-  long outside_interval_ticks_ = 0;
+  std::int64_t outside_interval_ticks_ = 0;
   ErrorMeter tracking_;
-  long ticks_ = 0;
-  long limited_ticks_ = 0;
-  long not_finite_ticks_ = 0;
+  std::int64_t ticks_ = 0;
+  std::int64_t limited_ticks_ = 0;
+  std::int64_t not_finite_ticks_ = 0;
   double first_not_finite_s_ = 0.0;
 };
 

@@ -32,7 +32,7 @@ struct Scenario {
 
   double step_s() const { return 1.0 / rate_Hz; }
   /// Number of ticks, the one at time 0 included, the one at duration_s not.
-  long ticks() const { return std::lround(duration_s * rate_Hz); }
+  std::int64_t ticks() const { return std::llround(duration_s * rate_Hz); }
 };
 
 }  // namespace supercoil::host_sim

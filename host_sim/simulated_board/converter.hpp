@@ -19,7 +19,7 @@ struct ConverterSettings {
   double period_s = 0.0;   ///< between conversions; 0: it converts when it is asked (direct)
   double latency_s = 0.0;  ///< from a conversion to when it can be read
 
-  long full_scale() const { return (1L << (bits == 0 ? 30 : bits)) - 1; }
+  std::int64_t full_scale() const { return (std::int64_t{1} << (bits == 0 ? 30 : bits)) - 1; }
   double per_count() const { return (high - low) / static_cast<double>(full_scale()); }
 };
 

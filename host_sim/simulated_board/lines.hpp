@@ -87,7 +87,7 @@ class SimulatedWatchdog final : public hal::Watchdog {
     return hal::Status::ok;
   }
   hal::Status release() override { return hal::Status::ok; }
-  long fed = 0;
+  std::int64_t fed = 0;
 };
 
 /// Closes the supply's switch while its input shows edges, and opens it by itself when they stop.

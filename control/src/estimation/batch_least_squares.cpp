@@ -1,5 +1,7 @@
 #include "supercoil/control/estimation/batch_least_squares.hpp"
 
+#include <cstdint>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
@@ -8,8 +10,8 @@ namespace supercoil::control {
 BatchLeastSquares::BatchLeastSquares(const Settings& settings, double duration_s, double step_s)
     : settings_(settings),
       step_s_(step_s),
-      first_tick_(static_cast<long>(settings.settle_s / step_s)),
-      fit_until_(static_cast<long>(
+      first_tick_(static_cast<std::int64_t>(settings.settle_s / step_s)),
+      fit_until_(static_cast<std::int64_t>(
           (settings.settle_s + settings.fit_part * (duration_s - settings.settle_s)) / step_s)),
       model_(settings.lambda, settings.scale, step_s) {}
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Eigenvalues>
 
@@ -10,8 +11,8 @@ namespace supercoil::control {
 ExcitationMonitor::ExcitationMonitor(const Settings& settings, double step_s)
     : step_s_(step_s),
       trusted_error_(settings.trusted_error),
-      ticks_per_block_(
-          std::max(1L, std::lround(settings.window_s / (step_s * static_cast<double>(blocks))))) {}
+      ticks_per_block_(std::max<std::int64_t>(
+          1, std::llround(settings.window_s / (step_s * static_cast<double>(blocks))))) {}
 
 void ExcitationMonitor::close_block(const Vector<double, 4>& theta) {
   history_[next_block_] = current_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <ctime>
 #include <optional>
@@ -33,7 +34,8 @@ std::optional<BoardSettings> settings_of(const LatencyOptions& options) {
 
 std::uint64_t wanted_ticks(const LatencyOptions& options, double rate_Hz) {
   if (options.ticks > 0) return options.ticks;
-  return static_cast<std::uint64_t>(std::max(1L, std::lround(options.seconds * rate_Hz)));
+  return static_cast<std::uint64_t>(
+      std::max<std::int64_t>(1, std::llround(options.seconds * rate_Hz)));
 }
 
 void tell(const LatencyMeter& meter, std::uint64_t ticks) {

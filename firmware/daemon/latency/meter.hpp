@@ -17,7 +17,7 @@ struct Latency {
   Histogram late{std::chrono::microseconds(1), 100'000};
   /// 0.1 µs, up to 10 ms.
   Histogram tick{std::chrono::nanoseconds(100), 100'000};
-  long overruns = 0;  ///< periods that were left out
+  std::int64_t overruns = 0;  ///< periods that were left out
 };
 
 /// The clock by which the executive waits for its ticks. Before it waits it notes how late the tick
@@ -63,7 +63,7 @@ class LatencyMeter final : public hal::Clock {
   std::uint64_t ticks_;
   hal_linux::MonotonicClock clock_;
   std::uint64_t waits_ = 0;
-  long overruns_before_ = 0;
+  std::int64_t overruns_before_ = 0;
   Latency result_;
   std::atomic<std::uint64_t> measured_{0};
   std::atomic<std::int64_t> latest_ns_{0};

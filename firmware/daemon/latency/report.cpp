@@ -1,7 +1,9 @@
 #include "daemon/latency/report.hpp"
 
 #include <array>
+#include <cinttypes>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -104,7 +106,7 @@ std::string how(const LatencyConditions& conditions) {
 
 std::string latency_text(const Latency& latency, const LatencyConditions& conditions) {
   std::string text;
-  add_line(text, "%llu ticks at %g Hz, %zu channel%s, %s; overruns: %ld",
+  add_line(text, "%llu ticks at %g Hz, %zu channel%s, %s; overruns: %" PRId64,
            static_cast<unsigned long long>(latency.late.count()), conditions.rate_Hz,
            conditions.channels, conditions.channels == 1 ? "" : "s", how(conditions).c_str(),
            latency.overruns);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <vector>
 
@@ -20,7 +21,7 @@ constexpr int counted_calls = 200;
 constexpr int most_interrupted = 200;
 
 /// How often the processor was taken from the calling thread against its will.
-long times_preempted() {
+std::int64_t times_preempted() {
   rusage usage{};
   ::getrusage(RUSAGE_THREAD, &usage);
   return usage.ru_nivcsw;
@@ -35,7 +36,7 @@ CallTime measured(const std::function<void()>& call) {
   std::vector<hal::Duration> all;
   all.reserve(counted_calls);
   while (time.calls < counted_calls && time.interrupted < most_interrupted) {
-    const long preempted = times_preempted();
+    const std::int64_t preempted = times_preempted();
     const hal::Time before = MonotonicClock::time();
     call();
     const hal::Duration took = MonotonicClock::time() - before;

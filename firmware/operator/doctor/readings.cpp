@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 namespace supercoil::doctor {
@@ -53,13 +54,13 @@ double Readings::rms() const {
 }
 
 hal::Duration Readings::mean_time() const {
-  const long all = good_ + failed_;
+  const std::int64_t all = good_ + failed_;
   return all == 0 ? hal::Duration{} : time_ / all;
 }
 
 Finding judged(const std::string& what, const std::string& where, const Readings& readings,
                const Expected& expected, const std::optional<hal_linux::CountRange>& range) {
-  const long all = readings.good() + readings.failed();
+  const std::int64_t all = readings.good() + readings.failed();
   if (readings.failed() > 0) {
     return {what, Verdict::problem,
             where + ": " + std::to_string(readings.failed()) + " of " + std::to_string(all) +

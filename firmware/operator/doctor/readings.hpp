@@ -19,8 +19,8 @@ class Readings {
   /// took: how long it was waited for.
   void add(const hal::Sample& sample, hal::Duration took);
 
-  long good() const { return good_; }
-  long failed() const { return failed_; }
+  std::int64_t good() const { return good_; }
+  std::int64_t failed() const { return failed_; }
   hal::Status failure() const { return failure_; }
   std::int32_t lowest() const { return lowest_; }
   std::int32_t highest() const { return highest_; }
@@ -29,8 +29,8 @@ class Readings {
   hal::Duration mean_time() const;
 
  private:
-  long good_ = 0;
-  long failed_ = 0;
+  std::int64_t good_ = 0;
+  std::int64_t failed_ = 0;
   hal::Status failure_ = hal::Status::ok;  ///< the last one
   std::int32_t lowest_ = 0;
   std::int32_t highest_ = 0;

@@ -1,6 +1,7 @@
 #include "operator/doctor/report.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include <nlohmann/json.hpp>
 
@@ -11,7 +12,7 @@ using hal::Verdict;
 
 namespace {
 
-std::string counted(long count, const std::string& one) {
+std::string counted(std::int64_t count, const std::string& one) {
   return std::to_string(count) + " " + one + (count == 1 ? "" : "s");
 }
 
@@ -22,7 +23,7 @@ std::string padded(std::string text, std::size_t width) {
 
 }  // namespace
 
-long Report::count(Verdict verdict) const {
+std::int64_t Report::count(Verdict verdict) const {
   return std::count_if(findings.begin(), findings.end(),
                        [&](const Finding& finding) { return finding.verdict == verdict; });
 }

@@ -1,6 +1,7 @@
 // What doctor found, for people and for programs.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ struct Report {
   std::string config;  ///< path of its configuration
   std::vector<hal::Finding> findings;
 
-  long count(hal::Verdict verdict) const;
+  std::int64_t count(hal::Verdict verdict) const;
 };
 
 /// One finding: verdict, what, how it is; under it what to do.

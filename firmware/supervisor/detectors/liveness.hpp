@@ -12,9 +12,9 @@ class InARow final : public Detector {
  public:
   explicit InARow(int most) : most_(most) {}
 
-  bool step(bool happened) { return step(happened ? 1L : 0L); }
+  bool step(bool happened) { return step(std::int64_t{happened}); }
   /// Several at once; none ends the row.
-  bool step(long happened) {
+  bool step(std::int64_t happened) {
     count_ = happened > 0 ? count_ + happened : 0;
     return count_ >= most_;
   }
@@ -24,7 +24,7 @@ class InARow final : public Detector {
 
  private:
   int most_;
-  long count_ = 0;
+  std::int64_t count_ = 0;
 };
 
 /// Trips when a counter that its owner turns has stood still for max_s (a thread's sign of life).

@@ -17,7 +17,7 @@ hal::Time MonotonicClock::wait_until(hal::Time wake) {
   const auto whole = std::chrono::floor<std::chrono::seconds>(wake);
   timespec until{};
   until.tv_sec = static_cast<std::time_t>(whole.count());
-  until.tv_nsec = static_cast<long>((wake - whole).count());
+  until.tv_nsec = static_cast<decltype(timespec::tv_nsec)>((wake - whole).count());
   while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
   }
   return time();

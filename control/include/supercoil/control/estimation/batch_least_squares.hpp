@@ -1,6 +1,7 @@
 // One fit to a whole experiment.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "supercoil/control/estimation/parametric_model.hpp"
@@ -41,9 +42,9 @@ class BatchLeastSquares {
 
   Settings settings_;
   double step_s_;
-  long tick_ = 0;
-  long first_tick_;
-  long fit_until_;
+  std::int64_t tick_ = 0;
+  std::int64_t first_tick_;
+  std::int64_t fit_until_;
   ParametricModel<double> model_;
   Sums fitted_;
   Sums unseen_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include "supercoil/control/scalar/scalar.hpp"
@@ -56,8 +57,8 @@ class ExcitationMonitor {
 
   double step_s_;
   double trusted_error_;
-  long ticks_per_block_;
-  long ticks_in_block_ = 0;
+  std::int64_t ticks_per_block_;
+  std::int64_t ticks_in_block_ = 0;
   std::size_t next_block_ = 0;
   std::size_t filled_ = 0;
   Block current_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <type_traits>
 
 #include "supercoil/control/estimation/estimate_accuracy.hpp"
@@ -39,7 +40,8 @@ class LeastSquaresEstimator {
 
   /// step_s: the sampling period in seconds, > 0.
   LeastSquaresEstimator(const LeastSquaresSettings& s, double step_s)
-      : LeastSquaresEstimator(s, step_s, std::max(1L, std::lround(update_s / step_s))) {}
+      : LeastSquaresEstimator(s, step_s,
+                              std::max<std::int64_t>(1, std::llround(update_s / step_s))) {}
 
   /// One tick. position_W: position over the DC gain. applied_power_W: the power really applied
   /// since the last tick.
@@ -69,7 +71,7 @@ class LeastSquaresEstimator {
   double since_change_s() const {
     return changes_ == 0 ? INFINITY : static_cast<double>(since_change_) * period_s_;
   }
-  long changes() const { return changes_; }
+  std::int64_t changes() const { return changes_; }
   /// θ predicts what the muscle does, in the direction of its motion at least.
   bool settled() const { return running_s() > settled_s && since_change_s() > resettled_s; }
 
@@ -90,9 +92,9 @@ class LeastSquaresEstimator {
   static constexpr double free_s = 20.0;
   /// Wide enough for any motion: ten times the power of the paper's muscle.
   static constexpr double change_span_W = 10.0;
-  static constexpr long updates_per_accuracy = 10;
+  static constexpr std::int64_t updates_per_accuracy = 10;
 
-  LeastSquaresEstimator(const LeastSquaresSettings& s, double step_s, long ticks_per_update)
+  LeastSquaresEstimator(const LeastSquaresSettings& s, double step_s, std::int64_t ticks_per_update)
       : settings_(s),
         ticks_per_update_(ticks_per_update),
         period_s_(step_s * static_cast<double>(ticks_per_update)),
@@ -201,7 +203,7 @@ class LeastSquaresEstimator {
   }
 
   LeastSquaresSettings settings_;
-  long ticks_per_update_;
+  std::int64_t ticks_per_update_;
   double period_s_;
   Regression regression_;
   EstimateAccuracy accuracy_;
@@ -214,11 +216,11 @@ class LeastSquaresEstimator {
 
   bool begins_ = true;
   int first_ = 0;  ///< of the parameters that are estimated: 0 with, 3 without the free responses
-  long tick_ = 0;
-  long updates_ = 0;
-  long since_start_ = 0;  ///< of the filters, in updates
-  long since_change_ = 0;
-  long changes_ = 0;
+  std::int64_t tick_ = 0;
+  std::int64_t updates_ = 0;
+  std::int64_t since_start_ = 0;  ///< of the filters, in updates
+  std::int64_t since_change_ = 0;
+  std::int64_t changes_ = 0;
   Scalar error_{};
   Scalar error_square_{};  ///< low-passed
 };

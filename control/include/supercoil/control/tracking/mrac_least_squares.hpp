@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <type_traits>
 
 #include "supercoil/control/estimation/parametric_model.hpp"
@@ -66,7 +67,7 @@ class MracLeastSquares {
   MracLeastSquares(const MracLeastSquaresSettings& s, const ReferenceModelSettings& model,
                    double step_s)
       : settings_(s),
-        ticks_per_update_(std::max(1L, std::lround(update_s / step_s))),
+        ticks_per_update_(std::max<std::int64_t>(1, std::llround(update_s / step_s))),
         period_s_(step_s * static_cast<double>(ticks_per_update_)),
         power_(squared_pole(s.filter_rad_per_s), step_s),
         position_(squared_pole(s.filter_rad_per_s), step_s),
@@ -135,7 +136,7 @@ class MracLeastSquares {
   Vector<double, size> theta() const {
     return follower_.cwiseProduct(scale_).template cast<double>();
   }
-  long changes() const { return changes_; }
+  std::int64_t changes() const { return changes_; }
 
  private:
   using WideParameters = Vector<Wide, size>;
@@ -229,7 +230,7 @@ class MracLeastSquares {
   }
 
   MracLeastSquaresSettings settings_;
-  long ticks_per_update_;
+  std::int64_t ticks_per_update_;
   double period_s_;
   StateVariableFilter<Scalar, 2, Hold::zero_order> power_;
   StateVariableFilter<Scalar, 2, Hold::first_order> position_;
@@ -247,10 +248,10 @@ class MracLeastSquares {
 
   WideParameters theta_;     ///< over scale_
   WideParameters follower_;  ///< θ̄ over scale_
-  long tick_ = 0;
-  long updates_ = 0;
-  long since_change_ = 0;
-  long changes_ = 0;
+  std::int64_t tick_ = 0;
+  std::int64_t updates_ = 0;
+  std::int64_t since_change_ = 0;
+  std::int64_t changes_ = 0;
   Scalar error_square_{};
 };
 

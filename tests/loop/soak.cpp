@@ -1,0 +1,167 @@
+// The whole firmware over a simulated board for as many ticks as is asked for: it learns, its
+// controllers take over from each other, and faults come and go. Nothing may drift: time, counters,
+// memory, heat.
+//   loop_soak [TICKS]    10^9 by hand (docs/architecture.md); the suite asks for fewer
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+constexpr long suite_ticks = 600'000;
+constexpr int warm_up_cycles = 8;
+
+struct Trouble {
+  Fault fault;
+  void (*inject)(Rig&);
+  void (*remove)(Rig&);
+};
+
+constexpr std::array<Trouble, 6> troubles{{
+    {Fault::emergency_stop, [](Rig& r) { r.board.stop_circuit.level.high = false; },
+     [](Rig& r) { r.board.stop_circuit.level.high = true; }},
+    {Fault::sensor_stale, [](Rig& r) { r.muscle().position.set({.silent = true}); },
+     [](Rig& r) { r.muscle().position.set({.silent = false}); }},
+    {Fault::command_timeout, [](Rig& r) { r.commands_flow = false; },
+     [](Rig& r) { r.commands_flow = true; }},
+    {Fault::heater_open, [](Rig& r) { r.muscle().trouble.wire_open = true; },
+     [](Rig& r) { r.muscle().trouble.wire_open = false; }},
+    {Fault::sensor_out_of_range, [](Rig& r) { r.muscle().position.set({.loose = true}); },
+     [](Rig& r) { r.muscle().position.set({.loose = false}); }},
+    {Fault::overrun, [](Rig& r) { r.board.lose_in_tick(10.5 * r.period_s()); }, [](Rig&) {}},
+}};
+
+double resident_MB() {
+  long size = 0;
+  long resident = 0;
+  std::ifstream("/proc/self/statm") >> size >> resident;
+  return static_cast<double>(resident) * 4096e-6;
+}
+
+/// What must be the same after a thousand cycles as after eight.
+struct Figures {
+  double error_m = 0.0;  ///< rms over the last 5 s of a following
+  double resident_MB = 0.0;
+};
+
+class Soak {
+ public:
+  bool run(long ticks);
+
+ private:
+  bool cycle();
+  void follow();
+  bool fail_and_recover(const Trouble& trouble);
+  bool told(bool holds, const char* what) {
+    if (!holds)
+      std::printf("cycle %ld, tick %ld: %s; state %d, fault %d\n", cycles_, ticks(), what,
+                  static_cast<int>(rig_.state()), static_cast<int>(rig_.fault()));
+    return holds;
+  }
+  long ticks() const { return std::lround(rig_.time_s() / rig_.period_s()); }
+  bool nothing_drifted();
+  void print(const char* when) const {
+    std::printf(
+        "%-6s %12ld ticks, %7ld cycles: follows within %.2f um rms, %.2f MB, %ld overruns\n", when,
+        ticks(), cycles_, 1e6 * now_.error_m, now_.resident_MB, rig_.loop.overruns());
+    std::fflush(stdout);
+  }
+
+  Rig rig_{rough_board()};
+  long cycles_ = 0;
+  long overruns_ = 0;  ///< those that were made
+  Figures first_;
+  Figures now_;
+};
+
+/// All controllers, each taken over from the one before, and open loop.
+void Soak::follow() {
+  rig_.send(Verb::controller, static_cast<double>(cycles_ % 3));
+  rig_.heat(Task::position);
+  rig_.run(10.0);
+  rig_.send(Verb::controller, static_cast<double>((cycles_ + 1) % 3));
+  rig_.run(5.0);
+  rig_.heat(Task::power);
+  rig_.run(2.0);
+  rig_.send(Verb::controller, 0.0);
+  rig_.heat(Task::position);
+  rig_.run(10.0);
+  double sum_m2 = 0.0;
+  constexpr int measured_ticks = 5000;
+  for (int i = 0; i < measured_ticks; ++i) {
+    rig_.tick();
+    const double error_m = rig_.snapshot().position_m - rig_.snapshot().model_m;
+    sum_m2 += error_m * error_m;
+  }
+  now_.error_m = std::sqrt(sum_m2 / measured_ticks);
+}
+
+bool Soak::fail_and_recover(const Trouble& trouble) {
+  trouble.inject(rig_);
+  rig_.run(0.5);
+  if (!told(rig_.fault() == trouble.fault, "another fault than was injected")) return false;
+  if (!told(rig_.muscle().true_power_W() == 0.0, "a fault, and it heats")) return false;
+  trouble.remove(rig_);
+  rig_.task = Task::nothing;
+  rig_.run(1.0);
+  rig_.send(Verb::reset);
+  rig_.run(0.5);
+  return told(rig_.state() == State::disarmed && rig_.loop.board_fault() == Fault::none,
+              "it cannot be reset");
+}
+
+bool Soak::nothing_drifted() {
+  const hal::Duration apart = rig_.board.true_time() - rig_.snapshot().time;
+  const bool together =
+      apart >= hal::Duration{} && apart < hal::duration_from(2.0 * rig_.period_s());
+  return told(together, "the loop's time is not the board's") &&
+         told(rig_.loop.overruns() == overruns_, "overruns were counted wrongly") &&
+         told(rig_.loop.lost_rows() == 0, "rows were lost") &&
+         told(!rig_.interval_missed, "the muscle's temperature left its interval") &&
+         told(rig_.last_refusal == Refusal::none, "a command was refused");
+}
+
+bool Soak::cycle() {
+  rig_.arm();
+  rig_.run(0.2);
+  if (!told(rig_.state() == State::armed, "it cannot be armed")) return false;
+  follow();
+  if (!told(rig_.state() == State::active, "it does not heat any more")) return false;
+  const Trouble& trouble = troubles[static_cast<std::size_t>(cycles_) % troubles.size()];
+  if (trouble.fault == Fault::overrun) overruns_ += 10;
+  if (!fail_and_recover(trouble)) return false;
+  rig_.run(5.0);
+  ++cycles_;
+  now_.resident_MB = resident_MB();
+  return nothing_drifted();
+}
+
+bool Soak::run(long ticks_asked) {
+  rig_.boot();
+  long next_print = suite_ticks;
+  while (ticks() < ticks_asked) {
+    if (!cycle()) return false;
+    if (cycles_ == warm_up_cycles) {
+      first_ = now_;
+      print("first");
+    }
+    if (ticks() >= next_print) {
+      print("");
+      next_print *= 2;
+    }
+  }
+  print("last");
+  return told(now_.resident_MB <= first_.resident_MB + 1.0, "it needs more and more memory") &&
+         told(now_.error_m <= 1.5 * first_.error_m, "it follows worse and worse");
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  return Soak().run(count > 1 ? std::atol(arguments[1]) : suite_ticks) ? 0 : 1;
+}

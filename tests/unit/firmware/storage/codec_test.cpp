@@ -156,6 +156,8 @@ TEST(Codec, RefusesAnUnknownKey) {
                sealed_with("[calibration]", "colour = 1.0\n[calibration]"));
   check_answer("has a key that this firmware does not know: colour",
                sealed_with("version", "colour = 1.0\nversion"));
+  check_answer("has a key that this firmware does not know: colours",
+               seal("version = 1\n[colours]\n"));
   check_answer("has a key that this firmware does not know: muscle",
                seal("version = 1\nmuscle = 3\n"));
 }

@@ -1,0 +1,140 @@
+"""Changes single lines of supervisor, board, loop, telemetry commands, storage and Linux HAL, and asks whether the
+nearest test programs notice.
+
+The lines are divided into runs of equal length. Of each run one mutant is drawn (universalmutator makes them), compiled
+and tried; one that does not compile, compiles to the same code, or is listed in tests/mutants/equivalent.toml, is
+replaced by the next of its run. All of it happens on copies in build/mutate. A run of the program that was ended is
+carried on by the same command, as long as no file of the tree has changed.
+"""
+
+import argparse
+import pathlib
+import queue
+import random
+import sys
+import threading
+import time
+
+from areas import AREAS, files_of, programs
+from results import Results, equivalents, report
+from sample import strata
+from workshop import Failed, Workshop, tree_hash
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDER = ROOT / "build" / "mutate"
+LEAST_KILLED = 0.90  # of the interval's lower end
+AREA_OF = {file: area for area in AREAS for file in files_of(area, ROOT)}
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="toolchain/mutate", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=420,
+                        help="runs of lines; at most one mutant of each counts (default: 420)")
+    parser.add_argument("--seed", type=int, default=1, help="of the sample (default: 1)")
+    parser.add_argument("--jobs", type=int, default=2, help="mutants at a time, each in a copy of its own (default: 2)")
+    parser.add_argument("--minutes", type=float, default=120.0, help="begin no mutant after so long (default: 120)")
+    parser.add_argument("--only", metavar="TEXT", default="", help="files whose path contains this")
+    parser.add_argument("--list", action="store_true", help="print the first mutant of each run, and try none")
+    parser.add_argument("--report", action="store_true", help="print the figures of the last run, and try none")
+    return parser.parse_args()
+
+
+class Run:
+    def __init__(self, options):
+        self.options = options
+        files = [file for file in AREA_OF if options.only in file]
+        self.runs, self.lines = strata(files, ROOT, options.count, options.seed)
+        self.programs = programs({AREA_OF[run[0].file] for run in self.runs})
+        self.known = equivalents(pathlib.Path(__file__).parent / "equivalent.toml")
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        self.results = Results(FOLDER / "results.jsonl",
+                               [tree_hash(ROOT), options.seed, len(self.runs), options.only])
+        self.ends = time.monotonic() + 60.0 * options.minutes
+        self.problems = []
+
+    def by_file(self):
+        """What is not decided, by the file of its first mutant: a file is restored once."""
+        waiting = {}
+        for number, run in enumerate(self.runs):
+            if not self.results.decided(number):
+                waiting.setdefault(run[0].file, []).append(number)
+        return waiting
+
+    def try_all(self):
+        todo = queue.Queue()
+        # In random order: what is tried in a part of the time is a sample as well.
+        groups = list(self.by_file().values())
+        random.Random(self.options.seed).shuffle(groups)
+        for group in groups:
+            todo.put(group)
+        workers = [threading.Thread(target=self.work, args=(i, todo)) for i in range(self.options.jobs)]
+        for worker in workers:
+            worker.start()
+        for worker in workers:
+            worker.join()
+        if self.problems:
+            raise Failed("\n".join(self.problems))
+
+    def work(self, number, todo):
+        try:
+            shop = Workshop(ROOT, FOLDER / str(number), self.programs, max(1, 2 // self.options.jobs))
+            shop.prepare(lambda text: print(f"copy {number}: {text}", flush=True))
+            while time.monotonic() < self.ends:
+                for stratum in todo.get_nowait():
+                    self.try_stratum(shop, stratum)
+            shop.restore()
+        except queue.Empty:
+            shop.restore()
+        except Failed as problem:
+            self.problems.append(str(problem))
+
+    def try_stratum(self, shop, stratum):
+        tried = self.results.tried(stratum)
+        for mutant in self.runs[stratum]:
+            if time.monotonic() > self.ends:
+                return
+            if (mutant.line, mutant.file, mutant.after) in tried:
+                continue
+            start = time.monotonic()
+            area = AREA_OF[mutant.file]
+            verdict, by = ("equivalent", "") if mutant.key() in self.known else shop.judge(mutant, area.programs)
+            self.results.add(stratum, mutant, area.name, verdict, by, time.monotonic() - start)
+            if verdict in ("killed", "survived"):
+                self.tell(stratum, mutant, verdict, by, time.monotonic() - start)
+                return
+
+    def unfinished(self):
+        """Runs of which a mutant is left to be tried, and none has been decided."""
+        return sum(not self.results.decided(number) and len(self.results.tried(number)) < len(run)
+                   for number, run in enumerate(self.runs))
+
+    def tell(self, stratum, mutant, verdict, by, took_s):
+        decided = len({row["stratum"] for row in self.results.rows if row["verdict"] in ("killed", "survived")})
+        what = f"killed by {by}" if by else verdict
+        print(f"[{decided}/{len(self.runs)}] {what} in {took_s:.0f} s: {mutant}", flush=True)
+
+
+def main():
+    options = arguments()
+    run = Run(options)
+    if options.list:
+        for mutants in run.runs:
+            print(mutants[0])
+        print(f"{len(run.runs)} runs of {run.lines} lines")
+        return 0
+    if not options.report:
+        try:
+            run.try_all()
+        except Failed as problem:
+            print(f"toolchain/mutate: {problem}", file=sys.stderr)
+            return 1
+    low = report(run.results, len(run.runs))
+    print(f"the lower end must be at least {100 * LEAST_KILLED:.0f} %")
+    if unfinished := run.unfinished():
+        print(f"{unfinished} runs of lines are not finished: the same command carries on with them")
+    return 0 if low >= LEAST_KILLED and unfinished == 0 else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

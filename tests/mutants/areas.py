@@ -1,0 +1,43 @@
+"""Which code is mutated, and which test programs are nearest to it."""
+
+import dataclasses
+import functools
+import subprocess
+
+
+@dataclasses.dataclass(frozen=True)
+class Area:
+    name: str
+    patterns: tuple  # of files, from the root
+    programs: tuple  # built and run in this order, until one of them notices
+
+
+WHOLE_FIRMWARE = ("firmware_tests", "loop_tests", "fault_matrix")
+AREAS = (
+    Area("supervisor", ("firmware/supervisor/**/*",), WHOLE_FIRMWARE),
+    Area("board", ("firmware/board/*",), WHOLE_FIRMWARE),
+    Area("loop", ("firmware/loop/*",), WHOLE_FIRMWARE),
+    Area("telemetry commands",
+         tuple(f"firmware/telemetry/{name}.*" for name in ("can_link", "commands", "e2e", "leases", "nodes", "opcodes",
+                                                           "run_settings")),
+         ("telemetry_tests", "loop_tests")),
+    Area("storage", ("firmware/storage/*",), ("storage_tests",)),
+    Area("Linux HAL", ("hal/linux/**/*",), ("hal_linux_tests", "gpio_tests", "bus_tests", "can_tests")),
+)
+
+
+def programs(areas):
+    return list(dict.fromkeys(program for area in AREAS if area in areas for program in area.programs))
+
+
+@functools.cache
+def not_built():
+    """What is for the other of libgpiod's versions."""
+    newer = subprocess.run(["pkg-config", "--atleast-version=2", "libgpiod"]).returncode == 0
+    return f"gpio_chip_v{1 if newer else 2}.cpp"
+
+
+def files_of(area, root):
+    found = {path for pattern in area.patterns for path in root.glob(pattern)
+             if path.suffix in (".cpp", ".hpp") and path.name != not_built()}
+    return sorted(str(path.relative_to(root)) for path in found)

@@ -1,0 +1,67 @@
+"""The bookkeeping of toolchain/mutate: what is sampled, what is left out, and the interval."""
+
+import pathlib
+import sys
+import unittest
+from unittest import mock
+
+import areas
+import results
+import sample
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EQUIVALENTS = pathlib.Path(__file__).parent / "equivalent.toml"
+
+
+class Interval(unittest.TestCase):
+    def test_is_the_one_of_the_literature(self):
+        # Clopper and Pearson, Biometrika 26 (1934), table for n = 10 and 95 %.
+        for killed, low, high in ((0, 0.0, 0.3085), (5, 0.1871, 0.8129), (10, 0.6915, 1.0)):
+            found = results.interval(killed, 10)
+            self.assertAlmostEqual(found[0], low, places=4)
+            self.assertAlmostEqual(found[1], high, places=4)
+
+
+class Sample(unittest.TestCase):
+    def of_lines(self, count, lines):
+        made = {i + 1: [sample.Mutant("a", i + 1, "x", f"{k}") for k in range(3)] for i in range(lines)}
+        with mock.patch.object(sample, "mutants_of", return_value=made), \
+                mock.patch.object(pathlib.Path, "read_text", return_value=""):
+            return sample.strata(["a"], pathlib.Path(), count, 1)[0]
+
+    def test_has_every_mutant_of_every_line_once_in_runs_of_neighbours(self):
+        runs = self.of_lines(10, 47)
+        self.assertEqual(len(runs), 10)
+        self.assertEqual(sorted((m.line, m.after) for run in runs for m in run),
+                         [(i + 1, str(k)) for i in range(47) for k in range(3)])
+        for run, next_run in zip(runs, runs[1:]):
+            self.assertLess(max(m.line for m in run), min(m.line for m in next_run))
+            self.assertIn(len(run) // 3, (4, 5))
+
+    def test_is_the_same_for_the_same_seed(self):
+        self.assertEqual(self.of_lines(5, 20), self.of_lines(5, 20))
+
+    def test_leaves_out_what_changes_a_text_or_a_type(self):
+        self.assertEqual(sample.squeezed('fail("a b", 1)'), sample.squeezed('fail("", 1)'))
+        for before, after in (("Handle* h) {", "Handle% h) {"), ("std::vector<int> a;", "std::vector<=int> a;"),
+                              ("std::int64_t a;", "std::int1_t a;"), ("int f() {", "/*int f() {*/")):
+            self.assertFalse(sample.promising(before, after), after)
+        for before, after in (("a = b * c;", "a = b / c;"), ("if (a < b)", "if (a <= b)"), ("a = 64;", "a = (64-1);"),
+                              ("  f();", "  /*f();*/")):
+            self.assertTrue(sample.promising(before, after), after)
+
+
+class Equivalents(unittest.TestCase):
+    def test_are_of_lines_that_are_still_there(self):
+        for file, before, after in results.equivalents(EQUIVALENTS):
+            lines = [line.strip() for line in (ROOT / file).read_text().splitlines()]
+            self.assertIn(before, lines, f"{file}: an equivalent is listed of a line that is gone")
+            self.assertNotEqual(before, after)
+
+    def test_every_area_has_files(self):
+        for area in areas.AREAS:
+            self.assertTrue(areas.files_of(area, ROOT), area.name)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())

@@ -1,0 +1,79 @@
+"""What became of the mutants: kept line by line, so that a run can be ended and carried on at any time."""
+
+import collections
+import json
+import threading
+import tomllib
+
+from scipy.stats import beta
+
+from sample import Mutant
+
+CONFIDENCE = 0.95
+
+
+class Results:
+    def __init__(self, path, of):
+        """`of` names tree, seed and number of strata: results of another are set aside."""
+        self.path = path
+        self.lock = threading.Lock()
+        self.rows = []
+        header = {"of": of}
+        lines = path.read_text().splitlines() if path.exists() else []
+        if lines and json.loads(lines[0]) == header:
+            self.rows = [json.loads(line) for line in lines[1:] if line.endswith("}")]
+        else:
+            if lines:
+                path.rename(path.with_suffix(".earlier.jsonl"))
+            path.write_text(json.dumps(header) + "\n")
+
+    def add(self, stratum, mutant, area, verdict, by, took_s):
+        row = {"stratum": stratum, "area": area, "file": mutant.file, "line": mutant.line, "before": mutant.before,
+               "after": mutant.after, "verdict": verdict, "by": by, "took_s": round(took_s, 1)}
+        with self.lock:
+            self.rows.append(row)
+            with open(self.path, "a") as file:
+                file.write(json.dumps(row) + "\n")
+
+    def tried(self, stratum):
+        return {(row["line"], row["file"], row["after"]) for row in self.rows if row["stratum"] == stratum}
+
+    def decided(self, stratum):
+        return any(row["stratum"] == stratum and row["verdict"] in ("killed", "survived") for row in self.rows)
+
+
+def interval(killed, counted):
+    """Clopper and Pearson's, of the share that is killed."""
+    tail = (1.0 - CONFIDENCE) / 2.0
+    low = beta.ppf(tail, killed, counted - killed + 1) if killed > 0 else 0.0
+    high = beta.ppf(1.0 - tail, killed + 1, counted - killed) if killed < counted else 1.0
+    return float(low), float(high)
+
+
+def equivalents(path):
+    """By what a mutant changes; each must have its reason."""
+    listed = tomllib.loads(path.read_text()).get("equivalent", [])
+    for each in listed:
+        if not each.get("reason", "").strip():
+            raise SystemExit(f"{path}: an equivalent in {each['file']} has no reason")
+    return {(each["file"], each["before"], each["after"]): each["reason"] for each in listed}
+
+
+def report(results, strata):
+    """Prints the figures; the lower end of the killed share's interval."""
+    count = collections.Counter((row["area"], row["verdict"]) for row in results.rows)
+    print(f"\n{'area':20} {'killed':>7} {'survived':>9} {'equivalent':>11} {'same code':>10} {'not compiled':>13}")
+    for area in sorted({row["area"] for row in results.rows}):
+        print(f"{area:20} {count[area, 'killed']:7} {count[area, 'survived']:9} {count[area, 'equivalent']:11} "
+              f"{count[area, 'same code']:10} {count[area, 'invalid']:13}")
+    survivors = [row for row in results.rows if row["verdict"] == "survived"]
+    for row in survivors:
+        print(f"\nsurvived: {Mutant(row['file'], row['line'], row['before'], row['after'])}")
+    killed = sum(row["verdict"] == "killed" for row in results.rows)
+    counted = killed + len(survivors)
+    if counted == 0:
+        return 0.0
+    low, high = interval(killed, counted)
+    print(f"\n{counted} mutants of {strata} strata: {killed} killed, {100 * killed / counted:.1f} % "
+          f"({100 * CONFIDENCE:.0f} %: {100 * low:.1f} to {100 * high:.1f} %)")
+    return low

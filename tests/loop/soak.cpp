@@ -58,9 +58,10 @@ class Soak {
   void follow();
   bool fail_and_recover(const Trouble& trouble);
   bool told(bool holds, const char* what) {
-    if (!holds)
+    if (!holds) {
       std::printf("cycle %ld, tick %ld: %s; state %d, fault %d\n", cycles_, ticks(), what,
                   static_cast<int>(rig_.state()), static_cast<int>(rig_.fault()));
+    }
     return holds;
   }
   long ticks() const { return std::lround(rig_.time_s() / rig_.period_s()); }

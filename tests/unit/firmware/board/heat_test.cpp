@@ -1,5 +1,7 @@
 #include "board/heat.hpp"
 
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 #include "unit/firmware/support/tick.hpp"
@@ -16,7 +18,7 @@ double hottest_after_K(const ThermalSettings& settings, double learned_pole_rad_
                        double time_s) {
   Heat heat(settings, {}, tick_s);
   heat.learn(learned_pole_rad_per_s);
-  for (double t_s = 0.0; t_s < time_s; t_s += tick_s)
+  for (long i = std::lround(time_s / tick_s); i > 0; --i)
     heat.step(power_W, power_W, power_W);
   return heat.hottest_K();
 }

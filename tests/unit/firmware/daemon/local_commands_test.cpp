@@ -125,9 +125,10 @@ TEST(LocalCommands, ThatTheLoopCannotTakeAreAnsweredAtOnceAndTheOthersInTheirOrd
 
 TEST(LocalCommands, ANinthClientIsToldWhyItIsNotHeard) {
   std::vector<Client> clients;
+  clients.reserve(8);
   for (int i = 0; i < 8; ++i)
     clients.push_back(client());
   const Client ninth = client();
   STRCMP_EQUAL("refused: too many clients", ninth.heard().c_str());
-  CHECK(answer_to(clients.back(), "state") != "");
+  CHECK_FALSE(answer_to(clients.back(), "state").empty());
 }

@@ -29,7 +29,8 @@ OF_PROGRAMS = {
     "firmware/can_client": ["can_client/"],
     "firmware/operator": ["operator/", "CLI/", "nlohmann/json.hpp"],
     "firmware/operator/bus": ["operator/bus/", "boost/asio/", "supercoil/hal_linux/socket_can.hpp"],
-    "firmware/operator/monitor": ["operator/bus/", "operator/monitor/", "httplib.h", "nlohmann/json.hpp"],
+    "firmware/operator/monitor": ["operator/bus/", "operator/monitor/", "boost/asio/", "boost/beast/", "httplib.h",
+                                  "nlohmann/json.hpp"],
     "firmware/operator/doctor": ["operator/doctor/", "linux_board/", "nlohmann/json.hpp", "supercoil/hal_linux/"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.M)

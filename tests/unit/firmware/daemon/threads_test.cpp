@@ -49,7 +49,7 @@ config::BoardConfig config_of(const BoardSettings& settings, const std::string& 
   config.settings = settings;
   config.storage_folder = folder;
   for (std::size_t i = 0; i < settings.channels.size(); ++i)
-    config.labels.push_back({"muscle " + std::to_string(i + 1)});
+    config.labels.emplace_back().name = "muscle " + std::to_string(i + 1);
   return config;
 }
 

@@ -133,6 +133,10 @@ TEST(GpioLine, SaysWhoHoldsIt) {
   gpio_kernel().fails_with = EPERM;
   STRCMP_EQUAL("cannot take line 'GPIO17' of gpiochip1 'pinctrl-bcm2711': Operation not permitted",
                answer("pinctrl-bcm2711", "GPIO17").c_str());
+  // Who holds it may be gone by the time of asking.
+  gpio_kernel().fails_with = EBUSY;
+  STRCMP_EQUAL("cannot take line 'GPIO17' of gpiochip1 'pinctrl-bcm2711': Device or resource busy",
+               answer("pinctrl-bcm2711", "GPIO17").c_str());
 }
 
 TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {

@@ -107,11 +107,13 @@ TEST(IioScan, KeepsAnOldScansTimeWhenNothingNewHasCome) {
   }
 }
 
-TEST(IioScan, PassesOnWhyThereIsNone) {
+TEST(IioScan, PassesOnWhyThereIsNoneAndKeepsTheLastScan) {
   const auto scan_ = opened();
+  arrives(scan(1, 2, 3));
+  check(hal::Status::ok, 2, 3, scan_->input(0).latest());
   for (const int error : {EIO, ENODEV, EBUSY}) {
     fail_next(Call::read, "/iio:device0", error);
-    STRCMP_EQUAL(hal::text(status_of(error)), hal::text(scan_->input(0).latest().status));
+    check(status_of(error), 2, 3, scan_->input(0).latest());
   }
   arrives("");
   CHECK(scan_->input(0).latest().status == hal::Status::io_error);

@@ -81,6 +81,16 @@ TEST(Realtime, DoesNotBelieveASystemThatOnlySaysYes) {
   next(Call::set_scheduling, "", [] { return 0; });
   check_failed(set_fifo_priority(::pthread_self(), 80),
                "accepted, but the thread does not have it");
+  // Nor one that leaves another priority than was asked for, where this program may have one.
+  const sched_param none{};
+  sched_param higher{};
+  higher.sched_priority = 2;
+  if (::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &higher) == 0) {
+    next(Call::set_scheduling, "", [] { return 0; });
+    check_failed(set_fifo_priority(::pthread_self(), 1),
+                 "accepted, but the thread does not have it");
+    ::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &none);
+  }
   next(Call::set_affinity, "", [] { return 0; });
   check_failed(pin_to_cpu(::pthread_self(), 700), "accepted, but the thread may run elsewhere");
 }

@@ -9,18 +9,34 @@
 #include "operator/monitor/listener.hpp"
 #include "operator/monitor/terminal.hpp"
 #include "telemetry/frames.hpp"
+#include "telemetry/run_settings.hpp"
 
 namespace supercoil::operating {
 
-/// The last word of the channel's line.
-BoardLink::Answer LocalLink::result(const std::string& channel) {
-  const auto lines = state();
+BoardLink::Answer LocalLink::line_of(const std::string& request, const std::string& channel) {
+  const auto lines = socket_.ask(request);
   if (!lines) return tl::unexpected(lines.error());
   std::istringstream text(*lines);
   for (std::string line; std::getline(text, line);) {
-    if (line.starts_with(channel + " ")) return line.substr(line.rfind(' ') + 1);
+    if (line.starts_with(channel + " ")) return line;
   }
   return tl::unexpected("nothing is known of channel " + channel);
+}
+
+/// The last word of the channel's line.
+BoardLink::Answer LocalLink::result(const std::string& channel) {
+  auto line = line_of("state", channel);
+  if (line) line->erase(0, line->rfind(' ') + 1);
+  return line;
+}
+
+tl::expected<storage::SenseComparison, std::string> LocalLink::senses(const std::string& channel) {
+  const auto line = line_of("senses", channel);
+  if (!line) return tl::unexpected(line.error());
+  storage::SenseComparison senses;
+  std::istringstream text(line->substr(channel.size()));
+  if (text >> senses.supply_gain >> senses.current_gain >> senses.error_ratio) return senses;
+  return tl::unexpected("senses: " + *line);
 }
 
 CanLink::~CanLink() {
@@ -31,15 +47,35 @@ CanLink::~CanLink() {
 BoardLink::Answer CanLink::ask(const std::string& line) {
   const auto command = parse_command(line, telemetry::most_nodes);
   if (!command) return command.error();
-  const auto node = static_cast<std::uint8_t>(command->channel + 1);
+  const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
+  if (!node) return tl::unexpected(node.error());
+  const auto answer = (*node)->ask(command->verb, command->value);
+  if (!answer) return tl::unexpected(answer.error());
+  return answer_text(*answer);
+}
+
+tl::expected<Commander*, std::string> CanLink::commander(std::uint8_t node) {
   if (!nodes_.contains(node)) {
-    auto bus = open_bus(bus_, {can_client::acknowledge_id(node)});
+    auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node)});
     if (!bus) return tl::unexpected(bus.error());
     nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
   }
-  const auto answer = nodes_.at(node)->ask(command->verb, command->value);
-  if (!answer) return tl::unexpected(answer.error());
-  return answer_text(*answer);
+  return nodes_.at(node).get();
+}
+
+tl::expected<storage::SenseComparison, std::string> CanLink::senses(const std::string& channel) {
+  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
+  if (!node) return tl::unexpected(node.error());
+  storage::SenseComparison senses;
+  using telemetry::SenseSetting;
+  for (const auto& [setting, value] : {std::pair{SenseSetting::supply_gain, &senses.supply_gain},
+                                       std::pair{SenseSetting::current_gain, &senses.current_gain},
+                                       std::pair{SenseSetting::sense_error, &senses.error_ratio}}) {
+    const auto heard = (*node)->read(setting);
+    if (!heard) return tl::unexpected(heard.error());
+    *value = heard->value;
+  }
+  return senses;
 }
 
 BoardLink::Answer CanLink::state() {
@@ -68,6 +104,14 @@ BoardLink::Answer CanLink::result(const std::string& channel) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return tl::unexpected("no heartbeat of node " + channel + " within 1 s");
+}
+
+tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
+                                                                const std::string& socket) {
+  if (!can.empty()) return std::make_unique<CanLink>(can);
+  auto opened = BoardSocket::open(socket);
+  if (!opened) return tl::unexpected(opened.error());
+  return std::make_unique<LocalLink>(std::move(*opened));
 }
 
 }  // namespace supercoil::operating

@@ -9,6 +9,7 @@
 
 #include "operator/board_socket.hpp"
 #include "operator/bus/commander.hpp"
+#include "storage/learned.hpp"
 
 namespace supercoil::operating {
 
@@ -27,6 +28,9 @@ class BoardLink {
   virtual Answer state() = 0;
   /// How identify or calibrate ended, by its name (ModeResult). channel: as in a line.
   virtual Answer result(const std::string& channel) = 0;
+  /// What a comparison with a meter found; the date is not told. channel: as in a line.
+  virtual tl::expected<storage::SenseComparison, std::string> senses(
+      const std::string& channel) = 0;
 };
 
 class LocalLink final : public BoardLink {
@@ -35,8 +39,12 @@ class LocalLink final : public BoardLink {
   Answer ask(const std::string& line) override { return socket_.ask(line); }
   Answer state() override { return socket_.ask("state"); }
   Answer result(const std::string& channel) override;
+  tl::expected<storage::SenseComparison, std::string> senses(const std::string& channel) override;
 
  private:
+  /// The line of a channel in what is told of all.
+  Answer line_of(const std::string& request, const std::string& channel);
+
   BoardSocket socket_;
 };
 
@@ -50,10 +58,17 @@ class CanLink final : public BoardLink {
   Answer state() override;
   /// From the next heartbeat.
   Answer result(const std::string& channel) override;
+  tl::expected<storage::SenseComparison, std::string> senses(const std::string& channel) override;
 
  private:
+  tl::expected<Commander*, std::string> commander(std::uint8_t node);
+
   std::string bus_;
   std::map<std::uint8_t, std::unique_ptr<Commander>> nodes_;
 };
+
+/// can: a bus by its name; empty: the supercoild that listens at this socket.
+tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
+                                                                const std::string& socket);
 
 }  // namespace supercoil::operating

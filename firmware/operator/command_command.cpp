@@ -114,13 +114,6 @@ int hold(BoardLink& board, const CommandOptions& options) {
   return answer ? ended(board, options) : concluded(options, rest, answer);
 }
 
-tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const CommandOptions& options) {
-  if (!options.can.empty()) return std::make_unique<CanLink>(options.can);
-  auto socket = BoardSocket::open(options.socket);
-  if (!socket) return tl::unexpected(socket.error());
-  return std::make_unique<LocalLink>(std::move(*socket));
-}
-
 }  // namespace
 
 int command_command(const CommandOptions& options) {
@@ -130,7 +123,7 @@ int command_command(const CommandOptions& options) {
   }
   if (options.sine_period_s > 0.0 && options.hold_s <= 0.0)
     return fail(exit_wrong_input, "a sine needs --for or --hold");
-  const auto board = open_link(options);
+  const auto board = open_link(options.can, options.socket);
   if (!board) return fail(exit_failed, board.error());
   const std::string line = joined(options.words);
   if (line == "state") {

@@ -56,7 +56,13 @@ struct DoctorOptions {
   int cpu = -1;       ///< that supercoild is given; negative: any
   std::string can;    ///< an interface to look at, e.g. can0; empty: that of [can]
   bool json = false;
+  bool compare_senses = false;  ///< then can is a bus to command over; empty: the socket
+  int channel = 1;
+  double power_W = 0.0;  ///< of the comparison; 0: what is safe by the configuration
+  std::string socket = "/run/supercoil/commands";
 };
+/// Leads a person with a meter through a comparison of a running board's senses.
+int compare_senses(const DoctorOptions& options);
 int doctor_command(const DoctorOptions& options);
 
 struct MonitorOptions {

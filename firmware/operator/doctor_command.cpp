@@ -8,6 +8,7 @@
 namespace supercoil::operating {
 
 int doctor_command(const DoctorOptions& options) {
+  if (options.compare_senses) return compare_senses(options);
   const auto config = config::read_board_config(options.config);
   if (!config) {
     std::fputs(config::to_text(config.error()).c_str(), stderr);

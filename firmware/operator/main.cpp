@@ -99,7 +99,8 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   CLI::App* doctor = app.add_subcommand(
       "doctor",
       "Look at the board on which this runs before anybody heats anything: kernel, rights, lines, "
-      "PWM, converters, watchdog. Heats nothing; opens devices only while no supercoild runs");
+      "PWM, converters, watchdog. Heats nothing, but with --compare-senses; opens devices only "
+      "while no supercoild runs");
   doctor->add_option("--config", options.config, "The board's configuration")
       ->type_name("FILE")
       ->capture_default_str();
@@ -113,8 +114,26 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
       ->check(CLI::Range(0, 1023));
   doctor
       ->add_option("--can", options.can,
-                   "Look at this CAN interface, e.g. can0 [that of the configuration]")
+                   "Look at this CAN interface, e.g. can0 [that of the configuration]; with "
+                   "--compare-senses command over this bus, can0 or "
+                   "socketcand:[HOST:]PORT[/INTERFACE] [the supercoild of this board]")
       ->type_name("NAME");
+  CLI::Option* compare = doctor->add_flag(
+      "--compare-senses", options.compare_senses,
+      "Instead compare the senses of a running board with a meter: heats a little, asks for the "
+      "meter's volts and amperes at two powers, and makes the bounds of its power narrow");
+  doctor->add_option("--channel", options.channel, "To compare: from 1; over CAN its node")
+      ->check(CLI::Range(1, telemetry::most_nodes))
+      ->capture_default_str()
+      ->needs(compare);
+  doctor
+      ->add_option("--power", options.power_W,
+                   "The greater of the two powers in W [what cannot burn by the configuration]")
+      ->check(CLI::Range(0.01, 1e3))
+      ->needs(compare);
+  doctor->add_option("--socket", options.socket, "Where supercoild listens, to compare")
+      ->capture_default_str()
+      ->needs(compare);
   doctor->add_flag("--json", options.json, "Print one JSON object instead of lines");
 }
 

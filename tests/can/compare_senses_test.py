@@ -1,0 +1,125 @@
+"""supercoil doctor --compare-senses leads through a comparison on the simulated board, over socketcand."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import unittest
+
+from live import DEADLINE_S, TRIES, Simulator
+
+SUPERCOIL = os.environ["SUPERCOIL"]
+EXAMPLE = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"]) / "raspberry-pi-pwm-ads1115.toml"
+BENCH = pathlib.Path(__file__).resolve().parents[2] / "host_sim/scenarios/bench.toml"
+SUPPLY_V = 12.0
+POWER_W = 1.0
+# What a busy machine does to any master in real time: a command expires, the lease ends, an answer is late.
+STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready")
+
+
+def right_answers():
+    return [text for power_W in (POWER_W / 2, POWER_W) for text in (f"{SUPPLY_V}", f"{power_W / SUPPLY_V:.5f}")]
+
+
+class CompareSenses(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        scenario = pathlib.Path(folder.name) / "never-compared.toml"
+        scenario.write_text(BENCH.read_text() + "\n[senses]\nerror_ratio = 0.0\n")
+        self.simulator = Simulator(folder.name, scenario)
+        self.addCleanup(self.simulator.end)
+        self.bus = f"socketcand:{self.simulator.port}"
+
+    def supercoil(self, *arguments, **options):
+        return subprocess.run([SUPERCOIL, *arguments, "--can", self.bus], capture_output=True, text=True,
+                              timeout=DEADLINE_S, **options)
+
+    def doctor(self, answers, *arguments):
+        """Again where the machine kept a program from running for so long that the board let go of the muscle."""
+        for _ in range(TRIES):
+            self.supercoil("command", "1", "reset")
+            done = self.supercoil("doctor", "--compare-senses", "--power", str(POWER_W), "--config", EXAMPLE,
+                                  *arguments, input="".join(f"{answer}\n" for answer in answers))
+            if not any(why in done.stderr for why in STARVED):
+                return done
+        self.fail(f"the machine is too busy: {done.stderr}")
+
+    def goes_by(self):
+        told = {}
+        for line in self.supercoil("setting", "1", "--json").stdout.splitlines():
+            setting = json.loads(line)
+            told[setting["setting"]] = setting["value"]
+        return told["supply_gain"], told["current_gain"], told["sense_error_ratio"]
+
+    def assert_nothing_changed(self):
+        self.assertEqual(self.goes_by(), (1.0, 1.0, 0.0))
+        self.assert_cold()
+
+    def assert_cold(self):
+        self.assertRegex(self.supercoil("command", "state").stdout, "node 1: (disarmed|fault)")
+
+    def test_right_answers_narrow_the_bounds_and_leave_the_channel_disarmed(self):
+        done = self.doctor(right_answers(), "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)
+        supply_gain, current_gain, error_ratio = self.goes_by()
+        self.assertAlmostEqual(supply_gain, 1.0, delta=0.01)
+        self.assertAlmostEqual(current_gain, 1.0, delta=0.02)
+        self.assertGreaterEqual(error_ratio, 0.0199)
+        self.assertLess(error_ratio, 0.06)
+        self.assertAlmostEqual(found["error_ratio"], error_ratio, places=5)
+        self.assertIn("the true power is 0.9", found["bounds"])
+        self.assert_cold()
+
+    def test_a_reading_that_contradicts_the_others_is_refused_by_the_board(self):
+        answers = right_answers()
+        answers[3] = f"{1.1 * float(answers[3]):.5f}"
+        done = self.doctor(answers)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("refused: out_of_range. This reading and the others do not fit", done.stderr)
+        self.assert_nothing_changed()
+
+    def test_nonsense_is_asked_for_again_with_what_is_allowed(self):
+        answers = right_answers()
+        swapped = answers[1]
+        done = self.doctor(["twelve", swapped, *answers])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for refused in ("twelve", swapped):
+            self.assertIn(f"'{refused}' is refused: here it must be a number from 10.8 to 13.2", done.stdout)
+        done = self.doctor(["", "-12", "1e9", *answers])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no allowed volts at the supply terminals in 3 answers", done.stderr)
+
+    def test_half_of_the_answers_change_nothing(self):
+        done = self.doctor(right_answers()[:2])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("nobody answers", done.stderr)
+        self.assert_nothing_changed()
+
+    def test_ctrl_c_leaves_the_channel_disarmed(self):
+        for _ in range(TRIES):
+            self.supercoil("command", "1", "reset")
+            with subprocess.Popen(
+                    [SUPERCOIL, "doctor", "--compare-senses", "--power", str(POWER_W), "--config", EXAMPLE, "--can",
+                     self.bus], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as doctor:
+                first = [doctor.stdout.readline(), doctor.stdout.readline()]
+                doctor.send_signal(signal.SIGINT)
+                _, told = doctor.communicate(timeout=DEADLINE_S)
+            self.assertIn("Ctrl-C ends it at any time", first[0])
+            if "interrupted" in told:
+                break
+        self.assertIn("interrupted", told)
+        self.assertEqual(doctor.returncode, 1)
+        self.assert_nothing_changed()
+
+    def test_a_power_must_come_from_somewhere(self):
+        done = self.supercoil("doctor", "--compare-senses", "--config", "/no/board.toml")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("/no/board.toml", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

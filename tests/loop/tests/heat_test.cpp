@@ -104,20 +104,22 @@ TEST(Heat, OfTheGreatestPowerHeldForGoodIsNoFaultUnlessABudgetSaysSo) {
   // docs/safety.md states both times.
   const std::string held =
       "simulation.duration_s = 300.0\ncontroller.kind = 'power'\n"
+      "thermal.transfer_part = [0.7, 2.2]\n"  // else it is derated, and controller_invalid
       "reference = {kind = 'power', offset_W = 4.5, amplitudes_W = [0.0], "
       "angular_frequencies_rad_per_s = [1.0]}\n";
   const Heat heat = heat_of(read(held));
   CHECK(heat.fault == Fault::none);
   test::RigSettings settings = test::rough_board();
   settings.firmware.channels[0].supervision.energy_J = 240.0;
-  settings.firmware.channels[0].supervision.responding_part = 0.01;
+  settings.firmware.channels[0].thermal.bounds.lowest_transfer_W_per_K = 0.08;  // not derated
+  settings.firmware.channels[0].senses.error_ratio = 0.02;
   settings.firmware.channels[0].supervision.max_travel_m = 0.042;
   test::Rig rig(settings);
   rig.boot();
   rig.arm();
   rig.run(0.2);
   const double start_s = rig.time_s();
-  rig.scale = 2.5;  // 4.5 W
+  rig.scale = 1.799;  // 4.5 W
   rig.heat(test::Task::power);
   CHECK(rig.run_until([&] { return rig.state() == State::fault; }, 200.0));
   CHECK(rig.fault() == Fault::energy_budget_exceeded);

@@ -43,7 +43,7 @@ struct ChannelSupervision {
   double max_travel_m = 0.035;
   double energy_window_s = 60.0;
   double energy_J = default_energy_J(4.5, 60.0);  ///< within the window
-  double resistance_part = 0.3;  ///< drift of the cold resistance
+  double resistance_part = 0.3;                   ///< drift of the cold resistance
   // Supply, of the channel
   double max_measured_W = default_max_measured_W(4.5);
   double over_power_s = 0.1;

@@ -46,14 +46,19 @@ def command(opcode, value=0.0):
         heard = PROTOCOL.decode_message(frame.arbitration_id, frame.data)
         signals.update({name: round(x, 7) if isinstance(x, float) else x for name, x in heard.items()})
         if "refusal" in heard and (heard["session"], heard["counter"]) == (session, counter):
-            return heard if heard["refusal"] == "none" else sys.exit(f"{opcode} is refused: {heard['refusal']}")
+            return heard if heard["refusal"] in ("none", "claim_again") else sys.exit(f"{opcode} is refused: {heard['refusal']}")
     sys.exit(f"{opcode}: no answer")
+
+
+def claim():
+    """The session under which to command; the board wants its own random number repeated first."""
+    return command("lease", command("lease")["granted"])["granted"]
 
 
 if __name__ == "__main__":
     filters = [{"can_id": frame_id, "can_mask": 0x7FF, "extended": False} for frame_id in OURS]
     with can.Bus(can_filters=filters, **dict(word.split("=") for word in sys.argv[1:])) as bus:
-        session = command("claim")["granted"]
+        session = claim()
         command("arm")
         time.sleep(0.2)  # a probe measures the heater
         for i in range(200):
@@ -62,4 +67,4 @@ if __name__ == "__main__":
                 print(f"{signals['position_m']} m, {signals['hottest_C']} °C at most", flush=True)
             time.sleep(0.05)
         command("disarm")
-        command("release")
+        command("lease", -1.0)

@@ -42,7 +42,8 @@ std::uint8_t Master::next_counter() {
 }
 
 hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
-  asked_as_ = opcode == telemetry::claim && session_ == 0 ? nonce_ : session_;
+  asked_as_ = opcode == telemetry::lease && session_ == 0 ? name_ : session_;
+  releasing_ = opcode == telemetry::lease && value == telemetry::releases;
   supercoil_command_t m{};
   m.counter = next_counter();
   m.opcode = opcode;
@@ -53,11 +54,11 @@ hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
 }
 
 hal::CanFrame Master::claim() {
-  return frame(telemetry::claim, 0.0);
+  return frame(telemetry::lease, session_ == 0 ? nonce_ : telemetry::claims);
 }
 
 hal::CanFrame Master::release() {
-  return frame(telemetry::release, 0.0);
+  return frame(telemetry::lease, telemetry::releases);
 }
 
 hal::CanFrame Master::command(Verb verb, double value) {
@@ -88,6 +89,12 @@ std::optional<Master::Setting> Master::hear_setting(const hal::CanFrame& frame, 
   return Setting{m.setting, refusal, m.value};
 }
 
+void Master::hear_of_lease(Refusal refusal, std::uint16_t granted) {
+  nonce_ = refusal == Refusal::claim_again ? granted : 0;
+  if (refusal == Refusal::claim_again) session_ = 0;
+  if (refusal == Refusal::none) session_ = releasing_ ? 0 : granted;
+}
+
 std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {
   if (frame.id != acknowledge_id(node_) || !e2e::intact(frame, SUPERCOIL_ACKNOWLEDGE_LENGTH))
     return std::nullopt;
@@ -96,9 +103,8 @@ std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {
   if (m.counter != counter_ || m.session != asked_as_ || m.refusal >= refusal_names.size())
     return std::nullopt;
   const auto refusal = static_cast<Refusal>(m.refusal);
-  if (m.opcode == telemetry::claim && refusal == Refusal::none) session_ = m.granted;
-  if (ends_lease(refusal) || (m.opcode == telemetry::release && refusal == Refusal::none))
-    session_ = 0;
+  if (m.opcode == telemetry::lease) hear_of_lease(refusal, m.granted);
+  if (ends_lease(refusal)) session_ = 0;
   return Heard{m.opcode, refusal};
 }
 

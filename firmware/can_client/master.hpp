@@ -22,14 +22,15 @@ hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);
 /// Neither sends nor receives.
 class Master {
  public:
-  /// nonce: any number by which this master knows the answer to its claim; of its own, so that two
+  /// name: any number by which this master knows the answer to its claim; of its own, so that two
   /// masters do not take each other's.
-  Master(std::uint8_t node, std::uint16_t nonce) : node_(node), nonce_(nonce) {}
+  Master(std::uint8_t node, std::uint16_t name) : node_(node), name_(name) {}
 
   std::uint8_t node() const { return node_; }
   bool holds_lease() const { return session_ != 0; }
 
-  /// Asks for the lease, or keeps the one that this master has.
+  /// Asks for the lease, or keeps the one that this master has. After the answer claim_again it is
+  /// asked for once more, with what that answer told.
   hal::CanFrame claim();
   hal::CanFrame release();
   /// Under the lease; without one only disarm is obeyed.
@@ -56,9 +57,12 @@ class Master {
  private:
   hal::CanFrame frame(std::uint8_t opcode, double value);
   std::uint8_t next_counter();
+  void hear_of_lease(Refusal refusal, std::uint16_t granted);
 
   std::uint8_t node_;
-  std::uint16_t nonce_;
+  std::uint16_t name_;
+  std::uint16_t nonce_ = 0;  ///< that the next claim must repeat; 0: none was told
+  bool releasing_ = false;   ///< the last frame gave the lease back
   std::uint16_t session_ = 0;
   std::uint16_t asked_as_ = 0;  ///< what the last frame carried as its session
   std::uint8_t counter_ = 0;    ///< of the last frame

@@ -58,8 +58,9 @@ tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig
   auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
   if (!bus) return tl::unexpected("can: " + bus.error().text);
   parts.can_bus = std::move(*bus);
-  parts.can = std::make_unique<telemetry::CanLink>(*config.can, config.settings, *parts.loop,
-                                                   *parts.can_bus, std::random_device()());
+  parts.can =
+      std::make_unique<telemetry::CanLink>(*config.can, config.settings, *parts.loop,
+                                           *parts.can_bus, [] { return std::random_device()(); });
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "supercoil/control/actuator/conversions.hpp"
 
@@ -205,7 +206,10 @@ void Channel::drive() {
 }
 
 void Channel::disarm(Fault cause, const detectors::Margin& margin) {
-  if (state_.state() != State::fault) first_margin_ = margin;
+  if (state_.state() != State::fault) {
+    first_margin_ = margin;
+    cause_is_new_ = cause != Fault::none;
+  }
   state_.disarm(cause);
   probe_.stop();
   comparison_.forget();
@@ -283,6 +287,11 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.turn = faults[(std::uint64_t{turn_} * faults.size()) >> 32U].fault;
   const Verdict& judge = board_verdict.judges(s.turn) ? board_verdict : supervisor_.verdict();
   s.margin = judge.margin(s.turn);
+  // The first cause is told by the row that first shows the fault, whosever turn it is.
+  if (std::exchange(cause_is_new_, false)) {
+    s.turn = s.fault;
+    s.margin = first_margin_;
+  }
   s.gain = controllers_[controller_].gain(turn_);
   return s;
 }

@@ -163,6 +163,7 @@ class Channel {
   Evidence evidence_;
   Fault present_fault_ = Fault::none;
   detectors::Margin first_margin_;
+  bool cause_is_new_ = false;  ///< no row has told it yet
 
   hal::Time position_taken_{-1};
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since

@@ -144,6 +144,7 @@ void Loop::judge_board(hal::Time now, double late_s, std::int64_t skipped) {
     e.lines_ok = e.lines_ok && channel->lines_ok();
   e.telemetry_beats = health_.telemetry_beats.load(std::memory_order_relaxed);
   e.bus = health_.bus.load(std::memory_order_relaxed);
+  e.node_conflict = health_.node_conflict.load(std::memory_order_relaxed);
   e.configuration_changed = health_.configuration_changed.load(std::memory_order_relaxed);
   e.self_test_failed = self_test_.failed();
   const Fault present = supervisor_.step(e);

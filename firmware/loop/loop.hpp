@@ -20,6 +20,7 @@ namespace supercoil {
 struct Health {
   std::atomic<std::uint32_t> telemetry_beats{0};
   std::atomic<hal::CanState> bus{hal::CanState::active};
+  std::atomic<bool> node_conflict{false};
   std::atomic<bool> configuration_changed{false};
 };
 

@@ -30,6 +30,7 @@ Fault BoardSupervisor::step(const BoardEvidence& e) {
   const bool passive = off || e.bus == hal::CanState::error_passive;
   verdict_.note(bus_off, bus_off_.step(off), bus_off_);
   verdict_.note(bus_error_passive, bus_passive_.step(passive), bus_passive_);
+  verdict_.note(node_conflict, node_conflict_.step(e.node_conflict), node_conflict_);
   verdict_.note(line_failed, lines_.step(!e.lines_ok), lines_);
   verdict_.note(configuration_invalid, configuration_.step(e.configuration_changed),
                 configuration_);

@@ -23,6 +23,7 @@ struct BoardEvidence {
   bool lines_ok = true;      ///< every line of the last tick was set
   std::uint32_t telemetry_beats = 0;
   hal::CanState bus = hal::CanState::active;
+  bool node_conflict = false;  ///< another board speaks as a node of this one
   bool configuration_changed = false;
   bool self_test_failed = false;
 };
@@ -50,6 +51,7 @@ class BoardSupervisor {
   detectors::Silent telemetry_;
   detectors::Lasting bus_off_;
   detectors::Lasting bus_passive_;
+  detectors::Flag node_conflict_;
   double late_s_;
 };
 

@@ -38,11 +38,14 @@ enum class Refusal : std::uint8_t {
   no_lease = 9,        ///< over CAN: nobody holds it; claim it first
   wrong_counter = 10,  ///< over CAN: repeated, or too many were lost before it
   too_many = 11,       ///< more commands than a tick can take
+  claim_again = 12,    ///< over CAN: the lease is free, for who claims it with the number told
+  other_version = 13,  ///< over CAN: of another version of the protocol
 };
 
-inline constexpr std::array<std::string_view, 12> refusal_names{
-    "none",         "wrong_state",     "cause_persists", "no_edge",  "not_ready",     "busy",
-    "out_of_range", "no_such_channel", "not_yours",      "no_lease", "wrong_counter", "too_many"};
+inline constexpr std::array<std::string_view, 14> refusal_names{
+    "none",          "wrong_state",  "cause_persists",  "no_edge",      "not_ready",
+    "busy",          "out_of_range", "no_such_channel", "not_yours",    "no_lease",
+    "wrong_counter", "too_many",     "claim_again",     "other_version"};
 constexpr std::string_view name(Refusal refusal) {
   return refusal_names[static_cast<std::size_t>(refusal)];
 }

@@ -2,11 +2,11 @@
 
 namespace supercoil {
 
-const std::array<FaultInfo, 30>& all_faults() {
+const std::array<FaultInfo, 31>& all_faults() {
   using enum Fault;
   static constexpr Scope channel = Scope::channel;
   static constexpr Scope board = Scope::board;
-  static constexpr std::array<FaultInfo, 30> faults{{
+  static constexpr std::array<FaultInfo, 31> faults{{
       {sensor_out_of_range, "sensor_out_of_range", "sensors", channel,
        "a reading lies outside what the sensor can give"},
       {sensor_stale, "sensor_stale", "sensors", channel, "no fresh reading within the allowed age"},
@@ -49,6 +49,8 @@ const std::array<FaultInfo, 30>& all_faults() {
       {bus_off, "bus_off", "bus", channel, "the CAN controller left the bus"},
       {bus_error_passive, "bus_error_passive", "bus", channel,
        "the CAN controller sees too many errors"},
+      {node_conflict, "node_conflict", "bus", channel,
+       "another board on the bus has a node of this one"},
       {configuration_invalid, "configuration_invalid", "self", board,
        "the configuration is invalid or changed under way"},
       {controller_invalid, "controller_invalid", "self", channel,

@@ -45,6 +45,7 @@ enum class Fault : std::uint8_t {
   // Bus
   bus_off = 70,
   bus_error_passive = 71,
+  node_conflict = 72,
   // Self
   configuration_invalid = 80,
   controller_invalid = 81,
@@ -66,7 +67,7 @@ struct FaultInfo {
 };
 
 /// All faults in the order of their numbers, `none` not among them.
-const std::array<FaultInfo, 30>& all_faults();
+const std::array<FaultInfo, 31>& all_faults();
 /// Empty for none and for a number that no fault has.
 std::optional<FaultInfo> info(Fault fault);
 /// "none" for none.

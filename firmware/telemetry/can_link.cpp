@@ -1,5 +1,7 @@
 #include "telemetry/can_link.hpp"
 
+#include <utility>
+
 #include <supercoil.h>
 
 #include "telemetry/nodes.hpp"
@@ -20,8 +22,9 @@ std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
 
 std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
   std::vector<std::uint16_t> ids;
+  // The heartbeat of a board with the same node: every board sends it.
   for (const unsigned id : {SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_SETTING_WRITE_FRAME_ID,
-                            SUPERCOIL_SETTING_READ_FRAME_ID}) {
+                            SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_STATUS_FRAME_ID}) {
     for (std::size_t i = 0; i < channels; ++i)
       ids.push_back(id_of(id, static_cast<Node>(settings.first_node + i)));
   }
@@ -29,13 +32,14 @@ std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t ch
 }
 
 CanLink::CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop,
-                 hal::CanBus& bus, std::uint32_t seed)
+                 hal::CanBus& bus, Leases::Random random)
     : loop_(&loop),
       bus_(&bus),
       publisher_(settings, muscles_of(board), loop.timing(), bus),
-      leases_(settings.lease_s, board.channels.size(), seed),
+      leases_(settings.lease_s, board.channels.size(), std::move(random)),
       commands_(settings, leases_),
-      settings_(settings, board, leases_, publisher_, loop) {}
+      settings_(settings, board, leases_, publisher_, loop),
+      first_node_(settings.first_node) {}
 
 void CanLink::answer(const Answer& answer) {
   if (const auto frame = commands_.answered(answer)) publisher_.send(*frame);
@@ -44,12 +48,18 @@ void CanLink::answer(const Answer& answer) {
 void CanLink::poll(hal::Time now) {
   loop_->health().bus.store(bus_->state(), std::memory_order_relaxed);
   receive(now);
+  loop_->health().node_conflict.store(now < conflict_until_, std::memory_order_relaxed);
   publisher_.poll(now, [&](std::uint8_t channel) { return leases_.held(channel, now); });
+}
+
+bool CanLink::is_own(const hal::CanFrame& frame) const {
+  return channel_of(frame, SUPERCOIL_STATUS_FRAME_ID, first_node_, leases_.channels()).has_value();
 }
 
 void CanLink::receive(hal::Time now) {
   hal::CanFrame frame;
   for (int i = 0; i < most_at_once && bus_->receive(frame) == hal::Status::ok; ++i) {
+    if (is_own(frame)) conflict_until_ = now + conflict_lasts;
     const Commands::Taken taken = commands_.take(frame, now);
     if (taken.damaged) loop_->send_damaged(*taken.damaged);
     if (taken.answer) publisher_.send(*taken.answer);

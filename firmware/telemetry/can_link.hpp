@@ -14,9 +14,9 @@ std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t ch
 /// runner between two ticks. Nothing blocks.
 class CanLink {
  public:
-  /// board: as the loop was made with. seed: see Leases. Loop and bus outlive the link.
+  /// board: as the loop was made with. Loop and bus outlive the link.
   CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop, hal::CanBus& bus,
-          std::uint32_t seed);
+          Leases::Random random);
 
   /// The newest row of a channel.
   void offer(const Row& row) { publisher_.offer(row); }
@@ -29,9 +29,13 @@ class CanLink {
 
  private:
   void receive(hal::Time now);
+  /// A frame that only the board of its node sends: this bus never gives a board its own.
+  bool is_own(const hal::CanFrame& frame) const;
 
   /// Frames taken in one poll: more than a full bus brings within a telemetry thread's round.
   static constexpr int most_at_once = 256;
+  /// Longer than two heartbeats of the slowest rate.
+  static constexpr hal::Duration conflict_lasts = std::chrono::milliseconds(2500);
 
   Loop* loop_;
   hal::CanBus* bus_;
@@ -39,6 +43,8 @@ class CanLink {
   Leases leases_;
   Commands commands_;
   RunSettings settings_;
+  Node first_node_;
+  hal::Time conflict_until_{};
 };
 
 }  // namespace supercoil::telemetry

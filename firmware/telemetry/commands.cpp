@@ -28,13 +28,15 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
   const bool stop = m.opcode == static_cast<std::uint8_t>(Verb::disarm) && m.value == 0.0F;
   const Refusal checked = check(asked, m.value, now);
   if (checked == Refusal::wrong_counter && !stop) taken.damaged = *channel;
-  if (checked != Refusal::none && !stop) {
+  if (checked == Refusal::claim_again) {
+    taken.answer = acknowledge(asked, checked, leases_->nonce(*channel));
+  } else if (checked != Refusal::none && !stop) {
     taken.answer = acknowledge(asked, checked);
-  } else if (m.opcode == Opcode::claim) {
-    taken.answer = acknowledge(asked, Refusal::none, leases_->session(*channel));
-  } else if (m.opcode == Opcode::release) {
+  } else if (m.opcode == Opcode::lease && m.value == releases) {
     leases_->release(*channel);
     taken.answer = acknowledge(asked, Refusal::none);
+  } else if (m.opcode == Opcode::lease) {
+    taken.answer = acknowledge(asked, Refusal::none, leases_->session(*channel));
   } else if (waiting_.size() == most_waiting) {
     taken.answer = acknowledge(asked, Refusal::too_many);
   } else {
@@ -47,13 +49,17 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
 }
 
 Refusal Commands::check(const Asked& asked, float value, hal::Time now) {
-  if (asked.opcode == Opcode::claim && value == 0.0F)
-    return leases_->claim(asked.channel, asked.session, asked.counter, now);
+  const bool known = asked.opcode != Opcode::claim_of_version_3;
+  const bool holder =
+      leases_->held(asked.channel, now) && asked.session == leases_->session(asked.channel);
+  if (known && asked.opcode == Opcode::lease && value != releases && !holder)
+    return leases_->claim(asked.channel, asked.session, value, asked.counter, now);
   const Refusal checked = leases_->check(asked.channel, asked.session, asked.counter, now);
-  // Also of a claim that means nothing, the holder's counter goes on: else a frame that was heard
+  // Also of a frame that means nothing, the holder's counter goes on: else a frame that was heard
   // before it would be obeyed once more.
-  const bool meant = asked.opcode != Opcode::claim || checked == Refusal::wrong_counter;
-  return meant ? checked : Refusal::out_of_range;
+  if (!known && checked != Refusal::wrong_counter) return Refusal::other_version;
+  const bool meant = asked.opcode != Opcode::lease || value == claims || value == releases;
+  return meant || checked != Refusal::none ? checked : Refusal::out_of_range;
 }
 
 std::optional<hal::CanFrame> Commands::answered(const Answer& answer) {

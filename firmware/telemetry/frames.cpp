@@ -49,6 +49,14 @@ hal::CanFrame emergency(Node node, const Row& row) {
                 supercoil_emergency_pack);
 }
 
+hal::CanFrame first_cause(Node node, const Row& row) {
+  supercoil_first_cause_t m{};
+  m.measured = row.margin_measured;
+  m.limit = row.margin_limit;
+  return packed(SUPERCOIL_FIRST_CAUSE_FRAME_ID, SUPERCOIL_FIRST_CAUSE_LENGTH, node, m,
+                supercoil_first_cause_pack);
+}
+
 hal::CanFrame measurement(Node node, const Row& row) {
   supercoil_measurement_t m{};
   m.position_m =

@@ -50,6 +50,8 @@ struct BoardTiming {
 // A quantity outside of its signal's range becomes the range's nearest end; NaN becomes "not
 // available". The generated code would wrap one and is undefined for the other.
 hal::CanFrame emergency(Node node, const Row& row);
+/// Of the row that first shows a fault.
+hal::CanFrame first_cause(Node node, const Row& row);
 hal::CanFrame measurement(Node node, const Row& row);
 hal::CanFrame tracking(Node node, const Row& row);
 hal::CanFrame power(Node node, const Row& row);

@@ -1,11 +1,13 @@
 #include "telemetry/leases.hpp"
 
+#include <utility>
+
 #include "telemetry/e2e.hpp"
 
 namespace supercoil::telemetry {
 
-Leases::Leases(double lease_s, std::size_t channels, std::uint32_t seed)
-    : lasts_(hal::duration_from(lease_s)), leases_(channels), random_(seed) {}
+Leases::Leases(double lease_s, std::size_t channels, Random random)
+    : lasts_(hal::duration_from(lease_s)), leases_(channels), random_(std::move(random)) {}
 
 Leases::Lease& Leases::lease_now(std::uint8_t channel, hal::Time now) {
   Lease& lease = leases_[channel];
@@ -13,15 +15,22 @@ Leases::Lease& Leases::lease_now(std::uint8_t channel, hal::Time now) {
   return lease;
 }
 
-/// A claim whose answer was lost is repeated, and granted again while nothing has come since.
-Refusal Leases::claim(std::uint8_t channel, std::uint16_t claimed_as, std::uint8_t counter,
-                      hal::Time now) {
+/// A claim whose answer was lost is made anew, and granted while nothing has come since. All who
+/// claim meanwhile are told the same nonce; the first to repeat it has the lease.
+Refusal Leases::claim(std::uint8_t channel, std::uint16_t claimed_as, double nonce,
+                      std::uint8_t counter, hal::Time now) {
   Lease& lease = lease_now(channel, now);
-  if (lease.session != 0 && claimed_as == lease.session)
-    return check(channel, claimed_as, counter, now);
-  const bool again = lease.session != 0 && !lease.used && lease.claimed_as == claimed_as;
+  const bool again = !lease.used && lease.claimed_as == claimed_as;
   if (lease.session != 0 && !again) return Refusal::not_yours;
-  if (!again) lease.session = lease.last_session = new_session(lease);
+  if (lease.nonce == 0 || now - lease.nonce_from > lasts_) {
+    lease.nonce = random_but(lease.last_nonce);
+    lease.last_nonce = lease.nonce;
+    lease.nonce_from = now;
+    return Refusal::claim_again;
+  }
+  if (nonce != lease.nonce) return Refusal::claim_again;
+  lease.nonce = 0;
+  lease.session = lease.last_session = random_but(lease.last_session);
   lease.claimed_as = claimed_as;
   lease.used = false;
   lease.counter = counter;
@@ -43,12 +52,11 @@ Refusal Leases::check(std::uint8_t channel, std::uint16_t session, std::uint8_t 
   return Refusal::none;
 }
 
-std::uint16_t Leases::new_session(const Lease& lease) {
-  std::uint16_t session = 0;
-  // The engine's own numbers are the same everywhere; a distribution's are not.
-  while (session == 0 || session == lease.last_session)
-    session = static_cast<std::uint16_t>(random_());
-  return session;
+std::uint16_t Leases::random_but(std::uint16_t last) {
+  std::uint16_t number = 0;
+  while (number == 0 || number == last)
+    number = static_cast<std::uint16_t>(random_());
+  return number;
 }
 
 }  // namespace supercoil::telemetry

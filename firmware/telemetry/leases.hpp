@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
+#include <functional>
 #include <vector>
 
 #include "supercoil/hal/clock.hpp"
@@ -11,22 +11,27 @@
 
 namespace supercoil::telemetry {
 
-/// A lease a channel. It is claimed, and granted with a session: a random number that every command
-/// must carry. It ends when it is released or unused for lease_s; claiming it again under its
-/// session keeps it, where there is nothing else to command. A session is never granted twice in a
-/// row, so frames of an earlier one are refused. This guards against mistakes and faults, not
-/// against somebody who means harm: whoever can send can also claim.
+/// A lease a channel. A claim is answered with a nonce; the claim that repeats it is granted with a
+/// session, which every command must carry. Both are random numbers of the board's, and a nonce is
+/// good for one claim within lease_s: recorded frames get no lease. A lease ends when it is
+/// released or unused for lease_s; keeping it under its session is for where there is nothing else
+/// to command. A session is never granted twice in a row, so frames of an earlier one are refused.
+/// This guards against mistakes, faults and recordings, not against somebody who means harm:
+/// whoever can send can also claim.
 class Leases {
  public:
-  /// seed: of the sessions; on a board from a source of true randomness.
-  Leases(double lease_s, std::size_t channels, std::uint32_t seed);
+  /// 32 bits that nobody can foretell: on a board from a source of true randomness.
+  using Random = std::function<std::uint32_t()>;
+  Leases(double lease_s, std::size_t channels, Random random);
 
   std::size_t channels() const { return leases_.size(); }
   bool held(std::uint8_t channel, hal::Time now) const { return live(leases_[channel], now); }
 
-  /// claimed_as: what the claim carries as its session. Granted: session().
-  Refusal claim(std::uint8_t channel, std::uint16_t claimed_as, std::uint8_t counter,
+  /// claimed_as: what the claim carries as its session; nonce: what it repeats, 0: none yet.
+  /// Granted: session(). claim_again: with nonce().
+  Refusal claim(std::uint8_t channel, std::uint16_t claimed_as, double nonce, std::uint8_t counter,
                 hal::Time now);
+  std::uint16_t nonce(std::uint8_t channel) const { return leases_[channel].nonce; }
   /// Of the last claim that was granted, 0: nobody's.
   std::uint16_t session(std::uint8_t channel) const { return leases_[channel].session; }
   void release(std::uint8_t channel) { leases_[channel].session = 0; }
@@ -40,20 +45,24 @@ class Leases {
     std::uint16_t session = 0;  ///< 0: nobody's
     std::uint16_t last_session = 0;
     std::uint16_t claimed_as = 0;
+    std::uint16_t nonce = 0;  ///< that is good for a claim; 0: none
+    std::uint16_t last_nonce = 0;
     bool used = false;         ///< a command came since the claim
     std::uint8_t counter = 0;  ///< of the last frame
     hal::Time last{};
+    hal::Time nonce_from{};
   };
 
   bool live(const Lease& lease, hal::Time now) const {
     return lease.session != 0 && now - lease.last <= lasts_;
   }
   Lease& lease_now(std::uint8_t channel, hal::Time now);
-  std::uint16_t new_session(const Lease& lease);
+  /// Neither 0 nor this one.
+  std::uint16_t random_but(std::uint16_t last);
 
   hal::Duration lasts_;
   std::vector<Lease> leases_;
-  std::mt19937 random_;
+  Random random_;
 };
 
 }  // namespace supercoil::telemetry

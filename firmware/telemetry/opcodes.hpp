@@ -12,11 +12,16 @@ namespace supercoil::telemetry {
 
 /// Of firmware/telemetry/supercoil.dbc; a change that an old reader would misunderstand gives a new
 /// number.
-inline constexpr std::uint8_t protocol_version = 3;
+inline constexpr std::uint8_t protocol_version = 4;
 
 /// An opcode has 4 bits, and each means something. A verb has its own number, but for the two that
 /// compare senses with a meter: they share what is no verb's, and the value's sign tells which.
-enum Opcode : std::uint8_t { compare = 0, claim = 14, release = 15 };
+/// Up to version 3 claim was 14, and release 15 with value 0.
+enum Opcode : std::uint8_t { compare = 0, claim_of_version_3 = 14, lease = 15 };
+
+/// What a command of the lease carries as its value, beside the number that claim_again told.
+inline constexpr float claims = 0.0F;
+inline constexpr float releases = -1.0F;
 
 inline constexpr std::size_t opcodes = 16;
 
@@ -32,7 +37,7 @@ constexpr Sent sent(Verb verb, double value) {
   if (verb == Verb::compare_current) return {compare, value > 0.0 ? -value : nonsense};
   return {static_cast<std::uint8_t>(verb), value};
 }
-/// What was sent; opcode: neither claim nor release. A NaN is no current.
+/// What was sent; opcode: not the lease's. A NaN is no current.
 constexpr Command meant(std::uint8_t opcode, double value) {
   if (opcode != compare) return {0, static_cast<Verb>(opcode), value};
   return value < 0.0 ? Command{0, Verb::compare_current, -value}
@@ -41,11 +46,11 @@ constexpr Command meant(std::uint8_t opcode, double value) {
 
 constexpr std::array<std::string_view, opcodes> opcode_names() {
   std::array<std::string_view, opcodes> names{};
-  for (std::size_t i = 0; i < claim; ++i)
+  for (std::size_t i = 0; i < claim_of_version_3; ++i)
     names[i] = verb_names[i];
   names[compare] = "compare";
-  names[claim] = "claim";
-  names[release] = "release";
+  names[claim_of_version_3] = "claim_of_version_3";
+  names[lease] = "lease";
   return names;
 }
 

@@ -17,7 +17,7 @@ Publisher::Publisher(const CanSettings& settings,
       schedule_(std::vector<Rates>(muscles.size(), settings.rates_Hz)),
       timing_(&timing),
       bus_(&bus),
-      emergencies_(4 * muscles.size()),
+      emergencies_(8 * muscles.size()),
       answers_(most_answers),
       messages_(settings.queue) {
   for (std::size_t i = 0; i < muscles.size(); ++i) {
@@ -34,7 +34,9 @@ void Publisher::offer(const Row& row) {
   channel.asides.take(row);
   channel.known = true;
   if (!changed) return;
-  push(emergencies_, emergency(static_cast<Node>(first_node_ + row.channel), row));
+  const auto node = static_cast<Node>(first_node_ + row.channel);
+  push(emergencies_, emergency(node, row));
+  if (row.fault != 0 && row.turn == row.fault) push(emergencies_, first_cause(node, row));
 }
 
 void Publisher::push(Queue& queue, const hal::CanFrame& frame) {

@@ -1,6 +1,7 @@
 #include "runner/simulation.hpp"
 
 #include <cstdint>
+#include <random>
 #include <utility>
 
 #include "runner/board_of.hpp"
@@ -47,7 +48,7 @@ void Simulation::join_bus(const telemetry::CanSettings& settings,
   bus_.emplace(board_, settings.bit_rate);
   bus_->listener = std::move(listener);
   link_.emplace(settings, firmware_of(*scenario_), loop_, *bus_,
-                static_cast<std::uint32_t>(scenario_->seed));
+                std::mt19937(static_cast<std::uint32_t>(scenario_->seed)));
 }
 
 /// What other threads do on a board.

@@ -142,7 +142,9 @@ class Master:
 
     def claim(self):
         """Claims the lease, or keeps it; why it was refused."""
-        told = self.ask("claim").signals
+        told = self.ask("lease").signals
+        if told["refusal"] == "claim_again":
+            told = self.ask("lease", told["granted"]).signals
         if told["refusal"] == "none":
             self.session = told["granted"]
         return told["refusal"]

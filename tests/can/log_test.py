@@ -69,7 +69,7 @@ class Log(unittest.TestCase):
         self.assertIsNone(next(rows, None))
         self.assertGreater(count, 4000)
         self.assertEqual({message for _, message, _ in self.frames},
-                         {"Emergency", "Measurement", "Tracking", "Power", "Heater", "Temperature", "Estimate", "Margin",
+                         {"Emergency", "FirstCause", "Measurement", "Tracking", "Power", "Heater", "Temperature", "Estimate", "Margin",
                           "Limit", "Timing", "Gain", "Status"})
 
     def test_of_one_message_a_row_is_a_frame(self):
@@ -105,7 +105,7 @@ class Log(unittest.TestCase):
     def test_what_is_wrong_is_told(self):
         (self.path / "half.log").write_text((self.path / "can.log").read_text()[:1000])
         for arguments, status, why in (
-                (("can.log", "--message", "Nonsense"), 2, "--message Nonsense: there are Emergency, Command"),
+                (("can.log", "--message", "Nonsense"), 2, "--message Nonsense: there are Emergency, FirstCause, Command"),
                 (("can.log", "--from", "2", "--to", "1"), 2, "--from must not be later"),
                 (("can.log", "--summary"), 2, "is a CAN log"),
                 (("can.log", "--node", "64"), 2, "--node"),

@@ -48,6 +48,7 @@ COLUMNS = {
                  "theta3": "theta3", "theta4": "theta4"},
     "Margin": {"fault": "margin_of", "used": "margin_used", "measured": "margin_measured"},
     "Limit": {"fault": "margin_of", "limit": "margin_limit"},
+    "FirstCause": {"measured": "margin_measured", "limit": "margin_limit"},
     "Gain": {"gain": "gain_of", "value": "gain"},
     "Status": {"state": "state", "mode": "mode", "fault": "fault", "limited_by": "limited_by", "probing": "probing",
                "trusted": "trusted", "limited": "limited", "controller": "controller", "progress": "progress",
@@ -235,7 +236,7 @@ class Run(unittest.TestCase):
         self.assertEqual(counters, [(counters[0] + i) % 256 for i in range(len(counters))])
         for _, message, values, raw in self.frames:
             if message == "Status":
-                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 3))
+                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 4))
             elif message == "Timing":
                 self.assertEqual((values["late_s"], values["execution_s"]), (0, 0))
                 self.assertEqual((raw["overruns"], raw["dropped_frames"]), (0, 0))

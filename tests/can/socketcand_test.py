@@ -73,7 +73,7 @@ class Commanded(OnTheBus):
 
     def test_a_second_master_is_refused_and_may_stop(self):
         other = self.new_master(0x4321)
-        self.assertEqual(self.while_leased(lambda: other.refusal("claim")), "not_yours")
+        self.assertEqual(self.while_leased(lambda: other.refusal("lease")), "not_yours")
         other.session = 0x5555
         self.assertEqual(self.while_leased(lambda: other.refusal("arm")), "not_yours")
         self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
@@ -94,8 +94,8 @@ class Commanded(OnTheBus):
     def test_a_frame_of_an_earlier_session_is_refused(self):
         self.assertEqual(self.master.claim(), "none")
         earlier, old = self.master.data("arm"), self.master.session
-        self.assertEqual(self.while_leased(lambda: self.master.refusal("claim")), "none")
-        self.master.ask("release")
+        self.assertEqual(self.while_leased(lambda: self.master.refusal("lease")), "none")
+        self.master.ask("lease", -1.0)
 
         def replayed():
             self.master.send(earlier)
@@ -164,7 +164,7 @@ class Example(OnTheBus):
         other = self.new_master().bus
         for _ in range(20):
             other.send(can.Message(arbitration_id=OF_NODE_2, data=bytes(8), is_extended_id=False))
-        self.assertNotEqual(example.command("claim")["granted"], 0)
+        self.assertNotEqual(example.claim(), 0)
 
     def test_it_moves_the_muscle_and_lets_it_go(self):
         words = ["interface=socketcand", "host=127.0.0.1", f"port={self.simulator.port}", "channel=can0"]
@@ -177,7 +177,7 @@ class Example(OnTheBus):
             self.assert_nothing_but_starved()
             self.master.steer_until(0.0, lambda m: True)
             self.master.ask("disarm")
-            self.master.ask("release")
+            self.master.ask("lease", -1.0)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         lines = done.stdout.splitlines()
         self.assertEqual(len(lines), 10)

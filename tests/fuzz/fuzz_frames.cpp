@@ -1,6 +1,7 @@
 // Frames from the bus: what becomes a command has its E2E intact and is the lease holder's, or it
 // is a stop.
 #include <bit>
+#include <random>
 
 #include "fuzz/steps.hpp"
 #include "telemetry/commands.hpp"
@@ -45,7 +46,7 @@ void require_right(const telemetry::Commands::Taken& taken, const hal::CanFrame&
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const telemetry::CanSettings settings;
-  telemetry::Leases leases(settings.lease_s, LeaseModel::channels, 1);
+  telemetry::Leases leases(settings.lease_s, LeaseModel::channels, std::mt19937(1));
   telemetry::Commands commands(settings, leases);
   LeaseModel model(settings.lease_s);
   hal::Time now{};

@@ -77,6 +77,10 @@ class LeaseModel {
   const Lease& lease_of(const hal::CanFrame& frame) const {
     return leases_[static_cast<std::size_t>(channel_of(frame))];
   }
+  /// That the board told last.
+  std::uint16_t nonce_of(const hal::CanFrame& frame) const {
+    return nonces_[static_cast<std::size_t>(channel_of(frame))];
+  }
   const Lease& lease(int channel) const { return leases_[static_cast<std::size_t>(channel)]; }
 
   /// A frame that was judged: the holder's counter goes on from it, in_sequence also its lease.
@@ -93,15 +97,19 @@ class LeaseModel {
     require(frame.data[0] == crc_of(frame), "answers are protected");
     supercoil_acknowledge_t m{};
     supercoil_acknowledge_unpack(&m, frame.data.data(), frame.length);
+    const bool again = m.refusal == static_cast<std::uint8_t>(Refusal::claim_again);
+    if (again) nonces_[static_cast<std::size_t>(channel)] = m.granted;
     if (m.refusal != static_cast<std::uint8_t>(Refusal::none)) return;
     Lease& lease = leases_[static_cast<std::size_t>(channel)];
-    if (m.opcode == telemetry::Opcode::claim) lease = {m.granted, m.counter, now};
-    if (m.opcode == telemetry::Opcode::release) lease = {};
+    if (m.opcode != telemetry::Opcode::lease) return;
+    // Nothing is granted by giving it back.
+    lease = m.granted != 0 ? Lease{m.granted, m.counter, now} : Lease{};
   }
 
  private:
   hal::Duration lease_;
   std::array<Lease, channels> leases_{};
+  std::array<std::uint16_t, channels> nonces_{};
 };
 
 }  // namespace supercoil::fuzz

@@ -15,7 +15,7 @@ import cantools
 
 CORPUS = pathlib.Path(__file__).parent / "corpus"
 # Bits of Step::how (steps.hpp).
-TO_CHANNEL, WITH_SESSION, WITH_COUNTER, SEALED, WHOLE = 1, 2, 4, 8, 16
+TO_CHANNEL, WITH_SESSION, WITH_COUNTER, SEALED, WHOLE, WITH_NONCE = 1, 2, 4, 8, 16, 32
 HOLDER = TO_CHANNEL | WITH_SESSION | WITH_COUNTER | SEALED | WHOLE
 STRANGER = TO_CHANNEL | SEALED | WHOLE
 DBC = cantools.database.load_file(pathlib.Path(__file__).parents[2] / "firmware/telemetry/supercoil.dbc")
@@ -24,25 +24,29 @@ OPCODE = {str(name): number for number, name in
 
 
 def step(how, opcode, value=0.0, wait=2, channel=0, session=0x1234, counter=0):
-    return struct.pack("<BBHBBHf", how, wait, channel, 0, OPCODE[opcode] << 4 | counter, session, value)
+    return struct.pack("<BBHBBHf", how, wait, channel, 0, OPCODE.get(opcode, opcode) << 4 | counter, session, value)
 
 
-CLAIMED = step(STRANGER, "claim")
+CLAIMED = step(STRANGER, "lease") + step(STRANGER | WITH_NONCE, "lease")
 ARMED = CLAIMED + step(HOLDER, "arm", wait=20)
 FRAMES = {
     "arms_moves_rests_releases": ARMED + step(HOLDER, "position", 0.01, 10) + step(HOLDER, "renew", wait=10)
-    + step(HOLDER, "rest") + step(HOLDER, "release"),
+    + step(HOLDER, "rest") + step(HOLDER, "lease", -1.0),
     "falls_silent": ARMED + step(HOLDER, "power", 2.0, 200) + step(HOLDER, "renew") + CLAIMED + step(HOLDER, "reset"),
     "is_stopped_by_a_stranger": ARMED + step(HOLDER, "position", 0.01, 10) + step(STRANGER, "disarm"),
-    "a_stranger_is_refused": ARMED + step(STRANGER, "position", 0.01) + step(STRANGER, "claim"),
+    "a_stranger_is_refused": ARMED + step(STRANGER, "position", 0.01) + step(STRANGER, "lease"),
+    "a_recorded_session_is_refused": step(STRANGER, "lease") + step(STRANGER, "lease", 0x1234)
+    + step(STRANGER, "arm", session=0x5678),
+    "claims_as_in_version_3": step(STRANGER, 14) + step(STRANGER, "disarm"),
     "is_damaged": ARMED + 12 * step(HOLDER & ~SEALED, "renew") + step(HOLDER, "reset"),
     "repeats_itself": ARMED + 3 * step(HOLDER & ~WITH_COUNTER, "renew"),
     "counts_on_from_a_claim_that_means_nothing": CLAIMED
-    + step(HOLDER & ~WITH_COUNTER, "claim", 1.0, counter=5) + step(HOLDER & ~WITH_COUNTER, "arm", counter=1),
+    + step(HOLDER & ~WITH_COUNTER, "lease", 1.0, counter=5) + step(HOLDER & ~WITH_COUNTER, "arm", counter=1),
     "learns": ARMED + step(HOLDER, "calibrate") + step(HOLDER, "identify", wait=9) + step(HOLDER, "scale", 0.01)
     + step(HOLDER, "controller", 2.0) + step(HOLDER, "estimator", 0.0),
-    "the_other_channel": step(STRANGER, "claim", channel=1) + step(HOLDER, "arm", wait=20, channel=1)
-    + step(HOLDER, "power", 1.0, channel=1) + step(0, "none"),
+    "the_other_channel": step(STRANGER, "lease", channel=1)
+    + step(STRANGER | WITH_NONCE, "lease", channel=1) + step(HOLDER, "arm", wait=20, channel=1)
+    + step(HOLDER, "power", 1.0, channel=1) + step(0, "lease"),
 }
 
 

@@ -15,6 +15,7 @@ struct Step {
   static constexpr std::uint8_t with_counter = 4;  ///< the next one
   static constexpr std::uint8_t sealed = 8;        ///< its CRC is right: chance finds one in 256
   static constexpr std::uint8_t whole = 16;        ///< 8 bytes long
+  static constexpr std::uint8_t with_nonce = 32;   ///< its value is what the board told last
 
   std::uint8_t how;
   std::uint8_t wait;
@@ -48,6 +49,10 @@ inline hal::CanFrame frame_of(const Step& step, const LeaseModel& model) {
     if ((step.how & Step::with_session) != 0) {
       frame.data[2] = static_cast<std::uint8_t>(lease.session & 0xFFU);
       frame.data[3] = static_cast<std::uint8_t>(lease.session >> 8U);
+    }
+    if ((step.how & Step::with_nonce) != 0) {
+      const auto nonce = static_cast<float>(model.nonce_of(frame));
+      std::memcpy(&frame.data[4], &nonce, sizeof(nonce));
     }
     if ((step.how & Step::with_counter) != 0) {
       const unsigned next = (lease.counter + 1U) & 15U;

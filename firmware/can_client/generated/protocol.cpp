@@ -5,7 +5,7 @@ namespace supercoil::can_client {
 
 namespace {
 
-constexpr std::array<ValueName, 31> names_of_fault{{
+constexpr std::array<ValueName, 32> names_of_fault{{
     {0, "none"},
     {10, "sensor_out_of_range"},
     {11, "sensor_stale"},
@@ -34,6 +34,7 @@ constexpr std::array<ValueName, 31> names_of_fault{{
     {63, "emergency_stop"},
     {70, "bus_off"},
     {71, "bus_error_passive"},
+    {72, "node_conflict"},
     {80, "configuration_invalid"},
     {81, "controller_invalid"},
     {82, "self_test_failed"},
@@ -91,8 +92,8 @@ constexpr std::array<ValueName, 16> names_of_opcode{{
     {11, "controller"},
     {12, "estimator"},
     {13, "store"},
-    {14, "claim"},
-    {15, "release"},
+    {14, "claim_of_version_3"},
+    {15, "lease"},
 }};
 
 constexpr std::array<ValueName, 14> names_of_parameter{{
@@ -112,7 +113,7 @@ constexpr std::array<ValueName, 14> names_of_parameter{{
     {13, "bias_deviation"},
 }};
 
-constexpr std::array<ValueName, 12> names_of_refusal{{
+constexpr std::array<ValueName, 14> names_of_refusal{{
     {0, "none"},
     {1, "wrong_state"},
     {2, "cause_persists"},
@@ -125,6 +126,8 @@ constexpr std::array<ValueName, 12> names_of_refusal{{
     {9, "no_lease"},
     {10, "wrong_counter"},
     {11, "too_many"},
+    {12, "claim_again"},
+    {13, "other_version"},
 }};
 
 constexpr std::array<ValueName, 10> names_of_result{{
@@ -169,6 +172,11 @@ constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
     {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
     {"state", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"board_time_s", "s", 16, 48, Raw::unsigned_integer, 1e-06, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 2> signals_of_FirstCause{{
+    {"measured", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
+    {"limit", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
 constexpr std::array<SignalInfo, 5> signals_of_Command{{
@@ -298,8 +306,9 @@ constexpr std::array<SignalInfo, 13> signals_of_Status{{
     {"result", "", 56, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_result},
 }};
 
-constexpr std::array<MessageInfo, 17> all{{
+constexpr std::array<MessageInfo, 18> all{{
     {"Emergency", 0x080, 8, signals_of_Emergency},
+    {"FirstCause", 0x0c0, 8, signals_of_FirstCause},
     {"Command", 0x200, 8, signals_of_Command},
     {"Acknowledge", 0x240, 7, signals_of_Acknowledge},
     {"Measurement", 0x280, 8, signals_of_Measurement},

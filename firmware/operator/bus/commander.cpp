@@ -11,6 +11,7 @@ namespace {
 constexpr auto answer_within = std::chrono::milliseconds(500);
 /// A lease lasts a second by default; what may have run out is claimed again.
 constexpr auto lease_lasts = std::chrono::milliseconds(400);
+constexpr int claims_in_a_row = 3;
 constexpr auto nap = std::chrono::milliseconds(1);
 
 Refusal refusal_of(Refusal answer) {
@@ -60,8 +61,15 @@ Commander::Answer Commander::exchange(const hal::CanFrame& frame) {
 }
 
 Commander::Answer Commander::claim() {
-  const bool held = master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts;
-  return held ? Answer{Refusal::none} : exchange(master_.claim());
+  if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts) return Refusal::none;
+  const bool anew = !master_.holds_lease();
+  Answer answer = exchange(master_.claim());
+  // A nonce may be taken by somebody else first.
+  for (int i = 0; i < claims_in_a_row && answer && *answer == Refusal::claim_again; ++i)
+    answer = exchange(master_.claim());
+  // To a board of an older version the claim was a command without a lease.
+  if (anew && answer && *answer == Refusal::no_lease) return Refusal::other_version;
+  return answer;
 }
 
 Commander::Answer Commander::command(Verb verb, double value) {

@@ -268,6 +268,117 @@ bool supercoil_emergency_board_time_s_is_in_phys_range(double value)
     return ((value >= 0.0) && (value <= 281474976.710655));
 }
 
+int supercoil_first_cause_pack(
+    uint8_t *dst_p,
+    const struct supercoil_first_cause_t *src_p,
+    size_t size)
+{
+    uint32_t limit;
+    uint32_t measured;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    memcpy(&measured, &src_p->measured, sizeof(measured));
+    dst_p[0] |= pack_left_shift_u32(measured, 0u, 0xffu);
+    dst_p[1] |= pack_right_shift_u32(measured, 8u, 0xffu);
+    dst_p[2] |= pack_right_shift_u32(measured, 16u, 0xffu);
+    dst_p[3] |= pack_right_shift_u32(measured, 24u, 0xffu);
+    memcpy(&limit, &src_p->limit, sizeof(limit));
+    dst_p[4] |= pack_left_shift_u32(limit, 0u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(limit, 8u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(limit, 16u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(limit, 24u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_first_cause_unpack(
+    struct supercoil_first_cause_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t limit;
+    uint32_t measured;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    measured = unpack_right_shift_u32(src_p[0], 0u, 0xffu);
+    measured |= unpack_left_shift_u32(src_p[1], 8u, 0xffu);
+    measured |= unpack_left_shift_u32(src_p[2], 16u, 0xffu);
+    measured |= unpack_left_shift_u32(src_p[3], 24u, 0xffu);
+    memcpy(&dst_p->measured, &measured, sizeof(dst_p->measured));
+    limit = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+    limit |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+    limit |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+    limit |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+    memcpy(&dst_p->limit, &limit, sizeof(dst_p->limit));
+
+    return (0);
+}
+
+int supercoil_first_cause_init(struct supercoil_first_cause_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_first_cause_t));
+
+    return 0;
+}
+
+float supercoil_first_cause_measured_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_first_cause_measured_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_first_cause_measured_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_first_cause_measured_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_first_cause_limit_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_first_cause_limit_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_first_cause_limit_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_first_cause_limit_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
 int supercoil_command_pack(
     uint8_t *dst_p,
     const struct supercoil_command_t *src_p,
@@ -586,12 +697,12 @@ double supercoil_acknowledge_refusal_decode(uint8_t value)
 
 bool supercoil_acknowledge_refusal_is_in_range(uint8_t value)
 {
-    return (value <= 11u);
+    return (value <= 13u);
 }
 
 bool supercoil_acknowledge_refusal_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 11.0));
+    return ((value >= 0.0) && (value <= 13.0));
 }
 
 uint16_t supercoil_acknowledge_granted_encode(double value)
@@ -2541,12 +2652,12 @@ double supercoil_setting_refusal_decode(uint8_t value)
 
 bool supercoil_setting_refusal_is_in_range(uint8_t value)
 {
-    return (value <= 11u);
+    return (value <= 13u);
 }
 
 bool supercoil_setting_refusal_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 11.0));
+    return ((value >= 0.0) && (value <= 13.0));
 }
 
 uint8_t supercoil_setting_session_low_encode(double value)

@@ -46,6 +46,7 @@ extern "C" {
 
 /* Frame ids. */
 #define SUPERCOIL_EMERGENCY_FRAME_ID (0x81u)
+#define SUPERCOIL_FIRST_CAUSE_FRAME_ID (0xc1u)
 #define SUPERCOIL_COMMAND_FRAME_ID (0x201u)
 #define SUPERCOIL_ACKNOWLEDGE_FRAME_ID (0x241u)
 #define SUPERCOIL_MEASUREMENT_FRAME_ID (0x281u)
@@ -65,6 +66,7 @@ extern "C" {
 
 /* Frame lengths in bytes. */
 #define SUPERCOIL_EMERGENCY_LENGTH (8u)
+#define SUPERCOIL_FIRST_CAUSE_LENGTH (8u)
 #define SUPERCOIL_COMMAND_LENGTH (8u)
 #define SUPERCOIL_ACKNOWLEDGE_LENGTH (7u)
 #define SUPERCOIL_MEASUREMENT_LENGTH (8u)
@@ -84,6 +86,7 @@ extern "C" {
 
 /* Extended or standard frame types. */
 #define SUPERCOIL_EMERGENCY_IS_EXTENDED (0)
+#define SUPERCOIL_FIRST_CAUSE_IS_EXTENDED (0)
 #define SUPERCOIL_COMMAND_IS_EXTENDED (0)
 #define SUPERCOIL_ACKNOWLEDGE_IS_EXTENDED (0)
 #define SUPERCOIL_MEASUREMENT_IS_EXTENDED (0)
@@ -143,6 +146,7 @@ extern "C" {
 #define SUPERCOIL_EMERGENCY_FAULT_EMERGENCY_STOP_CHOICE (63u)
 #define SUPERCOIL_EMERGENCY_FAULT_BUS_OFF_CHOICE (70u)
 #define SUPERCOIL_EMERGENCY_FAULT_BUS_ERROR_PASSIVE_CHOICE (71u)
+#define SUPERCOIL_EMERGENCY_FAULT_NODE_CONFLICT_CHOICE (72u)
 #define SUPERCOIL_EMERGENCY_FAULT_CONFIGURATION_INVALID_CHOICE (80u)
 #define SUPERCOIL_EMERGENCY_FAULT_CONTROLLER_INVALID_CHOICE (81u)
 #define SUPERCOIL_EMERGENCY_FAULT_SELF_TEST_FAILED_CHOICE (82u)
@@ -166,8 +170,8 @@ extern "C" {
 #define SUPERCOIL_COMMAND_OPCODE_CONTROLLER_CHOICE (11u)
 #define SUPERCOIL_COMMAND_OPCODE_ESTIMATOR_CHOICE (12u)
 #define SUPERCOIL_COMMAND_OPCODE_STORE_CHOICE (13u)
-#define SUPERCOIL_COMMAND_OPCODE_CLAIM_CHOICE (14u)
-#define SUPERCOIL_COMMAND_OPCODE_RELEASE_CHOICE (15u)
+#define SUPERCOIL_COMMAND_OPCODE_CLAIM_OF_VERSION_3_CHOICE (14u)
+#define SUPERCOIL_COMMAND_OPCODE_LEASE_CHOICE (15u)
 
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_COMPARE_CHOICE (0u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_ARM_CHOICE (1u)
@@ -183,8 +187,8 @@ extern "C" {
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_CONTROLLER_CHOICE (11u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_ESTIMATOR_CHOICE (12u)
 #define SUPERCOIL_ACKNOWLEDGE_OPCODE_STORE_CHOICE (13u)
-#define SUPERCOIL_ACKNOWLEDGE_OPCODE_CLAIM_CHOICE (14u)
-#define SUPERCOIL_ACKNOWLEDGE_OPCODE_RELEASE_CHOICE (15u)
+#define SUPERCOIL_ACKNOWLEDGE_OPCODE_CLAIM_OF_VERSION_3_CHOICE (14u)
+#define SUPERCOIL_ACKNOWLEDGE_OPCODE_LEASE_CHOICE (15u)
 
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_NONE_CHOICE (0u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_WRONG_STATE_CHOICE (1u)
@@ -198,6 +202,8 @@ extern "C" {
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_NO_LEASE_CHOICE (9u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_WRONG_COUNTER_CHOICE (10u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_TOO_MANY_CHOICE (11u)
+#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
+#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_OTHER_VERSION_CHOICE (13u)
 
 #define SUPERCOIL_MEASUREMENT_POSITION_M_NOT_AVAILABLE_CHOICE (-8388608)
 
@@ -278,6 +284,7 @@ extern "C" {
 #define SUPERCOIL_MARGIN_FAULT_EMERGENCY_STOP_CHOICE (63u)
 #define SUPERCOIL_MARGIN_FAULT_BUS_OFF_CHOICE (70u)
 #define SUPERCOIL_MARGIN_FAULT_BUS_ERROR_PASSIVE_CHOICE (71u)
+#define SUPERCOIL_MARGIN_FAULT_NODE_CONFLICT_CHOICE (72u)
 #define SUPERCOIL_MARGIN_FAULT_CONFIGURATION_INVALID_CHOICE (80u)
 #define SUPERCOIL_MARGIN_FAULT_CONTROLLER_INVALID_CHOICE (81u)
 #define SUPERCOIL_MARGIN_FAULT_SELF_TEST_FAILED_CHOICE (82u)
@@ -312,6 +319,7 @@ extern "C" {
 #define SUPERCOIL_LIMIT_FAULT_EMERGENCY_STOP_CHOICE (63u)
 #define SUPERCOIL_LIMIT_FAULT_BUS_OFF_CHOICE (70u)
 #define SUPERCOIL_LIMIT_FAULT_BUS_ERROR_PASSIVE_CHOICE (71u)
+#define SUPERCOIL_LIMIT_FAULT_NODE_CONFLICT_CHOICE (72u)
 #define SUPERCOIL_LIMIT_FAULT_CONFIGURATION_INVALID_CHOICE (80u)
 #define SUPERCOIL_LIMIT_FAULT_CONTROLLER_INVALID_CHOICE (81u)
 #define SUPERCOIL_LIMIT_FAULT_SELF_TEST_FAILED_CHOICE (82u)
@@ -365,6 +373,8 @@ extern "C" {
 #define SUPERCOIL_SETTING_REFUSAL_NO_LEASE_CHOICE (9u)
 #define SUPERCOIL_SETTING_REFUSAL_WRONG_COUNTER_CHOICE (10u)
 #define SUPERCOIL_SETTING_REFUSAL_TOO_MANY_CHOICE (11u)
+#define SUPERCOIL_SETTING_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
+#define SUPERCOIL_SETTING_REFUSAL_OTHER_VERSION_CHOICE (13u)
 
 #define SUPERCOIL_SETTING_WRITE_SETTING_MOST_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -437,6 +447,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_FAULT_EMERGENCY_STOP_CHOICE (63u)
 #define SUPERCOIL_STATUS_FAULT_BUS_OFF_CHOICE (70u)
 #define SUPERCOIL_STATUS_FAULT_BUS_ERROR_PASSIVE_CHOICE (71u)
+#define SUPERCOIL_STATUS_FAULT_NODE_CONFLICT_CHOICE (72u)
 #define SUPERCOIL_STATUS_FAULT_CONFIGURATION_INVALID_CHOICE (80u)
 #define SUPERCOIL_STATUS_FAULT_CONTROLLER_INVALID_CHOICE (81u)
 #define SUPERCOIL_STATUS_FAULT_SELF_TEST_FAILED_CHOICE (82u)
@@ -464,6 +475,7 @@ extern "C" {
 
 /* Frame Names. */
 #define SUPERCOIL_EMERGENCY_NAME "Emergency"
+#define SUPERCOIL_FIRST_CAUSE_NAME "FirstCause"
 #define SUPERCOIL_COMMAND_NAME "Command"
 #define SUPERCOIL_ACKNOWLEDGE_NAME "Acknowledge"
 #define SUPERCOIL_MEASUREMENT_NAME "Measurement"
@@ -485,6 +497,8 @@ extern "C" {
 #define SUPERCOIL_EMERGENCY_FAULT_NAME "fault"
 #define SUPERCOIL_EMERGENCY_STATE_NAME "state"
 #define SUPERCOIL_EMERGENCY_BOARD_TIME_S_NAME "board_time_s"
+#define SUPERCOIL_FIRST_CAUSE_MEASURED_NAME "measured"
+#define SUPERCOIL_FIRST_CAUSE_LIMIT_NAME "limit"
 #define SUPERCOIL_COMMAND_CRC_NAME "crc"
 #define SUPERCOIL_COMMAND_COUNTER_NAME "counter"
 #define SUPERCOIL_COMMAND_OPCODE_NAME "opcode"
@@ -602,9 +616,36 @@ struct supercoil_emergency_t {
 };
 
 /**
+ * Signals in message FirstCause.
+ *
+ * Sent right after an Emergency that tells a fault: the margin of the detector that tripped, as it was then.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_first_cause_t {
+    /**
+     * In the detector's own unit (docs/faults). NaN: no number was measured.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float measured;
+
+    /**
+     * Of the same unit; what was measured lies beyond it.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float limit;
+};
+
+/**
  * Signals in message Command.
  *
- * One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier. A command to heat expires unless it is renewed.
+ * One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier: damage, loss and the repetition of one frame are seen. Whoever repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or the board's start, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed.
  *
  * All signal values are as on the CAN bus.
  */
@@ -619,7 +660,7 @@ struct supercoil_command_t {
     uint8_t crc;
 
     /**
-     * One more with each command of a session, 0 after 15. Up to 3 may be lost in between.
+     * One more with each command of a session, 0 after 15. Up to 3 may be lost in between. An old frame passes for the next one when 12 to 15 commands of its session came after it, modulo 16; every other repetition is refused (wrong_counter).
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -628,7 +669,7 @@ struct supercoil_command_t {
     uint8_t counter;
 
     /**
-     * What to do. disarm with value 0 is obeyed from everybody, whatever session and counter are.
+     * What to do. lease claims, keeps and gives back the right to command. disarm with value 0 is obeyed from everybody, whatever session and counter are.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -637,7 +678,7 @@ struct supercoil_command_t {
     uint8_t opcode;
 
     /**
-     * Of the lease, as it was granted; of a claim: any number by which its sender knows the answer, or its own session to keep it.
+     * Of the lease, as it was granted; of a claim: any number by which its sender knows the answer.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -646,7 +687,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative; 0 forgets the comparison. All others: 0.
+     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative; 0 forgets the comparison. All others: 0.
      *
      * Range: -
      * Scale: 1
@@ -700,16 +741,16 @@ struct supercoil_acknowledge_t {
     uint16_t session;
 
     /**
-     * none: it was obeyed. Else why not.
+     * none: it was obeyed. Else why not. out_of_range: the value of the command with this session and counter. claim_again: claim with the number in granted as value. other_version: the frame is of another version of this protocol; disarm alone is the same in all.
      *
-     * Range: 0..11 (0..11 -)
+     * Range: 0..13 (0..13 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t refusal;
 
     /**
-     * Of a claim that was granted: the session from now on. Else 0.
+     * Of a lease that was claimed: the session from now on. With claim_again: a random number, good for one claim until the lease's time has passed. Else 0.
      *
      * Range: 0..65535 (0..65535 -)
      * Scale: 1
@@ -1233,7 +1274,7 @@ struct supercoil_setting_t {
     /**
      * none: it was written, or read. Else why not.
      *
-     * Range: 0..11 (0..11 -)
+     * Range: 0..13 (0..13 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1612,6 +1653,123 @@ bool supercoil_emergency_board_time_s_is_in_range(uint64_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_emergency_board_time_s_is_in_phys_range(double value);
+
+/**
+ * Pack message FirstCause.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_first_cause_pack(
+    uint8_t *dst_p,
+    const struct supercoil_first_cause_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message FirstCause.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_first_cause_unpack(
+    struct supercoil_first_cause_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from FirstCause.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_first_cause_init(struct supercoil_first_cause_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_first_cause_measured_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_first_cause_measured_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_first_cause_measured_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_first_cause_measured_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_first_cause_limit_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_first_cause_limit_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_first_cause_limit_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_first_cause_limit_is_in_phys_range(double value);
 
 /**
  * Pack message Command.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,7 @@ class CanRig {
         loop(settings.firmware, board.devices()),
         executive(loop, board, settings.firmware.rate_Hz),
         bus(board, can.bit_rate),
-        link(can, settings.firmware, loop, bus, 1) {
+        link(can, settings.firmware, loop, bus, std::mt19937(1)) {
     bus.listener = [this](const hal::CanFrame& frame) { hear(frame); };
   }
   CanRig(const CanRig&) = delete;
@@ -61,8 +62,10 @@ class CanRig {
     return settings_told.empty() ? supercoil_setting_t{} : settings_told.back();
   }
   Refusal claim(Master& who) {
-    who.session = who.nonce;
-    const Refusal refusal = command(who, telemetry::Opcode::claim);
+    who.session = who.name;
+    Refusal refusal = command(who, telemetry::Opcode::lease, telemetry::claims);
+    if (refusal == Refusal::claim_again)
+      refusal = command(who, telemetry::Opcode::lease, static_cast<float>(answers.back().granted));
     if (!answers.empty()) who.session = answers.back().granted;
     return refusal;
   }
@@ -89,16 +92,20 @@ class CanRig {
   std::vector<supercoil_acknowledge_t> answers;
   std::vector<supercoil_setting_t> settings_told;
   std::vector<hal::CanFrame> emergencies;
+  std::vector<hal::CanFrame> first_causes;
   long heard = 0;
   std::map<std::uint16_t, int> heard_of;  ///< by identifier
+  std::map<std::uint16_t, hal::CanFrame> last_of;
 
  private:
   void hear(const hal::CanFrame& frame) {
     ++heard;
     ++heard_of[frame.id];
+    last_of[frame.id] = frame;
     if (frame.id == SUPERCOIL_SETTING_FRAME_ID) settings_told.push_back(read_setting(frame));
     if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID) answers.push_back(read_answer(frame));
     if (frame.id == SUPERCOIL_EMERGENCY_FRAME_ID) emergencies.push_back(frame);
+    if (frame.id == SUPERCOIL_FIRST_CAUSE_FRAME_ID) first_causes.push_back(frame);
   }
 
   std::uint32_t beats_ = 0;

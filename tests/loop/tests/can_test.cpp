@@ -15,7 +15,10 @@ TEST_GROUP(OverCan) {
   Master other;
 
   void setup() override {
-    other.nonce = 0x4321;
+    other.name = 0x4321;
+  }
+  static bool is_heartbeat(std::uint16_t id) {
+    return id == SUPERCOIL_STATUS_FRAME_ID || id == SUPERCOIL_STATUS_FRAME_ID + 1;
   }
   /// Renews every 50 ms.
   void hold(double time_s) {
@@ -38,6 +41,11 @@ TEST(OverCan, AMasterArmsMovesAndLetsGo) {
   DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
   LONGS_EQUAL(1, rig.emergencies.size());
   LONGS_EQUAL(60, rig.emergencies[0].data[0]);
+  LONGS_EQUAL(1, rig.first_causes.size());
+  supercoil_first_cause_t cause{};
+  supercoil_first_cause_unpack(&cause, rig.first_causes[0].data.data(), rig.first_causes[0].length);
+  DOUBLES_EQUAL(0.25, cause.limit, 1e-6);
+  DOUBLES_EQUAL(0.25, cause.measured, 0.002);
 }
 
 TEST(OverCan, ASecondMasterIsRefusedAndMayStop) {
@@ -138,7 +146,10 @@ TEST(OverCan, AMillionRandomFramesDisturbNothing) {
   for (int tick = 0; tick < 125'000; ++tick) {
     for (int i = 0; i < 8; ++i) {
       hal::CanFrame frame;
-      frame.id = static_cast<std::uint16_t>(random() % 0x800U);
+      // Any but the board's own heartbeat, which is node_conflict.
+      do {
+        frame.id = static_cast<std::uint16_t>(random() % 0x800U);
+      } while (is_heartbeat(frame.id));
       frame.length = static_cast<std::uint8_t>(random() % 9U);
       for (std::uint8_t& byte : frame.data)
         byte = static_cast<std::uint8_t>(random());
@@ -163,4 +174,119 @@ TEST(OverCan, AMillionRandomFramesDisturbNothing) {
   };
   LONGS_EQUAL(125'000 / 20 + 1, obeyed(quiet));
   LONGS_EQUAL(obeyed(quiet), obeyed(rig));
+}
+
+/// What a program that knows version 3 of the protocol sends and hears.
+TEST(OverCan, AClientOfVersion3IsToldSoAndCanStillDisarm) {
+  rig.start(master);
+  constexpr std::uint8_t claim_of_3 = 14;
+  other.session = other.name;
+  CHECK(rig.command(other, claim_of_3) == Refusal::other_version);
+  // It takes this for its answer, and for no lease.
+  const supercoil_acknowledge_t told = rig.answers.back();
+  LONGS_EQUAL(other.name, told.session);
+  LONGS_EQUAL(claim_of_3, told.opcode);
+  LONGS_EQUAL(0, told.granted);
+  CHECK(rig.command(other, Verb::position, 0.02F) == Refusal::not_yours);
+  // The heartbeat names the version where version 3 had it.
+  hold(0.3);
+  LONGS_EQUAL(4, rig.last_of.at(SUPERCOIL_STATUS_FRAME_ID).data[6]);
+  CHECK(rig.state() == State::active);
+  CHECK(rig.command(other, Verb::disarm) == Refusal::none);
+  CHECK(rig.state() == State::disarmed);
+}
+
+TEST(OverCan, ARecordedSessionGetsNoLeaseAndNoHeat) {
+  std::vector<hal::CanFrame> recorded;
+  Master recording = master;
+  rig.run(16.0);
+  for (int claims = 0; claims < 2; ++claims) {
+    const float nonce = claims == 0 ? telemetry::claims : rig.answers.back().granted;
+    recording.session = recording.name;
+    recorded.push_back(recording.frame(telemetry::Opcode::lease, nonce));
+    rig.answers.clear();
+    rig.bus.deliver(recorded.back());
+    rig.run(0.02);
+  }
+  recording.session = rig.answers.back().granted;
+  for (const auto& [verb, value] : {std::pair{Verb::arm, 0.0F}, std::pair{Verb::power, 2.0F}}) {
+    recorded.push_back(recording.frame(verb, value));
+    rig.bus.deliver(recorded.back());
+    rig.run(0.2);
+  }
+  CHECK(rig.true_power_W() > 0.5);
+  CHECK(rig.command(recording, Verb::disarm) == Refusal::none);
+  rig.run(1.1);  // the lease ends
+
+  rig.answers.clear();
+  for (int times = 0; times < 5; ++times) {
+    for (const hal::CanFrame& frame : recorded) {
+      rig.bus.deliver(frame);
+      rig.run(0.02);
+      DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
+    }
+  }
+  for (const auto& told : rig.answers)
+    CHECK(told.refusal != 0);
+}
+
+/// Each hears what the other sends, as on one pair of wires.
+TEST(OverCan, TwoBoardsWithOneNodeBothGoColdAndNameIt) {
+  CanRig twin;
+  rig.start(master);
+  twin.run(16.0);
+  CHECK(rig.state() == State::active);
+  const auto hear = rig.bus.listener;
+  rig.bus.listener = [&](const hal::CanFrame& frame) {
+    hear(frame);
+    twin.bus.deliver(frame);
+  };
+  twin.bus.listener = [&](const hal::CanFrame& frame) { rig.bus.deliver(frame); };
+  const auto together = [&](double time_s) {
+    for (long i = std::lround(time_s * rig.settings.firmware.rate_Hz); i > 0; --i) {
+      if (i % 50 == 0) rig.bus.deliver(master.frame(Verb::renew));
+      rig.tick();
+      twin.tick();
+    }
+  };
+  together(0.25);
+  CHECK(rig.fault() == Fault::node_conflict);
+  CHECK(twin.fault() == Fault::node_conflict);
+  CHECK(rig.loop.channel(1).state().first_cause() == Fault::node_conflict);
+  DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
+  CHECK(rig.loop.board_fault() == Fault::none);  // the heartbeat goes on
+  CHECK(rig.command(master, Verb::reset) != Refusal::none);
+
+  // The other one is taken off the bus.
+  twin.bus.listener = [](const hal::CanFrame&) {};
+  rig.bus.listener = hear;
+  rig.run(3.0);
+  rig.claim(master);
+  CHECK(rig.command(master, Verb::reset) == Refusal::none);
+  CHECK(rig.fault() == Fault::none);
+}
+
+TEST(OverCan, ABoardDoesNotStartWhereItsNodeSpeaksAlready) {
+  hal::CanFrame heartbeat;
+  heartbeat.id = SUPERCOIL_STATUS_FRAME_ID + 1;  // of its second channel
+  heartbeat.length = SUPERCOIL_STATUS_LENGTH;
+  for (int i = 0; i < 17; ++i) {
+    rig.bus.deliver(heartbeat);
+    rig.run(1.0);
+  }
+  CHECK(rig.fault() == Fault::node_conflict);
+  CHECK_FALSE(rig.loop.self_test().passed());
+  rig.claim(master);
+  CHECK(rig.command(master, Verb::reset) == Refusal::cause_persists);
+  CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
+}
+
+TEST(OverCan, OfAnotherNodeTheHeartbeatIsNoConflict) {
+  rig.start(master);
+  hal::CanFrame heartbeat;
+  heartbeat.id = SUPERCOIL_STATUS_FRAME_ID + 2;
+  heartbeat.length = SUPERCOIL_STATUS_LENGTH;
+  rig.bus.deliver(heartbeat);
+  hold(0.5);
+  CHECK(rig.state() == State::active);
 }

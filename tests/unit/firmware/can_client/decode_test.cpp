@@ -101,7 +101,7 @@ TEST(Decode, TheReservedRawValueIsNoNumber) {
 }
 
 TEST(Decode, AnEstimateHasTheParameterThatItCarriesAndNoOther) {
-  const CodecMessage& message = codec_messages[8];
+  const CodecMessage& message = codec_messages[9];
   for (std::uint8_t parameter = 0; parameter < 16; ++parameter) {
     hal::CanFrame frame = empty_frame(message);
     frame.data[0] = parameter;

@@ -20,15 +20,21 @@ std::uint8_t counter_of(const hal::CanFrame& asked) {
   return asked.data[1] & 0x0FU;
 }
 
+float value_of(const hal::CanFrame& asked) {
+  supercoil_command_t m{};
+  supercoil_command_unpack(&m, asked.data.data(), asked.length);
+  return m.value;
+}
+
 /// What the node answers to a frame that carried this session.
 hal::CanFrame answer(const hal::CanFrame& asked, std::uint8_t opcode, std::uint16_t session,
-                     Refusal refusal) {
+                     Refusal refusal, std::uint16_t told = granted) {
   supercoil_acknowledge_t m{};
   m.counter = counter_of(asked);
   m.opcode = opcode;
   m.session = session;
   m.refusal = static_cast<std::uint8_t>(refusal);
-  m.granted = granted;
+  m.granted = told;
   return telemetry::sealed(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH, node, m,
                            supercoil_acknowledge_pack);
 }
@@ -47,20 +53,41 @@ hal::CanFrame setting_answer(std::uint8_t counter, std::uint16_t session, Refusa
 }  // namespace
 
 TEST_GROUP(MasterAnswers) {
+  static constexpr std::uint16_t nonce = 0x9ABC;
   Master master{node, 0x1234};
 
+  static void claim(Master & who, Refusal refusal, std::uint16_t told) {
+    const auto heard = who.hear(answer(who.claim(), telemetry::lease, 0x1234, refusal, told));
+    CHECK(heard && heard->refusal == refusal);
+  }
   void setup() override {
-    const auto claim = master.claim();
-    CHECK(master.hear(answer(claim, telemetry::claim, 0x1234, Refusal::none)).has_value());
+    claim(master, Refusal::claim_again, nonce);
+    CHECK_FALSE(master.holds_lease());
+    claim(master, Refusal::none, granted);
     CHECK_TRUE(master.holds_lease());
   }
 };
 
-TEST(MasterAnswers, ClaimIsGrantedByTheAnswerToItsOwnNonceOnly) {
+TEST(MasterAnswers, ClaimIsGrantedByTheAnswerToItsOwnNameOnly) {
   Master other{node, 0x4321};
   const auto claim = other.claim();
-  CHECK_FALSE(other.hear(answer(claim, telemetry::claim, 0x1234, Refusal::none)).has_value());
+  CHECK_FALSE(other.hear(answer(claim, telemetry::lease, 0x1234, Refusal::none)).has_value());
   CHECK_FALSE(other.holds_lease());
+}
+
+TEST(MasterAnswers, ASecondClaimRepeatsTheNonceAndOneOfAHolderNone) {
+  Master other{node, 0x1234};
+  DOUBLES_EQUAL(0.0, value_of(other.claim()), 0.0);
+  claim(other, Refusal::claim_again, nonce);
+  DOUBLES_EQUAL(nonce, value_of(other.claim()), 0.0);
+  DOUBLES_EQUAL(0.0, value_of(master.claim()), 0.0);
+}
+
+TEST(MasterAnswers, LeaseIsGoneWhenItWasGivenBack) {
+  const auto asked = master.release();
+  DOUBLES_EQUAL(-1.0, value_of(asked), 0.0);
+  CHECK(master.hear(answer(asked, telemetry::lease, granted, Refusal::none, 0)).has_value());
+  CHECK_FALSE(master.holds_lease());
 }
 
 TEST(MasterAnswers, LeaseEndsByWhatTheNodeSaysOfIt) {

@@ -1,6 +1,7 @@
 // The daemon's threads over a simulated board in real time: they run under ThreadSanitizer as well.
 // Nothing here is timed: every wait is for something to come about.
 #include <csignal>
+#include <random>
 #include <thread>
 
 #include <unistd.h>
@@ -65,7 +66,7 @@ TEST_GROUP(DaemonThreads) {
   Loop loop{settings.firmware, board.devices()};
   std::unique_ptr<Keeper> keeper;
   test::MeetingBus bus;
-  supercoil::telemetry::CanLink can{{}, settings.firmware, loop, bus, 1};
+  supercoil::telemetry::CanLink can{{}, settings.firmware, loop, bus, std::mt19937(1)};
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
   sigset_t before{};
@@ -156,10 +157,14 @@ TEST(DaemonThreads, AMasterOnTheBusIsAnsweredThereAndLocalProgramsHere) {
   constexpr std::uint16_t acknowledge = SUPERCOIL_ACKNOWLEDGE_FRAME_ID;
   const BoardSocket socket = client();
   test::Master master;
-  master.session = master.nonce;
-  bus.order(master.frame(supercoil::telemetry::Opcode::claim));
-  until([&] { return !bus.heard(acknowledge).empty(); });
-  master.session = test::read_answer(bus.heard(acknowledge).front()).granted;
+  master.session = master.name;
+  float nonce = telemetry::claims;
+  for (const std::size_t claims : {1U, 2U}) {
+    bus.order(master.frame(telemetry::Opcode::lease, nonce));
+    until([&] { return bus.heard(acknowledge).size() == claims; });
+    nonce = test::read_answer(bus.heard(acknowledge).back()).granted;
+  }
+  master.session = test::read_answer(bus.heard(acknowledge).back()).granted;
   CHECK(master.session != 0);
 
   const auto obeyed = [&](Verb verb) {

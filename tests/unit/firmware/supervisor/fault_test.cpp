@@ -18,6 +18,7 @@ TEST(Faults, HaveNumbersThatNeverChange) {
   LONGS_EQUAL(52, static_cast<int>(Fault::telemetry_dead));
   LONGS_EQUAL(63, static_cast<int>(Fault::emergency_stop));
   LONGS_EQUAL(71, static_cast<int>(Fault::bus_error_passive));
+  LONGS_EQUAL(72, static_cast<int>(Fault::node_conflict));
   LONGS_EQUAL(82, static_cast<int>(Fault::self_test_failed));
 }
 

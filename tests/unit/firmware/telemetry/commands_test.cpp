@@ -1,6 +1,7 @@
 // Leases, sessions and damaged frames.
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <set>
 
@@ -15,7 +16,7 @@ using namespace std::chrono_literals;
 
 TEST_GROUP(CanCommands) {
   CanSettings settings;
-  Leases leases{settings.lease_s, 2, 1};
+  Leases leases{settings.lease_s, 2, std::mt19937(3)};
   Commands commands{settings, leases};
   hal::Time now = 100s;
   Master master;
@@ -31,10 +32,17 @@ TEST_GROUP(CanCommands) {
   }
   /// The session that was granted; 0: none was.
   std::uint16_t claim(Master & who) {
-    who.session = who.nonce;
-    const auto taken = take(who.frame(Opcode::claim));
-    who.session = read_answer(*taken.answer).granted;
+    who.session = who.name;
+    const std::uint16_t nonce = nonce_for(who);
+    who.session =
+        nonce == 0 ? nonce : read_answer(*take(who.frame(Opcode::lease, nonce)).answer).granted;
     return who.session;
+  }
+  /// What a first claim is told; 0: it is refused.
+  std::uint16_t nonce_for(Master & who) {
+    const auto answer = read_answer(*take(who.frame(Opcode::lease)).answer);
+    LONGS_EQUAL(answer.granted == 0 ? 8 : 12, answer.refusal);
+    return answer.granted;
   }
 };
 
@@ -49,11 +57,11 @@ TEST(CanCommands, AMasterClaimsALeaseAndIsObeyed) {
   LONGS_EQUAL(5, answer.refusal);
   LONGS_EQUAL(master.session, answer.session);
   LONGS_EQUAL(4, answer.opcode);
-  LONGS_EQUAL(1, answer.counter);
+  LONGS_EQUAL(2, answer.counter);
 }
 
 TEST(CanCommands, AnswersAreProtectedAsCommandsAre) {
-  const auto answer = *take(master.frame(Opcode::claim)).answer;
+  const auto answer = *take(master.frame(Opcode::lease)).answer;
   LONGS_EQUAL(0x241, answer.id);
   CHECK(e2e::intact(answer, SUPERCOIL_ACKNOWLEDGE_LENGTH));
 }
@@ -65,7 +73,7 @@ TEST(CanCommands, WithoutALeaseAreRefused) {
 TEST(CanCommands, OfAnotherMasterAreRefusedAndItsClaimToo) {
   claim(master);
   Master other;
-  other.nonce = 0x4321;
+  other.name = 0x4321;
   LONGS_EQUAL(0, claim(other));
   other.session = static_cast<std::uint16_t>(master.session + 1);
   CHECK(refusal_of(other.frame(Verb::position, 0.01F)) == Refusal::not_yours);
@@ -99,7 +107,7 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   // A frame of the earlier session.
   Master earlier = gone;
   CHECK(refusal_of(earlier.frame(Verb::position, 0.01F)) == Refusal::not_yours);
-  CHECK(refusal_of(next.frame(Opcode::release)) == Refusal::none);
+  CHECK(refusal_of(next.frame(Opcode::lease, releases)) == Refusal::none);
   CHECK_FALSE(leases.held(0, now));
 }
 
@@ -107,7 +115,7 @@ TEST(CanCommands, ItsHolderKeepsALeaseByClaimingItAgain) {
   const std::uint16_t session = claim(master);
   for (int i = 0; i < 30; ++i) {
     now += 900ms;
-    LONGS_EQUAL(session, read_answer(*take(master.frame(Opcode::claim)).answer).granted);
+    LONGS_EQUAL(session, read_answer(*take(master.frame(Opcode::lease)).answer).granted);
   }
   CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
 }
@@ -133,29 +141,24 @@ TEST(CanCommands, FramesOfEveryEarlierSessionAreRefused) {
       CHECK(refusal_of(frame) == Refusal::not_yours);
     sessions.insert(each.session);
     earlier.push_back(each.frame(Verb::position, 0.01F));
-    refusal_of(each.frame(Opcode::release));
+    refusal_of(each.frame(Opcode::lease, releases));
   }
   CHECK(sessions.size() > 95);
 }
 
-TEST(CanCommands, TheNextSessionDiffersWhateverTheRandomNumbersAre) {
-  // Seeds whose first two sessions would be the same, and whose first would be nobody's.
-  constexpr std::uint32_t repeats = 52120;
-  constexpr std::uint32_t begins_with_none = 43117;
-  std::mt19937 random(repeats);
-  const auto session = static_cast<std::uint16_t>(random());
-  LONGS_EQUAL(session, static_cast<std::uint16_t>(random()));
-  Leases twice{settings.lease_s, 1, repeats};
-  CHECK(twice.claim(0, 1, 0, now) == Refusal::none);
-  LONGS_EQUAL(session, twice.session(0));
-  twice.release(0);
-  CHECK(twice.claim(0, 1, 0, now) == Refusal::none);
-  CHECK(twice.session(0) != session);
-
-  LONGS_EQUAL(0, static_cast<std::uint16_t>(std::mt19937(begins_with_none)()));
-  Leases none{settings.lease_s, 1, begins_with_none};
-  CHECK(none.claim(0, 1, 0, now) == Refusal::none);
-  CHECK(none.session(0) != 0);
+TEST(CanCommands, TheNextNonceAndSessionDifferWhateverTheRandomNumbersAre) {
+  // 0 is nobody's; the low 16 bits count.
+  const std::vector<std::uint32_t> numbers{0, 7, 0x10000, 9, 7, 0x20007, 8, 9, 0, 10};
+  std::size_t taken = 0;
+  Leases twice{settings.lease_s, 1, [&] { return numbers.at(taken++); }};
+  for (const auto& [nonce, session] : {std::pair{7, 9}, std::pair{8, 10}}) {
+    CHECK(twice.claim(0, 1, 0.0, 0, now) == Refusal::claim_again);
+    LONGS_EQUAL(nonce, twice.nonce(0));
+    CHECK(twice.claim(0, 1, nonce, 1, now) == Refusal::none);
+    LONGS_EQUAL(session, twice.session(0));
+    twice.release(0);
+  }
+  LONGS_EQUAL(numbers.size(), taken);
 }
 
 TEST(CanCommands, MoreThanTheLoopCanTakeAreAnsweredAtOnce) {
@@ -168,15 +171,81 @@ TEST(CanCommands, MoreThanTheLoopCanTakeAreAnsweredAtOnce) {
 }
 
 TEST(CanCommands, AClaimWhoseAnswerWasLostIsGrantedAgainToTheSameOnly) {
-  const std::uint16_t session = claim(master);
-  LONGS_EQUAL(session, claim(master));
+  claim(master);
+  CHECK(claim(master) != 0);
   Master other;
   other.session = 0x4321;
-  const auto taken = take(other.frame(Opcode::claim));
+  const auto taken = take(other.frame(Opcode::lease));
   LONGS_EQUAL(8, read_answer(*taken.answer).refusal);
   LONGS_EQUAL(0, read_answer(*taken.answer).granted);
   refusal_of(master.frame(Verb::arm));
   LONGS_EQUAL(0, claim(other));
+}
+
+TEST(CanCommands, ANonceIsGoodForOneClaimAndForAsLongAsALease) {
+  master.session = master.name;
+  const std::uint16_t nonce = nonce_for(master);
+  now += 1001ms;
+  const auto late = read_answer(*take(master.frame(Opcode::lease, nonce)).answer);
+  LONGS_EQUAL(12, late.refusal);
+  CHECK(late.granted != nonce);
+  const auto taking = master.frame(Opcode::lease, late.granted);
+  LONGS_EQUAL(0, read_answer(*take(taking).answer).refusal);
+  // The same frame once more, with nothing in between, and after the lease.
+  LONGS_EQUAL(12, read_answer(*take(taking).answer).refusal);
+  now += 1001ms;
+  LONGS_EQUAL(12, read_answer(*take(taking).answer).refusal);
+  CHECK_FALSE(leases.held(0, now));
+}
+
+TEST(CanCommands, OfTwoWhoClaimTheFirstToRepeatTheNonceIsGranted) {
+  Master other;
+  other.name = other.session = 0x4321;
+  master.session = master.name;
+  const std::uint16_t nonce = nonce_for(master);
+  LONGS_EQUAL(nonce, nonce_for(other));
+  LONGS_EQUAL(0, read_answer(*take(other.frame(Opcode::lease, nonce)).answer).refusal);
+  LONGS_EQUAL(8, read_answer(*take(master.frame(Opcode::lease, nonce)).answer).refusal);
+}
+
+/// What docs/can.md says of recordings: while its lease lasts a circle of a session's frames
+/// passes.
+TEST(CanCommands, ACircleOfSixteenRecordedFramesIsObeyedWhileTheLeaseLastsOnly) {
+  claim(master);
+  std::vector<hal::CanFrame> circle;
+  for (int i = 0; i < 16; ++i) {
+    circle.push_back(master.frame(Verb::renew));
+    CHECK(refusal_of(circle.back()) == Refusal::none);
+  }
+  for (int i = 0; i < 160; ++i) {
+    now += 50ms;
+    CHECK(refusal_of(circle.at(static_cast<std::size_t>(i) % 16)) == Refusal::none);
+  }
+  // Of single ones, those pass that are 12 to 15 commands old.
+  for (std::size_t age = 0; age < 16; ++age) {
+    claim(master);
+    now += 2s;
+    claim(master);
+    std::vector<hal::CanFrame> frames;
+    for (int i = 0; i < 16; ++i) {
+      frames.push_back(master.frame(Verb::renew));
+      commands.answered({*take(frames.back()).command, Refusal::none});
+    }
+    const bool passes = take(frames.at(15 - age)).command.has_value();
+    CHECK_EQUAL(age >= 12, passes);
+  }
+  now += 2s;
+  for (const hal::CanFrame& frame : circle)
+    CHECK(refusal_of(frame) == Refusal::no_lease);
+}
+
+TEST(CanCommands, AClaimOfVersion3IsToldThatThisIsAnother) {
+  const auto answer = *take(master.frame(Opcode::claim_of_version_3)).answer;
+  LONGS_EQUAL(7, answer.length);
+  LONGS_EQUAL(13, read_answer(answer).refusal);
+  LONGS_EQUAL(0, read_answer(answer).granted);
+  CHECK(take(master.frame(Verb::disarm)).command.has_value());
+  CHECK_FALSE(leases.held(0, now));
 }
 
 TEST(CanCommands, ARepeatedOneIsRefusedAndCountsAsDamaged) {
@@ -192,12 +261,12 @@ TEST(CanCommands, ARepeatedOneIsRefusedAndCountsAsDamaged) {
 TEST(CanCommands, AClaimThatMeansNothingCountsInTheSequenceToo) {
   claim(master);
   Master replayed = master;
-  CHECK(refusal_of(master.frame(Opcode::claim, 1.0F)) == Refusal::out_of_range);
+  CHECK(refusal_of(master.frame(Opcode::lease, 1.0F)) == Refusal::out_of_range);
   CHECK(refusal_of(replayed.frame(Verb::arm)) == Refusal::wrong_counter);
   CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
   Master stranger;
-  stranger.nonce = 7;
-  CHECK(refusal_of(stranger.frame(Opcode::claim, 1.0F)) == Refusal::out_of_range);
+  stranger.session = 7;
+  CHECK(refusal_of(stranger.frame(Opcode::lease, 1.0F)) == Refusal::not_yours);
 }
 
 TEST(CanCommands, ThreeMayBeLostInBetweenAndAfterMoreTheNextIsObeyed) {
@@ -298,7 +367,7 @@ TEST(Opcodes, EveryCommandIsMeantAsItWasSent) {
   for (std::size_t i = 1; i < verb_names.size(); ++i) {
     const auto verb = static_cast<Verb>(i);
     const Sent on_the_wire = sent(verb, 0.25);
-    CHECK(on_the_wire.opcode < Opcode::claim);
+    CHECK(on_the_wire.opcode < Opcode::claim_of_version_3);
     CHECK(meant(on_the_wire.opcode, on_the_wire.value).verb == verb);
     DOUBLES_EQUAL(0.25, meant(on_the_wire.opcode, on_the_wire.value).value, 0.0);
   }

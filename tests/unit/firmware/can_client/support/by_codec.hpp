@@ -36,6 +36,11 @@ inline Values emergency(const hal::CanFrame& frame) {
                  supercoil_emergency_state_decode(m.state),
                  supercoil_emergency_board_time_s_decode(m.board_time_s)});
 }
+inline Values first_cause(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_first_cause_unpack);
+  return values({supercoil_first_cause_measured_decode(m.measured),
+                 supercoil_first_cause_limit_decode(m.limit)});
+}
 inline Values command(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_command_unpack);
   return values({supercoil_command_crc_decode(m.crc), supercoil_command_counter_decode(m.counter),
@@ -167,8 +172,9 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 17> codec_messages{{
+constexpr std::array<CodecMessage, 18> codec_messages{{
     {"Emergency", SUPERCOIL_EMERGENCY_FRAME_ID, SUPERCOIL_EMERGENCY_LENGTH, emergency},
+    {"FirstCause", SUPERCOIL_FIRST_CAUSE_FRAME_ID, SUPERCOIL_FIRST_CAUSE_LENGTH, first_cause},
     {"Command", SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, command},
     {"Acknowledge", SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH, acknowledge},
     {"Measurement", SUPERCOIL_MEASUREMENT_FRAME_ID, SUPERCOIL_MEASUREMENT_LENGTH, measurement},

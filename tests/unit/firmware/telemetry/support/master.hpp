@@ -13,7 +13,7 @@ struct Master {
   telemetry::Node node = 1;
   std::uint16_t session = 0;
   std::uint8_t counter = 0;
-  std::uint16_t nonce = 0x1234;  ///< by which it knows the answer to its claim
+  std::uint16_t name = 0x1234;  ///< by which it knows the answer to its claim
 
   hal::CanFrame frame(std::uint8_t opcode, float value = 0.0F) {
     supercoil_command_t m{};

@@ -9,7 +9,8 @@ namespace supercoil::board {
 struct AppliedPower {
   double power_W = 0.0;
   double duty = 0.0;
-  bool limited = false;  ///< it was not the one that was wanted
+  bool limited = false;   ///< it was not the one that was wanted
+  double dither_W = 0.0;  ///< of the power, what was added to see whether the muscle answers
 };
 
 /// A delay line of whole ticks, up to 255. No longer than it must be: it stays in the cache.

@@ -57,6 +57,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   read.number("responding_window_s", s.responding_window_s, {1.0, 600.0});
   read.number("responding_part", s.responding_part, {0.01, 0.9});
   read.number("responding_least_m", s.responding_least_m, {1e-6, 1.0});
+  s.proof_of_response = section.flag("proof_of_response", s.proof_of_response);
   // A buffered duty reads back as what it was until the bus's thread has written it.
   const double lag_ticks = pwm.access.buffered() ? 5.0 : 2.0;
   read.time("wrong_duty_ms", s.wrong_duty_s, lag_ticks, {1.0, 1000.0});

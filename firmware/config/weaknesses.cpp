@@ -94,6 +94,25 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
   }
 }
 
+/// Of a muscle that is held still and hot only a dither can tell whether it still answers.
+void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
+  if (!c.supervision.proof_of_response) {
+    findings.add(
+        Fault::heater_not_responding,
+        "detectors.proof_of_response is false: a muscle that is held still, off its sensor "
+        "and badly cooled may pass its limit unseen");
+    return;
+  }
+  const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
+  if (plan.provable_W >= c.limiter.max_W) return;
+  std::ostringstream reason;
+  reason
+      << "a motion of 20 um or two counts is told from the sensor's noise too late for more: once "
+         "identified, the muscle gets no more than "
+      << std::nearbyint(1e2 * plan.provable_W) / 1e2 << " W (limited_by unproven)";
+  findings.add(Fault::heater_not_responding, reason.str());
+}
+
 void judge_muscle(const ChannelSettings& c, Findings& findings) {
   const ChannelSupervision& s = c.supervision;
   if (s.energy_J >= c.limiter.max_W * s.energy_window_s) {
@@ -132,6 +151,7 @@ std::vector<std::string> weaknesses(const BoardConfig& config) {
     findings.enter(i + 1);
     judge_sensors(c, findings);
     judge_heater(c, config.settings, findings);
+    judge_proof(c, config.settings, findings);
     judge_muscle(c, findings);
     judge_thermal_fuse(config.labels[i].thermal_fuse_C, c.supervision.trip_C, findings);
   }

@@ -34,6 +34,12 @@ void tell_unstable(const ChannelSettings& channel, std::size_t index, double ste
 tl::expected<void, std::string> remember(config::BoardConfig& config,
                                          std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {
+    if (!config.settings.channels[i].supervision.proof_of_response) {
+      log(Level::warning,
+          "channel " + std::to_string(i + 1) +
+              ": detectors.proof_of_response is false: nothing proves that a muscle "
+              "which is held still and hot answers");
+    }
     const auto loaded = stores[i].load();
     if (!loaded) return tl::unexpected(loaded.error());
     for (const std::string& problem : loaded->problems)
@@ -45,6 +51,8 @@ tl::expected<void, std::string> remember(config::BoardConfig& config,
             ": senses: " + config::describe_senses(channel, config.settings));
     channel.knows_muscle = loaded->learned && loaded->learned->knows_muscle;
     if (!channel.knows_muscle) continue;
+    // Calibrating alone stores the muscle as the file has it: that is no identification.
+    channel.muscle_identified = !(loaded->learned->muscle == channel.muscle);
     channel.muscle = loaded->learned->muscle;
     channel.calibration = loaded->learned->calibration;
     log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +

@@ -62,6 +62,8 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       power_bounds_(power_bounds(settings, board)),
       heat_(settings.thermal, settings.muscle, board.step_s()),
       probe_(settings.heater.probe_s, board.step_s()),
+      proof_(proof_settings(settings, board), settings.muscle, settings.muscle_identified,
+             board.rate_Hz),
       identify_({}, settings.muscle, board.step_s()),
       smooth_power_W_(smoothing_s, board.step_s()),
       smooth_error_m_(smoothing_s, board.step_s()),
@@ -83,6 +85,7 @@ void Channel::supervise(const BoardNow& board) {
   follow_probe(supply_V_);
 
   Evidence& e = evidence_;
+  prove(board.periods);
   e.supply_V = supply_V_;
   e.hot = heat_.hottest_K() > hot_K;
   e.heating = state_.may_heat();
@@ -169,8 +172,9 @@ void Channel::control() {
 
 void Channel::limit() {
   limiter_.set_most(most_power_W());
+  limiter_.set_unproven(proof_.max_W());
   if (state_.may_heat()) {
-    allowed_ = limiter_.step(wanted_.wanted_power_W, heat_.hottest_C());
+    allowed_ = limiter_.step(proof_.added_to(wanted_.wanted_power_W), heat_.hottest_C());
   } else {
     allowed_ = {};
   }
@@ -201,7 +205,10 @@ void Channel::drive() {
   }
   write_enable(state_.enable());
   write_duty(state_.enable() ? out.step : 0);
-  set_ = {out.applied_W, out.duty, allowed_.by != LimitedBy::nothing || out.clipped};
+  const bool limited = allowed_.by != LimitedBy::nothing || out.clipped;
+  // A dither that was cut is none.
+  const double dither_W = state_.may_heat() && !limited ? proof_.dither_W() : 0.0;
+  set_ = {out.applied_W, out.duty, limited, dither_W};
   acting_ = delay_.step(set_);
 }
 

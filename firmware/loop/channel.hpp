@@ -139,6 +139,7 @@ class Channel {
   void end_mode(ModeResult result);
   ModeResult keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
   LimitedBy limited_by() const;
+  void prove(std::int64_t periods);
   void publish_estimate();
   void write_duty(int step);
   void write_enable(bool high);
@@ -172,6 +173,7 @@ class Channel {
   board::PowerBounds power_bounds_;
   board::Heat heat_;
   board::Probe probe_;
+  Proof proof_;
   double supply_V_ = 0.0;
 
   std::vector<control::Controller> controllers_;

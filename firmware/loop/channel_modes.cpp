@@ -41,7 +41,11 @@ ModeResult Channel::keep(const control::PhysicalParameters& muscle,
                          const storage::Calibration& found) {
   const storage::Learned learned{muscle, found, senses_, 0, true};
   if (storage::check(learned)) return ModeResult::implausible;
-  if (found != calibration_) supervisor_.recalibrated();
+  if (found != calibration_) {
+    supervisor_.recalibrated();
+    proof_.recalibrated();
+  }
+  if (!(muscle == muscle_)) proof_.learn(muscle);
   muscle_ = muscle;
   calibration_ = found;
   knows_muscle_ = true;

@@ -85,6 +85,15 @@ void Channel::follow_probe(double supply_V) {
   if (evidence_.probed) resistance_.set(probed.resistance_Ohm);
 }
 
+void Channel::prove(std::int64_t periods) {
+  const bool heats = state_.may_heat() && (mode_ == Mode::position || mode_ == Mode::power);
+  const board::Measured& position = evidence_.position;
+  proof_.step({acting_.power_W, acting_.dither_W, periods, position.present, position.value,
+               heat_.hottest_K(), heats});
+  evidence_.unanswered = proof_.unanswered();
+  if (evidence_.unanswered) evidence_.answer = proof_.margin();
+}
+
 std::optional<control::PhysicalParameters> Channel::trusted_muscle() const {
   if (!estimate_ || !estimate_->trusted) return std::nullopt;
   return control::physical_from(estimate_->theta,

@@ -1,5 +1,6 @@
 #include "loop/settings.hpp"
 
+#include <cmath>
 #include <sstream>
 
 namespace supercoil {
@@ -21,6 +22,22 @@ board::PowerBounds power_bounds(const ChannelSettings& channel, const BoardSetti
                              .max_power_ratio = channel.thermal.max_power_ratio});
   bounds.set(channel.senses);
   return bounds;
+}
+
+ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& board) {
+  ProofSettings s;
+  s.wanted = c.supervision.proof_of_response;
+  s.thermal = c.thermal;
+  const double middle_V =
+      0.5 * (board.supervision.lowest_supply_V + board.supervision.highest_supply_V);
+  s.max_power_ratio = power_bounds(c, board).true_over_told(middle_V).max;
+  s.max_W = c.limiter.max_W;
+  s.derate_from_C = c.limiter.derate_from_C;
+  s.trip_C = c.supervision.trip_C;
+  s.position_noise_rms_m = c.supervision.position_noise_rms_m;
+  s.count_m = std::abs(c.position.scaling.per_count);
+  s.obvious_m = c.supervision.responding_least_m;
+  return s;
 }
 
 std::string check(const BoardSettings& settings) {

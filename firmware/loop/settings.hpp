@@ -13,6 +13,7 @@
 #include "board/power_bounds.hpp"
 #include "storage/learned.hpp"
 #include "supervisor/limiter.hpp"
+#include "supervisor/proof.hpp"
 #include "supervisor/supervision.hpp"
 
 namespace supercoil {
@@ -40,6 +41,7 @@ struct HeaterSettings {
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
   bool knows_muscle = false;           ///< it and the calibration were learned before
+  bool muscle_identified = false;      ///< it was identified: not only believed
   storage::Calibration calibration;    ///< its cold resistance is HeaterSettings' when not learned
   storage::SenseComparison senses;     ///< with a meter, as stored
   InputSettings position;
@@ -73,6 +75,9 @@ board::PowerBounds power_bounds(const ChannelSettings& channel, const BoardSetti
 /// adapts. Empty: it works in open loop.
 std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,
                                              const ChannelSettings& channel, double step_s);
+
+/// What the proof that the muscle answers rests on.
+ProofSettings proof_settings(const ChannelSettings& channel, const BoardSettings& board);
 
 /// What makes settings unusable whoever wrote them; empty when they may run. (Ranges of single
 /// values are the configuration's to check.)

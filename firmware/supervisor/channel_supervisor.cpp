@@ -91,6 +91,9 @@ void ChannelSupervisor::judge_heater(const Evidence& e) {
     verdict_.note(heater_not_responding, not_responding_.step(e.position.value, e.expected_m),
                   not_responding_);
   }
+  if (e.unanswered) {
+    verdict_.note(heater_not_responding, unanswered_.step(true, e.answer), unanswered_);
+  }
 }
 
 void ChannelSupervisor::judge_muscle(const Evidence& e) {

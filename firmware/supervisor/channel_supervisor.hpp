@@ -2,6 +2,7 @@
 #pragma once
 
 #include "board/measurement.hpp"
+#include "supervisor/detectors/answer.hpp"
 #include "supervisor/detectors/heater.hpp"
 #include "supervisor/detectors/liveness.hpp"
 #include "supervisor/detectors/muscle.hpp"
@@ -24,8 +25,10 @@ struct Evidence {
   double duty = 0.0;     ///< as the current sense averages it
   int set_step = 0;
   int read_back = -1;
-  bool devices_ok = true;   ///< every write of the last tick was taken
-  double expected_m = 0.0;  ///< where the model of the muscle is
+  bool devices_ok = true;    ///< every write of the last tick was taken
+  double expected_m = 0.0;   ///< where the model of the muscle is
+  bool unanswered = false;   ///< the muscle was asked to prove that it answers, and did not,
+  detectors::Margin answer;  ///< and by how much
   double hottest_C = 0.0;
   double applied_W = 0.0;          ///< as it was set
   double measured_W = 0.0;         ///< the larger of that and what the senses tell
@@ -83,6 +86,7 @@ class ChannelSupervisor {
   detectors::Short short_;
   detectors::StuckOn stuck_on_;
   detectors::NotResponding not_responding_;
+  detectors::Reported unanswered_;
   detectors::WrongDuty wrong_duty_;
   detectors::Limit temperature_;
   detectors::Limit travel_;

@@ -20,6 +20,7 @@ Limiter::Result Limiter::step(double wanted_W, double temperature_C) {
       const double part = std::max(0.0, (settings_.derate_to_C - temperature_C) / span_C);
       cap(max_W() * part, LimitedBy::temperature);
     }
+    cap(unproven_W_, LimitedBy::unproven);
     cap(last_W_ + rise_W_, LimitedBy::slew);
   }
   last_W_ = result.power_W;

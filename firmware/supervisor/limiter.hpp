@@ -17,10 +17,11 @@ enum class LimitedBy : std::uint8_t {
   temperature = 4,  ///< derated: the muscle is near its limit
   invalid = 5,      ///< the wanted power was no number; none is given
   cooling = 6,      ///< the reference falls faster than the muscle cools, and was shaped
+  unproven = 7,     ///< no more is safe for a muscle that has not proven that it answers
 };
 
-inline constexpr std::array<std::string_view, 7> limit_names{
-    "nothing", "minimum", "maximum", "slew", "temperature", "invalid", "cooling"};
+inline constexpr std::array<std::string_view, 8> limit_names{
+    "nothing", "minimum", "maximum", "slew", "temperature", "invalid", "cooling", "unproven"};
 constexpr std::string_view name(LimitedBy limit) {
   return limit_names[static_cast<std::size_t>(limit)];
 }
@@ -52,6 +53,8 @@ class Limiter {
   }
   /// From whoever commands: a lower maximum than the one that is set.
   void set_most(double most_W) { most_W_ = most_W; }
+  /// What a muscle may have by what it has proven.
+  void set_unproven(double max_W) { unproven_W_ = max_W; }
   double min_W() const { return settings_.min_W; }
   double max_W() const { return most_W_ < settings_.max_W ? most_W_ : settings_.max_W; }
   /// The channel was made safe: the next rise starts from nothing.
@@ -61,6 +64,7 @@ class Limiter {
   LimiterSettings settings_;
   double rise_W_;
   double most_W_ = std::numeric_limits<double>::infinity();
+  double unproven_W_ = std::numeric_limits<double>::infinity();
   double last_W_ = 0.0;
 };
 

@@ -37,6 +37,7 @@ struct ChannelSupervision {
   double responding_window_s = 20.0;
   double responding_part = 0.3;
   double responding_least_m = 0.001;
+  bool proof_of_response = true;  ///< asked of an identified muscle while it is hot and still
   double wrong_duty_s = 0.005;
   // Muscle
   double trip_C = 160.0;

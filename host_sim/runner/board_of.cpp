@@ -110,6 +110,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
 
   ChannelSettings& channel = board.channels[0];
   channel.muscle = c.muscle;
+  channel.muscle_identified = scenario.muscle_identified;
   channel.position.scaling = scaling_of(simulated.channels[0].position);
   channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
   const double max_age_s = std::max(0.01, 3.0 * scenario.step_s());

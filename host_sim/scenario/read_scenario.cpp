@@ -126,7 +126,10 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   const auto believed = learned ? learned->muscle : configured;
   scenario.start = read_conditions(document, believed, scenario.step_s(), diagnostics);
   scenario.calibration.cold_resistance_Ohm = scenario.start.plant.resistance_Ohm;
-  if (learned) scenario.calibration = learned->calibration;
+  if (learned) {
+    scenario.calibration = learned->calibration;
+    scenario.muscle_identified = !(learned->muscle == configured);
+  }
   // Each event is laid over all before it, and the whole is read and checked again. Events at one
   // time are one change: what the first alone would make impossible, the second may put right.
   for (auto event = events.begin(); event != events.end() && diagnostics.empty(); ++event) {

@@ -26,6 +26,7 @@ struct Scenario {
   double rate_Hz = 1000.0;
   std::uint64_t seed = 1;
   int substeps = 1;
+  bool muscle_identified = false;    ///< identified before: not only believed
   storage::Calibration calibration;  ///< learned before; its resistance is [plant]'s otherwise
   Conditions start;
   std::vector<Event> events;  ///< in the order of their times

@@ -52,6 +52,9 @@ class Bench {
       channel.estimators = {estimator};
       channel.supervision.frozen_s = INFINITY;
       channel.supervision.responding_part = 0.0;
+      // It is asked to prove that it answers, but what it expects is never enough for a fault.
+      channel.muscle_identified = true;
+      channel.supervision.responding_least_m = INFINITY;
       channel.supervision.stuck_on_s = INFINITY;
       channel.supervision.open_s = INFINITY;
       channel.supervision.saturated_s = INFINITY;

@@ -59,7 +59,7 @@ constexpr std::array<ValueName, 16> names_of_gain{{
     {15, "bias"},
 }};
 
-constexpr std::array<ValueName, 7> names_of_limited_by{{
+constexpr std::array<ValueName, 8> names_of_limited_by{{
     {0, "nothing"},
     {1, "minimum"},
     {2, "maximum"},
@@ -67,6 +67,7 @@ constexpr std::array<ValueName, 7> names_of_limited_by{{
     {4, "temperature"},
     {5, "invalid"},
     {6, "cooling"},
+    {7, "unproven"},
 }};
 
 constexpr std::array<ValueName, 5> names_of_mode{{

@@ -1113,12 +1113,12 @@ double supercoil_power_limited_by_decode(uint8_t value)
 
 bool supercoil_power_limited_by_is_in_range(uint8_t value)
 {
-    return (value <= 6u);
+    return (value <= 7u);
 }
 
 bool supercoil_power_limited_by_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 6.0));
+    return ((value >= 0.0) && (value <= 7.0));
 }
 
 uint8_t supercoil_power_limited_encode(double value)
@@ -3069,12 +3069,12 @@ double supercoil_status_limited_by_decode(uint8_t value)
 
 bool supercoil_status_limited_by_is_in_range(uint8_t value)
 {
-    return (value <= 6u);
+    return (value <= 7u);
 }
 
 bool supercoil_status_limited_by_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 6.0));
+    return ((value >= 0.0) && (value <= 7.0));
 }
 
 uint8_t supercoil_status_probing_encode(double value)

@@ -228,6 +228,7 @@ extern "C" {
 #define SUPERCOIL_POWER_LIMITED_BY_TEMPERATURE_CHOICE (4u)
 #define SUPERCOIL_POWER_LIMITED_BY_INVALID_CHOICE (5u)
 #define SUPERCOIL_POWER_LIMITED_BY_COOLING_CHOICE (6u)
+#define SUPERCOIL_POWER_LIMITED_BY_UNPROVEN_CHOICE (7u)
 
 #define SUPERCOIL_HEATER_SUPPLY_V_NOT_AVAILABLE_CHOICE (65535u)
 
@@ -459,6 +460,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_LIMITED_BY_TEMPERATURE_CHOICE (4u)
 #define SUPERCOIL_STATUS_LIMITED_BY_INVALID_CHOICE (5u)
 #define SUPERCOIL_STATUS_LIMITED_BY_COOLING_CHOICE (6u)
+#define SUPERCOIL_STATUS_LIMITED_BY_UNPROVEN_CHOICE (7u)
 
 #define SUPERCOIL_STATUS_PROGRESS_NOT_AVAILABLE_CHOICE (255u)
 
@@ -860,7 +862,7 @@ struct supercoil_power_t {
     /**
      * The limit that took the rest, or for which the reference was shaped. Not a fault.
      *
-     * Range: 0..6 (0..6 -)
+     * Range: 0..7 (0..7 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1409,7 +1411,7 @@ struct supercoil_status_t {
     /**
      * As in Power.
      *
-     * Range: 0..6 (0..6 -)
+     * Range: 0..7 (0..7 -)
      * Scale: 1
      * Offset: 0
      */

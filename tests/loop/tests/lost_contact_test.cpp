@@ -1,5 +1,7 @@
 // A muscle whose motion no longer reaches the sensor, and that is cooled worse from then on.
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include <CppUTest/TestHarness.h>
 
@@ -12,10 +14,13 @@ using test::Task;
 namespace {
 
 /// No resistance tells the temperature: only the position can show that something is wrong.
-test::RigSettings deaf_board() {
+test::RigSettings deaf_board(bool identified) {
   test::RigSettings s = test::rough_board();
   s.firmware.channels[Rig::tested].heater.temperature_coefficient_per_K = 0.0;
   s.board.channels[Rig::tested].temperature_coefficient_per_K = 0.0;
+  s.firmware.channels[Rig::tested].muscle_identified = identified;
+  s.firmware.channels[Rig::tested].senses.error_ratio = 0.02;  // compared with a meter
+  s.firmware.channels[Rig::tested].supervision.energy_J = 1e6;
   return s;
 }
 
@@ -25,50 +30,179 @@ class LostContact {
     rig.boot();
   }
 
-  void arm_and_heat(Task task) {
+  /// Follows `ask` from now on: a command and its value, by the time since then.
+  void start(Verb verb, const std::function<double(double)>& ask) {
+    arm();
+    verb_ = verb;
+    ask_ = ask;
+    start_s_ = rig.time_s();
+  }
+  void arm() {
     rig.arm();
     rig.run(0.2);
-    rig.heat(task);
+  }
+  void cool(double ratio) {
+    host_sim::MuscleChannelSettings muscle = settings_.board.channels[Rig::tested];
+    muscle.plant.heat_transfer_W_per_K *= ratio;
+    rig.muscle().set(muscle);
   }
   void lose_contact() {
-    host_sim::MuscleChannelSettings muscle = settings_.board.channels[Rig::tested];
-    muscle.plant.heat_transfer_W_per_K *= 0.25;
-    rig.muscle().set(muscle);
+    cool(0.25);
     rig.muscle().trouble.slack = true;
   }
   /// Until a fault, for at most so long.
   void run(double time_s) {
     const double end_s = rig.time_s() + time_s;
     while (rig.time_s() < end_s && rig.state() != State::fault) {
+      if (rig.state() != State::disarmed) rig.send(verb_, ask_(rig.time_s() - start_s_));
       rig.tick();
       hottest_C = std::max(hottest_C, 25.0 + rig.muscle().plant().temperature_rise_K());
+      const Snapshot& s = rig.snapshot();
+      limited = limited || s.limited_by == LimitedBy::unproven;
+      // A dither: other power than was wanted, and nothing limits it.
+      const double added_W = std::abs(s.applied_W - s.wanted_W);
+      dithers += !s.limited && s.state == State::active && added_W > 0.03 ? 1 : 0;
     }
   }
 
  private:
   test::RigSettings settings_;
+  Verb verb_ = Verb::power;
+  std::function<double(double)> ask_;
+  double start_s_ = 0.0;
 
  public:
   Rig rig;
   double hottest_C = 0.0;
+  bool limited = false;
+  long dithers = 0;
 };
+
+auto always(double value) {
+  return [value](double) { return value; };
+}
+
+/// Armed anew every 12 s.
+void run_rearming(LostContact& muscle, int times) {
+  for (int i = 0; i < times && muscle.rig.state() != State::fault; ++i) {
+    muscle.run(11.7);
+    muscle.rig.send(Verb::disarm);
+    muscle.run(0.1);
+    if (muscle.rig.state() != State::fault) muscle.arm();
+  }
+}
+
+void check_found(const LostContact& muscle, double hottest_C) {
+  CHECK(muscle.rig.fault() == Fault::heater_not_responding);
+  CHECK_COMPARE(muscle.hottest_C, <, hottest_C);
+}
 
 }  // namespace
 
 TEST_GROUP(LostContact){};
 
 TEST(LostContact, IsFoundThoughTheChannelIsArmedAnewEvery12Seconds) {
-  LostContact muscle(deaf_board());
-  muscle.rig.scale = 1.15;  // 2.9 W: in the end 154 °C
-  muscle.arm_and_heat(Task::power);
+  LostContact muscle(deaf_board(false));
+  muscle.start(Verb::power, always(2.9));  // in the end 154 °C
   muscle.run(10.0);
   muscle.lose_contact();
-  for (int i = 0; i < 4 && muscle.rig.state() != State::fault; ++i) {
-    muscle.run(11.7);
-    muscle.rig.send(Verb::disarm);
-    muscle.run(0.1);
-    if (muscle.rig.state() != State::fault) muscle.arm_and_heat(Task::power);
+  run_rearming(muscle, 4);
+  check_found(muscle, 160.0);
+}
+
+TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItIsArmedAnew) {
+  LostContact muscle(deaf_board(true));
+  muscle.start(Verb::power, always(4.5));
+  muscle.run(5.0);
+  muscle.lose_contact();
+  run_rearming(muscle, 4);
+  check_found(muscle, 120.0);
+}
+
+TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItIsHeldAtAPower) {
+  for (const double power_W : {1.5, 3.0, 4.0}) {
+    for (const double moment_s : {15.0, 15.3, 15.6}) {
+      LostContact muscle(deaf_board(true));
+      muscle.start(Verb::power, always(power_W));
+      muscle.run(moment_s);
+      muscle.lose_contact();
+      muscle.run(10.0);
+      check_found(muscle, 120.0);
+    }
   }
-  CHECK(muscle.rig.fault() == Fault::heater_not_responding);
-  CHECK_COMPARE(muscle.hottest_C, <, 160.0);
+}
+
+TEST(LostContact, OfAnIdentifiedMuscleIsFoundWhileItHoldsAPosition) {
+  for (const double controller : {0.0, 1.0, 2.0}) {
+    for (const double position_m : {0.010, 0.020}) {
+      LostContact muscle(deaf_board(true));
+      muscle.rig.send(Verb::controller, controller);
+      muscle.start(Verb::position, always(position_m));
+      muscle.run(15.0);
+      muscle.lose_contact();
+      muscle.run(10.0);
+      check_found(muscle, 120.0);
+    }
+  }
+}
+
+TEST(LostContact, OfAnIdentifiedMuscleIsFoundInASlowRamp) {
+  LostContact muscle(deaf_board(true));
+  muscle.start(Verb::power, [](double t) { return std::min(4.0, 0.04 * t); });
+  muscle.run(20.0);
+  muscle.lose_contact();
+  muscle.run(100.0);
+  check_found(muscle, 120.0);
+}
+
+TEST(LostContact, IsAlsoThatOfABlockedMuscle) {
+  LostContact muscle(deaf_board(true));
+  muscle.start(Verb::position, always(0.015));
+  muscle.run(15.0);
+  muscle.rig.muscle().trouble.slack = true;
+  muscle.run(10.0);
+  check_found(muscle, 120.0);
+}
+
+TEST(LostContact, IsNoneWhereAMuscleIsWrappedAndItsPositionShowsIt) {
+  LostContact held(deaf_board(true));
+  held.start(Verb::position, always(0.018));
+  held.run(15.0);
+  held.cool(0.25);
+  held.run(60.0);
+  CHECK(held.rig.fault() == Fault::none);
+  CHECK_COMPARE(held.hottest_C, <, 100.0);
+
+  LostContact driven(deaf_board(true));
+  driven.start(Verb::power, always(3.0));
+  driven.run(15.0);
+  driven.cool(0.25);
+  driven.run(60.0);
+  CHECK_COMPARE(driven.hottest_C, <, 160.0);
+}
+
+TEST(LostContact, IsNoneWhileALivingMuscleIsHeldInADraught) {
+  for (const double controller : {0.0, 1.0, 2.0}) {
+    LostContact muscle(deaf_board(true));
+    muscle.rig.send(Verb::controller, controller);
+    muscle.start(Verb::position, always(0.012));
+    muscle.run(30.0);
+    muscle.cool(1.8);
+    muscle.run(30.0);
+    muscle.cool(0.6);
+    muscle.run(30.0);
+    CHECK(muscle.rig.fault() == Fault::none);
+    CHECK_COMPARE(muscle.dithers, >, 0);
+    CHECK_FALSE(muscle.limited);
+  }
+}
+
+TEST(LostContact, IsProvenByTheMotionOfASineWithoutADither) {
+  LostContact muscle(deaf_board(true));
+  muscle.rig.send(Verb::controller, 2.0);
+  muscle.start(Verb::position, [](double t) { return 0.011 + 0.009 * std::sin(0.25 * t); });
+  muscle.run(60.0);
+  CHECK(muscle.rig.fault() == Fault::none);
+  LONGS_EQUAL(0, muscle.dithers);
+  CHECK_FALSE(muscle.limited);
 }

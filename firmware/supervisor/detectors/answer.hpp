@@ -1,0 +1,114 @@
+// Does the position answer the power as the muscle's model says? A matched filter.
+#pragma once
+
+#include <cmath>
+
+#include "supervisor/detectors/margin.hpp"
+
+namespace supercoil::detectors {
+
+/// Takes the slow part away: drift of the rest length, of the air, and what a model does not know
+/// of them. Two equal high-passes.
+class SlowPartRemoved {
+ public:
+  SlowPartRemoved(double corner_rad_per_s, double step_s)
+      : taken_(-std::expm1(-corner_rad_per_s * step_s)) {}
+
+  double step(double value) {
+    first_ += taken_ * (value - first_);
+    const double once = value - first_;
+    second_ += taken_ * (once - second_);
+    return once - second_;
+  }
+  /// As after a long time at this value.
+  void settle(double value) {
+    first_ = value;
+    second_ = 0.0;
+  }
+
+ private:
+  double taken_;
+  double first_ = 0.0;
+  double second_ = 0.0;
+};
+
+/// Sums over a block: what the model expects, times itself and times what was measured. A block is
+/// decided when its expected motion is needed_deviations times the noise of the measured ratio.
+class Answer {
+ public:
+  // One-sided tails of a normal distribution. 1e-3 of dead muscles pass. Of living ones whose
+  // answer is half of the model's (identified: within 15 %; the rest is for hysteresis, which takes
+  // the most from small motions) less than 1e-9 do not: 3e-10, and twice that as open blocks are
+  // looked at again.
+  static constexpr double missed_deviations = 3.1;
+  static constexpr double false_deviations = 6.2;
+  static constexpr double least_answer_ratio = 0.5;
+  static constexpr double needed_deviations =
+      (missed_deviations + false_deviations) / least_answer_ratio;
+  /// A smaller ratio of measured to expected motion is no answer.
+  static constexpr double silent_ratio = missed_deviations / needed_deviations;
+
+  enum class Result { open, answered, silent };
+
+  /// noise_m: standard deviation of one measured value, > 0.
+  explicit Answer(double noise_m) : variance_m2_(noise_m * noise_m) {}
+
+  void restart() { expected_ = shared_ = measured_ = count_ = 0.0; }
+
+  /// Both without their slow part.
+  Result step(double expected_m, double measured_m) {
+    expected_ += expected_m * expected_m;
+    shared_ += expected_m * measured_m;
+    measured_ += measured_m * measured_m;
+    count_ += 1.0;
+    if (count_ < least_count || expected_ < square(needed_deviations) * variance_m2_)
+      return Result::open;
+    if (ratio() < silent_ratio) return is_quiet() ? Result::silent : Result::open;
+    const bool certain = square(ratio()) * expected_ >= square(false_deviations) * noise_m2();
+    return certain ? Result::answered : Result::open;
+  }
+  /// Whether the position moved by more than this, rms over the block, for whatever reason.
+  bool moved_m(double rms_m) const { return measured_ > square(rms_m) * (count_ + least_count); }
+  /// Measured over expected motion in this block; 0 before anything was expected.
+  double ratio() const { return expected_ > 0.0 ? shared_ / expected_ : 0.0; }
+
+ private:
+  /// As responding_part: what moves by more of the expected motion, however it moves, is not dead.
+  static constexpr double moved_ratio = 0.3;
+  /// Of fewer values the residual says too little of its own size.
+  static constexpr double least_count = 10.0;
+
+  static double square(double x) { return x * x; }
+
+  /// The sensor's noise, or what the model leaves of the motion, whichever is larger.
+  double noise_m2() const {
+    return std::fmax(variance_m2_, (measured_ - shared_ * ratio()) / (count_ - 1.0));
+  }
+  /// What moves by itself, if not by the power, is no proof of a dead muscle.
+  bool is_quiet() const {
+    const bool enough = expected_ >= square(needed_deviations) * noise_m2();
+    const double quiet_m2 = std::fmax(4.0 * count_ * variance_m2_, square(moved_ratio) * expected_);
+    return enough && measured_ <= quiet_m2;
+  }
+
+  double variance_m2_;
+  double expected_ = 0.0;
+  double shared_ = 0.0;
+  double measured_ = 0.0;
+  double count_ = 0.0;
+};
+
+/// A margin that was found elsewhere.
+class Reported final : public Detector {
+ public:
+  bool step(bool trips, const Margin& margin) {
+    margin_ = margin;
+    return trips;
+  }
+  Margin margin() const override { return margin_; }
+
+ private:
+  Margin margin_;
+};
+
+}  // namespace supercoil::detectors

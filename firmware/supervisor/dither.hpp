@@ -1,0 +1,63 @@
+// A small, short change of power whose answer can be told from the sensor's noise.
+#pragma once
+
+#include <cmath>
+
+#include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/linear/discretize.hpp"
+
+#include "supervisor/detectors/answer.hpp"
+
+namespace supercoil {
+
+/// The position that a muscle's model has, step by step of some 10 ms.
+class ExpectedMotion {
+ public:
+  ExpectedMotion(const control::PhysicalParameters& muscle, double step_s);
+
+  /// power_W acted during this step: the mean position in it.
+  double step(double power_W) {
+    const double before_m = state_[1];
+    state_ = discrete_.transition * state_ + discrete_.held.col(0) * power_W;
+    return 0.5 * (before_m + state_[1]);
+  }
+  /// Where another model of the same muscle is.
+  void take_over(const ExpectedMotion& other) { state_ = other.state_; }
+
+ private:
+  control::ZeroOrderHold<3, 2> discrete_;
+  control::Vector<double, 3> state_ = control::Vector<double, 3>::Zero();
+};
+
+/// What a sensor's mean over a step may be off by.
+struct SensorStep {
+  double noise_m;  ///< standard deviation of a step's mean
+  double count_m;  ///< one count of the converter
+};
+
+/// A square wave around the power that is wanted, from the middle of a half on: its answer goes
+/// round the position evenly, and whole periods leave nothing behind.
+struct Dither {
+  int half_steps = 1;
+  double amplitude_W = 0.0;
+  /// Until its answer in open loop is needed_deviations of the noise; infinite: never.
+  double decided_s = INFINITY;
+
+  /// place: steps since it began. +1 or -1.
+  double sign(int place) const {
+    return (place + half_steps / 2) / half_steps % 2 == 0 ? 1.0 : -1.0;
+  }
+};
+
+/// Slower motion counts less: a drift may be anything. Of any motion: higher, and a sine of 0.25
+/// rad/s and 18 mm would have moments that prove nothing for longer than a dither waits.
+inline constexpr double motion_corner_rad_per_s = 1.0;
+/// Of a dither's answer: a load or a draught moves the muscle by more than the dither, but slower.
+inline constexpr double dither_corner_rad_per_s = 4.0;
+
+/// The slowest and so the gentlest dither that is decided within in_time_s on this muscle, its
+/// answer at most 20 µm or two counts; where none is in time, the one that is decided soonest.
+Dither dither_for(const control::PhysicalParameters& muscle, const SensorStep& sensor, double max_W,
+                  double in_time_s, double step_s);
+
+}  // namespace supercoil

@@ -1,0 +1,253 @@
+#include "supervisor/proof.hpp"
+
+#include <algorithm>
+
+namespace supercoil {
+
+namespace {
+
+/// What is left of the least heat transfer in the worst case: a muscle that is wrapped, or off its
+/// sensor and in still air.
+constexpr double worst_cooling_ratio = 0.25;
+constexpr double wanted_step_s = 0.01;
+/// A closed loop takes part of the dither away.
+constexpr double loop_ratio = 1.3;
+/// Of the time to the limit: a dither has begun so that it is decided by the first, and without a
+/// decision the power is taken back at the second.
+constexpr double decided_ratio = 0.5;
+constexpr double overdue_ratio = 0.75;
+/// Held longer than the dither takes in open loop by this ratio, a power is provable.
+constexpr double provable_ratio = 2.0;
+/// A motion has this long to prove itself before a dither is added to it.
+constexpr double patience_s = 0.2;
+constexpr double longest_block_s = 2.0;
+/// Of obvious_m, rms: a position that moves so much by itself is no dead sensor's.
+constexpr double loud_ratio = 0.1;
+constexpr double longest_release_s = 3.0;
+/// Powers are rounded to steps of the PWM.
+constexpr double above_safe_ratio = 1.05;
+/// Of obvious_m: friction of 2 % of the paper's load holds 1.1 mm.
+constexpr double release_ratio = 2.0;
+
+std::int64_t ticks_of_step(double rate_Hz) {
+  return std::max<std::int64_t>(1, std::llround(rate_Hz * wanted_step_s));
+}
+
+SensorStep sensor_of(const ProofSettings& s, double rate_Hz) {
+  const double noise_m2 = s.position_noise_rms_m * s.position_noise_rms_m;
+  const double mean_m2 = noise_m2 / static_cast<double>(ticks_of_step(rate_Hz));
+  // Rounding may be the same for all ticks of a step.
+  return {std::sqrt(mean_m2 + s.count_m * s.count_m / 12.0), s.count_m};
+}
+
+double least_transfer_W_per_K(const ProofSettings& s) {
+  return worst_cooling_ratio * s.thermal.bounds.lowest_transfer_W_per_K;
+}
+
+double rest_K(const ProofSettings& s, double power_W) {
+  return power_W * s.max_power_ratio / least_transfer_W_per_K(s);
+}
+
+/// What the interval's hot end comes to.
+double hot_end_K(const ProofSettings& s, double power_W) {
+  return worst_cooling_ratio * rest_K(s, power_W);
+}
+
+double slowest_s(const ProofSettings& s) {
+  return s.thermal.bounds.lowest_mass_J_per_K / least_transfer_W_per_K(s);
+}
+
+/// With all the power that there is, from the hottest that it may be, with the least mass.
+double time_to_limit_s(const ProofSettings& s, double hottest_K) {
+  const double full_K = rest_K(s, s.max_W);
+  const double limit_K = s.trip_C - s.thermal.ambient_C;
+  if (full_K <= limit_K) return INFINITY;
+  if (hottest_K >= limit_K) return 0.0;
+  return slowest_s(s) * std::log((full_K - hottest_K) / (full_K - limit_K));
+}
+
+double steps_s(double rate_Hz) {
+  return static_cast<double>(ticks_of_step(rate_Hz)) / rate_Hz;
+}
+
+}  // namespace
+
+ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& muscle,
+                     double rate_Hz) {
+  ProofPlan plan;
+  const double in_time_s = decided_ratio / loop_ratio * time_to_limit_s(s, hot_end_K(s, s.max_W));
+  plan.dither = dither_for(muscle, sensor_of(s, rate_Hz), s.max_W, in_time_s, steps_s(rate_Hz));
+  const double W_per_rest_K = s.max_W / rest_K(s, s.max_W);
+  plan.safe_W = std::max(0.0, s.derate_from_C - s.thermal.ambient_C) * W_per_rest_K;
+  // Where the hot end is held by so much power, the time to the limit at full power, once cooling
+  // has failed, is provable_ratio of the dither's.
+  const double limit_K = s.trip_C - s.thermal.ambient_C;
+  const double full_K = rest_K(s, s.max_W);
+  const double needed_s = provable_ratio * plan.dither.decided_s;
+  const double hot_K = full_K - (full_K - limit_K) * std::exp(needed_s / slowest_s(s));
+  const bool never = full_K <= limit_K;
+  const double held_W = hot_K * W_per_rest_K / worst_cooling_ratio;
+  plan.provable_W = never ? s.max_W : std::clamp(held_W, std::min(plan.safe_W, s.max_W), s.max_W);
+  return plan;
+}
+
+Proof::Proof(const ProofSettings& settings, const control::PhysicalParameters& muscle, bool known,
+             double rate_Hz)
+    : settings_(settings),
+      known_(known),
+      rate_Hz_(rate_Hz),
+      step_s_(steps_s(rate_Hz)),
+      step_ticks_(ticks_of_step(rate_Hz)),
+      plan_(plan_proof(settings, muscle, rate_Hz)),
+      all_(match_for(muscle, motion_corner_rad_per_s)),
+      dither_(match_for(muscle, dither_corner_rad_per_s)) {
+  enter(Stage::watching);
+}
+
+Proof::Match Proof::match_for(const control::PhysicalParameters& muscle,
+                              double corner_rad_per_s) const {
+  const detectors::SlowPartRemoved fast(corner_rad_per_s, step_s_);
+  return {ExpectedMotion(muscle, step_s_), fast, fast,
+          detectors::Answer(sensor_of(settings_, rate_Hz_).noise_m)};
+}
+
+void Proof::learn(const control::PhysicalParameters& muscle) {
+  known_ = true;
+  plan_ = plan_proof(settings_, muscle, rate_Hz_);
+  const ExpectedMotion before = all_.motion;
+  all_ = match_for(muscle, motion_corner_rad_per_s);
+  dither_ = match_for(muscle, dither_corner_rad_per_s);
+  all_.motion.take_over(before);
+  settled_ = false;
+  enter(Stage::watching);
+}
+
+void Proof::step(const Input& in) {
+  unanswered_ = false;
+  if (!active()) return;
+  const auto periods = static_cast<double>(in.periods);
+  power_sum_W_ += in.power_W * periods;
+  dither_sum_W_ += in.dither_W * periods;
+  ticks_ += in.periods;
+  if (in.present) {
+    position_sum_m_ += in.position_m;
+    ++positions_;
+  }
+  if (ticks_ >= step_ticks_) end_step(in);
+}
+
+void Proof::end_step(const Input& in) {
+  const auto ticks = static_cast<double>(ticks_);
+  const double power_W = power_sum_W_ / ticks;
+  all_.expect(power_W);
+  dither_.expect(dither_sum_W_ / ticks);
+  if (positions_ > 0) {
+    compare(position_sum_m_ / static_cast<double>(positions_));
+    in.heating ? judge(power_W, in.hottest_K) : rest();
+  } else {
+    settled_ = false;
+  }
+  power_sum_W_ = dither_sum_W_ = position_sum_m_ = 0.0;
+  ticks_ = positions_ = 0;
+}
+
+void Proof::compare(double position_m) {
+  if (!settled_) {
+    all_.settle(position_m);
+    dither_.settle(position_m);
+    begin_block();
+    settled_ = true;
+  }
+  all_.compare(position_m);
+  dither_.compare(position_m);
+  low_m_ = std::min(low_m_, all_.expected_m);
+  high_m_ = std::max(high_m_, all_.expected_m);
+  block_s_ += step_s_;
+  stage_s_ += step_s_;
+}
+
+void Proof::rest() {
+  enter(Stage::watching);
+  unproven_s_ = 0.0;
+  dither_place_ = -1;
+  dither_W_ = 0.0;
+}
+
+void Proof::judge(double power_W, double hottest_K) {
+  unproven_s_ = power_W > above_safe_ratio * plan_.safe_W ? unproven_s_ + step_s_ : 0.0;
+  if (stage_ == Stage::released) {
+    judge_release();
+  } else if (all_.answered() || dither_.answered()) {
+    unproven_s_ = 0.0;
+    if (stage_ == Stage::overdue) enter(Stage::watching);
+    begin_block();
+  } else if (dither_.silent() && stage_ == Stage::watching) {
+    enter(Stage::released);
+  } else if (all_.silent() && stage_ == Stage::overdue) {
+    enter(Stage::released);
+  } else if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) {
+    unproven_s_ = 0.0;
+  } else if (unproven_s_ > overdue_ratio * time_to_limit_s(settings_, hottest_K)) {
+    if (stage_ == Stage::watching) enter(Stage::overdue);
+  }
+  if (block_s_ > longest_block_s) begin_block();
+  drive_dither(hottest_K);
+}
+
+void Proof::judge_release() {
+  const bool moved = high_m_ - low_m_ >= release_ratio * settings_.obvious_m;
+  const bool ends = stage_s_ >= longest_release_s;
+  unanswered_ = all_.silent() && (moved || ends);
+  if (!unanswered_ && ((all_.answered() && moved) || ends)) enter(Stage::swallowed);
+}
+
+void Proof::enter(Stage stage) {
+  stage_ = stage;
+  stage_s_ = 0.0;
+  low_m_ = high_m_ = all_.expected_m;
+  begin_block();
+  switch (stage) {
+    case Stage::watching:
+      max_W_ = active() ? plan_.provable_W : INFINITY;
+      break;
+    case Stage::overdue:
+    case Stage::swallowed:
+      max_W_ = plan_.safe_W;
+      break;
+    case Stage::released:
+      max_W_ = 0.0;
+      break;
+  }
+}
+
+void Proof::begin_block() {
+  all_.restart();
+  dither_.restart();
+  block_s_ = 0.0;
+}
+
+void Proof::drive_dither(double hottest_K) {
+  const double begin_s =
+      decided_ratio * time_to_limit_s(settings_, hottest_K) - loop_ratio * plan_.dither.decided_s;
+  const bool due = stage_ == Stage::watching && unproven_s_ > std::max(begin_s, patience_s) &&
+                   std::isfinite(plan_.dither.decided_s);
+  const int period = 2 * plan_.dither.half_steps;
+  if (dither_place_ >= 0) dither_place_ = (dither_place_ + 1) % period;
+  // A period that has begun is ended: halves of it would leave the position moved.
+  const bool between = dither_place_ <= 0;
+  if (stage_ != Stage::watching || (between && !due)) {
+    dither_place_ = -1;
+  } else if (dither_place_ < 0) {
+    dither_place_ = 0;
+    begin_block();  // what moved before it says nothing of now
+  }
+  dither_W_ = dither_place_ < 0 ? 0.0 : plan_.dither.sign(dither_place_) * plan_.dither.amplitude_W;
+}
+
+detectors::Margin Proof::margin() const {
+  const double expected_m = high_m_ - low_m_;
+  return {all_.answer.ratio() * expected_m, detectors::Answer::silent_ratio * expected_m, true,
+          true};
+}
+
+}  // namespace supercoil

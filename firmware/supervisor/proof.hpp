@@ -1,0 +1,162 @@
+// Who holds a hot muscle where its motion tells nothing must prove now and then that it answers.
+#pragma once
+
+#include <cstdint>
+
+#include "board/heat.hpp"
+#include "supervisor/dither.hpp"
+
+namespace supercoil {
+
+/// What a proof rests on. powers and temperatures as the channel's limits have them.
+struct ProofSettings {
+  bool wanted = true;  ///< proof_of_response
+  board::ThermalSettings thermal;
+  double max_power_ratio = 1.0;  ///< true power over what is told of it
+  double max_W = 0.0;
+  double derate_from_C = 0.0;
+  double trip_C = 0.0;
+  double position_noise_rms_m = 0.0;
+  double count_m = 0.0;
+  double obvious_m = 0.001;  ///< responding_least_m
+};
+
+/// What a proof can do for one muscle: for --check as well.
+struct ProofPlan {
+  Dither dither;
+  double safe_W = 0.0;      ///< held for ever, a quarter of the least cooling stays below derating
+  double provable_W = 0.0;  ///< held, contact lost: it is found out before the limit
+};
+ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParameters& muscle,
+                     double rate_Hz);
+
+/// Any motion with the power proves a muscle, whatever the loop does. That it does not move proves
+/// nothing: a loop that holds it against a fan or a load changes the power as well. So a dither is
+/// added where there is no motion, which nothing else follows; where that is not answered the power
+/// is taken away, which moves a living muscle by far more than friction holds; and where that is
+/// not answered either, it is a fault.
+class Proof {
+ public:
+  /// At each tick.
+  struct Input {
+    double power_W = 0.0;   ///< that acted since the last tick
+    double dither_W = 0.0;  ///< of it
+    long periods = 1;       ///< of which
+    bool present = false;   ///< the position
+    double position_m = 0.0;
+    double hottest_K = 0.0;
+    bool heating = false;  ///< following a position or a power
+  };
+
+  /// known: identified, or learned before; of a muscle that is only believed nothing is judged.
+  Proof(const ProofSettings& settings, const control::PhysicalParameters& muscle, bool known,
+        double rate_Hz);
+
+  void step(const Input& in);
+  /// Another muscle is known from now on.
+  void learn(const control::PhysicalParameters& muscle);
+  /// Every position moved, by a new calibration.
+  void recalibrated() { settled_ = false; }
+
+  /// At this tick neither a dither nor the removal of power was answered.
+  bool unanswered() const { return unanswered_; }
+  /// The dither at this tick; 0: none.
+  double dither_W() const { return dither_W_; }
+  /// Both together; at the greatest power too there is room for both halves of a dither.
+  double added_to(double wanted_W) const {
+    if (dither_W_ == 0.0) return wanted_W;
+    const double room_W = std::fmin(settings_.max_W, max_W_) - plan_.dither.amplitude_W;
+    return (wanted_W > room_W ? room_W : wanted_W) + dither_W_;
+  }
+  /// No more power than this.
+  double max_W() const { return max_W_; }
+  /// In m: how far the position moved with the power since that was taken away, and the least that
+  /// it must have.
+  detectors::Margin margin() const;
+
+ private:
+  enum class Stage : std::uint8_t {
+    watching,
+    overdue,    ///< not proven in time: the safe power, until something is answered, or nothing
+    released,   ///< a dither was not answered: no power, and the muscle must move
+    swallowed,  ///< it did move: friction swallows a dither. The safe power until the next start
+  };
+
+  /// Where a block begins, one step's noise would be in all of it.
+  static constexpr double smoothing = 0.2;
+
+  /// A model's motion, and how well the position follows it, both without their slow part.
+  struct Match {
+    ExpectedMotion motion;
+    detectors::SlowPartRemoved expected;
+    detectors::SlowPartRemoved measured;
+    detectors::Answer answer;
+    detectors::Answer::Result result = detectors::Answer::Result::open;
+    double expected_m = 0.0;  ///< with its slow part, as what follows
+    double smooth_expected_m = 0.0;
+    double smooth_position_m = 0.0;
+
+    void expect(double power_W) { expected_m = motion.step(power_W); }
+    void compare(double position_m) {
+      smooth_expected_m += smoothing * (expected_m - smooth_expected_m);
+      smooth_position_m += smoothing * (position_m - smooth_position_m);
+      result = answer.step(expected.step(expected_m), measured.step(position_m));
+    }
+    /// What was before is forgotten by both alike: it may have been before contact was lost.
+    void restart() {
+      expected.settle(smooth_expected_m);
+      measured.settle(smooth_position_m);
+      answer.restart();
+      result = detectors::Answer::Result::open;
+    }
+    /// The position is somewhere else.
+    void settle(double position_m) {
+      smooth_expected_m = expected_m;
+      smooth_position_m = position_m;
+      restart();
+    }
+    bool answered() const { return result == detectors::Answer::Result::answered; }
+    bool silent() const { return result == detectors::Answer::Result::silent; }
+  };
+  Match match_for(const control::PhysicalParameters& muscle, double corner_rad_per_s) const;
+
+  void end_step(const Input& in);
+  void compare(double position_m);
+  void rest();
+  void judge(double power_W, double hottest_K);
+  void judge_release();
+  void enter(Stage stage);
+  void begin_block();
+  void drive_dither(double hottest_K);
+  bool active() const { return settings_.wanted && known_; }
+
+  ProofSettings settings_;
+  bool known_;
+  double rate_Hz_;
+  double step_s_;
+  std::int64_t step_ticks_;
+  ProofPlan plan_;
+  Match all_;     ///< of all power
+  Match dither_;  ///< of the dither alone
+
+  // Of this step
+  double power_sum_W_ = 0.0;
+  double dither_sum_W_ = 0.0;
+  double position_sum_m_ = 0.0;
+  std::int64_t ticks_ = 0;
+  std::int64_t positions_ = 0;
+
+  Stage stage_ = Stage::watching;
+  bool settled_ = false;
+  bool unanswered_ = false;
+  int dither_place_ = -1;  ///< -1: none
+  double dither_W_ = 0.0;
+  double max_W_ = INFINITY;
+  double unproven_s_ = 0.0;  ///< above the safe power
+  double block_s_ = 0.0;
+  double stage_s_ = 0.0;
+  double low_m_ = 0.0;  ///< of the expected position, since the stage began
+  double high_m_ = 0.0;
+};
+
+}  // namespace supercoil

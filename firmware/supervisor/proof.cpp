@@ -16,8 +16,8 @@ constexpr double loop_ratio = 1.3;
 /// decision the power is taken back at the second.
 constexpr double decided_ratio = 0.5;
 constexpr double overdue_ratio = 0.75;
-/// Held longer than the dither takes in open loop by this ratio, a power is provable.
-constexpr double provable_ratio = 2.0;
+/// A power is provable where a dither is decided in a closed loop before it is overdue.
+constexpr double provable_ratio = loop_ratio / overdue_ratio;
 /// A motion has this long to prove itself before a dither is added to it.
 constexpr double patience_s = 0.2;
 constexpr double longest_block_s = 2.0;

@@ -134,6 +134,7 @@ TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
   channel.controllers[0].kind = control::ControllerKind::adaptive_ff;
   channel.estimators[0] = {};
   channel.estimators[0].kind = control::EstimatorKind::least_squares;
+  channel.supervision.proof_of_response = false;  // asked of a muscle that is known
   settings.board.channels[Rig::tested].plant.stiffness_N_per_m = 14.0;
   Twins twins(settings);
   twins.warm_up(Task::power, 0);

@@ -6,7 +6,7 @@
 
 #include <CppUTest/TestHarness.h>
 
-using namespace supercoil::detectors;
+using namespace supercoil;
 
 namespace {
 
@@ -14,14 +14,14 @@ constexpr double step_noise_m = 3.2e-6;  // 10 um rms at 1 kHz, averaged over 10
 
 /// The part of blocks that end so: of a muscle that answers with this ratio of what is expected, a
 /// sine of 7 um rms.
-double part_that_is(Answer::Result wanted, double answer_ratio, int blocks) {
+double part_that_is(detectors::Answer::Result wanted, double answer_ratio, int blocks) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, step_noise_m);
   int found = 0;
   for (int block = 0; block < blocks; ++block) {
-    Answer answer(step_noise_m);
-    auto result = Answer::Result::open;
-    for (int i = 0; i < 300 && result == Answer::Result::open; ++i) {
+    detectors::Answer answer(step_noise_m);
+    auto result = detectors::Answer::Result::open;
+    for (int i = 0; i < 300 && result == detectors::Answer::Result::open; ++i) {
       const double expected_m = 10e-6 * std::sin(0.1 * i + block);
       result = answer.step(expected_m, answer_ratio * expected_m + noise(random));
     }
@@ -40,32 +40,33 @@ double tail(double deviations) {
 TEST_GROUP(Answer){};
 
 TEST(Answer, OfADeadMuscleIsTakenForOneInAThousandBlocksAtMost) {
-  CHECK_COMPARE(part_that_is(Answer::Result::answered, 0.0, 50000), <=, 1.3e-3);
+  CHECK_COMPARE(part_that_is(detectors::Answer::Result::answered, 0.0, 50000), <=, 1.3e-3);
 }
 
 // 1e-9 cannot be counted: it is at most twice a normal tail at 1, 2, 3 and 4 deviations, and half
 // of the model's answer is 6.2 deviations from the threshold.
 TEST(Answer, OfALivingMuscleIsMissedAsANormalTailSays) {
   for (const double deviations : {1.0, 2.0, 3.0, 4.0}) {
-    const double ratio = Answer::silent_ratio + deviations / Answer::needed_deviations;
-    const double missed = part_that_is(Answer::Result::silent, ratio, 40000);
+    const double ratio =
+        detectors::Answer::silent_ratio + deviations / detectors::Answer::needed_deviations;
+    const double missed = part_that_is(detectors::Answer::Result::silent, ratio, 40000);
     CHECK_COMPARE(missed, <=, 2.0 * tail(deviations) + 5e-5);
   }
-  const double of_half =
-      (Answer::least_answer_ratio - Answer::silent_ratio) * Answer::needed_deviations;
+  const double of_half = (detectors::Answer::least_answer_ratio - detectors::Answer::silent_ratio) *
+                         detectors::Answer::needed_deviations;
   CHECK_COMPARE(2.0 * tail(of_half), <=, 1e-9);
 }
 
 TEST(Answer, IsOpenWhileSomethingElseMovesThePosition) {
-  Answer answer(step_noise_m);
+  detectors::Answer answer(step_noise_m);
   for (int i = 0; i < 300; ++i) {
     const auto result = answer.step(10e-6 * std::sin(0.1 * i), 200e-6 * std::sin(0.037 * i));
-    CHECK(result == Answer::Result::open);
+    CHECK(result == detectors::Answer::Result::open);
   }
 }
 
 TEST(Answer, IgnoresADrift) {
-  SlowPartRemoved fast(1.0, 0.01);
+  detectors::SlowPartRemoved fast(1.0, 0.01);
   fast.settle(0.02);
   double last_m = 0.0;
   for (int i = 0; i < 2000; ++i)

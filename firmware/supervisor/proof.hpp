@@ -39,10 +39,10 @@ class Proof {
  public:
   /// At each tick.
   struct Input {
-    double power_W = 0.0;   ///< that acted since the last tick
-    double dither_W = 0.0;  ///< of it
-    long periods = 1;       ///< of which
-    bool present = false;   ///< the position
+    double power_W = 0.0;      ///< that acted since the last tick
+    double dither_W = 0.0;     ///< of it
+    std::int64_t periods = 1;  ///< of which
+    bool present = false;      ///< the position
     double position_m = 0.0;
     double hottest_K = 0.0;
     bool heating = false;  ///< following a position or a power

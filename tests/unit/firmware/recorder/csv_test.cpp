@@ -105,18 +105,18 @@ TEST(Csv, NumbersWithoutANameAreShownAsNumbers) {
   r.state = 9;
   r.mode = 200;
   r.fault = 99;
-  r.limited_by = 7;
+  r.limited_by = 8;
   recording.rows = {r};
   const auto fields = split(lines()[1], ',');
   STRCMP_EQUAL("9", fields[2].c_str());
   STRCMP_EQUAL("200", fields[3].c_str());
   STRCMP_EQUAL("99", fields[4].c_str());
-  STRCMP_EQUAL("7", fields[5].c_str());
+  STRCMP_EQUAL("8", fields[5].c_str());
   STRCMP_EQUAL("none", fields[28].c_str());
 }
 
 TEST(Csv, EveryStateModeAndLimitHasItsName) {
-  for (std::uint8_t i = 0; i < 7; ++i) {
+  for (std::uint8_t i = 0; i < limit_names.size(); ++i) {
     Row r{};
     r.state = r.mode = r.limited_by = i;
     recording.rows.push_back(r);
@@ -128,8 +128,9 @@ TEST(Csv, EveryStateModeAndLimitHasItsName) {
                             "fault,identify,none,slew,",
                             "4,calibrate,none,temperature,",
                             "5,5,none,invalid,",
-                            "6,6,none,cooling,"};
-  for (std::size_t i = 0; i < 7; ++i)
+                            "6,6,none,cooling,",
+                            "7,7,none,unproven,"};
+  for (std::size_t i = 0; i < limit_names.size(); ++i)
     STRCMP_CONTAINS(expected[i], all[i + 1].c_str());
 }
 

@@ -174,6 +174,7 @@ void Proof::rest() {
 }
 
 void Proof::judge(double power_W, double hottest_K) {
+  const bool silent = stage_ == Stage::watching ? dither_.silent() : all_.silent();
   unproven_s_ = power_W > above_safe_ratio * plan_.safe_W ? unproven_s_ + step_s_ : 0.0;
   if (stage_ == Stage::released) {
     judge_release();
@@ -181,9 +182,7 @@ void Proof::judge(double power_W, double hottest_K) {
     unproven_s_ = 0.0;
     if (stage_ == Stage::overdue) enter(Stage::watching);
     begin_block();
-  } else if (dither_.silent() && stage_ == Stage::watching) {
-    enter(Stage::released);
-  } else if (all_.silent() && stage_ == Stage::overdue) {
+  } else if (silent && stage_ != Stage::swallowed) {
     enter(Stage::released);
   } else if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) {
     unproven_s_ = 0.0;

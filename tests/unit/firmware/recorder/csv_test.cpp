@@ -116,9 +116,9 @@ TEST(Csv, NumbersWithoutANameAreShownAsNumbers) {
 }
 
 TEST(Csv, EveryStateModeAndLimitHasItsName) {
-  for (std::uint8_t i = 0; i < limit_names.size(); ++i) {
+  for (std::size_t i = 0; i < limit_names.size(); ++i) {
     Row r{};
-    r.state = r.mode = r.limited_by = i;
+    r.state = r.mode = r.limited_by = static_cast<std::uint8_t>(i);
     recording.rows.push_back(r);
   }
   const auto all = lines();

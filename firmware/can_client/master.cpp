@@ -54,7 +54,7 @@ hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
 }
 
 hal::CanFrame Master::claim() {
-  return frame(telemetry::lease, session_ == 0 ? nonce_ : telemetry::claims);
+  return frame(telemetry::lease, session_ == 0 ? double{nonce_} : double{telemetry::claims});
 }
 
 hal::CanFrame Master::release() {

@@ -15,6 +15,21 @@ with contextlib.suppress(PermissionError):  # root, as in a container: the fewer
     os.setpriority(os.PRIO_PROCESS, 0, -15)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = ROOT / "build" / "release" / "bin"
+SUPERCOIL = os.environ.get("SUPERCOIL", BIN / "supercoil")
+# What this machine may need when it does other work.
+SLACK_S = 10.0
+
+
+def until(condition, patience_s=SLACK_S):
+    end_s = time.monotonic() + patience_s
+    while not condition():
+        if time.monotonic() > end_s:
+            raise AssertionError(f"not within {patience_s} s")
+        time.sleep(0.05)
+
+
+def command(source, *words):
+    return subprocess.run([SUPERCOIL, "command", *words, "--can", source], capture_output=True, text=True, timeout=60)
 
 
 def free_ports():
@@ -93,8 +108,7 @@ def with_second_node(log, lag_s):
 
 def monitor(source, *options, prepare=None):
     """Its .found[0] is the page's address as it is printed, .found[1] without the token. prepare: called in its process."""
-    program = os.environ.get("SUPERCOIL", BIN / "supercoil")
-    return Program([program, "monitor", source, "--port", free_ports(), *options],
+    return Program([SUPERCOIL, "monitor", source, "--port", free_ports(), *options],
                    r"(http://[^#\s]+/)(#token=[0-9a-f]+)?", prepare=prepare)
 
 

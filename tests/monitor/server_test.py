@@ -6,7 +6,6 @@ Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 import contextlib
 import http.client
 import json
-import os
 import pathlib
 import re
 import signal
@@ -16,13 +15,10 @@ import tempfile
 import time
 import unittest
 
-from programs import BIN, free_ports, monitor, simulated_board
+from programs import SLACK_S, SUPERCOIL, command, free_ports, monitor, simulated_board, until
 
-SUPERCOIL = os.environ.get("SUPERCOIL", BIN / "supercoil")
 # As the page says (page_timeout_s), and as a board of the bench lets a command expire.
 PAGE_TIMEOUT_S = 1.5
-# What this machine may need when it does other work.
-SLACK_S = 10.0
 
 
 class Served:
@@ -67,14 +63,6 @@ class Served:
         stream = socket.create_connection(("127.0.0.1", self.port), timeout=SLACK_S)
         stream.sendall(f"GET /api/stream HTTP/1.1\r\nHost: {self.address}\r\n\r\n".encode())
         return stream
-
-
-def until(condition, patience_s=SLACK_S):
-    end_s = time.monotonic() + patience_s
-    while not condition():
-        if time.monotonic() > end_s:
-            raise AssertionError(f"not within {patience_s} s")
-        time.sleep(0.05)
 
 
 class Live(unittest.TestCase):
@@ -237,20 +225,16 @@ class Live(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn(f"port {served.port} of 127.0.0.1 cannot be had", done.stderr)
 
-    def command(self, *words):
-        return subprocess.run([SUPERCOIL, "command", *words, "--can", self.source], capture_output=True, text=True,
-                              timeout=60)
-
     def test_a_script_commands_over_the_bus_and_a_second_master_is_refused(self):
         served = self.serve()
         self.arm(served)
         self.assertEqual(served.command("rest")[0], 200)
-        refused = self.command("1", "position", "0.002", "--json")
+        refused = command(self.source, "1", "position", "0.002", "--json")
         self.assertEqual((refused.returncode, json.loads(refused.stdout)),
                          (1, {"command": "1 position 0.002", "answer": "refused: not_yours"}))
-        until(lambda: self.command("1", "power", "0.1").returncode == 0)
+        until(lambda: command(self.source, "1", "power", "0.1").returncode == 0)
         until(lambda: served.state()[0] == "fault")
-        self.assertEqual(self.command("1", "reset").returncode, 0)
+        self.assertEqual(command(self.source, "1", "reset").returncode, 0)
         self.arm(served)
         time.sleep(1.5)  # the lease of the page runs out
         held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "0.003", "--hold", "--can", self.source])
@@ -260,74 +244,7 @@ class Live(unittest.TestCase):
         held.send_signal(signal.SIGINT)
         self.assertEqual(held.wait(SLACK_S), 0)
         until(lambda: served.state()[0] == "armed")
-        self.assertIn("node 1: armed", self.command("state").stdout)
-
-    def arm_by_script(self):
-        for word in ("disarm", "reset"):
-            self.command("1", word)
-        until(lambda: self.command("1", "arm").returncode == 0)
-
-    def test_a_script_is_told_how_calibrate_ended(self):
-        self.arm_by_script()
-        until(lambda: self.command("1", "calibrate").returncode == 0)
-        self.assertEqual(self.command("1", "rest").returncode, 0)
-        self.assertIn("calibration: interrupted", self.command("state").stdout)
-        done = self.command("1", "calibrate", "--for", "60", "--json")
-        self.assertEqual((done.returncode, json.loads(done.stdout)), (0, {"command": "1 calibrate", "result": "found"}))
-
-    def test_a_script_is_told_that_calibrate_was_interrupted(self):
-        self.arm_by_script()
-        # A warm muscle must cool first: long enough to be seen.
-        until(lambda: self.command("1", "power", "2.5", "--for", "3").returncode == 0)
-        held = subprocess.Popen([SUPERCOIL, "command", "1", "calibrate", "--for", "60", "--can", self.source],
-                                stderr=subprocess.PIPE, text=True)
-        until(lambda: "node 1: active, calibrate" in self.command("state").stdout)
-        self.assertIsNone(held.poll())
-        self.command("1", "disarm")
-        self.assertEqual((held.communicate(timeout=SLACK_S)[1], held.returncode),
-                         ("supercoil: 1 calibrate ended: interrupted\n", 1))
-
-    def identify_by_script(self, *words, meanwhile=lambda program: None):
-        """Status and texts. Again while the probe of arming runs: a fast machine asks before it has ended."""
-        self.arm_by_script()
-        while True:
-            program = subprocess.Popen([SUPERCOIL, "command", "1", "identify", *words, "--can", self.source],
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            meanwhile(program)
-            out, err = program.communicate(timeout=60)
-            if "refused: busy" not in err:
-                return program.returncode, out, err
-
-    def test_identify_that_is_cut_short_is_no_success(self):
-        ended = "supercoil: 1 identify ended: interrupted\n"
-        self.assertEqual(self.identify_by_script("--for", "2", "--json"),
-                         (1, '{"command":"1 identify","result":"interrupted"}\n', ended))
-
-        def interrupt(program):
-            until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
-            program.send_signal(signal.SIGINT)
-
-        self.assertEqual(self.identify_by_script("--hold", meanwhile=interrupt), (1, "", ended))
-
-    def test_a_script_reads_and_writes_settings_over_the_bus(self):
-        def setting(*words, source=self.source):
-            return subprocess.run([SUPERCOIL, "setting", *words, "--can", source], capture_output=True, text=True,
-                                  timeout=60)
-
-        known = dict(line.split(" = ") for line in setting("1").stdout.splitlines())
-        self.assertEqual((len(known), known["most_power_W"], known["measurement_Hz"]), (15, "4.5", "100"))
-        written = setting("1", "measurement_Hz", "50", "--json")
-        self.assertEqual((written.returncode, json.loads(written.stdout)),
-                         (0, {"setting": "measurement_Hz", "value": 50.0, "refusal": "none"}))
-        self.assertEqual(setting("1", "measurement_Hz").stdout, "measurement_Hz = 50\n")
-        refused = setting("1", "most_power_W", "5")
-        self.assertEqual((refused.returncode, refused.stdout), (1, "most_power_W = 4.5\n"))
-        self.assertIn("most_power_W: refused: out_of_range", refused.stderr)
-        unknown = setting("1", "mesurement_Hz")
-        self.assertEqual(unknown.returncode, 2)
-        self.assertIn("'mesurement_Hz' is not a setting; there are most_power_W, measurement_Hz,", unknown.stderr)
-        self.assertIn("no answer from node 9", setting("9", "status_Hz").stderr)
-        self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
+        self.assertIn("node 1: armed", command(self.source, "state").stdout)
 
 
 class Sources(unittest.TestCase):

@@ -13,8 +13,8 @@ import time
 import unittest
 
 from page_test import READY_S, TARGET_MM, PageCase
-from programs import monitor, simulated_board, trickle
-from server_test import SLACK_S, Served, until
+from programs import SLACK_S, monitor, simulated_board, trickle, until
+from server_test import Served
 
 # The monitor hears STOP and the commands of this page, and never says anything to them.
 HEARS_NO_STOP = """const asked = window.fetch;

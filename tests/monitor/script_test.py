@@ -1,0 +1,94 @@
+"""supercoil command and supercoil setting over a bus, as scripts use them.
+
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+"""
+
+import json
+import signal
+import subprocess
+import unittest
+
+from programs import SLACK_S, SUPERCOIL, command, simulated_board, until
+
+
+class Scripts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.board = simulated_board()
+        cls.addClassCleanup(cls.board.stop)
+        cls.source = f"socketcand:{cls.board.found[1]}"
+
+    def command(self, *words):
+        return command(self.source, *words)
+
+    def arm_by_script(self):
+        for word in ("disarm", "reset"):
+            self.command("1", word)
+        until(lambda: self.command("1", "arm").returncode == 0)
+
+    def test_a_script_is_told_how_calibrate_ended(self):
+        self.arm_by_script()
+        until(lambda: self.command("1", "calibrate").returncode == 0)
+        self.assertEqual(self.command("1", "rest").returncode, 0)
+        self.assertIn("calibration: interrupted", self.command("state").stdout)
+        done = self.command("1", "calibrate", "--for", "60", "--json")
+        self.assertEqual((done.returncode, json.loads(done.stdout)), (0, {"command": "1 calibrate", "result": "found"}))
+
+    def test_a_script_is_told_that_calibrate_was_interrupted(self):
+        self.arm_by_script()
+        # A warm muscle must cool first: long enough to be seen.
+        until(lambda: self.command("1", "power", "2.5", "--for", "3").returncode == 0)
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "calibrate", "--for", "60", "--can", self.source],
+                                stderr=subprocess.PIPE, text=True)
+        until(lambda: "node 1: active, calibrate" in self.command("state").stdout)
+        self.assertIsNone(held.poll())
+        self.command("1", "disarm")
+        self.assertEqual((held.communicate(timeout=SLACK_S)[1], held.returncode),
+                         ("supercoil: 1 calibrate ended: interrupted\n", 1))
+
+    def identify_by_script(self, *words, meanwhile=lambda program: None):
+        """Status and texts. Again while the probe of arming runs: a fast machine asks before it has ended."""
+        self.arm_by_script()
+        for _ in range(100):
+            program = subprocess.Popen([SUPERCOIL, "command", "1", "identify", *words, "--can", self.source],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            meanwhile(program)
+            out, err = program.communicate(timeout=60)
+            if "refused: busy" not in err:
+                return program.returncode, out, err
+        raise AssertionError("busy for ever")
+
+    def test_identify_that_is_cut_short_is_no_success(self):
+        ended = "supercoil: 1 identify ended: interrupted\n"
+        self.assertEqual(self.identify_by_script("--for", "2", "--json"),
+                         (1, '{"command":"1 identify","result":"interrupted"}\n', ended))
+
+        def interrupt(program):
+            until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
+            program.send_signal(signal.SIGINT)
+
+        self.assertEqual(self.identify_by_script("--hold", meanwhile=interrupt), (1, "", ended))
+
+    def test_a_script_reads_and_writes_settings_over_the_bus(self):
+        def setting(*words, source=self.source):
+            return subprocess.run([SUPERCOIL, "setting", *words, "--can", source], capture_output=True, text=True,
+                                  timeout=60)
+
+        known = dict(line.split(" = ") for line in setting("1").stdout.splitlines())
+        self.assertEqual((len(known), known["most_power_W"], known["measurement_Hz"]), (15, "4.5", "100"))
+        written = setting("1", "measurement_Hz", "50", "--json")
+        self.assertEqual((written.returncode, json.loads(written.stdout)),
+                         (0, {"setting": "measurement_Hz", "value": 50.0, "refusal": "none"}))
+        self.assertEqual(setting("1", "measurement_Hz").stdout, "measurement_Hz = 50\n")
+        refused = setting("1", "most_power_W", "5")
+        self.assertEqual((refused.returncode, refused.stdout), (1, "most_power_W = 4.5\n"))
+        self.assertIn("most_power_W: refused: out_of_range", refused.stderr)
+        unknown = setting("1", "mesurement_Hz")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("'mesurement_Hz' is not a setting; there are most_power_W, measurement_Hz,", unknown.stderr)
+        self.assertIn("no answer from node 9", setting("9", "status_Hz").stderr)
+        self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -221,7 +221,7 @@ void Loop::shine() {
     armed = armed || channel->state().state() == State::armed;
   }
   const double half_period_s = fault ? 0.1 : 0.5;
-  const std::int64_t half_period = static_cast<std::int64_t>(half_period_s * settings_.rate_Hz);
+  const auto half_period = static_cast<std::int64_t>(half_period_s * settings_.rate_Hz);
   if (++blink_ticks_ >= half_period) {
     blink_ticks_ = 0;
     blink_ = !blink_;

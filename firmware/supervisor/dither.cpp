@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "supercoil/control/actuator/state_space.hpp"
 
@@ -53,7 +54,7 @@ Dither dither_for(const control::PhysicalParameters& muscle, const SensorStep& s
   Dither best;
   for (const double half_s : halves_s) {
     Dither dither;
-    dither.half_steps = std::max(2, static_cast<int>(half_s / step_s + 0.5));
+    dither.half_steps = std::max(2, static_cast<int>(std::lround(half_s / step_s)));
     const double per_W_m = greatest_answer_m(motion, dither, steps);
     dither.amplitude_W = std::min(max_m / per_W_m, max_power_ratio * max_W);
     dither.decided_s = decided_s(motion, dither, sensor, steps, step_s);

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <utility>
 
 #include "config/board_config.hpp"
 #include "unit/firmware/config/support/small_board.hpp"
@@ -79,8 +80,8 @@ BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSetti
 
 }  // namespace
 
-AttackedBoard::AttackedBoard(const Attack& attack, const Muscle& muscle, Activity activity)
-    : attack_(attack),
+AttackedBoard::AttackedBoard(Attack attack, const Muscle& muscle, Activity activity)
+    : attack_(std::move(attack)),
       muscle_(muscle),
       activity_(activity),
       simulated_(simulated_board(muscle)),

@@ -19,7 +19,7 @@ struct Damage {
 
 class AttackedBoard {
  public:
-  AttackedBoard(const Attack& attack, const Muscle& muscle, Activity activity);
+  AttackedBoard(Attack attack, const Muscle& muscle, Activity activity);
   AttackedBoard(const AttackedBoard&) = delete;
   AttackedBoard& operator=(const AttackedBoard&) = delete;
 

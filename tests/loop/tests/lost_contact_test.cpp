@@ -9,7 +9,6 @@
 
 using namespace supercoil;
 using test::Rig;
-using test::Task;
 
 namespace {
 

@@ -12,14 +12,14 @@ using supercoil::test::tick_s;
 
 namespace {
 
-constexpr double power_W = 2.0;
+constexpr double heating_W = 2.0;
 
 double hottest_after_K(const ThermalSettings& settings, double learned_pole_rad_per_s,
                        double time_s) {
   Heat heat(settings, {}, tick_s);
   heat.learn(learned_pole_rad_per_s);
   for (long i = std::lround(time_s / tick_s); i > 0; --i)
-    heat.step(power_W, power_W, power_W);
+    heat.step(heating_W, heating_W, heating_W);
   return heat.hottest_K();
 }
 
@@ -34,17 +34,17 @@ TEST_GROUP(HotEnd) {
 };
 
 TEST(HotEnd, WhatIsLearnedOfCoolingIsNotBelievedBeyondTheConfiguredBounds) {
-  const double rest_K = power_W / (-slowest_pole * settings.thermal_mass_J_per_K);
+  const double rest_K = heating_W / (-slowest_pole * settings.thermal_mass_J_per_K);
   for (const double absurd : {-1e-9, 0.01 * slowest_pole, slowest_pole})
     DOUBLES_EQUAL(rest_K, hottest_after_K(settings, absurd, 60.0), 0.01);
 }
 
 TEST(HotEnd, IsTheHotterOfWhatIsConfiguredAndWhatIsLearned) {
-  const double configured_K = power_W / settings.bounds.lowest_transfer_W_per_K;
+  const double configured_K = heating_W / settings.bounds.lowest_transfer_W_per_K;
   DOUBLES_EQUAL(configured_K, hottest_after_K(settings, fastest_pole, 60.0), 0.01);
   DOUBLES_EQUAL(configured_K, hottest_after_K(settings, 100.0 * fastest_pole, 60.0), 0.01);
   const double slower_pole = 1.05 * slowest_pole;
-  DOUBLES_EQUAL(power_W / (-slower_pole * settings.thermal_mass_J_per_K),
+  DOUBLES_EQUAL(heating_W / (-slower_pole * settings.thermal_mass_J_per_K),
                 hottest_after_K(settings, slower_pole, 60.0), 0.01);
 }
 

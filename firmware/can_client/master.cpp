@@ -54,7 +54,8 @@ hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
 }
 
 hal::CanFrame Master::claim() {
-  return frame(telemetry::lease, session_ == 0 ? double{nonce_} : double{telemetry::claims});
+  return frame(telemetry::lease,
+               session_ == 0 ? static_cast<double>(nonce_) : double{telemetry::claims});
 }
 
 hal::CanFrame Master::release() {

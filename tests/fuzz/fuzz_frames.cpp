@@ -29,10 +29,13 @@ void require_right(const telemetry::Commands::Taken& taken, const hal::CanFrame&
   if (!taken.command) return;
   const supercoil_command_t asked = LeaseModel::command_in(frame);
   require(taken.command->channel == channel, "a command is for the channel that was asked");
-  require(static_cast<std::uint8_t>(taken.command->verb) == asked.opcode,
-          "its verb is the frame's");
+  // Opcode 0 is two verbs: volts that a meter shows, or amperes below 0.
+  const bool amperes = asked.opcode == 0 && asked.value < 0.0F;
+  const int verb = asked.opcode != 0 ? asked.opcode : amperes ? 15 : 14;
+  const float value = amperes ? -asked.value : asked.value;
+  require(static_cast<int>(taken.command->verb) == verb, "its verb is the frame's");
   require(std::bit_cast<std::uint32_t>(static_cast<float>(taken.command->value)) ==
-                  std::bit_cast<std::uint32_t>(asked.value) ||
+                  std::bit_cast<std::uint32_t>(value) ||
               std::isnan(asked.value),
           "its value is the frame's");
   require(taken.command->source == Source::can, "its answer goes back to the bus");

@@ -6,6 +6,7 @@
 #include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
 
+#include "plant/effects.hpp"
 #include "scenario/reference.hpp"
 #include "scenario/trouble.hpp"
 
@@ -14,7 +15,9 @@ namespace supercoil::host_sim {
 /// The simulated muscle and what hangs on it.
 struct PlantSettings {
   control::PhysicalParameters parameters;
-  double resistance_Ohm = 10.0;                ///< of the cold heater
+  PlantEffects effects;
+  bool air_acts = false;         ///< the muscle follows a change of the air's temperature
+  double resistance_Ohm = 10.0;  ///< of the cold heater
   double temperature_coefficient_per_K = 0.0;  ///< of that resistance
   double load_N = 0.0;  ///< pulls the muscle longer, on top of the moving mass
 
@@ -24,9 +27,23 @@ struct PlantSettings {
 struct PositionSensorSettings {
   double noise_rms_m = 10e-6;
   int resolution_bits = 16;  ///< 0: as good as not quantised
-  double range_m = 0.040;    ///< readings are from 0 to this
+  double count_m = 0.0;      ///< of a reading; 0: by resolution_bits
+  double rate_Hz = 0.0;      ///< of conversions; 0: one whenever the board asks
+  double min_m = 0.0;        ///< readings are from this
+  double range_m = 0.040;    ///< to this
 
   friend bool operator==(const PositionSensorSettings&, const PositionSensorSettings&) = default;
+};
+
+/// A second sensor, which the firmware does not read.
+struct ThermometerSettings {
+  bool present = false;
+  double lag_s = 2.0;  ///< time constant
+  double offset_K = 0.0;
+  double noise_rms_K = 0.0;
+  double rate_Hz = 10.0;
+
+  friend bool operator==(const ThermometerSettings&, const ThermometerSettings&) = default;
 };
 
 struct PowerSettings {
@@ -76,6 +93,7 @@ struct Conditions {
   PlantSettings plant;
   control::PhysicalParameters muscle;  ///< what the board believes the muscle to be
   PositionSensorSettings position_sensor;
+  ThermometerSettings thermometer;
   PowerSettings power;
   ThermalSpans thermal;
   Ambient ambient;

@@ -8,6 +8,7 @@
 #include "board/applied_power.hpp"
 #include "config/read_control.hpp"
 #include "config/section.hpp"
+#include "scenario/read_plant.hpp"
 #include "scenario/read_reference.hpp"
 
 namespace supercoil::host_sim {
@@ -19,25 +20,37 @@ using config::read_parameters;
 using config::refuse_misfit;
 using config::Section;
 
-PlantSettings read_plant(Section section) {
-  PlantSettings plant;
-  plant.parameters = read_parameters(section, {});
-  plant.load_N = section.number("load_N", 0.0, {-100.0, 100.0});
-  plant.resistance_Ohm = section.number("resistance_Ohm", plant.resistance_Ohm, {0.1, 1e4});
-  plant.temperature_coefficient_per_K =
-      section.number("temperature_coefficient_per_K", 0.0, {0.0, 0.02});
-  section.finish();
-  return plant;
-}
+/// A muscle that is not the paper's may become longer than it was: its sensor sees some of that.
+constexpr double default_min_part = -0.25;
+constexpr double slowest_position_Hz = 20.0;
 
-PositionSensorSettings read_position_sensor(Section section) {
+PositionSensorSettings read_position_sensor(Section section, bool paper_muscle) {
   PositionSensorSettings sensor;
   sensor.noise_rms_m = section.number("noise_rms_m", sensor.noise_rms_m, {0.0, 0.1});
   sensor.resolution_bits =
       static_cast<int>(section.integer("resolution_bits", sensor.resolution_bits, 0, 32));
   sensor.range_m = section.number("range_m", sensor.range_m, {1e-4, 10.0});
+  sensor.count_m = section.number("count_m", sensor.count_m, {0.0, 0.1 * sensor.range_m});
+  if (sensor.count_m > 0.0 && section.has("resolution_bits"))
+    section.wrong("count_m", "goes without resolution_bits: both say how large a count is");
+  sensor.rate_Hz = section.number("rate_Hz", sensor.rate_Hz, {0.0, 10e3});
+  if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < slowest_position_Hz)
+    section.wrong("rate_Hz", "must be 0 (whenever the board asks) or 20 to 10000");
+  const double min_m = paper_muscle ? 0.0 : default_min_part * sensor.range_m;
+  sensor.min_m = section.number("min_m", min_m, {-10.0, 0.0});
   section.finish();
   return sensor;
+}
+
+ThermometerSettings read_thermometer(Section section) {
+  ThermometerSettings thermometer;
+  thermometer.present = section.table() != nullptr;
+  thermometer.lag_s = section.number("lag_s", thermometer.lag_s, {0.0, 1000.0});
+  thermometer.offset_K = section.number("offset_K", thermometer.offset_K, {-50.0, 50.0});
+  thermometer.noise_rms_K = section.number("noise_rms_K", thermometer.noise_rms_K, {0.0, 50.0});
+  thermometer.rate_Hz = section.number("rate_Hz", thermometer.rate_Hz, {0.01, 10e3});
+  section.finish();
+  return thermometer;
 }
 
 PowerSettings read_power(Section section, double resistance_Ohm, double step_s) {
@@ -109,9 +122,10 @@ Trouble read_trouble(Section section) {
   Trouble trouble;
   for (const TroubleName& known : trouble_names)
     trouble.*known.member = section.flag(known.name, false);
-  for (const TroubleNumber& known : trouble_numbers)
+  for (const TroubleNumber& known : trouble_numbers) {
     trouble.*known.member =
         section.number(known.name, Trouble{}.*known.member, {known.min, known.max});
+  }
   section.finish();
   return trouble;
 }
@@ -143,7 +157,7 @@ void check_reach(Section& section, const Conditions& c) {
 control::PhysicalParameters read_muscle(const toml::table& document, Diagnostics& diagnostics) {
   Diagnostics plant_diagnostics(diagnostics.file());  // read again, and complained of, elsewhere
   Section plant(document["plant"].as_table(), "plant", plant_diagnostics);
-  const auto fallback = read_parameters(plant, {});
+  const auto fallback = read_plant_parameters(plant);
   Section muscle(document["muscle"].as_table(), "muscle", diagnostics);
   const auto believed = read_parameters(muscle, fallback);
   muscle.finish();
@@ -158,7 +172,8 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   root.allow({"simulation", "muscle", "event"});  // read elsewhere
   c.plant = read_plant(root.section("plant"));
   Section sensor = root.section("sensor");
-  c.position_sensor = read_position_sensor(sensor.section("position"));
+  c.position_sensor = read_position_sensor(sensor.section("position"), !c.plant.effects.any());
+  c.thermometer = read_thermometer(sensor.section("temperature"));
   sensor.finish();
   c.power = read_power(root.section("power"), c.plant.resistance_Ohm, step_s);
   c.thermal = read_thermal(root.section("thermal"));
@@ -169,10 +184,10 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   Section reference = root.section("reference");
   c.reference = read_reference(reference);
   Section estimator = root.section("estimator");
-  c.estimator = config::read_estimator(estimator, believed);
+  c.estimator = config::read_estimator(estimator, believed, c.power.max_W);
   const auto model = config::read_reference_model(root.section("reference_model"));
   Section controller = root.section("controller");
-  c.controller = config::read_controller(controller, believed, model);
+  c.controller = config::read_controller(controller, believed, model, c.power.max_W);
   if (c.controller.kind == control::ControllerKind::power &&
       c.reference.kind != ReferenceKind::power) {
     controller.wrong("kind", "open loop needs [reference] kind = \"power\"");

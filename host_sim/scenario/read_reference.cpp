@@ -7,9 +7,9 @@ namespace {
 using config::Range;
 using config::Section;
 
-constexpr Range position_m{-10.0, 10.0};
+constexpr Range allowed_position_m{-10.0, 10.0};
 constexpr Range amplitude_m{0.0, 10.0};
-constexpr Range power_W{-1e3, 1e3};
+constexpr Range allowed_power_W{-1e3, 1e3};
 constexpr Range frequency_rad_per_s{1e-4, 1e3};
 constexpr std::size_t most_terms = 32;
 
@@ -43,28 +43,28 @@ Reference read_reference(Section& section) {
   r.kind = section.choice("kind", r.kind, reference_names);
   switch (r.kind) {
     case ReferenceKind::sine:
-      r.offset = section.number("offset_m", r.offset, position_m);
+      r.offset = section.number("offset_m", r.offset, allowed_position_m);
       r.terms = {{section.number("amplitude_m", 0.009, amplitude_m),
                   section.number("angular_frequency_rad_per_s", 0.25, frequency_rad_per_s)}};
       break;
     case ReferenceKind::step:
-      r.levels = {section.number("from_m", 0.0, position_m),
-                  section.number("to_m", 0.011, position_m)};
+      r.levels = {section.number("from_m", 0.0, allowed_position_m),
+                  section.number("to_m", 0.011, allowed_position_m)};
       r.hold_s = section.number("at_s", 0.0, {0.0, 1e6});
       break;
     case ReferenceKind::steps:
-      r.levels =
-          section.numbers("levels_m", {0.005, 0.015, 0.008, 0.020}, position_m, 1, most_terms);
+      r.levels = section.numbers("levels_m", {0.005, 0.015, 0.008, 0.020}, allowed_position_m, 1,
+                                 most_terms);
       r.hold_s = section.number("hold_s", 20.0, {1e-3, 1e6});
       break;
     case ReferenceKind::multisine:
-      r.offset = section.number("offset_m", r.offset, position_m);
+      r.offset = section.number("offset_m", r.offset, allowed_position_m);
       r.terms = read_terms(section, "amplitudes_m", amplitude_m, {{0.004, 0.25}, {0.003, 0.6}});
       break;
     case ReferenceKind::power: {
       const Reference paper = paper_excitation();
-      r.offset = section.number("offset_W", paper.offset, power_W);
-      r.terms = read_terms(section, "amplitudes_W", power_W, paper.terms);
+      r.offset = section.number("offset_W", paper.offset, allowed_power_W);
+      r.terms = read_terms(section, "amplitudes_W", allowed_power_W, paper.terms);
       break;
     }
   }

@@ -40,6 +40,9 @@ constexpr std::array fixed_keys{"simulation",
                                 "power.delay_s",
                                 "power.error_feedback",
                                 "sensor.position.range_m",
+                                "sensor.position.min_m",
+                                "sensor.position.count_m",
+                                "sensor.position.rate_Hz",
                                 "sensor.position.resolution_bits"};
 
 void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostics) {
@@ -144,6 +147,8 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
     const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
     if (last_of_its_time) {
       moment.conditions = read_conditions(document, believed, scenario.step_s(), diagnostics);
+      // Its default depends on the muscle, and the sensor stays the same.
+      moment.conditions.position_sensor.min_m = scenario.start.position_sensor.min_m;
     }
   }
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());

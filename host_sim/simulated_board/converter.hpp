@@ -1,6 +1,8 @@
 // A converter's input on the simulated board.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <boost/circular_buffer.hpp>
@@ -18,8 +20,12 @@ struct ConverterSettings {
   double noise_rms = 0.0;  ///< white, of every conversion
   double period_s = 0.0;   ///< between conversions; 0: it converts when it is asked (direct)
   double latency_s = 0.0;  ///< from a conversion to when it can be read
+  double count = 0.0;      ///< size of a count; 0: by its bits
 
-  std::int64_t full_scale() const { return (std::int64_t{1} << (bits == 0 ? 30 : bits)) - 1; }
+  std::int64_t full_scale() const {
+    if (count > 0.0) return std::max<std::int64_t>(1, std::llround((high - low) / count));
+    return (std::int64_t{1} << (bits == 0 ? 30 : bits)) - 1;
+  }
   double per_count() const { return (high - low) / static_cast<double>(full_scale()); }
 };
 

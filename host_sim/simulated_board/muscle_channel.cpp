@@ -11,13 +11,16 @@ MuscleChannel::MuscleChannel(const MuscleChannelSettings& settings, hal::Duratio
       current(settings.current, seed + 1000003),
       settings_(settings),
       step_(step),
-      plant_(settings.plant, hal::seconds(step)),
+      plant_(settings.plant, settings.effects, hal::seconds(step)),
+      thermometer_(settings.thermometer, settings.rise_from_C, seed + 3000017),
       sense_part_(settings.sense_filter_s > 0.0
                       ? -std::expm1(-hal::seconds(step) / settings.sense_filter_s)
                       : 1.0) {}
 
 void MuscleChannel::set(const MuscleChannelSettings& settings) {
-  if (!(settings.plant == settings_.plant)) plant_.set_parameters(settings.plant);
+  if (!(settings.plant == settings_.plant && settings.effects == settings_.effects))
+    plant_.set(settings.plant, settings.effects);
+  thermometer_.set(settings.thermometer);
   settings_ = settings;
 }
 
@@ -34,6 +37,8 @@ void MuscleChannel::advance(hal::Time from, double supply_V) {
   current_A_ = through_A + beside_A;
   sense_A_ += sense_part_ * (current_A_ - sense_A_);
   plant_.step(power_W_, settings_.load_N);
+  if (settings_.thermometer)
+    thermometer_.step(settings_.rise_from_C + plant_.temperature_rise_K(), hal::seconds(step_));
   if (!trouble.slack) slack_at_m_ = plant_.position_m();
   position.offer(trouble.slack ? slack_at_m_ : plant_.position_m(), from + step_);
   current.offer(sense_A_, from + step_);

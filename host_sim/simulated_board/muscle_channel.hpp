@@ -1,14 +1,18 @@
 // One muscle with its switch, its wires and its sensors.
 #pragma once
 
-#include "plant/linear_plant.hpp"
+#include <optional>
+
+#include "plant/plant.hpp"
 #include "simulated_board/converter.hpp"
 #include "simulated_board/lines.hpp"
+#include "simulated_board/thermometer.hpp"
 
 namespace supercoil::host_sim {
 
 struct MuscleChannelSettings {
   control::PhysicalParameters plant;
+  PlantEffects effects;
   double resistance_Ohm = 10.0;                ///< of the cold heater
   double temperature_coefficient_per_K = 0.0;  ///< of that resistance
   double load_N = 0.0;
@@ -18,6 +22,8 @@ struct MuscleChannelSettings {
   double pwm_delay_s = 0.0;
   ConverterSettings position{0.0, 0.040, 16, 10e-6};
   ConverterSettings current{-0.1, 6.0, 0, 0.0};
+  std::optional<ThermometerReading> thermometer;
+  double rise_from_C = 25.0;  ///< the air's temperature that the muscle's rise counts from
 };
 
 /// What can go wrong with it, besides its converters.
@@ -40,7 +46,11 @@ class MuscleChannel {
   /// Everything that may change under way; converters and PWM stay as they are.
   void set(const MuscleChannelSettings& settings);
 
-  const LinearPlant& plant() const { return plant_; }
+  /// What the thermometer tells; NaN without one.
+  double thermometer_C() const { return thermometer_.reading_C(); }
+  /// The air's temperature that the plant's rise counts from.
+  double rise_from_C() const { return settings_.rise_from_C; }
+  const Plant& plant() const { return plant_; }
   double true_power_W() const { return power_W_; }
   double current_A() const { return current_A_; }
 
@@ -53,7 +63,8 @@ class MuscleChannel {
  private:
   MuscleChannelSettings settings_;
   hal::Duration step_;
-  LinearPlant plant_;
+  Plant plant_;
+  Thermometer thermometer_;
   double sense_part_;
   double sense_A_ = 0.0;
   double power_W_ = 0.0;

@@ -12,6 +12,7 @@ import actuator
 import estimation
 import linear
 import mrac
+import muscle_effects
 import plant
 import tracking
 
@@ -22,6 +23,7 @@ TOPICS = {
     "mrac": mrac.cases,
     "tracking": tracking.cases,
     "plant": plant.cases,
+    "muscle_effects": muscle_effects.cases,
 }
 
 

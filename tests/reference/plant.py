@@ -31,12 +31,10 @@ def cases():
         state = solution.y[:, -1]
         history.append(state.reshape(3, -1))
     history = np.array(history)  # [time, quantity, muscle]
-    every = 2
-    times = [(k + 1) * HOLD_S for k in range(every - 1, HOLDS, every)]
     return {"cases": [{
         "parameters": muscle.as_dict(), "hold_s": HOLD_S,
-        "power_W": power[i].tolist(), "load_N": load[i].tolist(), "time_s": times,
-        "temperature_rise_K": history[every - 1::every, 0, i].tolist(),
-        "position_m": history[every - 1::every, 1, i].tolist(),
-        "velocity_m_per_s": history[every - 1::every, 2, i].tolist(),
+        "power_W": power[i].tolist(), "load_N": load[i].tolist(),
+        "temperature_rise_K": history[:, 0, i].tolist(),
+        "position_m": history[:, 1, i].tolist(),
+        "velocity_m_per_s": history[:, 2, i].tolist(),
     } for i, muscle in enumerate(muscles)]}

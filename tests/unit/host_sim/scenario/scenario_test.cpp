@@ -104,7 +104,11 @@ trusted_error = 0.1
   DOUBLES_EQUAL(0.01, c.plant.load_N, 0.0);
   DOUBLES_EQUAL(18.0, c.muscle.stiffness_N_per_m, 0.0);
   DOUBLES_EQUAL(0.2, c.muscle.thermal_mass_J_per_K, 0.0);
-  CHECK(c.position_sensor == (PositionSensorSettings{5e-6, 12, 0.030}));
+  PositionSensorSettings sensor;
+  sensor.noise_rms_m = 5e-6;
+  sensor.resolution_bits = 12;
+  sensor.range_m = 0.030;
+  CHECK(c.position_sensor == sensor);
   CHECK(c.power == (PowerSettings{4.0, 0.1, 12, 10.0, false, 0.004, 0.9}));
   CHECK(c.thermal == (ThermalSpans{{0.8, 1.2}, {0.5, 2.0}, {0.9, 1.1}}));
   CHECK(c.ambient == (Ambient{21.0, 30.0, 10.0}));

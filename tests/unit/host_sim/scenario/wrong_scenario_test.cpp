@@ -35,7 +35,7 @@ TEST(WrongScenario, UnknownKeyWithNothingNearListsWhatThereIs) {
   check_answer(
       "s.toml:2: sensor.position.colour = 'red': is not a key of [sensor.position]; its keys "
       "are: "
-      "noise_rms_m, resolution_bits, range_m",
+      "noise_rms_m, resolution_bits, range_m, count_m, rate_Hz, min_m",
       "[sensor.position]\ncolour = \"red\"");
 }
 
@@ -75,7 +75,7 @@ TEST(WrongScenario, NumberForAFlag) {
 TEST(WrongScenario, UnknownNameListsTheNames) {
   check_answer(
       "s.toml:1: controller.kind = 'fuzzy': must be one of: power, pi, pd_ff, mrac, "
-      "mrac_ls, adaptive_ff",
+      "mrac_ls, adaptive_ff, learned_ff",
       "controller.kind = 'fuzzy'");
 }
 

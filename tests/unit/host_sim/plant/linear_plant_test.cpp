@@ -1,11 +1,13 @@
+#include "plant/linear_plant.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
 
-#include "plant/linear_plant.hpp"
 #include "unit/control/support/reference.hpp"
+#include "unit/host_sim/plant/support.hpp"
 
 using namespace supercoil;
 using host_sim::LinearPlant;
@@ -13,17 +15,6 @@ using host_sim::LinearPlant;
 namespace {
 
 constexpr double step_s = 1e-3;
-
-/// The largest distance between two histories over the largest value of the true one.
-struct Deviation {
-  double largest = 0.0;
-  double scale = 0.0;
-  void add(double simulated, double truth) {
-    largest = std::max(largest, std::abs(simulated - truth));
-    scale = std::max(scale, std::abs(truth));
-  }
-  double relative() const { return largest / scale; }
-};
 
 }  // namespace
 
@@ -34,29 +25,10 @@ TEST(LinearPlant, AgreesWithAnIndependentSolverOver120Seconds) {
   CHECK(cases.size() >= 10);
   for (const auto& c : cases) {
     LinearPlant plant(test::parameters_from(c.at("parameters")), step_s);
-    const double hold_s = c.at("hold_s");
-    const long ticks_per_hold = std::lround(hold_s / step_s);
-    Deviation temperature;
-    Deviation position;
-    Deviation velocity;
-    std::size_t sample = 0;
-    for (std::size_t hold = 0; hold < c.at("power_W").size(); ++hold) {
-      for (long tick = 0; tick < ticks_per_hold; ++tick) {
-        plant.step(c.at("power_W")[hold], c.at("load_N")[hold]);
-      }
-      const double now = static_cast<double>(hold + 1) * hold_s;
-      if (sample < c.at("time_s").size() &&
-          std::abs(c.at("time_s")[sample].get<double>() - now) < 1e-9) {
-        temperature.add(plant.temperature_rise_K(), c.at("temperature_rise_K")[sample]);
-        position.add(plant.position_m(), c.at("position_m")[sample]);
-        velocity.add(plant.velocity_m_per_s(), c.at("velocity_m_per_s")[sample]);
-        ++sample;
-      }
-    }
-    CHECK_EQUAL(c.at("time_s").size(), sample);
-    CHECK_COMPARE(temperature.relative(), <, 1e-6);
-    CHECK_COMPARE(position.relative(), <, 1e-6);
-    CHECK_COMPARE(velocity.relative(), <, 1e-6);
+    const test::Deviations found = test::deviations(plant, step_s, c);
+    CHECK_COMPARE(found.temperature.relative(), <, 1e-6);
+    CHECK_COMPARE(found.position.relative(), <, 1e-6);
+    CHECK_COMPARE(found.velocity.relative(), <, 1e-6);
   }
 }
 

@@ -1,0 +1,84 @@
+// A muscle as it is: the paper's equations with whatever effects are on.
+#pragma once
+
+#include "plant/creep.hpp"
+#include "plant/force_curve.hpp"
+#include "plant/guide_friction.hpp"
+#include "plant/heat_transfer.hpp"
+#include "plant/mechanics.hpp"
+#include "plant/play_hysteresis.hpp"
+#include "plant/softening.hpp"
+#include "plant/wear.hpp"
+
+namespace supercoil::host_sim {
+
+/// Position is zero for the new, cold muscle that carries its load.
+///
+/// What is slow (heat, hysteresis, creep, wear) takes one step of the second order a tick, or as
+/// many as keep it below 1 ms; spring and force then are straight lines over that step, in which
+/// the mechanics take `substeps` exact ones. Without hysteresis and friction this is within 1e-6 of
+/// the equations' solution.
+class NonlinearPlant {
+ public:
+  /// Valid parameters and effects; step_s > 0, the tick.
+  NonlinearPlant(const control::PhysicalParameters& parameters, const PlantEffects& effects,
+                 double step_s);
+
+  /// One tick. load_N pulls the muscle longer.
+  void step(double power_W, double load_N = 0.0);
+
+  /// From now on; whatever the muscle remembers stays.
+  void set(const control::PhysicalParameters& parameters, const PlantEffects& effects);
+
+  /// A muscle that is somewhere already, with a past of which nothing is left but its peak.
+  struct State {
+    double temperature_rise_K;
+    double peak_temperature_rise_K;
+    Motion motion;
+  };
+  void start_from(const State& state);
+
+  const control::PhysicalParameters& parameters() const { return parameters_; }
+  double temperature_rise_K() const { return heat_.rise_K(); }
+  double position_m() const { return motion_.position_m; }
+  double velocity_m_per_s() const { return motion_.velocity_m_per_s; }
+  double peak_temperature_rise_K() const { return peak_K_; }
+  /// What the last tick lost to the air, in J.
+  double heat_loss_J() const { return heat_loss_J_; }
+  const Moisture& moisture() const { return moisture_; }
+
+ private:
+  /// Spring and force that the muscle's condition makes, without load and creep.
+  struct Muscle {
+    double stiffness_N_per_m;
+    double force_N;
+  };
+  Muscle muscle_now();
+  void slow_step(double power_W, double load_N);
+  void move(const Drive& drive);
+
+  control::PhysicalParameters parameters_;
+  double slow_step_s_;
+  int slow_steps_;
+  int substeps_ = 4;
+  double per_substep_ = 0.25;
+  double end_stop_m_ = -10.0;
+  HeatTransfer heat_;
+  PlayHysteresis hysteresis_;
+  ForceCurve force_;
+  Softening softening_;
+  Creep creep_;
+  LonelyStroke lonely_;
+  Ageing ageing_;
+  Moisture moisture_;
+  bool wears_ = false;
+  GuideFriction friction_;
+  Mechanics mechanics_;
+
+  double peak_K_ = 0.0;
+  double heat_loss_J_ = 0.0;
+  Motion motion_;
+  Muscle muscle_{};
+};
+
+}  // namespace supercoil::host_sim

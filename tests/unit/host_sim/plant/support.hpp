@@ -1,0 +1,49 @@
+// Effects as tests want them, and how far a simulated muscle is from what scipy says.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "plant/presets.hpp"
+
+namespace supercoil::test {
+
+inline host_sim::PlantEffects real_muscle() {
+  return host_sim::preset_muscle(host_sim::MusclePreset::real).effects;
+}
+
+/// The largest distance between two histories over the largest value of the true one.
+struct Deviation {
+  double largest = 0.0;
+  double scale = 0.0;
+  void add(double simulated, double truth) {
+    largest = std::max(largest, std::abs(simulated - truth));
+    scale = std::max(scale, std::abs(truth));
+  }
+  double relative() const { return largest / scale; }
+};
+
+struct Deviations {
+  Deviation temperature;
+  Deviation position;
+  Deviation velocity;
+};
+
+/// At the end of each hold of a case. plant: of the case's muscle, at rest.
+template <class Plant>
+Deviations deviations(Plant& plant, double tick_s, const nlohmann::json& c) {
+  const auto ticks = std::lround(c.at("hold_s").get<double>() / tick_s);
+  Deviations found;
+  for (std::size_t hold = 0; hold < c.at("power_W").size(); ++hold) {
+    for (long tick = 0; tick < ticks; ++tick)
+      plant.step(c.at("power_W")[hold], c.at("load_N")[hold]);
+    found.temperature.add(plant.temperature_rise_K(), c.at("temperature_rise_K")[hold]);
+    found.position.add(plant.position_m(), c.at("position_m")[hold]);
+    found.velocity.add(plant.velocity_m_per_s(), c.at("velocity_m_per_s")[hold]);
+  }
+  return found;
+}
+
+}  // namespace supercoil::test

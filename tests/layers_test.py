@@ -14,12 +14,14 @@ OS_IN_STD = {"thread", "mutex", "filesystem", "fstream", "iostream", "chrono", "
              "map", "condition_variable"}
 ALLOWED = {
     "control": ["supercoil/control/", "Eigen/", "unsupported/Eigen/"],
+    "identification": ["supercoil/control/", "supercoil/identification/", "Eigen/", "unsupported/Eigen/", "tl/"],
     "hal/include": ["supercoil/hal/"],
     "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "net/if.h", "pthread.h",
                   "sched.h", "sys/", "unistd.h"],
     "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "can_client/", "config/", "loop/", "modes/", "plot/", "program/",
                  "recorder/", "storage/", "supercoil.h", "supervisor/", "telemetry/", "boost/circular_buffer.hpp",
                  "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
+    "host_sim/plant": ["supercoil/control/", "plant/"],
 }
 # What a program inside a layer may include beside that.
 OF_PROGRAMS = {
@@ -27,6 +29,7 @@ OF_PROGRAMS = {
     "firmware/daemon": ["daemon/", "linux_board/", "CLI/", "supercoil/hal_linux/", "malloc.h", "poll.h"],
     "firmware/daemon/latency": ["daemon/", "supercoil/hal_linux/", "nlohmann/"],
     "firmware/can_client": ["can_client/"],
+    "firmware/operator/identify": ["operator/", "operator/identify/", "supercoil/identification/", "CLI/", "nlohmann/json.hpp"],
     "firmware/operator": ["operator/", "CLI/", "nlohmann/json.hpp", "poll.h"],
     "firmware/operator/bus": ["operator/bus/", "boost/asio/", "supercoil/hal_linux/socket_can.hpp"],
     "firmware/operator/monitor": ["operator/bus/", "operator/monitor/", "boost/asio/", "boost/beast/", "httplib.h",

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "operator/commands.hpp"
+#include "operator/identify/options.hpp"
 #include "telemetry/frames.hpp"
 
 namespace {
@@ -186,6 +187,8 @@ int run_program(int count, char** arguments) {
   add_doctor(app, doctor);
   MonitorOptions monitor;
   add_monitor(app, monitor);
+  IdentifyOptions identify;
+  add_identify(app, identify);
   DbcOptions dbc;
   add_dbc(app, dbc);
   try {
@@ -197,6 +200,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("doctor")) return doctor_command(doctor);
   if (app.got_subcommand("monitor")) return monitor_command(monitor);
   if (app.got_subcommand("setting")) return setting_command(setting);
+  if (app.got_subcommand("identify")) return identify_command(identify);
   if (app.got_subcommand("dbc")) return dbc_command(dbc);
   return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }

@@ -1,0 +1,61 @@
+// Models of a recording, each judged by a part of it that was not fitted.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "supercoil/identification/fit.hpp"
+
+namespace supercoil::identification {
+
+/// One model, fitted to one part of a recording and judged by another.
+struct Judged {
+  Fit fit;
+  double fitted_rms_m = 0.0;
+  double unseen_rms_m = 0.0;
+  /// 1 − Σ error²/Σ (position − its mean)²: of the motion in that part. At most 1; may be negative.
+  double fitted_explained = 0.0;
+  double unseen_explained = 0.0;
+};
+
+struct Parts {
+  Span fitted;
+  Span unseen;
+};
+
+/// From the last time that the muscle is heated out of rest on, where there are two such times or
+/// more and it is after three tenths of the recording; else the last third.
+Parts usual_parts(const Samples& samples);
+
+struct Comparison {
+  Sizes sizes{};
+  Parts parts{};
+  double unseen_stroke_ratio =
+      0.0;                     ///< of the whole stroke: a part that stands still judges nothing
+  std::vector<Judged> models;  ///< linear, each effect alone, then the way to the chosen one
+  std::size_t chosen = 0;      ///< of models
+  Judged transformation;       ///< how a shape-memory wire would move
+  std::string not_a_muscle;    ///< why; empty where a model explains it
+
+  const Judged& best() const { return models[chosen]; }
+};
+
+/// Effects are added one at a time: that which lowers the error on data that was not fitted most,
+/// while it does by a tenth and by 0.1 % of the stroke, four at most. Then those that are no longer
+/// worth as much are taken out. That error is the unseen part's rms and the fitted part's
+/// cross-validated one, added in squares.
+Comparison compare(const Samples& samples, const Parts& parts);
+
+/// What of a model a linear controller can use: the linear model and what moves the rest length.
+Effects linear_part(const Effects& effects);
+
+/// How far apart two fits of the same model say a parameter is, in the first one's deviations, with
+/// its index in the fit; the largest of gain and time constant.
+struct Change {
+  std::size_t parameter;
+  double ratio;       ///< second/first value
+  double deviations;  ///< of the first fit
+};
+Change largest_change(const Fit& first, const Fit& second);
+
+}  // namespace supercoil::identification

@@ -1,0 +1,32 @@
+// How far off fitted parameters are, when the model itself is not exact.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace supercoil::identification {
+
+struct Accuracy {
+  Eigen::MatrixXd covariance;    ///< of the parameters
+  double cross_validated = 0.0;  ///< rms of each stretch's residuals, when the others were fitted
+};
+
+/// The residuals of a model that is not exact are no white noise: they are alike over seconds. So
+/// two covariances are added:
+/// - the delete-a-block jackknife, linearised: how far the solution moves when each of ten
+/// stretches
+///   of the recording is left out;
+/// - the least-squares covariance, with the residuals' variance counted once for each stretch over
+///   which they are alike, and the prior deviations.
+/// jacobian: samples × parameters, of the residuals; rows in the order of time. The parameters,
+/// near their best, have 0 as their prior mean.
+Accuracy accuracy_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,
+                     const Eigen::VectorXd& numbers, const Eigen::VectorXd& prior);
+
+/// The residuals' variance times the samples over which they are alike: what one sample counts for.
+double counted_variance(const Eigen::VectorXd& residual, Eigen::Index parameters);
+
+/// Samples over which residuals are alike: 1 + 2 Σ of their autocorrelation, until it is below 0.05
+/// or a tenth of all is reached. At least 1.
+double correlated_samples(const Eigen::VectorXd& residual);
+
+}  // namespace supercoil::identification

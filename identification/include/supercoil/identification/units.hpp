@@ -1,0 +1,25 @@
+// Units that a laboratory writes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace supercoil::identification {
+
+enum class Quantity { time, position, power };
+
+/// How much one of this unit is in SI; empty for a unit that is none of the quantity's.
+std::optional<double> unit_size(Quantity quantity, std::string_view unit);
+/// "s, ms, us, min"
+std::string units_of(Quantity quantity);
+
+/// A column's name without its unit, in lower case: "Position (mm)" and "position_mm" are
+/// "position" and "mm".
+struct NameAndUnit {
+  std::string name;
+  std::string unit;  ///< empty: none that is known
+};
+NameAndUnit split_name(Quantity quantity, std::string_view name);
+
+}  // namespace supercoil::identification

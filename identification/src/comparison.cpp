@@ -1,0 +1,244 @@
+#include "supercoil/identification/comparison.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <future>
+#include <iterator>
+#include <limits>
+
+namespace supercoil::identification {
+
+namespace {
+
+constexpr std::array addable{Effect::drift,        Effect::force,      Effect::heat_transfer,
+                             Effect::heated_air,   Effect::hysteresis, Effect::creep,
+                             Effect::lonely_stroke};
+constexpr std::size_t max_effects = 4;
+/// An effect must take so much off the error, and so much of the stroke.
+constexpr double worth_ratio = 0.1;
+constexpr double worth_stroke_ratio = 0.001;
+/// And so much off the error of all of the motion, where that is not within worth_stroke_ratio.
+constexpr double worth_of_all_ratio = 0.03;
+
+/// A shape-memory wire's model must be so much better than all others, and these worse than this.
+constexpr double much_better = 0.6;
+constexpr double well_explained = 0.005;
+/// Of the stroke, on unseen data: no model explains it.
+constexpr double unexplained = 0.15;
+
+double explained_of(const Samples& samples, double rms_m, Span span) {
+  double sum = 0.0;
+  double squares = 0.0;
+  double count = 0.0;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (!span.holds(samples.time_s(k)) || !samples.measured(k)) continue;
+    sum += samples.position_m[k];
+    squares += samples.position_m[k] * samples.position_m[k];
+    count += 1.0;
+  }
+  const double mean = sum / count;
+  return 1.0 - rms_m * rms_m / (squares / count - mean * mean);
+}
+
+double stroke_within(const Samples& samples, Span span) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -lowest;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (!span.holds(samples.time_s(k)) || !samples.measured(k)) continue;
+    lowest = std::min(lowest, samples.position_m[k]);
+    highest = std::max(highest, samples.position_m[k]);
+  }
+  return highest - lowest;
+}
+
+Judged judged(Fit fit, const Samples& samples, const Parts& parts) {
+  Judged result;
+  result.fitted_rms_m = fit.rms_m;
+  result.unseen_rms_m = rms_error(samples, fit.predicted_m, parts.unseen);
+  result.fitted_explained = explained_of(samples, result.fitted_rms_m, parts.fitted);
+  result.unseen_explained = explained_of(samples, result.unseen_rms_m, parts.unseen);
+  result.fit = std::move(fit);
+  return result;
+}
+
+/// Over both parts, as if they were of one length.
+double both_rms(const Judged& model) {
+  return std::hypot(model.fitted_rms_m, model.unseen_rms_m) / std::sqrt(2.0);
+}
+
+/// How far off a model is where it was not fitted.
+double unseen_error(const Judged& model) {
+  return std::hypot(model.fit.cross_validated_m, model.unseen_rms_m);
+}
+
+/// Each of these models, from one start.
+std::vector<Judged> each_of(const std::vector<Effects>& models, const Muscle& start,
+                            const Samples& samples, const Parts& parts) {
+  std::vector<std::future<Judged>> started;
+  started.reserve(models.size());
+  for (const Effects& effects : models) {
+    started.push_back(std::async(std::launch::async, [&, effects] {
+      return judged(refit(start, effects, samples, parts.fitted), samples, parts);
+    }));
+  }
+  std::vector<Judged> result;
+  result.reserve(started.size());
+  for (std::future<Judged>& fit : started)
+    result.push_back(fit.get());
+  return result;
+}
+
+std::vector<Judged>::iterator best_of(std::vector<Judged>& models) {
+  return std::min_element(models.begin(), models.end(), [](const Judged& a, const Judged& b) {
+    return unseen_error(a) < unseen_error(b);
+  });
+}
+
+/// Whether a model is worth an effect more than another: in what it has not seen, and in all of the
+/// motion. The first alone would see a difference between two models that are both within the
+/// noise.
+bool worth_more(const Judged& larger, const Judged& smaller, double stroke_m) {
+  const double error_m = unseen_error(smaller);
+  const double least_m = worth_stroke_ratio * stroke_m;
+  const bool unseen = error_m - unseen_error(larger) > std::max(worth_ratio * error_m, least_m);
+  const bool all = both_rms(smaller) > least_m &&
+                   both_rms(larger) < (1.0 - worth_of_all_ratio) * both_rms(smaller);
+  return unseen && all;
+}
+
+/// Appends what was better than all before, in the first round all; the index of the best.
+std::size_t add_effects_to(std::vector<Judged>& models, const Samples& samples, const Parts& parts,
+                           double stroke_m) {
+  std::size_t best = 0;
+  for (std::size_t round = 0; round < max_effects; ++round) {
+    std::vector<Effects> larger;
+    const Effects base = models[best].fit.effects;
+    for (const Effect effect : addable)
+      if (!base.has(effect)) larger.push_back(base.with(effect));
+    std::vector<Judged> tried = each_of(larger, models[best].fit.muscle, samples, parts);
+    const auto found = best_of(tried);
+    const bool worth = worth_more(*found, models[best], stroke_m);
+    const std::size_t before = models.size();
+    if (round == 0) {
+      if (worth) best = before + static_cast<std::size_t>(found - tried.begin());
+      std::move(tried.begin(), tried.end(), std::back_inserter(models));
+    } else if (worth) {
+      models.push_back(std::move(*found));
+      best = before;
+    }
+    if (!worth) break;
+  }
+  return best;
+}
+
+/// What was added early may have stood in for what came later.
+std::size_t take_effects_from(std::vector<Judged>& models, std::size_t best, const Samples& samples,
+                              const Parts& parts, double stroke_m) {
+  while (true) {
+    std::vector<Effects> smaller;
+    const Effects base = models[best].fit.effects;
+    for (const Effect effect : addable)
+      if (base.has(effect)) smaller.push_back(base.without(effect));
+    if (smaller.size() < 2) return best;
+    std::vector<Judged> tried = each_of(smaller, models[best].fit.muscle, samples, parts);
+    const auto found = best_of(tried);
+    if (worth_more(models[best], *found, stroke_m)) return best;
+    models.push_back(std::move(*found));
+    best = models.size() - 1;
+  }
+}
+
+std::string why_no_muscle(const Comparison& c) {
+  double best_m = std::numeric_limits<double>::infinity();
+  for (const Judged& model : c.models)
+    best_m = std::min(best_m, both_rms(model));
+  const double transformed_m = both_rms(c.transformation);
+  std::array<char, 400> text{};
+  if (best_m > well_explained * c.sizes.stroke_m && transformed_m < much_better * best_m) {
+    std::snprintf(
+        text.data(), text.size(),
+        "nearly all of its stroke lies within a narrow range of heat, and below and above "
+        "that heat hardly moves it: a material that transforms, such as shape-memory "
+        "wire, or an end stop. Such a model is off by %.2f %% of the stroke (rms), the "
+        "best of a super-coiled polymer muscle by %.2f %%",
+        100.0 * transformed_m / c.sizes.stroke_m, 100.0 * best_m / c.sizes.stroke_m);
+    return text.data();
+  }
+  const Judged& best = c.best();
+  if (best.unseen_rms_m > unexplained * c.sizes.stroke_m) {
+    std::snprintf(text.data(), text.size(),
+                  "no model predicts what it was not fitted to: the best is off by %.0f %% of the "
+                  "stroke (rms) there, and by %.1f %% where it was fitted. Power may not be what "
+                  "moves it, or something changed between the parts",
+                  100.0 * best.unseen_rms_m / c.sizes.stroke_m,
+                  100.0 * best.fitted_rms_m / c.sizes.stroke_m);
+  }
+  return text.data();
+}
+
+}  // namespace
+
+Parts usual_parts(const Samples& samples) {
+  const double full_W = sizes_of(samples).full_W;
+  const double end_s = samples.end_s();
+  const double duration_s = end_s - samples.start_s;
+  constexpr double at_rest = 0.02;
+  constexpr double rest_s = 1.0;
+  int heatings = 0;
+  double last_s = samples.start_s;
+  double resting_s = rest_s;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    if (samples.power_W[k] <= at_rest * full_W) {
+      resting_s += samples.step_s;
+      continue;
+    }
+    if (resting_s >= rest_s) {
+      ++heatings;
+      last_s = samples.time_s(k);
+    }
+    resting_s = 0.0;
+  }
+  const bool by_heating = heatings >= 2 && last_s - samples.start_s > 0.3 * duration_s &&
+                          end_s - last_s > 0.1 * duration_s;
+  const double at_s = by_heating ? last_s : samples.start_s + duration_s * 2.0 / 3.0;
+  return {{samples.start_s, at_s - 0.5 * samples.step_s}, {at_s - 0.5 * samples.step_s, end_s}};
+}
+
+Comparison compare(const Samples& samples, const Parts& parts) {
+  Comparison result;
+  result.sizes = sizes_of(samples);
+  result.parts = parts;
+  result.unseen_stroke_ratio = stroke_within(samples, parts.unseen) / result.sizes.stroke_m;
+  result.models.push_back(judged(fit_model({}, samples, parts.fitted), samples, parts));
+  const double stroke_m = result.sizes.stroke_m;
+  const std::size_t added = add_effects_to(result.models, samples, parts, stroke_m);
+  result.chosen = take_effects_from(result.models, added, samples, parts, stroke_m);
+  result.transformation =
+      judged(fit_model({Effect::transformation}, samples, parts.fitted), samples, parts);
+  result.not_a_muscle = why_no_muscle(result);
+  return result;
+}
+
+Effects linear_part(const Effects& effects) {
+  Effects result;
+  for (const Effect effect : {Effect::drift, Effect::lonely_stroke})
+    if (effects.has(effect)) result = result.with(effect);
+  return result;
+}
+
+Change largest_change(const Fit& first, const Fit& second) {
+  Change result{0, 1.0, 0.0};
+  for (std::size_t i = 0; i < first.parameters.size(); ++i) {
+    const auto member = first.parameters[i].member;
+    if (member != &Muscle::gain_m_per_W && member != &Muscle::time_constant_s) continue;
+    const double apart = first.muscle.*member - second.muscle.*member;
+    const double deviations = std::abs(apart) / first.deviation(i);
+    if (deviations >= result.deviations)
+      result = {i, second.muscle.*member / (first.muscle.*member), deviations};
+  }
+  return result;
+}
+
+}  // namespace supercoil::identification

@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "supercoil/identification/recording.hpp"
+
+namespace supercoil::identification {
+
+namespace {
+
+constexpr double step_wanted_s = 0.02;
+constexpr double max_samples = 10000.0;
+/// Further apart than so many steps, two positions say nothing of what is between.
+constexpr double bridged_steps = 3.0;
+
+/// The mean power from one time to another; `row` is the last row at or before from_s, and moves.
+double mean_power(const Recording& r, std::size_t& row, double from_s, double to_s) {
+  while (row + 1 < r.size() && r.time_s[row + 1] <= from_s)
+    ++row;
+  double energy_J = 0.0;
+  double at_s = from_s;
+  for (std::size_t i = row; at_s < to_s; ++i) {
+    const double until_s = i + 1 < r.size() ? std::min(r.time_s[i + 1], to_s) : to_s;
+    energy_J += r.power_W[i] * (until_s - at_s);
+    at_s = until_s;
+  }
+  return energy_J / (to_s - from_s);
+}
+
+/// The mean of what was measured within half a step, else a straight line between neighbours.
+class Positions {
+ public:
+  explicit Positions(const Recording& recording) {
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+      if (std::isnan(recording.position_m[i])) continue;
+      time_s_.push_back(recording.time_s[i]);
+      position_m_.push_back(recording.position_m[i]);
+    }
+  }
+
+  double at(double time_s, double step_s, bool averaged) {
+    const double half = averaged ? 0.5 * step_s : 0.0;
+    const auto first = std::lower_bound(time_s_.begin(), time_s_.end(), time_s - half);
+    double sum = 0.0;
+    double count = 0.0;
+    for (auto t = first; t != time_s_.end() && *t <= time_s + half; ++t, count += 1.0)
+      sum += position_m_[static_cast<std::size_t>(t - time_s_.begin())];
+    if (count > 0.0) return sum / count;
+    if (first == time_s_.begin() || first == time_s_.end())
+      return std::numeric_limits<double>::quiet_NaN();
+    const auto i = static_cast<std::size_t>(first - time_s_.begin());
+    const double apart_s = time_s_[i] - time_s_[i - 1];
+    if (apart_s > bridged_steps * step_s) return std::numeric_limits<double>::quiet_NaN();
+    const double share = (time_s - time_s_[i - 1]) / apart_s;
+    return position_m_[i - 1] + share * (position_m_[i] - position_m_[i - 1]);
+  }
+
+ private:
+  std::vector<double> time_s_;
+  std::vector<double> position_m_;
+};
+
+}  // namespace
+
+Samples resample(const Recording& r) {
+  const double duration_s = r.time_s.back() - r.time_s.front();
+  const double mean_interval_s = duration_s / static_cast<double>(r.size() - 1);
+  const double wanted_s = std::max(step_wanted_s, duration_s / max_samples);
+  // Whole intervals, so that samples meet rows where the rate is constant.
+  const double intervals = std::max(1.0, std::round(wanted_s / mean_interval_s));
+  Samples samples;
+  samples.start_s = r.time_s.front();
+  samples.step_s = intervals * mean_interval_s;
+  const auto count = static_cast<std::size_t>(duration_s / samples.step_s + 1e-6) + 1;
+  Positions positions(r);
+  std::size_t row = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double time_s = samples.time_s(k);
+    samples.position_m.push_back(positions.at(time_s, samples.step_s, intervals > 1.5));
+    samples.power_W.push_back(mean_power(r, row, time_s, time_s + samples.step_s));
+  }
+  return samples;
+}
+
+}  // namespace supercoil::identification

@@ -1,0 +1,102 @@
+// Models are chosen by what they were not fitted to, and what is no muscle is said to be none.
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/identification/support/simulated.hpp"
+
+namespace {
+
+using namespace supercoil::identification;
+using namespace supercoil::identification::test;
+
+Comparison compared(const Muscle& muscle) {
+  Samples samples = random_steps(120.0, full_W, 21);
+  record(muscle, noise_m, 22, samples);
+  return compare(samples, {{0.0, 80.0}, {80.0, 120.0}});
+}
+
+void check_chosen(const Effects& expected, const Comparison& comparison) {
+  STRCMP_EQUAL(name(expected).c_str(), name(comparison.best().fit.effects).c_str());
+  STRCMP_EQUAL("", comparison.not_a_muscle.c_str());
+}
+
+}  // namespace
+
+TEST_GROUP(Comparison){};
+
+TEST(Comparison, ChoosesTheLinearModelForALinearMuscle) {
+  const Comparison c = compared(other_muscle());
+  check_chosen({}, c);
+  DOUBLES_EQUAL(1e-5, c.best().unseen_rms_m, 1e-6);
+  CHECK(c.best().unseen_explained > 0.999);
+}
+
+TEST(Comparison, ChoosesTheEffectThatTheMuscleHas) {
+  Muscle force = other_muscle();
+  force.force_ratio = 2.5;
+  check_chosen({Effect::force}, compared(force));
+  Muscle both = other_muscle();
+  both.drift_m_per_s = 5e-5;
+  both.transfer_ratio = 2.0;
+  check_chosen({Effect::drift, Effect::heat_transfer}, compared(both));
+}
+
+TEST(Comparison, TellsAMaterialThatTransforms) {
+  Muscle wire = other_muscle();
+  wire.transformation_W = 1.0;
+  wire.transformed_W = 0.08;
+  const Comparison c = compared(wire);
+  STRCMP_CONTAINS("shape-memory wire", c.not_a_muscle.c_str());
+  CHECK(c.transformation.unseen_rms_m < 0.01 * c.sizes.stroke_m);
+}
+
+TEST(Comparison, TellsMotionThatPowerDoesNotExplain) {
+  Samples samples = random_steps(120.0, full_W, 23);
+  record(other_muscle(), noise_m, 24, samples);
+  // Somebody pulls at it, louder and louder.
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    samples.position_m[k] += 2e-4 * samples.time_s(k) * std::sin(0.7 * samples.time_s(k));
+  const Comparison c = compare(samples, {{0.0, 80.0}, {80.0, 120.0}});
+  STRCMP_CONTAINS("no model predicts", c.not_a_muscle.c_str());
+}
+
+TEST(Comparison, TellsAChangeAndNoChange) {
+  Samples samples = random_steps(120.0, full_W, 25);
+  record(other_muscle(), noise_m, 26, samples);
+  const Fit part = fit_model({}, samples, {0.0, 60.0});
+  CHECK(largest_change(part, fit_model({}, samples, {0.0, 120.0})).deviations < 3.0);
+  // From 60 s on everything moves a quarter further.
+  for (std::size_t k = 3000; k < samples.size(); ++k)
+    samples.position_m[k] *= 1.25;
+  const Change change = largest_change(part, fit_model({}, samples, {0.0, 120.0}));
+  CHECK(change.deviations > 3.0);
+}
+
+TEST_GROUP(Parts){};
+
+TEST(Parts, JudgesByTheLastHeatingFromRest) {
+  Samples samples;
+  samples.step_s = 0.02;
+  samples.power_W.assign(5000, 0.0);
+  samples.position_m.assign(5000, 0.0);
+  for (const std::size_t from : {500U, 2500U})
+    for (std::size_t k = from; k < from + 200; ++k)
+      samples.power_W[k] = 1.0;
+  const Parts parts = usual_parts(samples);
+  DOUBLES_EQUAL(0.0, parts.fitted.from_s, 1e-9);
+  DOUBLES_EQUAL(49.99, parts.fitted.to_s, 1e-9);
+  DOUBLES_EQUAL(49.99, parts.unseen.from_s, 1e-9);
+  DOUBLES_EQUAL(99.98, parts.unseen.to_s, 1e-9);
+}
+
+TEST(Parts, JudgesByTheLastThirdWithoutRests) {
+  const Parts parts = usual_parts([] {
+    Samples samples;
+    samples.step_s = 0.02;
+    samples.power_W.assign(6001, 1.0);
+    samples.position_m.assign(6001, 0.0);
+    return samples;
+  }());
+  DOUBLES_EQUAL(79.99, parts.fitted.to_s, 1e-9);
+}

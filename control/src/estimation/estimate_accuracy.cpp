@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/LU>
+
 namespace supercoil::control {
 
 namespace {
@@ -47,19 +49,31 @@ void EstimateAccuracy::restart_filters() {
 void EstimateAccuracy::forget(const Parameters& variances) {
   // A prior of variance C0 enters H as R/C0, and must give C0 by itself: H⁻¹ (R²/C0) H⁻¹.
   const double square = settings_.counted_W2 * settings_.counted_W2;
+  prior_.setZero();
   for (int i = 0; i < size; ++i)
-    prior_[i] = variances[i] > 0.0 ? square / variances[i] : 0.0;
+    prior_(i, i) = variances[i] > 0.0 ? square / variances[i] : 0.0;
   scores_.setZero();
 }
 
 void EstimateAccuracy::forget_first(const Vector<double, free>& variances) {
-  Parameters kept = prior_;
-  const Square scores = scores_;
+  const Matrix<double, 5> prior = prior_.bottomRightCorner<5, 5>();
+  const Matrix<double, 5> scores = scores_.bottomRightCorner<5, 5>();
   Parameters all = Parameters::Zero();
   all.head<free>() = variances;
   forget(all);
-  prior_.tail<5>() = kept.tail<5>();
-  scores_.bottomRightCorner<5, 5>() = scores.bottomRightCorner<5, 5>();
+  prior_.bottomRightCorner<5, 5>() = prior;
+  scores_.bottomRightCorner<5, 5>() = scores;
+}
+
+void EstimateAccuracy::spread(const Matrix<double, 5>& before, const Matrix<double, 5>& after,
+                              const Matrix<double, 5>& added) {
+  const Matrix<double, 5> inverse = before / settings_.counted_W2;  // H⁻¹
+  const Matrix<double, 5> next = after.inverse() * settings_.counted_W2;
+  const Matrix<double, 5> through = next * inverse;
+  const Matrix<double, 5> scores = scores_.bottomRightCorner<5, 5>();
+  const Matrix<double, 5> prior = prior_.bottomRightCorner<5, 5>();
+  scores_.bottomRightCorner<5, 5>() = through * scores * through.transpose();
+  prior_.bottomRightCorner<5, 5>() = through * prior * through.transpose() + next * added * next;
 }
 
 Vector<double, 4> EstimateAccuracy::polynomial(const Parameters& theta) const {
@@ -80,9 +94,12 @@ void EstimateAccuracy::step(const Seen& seen) {
   filtered << impulse_.state().head<free>().reverse(),
       motion_.state().head<4>().cwiseProduct(weights_).reverse(), one_.state()[0];
   filtered *= steep_lambda_gain;
-  const double forgotten = 1.0 / (seen.growth * seen.growth);
-  scores_ = (scores_ + filtered * filtered.transpose()) * forgotten;
-  prior_ *= forgotten;
+  const double kept = settings_.forgetting * settings_.forgetting;
+  scores_ = (scores_ + filtered * filtered.transpose()) * kept;
+  prior_ *= kept;
+  const double counted = settings_.counted_W2 / seen.scale;
+  prior_.diagonal().tail<5>() +=
+      settings_.unexcited.cwiseInverse() * ((1.0 - kept) * counted * counted);
 
   // It begins at what is expected: while θ is found, residuals are smaller than the noise.
   const double most_W2 = most_deviations * most_deviations * mean_square_W2_;
@@ -91,15 +108,20 @@ void EstimateAccuracy::step(const Seen& seen) {
       (std::min(seen.residual_W * seen.residual_W, most_W2) - mean_square_W2_) * share;
 }
 
-Vector<double, 5> EstimateAccuracy::standard_deviations(const Square& covariance,
-                                                        const Parameters& theta) const {
+EstimateAccuracy::Parts EstimateAccuracy::parts(const Square& covariance,
+                                                const Parameters& theta) const {
   const double density = mean_square_W2_ / noise_gain(theta);
-  const Square inverse = covariance / settings_.counted_W2;  // H⁻¹
-  Square middle = scores_ * (density / settings_.update_s);
-  middle.diagonal() += prior_;
-  const Vector<double, size> variances =
-      (inverse * middle).cwiseProduct(inverse).rowwise().sum();  // the diagonal of H⁻¹ M H⁻¹
-  return variances.tail<5>().cwiseMax(0.0).cwiseSqrt();
+  const Matrix<double, 5, size> inverse =
+      covariance.bottomRows<5>() / settings_.counted_W2;  // of H⁻¹
+  return {inverse * scores_ * inverse.transpose() * (density / settings_.update_s),
+          inverse * prior_ * inverse.transpose()};
+}
+
+Matrix<double, 5> EstimateAccuracy::bounded(const Matrix<double, 5>& covariance) const {
+  // As two independent observations go together.
+  const Matrix<double, 5> most = (4.0 * settings_.unexcited).asDiagonal();
+  const Matrix<double, 5> both = covariance + most;
+  return covariance * both.inverse() * most;
 }
 
 }  // namespace supercoil::control

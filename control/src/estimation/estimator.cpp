@@ -20,6 +20,10 @@ concept Gradient = requires(const Kind& kind) {
 
 }  // namespace
 
+double relative_error_bound(const Vector<double, 5>& deviations) {
+  return deviations_of_bound * deviations.head<4>().norm();
+}
+
 Estimator::Any Estimator::choose(const EstimatorSettings& s, double step_s) {
   const bool narrow = s.arithmetic == Arithmetic::float32;
   switch (s.kind) {
@@ -80,9 +84,9 @@ Estimate Estimator::told(const GradientEstimator<Scalar>& estimator) const {
 
 template <class Scalar>
 Estimate Estimator::told(const LeastSquaresEstimator<Scalar>& estimator) const {
-  const auto parameters = estimator.parameters();
+  const auto& parameters = estimator.parameters();
   const auto& deviations = estimator.standard_deviations();
-  const double bound = deviations_of_bound * deviations.template head<4>().norm();
+  const double bound = relative_error_bound(deviations);
   return {.theta = parameters.template head<4>().cwiseProduct(nominal_),
           .prediction_error_W = estimator.error(),
           .relative_error_bound = bound,

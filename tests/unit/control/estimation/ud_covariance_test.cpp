@@ -89,3 +89,15 @@ TEST(UdCovariance, InflatingAddsToEachVarianceAndToNothingElse) {
   covariance.inflate(0.1);
   CHECK((covariance.matrix() - expected).norm() < 1e-12);
 }
+
+TEST(UdCovariance, AddingADirectionGrowsItAlone) {
+  Regressors regressors;
+  UdCovariance<double, 4> covariance(Vector<double, 4>::Constant(100.0));
+  for (int k = 0; k < 20; ++k)
+    covariance.update(regressors.next(), 0.1, 1.0, 0);
+  const Vector<double, 4> direction{0.0, 0.0, 1.0, 2.0};
+  const Matrix<double, 4> more = direction * direction.transpose();
+  const Matrix<double, 4> expected = covariance.matrix() + more;
+  covariance.add(more);
+  CHECK((covariance.matrix() - expected).norm() < 1e-12);
+}

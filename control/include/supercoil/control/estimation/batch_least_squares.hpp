@@ -1,53 +1,90 @@
 // One fit to a whole experiment.
 #pragma once
 
-#include <cstdint>
+#include <array>
+#include <cstddef>
 #include <optional>
 
+#include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/estimation/parametric_model.hpp"
 
 namespace supercoil::control {
 
-/// Sums the regression z = θᵀφ (paper, Eq. (3)) over an experiment and solves it at the end: every
-/// sample counts alike, and nothing has to converge. Fits to the first part of the experiment, and
-/// judges the fit by the last part, which it has not seen.
+/// Sums the regression P/Λ = θᵀ[m̂s³X, s²X, sX, X]/Λ + bias over an experiment, block by block, and
+/// solves it at the end: every sample counts alike, and nothing has to converge.
+///
+/// It is an instrumental-variable fit: the noise of the measured position is in the regressors, so
+/// they are correlated with those of a simulated muscle, the believed one under the same power,
+/// which has no noise. Noise then widens the result and does not bend it. How far off the belief is
+/// matters little: it only weighs the samples.
+///
+/// The deviation of each parameter is the jackknife's over the blocks (Efron and Stein, 1981): how
+/// much the result depends on which part of the experiment is left out. So it has the noise in it
+/// and as much of the model's own error as varies during the experiment.
 class BatchLeastSquares {
  public:
-  struct Settings {
-    Polynomial<3> lambda = paper_lambda;
-    RegressionScale scale;
-    double settle_s = 6.0;    ///< not used: the filters start at rest, the muscle perhaps not
-    double fit_part = 0.667;  ///< of what is used
-  };
+  static constexpr std::size_t max_blocks = 16;
+  /// Less than these leave nothing to judge the fit by.
+  static constexpr std::size_t min_blocks = 4;
+
   struct Fit {
-    Theta theta;                  ///< in θ's own units
-    double relative_error_bound;  ///< of all parameters together, from the part that was not fitted
-    double unexplained_part;      ///< of the filtered power's energy there
+    Theta theta;      ///< in θ's own units, from all blocks
+    double bias_W;    ///< constant power beside them: a load, a wrong zero
+    Theta deviation;  ///< standard, relative to theta
+    /// How far the fit of the last third, which the fit of the rest has not seen, is from that,
+    /// relative to it.
+    Theta unseen_difference;
+    /// Of the filtered power's variance in the last third: what the fit of the rest does not
+    /// explain there.
+    double unexplained_ratio;
   };
 
-  /// duration_s: of the whole experiment, > settle_s.
-  BatchLeastSquares(const Settings& settings, double duration_s, double step_s);
+  /// step_s: between ticks. believed: a valid muscle.
+  BatchLeastSquares(const PhysicalParameters& believed, double step_s);
 
-  /// One tick: this tick's position, and the power applied since the last one.
-  void step(double position_m, double applied_power_W);
-  /// Empty when the motion was not rich enough for a solution.
+  /// Forgets all. The muscle is at rest at this position, without power.
+  void start(double position_m);
+
+  /// One tick: this tick's position, and the power applied since the last one. block: which it
+  /// counts to, below max_blocks; empty: to none, while the filters settle.
+  void step(double position_m, double applied_power_W, std::optional<std::size_t> block);
+
+  /// So many blocks have begun.
+  std::size_t blocks() const { return blocks_; }
+
+  /// Empty when there are too few blocks or the motion was not rich enough for a solution. The
+  /// last block counts as complete.
   std::optional<Fit> fit() const;
 
  private:
+  static constexpr int size = 5;  ///< θ and the bias
+  using Regressors = Vector<double, size>;
   struct Sums {
-    Matrix<double, 4> information = Matrix<double, 4>::Zero();
-    Vector<double, 4> correlation = Vector<double, 4>::Zero();
+    Matrix<double, size> instrumental = Matrix<double, size>::Zero();
+    Regressors correlation = Regressors::Zero();
+    // What judges a solution.
+    Matrix<double, size> information = Matrix<double, size>::Zero();
+    Regressors projection = Regressors::Zero();
     double energy = 0.0;
-  };
+    double mean = 0.0;
+    double count = 0.0;
 
-  Settings settings_;
-  double step_s_;
-  std::int64_t tick_ = 0;
-  std::int64_t first_tick_;
-  std::int64_t fit_until_;
-  ParametricModel<double> model_;
-  Sums fitted_;
-  Sums unseen_;
+    void add(const Sums& other, double sign);
+  };
+  Sums sum(std::size_t from, std::size_t to) const;
+  Regressors regressors(const Vector<double, 5>& position) const;
+  static Regressors solve(const Sums& sums);
+
+  double position_scale_;
+  Theta nominal_;
+  Regressors weights_;
+  StateVariableFilter<double, 5, Hold::zero_order> power_;
+  StateVariableFilter<double, 5, Hold::first_order> position_;
+  double believed_gain_;
+  StateVariableFilter<double, 3, Hold::zero_order> believed_;
+  StateVariableFilter<double, 5, Hold::first_order> instrument_;
+  std::size_t blocks_ = 0;
+  std::array<Sums, max_blocks> sums_;
 };
 
 }  // namespace supercoil::control

@@ -8,8 +8,10 @@ namespace supercoil::control {
 /// The covariance that recursive least squares carries is right for white residuals. Ours are
 /// position noise v through A(s)/Λ', A = θ1 m̂s³ + θ2 s² + θ3 s + θ4: correlated over seconds. With
 /// H = Σφφᵀ (forgotten) and v white with density S, the covariance of θ is
-///   H⁻¹ S (Σ φ'φ'ᵀ) H⁻¹,  φ' = φ filtered by A/Λ' (forgotten twice as fast).
-/// S follows from the residuals' mean square over ∫h², h being A/Λ's impulse response.
+///   H⁻¹ (S Σ φ'φ'ᵀ + M) H⁻¹,  φ' = φ filtered by A/Λ' (forgotten twice as fast).
+/// M is what is known without data: H at the prior's information gives the prior's variance.
+/// S follows from the residuals' mean square over ∫h², h being A/Λ's impulse response. Where the
+/// model is not right, more than noise is in them: see EstimateDrift.
 /// All in double, 100 times a second; it decides nothing.
 class EstimateAccuracy {
  public:
@@ -25,6 +27,9 @@ class EstimateAccuracy {
     double averaging_s;      ///< of the residuals' mean square
     double noise_m2_per_Hz;  ///< expected density of the position's noise (rms² · tick)
     double counted_W2;       ///< R: what least squares takes the residual's variance for
+    double forgetting;       ///< of an update
+    /// Of the last five, to which their variances grow where nothing excites them.
+    Vector<double, 5> unexcited;
   };
   explicit EstimateAccuracy(const Settings& settings);
 
@@ -42,12 +47,30 @@ class EstimateAccuracy {
     Derivatives of_impulse;  ///< FilteredRegression's
     Derivatives of_one;
     double residual_W;
-    double growth;  ///< of the covariance by forgetting: 1/λ, or less at its cap
+    double scale;  ///< of the counted covariance to a true one, of what nothing excites
   };
   void step(const Seen& seen);
 
-  /// Standard deviations of θ1…θ4 over nominal, and of the bias in W.
-  Vector<double, 5> standard_deviations(const Square& covariance, const Parameters& theta) const;
+  /// The muscle has changed: so much more may be true of the last five. before, after: the counted
+  /// covariance of the last five; after must be regular.
+  void spread(const Matrix<double, 5>& before, const Matrix<double, 5>& after,
+              const Matrix<double, 5>& added);
+
+  /// Of the residual, in W².
+  double mean_square() const { return mean_square_W2_; }
+  /// A covariance of θ1…θ4 over nominal and of the bias in W.
+  struct Parts {
+    Matrix<double, 5> noise;  ///< from the residuals, as if they were position noise
+    Matrix<double, 5> prior;
+  };
+  /// covariance: as counted.
+  Parts parts(const Square& covariance, const Parameters& theta) const;
+  /// A covariance that was scaled up, within twice the deviations of what nothing excites.
+  Matrix<double, 5> bounded(const Matrix<double, 5>& covariance) const;
+  /// The residuals are larger than the expected noise makes them, twice in rms.
+  bool model_errs(const Parameters& theta) const {
+    return mean_square_W2_ > 4.0 * settings_.noise_m2_per_Hz * noise_gain(theta);
+  }
 
  private:
   using Filter = StateVariableFilter<double, 5, Hold::zero_order>;
@@ -62,7 +85,7 @@ class EstimateAccuracy {
   Vector<double, 4> weights_;  // of 1, s, s², s³ in A
   Matrix<double, 4> gram_;     // ∫ of the impulse responses of [1, s, s², s³]/Λ', two by two
   double mean_square_W2_;
-  Parameters prior_ = Parameters::Zero();  // what forgotten knowledge adds to the scores
+  Square prior_ = Square::Zero();  // M
   Square scores_ = Square::Zero();
 };
 

@@ -32,6 +32,9 @@ struct EstimatorSettings {
   ExcitationMonitor::Settings excitation;
 };
 
+/// Of θ1…θ4 together, by the standard deviations over nominal that least squares tells.
+double relative_error_bound(const Vector<double, 5>& deviations);
+
 /// What q8.24 cannot hold of the settings (see controller.hpp).
 std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W);
 

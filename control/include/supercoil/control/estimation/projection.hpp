@@ -1,6 +1,10 @@
 // Keeping estimates inside what is physically possible.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "supercoil/control/scalar/scalar.hpp"
 
 namespace supercoil::control {
@@ -21,6 +25,35 @@ struct Box {
 template <class Scalar, int N>
 Vector<Scalar, N> project(const Vector<Scalar, N>& value, const Box<Scalar, N>& box) {
   return value.cwiseMax(box.lower).cwiseMin(box.upper);
+}
+
+/// Into the box along what is likely: the value that is most standard deviations outside goes to
+/// its bound and the others to what they then are likely to be, until all are inside. Element by
+/// element, what the data do tell (how the values go together) would be lost.
+template <int N>
+Vector<double, N> project(Vector<double, N> value, const Box<double, N>& box,
+                          Matrix<double, N> covariance) {
+  std::array<bool, N> known{};
+  for (int count = 0; count < N; ++count) {
+    int worst = -1;
+    double most = 0.0;
+    for (int i = 0; i < N; ++i) {
+      const double inside = std::clamp(value[i], box.lower[i], box.upper[i]);
+      const double variance = covariance(i, i);
+      if (known[static_cast<std::size_t>(i)] || inside == value[i] || !(variance > 0.0)) continue;
+      const double deviations = std::abs(value[i] - inside) / std::sqrt(variance);
+      if (deviations <= most) continue;
+      most = deviations;
+      worst = i;
+    }
+    if (worst < 0) break;
+    const double bound = std::clamp(value[worst], box.lower[worst], box.upper[worst]);
+    const Vector<double, N> along = covariance.col(worst) / covariance(worst, worst);
+    value += along * (bound - value[worst]);
+    covariance -= along * covariance.row(worst).eval();
+    known[static_cast<std::size_t>(worst)] = true;
+  }
+  return project<double, N>(value, box);
 }
 
 }  // namespace supercoil::control

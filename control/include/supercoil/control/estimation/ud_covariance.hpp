@@ -59,11 +59,9 @@ class UdCovariance {
 
   void scale(Scalar factor) { d_ *= factor; }
 
-  /// Adds to the variance of each parameter (>= 0); what leans on what stays. The sum is factored
-  /// anew, last column first.
-  void inflate(Scalar variance) {
-    Matrix<Scalar, N> rest = matrix();
-    rest.diagonal().array() += variance;
+  /// Adds a covariance, positive semidefinite. The sum is factored anew, last column first.
+  void add(const Matrix<Scalar, N>& more) {
+    Matrix<Scalar, N> rest = matrix() + more;
     for (int j = N - 1; j >= 0; --j) {
       d_[j] = rest(j, j);
       if (!(d_[j] > Scalar{})) continue;
@@ -76,6 +74,9 @@ class UdCovariance {
     }
   }
 
+  /// Adds to the variance of each parameter (>= 0); what leans on what stays.
+  void inflate(Scalar variance) { add(Matrix<Scalar, N>::Identity() * variance); }
+
   Scalar largest_variance(int first) const {
     Scalar largest{};
     for (int i = first; i < N; ++i) {
@@ -87,7 +88,11 @@ class UdCovariance {
     return largest;
   }
 
-  Matrix<Scalar, N> matrix() const { return u_ * d_.asDiagonal() * u_.transpose(); }
+  template <class Result = Scalar>
+  Matrix<Result, N> matrix() const {
+    const Matrix<Result, N> u = u_.template cast<Result>();
+    return u * d_.template cast<Result>().asDiagonal() * u.transpose();
+  }
 
  private:
   Matrix<Scalar, N> u_;

@@ -1,0 +1,97 @@
+// How fast the muscle cools, whatever its motion is like.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "supercoil/control/hysteresis/play.hpp"
+#include "supercoil/control/scalar/scalar.hpp"
+
+namespace supercoil::control {
+
+/// The thermal time constant ψ/η from power and position. Heat is taken for linear, τq̇ = P − q with
+/// q the power that the muscle loses, and its motion for any curve of q with hysteresis, inertia,
+/// damping and a drift:
+///   x + a₁ẋ + a₂ẍ = c₀ + c₁u + c₂u² + c₃u³ + c₄ play(u; r₁) + c₅ play(u; r₂) + c₆ t,  u = q/max_W.
+/// That is linear in all but τ, so it is fitted for each of a row of them; the one that leaves the
+/// least is found. A fit that takes the motion for linear as well tells τ wrong by a factor of up
+/// to 2.9 on a muscle whose force grows with temperature (docs/safety.md).
+class CoolingFit {
+ public:
+  struct Settings {
+    double fastest_s = 0.5;  ///< time constants that are possible
+    double slowest_s = 6.0;
+    double max_W = 4.5;
+  };
+  struct Found {
+    double time_constant_s;
+    double mean_W;  ///< the power at which it was found
+  };
+
+  static constexpr double most_unexplained = 0.01;  ///< of the position's variance
+  static constexpr double settle_s = 6.0;           ///< not used: filters and muscle start anew
+
+  /// step_s > 0. Allocates nothing.
+  CoolingFit(const Settings& settings, double step_s);
+
+  void start();
+  /// One tick: this tick's position, and the power applied since the last one.
+  void step(double position_m, double power_W);
+  /// Empty: no τ explains the motion, or too many do.
+  std::optional<Found> found() const;
+
+ private:
+  static constexpr std::size_t candidates = 40;
+  static constexpr int terms = 9;
+  static constexpr int filtered = 7;  ///< of them, through the low-pass
+  static constexpr double wanted_step_s = 0.01;
+  static constexpr double corner_rad_per_s = 4.0;  ///< of two equal low-passes
+  static constexpr double margin = 1.3;            ///< beside what is possible
+  static constexpr double least_used_s = 20.0;
+  static constexpr double fine_play = 0.03;  ///< of max_W
+  static constexpr double coarse_play = 0.12;
+  static constexpr std::size_t aside = 4;  ///< all candidates so far from the best, or farther,
+  static constexpr double least_sharpness = 1.7;  ///< leave so many times more
+  static constexpr double ridge = 1e-10;
+
+  struct Fit {
+    double tau_s = 1.0;
+    double loss_W = 0.0;
+    Play fine{fine_play};
+    Play coarse{coarse_play};
+    std::array<double, filtered> once{};
+    std::array<double, filtered> twice{};
+    Matrix<double, terms> information = Matrix<double, terms>::Zero();
+    Vector<double, terms> correlation = Vector<double, terms>::Zero();
+  };
+  struct Position {
+    double once = 0.0;
+    double twice = 0.0;
+    double sum = 0.0;
+    double energy = 0.0;
+  };
+
+  void take(double position_m, double power_W);
+  void take(Fit& fit, double x, double power_W, bool used) const;
+  /// Of the position's variance.
+  double unexplained(const Fit& fit) const;
+  double used_s() const;
+
+  static constexpr double scale_m = 1e-3;
+
+  Settings settings_;
+  int ticks_ = 1;
+  double step_s_ = 0.0;
+  double smoothing_ = 0.0;
+  std::array<Fit, candidates> fits_{};
+  Position position_;
+  std::int64_t steps_ = 0;
+  int n_ = 0;
+  double position_sum_m_ = 0.0;
+  double power_sum_W_ = 0.0;
+  double mean_W_ = 0.0;
+};
+
+}  // namespace supercoil::control

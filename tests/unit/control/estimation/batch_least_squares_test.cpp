@@ -1,0 +1,135 @@
+#include "supercoil/control/estimation/batch_least_squares.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/control/support/muscle.hpp"
+
+using namespace supercoil::control;
+
+namespace {
+
+constexpr double block_s = 8.0;
+
+/// Every parameter of the belief is as wrong as the board allows.
+PhysicalParameters half_wrong_belief() {
+  PhysicalParameters believed;
+  believed.thermal_mass_J_per_K *= 1.5;
+  believed.heat_transfer_W_per_K *= 0.5;
+  believed.stiffness_N_per_m *= 1.5;
+  believed.damping_Ns_per_m *= 0.5;
+  return believed;
+}
+
+/// The paper's muscle under a power that steps and swings.
+struct PowerSteps {
+  double noise_rms_m = 10e-6;
+  double bias_W = 0.0;        ///< of the power that is told
+  double softens_at_s = 1e6;  ///< to 11 N/m
+  double scale = 1.0;         ///< of the power
+  std::size_t blocks = 6;
+
+  std::optional<BatchLeastSquares::Fit> run(unsigned seed = 1) const {
+    constexpr double step_s = 1e-3;
+    BatchLeastSquares fit(half_wrong_belief(), step_s);
+    fit.start(0.0);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, noise_rms_m);
+    PhysicalParameters parameters;
+    supercoil::test::Muscle muscle(parameters, step_s);
+    double power_W = 0.0;
+    const double duration_s = block_s * static_cast<double>(1 + blocks);
+    for (int k = 0; k * step_s < duration_s; ++k) {
+      const double time_s = k * step_s;
+      if (time_s >= softens_at_s && parameters.stiffness_N_per_m != 11.0) {
+        parameters.stiffness_N_per_m = 11.0;
+        muscle.change(parameters);
+      }
+      muscle.step(power_W);
+      const auto block = static_cast<std::size_t>(time_s / block_s);
+      fit.step(muscle.position_m() + noise(random), power_W + bias_W,
+               block > 0 ? std::optional(block - 1) : std::optional<std::size_t>());
+      const bool heats = std::fmod(time_s, block_s) < 0.4 * block_s;
+      power_W = scale *
+                ((heats ? 3.5 : 0.4) +
+                 0.1 * (std::sin(4.1 * time_s) + std::sin(9.3 * time_s) + std::sin(21.7 * time_s)));
+    }
+    return fit.fit();
+  }
+};
+
+Theta paper_theta() {
+  return theta_from(PhysicalParameters{});
+}
+
+}  // namespace
+
+TEST_GROUP(BatchLeastSquares){};
+
+TEST(BatchLeastSquares, FindsAMuscleThatItTookForAnother) {
+  const auto fit = PowerSteps{}.run();
+  CHECK(fit.has_value());
+  for (int i = 0; i < 4; ++i) {
+    DOUBLES_EQUAL(paper_theta()[i], fit->theta[i], 0.02 * paper_theta()[i]);
+    CHECK(fit->deviation[i] < 0.02);
+    CHECK(fit->unseen_difference[i] < 0.03);
+  }
+  DOUBLES_EQUAL(0.0, fit->bias_W, 1e-3);
+  CHECK(fit->unexplained_ratio < 1e-4);
+}
+
+TEST(BatchLeastSquares, FindsAConstantBiasOfThePower) {
+  const auto fit = PowerSteps{.bias_W = 0.3}.run();
+  DOUBLES_EQUAL(0.3, fit->bias_W, 0.003);
+  for (int i = 1; i < 4; ++i)
+    DOUBLES_EQUAL(paper_theta()[i], fit->theta[i], 0.01 * paper_theta()[i]);
+}
+
+/// An ordinary fit to the same samples finds θ2 too small: the noise is in its regressors.
+TEST(BatchLeastSquares, NoiseWidensTheResultAndDoesNotBendIt) {
+  double mean = 0.0;
+  double deviation = 0.0;
+  constexpr int runs = 10;
+  for (unsigned seed = 1; seed <= runs; ++seed) {
+    const auto fit = PowerSteps{.noise_rms_m = 2e-3}.run(seed);
+    mean += fit->theta[1] / paper_theta()[1] / runs;
+    deviation += fit->deviation[1] / runs;
+  }
+  const double quiet = PowerSteps{}.run()->deviation[1];
+  CHECK(deviation > 20.0 * quiet);
+  DOUBLES_EQUAL(1.0, mean, 3.0 * deviation / std::sqrt(static_cast<double>(runs)));
+  CHECK(deviation < 0.1);
+}
+
+TEST(BatchLeastSquares, DeviationsAreThoseOfTheErrors) {
+  Theta squares = Theta::Zero();
+  Theta told = Theta::Zero();
+  constexpr int runs = 20;
+  for (unsigned seed = 1; seed <= runs; ++seed) {
+    const auto fit = PowerSteps{.noise_rms_m = 0.3e-3}.run(seed);
+    squares += (fit->theta.cwiseQuotient(paper_theta()) - Theta::Ones()).cwiseAbs2() / runs;
+    told += fit->deviation.cwiseAbs2() / runs;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const double ratio = std::sqrt(told[i] / squares[i]);
+    CHECK(ratio > 0.6);
+    CHECK(ratio < 1.8);
+  }
+}
+
+TEST(BatchLeastSquares, AMuscleThatChangesUnderwayIsNotExplained) {
+  const auto fit = PowerSteps{.softens_at_s = 42.0}.run();
+  CHECK(fit->unexplained_ratio > 0.06);
+  CHECK(fit->unseen_difference[3] > 0.15);
+}
+
+TEST(BatchLeastSquares, TooFewBlocksAreNoFit) {
+  CHECK_FALSE(PowerSteps{.blocks = BatchLeastSquares::min_blocks - 1}.run().has_value());
+}
+
+TEST(BatchLeastSquares, WithoutMotionNothingIsKnown) {
+  const auto fit = PowerSteps{.scale = 1e-6}.run();
+  CHECK(!fit || fit->deviation[3] > 0.1 || fit->unexplained_ratio > 0.06);
+}

@@ -96,6 +96,7 @@ BENCHMARK_CAPTURE(controller, mrac_ls_float, ControllerKind::mrac_ls, float32);
 BENCHMARK_CAPTURE(controller, adaptive_ff_double, ControllerKind::adaptive_ff, float64);
 BENCHMARK_CAPTURE(controller, adaptive_ff_float, ControllerKind::adaptive_ff, float32);
 BENCHMARK_CAPTURE(controller, adaptive_ff_q8_24, ControllerKind::adaptive_ff, q8_24);
+BENCHMARK_CAPTURE(controller, learned_ff_double, ControllerKind::learned_ff, float64);
 BENCHMARK_CAPTURE(estimator, gradient_double, EstimatorKind::gradient, float64);
 BENCHMARK_CAPTURE(estimator, gradient_float, EstimatorKind::gradient, float32);
 BENCHMARK_CAPTURE(estimator, gradient_q8_24, EstimatorKind::gradient, q8_24);

@@ -36,6 +36,7 @@ void scenario(benchmark::State& state, const std::string& name) {
 }
 
 BENCHMARK_CAPTURE(scenario, sine_mrac_gradient, "sine")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(scenario, sine_real_muscle, "real")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scenario, identify_gradient, "identify")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(scenario, fixed_point, "fixed-point")->Unit(benchmark::kMillisecond);
 

@@ -7,22 +7,27 @@ Controller::Any Controller::make(const ControllerSettings& s, double step_s) {
   const double gain = s.dc_gain_m_per_W;
   switch (s.kind) {
     case ControllerKind::pi:
-      return PiFollower<Scalar>(s.model, Pi<Scalar>(s.pi, gain, step_s), gain, step_s);
+      return PiFollower<Scalar>(s, Pi<Scalar>(s.pi, gain, step_s), step_s);
     case ControllerKind::pd_ff:
-      return PdFollower<Scalar>(s.model, PdFeedforward<Scalar>(s.pd_ff, gain, step_s), gain,
-                                step_s);
+      return PdFollower<Scalar>(s, PdFeedforward<Scalar>(s.pd_ff, gain, step_s), step_s);
     case ControllerKind::mrac:
-      return MracFollower<Scalar>(s.model, Mrac<Scalar>(s.mrac, step_s), gain, step_s);
+      return MracFollower<Scalar>(s, Mrac<Scalar>(s.mrac, step_s), step_s);
     case ControllerKind::mrac_ls:
       if constexpr (std::is_floating_point_v<Scalar>) {
         return MracLeastSquaresFollower<Scalar>(
-            s.model, MracLeastSquares<Scalar>(s.mrac_ls, s.model, step_s), gain, step_s);
+            s, MracLeastSquares<Scalar>(s.mrac_ls, s.model, step_s), step_s);
       } else {
         break;
       }
     case ControllerKind::adaptive_ff:
-      return AdaptiveFollower<Scalar>(s.model, AdaptiveFeedforward<Scalar>(s.adaptive_ff, step_s),
-                                      gain, step_s);
+      return AdaptiveFollower<Scalar>(s, AdaptiveFeedforward<Scalar>(s.adaptive_ff, step_s),
+                                      step_s);
+    case ControllerKind::learned_ff:
+      if constexpr (std::is_floating_point_v<Scalar>) {
+        return LearnedFollower<Scalar>(s, LearnedFeedforward<Scalar>(s.learned_ff, step_s), step_s);
+      } else {
+        break;
+      }
     case ControllerKind::power:
       break;
   }

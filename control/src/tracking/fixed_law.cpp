@@ -42,6 +42,12 @@ std::optional<FixedLaw> fixed_law(const ControllerSettings& s, const PhysicalPar
     case ControllerKind::adaptive_ff:
       return pid_of(theta_from(muscle), s.adaptive_ff.bandwidth_rad_per_s,
                     s.adaptive_ff.derivative_filter_rad_per_s);
+    case ControllerKind::learned_ff: {
+      const Theta theta = theta_from(muscle);
+      return pid_of(
+          theta, feedback_bandwidth(s.learned_ff.bandwidth_rad_per_s, theta, muscle.moving_mass_kg),
+          s.learned_ff.derivative_filter_rad_per_s);
+    }
     case ControllerKind::mrac:
       return matched({}, s.mrac, s, muscle);
     case ControllerKind::mrac_ls:

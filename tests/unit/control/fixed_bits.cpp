@@ -45,8 +45,7 @@ double reference_m(double time_s) {
 template <class Law>
 void print(const char* name, Law law) {
   const ControllerSettings settings;
-  ModelFollower<Q8_24, Law> controller(settings.model, std::move(law), settings.dc_gain_m_per_W,
-                                       step_s);
+  ModelFollower<Q8_24, Law> controller(settings, std::move(law), step_s);
   const GradientSettings learning;
   GradientEstimator<Q8_24> estimator(learning, step_s);
   supercoil::test::Muscle muscle(PhysicalParameters{}, step_s);

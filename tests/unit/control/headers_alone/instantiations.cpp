@@ -26,6 +26,8 @@ SUPERCOIL_INSTANTIATE(double);
 SUPERCOIL_INSTANTIATE(float);
 SUPERCOIL_INSTANTIATE(Q8_24);
 
+template class ChangeWatch<double>;
+template class ChangeWatch<float>;
 template class LeastSquaresEstimator<double>;
 template class LeastSquaresEstimator<float>;
 template class MracLeastSquares<double>;

@@ -93,20 +93,6 @@ TEST(AdaptiveFeedforward, LearningDoesNotChangeThePower) {
   DOUBLES_EQUAL(before_W, law.step(moving), 0.01);
 }
 
-TEST(AdaptiveFeedforward, TakesAHeldPowerOver) {
-  ControllerSettings settings;
-  settings.kind = ControllerKind::adaptive_ff;
-  Controller controller(settings, 1e-3);
-  controller.start({.reference_m = 0.01,
-                    .position_m = 0.0101,
-                    .power_W = 1.7,
-                    .motion = {0.01, 0.0, 0.0},
-                    .hold = true});
-  const auto out = controller.step(
-      {.reference_m = 0.01, .position_m = 0.0101, .applied_power_W = 1.7, .limited = false});
-  DOUBLES_EQUAL(1.7, out.wanted_power_W, 1e-3);
-}
-
 TEST(AdaptiveFeedforward, HoldsItsIntegralAtTheLimitAndLetsItOnlyLeadOut) {
   AdaptiveFeedforward<double> law({}, 1e-3);
   const auto step = [&](double error_W, double applied_W) {

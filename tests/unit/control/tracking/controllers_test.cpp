@@ -90,6 +90,23 @@ TEST(Controllers, PiRecoversFromALimitWithoutWindup) {
   CHECK(late < 0.3e-3);
 }
 
+TEST(Controllers, ThoseThatLearnTakeAHeldPowerOver) {
+  using enum ControllerKind;
+  for (const ControllerKind kind : {mrac_ls, adaptive_ff, learned_ff}) {
+    ControllerSettings settings;
+    settings.kind = kind;
+    Controller controller(settings, 1e-3);
+    controller.start({.reference_m = 0.01,
+                      .position_m = 0.0101,
+                      .power_W = 1.7,
+                      .motion = {0.01, 0.0, 0.0},
+                      .hold = true});
+    const auto out = controller.step(
+        {.reference_m = 0.01, .position_m = 0.0101, .applied_power_W = 1.7, .limited = false});
+    DOUBLES_EQUAL(1.7, out.wanted_power_W, 1e-3);
+  }
+}
+
 TEST(Controllers, OpenLoopPassesThePowerOn) {
   ControllerSettings settings;
   settings.kind = ControllerKind::power;

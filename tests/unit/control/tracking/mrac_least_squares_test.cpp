@@ -93,15 +93,3 @@ TEST(MracLeastSquares, IsNotForFixedPoint) {
   CHECK_FALSE(supported(ControllerKind::mrac_ls, Arithmetic::q8_24));
   CHECK(supported(ControllerKind::mrac_ls, Arithmetic::float32));
 }
-
-TEST(MracLeastSquares, TakesAHeldPowerOver) {
-  Controller controller(least_squares_mrac(), 1e-3);
-  controller.start({.reference_m = 0.01,
-                    .position_m = 0.0101,
-                    .power_W = 1.7,
-                    .motion = {0.01, 0.0, 0.0},
-                    .hold = true});
-  const auto out = controller.step(
-      {.reference_m = 0.01, .position_m = 0.0101, .applied_power_W = 1.7, .limited = false});
-  DOUBLES_EQUAL(1.7, out.wanted_power_W, 1e-3);
-}

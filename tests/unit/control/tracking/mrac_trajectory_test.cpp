@@ -26,8 +26,9 @@ struct Difference {
 /// The largest differences at the run's times.
 Difference difference(const nlohmann::json& run, double step_s) {
   const double gain = PhysicalParameters{}.dc_gain_m_per_W();
-  Follower follower(*reference_model_named(run.at("model").get<std::string>()),
-                    Mrac<double>(settings_of(run), step_s), gain, step_s);
+  ControllerSettings settings;
+  settings.model = *reference_model_named(run.at("model").get<std::string>());
+  Follower follower(settings, Mrac<double>(settings_of(run), step_s), step_s);
   const std::vector<double> times = run.at("time_s");
   const std::vector<double> positions = run.at("position_W");
   std::size_t next = 0;

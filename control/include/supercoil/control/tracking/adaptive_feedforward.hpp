@@ -71,6 +71,8 @@ class AdaptiveFeedforward {
     pid_.hold(now, at.power, feedforward(motion_of(now)));
   }
 
+  void slow_down() { pid_.slow_down(); }
+
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
     pid_.see(in.position);

@@ -9,27 +9,31 @@
 #include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/scalar/arithmetic.hpp"
 #include "supercoil/control/tracking/adaptive_feedforward.hpp"
+#include "supercoil/control/tracking/learned_feedforward.hpp"
 #include "supercoil/control/tracking/mrac.hpp"
 #include "supercoil/control/tracking/mrac_least_squares.hpp"
+#include "supercoil/control/tracking/oscillation_detector.hpp"
 #include "supercoil/control/tracking/pd_feedforward.hpp"
 #include "supercoil/control/tracking/pi.hpp"
 #include "supercoil/control/tracking/reference_shaper.hpp"
 
 namespace supercoil::control {
 
-enum class ControllerKind { power, pi, pd_ff, mrac, mrac_ls, adaptive_ff };
+enum class ControllerKind { power, pi, pd_ff, mrac, mrac_ls, adaptive_ff, learned_ff };
 
-inline constexpr Names<ControllerKind, 6> controller_names{
+inline constexpr Names<ControllerKind, 7> controller_names{
     {{"power", ControllerKind::power},
      {"pi", ControllerKind::pi},
      {"pd_ff", ControllerKind::pd_ff},
      {"mrac", ControllerKind::mrac},
      {"mrac_ls", ControllerKind::mrac_ls},
-     {"adaptive_ff", ControllerKind::adaptive_ff}}};
+     {"adaptive_ff", ControllerKind::adaptive_ff},
+     {"learned_ff", ControllerKind::learned_ff}}};
 
 /// Least squares needs float or double: its covariance spans more than q8.24 does.
 constexpr bool supported(ControllerKind kind, Arithmetic arithmetic) {
-  return kind != ControllerKind::mrac_ls || arithmetic != Arithmetic::q8_24;
+  const bool least_squares = kind == ControllerKind::mrac_ls || kind == ControllerKind::learned_ff;
+  return !least_squares || arithmetic != Arithmetic::q8_24;
 }
 
 struct ControllerSettings {
@@ -42,6 +46,9 @@ struct ControllerSettings {
   MracSettings mrac;
   MracLeastSquaresSettings mrac_ls;
   AdaptiveFeedforwardSettings adaptive_ff;
+  LearnedFeedforwardSettings learned_ff;
+  /// A loop that is seen to oscillate gets a slower feedback, but for mrac and mrac_ls.
+  bool slow_when_oscillating = true;
   /// The muscle for which references are shaped; empty: they are taken as they are.
   std::optional<RegressionScale> shaped_for;
 };
@@ -67,6 +74,7 @@ struct ControllerOutput {
   double wanted_power_W = 0.0;
   double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
   Infeasible infeasible = Infeasible::nothing;  ///< of the reference, which was shaped
+  bool oscillated = false;  ///< since the muscle is this one; the feedback is slower if it may be
 };
 
 /// Where a controller starts, or takes over from another while the muscle is hot.
@@ -95,11 +103,13 @@ class OpenLoopPower {
 template <class Scalar, class Law>
 class ModelFollower {
  public:
-  ModelFollower(const ReferenceModelSettings& model, Law law, double dc_gain_m_per_W, double step_s)
-      : model_(model, step_s),
+  ModelFollower(const ControllerSettings& s, Law law, double step_s)
+      : model_(s.model, step_s),
         law_(std::move(law)),
-        to_watts_(1.0 / dc_gain_m_per_W),
-        to_metres_(dc_gain_m_per_W),
+        oscillation_(step_s),
+        slow_when_oscillating_(s.slow_when_oscillating),
+        to_watts_(1.0 / s.dc_gain_m_per_W),
+        to_metres_(s.dc_gain_m_per_W),
         fading_(std::exp(-step_s / bridge_s)) {}
 
   void start(const ControllerStart& at) {
@@ -109,6 +119,7 @@ class ModelFollower {
     last_reference_ = to<Scalar>(at.reference_m * to_watts_);
     law_.start({last_reference_, to<Scalar>(at.position_m * to_watts_), model_.motion(),
                 to<Scalar>(at.power_W), at.hold});
+    oscillation_.restart();
     bridge_W_ = 0.0;
     bridging_ = at.hold;
     held_W_ = at.power_W;
@@ -126,6 +137,7 @@ class ModelFollower {
     input.applied = to<Scalar>(in.applied_power_W);
     input.limited = in.limited;
     last_reference_ = input.reference;
+    watch(in.position_m, static_cast<double>(input.model.position) * to_metres_);
     const auto wanted = static_cast<double>(law_.step(input));
     if (bridging_) {
       // What the law itself could not take over is added, and fades.
@@ -134,13 +146,15 @@ class ModelFollower {
     }
     const double bridged_W = wanted + bridge_W_;
     bridge_W_ *= fading_;
-    return {bridged_W, static_cast<double>(input.model.position) * to_metres_, asked.what};
+    return {bridged_W, static_cast<double>(input.model.position) * to_metres_, asked.what,
+            oscillated_};
   }
 
   void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
   void suit(const Theta& theta) {
     if (suited_ == theta) return;
     suited_ = theta;
+    oscillated_ = false;
     if (shaper_) shaper_->suit(theta);
     if constexpr (requires { law_.suit(theta); }) law_.suit(theta);
   }
@@ -165,8 +179,18 @@ class ModelFollower {
   const Law& law() const { return law_; }
 
  private:
+  void watch(double position_m, double model_m) {
+    if (!oscillation_.step(model_m - position_m, model_m)) return;
+    oscillated_ = true;
+    if constexpr (requires { law_.slow_down(); })
+      if (slow_when_oscillating_) law_.slow_down();
+  }
+
   ReferenceModel<Scalar> model_;
   Law law_;
+  OscillationDetector oscillation_;
+  bool slow_when_oscillating_;
+  bool oscillated_ = false;
   std::optional<ReferenceShaper> shaper_;
   std::optional<Theta> suited_;
   /// Slower than every law here: the loop, not the fading, decides where the muscle is.
@@ -212,12 +236,15 @@ class Controller {
   using MracLeastSquaresFollower = ModelFollower<Scalar, MracLeastSquares<Scalar>>;
   template <class Scalar>
   using AdaptiveFollower = ModelFollower<Scalar, AdaptiveFeedforward<Scalar>>;
+  template <class Scalar>
+  using LearnedFollower = ModelFollower<Scalar, LearnedFeedforward<Scalar>>;
   using Any =
       std::variant<OpenLoopPower, PiFollower<double>, PiFollower<float>, PiFollower<Q8_24>,
                    PdFollower<double>, PdFollower<float>, PdFollower<Q8_24>, MracFollower<double>,
                    MracFollower<float>, MracFollower<Q8_24>, MracLeastSquaresFollower<double>,
                    MracLeastSquaresFollower<float>, AdaptiveFollower<double>,
-                   AdaptiveFollower<float>, AdaptiveFollower<Q8_24>>;
+                   AdaptiveFollower<float>, AdaptiveFollower<Q8_24>, LearnedFollower<double>,
+                   LearnedFollower<float>>;
 
   template <class Scalar>
   static Any make(const ControllerSettings& settings, double step_s);

@@ -7,6 +7,9 @@
 
 namespace supercoil::control {
 
+/// By which a law lowers its feedback's gains each time that its loop is seen to oscillate.
+inline constexpr double slower = 0.7;
+
 /// Inputs of one tick. Positions are in watts at rest (metres over the muscle's DC gain), so that
 /// position, reference and power are of one size in every arithmetic.
 template <class Scalar>

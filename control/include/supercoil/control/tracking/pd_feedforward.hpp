@@ -29,6 +29,13 @@ class PdFeedforward {
   /// The muscle moves as its model does: a filter that started at rest would see a jump of speed.
   void start(const LawStart<Scalar>& at) { filter_.settle(at.position, at.model.velocity); }
 
+  void slow_down() {
+    settings_.proportional_W_per_m *= slower;
+    settings_.derivative_Ws_per_m *= slower;
+    proportional_ = proportional_ * to<Scalar>(slower);
+    derivative_ = derivative_ * to<Scalar>(slower);
+  }
+
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
     filter_.step(in.position);

@@ -27,6 +27,13 @@ class Pi {
     if (!at.hold) integral_ = {};
   }
 
+  void slow_down() {
+    settings_.proportional_W_per_m *= slower;
+    settings_.integral_W_per_m_s *= slower;
+    proportional_ = proportional_ * to<Scalar>(slower);
+    integral_step_ = integral_step_ * Accumulator<Scalar>(slower);
+  }
+
   /// Returns the wanted power. The integrator holds while the power is limited, unless the error
   /// leads out of the limit.
   Scalar step(const LawInput<Scalar>& in) {

@@ -1,0 +1,141 @@
+// Feedforward that learns what power its own motion takes, with a scheduled PID for the rest.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include "supercoil/control/estimation/change_detector.hpp"
+#include "supercoil/control/estimation/leaky_least_squares.hpp"
+#include "supercoil/control/tracking/fixed_pid.hpp"
+#include "supercoil/control/tracking/iterative_learning.hpp"
+#include "supercoil/control/tracking/motion_regressors.hpp"
+
+namespace supercoil::control {
+
+/// u = w̄ᵀψ + g (Kp e + Kd ė + Ki ∫e), e = xm − x, with ψ the MotionRegressors of the reference
+/// model's motion. w is learned by least squares from the power that was applied, both through
+/// 1/(s/ωf + 1)²: what the feedback had to add to one pass, the feedforward gives in the next. The
+/// model's motion is known exactly, so no noise is in ψ.
+///
+/// The PID's gains are those of FixedPid at the feedback bandwidth that the muscle allows. g
+/// follows the learned slope of power over velocity, since a cold muscle needs more power for a
+/// metre than a hot one. A ChangeDetector tells changes of stiffness, gain, load and cooling; along
+/// the one that it names, w is moved at once and learned anew. Where the reference repeats itself,
+/// IterativeLearning adds what this leaves.
+struct LearnedFeedforwardSettings {
+  RegressionScale scale;                      ///< of the nominal muscle
+  double max_W = 4.5;                         ///< > 0: the scale of powers
+  double bandwidth_rad_per_s = 8.0;           ///< at most
+  double derivative_filter_rad_per_s = 80.0;  ///< of x, twice this pole
+  double follow_s = 0.5;                      ///< time constant with which w̄ follows w
+  double forgetting_s = 60.0;                 ///< in which an observation's weight falls to 1/e
+  bool learn = true;                          ///< otherwise w stays that of the linear muscle
+  double period_s = 0.0;  ///< in which the reference repeats itself; 0: it does not
+};
+
+template <class Scalar>
+class LearnedFeedforward {
+  static_assert(std::is_floating_point_v<Scalar>, "information spans more than fixed point does");
+
+ public:
+  using Weights = MotionRegressors::Values;
+
+  LearnedFeedforward(const LearnedFeedforwardSettings& s, double step_s);
+
+  /// The muscle was identified: w begins from its own θ again. For a law that does not run.
+  void suit(const Theta& theta);
+
+  /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
+  void start(const LawStart<Scalar>& at);
+
+  void slow_down() { pid_.slow_down(); }
+
+  /// Returns the wanted power.
+  Scalar step(const LawInput<Scalar>& in);
+
+  static constexpr std::size_t gains = FixedPid<Scalar>::gains + 5;
+  GainValue gain(std::size_t i) const;
+
+  /// w̄: 1 for each θ of the linear muscle, the constant in W, 0 for all else.
+  const Weights& weights() const { return followed_; }
+  /// Since construction, of the muscle.
+  std::int64_t changes() const { return changes_; }
+
+ private:
+  using R = MotionRegressors;
+  enum Direction : int { stiffness, power_gain, load, cooling, directions };
+  using Detector = ChangeDetector<directions>;
+
+  struct LowPass {
+    Weights regressors = Weights::Zero();
+    double power_W = 0.0;
+  };
+
+  LeakyLeastSquares<R::count>::Settings prior() const;
+  typename Detector::Settings detection() const;
+  IterativeLearning::Settings repetition() const;
+  double period_s() const { return step_s_ * static_cast<double>(ticks_per_update_); }
+  /// So many updates take a time that suits the usual muscle.
+  std::int64_t updates_of(double usual_s) const {
+    return std::llround(usual_s * slowness(theta_) / period_s());
+  }
+  void note_limit(const LawInput<Scalar>& in);
+  ModelMotion<double> motion_of(const LawInput<Scalar>& in) const;
+  void observe();
+  void learn(int unit);
+  double variance_W2(double residual_W);
+  void watch_for_change(double residual_W);
+  Weights along(int direction) const;
+
+  /// Of one update: the observation, the factoring in steps of three columns, the solution.
+  static constexpr int columns_of_unit = 3;
+  static constexpr int units = 2 + R::count / columns_of_unit;
+  static_assert(R::count % columns_of_unit == 0);
+  static constexpr double update_s = 0.01;
+  static constexpr double regression_pole_rad_per_s = 3.0;
+  /// In which the filters forget where they began.
+  static constexpr double settle_s = 3.0;
+  /// In which they forget most of a motion that the muscle could not make.
+  static constexpr double infeasible_s = 0.5;
+  static constexpr double change_wait_s = 1.0;
+  static constexpr double upset_s = 10.0;
+  static constexpr double recovery_s = 60.0;
+
+  LearnedFeedforwardSettings settings_;
+  double step_s_;
+  std::int64_t ticks_per_update_;
+  Theta theta_;
+  FixedPid<Scalar> pid_;
+  MotionRegressors regressors_;
+  LeakyLeastSquares<R::count> least_squares_;
+  Detector detector_;
+  IterativeLearning iterative_;
+  double follow_step_;
+  double filter_share_ = 0.0;
+
+  Weights followed_;  // w̄
+  double slope_ = 1.0;
+  Weights sum_ = Weights::Zero();  // of ψ since the last update
+  double sum_W_ = 0.0;
+  LowPass once_;
+  LowPass twice_;
+  double feedforward_W_ = 0.0;       // of the last tick
+  bool skip_ = false;                // the power was limited since the last update
+  std::int64_t upset_updates_ = 0;   // before the motion repeats itself again after a change
+  std::int64_t settle_updates_ = 0;  // before the filters hold the muscle's own motion
+  int pending_ = -1;                 // the direction of a change that is being measured
+  std::int64_t pending_updates_ = 0;
+  std::int64_t tick_ = 0;
+  int next_unit_ = units;
+  std::int64_t changes_ = 0;
+  double mean_square_W2_ = 0.0;        // of the residual
+  std::int64_t recovery_updates_ = 0;  // of those after a change that are left
+};
+
+extern template class LearnedFeedforward<double>;
+extern template class LearnedFeedforward<float>;
+
+}  // namespace supercoil::control

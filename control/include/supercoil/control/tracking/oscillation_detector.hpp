@@ -1,0 +1,107 @@
+// Tells a loop that oscillates by itself from one that follows badly, and from noise.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace supercoil::control {
+
+/// A sustained oscillation of the tracking error: ten half periods in a row, each as long as the
+/// others within 30 % and as large within a factor of two, faster than `slow` and slower than
+/// `fast`, while the reference model itself moves by less than half of it at such frequencies.
+/// Noise has no such order; a reference that oscillates moves the model.
+class OscillationDetector {
+ public:
+  struct Settings {
+    double slow_rad_per_s = 2.0;
+    double fast_rad_per_s = 40.0;
+    double min_amplitude_m = 50e-6;  ///< five times the position noise that is expected
+    int half_periods = 10;
+  };
+
+  /// step_s: > 0, between ticks.
+  explicit OscillationDetector(double step_s) : OscillationDetector(step_s, Settings{}) {}
+  OscillationDetector(double step_s, const Settings& s)
+      : settings_(s),
+        step_s_(step_s),
+        fast_share_(-std::expm1(-s.fast_rad_per_s * step_s)),
+        slow_share_(-std::expm1(-s.slow_rad_per_s * step_s)) {}
+
+  /// The error's past is another law's.
+  void restart() {
+    error_ = model_ = {};
+    sign_ = 0;
+    begin_half_period();
+    start_counting();
+  }
+
+  /// One tick: error of tracking and position of the reference model. True once for each ten half
+  /// periods of an oscillation.
+  bool step(double error_m, double model_m) {
+    const double error = error_.step(error_m, fast_share_, slow_share_);
+    const double model = model_.step(model_m, fast_share_, slow_share_);
+    half_s_ += step_s_;
+    largest_m_ = std::fmax(largest_m_, std::abs(error));
+    model_largest_m_ = std::fmax(model_largest_m_, std::abs(model));
+    if (half_s_ > std::numbers::pi / settings_.slow_rad_per_s) start_counting();
+    if (std::abs(error) <= settings_.min_amplitude_m) return false;
+    const int sign = error > 0.0 ? 1 : -1;
+    if (sign == sign_) return false;
+    const bool first = sign_ == 0;
+    sign_ = sign;
+    const bool found = !first && end_half_period();
+    begin_half_period();
+    return found;
+  }
+
+ private:
+  /// What passes between the slow and the fast limit, to first order.
+  struct Band {
+    double fast_m = 0.0;
+    double slow_m = 0.0;
+    double step(double value_m, double fast_share, double slow_share) {
+      fast_m += fast_share * (value_m - fast_m);
+      slow_m += slow_share * (fast_m - slow_m);
+      return fast_m - slow_m;
+    }
+  };
+
+  void start_counting() {
+    count_ = 0;
+    usual_s_ = usual_m_ = 0.0;
+  }
+  void begin_half_period() { half_s_ = largest_m_ = model_largest_m_ = 0.0; }
+
+  bool end_half_period() {
+    const bool own = half_s_ > std::numbers::pi / settings_.fast_rad_per_s &&
+                     model_largest_m_ < 0.5 * largest_m_;
+    const bool alike = count_ == 0 || (std::abs(half_s_ - usual_s_) < 0.3 * usual_s_ &&
+                                       largest_m_ < 2.0 * usual_m_ && usual_m_ < 2.0 * largest_m_);
+    if (!own || !alike) {
+      start_counting();
+      return false;
+    }
+    const double part = count_ == 0 ? 1.0 : 0.3;
+    usual_s_ += part * (half_s_ - usual_s_);
+    usual_m_ += part * (largest_m_ - usual_m_);
+    if (++count_ < settings_.half_periods) return false;
+    start_counting();
+    return true;
+  }
+
+  Settings settings_;
+  double step_s_;
+  double fast_share_;
+  double slow_share_;
+  Band error_;
+  Band model_;
+  int sign_ = 0;
+  int count_ = 0;         // of half periods that were alike
+  double usual_s_ = 0.0;  // of them
+  double usual_m_ = 0.0;
+  double half_s_ = 0.0;  // of the present half period
+  double largest_m_ = 0.0;
+  double model_largest_m_ = 0.0;
+};
+
+}  // namespace supercoil::control

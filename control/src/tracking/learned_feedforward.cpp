@@ -1,0 +1,274 @@
+#include "supercoil/control/tracking/learned_feedforward.hpp"
+
+namespace supercoil::control {
+
+namespace {
+
+/// Standard deviations of w before anything was learned.
+constexpr double linear_deviation = 0.2;
+constexpr double other_deviation = 0.3;
+constexpr double constant_ratio = 0.67;  ///< of max_W
+/// The least standard deviation of an observation, over max_W.
+constexpr double residual_ratio = 0.0022;
+/// Of the residual's mean square over so long, an observation's variance.
+constexpr double variance_part = 0.15;
+constexpr double variance_s = 4.0;
+/// What a change must leave, over max_W.
+constexpr double floor_ratio = 0.004;
+/// The schedule may lower and raise the feedback by so much.
+constexpr double min_slope = 0.4;
+constexpr double max_slope = 3.0;
+/// What one change may be, of the weights along it.
+constexpr double min_amount = -0.6;
+constexpr double max_amount = 1.5;
+
+MotionRegressors::Values linear_muscle() {
+  MotionRegressors::Values w = MotionRegressors::Values::Zero();
+  w.head<4>().setOnes();
+  return w;
+}
+
+}  // namespace
+
+template <class Scalar>
+LearnedFeedforward<Scalar>::LearnedFeedforward(const LearnedFeedforwardSettings& s, double step_s)
+    : settings_(s),
+      step_s_(step_s),
+      ticks_per_update_(std::max<std::int64_t>(1, std::llround(update_s / step_s))),
+      theta_(s.scale.nominal),
+      pid_(s.scale, s.bandwidth_rad_per_s, s.derivative_filter_rad_per_s, step_s),
+      regressors_(s.scale, s.max_W),
+      least_squares_(prior()),
+      detector_(detection()),
+      iterative_(repetition(), step_s),
+      follow_step_(step_s / s.follow_s),
+      followed_(linear_muscle()) {
+  suit(theta_);
+}
+
+template <class Scalar>
+typename LeakyLeastSquares<MotionRegressors::count>::Settings LearnedFeedforward<Scalar>::prior()
+    const {
+  Weights deviation = Weights::Constant(other_deviation);
+  deviation.template head<4>().setConstant(linear_deviation);
+  deviation[R::constant] = constant_ratio * settings_.max_W;
+  return {.prior = linear_muscle(),
+          .deviation = deviation,
+          .forgetting = std::exp(-period_s() / settings_.forgetting_s)};
+}
+
+template <class Scalar>
+typename LearnedFeedforward<Scalar>::Detector::Settings LearnedFeedforward<Scalar>::detection()
+    const {
+  typename Detector::Settings s{.period_s = period_s(), .floor_rms = floor_ratio * settings_.max_W};
+  s.stretch(slowness(theta_));
+  return s;
+}
+
+template <class Scalar>
+IterativeLearning::Settings LearnedFeedforward<Scalar>::repetition() const {
+  IterativeLearning::Settings s{.period_s = settings_.period_s};
+  s.ahead_s *= slowness(theta_);
+  s.average_s *= slowness(theta_);
+  return s;
+}
+
+template <class Scalar>
+void LearnedFeedforward<Scalar>::suit(const Theta& theta) {
+  theta_ = theta;
+  pid_.set_bandwidth(
+      feedback_bandwidth(settings_.bandwidth_rad_per_s, theta, settings_.scale.moving_mass_kg));
+  pid_.suit(theta);
+  regressors_.suit(theta);
+  least_squares_.reset(linear_muscle());
+  followed_ = linear_muscle();
+  detector_ = Detector(detection());
+  mean_square_W2_ = 0.0;
+  recovery_updates_ = 0;
+  iterative_ = IterativeLearning(repetition(), step_s_);
+  filter_share_ = -std::expm1(-regression_pole_rad_per_s / slowness(theta_) * period_s());
+}
+
+template <class Scalar>
+ModelMotion<double> LearnedFeedforward<Scalar>::motion_of(const LawInput<Scalar>& in) const {
+  return {static_cast<double>(in.model.position), static_cast<double>(in.model.velocity),
+          static_cast<double>(in.model.acceleration)};
+}
+
+template <class Scalar>
+void LearnedFeedforward<Scalar>::start(const LawStart<Scalar>& at) {
+  pid_.start(at);
+  LawInput<Scalar> now;
+  now.position = at.position;
+  now.model = at.model;
+  regressors_.step(motion_of(now), 0.0);
+  const Weights& psi = regressors_.values();
+  once_ = twice_ = {psi, static_cast<double>(at.power)};
+  sum_.setZero();
+  sum_W_ = 0.0;
+  tick_ = 0;
+  settle_updates_ = updates_of(settle_s);
+  next_unit_ = units;
+  pending_ = -1;
+  iterative_.reset();
+  if (at.hold) pid_.hold(now, at.power, to<Scalar>(followed_.dot(psi)));
+}
+
+template <class Scalar>
+Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
+  // The power that acted belongs to the motion of the last tick.
+  if (settings_.learn) {
+    sum_ += regressors_.values();
+    sum_W_ += static_cast<double>(in.applied);
+    if (in.limited) note_limit(in);
+    if (++tick_ == ticks_per_update_) {
+      tick_ = 0;
+      while (next_unit_ < units)
+        learn(next_unit_++);
+      next_unit_ = 0;
+    }
+    // Spread over the ticks, so that none of them is long.
+    const auto due = static_cast<int>((tick_ + 1) * units / ticks_per_update_);
+    while (next_unit_ < std::min(due, units))
+      learn(next_unit_++);
+  }
+  pid_.see(in.position);
+  regressors_.step(motion_of(in), static_cast<double>(in.model_jerk));
+  const Weights& psi = regressors_.values();
+  if (settings_.learn) {
+    const Weights change = (least_squares_.weights() - followed_) * follow_step_;
+    followed_ += change;
+    // What the feedforward takes over, the integral has held until now.
+    pid_.give_up(change.dot(psi));
+    pid_.schedule(
+        to<Scalar>(std::clamp(regressors_.velocity_slope(followed_), min_slope, max_slope)));
+  }
+  feedforward_W_ = followed_.dot(psi) + iterative_.power_W();
+  const Scalar wanted = pid_.step(in, to<Scalar>(feedforward_W_));
+  iterative_.step(static_cast<double>(wanted) - feedforward_W_, !in.limited && upset_updates_ == 0);
+  return wanted;
+}
+
+/// Nothing is learned from a limited tick. When the feedforward alone asked for more than the limit
+/// allows, the muscle cannot make the model's motion: what follows is no knowledge of it either.
+template <class Scalar>
+void LearnedFeedforward<Scalar>::note_limit(const LawInput<Scalar>& in) {
+  skip_ = true;
+  const auto applied_W = static_cast<double>(in.applied);
+  const bool more = pid_.wanted() > in.applied;
+  if (more ? feedforward_W_ > applied_W : feedforward_W_ < applied_W)
+    settle_updates_ = std::max(settle_updates_, updates_of(infeasible_s));
+}
+
+template <class Scalar>
+void LearnedFeedforward<Scalar>::learn(int unit) {
+  if (unit == 0) {
+    observe();
+  } else if (unit < units - 1) {
+    least_squares_.factor((unit - 1) * columns_of_unit, unit * columns_of_unit);
+  } else {
+    least_squares_.solve();
+  }
+}
+
+template <class Scalar>
+void LearnedFeedforward<Scalar>::observe() {
+  const double share = 1.0 / static_cast<double>(ticks_per_update_);
+  once_.regressors += filter_share_ * (sum_ * share - once_.regressors);
+  once_.power_W += filter_share_ * (sum_W_ * share - once_.power_W);
+  twice_.regressors += filter_share_ * (once_.regressors - twice_.regressors);
+  twice_.power_W += filter_share_ * (once_.power_W - twice_.power_W);
+  sum_.setZero();
+  sum_W_ = 0.0;
+  const bool skip = std::exchange(skip_, false);
+  settle_updates_ = std::max<std::int64_t>(0, settle_updates_ - 1);
+  upset_updates_ = std::max<std::int64_t>(0, upset_updates_ - 1);
+  if (skip || settle_updates_ > 0) return;
+  const double residual_W = twice_.power_W - least_squares_.weights().dot(twice_.regressors);
+  if (pending_ < 0) {
+    least_squares_.add(twice_.regressors, twice_.power_W, variance_W2(residual_W));
+    recovery_updates_ = std::max<std::int64_t>(0, recovery_updates_ - 1);
+  }
+  watch_for_change(residual_W);
+}
+
+/// What the model does not describe counts for less where there is much of it, lest the weights fit
+/// one wander of a sticking muscle after the other. After a change all is to be learned anew.
+template <class Scalar>
+double LearnedFeedforward<Scalar>::variance_W2(double residual_W) {
+  const double least_W = residual_ratio * settings_.max_W;
+  if (recovery_updates_ > 0) {
+    mean_square_W2_ = 0.0;
+  } else {
+    const double share = -std::expm1(-period_s() / (variance_s * slowness(theta_)));
+    mean_square_W2_ += share * (residual_W * residual_W - mean_square_W2_);
+  }
+  return std::max(least_W * least_W, variance_part * mean_square_W2_);
+}
+
+template <class Scalar>
+typename LearnedFeedforward<Scalar>::Weights LearnedFeedforward<Scalar>::along(
+    int direction) const {
+  Weights d = least_squares_.weights();
+  switch (direction) {
+    case power_gain:
+      d[R::constant] = 0.0;
+      return d;
+    case load:
+      return Weights::Unit(R::constant);
+    case cooling:
+      d[R::velocity] = d[R::square_rate] = d[R::cube_rate] = d[R::velocity_square] = 0.0;
+      break;
+    default:
+      break;
+  }
+  d[R::jerk] = d[R::acceleration] = d[R::constant] = d[R::inertia_slope] = 0.0;
+  return d;
+}
+
+template <class Scalar>
+void LearnedFeedforward<Scalar>::watch_for_change(double residual_W) {
+  typename Detector::Signals signals;
+  for (int i = 0; i < directions; ++i)
+    signals[i] = along(i).dot(twice_.regressors);
+  const auto found = detector_.step(signals, residual_W);
+  if (pending_ < 0) {
+    if (!found) return;
+    ++changes_;
+    pending_ = *found;
+    pending_updates_ = updates_of(change_wait_s);
+    return;
+  }
+  if (--pending_updates_ > 0) return;
+  const double highest = pending_ == load ? settings_.max_W / 2.0 : max_amount;
+  const double lowest = pending_ == load ? -highest : min_amount;
+  least_squares_.move(along(pending_), std::clamp(detector_.amount(pending_), lowest, highest));
+  detector_.forget_window();
+  iterative_.forget();
+  upset_updates_ = updates_of(upset_s);
+  recovery_updates_ = updates_of(recovery_s);
+  pending_ = -1;
+}
+
+template <class Scalar>
+GainValue LearnedFeedforward<Scalar>::gain(std::size_t i) const {
+  if (i < FixedPid<Scalar>::gains) return pid_.gain(i);
+  switch (i) {
+    case 3:
+      return {Gain::feedforward, followed_[R::position] * theta_[3]};
+    case 4:
+      return {Gain::feedforward_velocity, followed_[R::velocity] * theta_[2]};
+    case 5:
+      return {Gain::feedforward_acceleration, followed_[R::acceleration] * theta_[1]};
+    case 6:
+      return {Gain::feedforward_jerk,
+              followed_[R::jerk] * theta_[0] * settings_.scale.moving_mass_kg};
+    default:
+      return {Gain::bias, followed_[R::constant]};
+  }
+}
+
+template class LearnedFeedforward<double>;
+template class LearnedFeedforward<float>;
+
+}  // namespace supercoil::control

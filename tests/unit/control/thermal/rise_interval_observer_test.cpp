@@ -1,0 +1,124 @@
+#include "supercoil/control/thermal/rise_interval_observer.hpp"
+
+#include <array>
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
+
+#include "unit/control/support/generators.hpp"
+
+using namespace supercoil;
+using control::IntervalObserver;
+using control::RiseIntervalObserver;
+using control::ThermalBounds;
+using control::TransferSpan;
+
+namespace {
+
+constexpr ThermalBounds wide_bounds{0.12, 0.20, 0.03, 0.25};
+
+double any_between(double low, double high) {
+  return *test::reals(low, high);
+}
+
+/// A muscle whose heat transfer grows with its rise, by no more than the cube root.
+struct GrowingMuscle {
+  double mass = any_between(wide_bounds.lowest_mass_J_per_K, wide_bounds.highest_mass_J_per_K);
+  double at_K = any_between(10.0, 100.0);
+  double transfer = any_between(0.06, 0.12);  ///< at at_K
+  double power = any_between(0.0, 1.0 / 3.0);
+  double rise_K = 0.0;
+
+  double transfer_at(double rise) const {
+    // Within the configured bounds also where it is cold.
+    return std::fmax(wide_bounds.lowest_transfer_W_per_K, transfer * std::pow(rise / at_K, power));
+  }
+  void step(double power_W, double step_s) {
+    constexpr int substeps = 50;
+    for (int i = 0; i < substeps; ++i)
+      rise_K += (power_W - transfer_at(rise_K) * rise_K) / mass * step_s / substeps;
+  }
+};
+
+}  // namespace
+
+TEST_GROUP(RiseIntervalObserver){};
+
+TEST(RiseIntervalObserver, HoldsAMuscleWhoseHeatTransferGrowsWithItsRise) {
+  CHECK(rc::check("random muscles, known at a rise, under random powers", [] {
+    const double step_s = *rc::gen::element(1e-3, 1e-2, 0.2);
+    GrowingMuscle muscle;
+    RiseIntervalObserver observer(wide_bounds, step_s);
+    const double from_K = any_between(0.7, 1.0) * muscle.at_K;
+    const double to_K = any_between(1.0, 1.5) * muscle.at_K;
+    const std::array<TransferSpan, 1> spans{
+        {{0.97 * muscle.transfer_at(from_K), 1.03 * muscle.transfer_at(to_K), from_K, to_K}}};
+    observer.set(wide_bounds, spans);
+    for (int stretch = 0; stretch < 10; ++stretch) {
+      const double power_W = *rc::gen::element(0.0, any_between(0.0, 12.0), 12.0);
+      for (int tick = 0; tick < 60; ++tick) {
+        muscle.step(power_W, step_s);
+        observer.step(power_W, power_W);
+        // Euler's steps of the truth are not exact.
+        const double allowed_K = 1e-6 + 2e-3 * muscle.rise_K;
+        RC_ASSERT(observer.lowest_K() <= muscle.rise_K + allowed_K);
+        RC_ASSERT(observer.highest_K() >= muscle.rise_K - allowed_K);
+      }
+    }
+  }));
+}
+
+TEST(RiseIntervalObserver, WithoutSpansIsThePlainOneToTheLastBit) {
+  CHECK(rc::check("any power", [] {
+    RiseIntervalObserver observer(wide_bounds, 0.01);
+    IntervalObserver plain(wide_bounds, 0.01);
+    observer.reset(150.0);
+    plain.reset(150.0);
+    for (int tick = 0; tick < 300; ++tick) {
+      const double power_W = any_between(0.0, 15.0);
+      observer.step(0.9 * power_W, power_W);
+      plain.step(0.9 * power_W, power_W);
+      RC_ASSERT(observer.lowest_K() == plain.lowest_K());
+      RC_ASSERT(observer.highest_K() == plain.highest_K());
+    }
+  }));
+}
+
+TEST(RiseIntervalObserver, IsNeverWiderThanWithoutSpans) {
+  CHECK(rc::check("any span, also one that contradicts the bounds", [] {
+    const double min = any_between(0.0, 0.4);
+    const double from_K = any_between(1.0, 100.0);
+    const std::array<TransferSpan, 1> spans{
+        {{min, min * any_between(1.0, 2.0), from_K, from_K * any_between(1.0, 2.0)}}};
+    RiseIntervalObserver observer(wide_bounds, 0.01);
+    RiseIntervalObserver plain(wide_bounds, 0.01);
+    observer.set(wide_bounds, spans);
+    for (int tick = 0; tick < 600; ++tick) {
+      observer.step(3.0, 4.0);
+      plain.step(3.0, 4.0);
+      RC_ASSERT(observer.lowest_K() >= plain.lowest_K());
+      RC_ASSERT(observer.highest_K() <= plain.highest_K());
+    }
+  }));
+}
+
+TEST(RiseIntervalObserver, GoesOnFromWhereItIsWhenItIsSetAnew) {
+  RiseIntervalObserver observer(wide_bounds, 0.01);
+  observer.reset(120.0);
+  const std::array<TransferSpan, 1> spans{{{0.08, 0.10, 20.0, 40.0}}};
+  observer.set(wide_bounds, spans);
+  DOUBLES_EQUAL(120.0, observer.highest_K(), 0.0);
+  for (int tick = 0; tick < 6000; ++tick)
+    observer.step(2.4, 2.4);
+  DOUBLES_EQUAL(30.0, observer.highest_K(), 1e-6);
+  DOUBLES_EQUAL(24.0, observer.lowest_K(), 1e-6);
+}
+
+TEST(RiseIntervalObserver, KnowsLessBesideTheRisesOfASpan) {
+  const TransferSpan span{0.08, 0.10, 40.0, 60.0};
+  DOUBLES_EQUAL(0.04, span.lowest(5.0), 1e-12);
+  DOUBLES_EQUAL(0.08, span.lowest(100.0), 0.0);
+  DOUBLES_EQUAL(0.10, span.highest(5.0), 0.0);
+  DOUBLES_EQUAL(0.20, span.highest(480.0), 1e-12);
+}

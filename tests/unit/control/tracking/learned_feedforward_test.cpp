@@ -1,0 +1,101 @@
+// Feedforward that learns its own motion, closed over the paper's muscle with a noisy sensor. Over
+// muscles that are not linear: tests/unit/host_sim/plant/learned_feedforward_test.cpp.
+#include "supercoil/control/tracking/learned_feedforward.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/control/actuator/conversions.hpp"
+
+#include "unit/control/support/noisy_loop.hpp"
+
+using namespace supercoil::control;
+using supercoil::test::NoisyLoop;
+
+namespace {
+
+NoisyLoop learning_loop() {
+  NoisyLoop loop;
+  loop.controller.kind = ControllerKind::learned_ff;
+  loop.controller.model = design_model();
+  return loop;
+}
+
+void scale_belief(NoisyLoop& loop, const Theta& factors) {
+  loop.controller.learned_ff.scale.nominal =
+      loop.controller.learned_ff.scale.nominal.cwiseProduct(factors);
+}
+
+}  // namespace
+
+TEST_GROUP(LearnedFeedforward){};
+
+TEST(LearnedFeedforward, FollowsTheSineWithin1Micrometre2AndAgainAfterAChange) {
+  NoisyLoop loop = learning_loop();
+  loop.soft_from_s = 110.0;
+  const auto um = loop.rms_um<2>({{{60.0, 110.0}, {185.4, 260.8}}});
+  UT_PRINT(
+      StringFromFormat("um: %.2f, 4th to 6th period after %.2f rms", um[0], um[1]).asCharString());
+  CHECK(um[0] <= 1.2);
+  CHECK(um[1] <= 2.0);
+}
+
+TEST(LearnedFeedforward, FollowsStepsWithin3Micrometres5) {
+  NoisyLoop loop = learning_loop();
+  loop.reference_m = supercoil::test::paper_steps_m;
+  const auto um = loop.rms_um<1>({{{160.0, 240.0}}});
+  UT_PRINT(StringFromFormat("um: %.2f rms", um[0]).asCharString());
+  CHECK(um[0] <= 3.5);
+}
+
+TEST(LearnedFeedforward, LearnsAMuscleThatIsBelieved30PercentOff) {
+  NoisyLoop loop = learning_loop();
+  scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
+  CHECK(loop.rms_um<1>({{{100.0, 150.0}}})[0] <= 1.5);
+  loop.controller.learned_ff.learn = false;
+  CHECK(loop.rms_um<1>({{{100.0, 150.0}}})[0] > 10.0);
+}
+
+TEST(LearnedFeedforward, IterativeLearningFollowsWhatRepeatsAndForgetsItAtAChange) {
+  NoisyLoop loop = learning_loop();
+  scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
+  loop.controller.learned_ff.learn = false;
+  const double period_s = 8.0 * std::atan(1.0) / 0.25;
+  const double once_um = loop.rms_um<1>({{{200.0, 251.0}}})[0];
+  loop.controller.learned_ff.period_s = period_s;
+  const double often_um = loop.rms_um<1>({{{200.0, 251.0}}})[0];
+  UT_PRINT(StringFromFormat("um: %.2f rms without, %.2f with", once_um, often_um).asCharString());
+  CHECK(often_um < 0.2 * once_um);
+  loop.controller.learned_ff.learn = true;
+  CHECK(loop.rms_um<1>({{{200.0, 251.0}}})[0] <= 1.3);
+  loop.soft_from_s = 110.0;
+  CHECK(loop.rms_um<1>({{{185.4, 260.8}}})[0] <= 4.0);
+}
+
+TEST(LearnedFeedforward, FloatFollowsAsWell) {
+  NoisyLoop loop = learning_loop();
+  loop.controller.arithmetic = Arithmetic::float32;
+  CHECK(loop.rms_um<1>({{{40.0, 65.0}}})[0] <= 1.5);
+}
+
+TEST(LearnedFeedforward, LearnsNothingWhileThePowerIsLimited) {
+  LearnedFeedforward<double> law({}, 1e-3);
+  law.start({});
+  const auto before = law.weights();
+  LawInput<double> in;
+  in.model.position = 2.0;
+  in.limited = true;
+  in.applied = 1.0;
+  for (int k = 0; k < 20'000; ++k)
+    (void)law.step(in);
+  CHECK((law.weights() - before).norm() == 0.0);
+}
+
+TEST(LearnedFeedforward, ALightlyDampedMuscleIsHeldWithLessBandwidth) {
+  PhysicalParameters muscle;
+  const Theta usual = theta_from(muscle);
+  DOUBLES_EQUAL(8.0, feedback_bandwidth(8.0, usual, muscle.moving_mass_kg), 1e-12);
+  muscle.damping_Ns_per_m = 0.12;  // a damping ratio of 0.05
+  const double lowered = feedback_bandwidth(8.0, theta_from(muscle), muscle.moving_mass_kg);
+  CHECK(lowered > 0.3);
+  CHECK(lowered < 1.0);
+}

@@ -1,0 +1,98 @@
+// An oscillation of the loop is told from noise, from steps and from the reference's own.
+#include "supercoil/control/tracking/oscillation_detector.hpp"
+
+#include <CppUTest/TestHarness.h>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+
+#include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/control/tracking/controller.hpp"
+
+#include "unit/control/support/muscle.hpp"
+
+using namespace supercoil::control;
+
+namespace {
+
+constexpr double tick_s = 1e-3;
+
+/// How often an oscillation is seen in 20 s.
+template <class Error, class Model>
+int seen(Error error_m, Model model_m) {
+  OscillationDetector detector(tick_s);
+  int count = 0;
+  for (int k = 0; k < 20'000; ++k)
+    count += detector.step(error_m(k * tick_s), model_m(k * tick_s)) ? 1 : 0;
+  return count;
+}
+
+double at_rest(double) {
+  return 0.0;
+}
+
+}  // namespace
+
+TEST_GROUP(OscillationDetector){};
+
+TEST(OscillationDetector, SeesAnOscillationOnceInTenHalfPeriods) {
+  const auto swing = [](double time_s) { return 1e-4 * std::sin(10.0 * time_s); };
+  // 63 half periods; the first begins before it is seen.
+  LONGS_EQUAL(6, seen(swing, at_rest));
+}
+
+TEST(OscillationDetector, IsNotForWhatIsSmallSlowOrFast) {
+  LONGS_EQUAL(0, seen([](double t_s) { return 4e-5 * std::sin(10.0 * t_s); }, at_rest));
+  LONGS_EQUAL(0, seen([](double t_s) { return 1e-2 * std::sin(1.5 * t_s); }, at_rest));
+  LONGS_EQUAL(0, seen([](double t_s) { return 1e-2 * std::sin(60.0 * t_s); }, at_rest));
+}
+
+TEST(OscillationDetector, DoesNotTakeTheReferencesMotionForOne) {
+  const auto late = [](double time_s) { return 1e-3 * std::cos(10.0 * time_s); };
+  LONGS_EQUAL(0, seen(late, [](double t_s) { return 2e-3 * std::sin(10.0 * t_s); }));
+  LONGS_EQUAL(6, seen(late, [](double t_s) { return 2e-3 * std::sin(0.25 * t_s); }));
+}
+
+TEST(OscillationDetector, DoesNotSeeOrderInNoise) {
+  boost::random::mt19937 source(1);
+  boost::random::normal_distribution<double> noise(0.0, 1e-3);
+  LONGS_EQUAL(0, seen([&](double) { return noise(source); }, at_rest));
+}
+
+TEST(OscillationDetector, OneThatGrowsIsSeenWhenItIsLarge) {
+  CHECK(seen([](double t_s) { return 1e-6 * std::exp(0.3 * t_s) * std::sin(8.0 * t_s); }, at_rest) >
+        0);
+}
+
+TEST(OscillationDetector, LetsALawSlowDownUntilTheLightlyDampedMuscleIsFollowed) {
+  PhysicalParameters muscle;
+  muscle.damping_Ns_per_m = 0.12;
+  for (const bool slow_down : {false, true}) {
+    ControllerSettings settings;
+    settings.kind = ControllerKind::adaptive_ff;
+    settings.adaptive_ff.scale = {theta_from(muscle), muscle.dc_gain_m_per_W(),
+                                  muscle.moving_mass_kg};
+    settings.slow_when_oscillating = slow_down;
+    Controller controller(settings, tick_s);
+    controller.suit(theta_from(muscle));
+    supercoil::test::Muscle plant(muscle, tick_s);
+    const PowerRange range;
+    double power_W = 0.0;
+    bool limited = false;
+    double largest_m = 0.0;
+    bool told = false;
+    for (int k = 0; k < 80'000; ++k) {
+      const auto out = controller.step({.reference_m = supercoil::test::paper_sine_m(k * tick_s),
+                                        .position_m = plant.position_m(),
+                                        .applied_power_W = power_W,
+                                        .limited = limited});
+      power_W = range.clip(out.wanted_power_W);
+      limited = power_W != out.wanted_power_W;
+      if (k > 55'000) largest_m = std::fmax(largest_m, std::abs(out.model_m - plant.position_m()));
+      told = out.oscillated;
+      plant.step(power_W);
+    }
+    CHECK(told);
+    CHECK_EQUAL(slow_down, largest_m < 20e-6);
+    if (!slow_down) CHECK(largest_m > 1e-3);
+  }
+}

@@ -1,15 +1,21 @@
 // What a channel finds out about its muscle when it is asked to.
-#include "supercoil/control/actuator/conversions.hpp"
+#include <algorithm>
 
 #include "loop/channel.hpp"
 
 namespace supercoil {
 
 void Channel::step_identify() {
-  wanted_.wanted_power_W = identify_.power_W(limiter_.max_W());
-  const ModeResult now = identify_.step(evidence_.position.value, acting_.power_W);
+  const ModeResult now =
+      identify_.step(evidence_.position.value, acting_.power_W, limiter_.max_W());
+  // It asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and a power
+  // that is cut for so long is a controller's fault.
+  wanted_.wanted_power_W = std::min(identify_.power_W(), limiter_.max_W(heat_.hottest_C()));
+  follow_cooling();
   if (now == ModeResult::running) return;
   wanted_ = {};
+  const bool cooling_found = learn_cooling();
+  if (now != ModeResult::found && cooling_found) keep_heat();
   end_mode(now == ModeResult::found ? keep(identify_.found(), calibration_) : now);
 }
 
@@ -39,7 +45,7 @@ void Channel::end_mode(ModeResult result) {
 /// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
 ModeResult Channel::keep(const control::PhysicalParameters& muscle,
                          const storage::Calibration& found) {
-  const storage::Learned learned{muscle, found, senses_, 0, true};
+  const storage::Learned learned{muscle, found, senses_, 0, true, heat_facts_};
   if (storage::check(learned)) return ModeResult::implausible;
   if (found != calibration_) {
     supervisor_.recalibrated();

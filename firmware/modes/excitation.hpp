@@ -1,18 +1,106 @@
-// The power that teaches most about a muscle.
+// The power that teaches most about a muscle of which little is known.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 namespace supercoil::modes {
 
-/// P = 2.2 + 0.5(sin 0.3t + sin 1.1t + sin 3.1t) + 0.6 sin 9t, for 4.5 W at most: it divides the
-/// condition number of the paper's Eq. (18) by 4.5 (docs/paper.md). Scaled to a channel's own
-/// greatest power; its lowest is 0.02 and its highest 0.96 of it.
-inline double excitation_W(double time_s, double max_W) {
-  const double power_W =
-      2.2 + 0.5 * (std::sin(0.3 * time_s) + std::sin(1.1 * time_s) + std::sin(3.1 * time_s)) +
-      0.6 * std::sin(9.0 * time_s);
-  return power_W * max_W / 4.5;
-}
+/// Heats until the position has reached a level, lets cool until it has reached another, and so on,
+/// with three sines on top that show the mechanics. The muscle itself sets the pace, so its time
+/// constant need not be known, and positions bound the motion, so its gain need not be known.
+///
+/// The first heating begins with a fiftieth of the power that is allowed, which then rises until
+/// the position is as far as it may go, or does not rise any more. All that follows stays below
+/// that.
+class Excitation {
+ public:
+  struct Settings {
+    double max_travel_m;  ///< of the channel, > 0
+    double step_s;
+  };
+  static constexpr std::size_t cycles = 8;  ///< heated and cooled so often
+
+  explicit Excitation(const Settings& settings) : settings_(settings) {}
+
+  /// Begins anew, with a muscle that may still be warm from before.
+  void start(double position_m) {
+    *this = Excitation(settings_);
+    position_m_ = position_m;
+    begin(Phase::rest);
+  }
+
+  /// One tick: this tick's position. max_W: allowed now. Returns the power to give.
+  double step(double position_m, double max_W);
+
+  bool done() const { return cycle_ >= cycles || too_still_; }
+  /// The muscle has moved by less than is needed, and no more power is allowed.
+  bool too_still() const { return too_still_; }
+  /// From 0; the first one searches for the power, and teaches little.
+  std::size_t cycle() const { return cycle_; }
+  /// 0 to 1.
+  float progress() const {
+    const float half = phase_ == Phase::cool ? 0.5F : 0.0F;
+    return (static_cast<float>(cycle_) + half) / static_cast<float>(cycles);
+  }
+
+ private:
+  enum class Phase : std::uint8_t { rest, search, heat, cool };
+
+  /// Of the channel's travel: the rest is for a muscle that overshoots.
+  static constexpr double travel_ratio = 0.55;
+  /// Of the travel: less is not enough to identify by.
+  static constexpr double min_ratio = 0.01;
+  static constexpr double first_ratio = 0.02;  ///< of the power
+  static constexpr double growth_s = 0.75;     ///< of the power in the search, e-fold
+  static constexpr double smoothing_s = 0.05;
+  /// How far a muscle's position lags behind its heat: mechanics of 7 rad/s.
+  static constexpr double lag_s = 0.15;
+  /// Of the position that the search has reached. Nearly full strokes: what they teach of a muscle
+  /// with hysteresis depends least on the order in which they come.
+  static constexpr std::array<double, 2> highs{0.85, 0.75};
+  static constexpr std::array<double, 2> lows{0.15, 0.25};
+  static constexpr double first_check_s = 0.4;
+  static constexpr double min_phase_s = 2.0;
+  static constexpr double max_still_s = 25.0;
+
+  void begin(Phase phase) {
+    phase_ = phase;
+    phase_s_ = 0.0;
+    check_s_ = first_check_s;
+    check_m_ = begin_m_ = position_m_;
+  }
+  /// The position has come to its end: in the last third of the phase it has gone on by less than a
+  /// twentieth of what it moved in all. Checked at times of which each is 1.5 times the last, which
+  /// suits any time constant (an exponential is stalled after four).
+  bool stalled();
+  void end_search(double ahead_m);
+  /// A level that is reached at once is passed by far; one that is not reached wants more.
+  void adapt_power(bool reached, double max_W);
+  double level_m(const std::array<double, 2>& ratios) const {
+    return cold_m_ + ratios[cycle_ % ratios.size()] * reach_m_;
+  }
+  double min_m() const { return min_ratio * settings_.max_travel_m; }
+  double sines() const {
+    return (std::sin(4.1 * time_s_) + std::sin(9.3 * time_s_) + std::sin(21.7 * time_s_)) / 3.0;
+  }
+
+  Settings settings_;
+  Phase phase_ = Phase::rest;
+  std::size_t cycle_ = 0;
+  bool too_still_ = false;
+  double time_s_ = 0.0;
+  double phase_s_ = 0.0;
+  double position_m_ = 0.0;  ///< smoothed
+  double speed_m_per_s_ = 0.0;
+  double cold_m_ = 0.0;
+  double reach_m_ = 0.0;  ///< from cold_m_
+  double power_W_ = 0.0;
+  double begin_m_ = 0.0;  ///< where this phase began
+  double check_s_ = 0.0;  ///< after which time of the phase it is judged next
+  double check_m_ = 0.0;  ///< where it was at the last check
+};
 
 }  // namespace supercoil::modes

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace supercoil {
@@ -16,13 +17,39 @@ enum class ModeResult : std::uint8_t {
   not_cold = 4,       ///< calibrate: the muscle did not cool in time
   moved = 5,          ///< calibrate: the position changed while its zero was taken
   not_explained = 6,  ///< identify: the muscle did not do what the fit foretold
-  uncertain = 7,      ///< identify: the fit's bound is too wide
+  uncertain = 7,      ///< identify: the fit leaves a parameter open that a controller needs
   implausible = 8,    ///< out of range; of identify also: far from what was believed
   not_stored = 9,     ///< used, but the last ones still wait to be stored
+  too_still = 10,     ///< identify: the muscle hardly moved
 };
 
-inline constexpr std::array<std::string_view, 10> mode_result_names{
-    "none",  "running",       "found",     "interrupted", "not_cold",
-    "moved", "not_explained", "uncertain", "implausible", "not_stored"};
+inline constexpr std::array<std::string_view, 11> mode_result_names{
+    "none",          "running",   "found",       "interrupted", "not_cold", "moved",
+    "not_explained", "uncertain", "implausible", "not_stored",  "too_still"};
+
+/// Bits: everything that identify has to say of its last fit. Each but theta1_kept is a reason for
+/// a refusal; that one comes with found.
+enum IdentifyNote : std::uint8_t {
+  note_theta1_kept = 1,       ///< not known well enough: the believed one is kept
+  note_theta2_uncertain = 2,  ///< its deviation is too large, or the unseen third says another
+  note_theta3_uncertain = 4,
+  note_theta4_uncertain = 8,
+  note_not_explained = 16,
+  note_implausible = 32,
+  note_too_still = 64,
+};
+inline constexpr std::array<std::string_view, 7> identify_note_names{
+    "theta1_kept",   "theta2_uncertain", "theta3_uncertain", "theta4_uncertain",
+    "not_explained", "implausible",      "too_still"};
+
+/// "theta2_uncertain, not_explained"; empty when there is none. A bit without a name is left out.
+inline std::string describe_notes(std::uint8_t notes, const std::string& separator = ", ") {
+  std::string text;
+  for (std::size_t i = 0; i < identify_note_names.size(); ++i) {
+    if ((notes >> i & 1U) == 0) continue;
+    text += (text.empty() ? "" : separator) + std::string(identify_note_names[i]);
+  }
+  return text;
+}
 
 }  // namespace supercoil

@@ -16,6 +16,7 @@ namespace {
 struct Ending {
   std::optional<storage::Learned> learned;
   std::string result;
+  std::string notes;
   double proportional_W_per_m = 0.0;  ///< the controller's gain, as published last
 };
 
@@ -32,14 +33,16 @@ Ending ending(const std::string& text) {
   }
   ended.learned = simulation.learned();
   ended.result = mode_result_names.at(static_cast<std::size_t>(snapshot.result));
+  ended.notes = describe_notes(snapshot.identify_notes);
   return ended;
 }
 
 /// A run that learned nothing, and why.
-void check_nothing(const char* why, const std::string& text) {
-  const Ending ended = ending(text);
+Ending check_nothing(const char* why, const std::string& text) {
+  Ending ended = ending(text);
   CHECK_FALSE(ended.learned.has_value());
   STRCMP_EQUAL(why, ended.result.c_str());
+  return ended;
 }
 
 const std::string identify =
@@ -76,24 +79,55 @@ TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesUnderway) {
-  check_nothing("not_explained",
-                identify + "[[event]]\nat_s = 50.0\nplant.stiffness_N_per_m = 11.0\n");
+  for (const int at_s : {20, 28, 36, 44}) {
+    check_nothing("not_explained", identify + "[[event]]\nat_s = " + std::to_string(at_s) +
+                                       "\nplant.stiffness_N_per_m = 11.0\n");
+  }
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsNotTheOneThatWasConfigured) {
-  check_nothing("implausible",
-                "simulation.duration_s = 65.0\noperator.wish = 'identify'\n"
-                "[muscle]\nstiffness_N_per_m = 200.0\n");
+  const Ending ended = check_nothing("implausible",
+                                     "simulation.duration_s = 65.0\noperator.wish = 'identify'\n"
+                                     "[muscle]\nstiffness_N_per_m = 200.0\n");
+  STRCMP_EQUAL("implausible", ended.notes.c_str());
 }
 
-TEST(Modes, IdentifyStoresNothingWhenTheSensorIsTooNoisy) {
-  check_nothing("uncertain",
-                identify + "[sensor.position]\nnoise_rms_m = 2e-3\nresolution_bits = 10\n");
+TEST(Modes, IdentifyFindsTheMuscleThroughNoise) {
+  const Ending ended = ending(identify + "[sensor.position]\nnoise_rms_m = 1e-3\n");
+  CHECK(ended.learned.has_value());
+  const control::Theta truth = control::theta_from(control::PhysicalParameters{});
+  const control::Theta found = control::theta_from(ended.learned->muscle);
+  for (int i = 1; i < 4; ++i)
+    DOUBLES_EQUAL(truth[i], found[i], 0.08 * truth[i]);
 }
 
-/// The motion is still explained, but no longer by these parameters only.
-TEST(Modes, IdentifyStoresNothingWhenNoiseLeavesTheParametersOpen) {
-  check_nothing("uncertain", identify + "[sensor.position]\nnoise_rms_m = 100e-6\n");
+TEST(Modes, WhatIsNotKnownOfTheThermalMassStaysAsBelieved) {
+  const Ending ended =
+      ending(identify + "[sensor.position]\nnoise_rms_m = 4e-3\nresolution_bits = 10\n");
+  STRCMP_EQUAL("found", ended.result.c_str());
+  STRCMP_EQUAL("theta1_kept", ended.notes.c_str());
+  // θ1/θ3 is the believed muscle's.
+  control::PhysicalParameters believed;
+  believed.stiffness_N_per_m = 22.0;
+  believed.damping_Ns_per_m = 3.0;
+  believed.thermal_mass_J_per_K = 0.2;
+  const control::Theta expected = control::theta_from(believed);
+  const control::Theta found = control::theta_from(ended.learned->muscle);
+  DOUBLES_EQUAL(expected[0] / expected[2], found[0] / found[2], 1e-6);
+}
+
+TEST(Modes, IdentifyTellsEveryReasonWhenTheSensorIsTooNoisy) {
+  const Ending ended = check_nothing(
+      "not_explained",
+      identify +
+          "[power]\nmax_W = 0.5\n[sensor.position]\nnoise_rms_m = 2e-3\nresolution_bits = 10\n");
+  STRCMP_EQUAL("theta2_uncertain, theta3_uncertain, theta4_uncertain, not_explained",
+               ended.notes.c_str());
+}
+
+TEST(Modes, IdentifyStoresNothingWhenTheMuscleHardlyMoves) {
+  const Ending ended = check_nothing("too_still", identify + "[power]\nmax_W = 0.05\n");
+  STRCMP_EQUAL("too_still", ended.notes.c_str());
 }
 
 TEST(Modes, IdentifyStoresNothingWhenCommandsStop) {

@@ -1,0 +1,79 @@
+#include "modes/identify.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "supercoil/control/actuator/conversions.hpp"
+
+namespace supercoil::modes {
+
+namespace {
+
+constexpr std::array<std::uint8_t, 3> uncertain_notes{note_theta2_uncertain, note_theta3_uncertain,
+                                                      note_theta4_uncertain};
+constexpr std::uint8_t uncertain =
+    note_theta2_uncertain | note_theta3_uncertain | note_theta4_uncertain;
+
+}  // namespace
+
+using Fit = control::BatchLeastSquares::Fit;
+
+bool Identify::knows(const Fit& fit, int i) const {
+  return fit.theta[i] > 0.0 && fit.deviation[i] <= settings_.max_deviation &&
+         fit.unseen_difference[i] <= settings_.max_difference;
+}
+
+bool Identify::plausible(double theta, double believed) const {
+  const double ratio = theta / believed;
+  return ratio >= settings_.min_ratio && ratio <= settings_.max_ratio;
+}
+
+/// The found θ1, or the believed one at the pace of the muscle that was found: θ1/θ3 is about 1/ϱ,
+/// which does not depend on γ. A muscle with it must be stable, θ2 θ3 > θ1 m̂ θ4.
+double Identify::theta1(const Fit& fit) {
+  const control::Theta believed = control::theta_from(believed_);
+  const double scaled = believed[0] * fit.theta[2] / believed[2];
+  if (knows(fit, 0) && plausible(fit.theta[0], scaled)) return fit.theta[0];
+  notes_ |= note_theta1_kept;
+  const double limit = fit.theta[1] * fit.theta[2] / (fit.theta[3] * believed_.moving_mass_kg);
+  return std::fmin(scaled, 0.5 * limit);
+}
+
+/// Everything that speaks against the fit.
+std::uint8_t Identify::reasons_against(const Fit& fit) const {
+  const control::Theta believed = control::theta_from(believed_);
+  unsigned notes = fit.unexplained_ratio <= settings_.max_unexplained ? 0 : note_not_explained;
+  for (int i = 1; i < 4; ++i) {
+    if (!knows(fit, i)) {
+      notes |= uncertain_notes.at(static_cast<std::size_t>(i - 1));
+    } else if (!plausible(fit.theta[i], believed[i])) {
+      notes |= note_implausible;
+    }
+  }
+  return static_cast<std::uint8_t>(notes);
+}
+
+ModeResult Identify::judge() {
+  if (excitation_.too_still()) {
+    notes_ = note_too_still;
+    return ModeResult::too_still;
+  }
+  const auto fit = fit_.fit();
+  notes_ = fit ? reasons_against(*fit) : uncertain;
+  if ((notes_ & note_not_explained) != 0) return ModeResult::not_explained;
+  if ((notes_ & uncertain) != 0) return ModeResult::uncertain;
+  if ((notes_ & note_implausible) != 0) return ModeResult::implausible;
+
+  control::Theta theta = fit->theta;
+  theta[0] = theta1(*fit);
+  const auto physical =
+      control::physical_from(theta, {believed_.force_per_kelvin_N_per_K, believed_.moving_mass_kg});
+  if (!physical) {
+    notes_ = note_implausible;
+    return ModeResult::implausible;
+  }
+  found_ = *physical;
+  return ModeResult::found;
+}
+
+}  // namespace supercoil::modes

@@ -1,0 +1,102 @@
+// What identify finds on muscles of which the board believes up to half too much or too little:
+//   identify_figures SEEDS [track|no [MUSCLE]]
+// SEEDS beliefs of each muscle; track: also how learned_ff follows a sine after each of the first
+// three. The figures of docs/control.md.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/identification/physical.hpp"
+
+#include "loop/support/identified_muscle.hpp"
+
+namespace {
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+/// The linear muscle whose motion under the run's power is nearest to the run's.
+control::Theta best_linear(const Identified& run) {
+  identification::Samples samples;
+  samples.position_m = run.position_m;
+  samples.power_W = run.power_W;
+  const auto fit = identification::fit_model({}, samples, {0.0, run.ended_s});
+  identification::Assumed assumed;
+  assumed.moving_mass_kg = run.truth.moving_mass_kg;
+  return identification::theta_of(fit, assumed).theta;
+}
+
+struct Worst {
+  int found = 0;
+  int kept_theta1 = 0;
+  std::array<double, 3> error{};  ///< largest, of θ2 to θ4
+  double longest_s = 0.0;
+  double hottest_C = 0.0;
+  double hottest_told_C = 0.0;
+  double highest_m = 0.0;
+  double lowest_m = 0.0;
+  double tracking_m = 0.0;
+};
+
+void add(Worst& row, const MuscleKind& kind, const Identified& run, bool track, int seed) {
+  row.longest_s = std::max(row.longest_s, run.took_s);
+  row.hottest_C = std::max(row.hottest_C, run.hottest_C);
+  row.hottest_told_C = std::max(row.hottest_told_C, run.hottest_told_C);
+  row.highest_m = std::max(row.highest_m, run.highest_m);
+  row.lowest_m = std::min(row.lowest_m, run.lowest_m);
+  if (run.result != ModeResult::found) {
+    std::printf("  %s, seed %d: %s (%s), fault %s\n", kind.name.data(), seed,
+                std::string(mode_result_names.at(static_cast<std::size_t>(run.result))).c_str(),
+                describe_notes(run.notes).c_str(), std::string(name(run.fault)).c_str());
+    return;
+  }
+  ++row.found;
+  row.kept_theta1 += (run.notes & note_theta1_kept) != 0 ? 1 : 0;
+  const control::Theta found = control::theta_from(run.learned->muscle);
+  const bool linear = kind.plant.find("preset") == std::string_view::npos || kind.name == "paper";
+  const control::Theta truth = linear ? control::theta_from(run.truth) : best_linear(run);
+  for (int i = 0; i < 3; ++i) {
+    double& worst = row.error.at(static_cast<std::size_t>(i));
+    const double error = found[i + 1] / truth[i + 1] - 1.0;
+    if (std::abs(error) > std::abs(worst)) worst = error;
+  }
+  if (track && seed <= 3) row.tracking_m = std::max(row.tracking_m, tracking_after(kind, seed));
+}
+
+void print(const MuscleKind& kind, const Worst& r, int seeds, bool track) {
+  std::printf("| %s | %d/%d | %d | %.2g / %.2g / %.2g | %.0f | %.0f (%.0f) | %.1f to %.1f |",
+              kind.name.data(), r.found, seeds, r.kept_theta1, 100.0 * r.error[0],
+              100.0 * r.error[1], 100.0 * r.error[2], r.longest_s, r.hottest_C, r.hottest_told_C,
+              1e3 * r.lowest_m, 1e3 * r.highest_m);
+  if (track) std::printf(" %.1f |", 1e6 * r.tracking_m);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int seeds = argc > 1 ? std::atoi(argv[1]) : 1;
+  const bool track = argc > 2 && std::string_view(argv[2]) == "track";
+  std::printf(
+      "| muscle | found | believed θ1 kept | θ2, θ3, θ4 off by, %% | s | °C (told) | mm |%s\n",
+      track ? " µm rms |" : "");
+  try {
+    for (const MuscleKind& kind : muscle_kinds) {
+      if (argc > 3 && kind.name != argv[3]) continue;
+      Worst row;
+      for (int seed = 1; seed <= seeds; ++seed)
+        add(row, kind, run_identify(kind, seed), track, seed);
+      print(kind, row, seeds, track);
+    }
+  } catch (const std::exception& error) {
+    std::fputs(error.what(), stderr);
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,60 @@
+// Identify on muscles of which the board believes up to half too much or too little. More seeds,
+// and the figures of docs/control.md: identify_figures.
+#include <cmath>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/control/actuator/conversions.hpp"
+
+#include "loop/support/identified_muscle.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+constexpr double sensor_travel_m = 0.04;
+constexpr double hottest_allowed_C = 160.0;
+
+std::string described(const MuscleKind& kind, int seed, const Identified& run) {
+  return std::string(kind.name) + ", seed " + std::to_string(seed) + ": " +
+         std::string(mode_result_names.at(static_cast<std::size_t>(run.result))) + " (" +
+         describe_notes(run.notes) + ")";
+}
+
+bool is_linear(const MuscleKind& kind) {
+  return kind.name == "paper" || kind.plant.find("preset") == std::string_view::npos;
+}
+
+}  // namespace
+
+TEST_GROUP(Identify){};
+
+TEST(Identify, FindsEveryMuscleWithinItsTravelAndItsTemperature) {
+  for (const MuscleKind& kind : muscle_kinds) {
+    for (const int seed : {1, 2, 3}) {
+      const Identified run = run_identify(kind, seed);
+      const std::string text = described(kind, seed, run);
+      LONGS_EQUAL_TEXT(static_cast<int>(ModeResult::found), static_cast<int>(run.result),
+                       text.c_str());
+      CHECK_TEXT(run.highest_m < 0.6 * sensor_travel_m, text.c_str());
+      CHECK_TEXT(run.lowest_m >= 0.0, text.c_str());
+      CHECK_TEXT(run.hottest_told_C < hottest_allowed_C, text.c_str());
+      const control::Theta truth = control::theta_from(run.truth);
+      const control::Theta found = control::theta_from(run.learned->muscle);
+      for (int i = 1; i < 4 && is_linear(kind); ++i)
+        DOUBLES_EQUAL_TEXT(1.0, found[i] / truth[i], 0.02, text.c_str());
+    }
+  }
+}
+
+TEST(Identify, LearnedFeedforwardFollowsWhatWasFound) {
+  for (const std::string_view name : {"real", "stiff", "lightly damped"}) {
+    for (const MuscleKind& kind : muscle_kinds) {
+      if (kind.name != name) continue;
+      const double rms_m = tracking_after(kind, 1);
+      CHECK_TEXT(rms_m < 25e-6, kind.name.data());
+    }
+  }
+}

@@ -121,7 +121,8 @@ Memory memory_of(const BoardSettings& settings) {
   for (const ChannelSettings& channel : settings.channels) {
     memory.loop += sizeof(Channel) + sizeof(ChannelSettings) +
                    channel.controllers.size() * sizeof(control::Controller) +
-                   channel.estimators.size() * sizeof(control::Estimator);
+                   channel.estimators.size() * sizeof(control::Estimator) +
+                   (channel.thermal.weighed() ? sizeof(control::CoolingFit) : 0);
   }
   return memory;
 }

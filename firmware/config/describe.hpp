@@ -15,6 +15,8 @@ std::string describe(const BoardConfig& config);
 
 /// Its parts.
 std::string describe_channel(const BoardConfig& config, std::size_t index);
+/// What narrows the bounds of the muscle's heat, and what would.
+std::string describe_heat(const ChannelSettings& channel);
 /// How far the true power may be from the told one, and since which comparison with a meter.
 std::string describe_senses(const ChannelSettings& channel, const BoardSettings& board);
 /// One line for each detector that this configuration leaves blind, whose it is, and why.

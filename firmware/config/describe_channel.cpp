@@ -9,14 +9,6 @@ namespace supercoil::config {
 
 namespace {
 
-/// At the supply voltage at which they are furthest apart.
-board::PowerBounds::Interval true_over_told_power(const ChannelSettings& c,
-                                                  const BoardSettings& board) {
-  const board::PowerBounds bounds = power_bounds(c, board);
-  return {bounds.true_over_told(board.supervision.highest_supply_V).min,
-          bounds.true_over_told(board.supervision.lowest_supply_V).max};
-}
-
 double mm(double metres) {
   return std::nearbyint(1e6 * metres) / 1e3;
 }
@@ -53,13 +45,14 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
       << "  temperature " << (label.preset == Preset::skin ? "near skin: " : "")
       << "full power up to " << c.limiter.derate_from_C << " °C, none from " << s.trip_C
       << " °C on, where it trips\n";
-  const control::ThermalBounds& b = c.thermal.bounds;
+  const control::ThermalBounds b = board::with_weighed_mass(c.thermal);
   const double rest_K =
-      c.limiter.max_W * true_over_told_power(c, board).max / b.lowest_transfer_W_per_K;
+      c.limiter.max_W * power_bounds(c, board).true_over_told().max / b.lowest_transfer_W_per_K;
   out << "              from " << b.lowest_mass_J_per_K << " to " << b.highest_mass_J_per_K
       << " J/K and " << b.lowest_transfer_W_per_K << " to " << b.highest_transfer_W_per_K
       << " W/K; " << c.limiter.max_W << " W for good may heat it to "
       << std::nearbyint(c.thermal.ambient_C + rest_K) << " °C\n"
+      << "              " << describe_heat(c) << "\n"
       << "              taken to be at up to "
       << std::nearbyint(c.thermal.ambient_C + c.thermal.boot_rise_K) << " °C at boot\n";
 }
@@ -100,8 +93,37 @@ void describe_control(std::ostream& out, const ChannelSettings& c, double step_s
 
 }  // namespace
 
+std::string describe_heat(const ChannelSettings& c) {
+  const board::ThermalSettings& t = c.thermal;
+  std::ostringstream out;
+  out.precision(3);
+  if (t.weighed()) {
+    out << "weighed to " << 100.0 * t.mass_error_ratio << " %";
+  } else {
+    out << "not weighed (thermal.weighed_mass_error_ratio)";
+  }
+  const board::KnownHeat known = board::known_heat(t, c.heat);
+  if (known.count > 0) {
+    const control::TransferSpan& span = known.spans[0];
+    out << "; time constant " << c.heat.time_constant_s
+        << " s: " << known.lowest_W_per_K(span.from_K) << " to " << known.highest_W_per_K(span.to_K)
+        << " W/K from " << span.from_K << " to " << span.to_K << " K above the air";
+  } else if (t.weighed()) {
+    out << "; identify tells the time constant, and with it the heat transfer";
+  } else {
+    out << ": position and power tell the time constant only";
+  }
+  if (c.heat.was_read()) {
+    out << "; " << c.heat.steady_rise_K << " K above the air read at "
+        << 0.5 * (c.heat.steady_min_W + c.heat.steady_max_W) << " W";
+  } else {
+    out << "; no thermometer was read (compare_rise)";
+  }
+  return out.str();
+}
+
 std::string describe_senses(const ChannelSettings& c, const BoardSettings& board) {
-  const auto [min_ratio, max_ratio] = true_over_told_power(c, board);
+  const auto [min_ratio, max_ratio] = power_bounds(c, board).true_over_told();
   std::ostringstream out;
   out.precision(3);
   if (c.senses.compared()) {

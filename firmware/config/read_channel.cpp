@@ -71,7 +71,7 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
   };
   c.controllers.clear();
   for (Section& table : tables("controller")) {
-    const auto controller = read_controller(table, c.muscle, model);
+    const auto controller = read_controller(table, c.muscle, model, c.limiter.max_W);
     const auto misfit =
         control::check_fit(controller, step_s, c.supervision.max_travel_m, c.limiter.max_W);
     refuse_misfit(table, misfit);
@@ -80,7 +80,7 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
   }
   c.estimators.clear();
   for (Section& table : tables("estimator")) {
-    const auto estimator = read_estimator(table, c.muscle);
+    const auto estimator = read_estimator(table, c.muscle, c.limiter.max_W);
     refuse_misfit(table, control::check_fit(estimator, step_s, c.limiter.max_W));
     c.estimators.push_back(estimator);
   }

@@ -19,13 +19,14 @@ control::PhysicalParameters read_parameters(Section& section,
 std::optional<control::ReferenceModelSettings> read_reference_model(Section section);
 
 /// Finishes the section. MRAC's premises are checked here, with the model that it will follow.
+/// max_W: of the channel; NaN while that is missing.
 control::ControllerSettings read_controller(
     Section& section, const control::PhysicalParameters& muscle,
-    const std::optional<control::ReferenceModelSettings>& model);
+    const std::optional<control::ReferenceModelSettings>& model, double max_W);
 
-/// Finishes the section.
+/// Finishes the section. max_W: of the channel; NaN while that is missing.
 control::EstimatorSettings read_estimator(Section& section,
-                                          const control::PhysicalParameters& muscle);
+                                          const control::PhysicalParameters& muscle, double max_W);
 
 /// Notes what q8.24 cannot hold (see control::check_fit).
 void refuse_misfit(Section& section, const std::optional<control::Violation>& violation);

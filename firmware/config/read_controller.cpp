@@ -85,11 +85,30 @@ control::MracLeastSquaresSettings read_mrac_ls(Section& section,
   return m;
 }
 
+control::LearnedFeedforwardSettings read_learned_ff(Section& section,
+                                                    const control::RegressionScale& nominal,
+                                                    double max_W) {
+  control::LearnedFeedforwardSettings l;
+  l.scale = nominal;
+  if (std::isfinite(max_W)) l.max_W = max_W;
+  l.bandwidth_rad_per_s =
+      section.number("bandwidth_rad_per_s", l.bandwidth_rad_per_s, {0.01, 100.0});
+  l.derivative_filter_rad_per_s =
+      section.number("derivative_filter_rad_per_s", l.derivative_filter_rad_per_s, {0.1, 1e4});
+  l.follow_s = section.number("follow_s", l.follow_s, {0.02, 3600.0});
+  l.forgetting_s = section.number("forgetting_s", l.forgetting_s, {1.0, 3600.0});
+  l.learn = section.flag("learn", l.learn);
+  l.period_s = section.number("period_s", l.period_s, {0.0, 600.0});
+  if (l.period_s > 0.0 && l.period_s < 2.0)
+    section.wrong("period_s", "must be 0 (the reference does not repeat itself) or 2 to 600");
+  return l;
+}
+
 }  // namespace
 
 control::ControllerSettings read_controller(
     Section& section, const control::PhysicalParameters& muscle,
-    const std::optional<control::ReferenceModelSettings>& model) {
+    const std::optional<control::ReferenceModelSettings>& model, double max_W) {
   using control::ControllerKind;
   control::ControllerSettings c;
   c.kind = section.choice("kind", c.kind, control::controller_names);
@@ -102,9 +121,13 @@ control::ControllerSettings read_controller(
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
     if (!control::supported(c.kind, c.arithmetic)) {
       section.wrong("arithmetic",
-                    "must be double or float: the covariance of mrac_ls does not fit q8.24");
+                    "must be double or float: the covariance of " +
+                        std::string(control::name_of(control::controller_names, c.kind)) +
+                        " does not fit q8.24");
     }
     if (section.flag("shape_reference", false)) c.shaped_for = nominal;
+    if (!is_mrac)
+      c.slow_when_oscillating = section.flag("slow_when_oscillating", c.slow_when_oscillating);
   }
   if (c.kind == ControllerKind::pi) {
     c.pi.proportional_W_per_m =
@@ -130,6 +153,8 @@ control::ControllerSettings read_controller(
     a.derivative_filter_rad_per_s =
         section.number("derivative_filter_rad_per_s", a.derivative_filter_rad_per_s, {0.1, 1e4});
     a.follow_s = section.number("follow_s", a.follow_s, {0.02, 3600.0});
+  } else if (c.kind == ControllerKind::learned_ff) {
+    c.learned_ff = read_learned_ff(section, nominal, max_W);
   } else if (c.kind == ControllerKind::mrac_ls) {
     c.mrac_ls = read_mrac_ls(section, nominal);
   } else if (c.kind == ControllerKind::mrac) {

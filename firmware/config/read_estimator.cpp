@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "supercoil/control/actuator/conversions.hpp"
 
 #include "config/read_control.hpp"
@@ -36,14 +38,13 @@ void read_least_squares(Section& section, control::LeastSquaresSettings& s) {
   s.lowest_part = section.number("lowest_part", s.lowest_part, {1e-3, 1.0});
   s.highest_part = section.number("highest_part", s.highest_part, {1.0, 1e3});
   s.largest_bias_W = section.number("largest_bias_W", s.largest_bias_W, {0.0, 1e3});
-  s.change_W = section.number("change_W", s.change_W, {1e-6, 1e3});
   s.position_noise_m = section.number("position_noise_m", s.position_noise_m, {1e-9, 1e-2});
 }
 
 }  // namespace
 
 control::EstimatorSettings read_estimator(Section& section,
-                                          const control::PhysicalParameters& muscle) {
+                                          const control::PhysicalParameters& muscle, double max_W) {
   control::EstimatorSettings e;
   e.kind = section.choice("kind", e.kind, control::estimator_names);
   if (e.kind == control::EstimatorKind::none) {
@@ -58,6 +59,7 @@ control::EstimatorSettings read_estimator(Section& section,
   const control::RegressionScale scale{control::theta_from(muscle), muscle.dc_gain_m_per_W(),
                                        muscle.moving_mass_kg};
   e.gradient.scale = e.least_squares.scale = scale;
+  if (std::isfinite(max_W)) e.least_squares.max_W = max_W;
   if (e.kind == control::EstimatorKind::gradient) {
     read_gradient(section, e.gradient);
     e.excitation.window_s = section.number("window_s", e.excitation.window_s, {0.1, 3600.0});

@@ -49,6 +49,18 @@ void read_bound(Section& section, const Bound& bound, const control::PhysicalPar
   }
 }
 
+/// What narrows the bounds, each with its error.
+void read_heat_errors(Section& section, bool weighed, board::ThermalSettings& t) {
+  t.mass_error_ratio = section.number("weighed_mass_error_ratio", 0.0, {0.0, 0.5});
+  if (section.has("weighed_mass_error_ratio") && !weighed) {
+    section.wrong("weighed_mass_error_ratio",
+                  "needs weighed_mass_J_per_K: what is only believed narrows nothing");
+  }
+  t.time_constant_error_ratio =
+      section.number("time_constant_error_ratio", t.time_constant_error_ratio, {0.05, 5.0});
+  t.thermometer_error_K = section.number("thermometer_error_K", t.thermometer_error_K, {0.1, 20.0});
+}
+
 }  // namespace
 
 void read_muscle(Section muscle, Section thermal, const BoardContext& context, ChannelSettings& c) {
@@ -73,6 +85,7 @@ void read_muscle(Section muscle, Section thermal, const BoardContext& context, C
     thermal.wrong("weighed_mass_J_per_K",
                   "must lie between lowest_mass_J_per_K and highest_mass_J_per_K");
   }
+  read_heat_errors(thermal, weighed, t);
   t.ambient_C = context.ambient_C;
   t.coldest_ambient_C = context.coldest_ambient_C;
   // The last life of this board may have ended a moment ago, just below the trip.

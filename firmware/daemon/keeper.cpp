@@ -12,6 +12,12 @@ namespace supercoil::daemon {
 
 namespace {
 
+/// In brackets, what identify has to say beside its result.
+std::string notes_text(const Row& row) {
+  const std::string notes = describe_notes(row.identify_notes);
+  return notes.empty() ? notes : " (" + notes + ")";
+}
+
 /// Of rows that wait for the keeper while it waits for the disk.
 constexpr double relayed_s = 1.0;
 
@@ -45,10 +51,15 @@ tl::expected<void, std::string> remember(config::BoardConfig& config,
     for (const std::string& problem : loaded->problems)
       log(Level::warning, problem);
     ChannelSettings& channel = config.settings.channels[i];
-    if (loaded->learned) channel.senses = loaded->learned->senses;
+    if (loaded->learned) {
+      channel.senses = loaded->learned->senses;
+      channel.heat = loaded->learned->heat;
+    }
     log(channel.senses.compared() ? Level::info : Level::warning,
         "channel " + std::to_string(i + 1) +
             ": senses: " + config::describe_senses(channel, config.settings));
+    log(Level::info,
+        "channel " + std::to_string(i + 1) + ": heat: " + config::describe_heat(channel));
     channel.knows_muscle = loaded->learned && loaded->learned->knows_muscle;
     if (!channel.knows_muscle) continue;
     // Calibrating alone stores the muscle as the file has it: that is no identification.
@@ -162,9 +173,9 @@ void Keeper::watch(const Row& row) {
     log(fault ? Level::problem : Level::info, text);
   }
   if (row.result != before.result && static_cast<ModeResult>(row.result) > ModeResult::found) {
-    log(Level::warning, "channel " + std::to_string(row.channel + 1) + ": " +
-                            recorder::mode_name(before.mode) +
-                            " ended, nothing is stored: " + recorder::result_name(row.result));
+    log(Level::warning,
+        "channel " + std::to_string(row.channel + 1) + ": " + recorder::mode_name(before.mode) +
+            " ended, nothing is stored: " + recorder::result_name(row.result) + notes_text(row));
   }
   before = row;
 }

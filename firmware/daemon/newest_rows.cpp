@@ -13,7 +13,8 @@ std::string NewestRows::describe() const {
     text << i + 1 << ' ' << recorder::state_name(r.state) << ' ' << recorder::mode_name(r.mode)
          << ' ' << recorder::fault_name(r.fault) << ' ' << r.reference << ' ' << r.model_m << ' '
          << r.position_m << ' ' << r.applied_W << ' ' << r.coldest_C << ' ' << r.hottest_C << ' '
-         << r.progress << ' ' << recorder::result_name(r.result) << '\n';
+         << r.progress << ' ' << recorder::result_name(r.result) << ' '
+         << (r.identify_notes == 0 ? "-" : describe_notes(r.identify_notes, ",")) << '\n';
   }
   return text.str();
 }

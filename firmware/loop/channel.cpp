@@ -38,6 +38,13 @@ board::MeterComparison::Settings comparison_settings(const ChannelSettings& chan
           channel.heater.current.scaling.per_count};
 }
 
+/// Every time constant that the configured bounds allow.
+control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
+  const control::ThermalBounds b = board::with_weighed_mass(channel.thermal);
+  return {b.lowest_mass_J_per_K / b.highest_transfer_W_per_K,
+          b.highest_mass_J_per_K / b.lowest_transfer_W_per_K, channel.limiter.max_W};
+}
+
 std::size_t ticks_of(double time_s, double step_s) {
   return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
 }
@@ -54,6 +61,8 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       calibration_(settings.calibration),
       senses_(settings.senses),
       comparison_(comparison_settings(settings, board), board.step_s()),
+      heat_facts_(settings.heat),
+      steady_heat_(settings.thermal, board.step_s()),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
                   board.supervision.lowest_supply_V, board.step_s()),
       muscle_(settings.muscle),
@@ -64,7 +73,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       probe_(settings.heater.probe_s, board.step_s()),
       proof_(proof_settings(settings, board), settings.muscle, settings.muscle_identified,
              board.rate_Hz),
-      identify_({}, settings.muscle, board.step_s()),
+      identify_({}, settings.muscle, settings.supervision.max_travel_m, board.step_s()),
       smooth_power_W_(smoothing_s, board.step_s()),
       smooth_error_m_(smoothing_s, board.step_s()),
       most_power_W_(settings.limiter.max_W),
@@ -72,6 +81,10 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
   told_senses_.set(senses_);
+  if (settings.thermal.weighed())
+    cooling_fit_ =
+        std::make_unique<control::CoolingFit>(cooling_settings(settings), board.step_s());
+  know_heat();
   for (const auto& controller : settings.controllers)
     controllers_.emplace_back(controller, step_s_).suit(control::theta_from(muscle_));
   for (const auto& estimator : settings.estimators)
@@ -277,6 +290,8 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.wanted_W = wanted_.wanted_power_W;
   s.applied_W = acting_.power_W;
   s.limited = acting_.limited;
+  s.proof_off = !settings_.supervision.proof_of_response;
+  s.oscillated = wanted_.oscillated;
   s.duty = set_.duty;
   s.supply_V = supply_V_;
   s.current_A = evidence_.current.present ? evidence_.current.value : std::nan("");
@@ -288,6 +303,7 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;
   s.result = result_;
+  s.identify_notes = identify_.notes();
   const auto& faults = all_faults();
   turn_ += golden_turn;
   publish_estimate();

@@ -3,8 +3,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 
 #include <boost/lockfree/spsc_queue.hpp>
+
+#include "supercoil/control/estimation/cooling_fit.hpp"
 
 #include "board/applied_power.hpp"
 #include "board/devices.hpp"
@@ -13,6 +16,7 @@
 #include "board/power_stage.hpp"
 #include "board/probe.hpp"
 #include "board/resistance.hpp"
+#include "board/steady_heat.hpp"
 #include "loop/command.hpp"
 #include "loop/settings.hpp"
 #include "loop/smoothed.hpp"
@@ -120,6 +124,13 @@ class Channel {
   Refusal compare(board::MeterComparison::Sense sense, double meter);
   Refusal go_by(const storage::SenseComparison& senses);
   void follow_comparison();
+  void restart_comparisons();
+  Refusal compare_rise(double rise_K);
+  void follow_steady_heat(bool steady);
+  void follow_cooling();
+  bool learn_cooling();
+  bool keep_heat();
+  void know_heat();
   Refusal choose_controller(double place);
   Refusal choose_estimator(double place);
   void enter(Mode mode);
@@ -159,6 +170,9 @@ class Channel {
   storage::SenseComparison senses_;
   ToldSenses told_senses_;
   board::MeterComparison comparison_;
+  storage::HeatFacts heat_facts_;
+  board::SteadyHeat steady_heat_;
+  board::PowerBounds::Interval told_W_{0.0, 0.0};  ///< of this tick, as compared senses tell it
   ChannelState state_;
   ChannelSupervisor supervisor_;
   Evidence evidence_;
@@ -184,6 +198,7 @@ class Channel {
   Mode mode_ = Mode::rest;
   double reference_ = 0.0;  ///< m, or W in open loop
   modes::Identify identify_;
+  std::unique_ptr<control::CoolingFit> cooling_fit_;  ///< of a weighed muscle; 36 kB
   modes::Calibrate calibrate_{{}};
   ModeResult result_ = ModeResult::none;  ///< of either
   control::ControllerOutput wanted_;

@@ -53,6 +53,8 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
       return compare(board::MeterComparison::supply, command.value);
     case Verb::compare_current:
       return compare(board::MeterComparison::current, command.value);
+    case Verb::compare_rise:
+      return compare_rise(command.value);
     case Verb::none:
       break;
   }
@@ -89,7 +91,7 @@ Refusal Channel::heat(Mode mode, double value, const BoardNow& board) {
     state_.activate();
     estimator().restart();
   }
-  if (mode != mode_ || value != reference_) comparison_.restart();
+  if (mode != mode_ || value != reference_) restart_comparisons();
   reference_ = value;
   if (mode != mode_) enter(mode);
   evidence_.renewed = true;
@@ -110,7 +112,8 @@ void Channel::enter(Mode mode) {
     at.hold = was_driven;
     start_controller(controller_, at);
   } else if (mode == Mode::identify) {
-    identify_.start();
+    identify_.start(evidence_.position.value);
+    if (cooling_fit_) cooling_fit_->start();
     result_ = ModeResult::running;
   } else if (mode == Mode::calibrate) {
     calibrate_.start();
@@ -175,11 +178,14 @@ Refusal Channel::scale(double true_m) {
   return true_m > 0.0 ? answer_to(keep(muscle_, found)) : Refusal::out_of_range;
 }
 
-/// A running channel goes on with what it knows: what was cleared is not known at the next start.
+/// A running channel goes on with the muscle that it knows: what was cleared is not known at the
+/// next start. What was found of its heat is forgotten at once, as wide bounds are safe.
 Refusal Channel::store(double what) {
   if (what == 0.0) {
     if (!lessons_.push(std::nullopt)) return Refusal::too_many;
     knows_muscle_ = false;
+    heat_facts_ = {};
+    know_heat();
     return Refusal::none;
   }
   if (what != 1.0) return Refusal::out_of_range;

@@ -21,6 +21,12 @@ void Channel::follow_comparison() {
   } else {
     comparison_.restart();
   }
+  follow_steady_heat(steady);
+}
+
+void Channel::restart_comparisons() {
+  comparison_.restart();
+  steady_heat_.restart();
 }
 
 /// What the meter shows. Of the supply, 0 forgets the comparison.
@@ -44,10 +50,13 @@ Refusal Channel::compare(board::MeterComparison::Sense sense, double meter) {
 Refusal Channel::go_by(const storage::SenseComparison& senses) {
   const double more_Ohm = resistance_gain(senses) / resistance_gain(senses_);
   storage::Calibration calibration = calibration_;
+  // The thermometer was read in what the senses told then.
+  storage::HeatFacts facts = heat_facts_;
+  facts.forget_reading();
   // A learned resistance was told by the senses as they were; a configured one was not.
   if (calibration.cold_resistance_Ohm != settings_.heater.cold_resistance_Ohm)
     calibration.cold_resistance_Ohm *= more_Ohm;
-  const storage::Learned learned{muscle_, calibration, senses, 0, knows_muscle_};
+  const storage::Learned learned{muscle_, calibration, senses, 0, knows_muscle_, facts};
   if (storage::check(learned)) return Refusal::out_of_range;
   if (!lessons_.push(learned)) return Refusal::too_many;
   calibration_ = calibration;
@@ -56,8 +65,11 @@ Refusal Channel::go_by(const storage::SenseComparison& senses) {
   senses_ = senses;
   told_senses_.set(senses_);
   power_bounds_.set(senses_);
+  heat_facts_ = facts;
+  know_heat();
+  proof_.plan(power_bounds_.true_over_told().max, muscle_);
   comparison_.forget();
-  comparison_.restart();
+  restart_comparisons();
   return Refusal::none;
 }
 

@@ -48,7 +48,8 @@ board::PowerBounds::Interval Channel::calibrated_Ohm() const {
 /// conducts by itself, only the current knows.
 void Channel::observe_heat(std::int64_t periods) {
   const board::Measured& current = evidence_.current;
-  if (current.present && supply_V_ > 0.0) resistance_.step(acting_.duty, supply_V_, current.value);
+  const bool sensed = current.present && supply_V_ > 0.0;
+  if (sensed) resistance_.step(acting_.duty, supply_V_, current.value);
   // Senses that lied while the resistance was calibrated cannot narrow the bounds by that.
   const double as_configured =
       settings_.heater.cold_resistance_Ohm / calibration_.cold_resistance_Ohm;
@@ -56,14 +57,16 @@ void Channel::observe_heat(std::int64_t periods) {
   const auto power_W = power_bounds_.step(
       acting_.duty, supply_V_, current,
       {min_Ohm * std::min(1.0, as_configured), max_Ohm * std::max(1.0, as_configured)});
-  heat_.step(power_W.min, power_W.max, acting_.power_W);
+  heat_.step(power_W.min, power_W.max, acting_.power_W, sensed);
+  const auto ratio = power_bounds_.true_over_told();
+  told_W_ = {power_W.min / ratio.min, power_W.max / ratio.max};
   const double measured_W =
       current.present ? supply_V_ * (current.value - settings_.supervision.current_noise_A)
                       : limiter_.max_W();
   evidence_.measured_W = std::max(acting_.power_W, measured_W);
   // In periods that were left out the power may have gone on, or the charge pump have cut it.
   for (std::int64_t i = 1; i < periods; ++i)
-    heat_.step(0.0, power_W.max, acting_.power_W);
+    heat_.step(0.0, power_W.max, acting_.power_W, sensed);
 
   const double per_K = settings_.heater.temperature_coefficient_per_K;
   evidence_.from_resistance_K = evidence_.from_position_K = 0.0;

@@ -27,12 +27,14 @@ enum class Verb : std::uint8_t {
                         ///< muscle that is kept
   compare_supply = 14,  ///< value: what a meter shows at the supply, in V; 0 forgets the comparison
   compare_current = 15,  ///< value: what a meter shows in the channel's line, in A
+  compare_rise = 16,  ///< value: how much warmer than the air a thermometer shows the muscle, in K;
+                      ///< 0 forgets what was read
 };
 
-inline constexpr std::array<std::string_view, 16> verb_names{
-    "none",      "arm",   "disarm",         "reset",          "position", "power",
-    "renew",     "rest",  "identify",       "calibrate",      "scale",    "controller",
-    "estimator", "store", "compare_supply", "compare_current"};
+inline constexpr std::array<std::string_view, 17> verb_names{
+    "none",      "arm",   "disarm",         "reset",           "position",    "power",
+    "renew",     "rest",  "identify",       "calibrate",       "scale",       "controller",
+    "estimator", "store", "compare_supply", "compare_current", "compare_rise"};
 constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }

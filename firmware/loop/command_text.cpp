@@ -15,7 +15,7 @@ namespace {
 bool has_value(Verb verb) {
   return verb == Verb::position || verb == Verb::power || verb == Verb::scale ||
          verb == Verb::controller || verb == Verb::estimator || verb == Verb::compare_supply ||
-         verb == Verb::compare_current;
+         verb == Verb::compare_current || verb == Verb::compare_rise;
 }
 
 template <class Number>

@@ -30,7 +30,8 @@ Row row_of(const Snapshot& s) {
   row.controller = s.controller;
   row.flags =
       static_cast<std::uint8_t>((s.probing ? row_probing : 0) | (s.trusted ? row_trusted : 0) |
-                                (s.limited ? row_limited : 0));
+                                (s.limited ? row_limited : 0) | (s.proof_off ? row_proof_off : 0) |
+                                (s.oscillated ? row_oscillated : 0));
   row.turn = static_cast<std::uint8_t>(s.turn);
   row.reference = narrow(s.reference);
   row.model_m = narrow(s.model_m);
@@ -55,6 +56,7 @@ Row row_of(const Snapshot& s) {
   row.result = static_cast<std::uint8_t>(s.result);
   row.aside = narrow(aside_of(s));
   row.aside_turn = s.aside;
+  row.identify_notes = s.identify_notes;
   row.gain_turn = static_cast<std::uint8_t>(s.gain.gain);
   return row;
 }

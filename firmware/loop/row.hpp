@@ -10,10 +10,16 @@
 namespace supercoil {
 
 /// Bits of Row::flags.
-enum RowFlag : std::uint8_t { row_probing = 1, row_trusted = 2, row_limited = 4 };
+enum RowFlag : std::uint8_t {
+  row_probing = 1,
+  row_trusted = 2,
+  row_limited = 4,
+  row_proof_off = 8,
+  row_oscillated = 16
+};
 
 /// A snapshot in single precision. Written to recordings as it is in memory, little-endian; the
-/// layout is a format (docs/recorder.md): new fields take `reserved`, nothing moves.
+/// layout is a format (docs/recorder.md): nothing moves.
 struct Row {
   std::int64_t time_ns;
   std::uint8_t channel;
@@ -46,8 +52,8 @@ struct Row {
   std::uint8_t gain_turn;  ///< which of the controller's gains this row carries
   std::uint8_t result;     ///< of ModeResult
   /// What the estimator tells beside theta is in one of these in each row, in turn.
-  std::uint8_t aside_turn;  ///< place in aside_names
-  std::uint8_t reserved;
+  std::uint8_t aside_turn;      ///< place in aside_names
+  std::uint8_t identify_notes;  ///< bits of IdentifyNote
   float aside;
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);

@@ -28,9 +28,7 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
   ProofSettings s;
   s.wanted = c.supervision.proof_of_response;
   s.thermal = c.thermal;
-  const double middle_V =
-      0.5 * (board.supervision.lowest_supply_V + board.supervision.highest_supply_V);
-  s.max_power_ratio = power_bounds(c, board).true_over_told(middle_V).max;
+  s.max_power_ratio = power_bounds(c, board).true_over_told().max;
   s.max_W = c.limiter.max_W;
   s.derate_from_C = c.limiter.derate_from_C;
   s.trip_C = c.supervision.trip_C;

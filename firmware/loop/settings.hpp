@@ -44,6 +44,7 @@ struct ChannelSettings {
   bool muscle_identified = false;      ///< it was identified: not only believed
   storage::Calibration calibration;    ///< its cold resistance is HeaterSettings' when not learned
   storage::SenseComparison senses;     ///< with a meter, as stored
+  storage::HeatFacts heat;             ///< found out before, as stored
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;

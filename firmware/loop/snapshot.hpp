@@ -43,10 +43,12 @@ struct Snapshot {
   LimitedBy limited_by = LimitedBy::nothing;
   std::uint8_t controller = 0;  ///< place in the configuration
   bool probing = false;
-  bool trusted = false;    ///< the estimates
-  bool limited = false;    ///< the acting power is not the one that was wanted
-  double reference = 0.0;  ///< in m, or in W in open loop
-  double model_m = 0.0;    ///< of the reference model: what tracking is measured against
+  bool trusted = false;     ///< the estimates
+  bool limited = false;     ///< the acting power is not the one that was wanted
+  bool proof_off = false;   ///< proof_of_response = false
+  bool oscillated = false;  ///< the controller that follows has seen its loop oscillate
+  double reference = 0.0;   ///< in m, or in W in open loop
+  double model_m = 0.0;     ///< of the reference model: what tracking is measured against
   double position_m = 0.0;
   double wanted_W = 0.0;
   double applied_W = 0.0;  ///< after limits and quantisation
@@ -65,6 +67,7 @@ struct Snapshot {
   std::uint8_t aside = 0;  ///< whose turn it is: place in aside_names, each within 13 ticks
   float progress = 0.0F;   ///< of identify and calibrate, 0 to 1
   ModeResult result = ModeResult::none;
+  std::uint8_t identify_notes = 0;  ///< bits of IdentifyNote, of the last identify that ended
   /// One detector's margin in turn; each comes round within 55 ticks.
   Fault turn = Fault::none;
   detectors::Margin margin;

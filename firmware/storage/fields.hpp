@@ -15,7 +15,7 @@ struct Field {
 };
 
 /// In the order of the file; the fields of a table stand together.
-inline constexpr std::array<Field, 13> fields{{
+inline constexpr std::array<Field, 19> fields{{
     {"muscle", "thermal_mass_J_per_K",
      [](Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
     {"muscle", "heat_transfer_W_per_K",
@@ -36,12 +36,24 @@ inline constexpr std::array<Field, 13> fields{{
     {"senses", "current_gain", [](Learned& l) -> double& { return l.senses.current_gain; }},
     {"senses", "error_ratio", [](Learned& l) -> double& { return l.senses.error_ratio; }},
     {"senses", "compared_s", [](Learned& l) -> double& { return l.senses.compared_s; }},
+    {"heat", "time_constant_s", [](Learned& l) -> double& { return l.heat.time_constant_s; }},
+    {"heat", "time_constant_at_W", [](Learned& l) -> double& { return l.heat.time_constant_at_W; }},
+    {"heat", "steady_rise_K", [](Learned& l) -> double& { return l.heat.steady_rise_K; }},
+    {"heat", "steady_error_K", [](Learned& l) -> double& { return l.heat.steady_error_K; }},
+    {"heat", "steady_min_W", [](Learned& l) -> double& { return l.heat.steady_min_W; }},
+    {"heat", "steady_max_W", [](Learned& l) -> double& { return l.heat.steady_max_W; }},
 }};
 
-/// A set without a comparison has no table of senses, as no file had before there was one; one
-/// without a muscle has no other.
+/// Tables that a file may lack: a set without a comparison has none of senses, and one of which
+/// nothing of heat is known none of that. No file had them before there was either.
+inline constexpr bool may_lack(std::string_view table) {
+  return table == "senses" || table == "heat";
+}
+/// A set without a muscle has no other table.
 inline bool is_stored(const Field& field, const Learned& learned) {
-  return field.table == "senses" ? learned.senses != SenseComparison{} : learned.knows_muscle;
+  if (field.table == "senses") return learned.senses != SenseComparison{};
+  if (field.table == "heat") return learned.heat != HeatFacts{};
+  return learned.knows_muscle;
 }
 
 }  // namespace supercoil::storage

@@ -96,7 +96,8 @@ tl::expected<void, std::string> LearnedStore::forget() {
 bool LearnedStore::knows_muscle() const {
   const auto may_know = [&](const std::string& path) {
     const Examined file = examine(*files_, path);
-    return file.damaged() || (file.learned && file.learned->knows_muscle);
+    return file.damaged() ||
+           (file.learned && (file.learned->knows_muscle || file.learned->heat != HeatFacts{}));
   };
   return may_know(path_) || may_know(previous_path_);
 }

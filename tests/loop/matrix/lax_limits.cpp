@@ -64,8 +64,7 @@ std::vector<LaxLimit> of_sensors() {
 std::vector<LaxLimit> of_heater() {
   using C = ChannelSupervision;
   return {
-      {"open_min_duty", Fault::heater_open, channel(&C::open_min_duty),
-       "no situation stays between 2 and 6 % of duty, and a probe without current is a fault"},
+      {"open_min_duty", Fault::heater_open, channel(&C::open_min_duty)},
       {"open_s", Fault::heater_open, channel(&C::open_s)},
       {"least_resistance", Fault::heater_short, channel(&C::least_resistance_Ohm, lax_below)},
       {"short_s", Fault::heater_short, channel(&C::short_s)},

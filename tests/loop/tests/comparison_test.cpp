@@ -1,5 +1,6 @@
 // Senses that lie, compared with a meter.
 #include <cmath>
+#include <utility>
 
 #include <CppUTest/TestHarness.h>
 
@@ -63,6 +64,15 @@ TEST_GROUP(Comparison) {
       sum_A += rig.muscle().true_power_W() / supply_V;
     }
     return sum_A / 100.0;
+  }
+  /// What the channel gives when it is asked for 4 W, and whether the proof of response limits it.
+  std::pair<double, bool> given_of_4_W(test::Rig & asked) {
+    for (int i = 0; i < 20; ++i) {
+      asked.send(Verb::power, 4.0);
+      asked.run(0.05);
+    }
+    const Snapshot& s = asked.snapshot();
+    return {s.applied_W, s.limited_by == LimitedBy::unproven};
   }
   void check(Refusal expected, Refusal refusal) {
     STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(refusal)).c_str());
@@ -190,6 +200,40 @@ TEST(Comparison, IsForgottenWhenAskedTo) {
   CHECK(forgotten->senses == storage::SenseComparison{});
   rig.run(0.1);
   DOUBLES_EQUAL(supply_gain * supply_V, rig.snapshot().supply_V, 0.02);
+}
+
+TEST(Comparison, TellsTheProofAtOnceHowFarThePowerIsKnown) {
+  settings.firmware.channels[0].muscle_identified = true;
+  test::Rig known(settings);
+  known.boot();
+  known.arm();
+  known.run(0.1);
+  const auto [wide_W, wide_limited] = given_of_4_W(known);
+  // At 9 V, the supply's lowest, the truth may be 15 V, and the resistance 30 % off.
+  const ProofSettings worst = proof_settings(settings.firmware.channels[0], settings.firmware);
+  DOUBLES_EQUAL(1.3 * std::pow(15.0 / 9.0, 2), worst.max_power_ratio, 1e-9);
+  CHECK(wide_limited);
+  CHECK_COMPARE(wide_W, <, 1.6);
+  for (const double power_W : {0.5, 1.0}) {
+    for (int i = 0; i < 50; ++i) {
+      known.send(Verb::power, power_W);
+      known.run(0.05);
+    }
+    known.send(Verb::compare_supply, supply_V);
+    known.send(Verb::compare_current, known.muscle().true_power_W() / supply_V);
+    known.run_ticks(1);
+  }
+  CHECK(known.loop.channel(0).senses().compared());
+  const auto [narrow_W, narrow_limited] = given_of_4_W(known);
+  CHECK_FALSE(narrow_limited);
+  CHECK_COMPARE(narrow_W, >, 3.7);
+  known.send(Verb::rest);
+  known.run_ticks(1);
+  known.send(Verb::compare_supply, 0.0);
+  known.run_ticks(1);
+  const auto [forgotten_W, forgotten_limited] = given_of_4_W(known);
+  CHECK(forgotten_limited);
+  CHECK_COMPARE(forgotten_W, <, 1.6);
 }
 
 TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {

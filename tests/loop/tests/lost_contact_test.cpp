@@ -5,6 +5,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "loop/row.hpp"
 #include "loop/support/rig.hpp"
 
 using namespace supercoil;
@@ -163,6 +164,15 @@ TEST(LostContact, IsAlsoThatOfABlockedMuscle) {
   muscle.rig.muscle().trouble.slack = true;
   muscle.run(10.0);
   check_found(muscle, 120.0);
+}
+
+TEST(LostContact, IsToldToBeLookedForByNobodyWhereTheProofIsOff) {
+  for (const bool wanted : {true, false}) {
+    test::RigSettings settings = deaf_board(true);
+    settings.firmware.channels[Rig::tested].supervision.proof_of_response = wanted;
+    const LostContact muscle(settings);
+    CHECK(((row_of(muscle.rig.snapshot()).flags & row_proof_off) == 0) == wanted);
+  }
 }
 
 TEST(LostContact, IsNoneWhereAMuscleIsWrappedAndItsPositionShowsIt) {

@@ -52,7 +52,8 @@ TEST(HotEnd, MayBeAnythingUpToTheConfiguredAtBoot) {
   Heat heat(settings, {}, tick_s);
   DOUBLES_EQUAL(settings.ambient_C + settings.boot_rise_K, heat.hottest_C(), 1e-9);
   DOUBLES_EQUAL(settings.coldest_ambient_C, heat.coldest_C(), 1e-9);
-  DOUBLES_EQUAL(0.0, heat.expected_m(), 0.0);
+  for (const double expected_m : heat.expected_m())
+    DOUBLES_EQUAL(0.0, expected_m, 0.0);
 }
 
 TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
@@ -62,5 +63,10 @@ TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
     heat.step(1.0, 3.0, 2.0);
   DOUBLES_EQUAL(1.0 / settings.bounds.highest_transfer_W_per_K, heat.coldest_K(), 0.01);
   DOUBLES_EQUAL(3.0 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
-  DOUBLES_EQUAL(2.0 * muscle.dc_gain_m_per_W(), heat.expected_m(), 1e-5);
+  const double metres_per_K = muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;
+  DOUBLES_EQUAL(2.0 * muscle.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);
+  DOUBLES_EQUAL(2.0 / settings.bounds.highest_transfer_W_per_K * metres_per_K, heat.expected_m()[1],
+                1e-5);
+  DOUBLES_EQUAL(2.0 / settings.bounds.lowest_transfer_W_per_K * metres_per_K, heat.expected_m()[2],
+                1e-5);
 }

@@ -1,5 +1,7 @@
 #include "board/power_bounds.hpp"
 
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
@@ -70,6 +72,18 @@ TEST(PowerBounds, HoldTheTruthWithinWhatAComparisonLeft) {
     const double current_gain = 1.0 / *test::reals(0.97, 1.03);
     check_holds(compared(0.03), read(*test::reals(0.0, 1.0), 12.0, supply_gain, current_gain));
   }));
+}
+
+TEST(PowerBounds, AreNoWiderAtAnySupplyThanTheWorst) {
+  CHECK(rc::check("a supply that is no fault", [] {
+    const double supply_V = *test::reals(10.8, 13.2);
+    for (const PowerBounds& bounds : {PowerBounds(settings()), compared(0.02)}) {
+      const auto here = bounds.true_over_told(supply_V);
+      const auto worst = bounds.true_over_told();
+      RC_ASSERT(here.max <= worst.max + 1e-12 && here.min >= worst.min - 1e-12);
+    }
+  }));
+  DOUBLES_EQUAL(1.3 * std::pow(13.2 / 10.8, 2), PowerBounds(settings()).true_over_told().max, 1e-9);
 }
 
 TEST(PowerBounds, OfComparedSensesAreNarrow) {

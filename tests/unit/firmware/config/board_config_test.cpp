@@ -67,6 +67,8 @@ TEST(BoardConfig, SlowExampleFitsItsBuses) {
   check_says(text, "  i2c-3: 0.55 ms, 5.5 %, at 400 kHz\n");
   check_says(text,
              "channels 1, 2, 3, 4: sensors_disagree: heater.temperature_coefficient_per_K is 0");
+  // Never compared: the supply may be 13.2 V where 10.8 V are read.
+  check_says(text, "once identified, the muscle gets no more than 2.27 W (limited_by unproven)");
   check_says(text, "recorder 700 KiB: 16 s of ticks, 112 bytes a channel and tick");
 }
 
@@ -171,6 +173,21 @@ TEST(BoardConfig, ThermalFuseIsAskedForAndJudgedAgainstTheTrip) {
     check_says(text, "its thermal fuse opens at " + std::string(suits) + " °C");
     CHECK_TEXT(text.find("thermal fuse: ") == std::string::npos, text.c_str());
   }
+}
+
+TEST(BoardConfig, DescriptionTellsWhatNarrowsTheTemperaturesInterval) {
+  check_says(describe(read(test::small_board)),
+             "not weighed (thermal.weighed_mass_error_ratio): position and power tell the time "
+             "constant only; no thermometer was read (compare_rise)");
+  BoardConfig weighed = read(test::small_board_with(
+      "[channel.limits]",
+      "weighed_mass_J_per_K = 0.16\nweighed_mass_error_ratio = 0.05\n[channel.limits]"));
+  check_says(describe(weighed), "from 0.152 to 0.168 J/K and 0.045 to 0.18 W/K");
+  check_says(describe(weighed), "weighed to 5 %; identify tells the time constant");
+  weighed.settings.channels[0].heat = {1.8, 2.4, 21.5, 1.2, 1.5, 1.5};
+  check_says(describe(weighed),
+             "weighed to 5 %; time constant 1.8 s: 0.0676 to 0.117 W/K from 18.9 to 27 K above "
+             "the air; 21.5 K above the air read at 1.5 W");
 }
 
 TEST(BoardConfig, MemoryCountsRingAndRecorder) {

@@ -57,6 +57,13 @@ TEST(WrongBoard, ThermalFuseThatNobodyMakes) {
                  "there is no thermal fuse");
 }
 
+TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
+  check_replaced("lowest_mass_J_per_K = 0.13",
+                 "lowest_mass_J_per_K = 0.13\nweighed_mass_error_ratio = 0.03",
+                 "b.toml:36: channel[1].thermal.weighed_mass_error_ratio = 0.03: needs "
+                 "weighed_mass_J_per_K: what is only believed narrows nothing");
+}
+
 TEST(WrongBoard, TextForANumber) {
   check_replaced("max_W = 4.5", "max_W = '4.5 W'",
                  "b.toml:40: channel[1].limits.max_W = '4.5 W': must be a number, 0.001 to 1000");

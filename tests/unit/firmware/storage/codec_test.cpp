@@ -25,6 +25,7 @@ void check_answer(const char* expected, const std::string& text) {
 Learned full_set() {
   Learned set;
   set.senses = {1.25, 0.875, 0.0625, 1795219200.0};
+  set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
   return set;
 }
 
@@ -89,6 +90,18 @@ TEST(Codec, AComparisonHasATableOfItsOwn) {
       encode(full_set()).c_str());
 }
 
+TEST(Codec, WhatIsKnownOfHeatHasATableOfItsOwn) {
+  STRCMP_CONTAINS(
+      "\n[heat]\ntime_constant_s = 1.75\ntime_constant_at_W = 2.25\nsteady_rise_K = 21.5\n"
+      "steady_error_K = 1.25\nsteady_min_W = 1.5\nsteady_max_W = 1.625\n",
+      encode(full_set()).c_str());
+  Learned set = full_set();
+  CHECK(decode(encode(set)) == set);
+  set.heat = {};
+  CHECK(encode(set).find("heat]") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+}
+
 TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   Learned set = full_set();
   set.knows_muscle = false;
@@ -98,6 +111,7 @@ TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   CHECK(decode(encode(set)) == set);
   // And neither, when the comparison was forgotten as well.
   set.senses = {};
+  set.heat = {};
   CHECK(decode(encode(set)) == set);
 }
 

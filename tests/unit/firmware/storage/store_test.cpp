@@ -66,6 +66,19 @@ TEST(LearnedStore, KeepsTheComparisonOfTheSensesWhenTheMuscleIsForgotten) {
   }
 }
 
+TEST(LearnedStore, ForgetsWithTheMuscleWhatIsKnownOfItsHeat) {
+  for (const bool knows_muscle : {true, false}) {
+    Learned set = nth_set(1);
+    set.senses = {1.25, 0.875, 0.0625, 1.7e9};
+    set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
+    set.knows_muscle = knows_muscle;
+    CHECK(store.save(set).has_value());
+    CHECK(store.forget().has_value());
+    CHECK(store.load()->learned->heat == HeatFacts{});
+    CHECK(store.load()->learned->senses == set.senses);
+  }
+}
+
 TEST(LearnedStore, StillSavesWhenTheVersionsHaveRunOut) {
   Learned last = nth_set(1);
   last.version = std::numeric_limits<std::uint32_t>::max();

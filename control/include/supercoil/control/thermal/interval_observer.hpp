@@ -15,6 +15,42 @@ struct BasicThermalBounds {
 };
 using ThermalBounds = BasicThermalBounds<double>;
 
+/// One end of an interval. Exact over the tick: it comes nearer to its rest value and never passes
+/// it, so the heat flow keeps its sign.
+template <class Real>
+struct BasicIntervalEnd {
+  Real rest_K_per_W;
+  Real heating_decay;
+  Real cooling_decay;
+
+  Real moved(Real rise_K, Real power_W) const {
+    const Real rest_K = power_W * rest_K_per_W;
+    return rest_K + (rise_K - rest_K) * (rest_K > rise_K ? heating_decay : cooling_decay);
+  }
+};
+
+template <class Real>
+Real thermal_decay(Real transfer_W_per_K, Real mass_J_per_K, Real step_s) {
+  using std::exp;
+  return exp(-transfer_W_per_K / mass_J_per_K * step_s);
+}
+/// Of a muscle with at least this heat transfer, and a mass within the bounds.
+template <class Real>
+BasicIntervalEnd<Real> hot_end(Real transfer_W_per_K, const BasicThermalBounds<Real>& bounds,
+                               Real step_s) {
+  return {1.0 / transfer_W_per_K,
+          thermal_decay(transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s),
+          thermal_decay(transfer_W_per_K, bounds.highest_mass_J_per_K, step_s)};
+}
+/// Of one with at most this heat transfer.
+template <class Real>
+BasicIntervalEnd<Real> cold_end(Real transfer_W_per_K, const BasicThermalBounds<Real>& bounds,
+                                Real step_s) {
+  return {1.0 / transfer_W_per_K,
+          thermal_decay(transfer_W_per_K, bounds.highest_mass_J_per_K, step_s),
+          thermal_decay(transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s)};
+}
+
 /// An interval observer of ψφ̇ = −ηφ + P (paper, Eq. (1)). φ̇ lies between the least and the greatest
 /// of (P − ηφ)/ψ over the bounds, so by the comparison principle φ stays between the two solutions,
 /// also when ψ and η change with time inside their bounds. Simply taking both lower bounds is not
@@ -27,12 +63,8 @@ class BasicIntervalObserver {
  public:
   /// All bounds positive and in order; step_s > 0.
   BasicIntervalObserver(const BasicThermalBounds<Real>& bounds, Real step_s)
-      : hot_{1.0 / bounds.lowest_transfer_W_per_K,
-             decay(bounds.lowest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s),
-             decay(bounds.lowest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s)},
-        cold_{1.0 / bounds.highest_transfer_W_per_K,
-              decay(bounds.highest_transfer_W_per_K, bounds.highest_mass_J_per_K, step_s),
-              decay(bounds.highest_transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s)} {}
+      : hot_(hot_end(bounds.lowest_transfer_W_per_K, bounds, step_s)),
+        cold_(cold_end(bounds.highest_transfer_W_per_K, bounds, step_s)) {}
 
   /// least_W, most_W ≥ 0: what was applied since the last tick lies between them.
   void step(Real least_W, Real most_W) {
@@ -52,26 +84,8 @@ class BasicIntervalObserver {
   }
 
  private:
-  /// One end of the interval. Exact over the tick: it comes nearer to its rest value and never
-  /// passes it, so the heat flow keeps its sign.
-  struct End {
-    Real rest_K_per_W;
-    Real heating_decay;
-    Real cooling_decay;
-
-    Real moved(Real rise_K, Real power_W) const {
-      const Real rest_K = power_W * rest_K_per_W;
-      return rest_K + (rise_K - rest_K) * (rest_K > rise_K ? heating_decay : cooling_decay);
-    }
-  };
-
-  static Real decay(Real transfer_W_per_K, Real mass_J_per_K, Real step_s) {
-    using std::exp;
-    return exp(-transfer_W_per_K / mass_J_per_K * step_s);
-  }
-
-  End hot_;
-  End cold_;
+  BasicIntervalEnd<Real> hot_;
+  BasicIntervalEnd<Real> cold_;
   Real lowest_K_ = 0.0;
   Real highest_K_ = 0.0;
 };

@@ -65,18 +65,33 @@ inline rc::Gen<storage::SenseComparison> comparisons() {
                             any_magnitude(1e-3, 0.2), any_magnitude(1.0, 2e11)));
 }
 
+inline rc::Gen<storage::HeatFacts> heat_facts() {
+  return rc::gen::oneOf(
+      rc::gen::just(storage::HeatFacts{}),
+      rc::gen::apply(
+          [](double time_s, double at_W, double rise_K, double error_K, double power_W) {
+            return storage::HeatFacts{time_s, at_W, rise_K, error_K, power_W, 1.01 * power_W};
+          },
+          any_magnitude(1e-3, 1e4), any_magnitude(1e-3, 1e3), any_magnitude(1e-3, 300.0),
+          any_magnitude(1e-3, 100.0), any_magnitude(1e-3, 900.0)));
+}
+
 /// Any set that passes check(), the ends of the ranges among them.
 inline rc::Gen<storage::Learned> learned_sets() {
   return rc::gen::apply(
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
          double scale, double resistance, const storage::SenseComparison& senses,
-         std::uint32_t version) {
-        return storage::Learned{
-            {psi, eta, rho, mu, mass, gamma}, {offset, scale, resistance}, senses, version};
+         const storage::HeatFacts& heat, std::uint32_t version) {
+        return storage::Learned{{psi, eta, rho, mu, mass, gamma},
+                                {offset, scale, resistance},
+                                senses,
+                                version,
+                                true,
+                                heat};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),
-      any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4), comparisons(),
+      any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4), comparisons(), heat_facts(),
       rc::gen::resize(100, rc::gen::arbitrary<std::uint32_t>()));
 }
 

@@ -1,0 +1,102 @@
+// How hot the muscle can be, where its heat transfer is known at some rises better than at others.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "supercoil/control/thermal/interval_observer.hpp"
+
+namespace supercoil::control {
+
+/// What is known of η of a muscle whose rise is between two. Colder it may be less, hotter more: as
+/// the cube root of the rise, which free convection never exceeds, and radiation not with it as
+/// long as it is less than a third (docs/safety.md). It never falls with the rise.
+struct TransferSpan {
+  double min_W_per_K = 0.0;
+  double max_W_per_K = INFINITY;
+  double from_K = 0.0;
+  double to_K = INFINITY;
+
+  double lowest(double rise_K) const {
+    return rise_K >= from_K ? min_W_per_K : min_W_per_K * std::cbrt(rise_K / from_K);
+  }
+  double highest(double rise_K) const {
+    return rise_K <= to_K ? max_W_per_K : max_W_per_K * std::cbrt(rise_K / to_K);
+  }
+};
+
+/// The interval observer with bounds of η for each band of rises. An end goes by the bound at its
+/// own rise: a muscle that is beyond that end has no less of it, or no more. The bounds may be set
+/// anew at any time; the ends go on from where they are.
+class RiseIntervalObserver {
+ public:
+  /// step_s > 0.
+  RiseIntervalObserver(const ThermalBounds& bounds, double step_s) : step_s_(step_s) {
+    set(bounds, {});
+  }
+
+  /// Within `bounds`, and within each of the spans as far as that leaves anything.
+  void set(const ThermalBounds& bounds, std::span<const TransferSpan> spans) {
+    for (std::size_t i = 0; i < bands; ++i) {
+      double lowest = bounds.lowest_transfer_W_per_K;
+      double highest = bounds.highest_transfer_W_per_K;
+      const double from_K = band_K * static_cast<double>(i);
+      for (const TransferSpan& span : spans) {
+        lowest = std::max(lowest, std::min(span.lowest(from_K), bounds.highest_transfer_W_per_K));
+        // The last band has no end.
+        if (i + 1 < bands) highest = std::min(highest, span.highest(from_K + band_K));
+      }
+      highest = std::max(highest, bounds.lowest_transfer_W_per_K);
+      hot_[i] = hot_end(lowest, bounds, step_s_);
+      cold_[i] = cold_end(highest, bounds, step_s_);
+    }
+  }
+
+  /// least_W, most_W ≥ 0: what was applied since the last tick lies between them.
+  void step(double least_W, double most_W) {
+    // Where an end moves into another band, the bound must hold in both.
+    const std::size_t hot = band(highest_K_);
+    const double highest_K = hot_[hot].moved(highest_K_, most_W);
+    const std::size_t cooler = band(highest_K);
+    highest_K_ = cooler < hot ? hot_[cooler].moved(highest_K_, most_W) : highest_K;
+    const std::size_t cold = band(lowest_K_);
+    const double lowest_K = cold_[cold].moved(lowest_K_, least_W);
+    const std::size_t warmer = band(lowest_K);
+    lowest_K_ = warmer > cold ? cold_[warmer].moved(lowest_K_, least_W) : lowest_K;
+  }
+
+  /// Temperature rise over ambient.
+  double lowest_K() const { return lowest_K_; }
+  double highest_K() const { return highest_K_; }
+
+  /// After a start whose history is unknown: anything from 0 to at_most_K.
+  void reset(double at_most_K) {
+    lowest_K_ = 0.0;
+    highest_K_ = at_most_K;
+  }
+  /// From the ends that another one has reached.
+  void start_from(const RiseIntervalObserver& other) {
+    lowest_K_ = other.lowest_K_;
+    highest_K_ = other.highest_K_;
+  }
+
+ private:
+  static constexpr std::size_t bands = 100;
+  static constexpr double band_K = 2.0;
+
+  static std::size_t band(double rise_K) {
+    constexpr auto last = static_cast<double>(bands - 1);
+    return static_cast<std::size_t>(std::clamp(rise_K / band_K, 0.0, last));
+  }
+
+  double step_s_;
+  std::array<BasicIntervalEnd<double>, bands> hot_{};
+  std::array<BasicIntervalEnd<double>, bands> cold_{};
+  double lowest_K_ = 0.0;
+  double highest_K_ = 0.0;
+};
+
+}  // namespace supercoil::control

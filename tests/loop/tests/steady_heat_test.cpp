@@ -1,0 +1,136 @@
+// A thermometer that a person reads while the muscle is in steady heat, and a mass that was
+// weighed.
+#include <optional>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+
+TEST_GROUP(SteadyHeatRead) {
+  static test::RigSettings compared_board() {
+    test::RigSettings s = test::rough_board();
+    s.firmware.channels[0].senses.error_ratio = 0.02;
+    return s;
+  }
+  test::RigSettings settings = compared_board();
+  std::optional<test::Rig> rig_;
+
+  test::Rig& rig() {
+    if (!rig_) {
+      rig_.emplace(settings);
+      rig_->boot();
+      rig_->arm();
+      rig_->run(0.2);
+    }
+    return *rig_;
+  }
+  void hold(double power_W, double time_s) {
+    for (double end_s = rig().time_s() + time_s; rig().time_s() < end_s;) {
+      rig().send(Verb::power, power_W);
+      rig().run(0.05);
+    }
+  }
+  Refusal read(double rise_K) {
+    rig().last_refusal = Refusal::none;
+    rig().send(Verb::compare_rise, rise_K);
+    rig().run_ticks(1);
+    return rig().last_refusal;
+  }
+  void check(Refusal expected, Refusal refusal) {
+    STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(refusal)).c_str());
+  }
+  double true_rise_K() {
+    return rig().muscle().plant().temperature_rise_K();
+  }
+  double width_K() {
+    return rig().snapshot().hottest_C - rig().snapshot().coldest_C;
+  }
+  std::optional<storage::Learned> lesson() {
+    storage::Lesson lesson;
+    rig().loop.channel(0).take_lesson(lesson);
+    return lesson;
+  }
+};
+
+TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
+  hold(1.5, 24.0);
+  const double wide_K = width_K();
+  check(Refusal::none, read(true_rise_K() + 0.9));
+  const auto kept = lesson();
+  CHECK(kept.has_value());
+  CHECK(kept->heat.was_read());
+  CHECK_FALSE(kept->knows_muscle);
+  hold(1.5, 20.0);
+  CHECK_COMPARE(width_K(), <, 0.25 * wide_K);
+  for (const double power_W : {4.0, 0.3, 2.0, 0.0}) {
+    hold(power_W, 8.0);
+    CHECK_FALSE(rig().interval_missed);
+  }
+  CHECK(rig().fault() == Fault::none);
+
+  // And at the next start.
+  settings.firmware.channels[0].heat = kept->heat;
+  rig_.reset();
+  hold(1.5, 30.0);
+  CHECK_COMPARE(width_K(), <, 0.25 * wide_K);
+  CHECK_FALSE(rig().interval_missed);
+}
+
+TEST(SteadyHeatRead, IsRefusedWhereTheMuscleMayNotBeInSteadyHeat) {
+  check(Refusal::wrong_state, read(20.0));
+  hold(1.0, 24.0);
+  hold(1.5, 20.0);
+  check(Refusal::not_ready, read(true_rise_K()));
+  hold(1.5, 4.0);
+  check(Refusal::out_of_range, read(3.0 * true_rise_K()));
+  check(Refusal::wrong_state, read(0.0));
+  const double wide_K = width_K();
+  hold(1.5, 5.0);
+  DOUBLES_EQUAL(wide_K, width_K(), 0.2);
+  CHECK_FALSE(lesson().has_value());
+}
+
+TEST(SteadyHeatRead, NeedsComparedSenses) {
+  settings.firmware.channels[0].senses = {};
+  hold(1.5, 26.0);
+  check(Refusal::not_ready, read(true_rise_K()));
+}
+
+TEST(SteadyHeatRead, IsForgottenOnDemandAndWithTheComparisonOfTheSenses) {
+  for (const Verb verb : {Verb::compare_rise, Verb::compare_supply, Verb::store}) {
+    rig_.reset();
+    hold(1.5, 24.0);
+    const double wide_K = width_K();
+    check(Refusal::none, read(true_rise_K()));
+    hold(1.5, 10.0);
+    CHECK_COMPARE(width_K(), <, 0.25 * wide_K);
+    rig().send(Verb::rest);
+    rig().run(0.1);
+    rig().send(verb, 0.0);
+    rig().run(0.1);
+    hold(1.5, 25.0);
+    CHECK_COMPARE(width_K(), >, 0.95 * wide_K);
+    CHECK_FALSE(rig().interval_missed);
+  }
+}
+
+TEST(SteadyHeatRead, AWeighedMassAndIdentifyTellTheHeatTransfer) {
+  for (const bool weighed : {false, true}) {
+    settings.firmware.channels[0].thermal.mass_error_ratio = weighed ? 0.03 : 0.0;
+    rig_.reset();
+    rig().heat(test::Task::identify);
+    rig().run(61.0);
+    CHECK(rig().state() == State::armed);
+    // Whatever identify itself says of the muscle.
+    const auto found = lesson();
+    CHECK((found.has_value() && found->heat.knows_time_constant()) == weighed);
+    if (weighed) DOUBLES_EQUAL(0.162 / 0.089, found->heat.time_constant_s, 0.03);
+    rig().task = test::Task::nothing;
+    hold(1.5, 25.0);
+    const double most_K = 1.04 * 1.5 / 0.089 * 1.25 / 0.97;
+    CHECK((rig().snapshot().hottest_C - 25.0 < most_K + 1.0) == weighed);
+    CHECK_FALSE(rig().interval_missed);
+  }
+}

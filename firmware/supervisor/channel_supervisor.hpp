@@ -25,8 +25,8 @@ struct Evidence {
   double duty = 0.0;     ///< as the current sense averages it
   int set_step = 0;
   int read_back = -1;
-  bool devices_ok = true;    ///< every write of the last tick was taken
-  double expected_m = 0.0;   ///< where the model of the muscle is
+  bool devices_ok = true;                           ///< every write of the last tick was taken
+  detectors::NotResponding::Expected expected_m{};  ///< where the models of the muscle are
   bool unanswered = false;   ///< the muscle was asked to prove that it answers, and did not,
   detectors::Margin answer;  ///< and by how much
   double hottest_C = 0.0;

@@ -13,7 +13,7 @@ namespace {
 constexpr double max_answer_m = 20e-6;
 constexpr double max_counts = 2.0;
 /// Of the channel's greatest power.
-constexpr double max_power_ratio = 0.1;
+constexpr double max_amplitude_ratio = 0.1;
 /// What takes longer is no dither.
 constexpr double longest_s = 3.0;
 /// 0.2 s is the mechanical answer of the paper's muscle; slower ones need longer halves.
@@ -56,7 +56,7 @@ Dither dither_for(const control::PhysicalParameters& muscle, const SensorStep& s
     Dither dither;
     dither.half_steps = std::max(2, static_cast<int>(std::lround(half_s / step_s)));
     const double per_W_m = greatest_answer_m(motion, dither, steps);
-    dither.amplitude_W = std::min(max_m / per_W_m, max_power_ratio * max_W);
+    dither.amplitude_W = std::min(max_m / per_W_m, max_amplitude_ratio * max_W);
     dither.decided_s = decided_s(motion, dither, sensor, steps, step_s);
     if (dither.decided_s < best.decided_s || dither.decided_s <= in_time_s) best = dither;
   }

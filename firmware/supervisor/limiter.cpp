@@ -5,6 +5,12 @@
 
 namespace supercoil {
 
+double Limiter::max_W(double temperature_C) const {
+  if (temperature_C <= settings_.derate_from_C) return max_W();
+  const double span_C = settings_.derate_to_C - settings_.derate_from_C;
+  return max_W() * std::max(0.0, (settings_.derate_to_C - temperature_C) / span_C);
+}
+
 Limiter::Result Limiter::step(double wanted_W, double temperature_C) {
   Result result{wanted_W, LimitedBy::nothing};
   const auto cap = [&](double most_W, LimitedBy by) {
@@ -15,11 +21,7 @@ Limiter::Result Limiter::step(double wanted_W, double temperature_C) {
   } else {
     if (wanted_W < settings_.min_W) result = {settings_.min_W, LimitedBy::minimum};
     cap(max_W(), LimitedBy::maximum);
-    if (temperature_C > settings_.derate_from_C) {
-      const double span_C = settings_.derate_to_C - settings_.derate_from_C;
-      const double part = std::max(0.0, (settings_.derate_to_C - temperature_C) / span_C);
-      cap(max_W() * part, LimitedBy::temperature);
-    }
+    cap(max_W(temperature_C), LimitedBy::temperature);
     cap(unproven_W_, LimitedBy::unproven);
     cap(last_W_ + rise_W_, LimitedBy::slew);
   }

@@ -57,6 +57,8 @@ class Limiter {
   void set_unproven(double max_W) { unproven_W_ = max_W; }
   double min_W() const { return settings_.min_W; }
   double max_W() const { return most_W_ < settings_.max_W ? most_W_ : settings_.max_W; }
+  /// The same for a muscle that may be so hot.
+  double max_W(double temperature_C) const;
   /// The channel was made safe: the next rise starts from nothing.
   void reset() { last_W_ = 0.0; }
 

@@ -58,8 +58,8 @@ double slowest_s(const ProofSettings& s) {
 }
 
 /// With all the power that there is, from the hottest that it may be, with the least mass.
-double time_to_limit_s(const ProofSettings& s, double hottest_K) {
-  const double full_K = rest_K(s, s.max_W);
+double time_to_limit_s(const ProofSettings& s, double full_W, double hottest_K) {
+  const double full_K = rest_K(s, full_W);
   const double limit_K = s.trip_C - s.thermal.ambient_C;
   if (full_K <= limit_K) return INFINITY;
   if (hottest_K >= limit_K) return 0.0;
@@ -75,19 +75,18 @@ double steps_s(double rate_Hz) {
 ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& muscle,
                      double rate_Hz) {
   ProofPlan plan;
-  const double in_time_s = decided_ratio / loop_ratio * time_to_limit_s(s, hot_end_K(s, s.max_W));
+  const double in_time_s =
+      decided_ratio / loop_ratio * time_to_limit_s(s, s.max_W, hot_end_K(s, s.max_W));
   plan.dither = dither_for(muscle, sensor_of(s, rate_Hz), s.max_W, in_time_s, steps_s(rate_Hz));
   const double W_per_rest_K = s.max_W / rest_K(s, s.max_W);
   plan.safe_W = std::max(0.0, s.derate_from_C - s.thermal.ambient_C) * W_per_rest_K;
-  // Where the hot end is held by so much power, the time to the limit at full power, once cooling
-  // has failed, is provable_ratio of the dither's.
+  // The greatest power with which the hot end, once cooling has failed, has provable_ratio of the
+  // dither's time to the limit: time_to_limit_s() with this power as full and as held.
   const double limit_K = s.trip_C - s.thermal.ambient_C;
-  const double full_K = rest_K(s, s.max_W);
-  const double needed_s = provable_ratio * plan.dither.decided_s;
-  const double hot_K = full_K - (full_K - limit_K) * std::exp(needed_s / slowest_s(s));
-  const bool never = full_K <= limit_K;
-  const double held_W = hot_K * W_per_rest_K / worst_cooling_ratio;
-  plan.provable_W = never ? s.max_W : std::clamp(held_W, std::min(plan.safe_W, s.max_W), s.max_W);
+  const double growth = std::exp(provable_ratio * plan.dither.decided_s / slowest_s(s));
+  const double provable_K = limit_K / (1.0 - (1.0 - worst_cooling_ratio) / growth);
+  const bool decides = std::isfinite(plan.dither.decided_s) || rest_K(s, s.max_W) <= limit_K;
+  plan.provable_W = std::min(s.max_W, decides ? provable_K * W_per_rest_K : plan.safe_W);
   return plan;
 }
 
@@ -120,6 +119,18 @@ void Proof::learn(const control::PhysicalParameters& muscle) {
   all_.motion.take_over(before);
   settled_ = false;
   enter(Stage::watching);
+}
+
+void Proof::plan(double max_power_ratio, const control::PhysicalParameters& muscle) {
+  settings_.max_power_ratio = max_power_ratio;
+  plan_ = plan_proof(settings_, muscle, rate_Hz_);
+  dither_place_ = -1;  // of one that may have had other halves
+  allow();
+}
+
+/// As it is given no more than it can prove.
+double Proof::time_to_limit_s(double hottest_K) const {
+  return supercoil::time_to_limit_s(settings_, plan_.provable_W, hottest_K);
 }
 
 void Proof::step(const Input& in) {
@@ -186,7 +197,7 @@ void Proof::judge(double power_W, double hottest_K) {
     enter(Stage::released);
   } else if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) {
     unproven_s_ = 0.0;
-  } else if (unproven_s_ > overdue_ratio * time_to_limit_s(settings_, hottest_K)) {
+  } else if (unproven_s_ > overdue_ratio * time_to_limit_s(hottest_K)) {
     if (stage_ == Stage::watching) enter(Stage::overdue);
   }
   if (block_s_ > longest_block_s) begin_block();
@@ -205,7 +216,11 @@ void Proof::enter(Stage stage) {
   stage_s_ = 0.0;
   low_m_ = high_m_ = all_.expected_m;
   begin_block();
-  switch (stage) {
+  allow();
+}
+
+void Proof::allow() {
+  switch (stage_) {
     case Stage::watching:
       max_W_ = active() ? plan_.provable_W : INFINITY;
       break;
@@ -227,7 +242,7 @@ void Proof::begin_block() {
 
 void Proof::drive_dither(double hottest_K) {
   const double begin_s =
-      decided_ratio * time_to_limit_s(settings_, hottest_K) - loop_ratio * plan_.dither.decided_s;
+      decided_ratio * time_to_limit_s(hottest_K) - loop_ratio * plan_.dither.decided_s;
   const bool due = stage_ == Stage::watching && unproven_s_ > std::max(begin_s, patience_s) &&
                    std::isfinite(plan_.dither.decided_s);
   const int period = 2 * plan_.dither.half_steps;

@@ -24,8 +24,9 @@ struct ProofSettings {
 /// What a proof can do for one muscle: for --check as well.
 struct ProofPlan {
   Dither dither;
-  double safe_W = 0.0;      ///< held for ever, a quarter of the least cooling stays below derating
-  double provable_W = 0.0;  ///< held, contact lost: it is found out before the limit
+  double safe_W = 0.0;  ///< held for ever, a quarter of the least cooling stays below derating
+  /// Held, contact lost, and no more given than this: it is found out before the limit.
+  double provable_W = 0.0;
 };
 ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParameters& muscle,
                      double rate_Hz);
@@ -55,6 +56,8 @@ class Proof {
   void step(const Input& in);
   /// Another muscle is known from now on.
   void learn(const control::PhysicalParameters& muscle);
+  /// True power over what is told of it may be this much from now on, of the same muscle.
+  void plan(double max_power_ratio, const control::PhysicalParameters& muscle);
   /// Every position moved, by a new calibration.
   void recalibrated() { settled_ = false; }
 
@@ -125,7 +128,9 @@ class Proof {
   void rest();
   void judge(double power_W, double hottest_K);
   void judge_release();
+  double time_to_limit_s(double hottest_K) const;
   void enter(Stage stage);
+  void allow();
   void begin_block();
   void drive_dither(double hottest_K);
   bool active() const { return settings_.wanted && known_; }

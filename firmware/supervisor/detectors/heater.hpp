@@ -1,6 +1,10 @@
 // Does the heater do what it is told, and nothing else?
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
 #include "supervisor/detectors/limits.hpp"
 
 namespace supercoil::detectors {
@@ -62,8 +66,9 @@ class StuckOn final : public Detector {
   bool off_ = false;
 };
 
-/// Power in, no motion: compares how far the muscle moved over a window with how far its model says
-/// that it must have. Trips when it moved less than a part of it. "Rose 0.3 of the 2.0 mm expected
+/// Power in, no motion: compares how far the muscle moved over a window with how far its models say
+/// that it must have: as it is believed, and as fast and as slow as the bounds of its heat allow.
+/// Trips when it moved less than a part of what each of them did. "Rose 0.3 of the 2.0 mm expected
 /// in 20 s."
 class NotResponding final : public Detector {
  public:
@@ -74,15 +79,20 @@ class NotResponding final : public Detector {
   };
   NotResponding(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
 
-  /// expected_m: where the model of the muscle is, driven by the applied power.
-  bool step(double position_m, double expected_m) {
+  /// Where the models are, driven by the applied power.
+  using Expected = std::array<double, 3>;
+
+  bool step(double position_m, const Expected& expected_m) {
     if (elapsed_s_ == 0.0) {
       low_ = high_ = position_m;
       expected_low_ = expected_high_ = expected_m;
     }
     elapsed_s_ += step_s_;
     widen(low_, high_, position_m);
-    widen(expected_low_, expected_high_, expected_m);
+    // The models have heat only: a muscle may still be on its way.
+    const bool in_time = elapsed_s_ <= in_time_ratio * settings_.window_s;
+    for (std::size_t i = 0; in_time && i < expected_m.size(); ++i)
+      widen(expected_low_[i], expected_high_[i], expected_m[i]);
     if (elapsed_s_ + 0.5 * step_s_ < settings_.window_s) return false;
     elapsed_s_ = 0.0;
     const Margin seen = margin();
@@ -91,12 +101,16 @@ class NotResponding final : public Detector {
   void reset() { elapsed_s_ = 0.0; }
   /// Of the window so far.
   Margin margin() const override {
-    const double expected = expected_high_ - expected_low_;
+    double expected = expected_high_[0] - expected_low_[0];
+    for (std::size_t i = 1; i < expected_low_.size(); ++i)
+      expected = std::min(expected, expected_high_[i] - expected_low_[i]);
     const bool judged = expected >= settings_.least_expected_m;
     return {high_ - low_, settings_.least_part * expected, true, judged};
   }
 
  private:
+  static constexpr double in_time_ratio = 0.95;  ///< of the window
+
   static void widen(double& low, double& high, double value) {
     low = std::min(low, value);
     high = std::max(high, value);
@@ -107,8 +121,8 @@ class NotResponding final : public Detector {
   double elapsed_s_ = 0.0;
   double low_ = 0.0;
   double high_ = 0.0;
-  double expected_low_ = 0.0;
-  double expected_high_ = 0.0;
+  Expected expected_low_{};
+  Expected expected_high_{};
 };
 
 /// Trips when the PWM reads back another step than was set, for hold_s (a buffered one lags).

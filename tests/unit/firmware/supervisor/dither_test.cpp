@@ -4,25 +4,14 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "supervisor/proof.hpp"
+#include "unit/firmware/support/paper_proof.hpp"
 
 using namespace supercoil;
+using test::paper_proof;
 
 namespace {
 
 constexpr double dither_step_s = 0.01;
-
-/// The paper's muscle under the default limits.
-ProofSettings usual() {
-  ProofSettings s;
-  s.max_power_ratio = 1.05;
-  s.max_W = 4.5;
-  s.derate_from_C = 130.0;
-  s.trip_C = 160.0;
-  s.position_noise_rms_m = 10e-6;
-  s.count_m = 0.6e-6;
-  return s;
-}
 
 double greatest_answer_m(const Dither& dither) {
   ExpectedMotion motion({}, dither_step_s);
@@ -37,14 +26,14 @@ double greatest_answer_m(const Dither& dither) {
 TEST_GROUP(Dither){};
 
 TEST(Dither, MovesTheMuscleBy20MicrometresAtMostAndIsDecidedInHalfASecond) {
-  const ProofPlan plan = plan_proof(usual(), {}, 1000.0);
+  const ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
   CHECK_COMPARE(greatest_answer_m(plan.dither), <=, 20.001e-6);
   CHECK_COMPARE(plan.dither.decided_s, <, 0.5);
   DOUBLES_EQUAL(4.5, plan.provable_W, 1e-9);
 }
 
 TEST(Dither, OfAWholePeriodAddsNoHeat) {
-  const ProofPlan plan = plan_proof(usual(), {}, 1000.0);
+  const ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
   double sum = 0.0;
   for (int i = 0; i < 2 * plan.dither.half_steps; ++i)
     sum += plan.dither.sign(i);
@@ -53,11 +42,30 @@ TEST(Dither, OfAWholePeriodAddsNoHeat) {
 
 TEST(Dither, IsNotNeededBelowThePowerThatAQuarterOfTheLeastCoolingBears) {
   // (130 - 25) K of 0.25 * 0.045 W/K, of which 5 % more may be given than is told.
-  DOUBLES_EQUAL(105.0 * 0.25 * 0.045 / 1.05, plan_proof(usual(), {}, 1000.0).safe_W, 1e-9);
+  DOUBLES_EQUAL(105.0 * 0.25 * 0.045 / 1.05, plan_proof(paper_proof(), {}, 1000.0).safe_W, 1e-9);
+}
+
+TEST(Dither, IsDecidedInTimeAtThePowerThatItAllowsAndNotAtMore) {
+  ProofSettings uncompared = paper_proof();
+  uncompared.max_power_ratio = 1.94;
+  uncompared.position_noise_rms_m = 20e-6;
+  const ProofPlan plan = plan_proof(uncompared, {}, 1000.0);
+  CHECK_COMPARE(plan.safe_W, <, plan.provable_W);
+  CHECK_COMPARE(plan.provable_W, <, uncompared.max_W);
+  // From the hot end that this power holds, with a quarter of the least cooling and no more power.
+  const auto left_s = [](double power_W) {
+    const double transfer_W_per_K = 0.25 * 0.045;
+    const double full_K = 1.94 * power_W / transfer_W_per_K;
+    return 0.13 / transfer_W_per_K * std::log(0.75 * full_K / (full_K - 135.0));
+  };
+  // 1.3 of the answer in open loop in three quarters of the time.
+  const double needed_s = plan.dither.decided_s * 1.3 / 0.75;
+  DOUBLES_EQUAL(needed_s, left_s(plan.provable_W), 1e-6);
+  CHECK_COMPARE(left_s(1.01 * plan.provable_W), <, needed_s);
 }
 
 TEST(Dither, ThatTheNoiseHidesHoldsTheMuscleToTheSafePower) {
-  ProofSettings noisy = usual();
+  ProofSettings noisy = paper_proof();
   noisy.position_noise_rms_m = 200e-6;
   const ProofPlan plan = plan_proof(noisy, {}, 1000.0);
   DOUBLES_EQUAL(plan.safe_W, plan.provable_W, 1e-9);

@@ -65,24 +65,49 @@ TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   const int ticks = ticks_until([&](int tick) {
     const double t = tick * tick_s;
-    return detector.step(0.0003 * t / 20.0, 0.002 * t / 20.0);
+    const double expected = 0.002 * t / 20.0;
+    return detector.step(0.0003 * t / 20.0, {expected, expected, expected});
   });
   LONGS_EQUAL(20000, ticks);
   DOUBLES_EQUAL(0.0003, detector.margin().measured, 1e-6);
-  DOUBLES_EQUAL(0.3 * 0.002, detector.margin().limit, 1e-6);
+  // What is expected in the last second may still come.
+  DOUBLES_EQUAL(0.3 * 0.95 * 0.002, detector.margin().limit, 1e-6);
 }
 
 TEST(HeaterDetectors, NotRespondingIsContentWithAMuscleThatMoves) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int tick) {
     const double expected = 0.011 + 0.009 * std::sin(0.25 * tick * tick_s);
-    return detector.step(0.8 * expected, expected);
+    return detector.step(0.8 * expected, {expected, expected, expected});
   }));
 }
 
 TEST(HeaterDetectors, NotRespondingDoesNotJudgeRest) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
-  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.011); }));
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, {0.011, 0.011, 0.011}); }));
+}
+
+TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
+  // It is held: one that is as slow as is possible still creeps, another has arrived.
+  for (const std::size_t slow : {0U, 1U, 2U}) {
+    NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+    NotResponding::Expected expected{0.011, 0.011, 0.011};
+    LONGS_EQUAL(-1, ticks_until([&](int tick) {
+      expected = {0.011, 0.011, 0.011};
+      expected[slow] += 0.005 * tick * tick_s / 20.0;
+      return detector.step(0.011, expected);
+    }));
+  }
+}
+
+TEST(HeaterDetectors, NotRespondingDoesNotExpectAtOnceWhatIsAskedForAtItsWindowsEnd) {
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  LONGS_EQUAL(-1, ticks_until(
+                      [&](int tick) {
+                        const double expected = tick < 19'500 ? 0.011 : 0.008;
+                        return detector.step(0.011, {expected, expected, expected});
+                      },
+                      20'000));
 }
 
 TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {

@@ -23,6 +23,16 @@ void check(Limiter::Result result, double power_W, LimitedBy by) {
 
 TEST_GROUP(Limiter){};
 
+TEST(Limiter, TellsWhatAHotMuscleMayHave) {
+  Limiter limiter({}, tick_s);
+  DOUBLES_EQUAL(4.5, limiter.max_W(130.0), 1e-12);
+  DOUBLES_EQUAL(2.25, limiter.max_W(145.0), 1e-12);
+  DOUBLES_EQUAL(0.0, limiter.max_W(170.0), 0.0);
+  DOUBLES_EQUAL(0.0, limiter.max_W(std::nan("")), 0.0);
+  limiter.set_most(1.0);
+  DOUBLES_EQUAL(0.5, limiter.max_W(145.0), 1e-12);
+}
+
 TEST(Limiter, LetsPassWhatIsAllowed) {
   Limiter limiter({}, tick_s);
   check(limiter.step(2.0, cool_C), 2.0, LimitedBy::nothing);

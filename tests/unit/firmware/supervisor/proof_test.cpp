@@ -7,22 +7,14 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "unit/firmware/support/paper_proof.hpp"
+
 using namespace supercoil;
+using test::paper_proof;
 
 namespace {
 
 constexpr double proof_tick_s = 1e-3;
-
-ProofSettings paper() {
-  ProofSettings s;
-  s.max_power_ratio = 1.05;
-  s.max_W = 4.5;
-  s.derate_from_C = 130.0;
-  s.trip_C = 160.0;
-  s.position_noise_rms_m = 10e-6;
-  s.count_m = 0.6e-6;
-  return s;
-}
 
 /// The paper's muscle in open loop, its sensor and what keeps the one from the other.
 class Held {
@@ -80,7 +72,7 @@ class Held {
 TEST_GROUP(Proof){};
 
 TEST(Proof, OfALivingMuscleIsFoundAgainAndAgain) {
-  Held muscle(paper());
+  Held muscle(paper_proof());
   muscle.run(600.0);
   CHECK_FALSE(muscle.unanswered);
   CHECK_COMPARE(muscle.dither_ticks, >, 1000);
@@ -89,7 +81,7 @@ TEST(Proof, OfALivingMuscleIsFoundAgainAndAgain) {
 
 TEST(Proof, IsMissedWithinSecondsOfALostContact) {
   for (const double moment_s : {20.0, 20.3, 20.6, 20.9, 21.2}) {
-    Held muscle(paper());
+    Held muscle(paper_proof());
     muscle.run(moment_s);
     muscle.off_sensor = true;
     muscle.run(3.0);
@@ -101,32 +93,48 @@ TEST(Proof, IsMissedWithinSecondsOfALostContact) {
 }
 
 TEST(Proof, IsNoFaultWhereFrictionSwallowsADither) {
-  Held muscle(paper());
+  Held muscle(paper_proof());
   muscle.play_m = 200e-6;
   muscle.run(60.0);
   CHECK_FALSE(muscle.unanswered);
-  DOUBLES_EQUAL(plan_proof(paper(), {}, 1000.0).safe_W, muscle.proof.max_W(), 1e-9);
+  DOUBLES_EQUAL(plan_proof(paper_proof(), {}, 1000.0).safe_W, muscle.proof.max_W(), 1e-9);
 }
 
 TEST(Proof, IsNoFaultWhileALoadSwings) {
-  Held muscle(paper());
+  Held muscle(paper_proof());
   muscle.swing_m = 300e-6;
   muscle.run(60.0);
   CHECK_FALSE(muscle.unanswered);
 }
 
 TEST(Proof, IsNotAskedForAtThePowerThatIsSafeAnyway) {
-  Held muscle(paper());
+  Held muscle(paper_proof());
   muscle.wanted_W = 1.1;
   muscle.run(60.0);
   LONGS_EQUAL(0, muscle.dither_ticks);
 }
 
+TEST(Proof, AllowsWhatItCanProveWithPowerThatIsKnownBetterOrWorse) {
+  ProofSettings uncompared = paper_proof();
+  uncompared.max_power_ratio = 3.0;
+  Held muscle(uncompared);
+  muscle.run(30.0);
+  const double wide_W = muscle.proof.max_W();
+  DOUBLES_EQUAL(plan_proof(uncompared, {}, 1000.0).provable_W, wide_W, 1e-9);
+  CHECK_COMPARE(wide_W, <, 3.0);
+  muscle.proof.plan(1.05, {});
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+  muscle.run(30.0);
+  CHECK_FALSE(muscle.unanswered);
+  muscle.proof.plan(3.0, {});
+  DOUBLES_EQUAL(wide_W, muscle.proof.max_W(), 1e-9);
+}
+
 TEST(Proof, IsNotAskedOfAMuscleThatIsOnlyBelievedNorWhereItIsSwitchedOff) {
-  ProofSettings off = paper();
+  ProofSettings off = paper_proof();
   off.wanted = false;
   for (const bool known : {false, true}) {
-    Held muscle(known ? off : paper(), known);
+    Held muscle(known ? off : paper_proof(), known);
     muscle.run(20.0);
     muscle.off_sensor = true;
     muscle.run(20.0);

@@ -30,6 +30,10 @@ std::uint16_t status_id(std::uint8_t node) {
   return telemetry::id_of(SUPERCOIL_STATUS_FRAME_ID, node);
 }
 
+std::uint16_t estimate_id(std::uint8_t node) {
+  return telemetry::id_of(SUPERCOIL_ESTIMATE_FRAME_ID, node);
+}
+
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting) {
   const supercoil_setting_read_t m{setting};
   return telemetry::packed(SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_SETTING_READ_LENGTH, node, m,

@@ -15,6 +15,8 @@ std::uint16_t acknowledge_id(std::uint8_t node);
 std::uint16_t setting_id(std::uint8_t node);
 /// Of its heartbeat.
 std::uint16_t status_id(std::uint8_t node);
+/// Of what it has learned.
+std::uint16_t estimate_id(std::uint8_t node);
 
 /// Asks for one setting of a node; needs no lease.
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);

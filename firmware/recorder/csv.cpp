@@ -14,7 +14,8 @@ constexpr std::string_view columns =
     "time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,"
     "model_m,position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,"
     "resistance_age_s,coldest_C,hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,"
-    "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result,aside_of,aside\n";
+    "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result,aside_of,aside,"
+    "identify_notes\n";
 
 /// Never in exponents, which some spreadsheets take for text.
 template <class Number>
@@ -57,6 +58,7 @@ void add_row(std::string& line, const Row& row, double time_s) {
   add(line, result_name(row.result));
   add(line, aside_name(row.aside_turn));
   add(line, row.aside);
+  add(line, std::to_string(row.identify_notes));
   line.back() = '\n';
 }
 

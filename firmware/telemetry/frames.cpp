@@ -171,6 +171,8 @@ hal::CanFrame status(Node node, const Row& row, bool leased, std::uint8_t counte
   m.progress = scaled(row.progress, SUPERCOIL_STATUS_PROGRESS_NOT_AVAILABLE_CHOICE,
                       supercoil_status_progress_encode, supercoil_status_progress_decode);
   m.result = row.result;
+  m.proof_off = has(row, row_proof_off);
+  m.oscillated = has(row, row_oscillated);
   m.counter = counter;
   m.protocol_version = protocol_version;
   return packed(SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, node, m, supercoil_status_pack);
@@ -201,6 +203,7 @@ hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
   supercoil_estimate_t m{};
   m.parameter = parameter;
   m.trusted = has(row, row_trusted);
+  m.identify_notes = row.identify_notes;
   m.error_bound =
       scaled(row.error_bound, SUPERCOIL_ESTIMATE_ERROR_BOUND_NOT_AVAILABLE_CHOICE,
              supercoil_estimate_error_bound_encode, supercoil_estimate_error_bound_decode);

@@ -44,7 +44,7 @@ COLUMNS = {
     "Power": {"demanded_W": "wanted_W", "applied_W": "applied_W", "limited_by": "limited_by", "limited": "limited"},
     "Heater": {"supply_V": "supply_V", "current_A": "current_A", "duty": "duty"},
     "Temperature": {"coldest_C": "coldest_C", "hottest_C": "hottest_C"},
-    "Estimate": {"trusted": "trusted", "error_bound": "error_bound", "theta1": "theta1", "theta2": "theta2",
+    "Estimate": {"trusted": "trusted", "identify_notes": "identify_notes", "error_bound": "error_bound", "theta1": "theta1", "theta2": "theta2",
                  "theta3": "theta3", "theta4": "theta4"},
     "Margin": {"fault": "margin_of", "used": "margin_used", "measured": "margin_measured"},
     "Limit": {"fault": "margin_of", "limit": "margin_limit"},
@@ -59,7 +59,7 @@ OTHERWISE = {"Tracking": {"error_m"},
              "Estimate": {*ASIDES, "parameter", "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m",
                           "damping_Ns_per_m"},
              "Timing": {"late_s", "execution_s", "overruns", "dropped_frames"},
-             "Status": {"leased", "counter", "protocol_version"},
+             "Status": {"leased", "counter", "protocol_version", "proof_off", "oscillated"},
              "Emergency": {"fault", "state", "board_time_s"}}
 MUSCLE = ("thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m")
 FROM_MASTER = {"Command", "Acknowledge", "Setting", "SettingWrite", "SettingRead"}  # and its answers

@@ -131,7 +131,7 @@ constexpr std::array<ValueName, 14> names_of_refusal{{
     {13, "other_version"},
 }};
 
-constexpr std::array<ValueName, 10> names_of_result{{
+constexpr std::array<ValueName, 11> names_of_result{{
     {0, "none"},
     {1, "running"},
     {2, "found"},
@@ -142,6 +142,7 @@ constexpr std::array<ValueName, 10> names_of_result{{
     {7, "uncertain"},
     {8, "implausible"},
     {9, "not_stored"},
+    {10, "too_still"},
 }};
 
 constexpr std::array<ValueName, 15> names_of_setting{{
@@ -227,9 +228,10 @@ constexpr std::array<SignalInfo, 2> signals_of_Temperature{{
     {"hottest_C", "degC", 16, 16, Raw::signed_integer, 0.01, -32768, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 17> signals_of_Estimate{{
+constexpr std::array<SignalInfo, 18> signals_of_Estimate{{
     {"parameter", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_parameter},
     {"trusted", "", 8, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"identify_notes", "", 9, 7, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"error_bound", "", 16, 16, Raw::unsigned_integer, 0.0001, 65535, always, {}},
     {"theta1", "m", 32, 32, Raw::floating, 1.0, no_value, 0, {}},
     {"theta2", "W s2/m", 32, 32, Raw::floating, 1.0, no_value, 1, {}},
@@ -291,7 +293,7 @@ constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
     {"setting", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
 }};
 
-constexpr std::array<SignalInfo, 13> signals_of_Status{{
+constexpr std::array<SignalInfo, 15> signals_of_Status{{
     {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
     {"fault", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
@@ -305,6 +307,8 @@ constexpr std::array<SignalInfo, 13> signals_of_Status{{
     {"counter", "", 40, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"protocol_version", "", 48, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"result", "", 56, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_result},
+    {"proof_off", "", 60, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"oscillated", "", 61, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
 constexpr std::array<MessageInfo, 18> all{{

@@ -1386,6 +1386,7 @@ int supercoil_estimate_pack(
 
     dst_p[0] |= pack_left_shift_u8(src_p->parameter, 0u, 0xffu);
     dst_p[1] |= pack_left_shift_u8(src_p->trusted, 0u, 0x01u);
+    dst_p[1] |= pack_left_shift_u8(src_p->identify_notes, 1u, 0xfeu);
     dst_p[2] |= pack_left_shift_u16(src_p->error_bound, 0u, 0xffu);
     dst_p[3] |= pack_right_shift_u16(src_p->error_bound, 8u, 0xffu);
 
@@ -1536,6 +1537,7 @@ int supercoil_estimate_unpack(
 
     dst_p->parameter = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
     dst_p->trusted = unpack_right_shift_u8(src_p[1], 0u, 0x01u);
+    dst_p->identify_notes = unpack_right_shift_u8(src_p[1], 1u, 0xfeu);
     dst_p->error_bound = unpack_right_shift_u16(src_p[2], 0u, 0xffu);
     dst_p->error_bound |= unpack_left_shift_u16(src_p[3], 8u, 0xffu);
 
@@ -1707,6 +1709,26 @@ bool supercoil_estimate_trusted_is_in_range(uint8_t value)
 bool supercoil_estimate_trusted_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 1.0));
+}
+
+uint8_t supercoil_estimate_identify_notes_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_estimate_identify_notes_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_estimate_identify_notes_is_in_range(uint8_t value)
+{
+    return (value <= 127u);
+}
+
+bool supercoil_estimate_identify_notes_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 127.0));
 }
 
 uint16_t supercoil_estimate_error_bound_encode(double value)
@@ -2958,6 +2980,8 @@ int supercoil_status_pack(
     dst_p[5] |= pack_left_shift_u8(src_p->counter, 0u, 0xffu);
     dst_p[6] |= pack_left_shift_u8(src_p->protocol_version, 0u, 0xffu);
     dst_p[7] |= pack_left_shift_u8(src_p->result, 0u, 0x0fu);
+    dst_p[7] |= pack_left_shift_u8(src_p->proof_off, 4u, 0x10u);
+    dst_p[7] |= pack_left_shift_u8(src_p->oscillated, 5u, 0x20u);
 
     return (8);
 }
@@ -2984,6 +3008,8 @@ int supercoil_status_unpack(
     dst_p->counter = unpack_right_shift_u8(src_p[5], 0u, 0xffu);
     dst_p->protocol_version = unpack_right_shift_u8(src_p[6], 0u, 0xffu);
     dst_p->result = unpack_right_shift_u8(src_p[7], 0u, 0x0fu);
+    dst_p->proof_off = unpack_right_shift_u8(src_p[7], 4u, 0x10u);
+    dst_p->oscillated = unpack_right_shift_u8(src_p[7], 5u, 0x20u);
 
     return (0);
 }
@@ -3255,10 +3281,50 @@ double supercoil_status_result_decode(uint8_t value)
 
 bool supercoil_status_result_is_in_range(uint8_t value)
 {
-    return (value <= 9u);
+    return (value <= 10u);
 }
 
 bool supercoil_status_result_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 9.0));
+    return ((value >= 0.0) && (value <= 10.0));
+}
+
+uint8_t supercoil_status_proof_off_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_status_proof_off_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_status_proof_off_is_in_range(uint8_t value)
+{
+    return (value <= 1u);
+}
+
+bool supercoil_status_proof_off_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 1.0));
+}
+
+uint8_t supercoil_status_oscillated_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_status_oscillated_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_status_oscillated_is_in_range(uint8_t value)
+{
+    return (value <= 1u);
+}
+
+bool supercoil_status_oscillated_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 1.0));
 }

@@ -474,6 +474,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_RESULT_UNCERTAIN_CHOICE (7u)
 #define SUPERCOIL_STATUS_RESULT_IMPLAUSIBLE_CHOICE (8u)
 #define SUPERCOIL_STATUS_RESULT_NOT_STORED_CHOICE (9u)
+#define SUPERCOIL_STATUS_RESULT_TOO_STILL_CHOICE (10u)
 
 /* Frame Names. */
 #define SUPERCOIL_EMERGENCY_NAME "Emergency"
@@ -529,6 +530,7 @@ extern "C" {
 #define SUPERCOIL_TEMPERATURE_HOTTEST_C_NAME "hottest_C"
 #define SUPERCOIL_ESTIMATE_PARAMETER_NAME "parameter"
 #define SUPERCOIL_ESTIMATE_TRUSTED_NAME "trusted"
+#define SUPERCOIL_ESTIMATE_IDENTIFY_NOTES_NAME "identify_notes"
 #define SUPERCOIL_ESTIMATE_ERROR_BOUND_NAME "error_bound"
 #define SUPERCOIL_ESTIMATE_THETA1_NAME "theta1"
 #define SUPERCOIL_ESTIMATE_THETA2_NAME "theta2"
@@ -580,6 +582,8 @@ extern "C" {
 #define SUPERCOIL_STATUS_COUNTER_NAME "counter"
 #define SUPERCOIL_STATUS_PROTOCOL_VERSION_NAME "protocol_version"
 #define SUPERCOIL_STATUS_RESULT_NAME "result"
+#define SUPERCOIL_STATUS_PROOF_OFF_NAME "proof_off"
+#define SUPERCOIL_STATUS_OSCILLATED_NAME "oscillated"
 
 /**
  * Signals in message Emergency.
@@ -689,7 +693,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative; 0 forgets the comparison. All others: 0.
+     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0.
      *
      * Range: -
      * Scale: 1
@@ -966,6 +970,15 @@ struct supercoil_estimate_t {
      * Offset: 0
      */
     uint8_t trusted;
+
+    /**
+     * All that the last identify has to say, as bits: 1 theta1 was not known well enough, and the believed one was kept (no refusal); refused because 2, 4, 8: theta2, theta3, theta4 is uncertain; 16: the motion was not explained; 32: implausible; 64: the muscle hardly moved.
+     *
+     * Range: 0..127 (0..127 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t identify_notes;
 
     /**
      * Of theta1 to theta4 together, relative: 0.1 is 10 %. A larger one is shown as the largest.
@@ -1492,11 +1505,29 @@ struct supercoil_status_t {
     /**
      * How identify or calibrate ended, the last time that either was asked for; found: it is used from then on and stored; not_stored: used; all else changes nothing.
      *
-     * Range: 0..9 (0..9 -)
+     * Range: 0..10 (0..10 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t result;
+
+    /**
+     * 1: proof_of_response is false: an identified muscle that no longer reaches its sensor may overheat unseen. 0 also from boards that do not tell it.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t proof_off;
+
+    /**
+     * 1: the controller that follows has seen its loop oscillate by itself, and its feedback is slower since then (but for mrac and mrac_ls, or where slow_when_oscillating is false). 0 also from boards that do not tell it.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t oscillated;
 };
 
 /**
@@ -3188,6 +3219,46 @@ bool supercoil_estimate_trusted_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_estimate_trusted_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_estimate_identify_notes_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_estimate_identify_notes_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_identify_notes_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_estimate_identify_notes_is_in_phys_range(double value);
 
 /**
  * Encode given signal by applying scaling and offset.
@@ -5524,6 +5595,86 @@ bool supercoil_status_result_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_status_result_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_status_proof_off_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_status_proof_off_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_proof_off_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_proof_off_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_status_oscillated_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_status_oscillated_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_oscillated_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_oscillated_is_in_phys_range(double value);
 
 
 #ifdef __cplusplus

@@ -15,7 +15,7 @@ HEADER, ROW = 512, 112
 COLUMNS = ("time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,model_m,"
            "position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,resistance_age_s,coldest_C,"
            "hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,margin_of,margin_used,margin_measured,"
-           "margin_limit,gain_of,gain,result,aside_of,aside").split(",")
+           "margin_limit,gain_of,gain,result,aside_of,aside,identify_notes").split(",")
 
 
 class Log(unittest.TestCase):

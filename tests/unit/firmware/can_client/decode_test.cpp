@@ -102,14 +102,15 @@ TEST(Decode, TheReservedRawValueIsNoNumber) {
 
 TEST(Decode, AnEstimateHasTheParameterThatItCarriesAndNoOther) {
   const CodecMessage& message = codec_messages[9];
+  constexpr std::size_t first = 4;  // after parameter, trusted, identify_notes, error_bound
   for (std::uint8_t parameter = 0; parameter < 16; ++parameter) {
     hal::CanFrame frame = empty_frame(message);
     frame.data[0] = parameter;
-    put(frame, find_message("Estimate")->signals[3], std::bit_cast<std::uint32_t>(1.5F));
+    put(frame, find_message("Estimate")->signals[first], std::bit_cast<std::uint32_t>(1.5F));
     const auto decoded = decode(frame);
-    for (std::size_t i = 3; i < 17; ++i) {
+    for (std::size_t i = first; i < first + 14; ++i) {
       const double shown = decoded->values.at(i);
-      CHECK(i - 3 == parameter ? shown == 1.5 : std::isnan(shown));
+      CHECK(i - first == parameter ? shown == 1.5 : std::isnan(shown));
     }
   }
 }

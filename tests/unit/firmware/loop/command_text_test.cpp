@@ -26,6 +26,7 @@ TEST(CommandText, ChannelVerbAndValue) {
   CHECK(read("4 power 1e0").verb == Verb::power);
   CHECK(read("1 compare_supply 12.03").verb == Verb::compare_supply);
   DOUBLES_EQUAL(0.217, read("1 compare_current 0.217").value, 0.0);
+  DOUBLES_EQUAL(61.5, read("1 compare_rise 61.5").value, 0.0);
   CHECK(read("1 store").verb == Verb::store);
   DOUBLES_EQUAL(1.0, read("1 store").value, 0.0);
   CHECK(read("1 clear").verb == Verb::store);
@@ -46,7 +47,7 @@ TEST(CommandText, WhatIsWrongIsSaid) {
   check_wrong("1 heat",
               "'heat' is not a command; there are arm, disarm, reset, position, power, renew, "
               "rest, identify, calibrate, scale, controller, estimator, store, compare_supply, "
-              "compare_current, clear");
+              "compare_current, compare_rise, clear");
   check_wrong("1 store 1", "'1' is too much");
 }
 

@@ -61,6 +61,7 @@ TEST(Csv, HasEveryFieldUnderItsName) {
   r.gain_turn = 2;
   r.result = 6;
   r.aside_turn = 2;
+  r.identify_notes = note_not_explained | note_theta2_uncertain;
   float value = 0.5F;
   for (float* field :
        {&r.reference,    &r.model_m,     &r.position_m, &r.wanted_W,       &r.applied_W,
@@ -78,12 +79,13 @@ TEST(Csv, HasEveryFieldUnderItsName) {
       "time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,"
       "model_m,position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,"
       "resistance_age_s,coldest_C,hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,"
-      "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result,aside_of,aside",
+      "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result,aside_of,aside,"
+      "identify_notes",
       all[0].c_str());
   STRCMP_EQUAL(
       "-0.001,2,active,position,over_temperature,temperature,3,1,0,1,0.5,1.5,2.5,3.5,4.5,5.5,6.5,"
       "7.5,8.5,9.5,10.5,11.5,12.5,13.5,14.5,15.5,16.5,17.5,over_voltage,18.5,19.5,20.5,integral,21."
-      "5,not_explained,theta1_deviation,22.5",
+      "5,not_explained,theta1_deviation,22.5,18",
       all[1].c_str());
 }
 
@@ -94,7 +96,7 @@ TEST(Csv, WhatIsNoNumberIsEmptyAndInfinityIsInf) {
   r.margin_used = INFINITY;
   recording.rows = {r};
   const auto fields = split(lines()[1], ',');
-  LONGS_EQUAL(37, fields.size());
+  LONGS_EQUAL(38, fields.size());
   STRCMP_EQUAL("", fields[10].c_str());
   STRCMP_EQUAL("inf", fields[29].c_str());
   STRCMP_EQUAL("", fields[31].c_str());

@@ -208,6 +208,23 @@ TEST(Frames, BiasAndDeviationsAreTheNewestThatWereToldAndNoneIsNaN) {
     CHECK(std::isnan(carried(place)));
 }
 
+TEST(Frames, AStatusTellsThatTheProofOfResponseIsOff) {
+  Row row{};
+  LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
+  row.flags = row_proof_off;
+  LONGS_EQUAL(1, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
+}
+
+TEST(Frames, EveryEstimateTellsWhatIdentifyHasToSay) {
+  Row row{};
+  row.identify_notes = note_too_still | note_theta1_kept;
+  for (std::uint8_t parameter = 0; parameter < 14; ++parameter) {
+    const auto m = unpacked(estimate(1, row, parameter, {1, 1}, {}), supercoil_estimate_unpack);
+    LONGS_EQUAL(65, m.identify_notes);
+    LONGS_EQUAL(0, m.trusted);
+  }
+}
+
 TEST(Frames, TrackingIsAvailableInModePositionOnly) {
   Row row{};
   row.reference = 3.0F;  // watts

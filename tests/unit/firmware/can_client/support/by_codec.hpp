@@ -94,6 +94,7 @@ inline Values estimate(const hal::CanFrame& frame) {
   };
   return values({supercoil_estimate_parameter_decode(m.parameter),
                  supercoil_estimate_trusted_decode(m.trusted),
+                 supercoil_estimate_identify_notes_decode(m.identify_notes),
                  unless(65535, m.error_bound, supercoil_estimate_error_bound_decode),
                  only(0, supercoil_estimate_theta1_decode(m.theta1)),
                  only(1, supercoil_estimate_theta2_decode(m.theta2)),
@@ -162,7 +163,8 @@ inline Values status(const hal::CanFrame& frame) {
        unless(255, m.progress, supercoil_status_progress_decode),
        supercoil_status_counter_decode(m.counter),
        supercoil_status_protocol_version_decode(m.protocol_version),
-       supercoil_status_result_decode(m.result)});
+       supercoil_status_result_decode(m.result), supercoil_status_proof_off_decode(m.proof_off),
+       supercoil_status_oscillated_decode(m.oscillated)});
 }
 
 struct CodecMessage {

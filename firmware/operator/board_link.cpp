@@ -1,10 +1,13 @@
 #include "operator/board_link.hpp"
 
+#include <optional>
 #include <sstream>
 #include <thread>
+#include <utility>
 
 #include "can_client/decode.hpp"
 #include "loop/command_text.hpp"
+#include "modes/result.hpp"
 #include "operator/bus/bus_name.hpp"
 #include "operator/monitor/listener.hpp"
 #include "operator/monitor/terminal.hpp"
@@ -23,11 +26,16 @@ BoardLink::Answer LocalLink::line_of(const std::string& request, const std::stri
   return tl::unexpected("nothing is known of channel " + channel);
 }
 
-/// The last word of the channel's line.
-BoardLink::Answer LocalLink::result(const std::string& channel) {
-  auto line = line_of("state", channel);
-  if (line) line->erase(0, line->rfind(' ') + 1);
-  return line;
+/// The last two words of the channel's line.
+tl::expected<BoardLink::Ending, std::string> LocalLink::ending(const std::string& channel) {
+  const auto line = line_of("state", channel);
+  if (!line) return tl::unexpected(line.error());
+  Ending ending;
+  std::istringstream words(*line);
+  for (std::string word; words >> word;)
+    ending = {std::exchange(ending.notes, word), word};
+  if (ending.notes == "-") ending.notes.clear();
+  return ending;
 }
 
 tl::expected<storage::SenseComparison, std::string> LocalLink::senses(const std::string& channel) {
@@ -89,21 +97,30 @@ BoardLink::Answer CanLink::state() {
   return state_text(recent);
 }
 
-BoardLink::Answer CanLink::result(const std::string& channel) {
+tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
-  auto bus = open_bus(bus_, {can_client::status_id(node)});
+  auto bus = open_bus(bus_, {can_client::status_id(node), can_client::estimate_id(node)});
   if (!bus) return tl::unexpected(bus.error());
-  for (int i = 0; i < 100; ++i) {
+  std::optional<std::string> result;
+  std::optional<std::string> notes;
+  for (int i = 0; i < 100 && !(result && notes); ++i) {
     for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
-      const auto status = can_client::decode(frame);
-      if (!status || frame.id != can_client::status_id(node)) continue;
-      const std::size_t place = can_client::signal_index(*status->message, "result");
-      const auto& signals = status->message->signals;
-      return std::string(can_client::value_name(signals[place], status->values.at(place)));
+      const auto heard = can_client::decode(frame);
+      if (!heard) continue;
+      const auto value = [&](const char* signal) {
+        return heard->values.at(can_client::signal_index(*heard->message, signal));
+      };
+      if (frame.id == can_client::status_id(node)) {
+        const std::size_t place = can_client::signal_index(*heard->message, "result");
+        result = can_client::value_name(heard->message->signals[place], value("result"));
+      } else if (frame.id == can_client::estimate_id(node) && result) {
+        notes = describe_notes(static_cast<std::uint8_t>(value("identify_notes")), ",");
+      }
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return tl::unexpected("no heartbeat of node " + channel + " within 1 s");
+  if (!result) return tl::unexpected("no heartbeat of node " + channel + " within 1 s");
+  return Ending{*result, notes.value_or("")};
 }
 
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,

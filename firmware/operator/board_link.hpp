@@ -26,8 +26,13 @@ class BoardLink {
   virtual Answer ask(const std::string& line) = 0;
   /// What is known of the board, in lines.
   virtual Answer state() = 0;
-  /// How identify or calibrate ended, by its name (ModeResult). channel: as in a line.
-  virtual Answer result(const std::string& channel) = 0;
+  /// How identify or calibrate ended: a ModeResult by its name, and IdentifyNotes by theirs.
+  struct Ending {
+    std::string result;
+    std::string notes;  ///< "theta2_uncertain,not_explained"; empty: none
+  };
+  /// channel: as in a line.
+  virtual tl::expected<Ending, std::string> ending(const std::string& channel) = 0;
   /// What a comparison with a meter found; the date is not told. channel: as in a line.
   virtual tl::expected<storage::SenseComparison, std::string> senses(
       const std::string& channel) = 0;
@@ -38,7 +43,7 @@ class LocalLink final : public BoardLink {
   explicit LocalLink(BoardSocket socket) : socket_(std::move(socket)) {}
   Answer ask(const std::string& line) override { return socket_.ask(line); }
   Answer state() override { return socket_.ask("state"); }
-  Answer result(const std::string& channel) override;
+  tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<storage::SenseComparison, std::string> senses(const std::string& channel) override;
 
  private:
@@ -56,8 +61,8 @@ class CanLink final : public BoardLink {
   Answer ask(const std::string& line) override;
   /// Listens for a second and a half.
   Answer state() override;
-  /// From the next heartbeat.
-  Answer result(const std::string& channel) override;
+  /// From the next heartbeat; notes from the next estimates, if the board sends any.
+  tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<storage::SenseComparison, std::string> senses(const std::string& channel) override;
 
  private:

@@ -74,19 +74,24 @@ bool has_result(const CommandOptions& options) {
 int ended(BoardLink& board, const CommandOptions& options) {
   if (!has_result(options)) return exit_done;
   const std::string line = joined(options.words);
-  auto result = board.result(options.words[0]);
+  auto ending = board.ending(options.words[0]);
   // What is told of the board's state may be a moment older than its refusal.
-  for (int i = 0; result && *result == "running" && i < 10; ++i) {
+  for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    result = board.result(options.words[0]);
+    ending = board.ending(options.words[0]);
   }
   if (options.json) {
     nlohmann::ordered_json told{{"command", line}};
-    told[result ? "result" : "error"] = result ? *result : result.error();
+    told[ending ? "result" : "error"] = ending ? ending->result : ending.error();
+    if (ending && !ending->notes.empty()) told["notes"] = ending->notes;
     std::printf("%s\n", told.dump().c_str());
   }
-  if (!result) return fail(exit_failed, result.error());
-  return *result == "found" ? exit_done : fail(exit_failed, line + " ended: " + *result);
+  if (!ending) return fail(exit_failed, ending.error());
+  const std::string notes = ending->notes.empty() ? "" : " (" + ending->notes + ")";
+  const bool found = ending->result == "found";
+  if (found && !notes.empty() && !options.json)
+    std::printf("%s ended: found%s\n", line.c_str(), notes.c_str());
+  return found ? exit_done : fail(exit_failed, line + " ended: " + ending->result + notes);
 }
 
 /// Until its time is over or it is interrupted; then the muscle rests.

@@ -34,7 +34,7 @@ constexpr std::chrono::milliseconds probing{300};
 /// The board asks for a second at a steady power; a meter needs some time as well.
 constexpr std::chrono::milliseconds settling{2500};
 constexpr std::chrono::minutes longest_question{5};
-constexpr int most_tries = 3;
+constexpr int max_tries = 3;
 
 struct Plan {
   std::string channel;
@@ -113,7 +113,7 @@ class Guide {
   }
 
   OrEnded<double> ask(const std::string& question, const Range& allowed) {
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < max_tries; ++i) {
       const auto line = answer_to(question);
       if (!line) return tl::unexpected(line.error());
       double value = 0.0;
@@ -123,7 +123,7 @@ class Guide {
       std::fprintf(out_, "'%s' is refused: here it must be a number from %s to %s\n", line->c_str(),
                    shown(allowed.min).c_str(), shown(allowed.max).c_str());
     }
-    return tl::unexpected("no allowed " + question + " in " + std::to_string(most_tries) +
+    return tl::unexpected("no allowed " + question + " in " + std::to_string(max_tries) +
                           " answers");
   }
 
@@ -134,7 +134,9 @@ class Guide {
     while (Clock::now() < deadline) {
       if (auto heated = heated_->heat(power_W_); !heated) return tl::unexpected(heated.error());
       if (auto line = answers_.wait(renewal)) return *line;
-      if (answers_.ended()) return tl::unexpected<std::string>("nobody answers");
+      // Ctrl-C may come with the end of the answers, while the board was asked.
+      if (answers_.ended())
+        return tl::unexpected<std::string>(interrupted != 0 ? "interrupted" : "nobody answers");
     }
     return tl::unexpected<std::string>("no answer within 5 minutes");
   }
@@ -150,8 +152,7 @@ class Guide {
 /// quarter of the least that is configured and the senses as wrong as nobody would notice.
 double safe_power_W(ChannelSettings channel, const BoardSettings& board) {
   channel.senses = {};
-  const double unseen =
-      power_bounds(channel, board).true_over_told(board.supervision.lowest_supply_V).max;
+  const double unseen = power_bounds(channel, board).true_over_told().max;
   const double rise_K = channel.limiter.derate_from_C - channel.thermal.ambient_C;
   const double true_W = rise_K * 0.25 * channel.thermal.bounds.lowest_transfer_W_per_K;
   return std::min(channel.limiter.max_W, std::max(0.0, true_W) / unseen);
@@ -239,7 +240,7 @@ int compare_senses(const DoctorOptions& options) {
   if (found && config) {
     ChannelSettings channel = config->settings.channels[place - 1];
     channel.senses = *found;
-    const auto ratio = power_bounds(channel, config->settings).true_over_told(plan.supply_V.max);
+    const auto ratio = power_bounds(channel, config->settings).true_over_told();
     bounds = "the true power is " + shown(ratio.min) + " to " + shown(ratio.max) +
              " times the told one; calibrate and identify this channel again";
   }

@@ -25,6 +25,14 @@ const drawn = (line) => Array.from(line, (v) => (v === undefined ? "-" : v === n
 const length = (table) => table.chunks.reduce((sum, chunk) => sum + chunk.count, 0);
 """
 
+# A state card of node 1 and the store that it shows.
+CARD = """const { StateCard } = await import("/state_card.js");
+    const { protocol, protocol_version } = await (await fetch("/api/about")).json();
+    const store = new Store(protocol, false);
+    const card = new StateCard(1, store, () => {}, protocol_version);
+    card.element.dataset = {};  // this document is an image
+"""
+
 
 class ModulesTest(unittest.TestCase):
     @classmethod
@@ -210,6 +218,52 @@ class ModulesTest(unittest.TestCase):
         self.assertEqual(told[1], True)
         self.assertIn("version 2 of the protocol, this page 3", told[0])
         self.assertIn("version 4 of the protocol, this page 3", told[2])
+
+    def test_a_fault_is_told_with_its_margin_until_it_is_reset(self):
+        told = self.ask(CARD + """const shown = (time_s, fault, more) => {
+                const status = { time_s: [time_s], state: [3], fault: [fault], protocol_version: [protocol_version] };
+                store.append({ newest_s: time_s, nodes: { 1: { Status: status, ...more } } });
+                card.update(time_s);
+                return card.fault.hidden ? "" : card.fault_button.textContent;
+            };
+            const emergency = (time_s, fault) => ({ time_s: [time_s], fault: [fault] });
+            return [shown(1, 23, { Emergency: emergency(1, 23), FirstCause: { time_s: [1], measured: [0.0008], limit: [0.00267] } }),
+                    shown(2, 23), shown(3, 0, { Emergency: emergency(3, 0) }), shown(4, 30, { Emergency: emergency(4, 30) })];""")
+        with_margin = "fault 23: heater not responding (measured 8.00e−4, limit 0.00267 m) – what to do"
+        self.assertEqual(told, [with_margin, with_margin, "", "fault 30: over temperature – what to do"])
+
+    def test_a_proof_of_response_that_is_off_is_told(self):
+        told = self.ask(CARD + """const shown = (time_s, row) => {
+                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], ...row } } } });
+                card.update(time_s);
+                return card.unproven.hidden || card.unproven.textContent;
+            };
+            return [shown(1, {}), shown(2, { proof_off: [0] }), shown(3, { proof_off: [1] })];""")
+        self.assertEqual(told[:2], [True, True])
+        self.assertIn("proof_of_response is false", told[2])
+
+    def test_a_loop_that_oscillated_is_told(self):
+        told = self.ask(CARD + """const shown = (time_s, row) => {
+                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], ...row } } } });
+                card.update(time_s);
+                return card.oscillated.hidden || card.oscillated.textContent;
+            };
+            return [shown(1, {}), shown(2, { oscillated: [0] }), shown(3, { oscillated: [1] })];""")
+        self.assertEqual(told[:2], [True, True])
+        self.assertIn("its feedback is slower now", told[2])
+
+    def test_every_reason_of_a_refused_identify_is_told(self):
+        told = self.ask(CARD + """const shown = (time_s, result, identify_notes) => {
+                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], result: [result] },
+                    Estimate: { time_s: [time_s], identify_notes: [identify_notes] } } } });
+                card.update(time_s);
+                return card.result.hidden || card.result.textContent;
+            };
+            return [shown(1, 0, 0), shown(2, 2, 0), shown(3, 2, 1), shown(4, 6, 2 + 8 + 16)];""")
+        last = "Last identify or calibrate: "
+        self.assertEqual(told, [
+            True, last + "found and kept.", last + "found and kept; θ1 was not known well enough, its believed value is kept.",
+            last + "the muscle did not do what the fit foretold; θ2 is uncertain; θ4 is uncertain; the motion was not explained."])
 
     def test_page_of_a_fault_becomes_elements_and_never_script(self):
         html = self.ask("""const text = "# 30 a <b>\\n\\nTwo ways:\\n- one `x`\\n  more\\n- **two**\\n\\n1. [other](over_travel.md)\\n";

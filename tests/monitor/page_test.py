@@ -13,7 +13,7 @@ import unittest
 import urllib.parse
 
 from browser import Browser
-from programs import ROOT, log_of, monitor, simulated_board, with_second_node
+from programs import OnSimulatedBoard, ROOT, log_of, monitor, simulated_board, with_second_node
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
@@ -129,14 +129,13 @@ class Page(Browser):
         return self.state() == "disarmed" and self.value("power") == 0.0
 
 
-class PageCase(unittest.TestCase):
+class PageCase(OnSimulatedBoard):
     """A board, a monitor over it, pages of it."""
 
     @classmethod
     def setUpClass(cls):
-        cls.board = simulated_board()
-        cls.addClassCleanup(cls.board.stop)
-        cls.monitor = monitor(f"socketcand:{cls.board.found[1]}")
+        super().setUpClass()
+        cls.monitor = monitor(cls.source)
         cls.addClassCleanup(cls.monitor.stop)
         cls.address = cls.monitor.found[0]
         cls.origin = cls.monitor.found[1]

@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import unittest
 
 with contextlib.suppress(PermissionError):  # root, as in a container: the fewer commands expire the sooner it is done
     os.setpriority(os.PRIO_PROCESS, 0, -15)
@@ -83,6 +84,16 @@ def simulated_board(port=0):
     program = os.environ.get("SUPERCOIL_SIM", BIN / "supercoil-sim")
     return Program([program, "run", "bench", "--real-time", "--can", f"socketcand:{port}"],
                    r"serving can0 on 127\.0\.0\.1:(\d+)")
+
+
+class OnSimulatedBoard(unittest.TestCase):
+    """Tests that share a simulated board and its bus."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.board = simulated_board()
+        cls.addClassCleanup(cls.board.stop)
+        cls.source = f"socketcand:{cls.board.found[1]}"
 
 
 def log_of(scenario, folder):

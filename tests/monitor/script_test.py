@@ -8,16 +8,10 @@ import signal
 import subprocess
 import unittest
 
-from programs import SLACK_S, SUPERCOIL, command, simulated_board, until
+from programs import OnSimulatedBoard, SLACK_S, SUPERCOIL, command, until
 
 
-class Scripts(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.board = simulated_board()
-        cls.addClassCleanup(cls.board.stop)
-        cls.source = f"socketcand:{cls.board.found[1]}"
-
+class Scripts(OnSimulatedBoard):
     def command(self, *words):
         return command(self.source, *words)
 

@@ -10,12 +10,13 @@ import pathlib
 import re
 import signal
 import socket
+import struct
 import subprocess
 import tempfile
 import time
 import unittest
 
-from programs import SLACK_S, SUPERCOIL, command, free_ports, monitor, simulated_board, until
+from programs import OnSimulatedBoard, SLACK_S, SUPERCOIL, command, free_ports, monitor, simulated_board, until
 
 # As the page says (page_timeout_s), and as a board of the bench lets a command expire.
 PAGE_TIMEOUT_S = 1.5
@@ -65,13 +66,7 @@ class Served:
         return stream
 
 
-class Live(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.board = simulated_board()
-        cls.addClassCleanup(cls.board.stop)
-        cls.source = f"socketcand:{cls.board.found[1]}"
-
+class Live(OnSimulatedBoard):
     def serve(self, *options):
         program = monitor(self.source, *options)
         self.addCleanup(program.stop)
@@ -309,6 +304,22 @@ class Sources(unittest.TestCase):
         log.write_text(f"(0000000001.000000) can0 701#02000000FF00{int(own):02X}02\n")
         done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
         self.assertNotIn("version", done.stdout)
+
+    def test_text_says_by_how_much_a_fault_tripped_and_that_a_proof_is_off(self):
+        log = self.path / "can.log"
+        cause = struct.pack("<ff", 0.0008, 0.00267).hex()
+
+        def text_of(*frames):
+            log.write_text("".join(f"({time_s:017.6f}) can0 {frame}\n" for time_s, frame in frames))
+            return subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S).stdout
+
+        tripped = ((1, "081#1703000000000000"), (1, f"0C1#{cause}"))
+        told = text_of(*tripped, (61, "701#0317000000000410"))
+        self.assertIn(", FAULT heater_not_responding (measured 0.0008, limit 0.00267)", told)
+        self.assertIn("proof_of_response is false", told)
+        told = text_of(*tripped, (60, "081#1E03000000000000"), (61, "701#031E000000000400"))
+        self.assertIn(", FAULT over_temperature\n", told)
+        self.assertNotIn("proof_of_response", told)
 
     def test_text_says_how_hot_a_muscle_may_be_that_is_off(self):
         log = self.path / "can.log"

@@ -13,7 +13,7 @@ import time
 import unittest
 
 from page_test import READY_S, TARGET_MM, PageCase
-from programs import SLACK_S, monitor, simulated_board, trickle, until
+from programs import OnSimulatedBoard, SLACK_S, monitor, simulated_board, trickle, until
 from server_test import Served
 
 # The monitor hears STOP and the commands of this page, and never says anything to them.
@@ -22,12 +22,7 @@ HEARS_NO_STOP = """const asked = window.fetch;
         : new Promise((_, fail) => options.signal?.addEventListener("abort", () => fail(options.signal.reason)))"""
 
 
-class StopPort(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.board = simulated_board()
-        cls.addClassCleanup(cls.board.stop)
-
+class StopPort(OnSimulatedBoard):
     def serve(self, board=None, **options):
         program = monitor(f"socketcand:{(board or self.board).found[1]}", **options)
         self.addCleanup(program.stop)

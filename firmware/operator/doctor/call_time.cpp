@@ -18,7 +18,7 @@ namespace {
 /// The first ones find memory and caches as no later one does.
 constexpr int first_calls = 20;
 constexpr int counted_calls = 200;
-constexpr int most_interrupted = 200;
+constexpr int max_interrupted = 200;
 
 /// How often the processor was taken from the calling thread against its will.
 std::int64_t times_preempted() {
@@ -35,7 +35,7 @@ CallTime measured(const std::function<void()>& call) {
   hal::Duration sum{};
   std::vector<hal::Duration> all;
   all.reserve(counted_calls);
-  while (time.calls < counted_calls && time.interrupted < most_interrupted) {
+  while (time.calls < counted_calls && time.interrupted < max_interrupted) {
     const std::int64_t preempted = times_preempted();
     const hal::Time before = MonotonicClock::time();
     call();

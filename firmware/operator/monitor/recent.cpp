@@ -29,7 +29,10 @@ void Recent::add(const std::vector<hal::CanFrame>& frames) {
     }
     const auto decoded = can_client::decode(frame);
     // A command says that somebody believes in a node, not that there is one.
-    if (decoded && decoded->message->name != "Command") nodes_ |= std::uint64_t{1} << decoded->node;
+    if (!decoded) continue;
+    if (decoded->message->name != "Command") nodes_ |= std::uint64_t{1} << decoded->node;
+    if (decoded->message->name == "Emergency") first_causes_.erase(decoded->node);
+    if (decoded->message->name == "FirstCause") first_causes_[decoded->node] = frame;
   }
   const auto old = [&] {
     const bool out =
@@ -40,6 +43,12 @@ void Recent::add(const std::vector<hal::CanFrame>& frames) {
     frames_.pop_front();
     ++forgotten_;
   }
+}
+
+std::optional<hal::CanFrame> Recent::first_cause(std::uint8_t node) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = first_causes_.find(node);
+  return found == first_causes_.end() ? std::nullopt : std::optional(found->second);
 }
 
 Recent::Part Recent::since(std::uint64_t from) const {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +42,9 @@ class Recent {
   /// Nodes of supercoil that told something, in order.
   std::vector<std::uint8_t> nodes() const;
 
+  /// The FirstCause of the fault that a node told last; empty: none was heard, or it was reset.
+  std::optional<hal::CanFrame> first_cause(std::uint8_t node) const;
+
   /// Empty: the source is there. Else why not.
   void set_lost(const std::string& reason);
   std::string lost() const;
@@ -51,6 +56,7 @@ class Recent {
   std::deque<hal::CanFrame> frames_;
   std::uint64_t forgotten_ = 0;
   std::uint64_t nodes_ = 0;  ///< a bit for each
+  std::map<std::uint8_t, hal::CanFrame> first_causes_;
   std::string lost_;
 };
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "can_client/decode.hpp"
+#include "modes/result.hpp"
 #include "program/exit_status.hpp"
 #include "telemetry/opcodes.hpp"
 
@@ -57,13 +58,23 @@ std::string off_text(const Newest& node) {
          std::to_string(std::lround(std::ceil(hottest_C))) + " C";
 }
 
+/// Of the detector that led to the fault, in its own unit (docs/faults).
+std::string margin_text(const Newest& node) {
+  const double measured = value(node, "FirstCause", "measured");
+  const double limit = value(node, "FirstCause", "limit");
+  if (std::isnan(limit)) return "";
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), " (measured %.3g, limit %.3g)", measured, limit);
+  return text.data();
+}
+
 std::string node_text(int number, const Newest& node) {
   const std::string fault = named(node, "Status", "fault");
   const std::string state = named(node, "Status", "state");
   std::string text =
       "node " + std::to_string(number) + ": " + state + ", " + named(node, "Status", "mode");
   if (state == "disarmed" || state == "armed" || state == "fault") text += ", " + off_text(node);
-  if (fault != "none" && fault != "-") text += ", FAULT " + fault;
+  if (fault != "none" && fault != "-") text += ", FAULT " + fault + margin_text(node);
   const std::string limit = named(node, "Power", "limited_by");
   if (limit != "nothing" && limit != "-") text += ", limited by " + limit;
   const double progress = value(node, "Status", "progress");
@@ -73,6 +84,8 @@ std::string node_text(int number, const Newest& node) {
   const std::string result = named(node, "Status", "result");
   if (result != "none" && result != "running" && result != "-")
     text += ", last identification or calibration: " + result;
+  if (const double notes = value(node, "Estimate", "identify_notes"); notes > 0.0)
+    text += " (" + describe_notes(static_cast<std::uint8_t>(notes)) + ")";
   text += '\n';
   const double version = value(node, "Status", "protocol_version");
   if (std::isfinite(version) && version != telemetry::protocol_version) {
@@ -80,6 +93,10 @@ std::string node_text(int number, const Newest& node) {
             " of the protocol, this program " + std::to_string(telemetry::protocol_version) +
             ": numbers may be wrong; take the supercoil that belongs to it\n";
   }
+  if (value(node, "Status", "proof_off") == 1.0)
+    text += "  proof_of_response is false: a muscle that is off its sensor may overheat unseen\n";
+  if (value(node, "Status", "oscillated") == 1.0)
+    text += "  the loop oscillated by itself: its feedback is slower now\n";
   text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +
           shown("reference", 1e3 * value(node, "Tracking", "reference_m"), 3, "mm") +
           shown("error", 1e6 * value(node, "Tracking", "error_m"), 0, "um") + '\n';
@@ -102,6 +119,11 @@ std::string state_text(const Recent& recent) {
     newest = frame.received;
     if (const auto decoded = can_client::decode(frame))
       nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
+  }
+  for (auto& [number, node] : nodes) {
+    const auto cause = recent.first_cause(static_cast<std::uint8_t>(number));
+    const auto decoded = cause ? can_client::decode(*cause) : std::nullopt;
+    if (decoded) node.insert_or_assign(decoded->message->name, *decoded);
   }
   const BusFigures bus = recent.figures();
   std::array<char, 120> head{};

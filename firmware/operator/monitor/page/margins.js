@@ -4,7 +4,7 @@ import { element, place, show } from "./dom.js";
 import { significant, words } from "./format.js";
 
 // As docs/faults has them; "" is a count or a flag.
-const UNITS = {
+export const UNITS = {
   sensor_out_of_range: "m", sensor_frozen: "s", sensor_jump: "m", sensors_disagree: "K", heater_open: "A", heater_short: "A",
   heater_stuck_on: "A", heater_not_responding: "m", over_temperature: "°C", over_travel: "m", energy_budget_exceeded: "J",
   resistance_drift: "Ω", under_voltage: "V", over_voltage: "V", power_limit_exceeded: "W", telemetry_dead: "s",

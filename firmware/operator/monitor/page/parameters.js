@@ -30,7 +30,8 @@ export class Parameters {
     this.element = element("section", { class: "card full-only", "aria-label": `parameters of node ${node}` },
       element("h2", {}, "Parameters"),
       element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
-        ...["parameter", "value", "unit", "deviation", "bound", "trust"].map((title) => element("th", { scope: "col" }, title)))), body));
+        ...["parameter", "value", "unit", "deviation", "bound", "trust"].map((title) => element("th", { scope: "col" }, title)))), body),
+      element("p", { class: "hint" }, "Position and power tell the time constant, thermal mass over heat transfer, and neither alone: what is learned here does not narrow the temperature."));
   }
 
   update(now_s) {

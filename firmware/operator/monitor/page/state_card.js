@@ -1,7 +1,8 @@
 // What a channel says of itself: state as a colour and a word, mode, progress, fault.
 
 import { element, show } from "./dom.js";
-import { duration, fixed, words } from "./format.js";
+import { duration, fixed, significant, words } from "./format.js";
+import { UNITS } from "./margins.js";
 
 // A heartbeat comes every 100 ms.
 const SILENT_S = 1;
@@ -28,10 +29,19 @@ const RESULTS = {
   not_cold: "the muscle did not cool within two minutes",
   moved: "the position changed while its zero was taken",
   not_explained: "the muscle did not do what the fit foretold",
-  uncertain: "the sensor is too noisy for these parameters",
+  uncertain: "parameters that a controller needs are not known well enough",
   implausible: "what was found is out of range, nothing is changed",
   not_stored: "used, but not stored: the disk is behind",
+  too_still: "the muscle hardly moved with all the power that it may have",
 };
+
+// What else identify has to say: the bits of identify_notes.
+const NOTES = [
+  "θ1 was not known well enough, its believed value is kept", "θ2 is uncertain", "θ3 is uncertain", "θ4 is uncertain",
+  "the motion was not explained", "implausible", "too little motion",
+];
+
+const notes_text = (bits) => NOTES.filter((_, i) => (bits >> i) & 1).map((note) => `; ${note}`).join("");
 
 export class StateCard {
   /** on_fault: called with a fault's name whose page is wanted. version: of the protocol that is understood here. */
@@ -52,9 +62,13 @@ export class StateCard {
     this.fault_button = element("button", { type: "button", class: "link", onclick: () => on_fault(this.fault_name) });
     this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
     this.foreign = element("p", { class: "foreign", role: "alert", hidden: true });
+    this.unproven = element("p", { class: "foreign", hidden: true },
+      "proof_of_response is false: nothing proves that this muscle still reaches its sensor, and it may overheat unseen.");
+    this.oscillated = element("p", { class: "foreign", hidden: true },
+      "The control loop oscillated by itself: its feedback is slower now. Identify the muscle, or lower the controller's bandwidth or gains.");
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
-      element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.fault, this.progress, this.result, this.facts);
+      element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.unproven, this.oscillated, this.fault, this.progress, this.result, this.facts);
   }
 
   /** Returns the status in words, or null while there is none. */
@@ -73,7 +87,9 @@ export class StateCard {
         row.limited || name("limited_by") === "cooling" ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
       : ["–", "–", "–", "–"];
     this.values.forEach((value, i) => show(value, facts[i]));
-    this.#show_fault(status, row);
+    this.#show_fault(status, row, now_s);
+    this.unproven.hidden = row?.proof_off !== 1;
+    this.oscillated.hidden = row?.oscillated !== 1;
     this.foreign.hidden = !row || row.protocol_version === this.version;
     if (!this.foreign.hidden) {
       show(this.foreign, `It speaks version ${row.protocol_version} of the protocol, this page ${this.version}: ` +
@@ -87,7 +103,10 @@ export class StateCard {
     }
     const result = status && !shows ? name("result") : "none";
     this.result.hidden = !(result in RESULTS);
-    if (!this.result.hidden) show(this.result, `Last identify or calibrate: ${RESULTS[result]}.`);
+    if (!this.result.hidden) {
+      const notes = this.store.at(this.node, "Estimate", now_s)?.identify_notes ?? 0;
+      show(this.result, `Last identify or calibrate: ${RESULTS[result]}${notes_text(notes)}.`);
+    }
     return status;
   }
 
@@ -96,9 +115,17 @@ export class StateCard {
     return row && now_s - row.time_s <= SILENT_S ? row.hottest_C : NaN;
   }
 
-  #show_fault(status, row) {
+  /** What the detector of this fault measured when it tripped, and its limit; sent once, right after the emergency. */
+  #margin(fault, now_s) {
+    const emergency = this.store.at(this.node, "Emergency", now_s);
+    const cause = this.store.at(this.node, "FirstCause", now_s);
+    if (!cause || emergency?.fault !== fault || cause.time_s < emergency.time_s) return "";
+    return ` (measured ${significant(cause.measured)}, limit ${significant(cause.limit)} ${UNITS[this.fault_name] ?? ""}`.trimEnd() + ")";
+  }
+
+  #show_fault(status, row, now_s) {
     this.fault_name = status?.fault ?? "none";
     this.fault.hidden = this.fault_name === "none";
-    if (!this.fault.hidden) show(this.fault_button, `fault ${row.fault}: ${words(this.fault_name)} – what to do`);
+    if (!this.fault.hidden) show(this.fault_button, `fault ${row.fault}: ${words(this.fault_name)}${this.#margin(row.fault, now_s)} – what to do`);
   }
 }

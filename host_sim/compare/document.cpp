@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "compare/catalogue.hpp"
@@ -31,11 +32,23 @@ tl::expected<Document, std::string> find(const std::string& name, const char* wh
                         ": must be a .toml file or one of: " + known + "\n");
 }
 
+/// NAME or NAME:steps.
+tl::expected<Document, std::string> find_disturbance_now(const std::string& name) {
+  constexpr std::string_view suffix = ":steps";
+  const bool steps = name.ends_with(suffix);
+  auto document = find(steps ? name.substr(0, name.size() - suffix.size()) : name, "--disturbances",
+                       disturbances());
+  if (document && steps) {
+    document->name += suffix;
+    document->steps = true;
+  }
+  return document;
+}
+
 /// NAME+SECONDS; in a file's name there may be a + too.
 tl::expected<Document, std::string> find_disturbance(const std::string& name) {
   const std::size_t plus = name.rfind('+');
-  if (plus == std::string::npos || name.ends_with(".toml"))
-    return find(name, "--disturbances", disturbances());
+  if (plus == std::string::npos || name.ends_with(".toml")) return find_disturbance_now(name);
   double later_s = 0.0;
   const char* end = name.data() + name.size();
   const auto read = std::from_chars(name.data() + plus + 1, end, later_s);
@@ -44,7 +57,7 @@ tl::expected<Document, std::string> find_disturbance(const std::string& name) {
     return tl::unexpected("--disturbances " + name +
                           ": after + must come seconds, from 0 to 100000\n");
   }
-  auto document = find(name.substr(0, plus), "--disturbances", disturbances());
+  auto document = find_disturbance_now(name.substr(0, plus));
   if (document) {
     document->name += name.substr(plus);
     document->later_s = later_s;

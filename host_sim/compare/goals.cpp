@@ -14,7 +14,31 @@ struct Goal {
 
 constexpr double micro = 1e-6;
 
-constexpr std::array<Goal, 22> goals{{
+constexpr std::array<Goal, 46> goals{{
+    {"learned_ff", "nominal", "steady_rms_m", 1.2 * micro},
+    {"learned_ff", "steps", "steady_rms_m", 3.5 * micro},
+    {"learned_ff", "stiffness", "after_rms_m", 3 * micro},
+    {"learned_ff", "real", "steady_rms_m", 7 * micro},
+    {"learned_ff", "real_hard", "steady_rms_m", 16 * micro},
+    {"learned_ff", "real:steps", "steady_rms_m", 9 * micro},
+    {"learned_ff", "real_hard:steps", "steady_rms_m", 13 * micro},
+    {"learned_ff", "real_stiffness", "after_rms_m", 5 * micro},
+    {"learned_ff", "real_hard_stiffness", "after_rms_m", 16 * micro},
+    {"learned_ff", "force", "steady_rms_m", 7.5 * micro},
+    {"learned_ff", "softening", "steady_rms_m", 7.5 * micro},
+    {"learned_ff", "hysteresis", "steady_rms_m", 8 * micro},
+    {"learned_ff", "creep", "steady_rms_m", 7.5 * micro},
+    {"learned_ff", "convection", "steady_rms_m", 7.5 * micro},
+    {"learned_ff", "lonely_stroke", "steady_rms_m", 7.5 * micro},
+    {"learned_ff", "friction", "steady_rms_m", 26 * micro},
+    {"learned_ff", "friction_2", "steady_rms_m", 150 * micro},
+    {"learned_ff", "force:steps", "steady_rms_m", 6 * micro},
+    {"learned_ff", "softening:steps", "steady_rms_m", 6 * micro},
+    {"learned_ff", "hysteresis:steps", "steady_rms_m", 13 * micro},
+    {"learned_ff", "creep:steps", "steady_rms_m", 6 * micro},
+    {"learned_ff", "convection:steps", "steady_rms_m", 6 * micro},
+    {"learned_ff", "friction:steps", "steady_rms_m", 20 * micro},
+    {"learned_ff", "friction_2:steps", "steady_rms_m", 60 * micro},
     {"adaptive_ff", "nominal", "steady_rms_m", 2 * micro},
     {"adaptive_ff", "stiffness", "steady_rms_m", 2 * micro},
     {"adaptive_ff", "stiffness", "after_rms_m", 3 * micro},

@@ -9,8 +9,15 @@ namespace {
 
 /// The first seconds are the start's, not the steady motion's.
 constexpr double started_s = 20.0;
-constexpr double steady_s = 40.0;
 constexpr double settled_again_s = 60.0;
+
+/// 1.6 periods of a sine, two holds of steps: 40 s of the paper's.
+double steady_s(const Reference& reference) {
+  if (reference.kind == ReferenceKind::steps) return 2.0 * reference.hold_s;
+  if (reference.kind == ReferenceKind::sine)
+    return 10.0 / reference.terms.front().angular_frequency_rad_per_s;
+  return 40.0;
+}
 
 }  // namespace
 
@@ -25,7 +32,7 @@ std::array<Window, measures.size()> windows_of(const Scenario& scenario) {
       at_start(0.0, 3.0),
       at_start(3.0, 10.0),
       at_start(10.0, 20.0),
-      {std::max(started_s, event_s - steady_s), event_s},
+      {std::max(started_s, event_s - steady_s(scenario.start.reference)), event_s},
       {event_s, event_s + 10.0},
       {event_s, event_s + settled_again_s},
       {event_s, end_s},

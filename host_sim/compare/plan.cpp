@@ -41,6 +41,29 @@ void set_arithmetic(toml::table& document, const std::string& arithmetic) {
            toml::table{{"estimator", toml::table{{"arithmetic", narrow ? "float" : arithmetic}}}});
 }
 
+/// Four levels over the range of the disturbance's sine, each held for 5/ω: the paper's sine
+/// becomes 5, 15, 8 and 20 mm, 20 s each. Without an event it runs for three rounds of them.
+void ask_for_steps(toml::table& document) {
+  const auto sine = document["reference"];
+  const double offset_m = sine["offset_m"].value_or(0.011);
+  const double amplitude_m = sine["amplitude_m"].value_or(0.009);
+  const double hold_s = 5.0 / sine["angular_frequency_rad_per_s"].value_or(0.25);
+  toml::array levels_m;
+  for (const double part : {-2.0 / 3.0, 4.0 / 9.0, -1.0 / 3.0, 1.0})
+    levels_m.push_back(offset_m + part * amplitude_m);
+  document.insert_or_assign(
+      "reference", toml::table{{"kind", "steps"}, {"levels_m", levels_m}, {"hold_s", hold_s}});
+  if (!document.contains("event"))
+    lay_over(document, toml::table{{"simulation", toml::table{{"duration_s", 12.0 * hold_s}}}});
+}
+
+/// A controller that is tuned by hand to each muscle: the disturbance has its keys.
+void tune(toml::table& chosen, toml::table& disturbance, const std::string& controller) {
+  if (const toml::table* tuned = disturbance["tuned"][controller].as_table())
+    lay_over(chosen, toml::table{{"controller", *tuned}});
+  disturbance.erase("tuned");
+}
+
 tl::expected<Case, std::string> combine(const Document& controller, const Document& disturbance,
                                         const std::string& arithmetic) {
   const std::string name = controller.name + " with " + disturbance.name + " in " + arithmetic;
@@ -58,6 +81,8 @@ tl::expected<Case, std::string> combine(const Document& controller, const Docume
   // Whatever the disturbance was written for: all controllers meet the same.
   for (const char* table : {"controller", "estimator", "reference_model"})
     document.erase(table);
+  tune(chosen, document, controller.name);
+  if (disturbance.steps) ask_for_steps(document);
   lay_over(document, std::move(chosen));
   set_arithmetic(document, arithmetic);
   auto scenario = scenario_from(std::move(document), name);
@@ -114,6 +139,10 @@ std::vector<std::string> default_controllers() {
 
 std::vector<std::string> default_disturbances() {
   std::vector<std::string> names = names_of(disturbances());
+  for (const char* muscle :
+       {"real", "real_hard", "force", "softening", "hysteresis", "creep", "convection", "friction",
+        "friction_2", "muscle_b", "muscle_c", "slow", "stiff", "small", "lightly_damped"})
+    names.push_back(std::string(muscle) + ":steps");
   // The softening at ten more phases of the sine, whose period is 25.1 s.
   for (const char* later : {"2.5", "5", "7.5", "10", "12.5", "15", "17.5", "20", "22.5", "25"})
     names.push_back(std::string("stiffness+") + later);

@@ -130,7 +130,7 @@ class Compare(unittest.TestCase):
 
     def test_what_cannot_be_chosen_is_refused_before_anything_is_written(self):
         for arguments, message in [
-                (["--controllers", "pid"], "--controllers pid: must be a .toml file or one of: pi, pd_ff, "),
+                (["--controllers", "pid"], "--controllers pid: must be a .toml file or one of: pi, pi-tuned, "),
                 (["--disturbances", "stiffness+x"], "--disturbances stiffness+x: after + must come seconds"),
                 (["--disturbances", "none.toml"], "none.toml: there is no such file"),
                 (["--arithmetic", "half"], "--arithmetic half: must be one of: double, float, q8.24"),
@@ -163,6 +163,27 @@ class Compare(unittest.TestCase):
     def test_a_later_disturbance_has_later_windows(self):
         self.compare("--controllers", "pi", "--disturbances", "brief.toml+5", "--seeds", "1", "--no-plot", "--out", "out")
         self.assertIn("pi,brief+5,double,1,", (self.path / "out/runs.csv").read_text())
+
+    def test_steps_are_over_the_range_of_the_sine(self):
+        (self.path / "steps.toml").write_text(
+            BRIEF + "[reference]\nkind = 'steps'\nlevels_m = [0.005, 0.015, 0.008, 0.020]\nhold_s = 20.0\n")
+        self.compare("--controllers", "pi", "--disturbances", "brief.toml:steps,steps.toml", "--seeds", "1", "--no-plot",
+                     "--out", "out")
+        with open(self.path / "out/runs.csv") as file:
+            next(file)
+            asked, written = csv.DictReader(file)
+        self.assertEqual((asked["disturbance"], written["disturbance"]), ("brief:steps", "steps"))
+        self.assertAlmostEqual(float(asked["peak_m"]), float(written["peak_m"]), delta=1e-9)
+
+    def test_a_disturbance_may_tune_a_controller(self):
+        (self.path / "tuned.toml").write_text(BRIEF + "[tuned.pi]\nintegral_W_per_m_s = 1e4\n")
+        self.compare("--controllers", "pi,mrac-a", "--disturbances", "brief.toml,tuned.toml", "--seeds", "1", "--no-plot",
+                     "--out", "out")
+        with open(self.path / "out/runs.csv") as file:
+            next(file)
+            peaks = {(row["controller"], row["disturbance"]): float(row["peak_m"]) for row in csv.DictReader(file)}
+        self.assertGreater(peaks["pi", "tuned"], 1.2 * peaks["pi", "brief"])
+        self.assertEqual(peaks["mrac-a", "tuned"], peaks["mrac-a", "brief"])
 
     def test_list_names_all(self):
         listed = self.compare("--list").stdout

@@ -12,6 +12,20 @@ using fuzz::require;
 
 namespace {
 
+struct Meant {
+  Verb verb;
+  float value;
+};
+
+/// Of an opcode that is not the lease's. Opcode 0 is three verbs: kelvins above 1000, amperes below
+/// 0, volts between.
+Meant meant_by(const supercoil_command_t& asked) {
+  if (asked.opcode != 0) return {static_cast<Verb>(asked.opcode), asked.value};
+  if (asked.value >= 1000.0F) return {Verb::compare_rise, asked.value - 1000.0F};
+  if (asked.value < 0.0F) return {Verb::compare_current, -asked.value};
+  return {Verb::compare_supply, asked.value};
+}
+
 void require_right(const telemetry::Commands::Taken& taken, const hal::CanFrame& frame,
                    const LeaseModel& model, hal::Time now) {
   const int channel = LeaseModel::channel_of(frame);
@@ -29,13 +43,10 @@ void require_right(const telemetry::Commands::Taken& taken, const hal::CanFrame&
   if (!taken.command) return;
   const supercoil_command_t asked = LeaseModel::command_in(frame);
   require(taken.command->channel == channel, "a command is for the channel that was asked");
-  // Opcode 0 is two verbs: volts that a meter shows, or amperes below 0.
-  const bool amperes = asked.opcode == 0 && asked.value < 0.0F;
-  const int verb = asked.opcode != 0 ? asked.opcode : amperes ? 15 : 14;
-  const float value = amperes ? -asked.value : asked.value;
-  require(static_cast<int>(taken.command->verb) == verb, "its verb is the frame's");
+  const Meant meant = meant_by(asked);
+  require(taken.command->verb == meant.verb, "its verb is the frame's");
   require(std::bit_cast<std::uint32_t>(static_cast<float>(taken.command->value)) ==
-                  std::bit_cast<std::uint32_t>(value) ||
+                  std::bit_cast<std::uint32_t>(meant.value) ||
               std::isnan(asked.value),
           "its value is the frame's");
   require(taken.command->source == Source::can, "its answer goes back to the bus");

@@ -44,6 +44,8 @@ FRAMES = {
     + step(HOLDER & ~WITH_COUNTER, "lease", 1.0, counter=5) + step(HOLDER & ~WITH_COUNTER, "arm", counter=1),
     "learns": ARMED + step(HOLDER, "calibrate") + step(HOLDER, "identify", wait=9) + step(HOLDER, "scale", 0.01)
     + step(HOLDER, "controller", 2.0) + step(HOLDER, "estimator", 0.0),
+    "compares_three_senses": CLAIMED + step(HOLDER, "compare", 12.0) + step(HOLDER, "compare", -1.5)
+    + step(HOLDER, "compare", 1023.5),
     "the_other_channel": step(STRANGER, "lease", channel=1)
     + step(STRANGER | WITH_NONCE, "lease", channel=1) + step(HOLDER, "arm", wait=20, channel=1)
     + step(HOLDER, "power", 1.0, channel=1) + step(0, "lease"),

@@ -1,4 +1,5 @@
 #include <cinttypes>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -70,6 +71,13 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
                  " ticks, first at %g s; "
                  "none was applied then\n",
                  summary.not_finite_ticks(), summary.first_not_finite_s());
+  }
+  if (!std::isnan(summary.oscillated_at_s())) {
+    std::fprintf(
+        stderr,
+        "supercoil-sim: warning: the control loop oscillated by itself, first seen at %g s; "
+        "docs/control.md says what to do\n",
+        summary.oscillated_at_s());
   }
   if (const auto kept = keep(recorder, simulation, store, options); !kept)
     return fail(exit_failed, kept.error());

@@ -16,7 +16,7 @@ constexpr const char* header =
     "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,temperature_rise_K,"
     "limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,coldest_K,hottest_K,state,"
     "fault,limited_by,bias_W,theta1_deviation,theta2_deviation,theta3_deviation,theta4_deviation,"
-    "bias_deviation_W\n";
+    "bias_deviation_W,thermometer_C\n";
 
 }  // namespace
 
@@ -68,6 +68,8 @@ void TraceWriter::add(const TickRecord& record, const std::optional<control::Est
   }
   buffer_ += ',';
   if (deviates) number(estimate->bias_deviation_W);
+  buffer_ += ',';
+  if (std::isfinite(record.thermometer_C)) number(record.thermometer_C);
   buffer_ += '\n';
   if (buffer_.size() >= flush_bytes) flush();
 }

@@ -8,7 +8,29 @@ namespace supercoil::host_sim {
 namespace {
 
 ConverterSettings converter_of(const PositionSensorSettings& s) {
-  return {0.0, s.range_m, s.resolution_bits, s.noise_rms_m};
+  return {.low = s.min_m,
+          .high = s.range_m,
+          .bits = s.resolution_bits,
+          .noise_rms = s.noise_rms_m,
+          .period_s = s.rate_Hz > 0.0 ? 1.0 / s.rate_Hz : 0.0,
+          .latency_s = 0.0,
+          .count = s.count_m};
+}
+
+/// Of a count: less noise than this does not show in every reading.
+constexpr double shown_noise = 0.3;
+
+/// Three ticks or conversions, and never less than a slow machine's hiccup.
+double max_age_s(const Scenario& scenario, const ConverterSettings& converter) {
+  return std::max({0.01, 3.0 * scenario.step_s(), 2.5 * converter.period_s});
+}
+
+/// The muscle's effects in its air.
+PlantEffects effects_of(const Scenario& scenario, const Conditions& c) {
+  PlantEffects effects = c.plant.effects;
+  effects.air_C = scenario.start.ambient.air_C;
+  effects.air_change_K = c.plant.air_acts ? c.ambient.air_C - effects.air_C : 0.0;
+  return effects;
 }
 
 board::Scaling scaling_of(const ConverterSettings& c) {
@@ -37,14 +59,18 @@ double largest_noise_m(const Scenario& scenario) {
 ChannelSupervision supervision_of(const Scenario& scenario) {
   const Conditions& c = scenario.start;
   const double range_m = c.position_sensor.range_m;
+  const double min_m = c.position_sensor.min_m;
   const double max_W = largest_max_W(scenario);
   ChannelSupervision s;
-  s.lowest_position_m = -0.1 * range_m;
-  s.highest_position_m = 1.1 * range_m;
+  s.lowest_position_m = min_m - 0.1 * (range_m - min_m);
+  s.highest_position_m = 1.1 * range_m - 0.1 * min_m;
   s.max_travel_m = Conditions::travel_part * range_m;
   s.position_noise_rms_m = largest_noise_m(scenario);
   // A sensor without noise that does not show its steps either looks frozen at rest.
-  if (c.position_sensor.noise_rms_m < s.position_noise_rms_m) s.frozen_s = INFINITY;
+  const double count_m = converter_of(c.position_sensor).per_count();
+  if (c.position_sensor.noise_rms_m < s.position_noise_rms_m ||
+      s.position_noise_rms_m < shown_noise * count_m)
+    s.frozen_s = INFINITY;
   s.out_of_range_s = std::max(s.out_of_range_s, 2.0 * scenario.step_s());
   s.least_resistance_Ohm = 0.5 * c.plant.resistance_Ohm;
   s.max_measured_W = default_max_measured_W(max_W);
@@ -73,6 +99,12 @@ board::ThermalSettings thermal_of(const Conditions& c) {
 MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& c) {
   MuscleChannelSettings m;
   m.plant = c.plant.parameters;
+  m.effects = effects_of(scenario, c);
+  m.rise_from_C = c.ambient.air_C - m.effects.air_change_K;
+  if (c.thermometer.present) {
+    m.thermometer = {c.thermometer.lag_s, c.thermometer.offset_K, c.thermometer.noise_rms_K,
+                     1.0 / c.thermometer.rate_Hz};
+  }
   m.resistance_Ohm = c.plant.resistance_Ohm;
   m.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
   m.load_N = c.plant.load_N;
@@ -113,9 +145,9 @@ BoardSettings firmware_of(const Scenario& scenario) {
   channel.muscle_identified = scenario.muscle_identified;
   channel.position.scaling = scaling_of(simulated.channels[0].position);
   channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
-  const double max_age_s = std::max(0.01, 3.0 * scenario.step_s());
-  channel.position.max_age_s = channel.heater.current.max_age_s = board.supply.max_age_s =
-      max_age_s;
+  channel.position.max_age_s = max_age_s(scenario, simulated.channels[0].position);
+  channel.heater.current.max_age_s = max_age_s(scenario, simulated.channels[0].current);
+  board.supply.max_age_s = max_age_s(scenario, simulated.supply);
   channel.heater.cold_resistance_Ohm = c.plant.resistance_Ohm;
   channel.heater.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
   channel.calibration = scenario.calibration;

@@ -12,6 +12,8 @@ namespace {
 
 /// Arming probes the heater, which moves the muscle by some 40 µm; after so long it is at rest.
 constexpr double boot_s = 15.0;
+/// Seconds for which a slow muscle may have to be known to cool before it can be armed.
+constexpr int max_waits = 3600;
 /// Ticks between two looks into the recorder's ring, which holds 2 s.
 constexpr std::uint32_t rows_every = 32;
 
@@ -29,8 +31,23 @@ Simulation::Simulation(const Scenario& scenario)
 }
 
 void Simulation::boot() {
-  const std::int64_t boot_ticks = std::llround(boot_s * scenario_->rate_Hz);
-  for (std::int64_t i = 0; i < boot_ticks; ++i) {
+  const bool wants = conditions_->wish != Wish::disarm && conditions_->wish != Wish::none;
+  boot_for(boot_s);
+  const auto waits = [this] {
+    return loop_.self_test().passed() && loop_.channel(0).state().state() == State::disarmed;
+  };
+  if (wants && waits()) {
+    for (int i = 0; i < max_waits && waits(); ++i)
+      boot_for(1.0);
+    boot_for(boot_s);
+  }
+  break_things(conditions_->trouble);
+  start_ = executive_.next_wake();
+}
+
+void Simulation::boot_for(double time_s) {
+  const std::int64_t ticks = std::llround(time_s * scenario_->rate_Hz);
+  for (std::int64_t i = 0; i < ticks; ++i) {
     // Asked for at the first tick after the self-test.
     const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
@@ -39,8 +56,6 @@ void Simulation::boot() {
     executive_.run_tick();
     housekeep();
   }
-  break_things(conditions_->trouble);
-  start_ = executive_.next_wake();
 }
 
 void Simulation::join_bus(const telemetry::CanSettings& settings,
@@ -162,10 +177,13 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.measured_m = s.position_m;
   r.power_W = s.wanted_W;
   r.applied_power_W = s.applied_W;
-  r.temperature_rise_K = plant().temperature_rise_K();
+  r.temperature_rise_K =
+      plant().temperature_rise_K() + (board_.channel(0).rise_from_C() - ambient_C);
+  r.thermometer_C = board_.channel(0).thermometer_C();
   r.coldest_K = s.coldest_C - ambient_C;
   r.hottest_K = s.hottest_C - ambient_C;
   r.limited = s.limited;
+  r.oscillated = s.oscillated;
   r.open_loop = s.mode != Mode::position;
   r.state = s.state;
   r.asks_power = conditions_->controller.kind == control::ControllerKind::power;

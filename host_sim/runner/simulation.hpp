@@ -1,6 +1,7 @@
 // One scenario, tick by tick: the firmware over the simulated board.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -25,9 +26,11 @@ struct TickRecord {
   double power_W = 0.0;          ///< as the controller wanted it
   double applied_power_W = 0.0;  ///< after limits, PWM and delay
   double temperature_rise_K = 0.0;
-  double coldest_K = 0.0;  ///< above the air: the firmware's bounds for it
+  double thermometer_C = NAN;  ///< NaN: there is none
+  double coldest_K = 0.0;      ///< above the air: the firmware's bounds for it
   double hottest_K = 0.0;
   bool limited = false;
+  bool oscillated = false;  ///< the controller saw its loop oscillate
   bool open_loop = false;   ///< no reference model is followed
   bool asks_power = false;  ///< the reference is a power
   State state = State::disarmed;
@@ -55,7 +58,7 @@ class Simulation {
   const Conditions& conditions() const { return *conditions_; }
   /// Empty when the scenario has no estimator.
   std::optional<control::Estimate> estimate() const { return loop_.channel(0).estimates(); }
-  const LinearPlant& plant() const { return board_.channel(0).plant(); }
+  const Plant& plant() const { return board_.channel(0).plant(); }
   Loop& loop() { return loop_; }
   /// Keeps what happens from now on; must outlive the simulation's steps.
   void record_to(recorder::FlightRecorder& recorder) { recorder_ = &recorder; }
@@ -72,6 +75,7 @@ class Simulation {
 
  private:
   void boot();
+  void boot_for(double time_s);
   void happen(const Event& event);
   void break_things(const Trouble& trouble);
   void ask(double reference);

@@ -30,6 +30,16 @@ ordered_json learned_json(const storage::Learned& learned) {
   return json;
 }
 
+/// How the last identify or calibrate ended, and what else identify has to say.
+ordered_json mode_result_json(const Snapshot& snapshot) {
+  ordered_json notes = ordered_json::array();
+  for (std::size_t i = 0; i < identify_note_names.size(); ++i) {
+    if ((snapshot.identify_notes >> i & 1U) != 0) notes.push_back(identify_note_names.at(i));
+  }
+  return {{"result", mode_result_names.at(static_cast<std::size_t>(snapshot.result))},
+          {"notes", notes}};
+}
+
 ordered_json estimate_json(const control::Estimate& e, const control::PhysicalParameters& muscle) {
   ordered_json result{{"theta", {e.theta[0], e.theta[1], e.theta[2], e.theta[3]}},
                       {"trusted", e.trusted},
@@ -67,10 +77,12 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   }
   const auto& learned = simulation.learned();
   json["learned"] = learned ? learned_json(*learned) : ordered_json();
+  json["mode_result"] = mode_result_json(simulation.loop().channel(0).snapshot());
   json["ticks_outside_temperature_interval"] = outside_interval_ticks_;
   json["hottest_temperature_rise_K"] = finite(simulation.plant().peak_temperature_rise_K());
   json["limited_ticks"] = limited_ticks_;
   json["not_finite_ticks"] = not_finite_ticks_;
+  json["oscillated_at_s"] = finite(oscillated_at_s_);
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;
   json["realtime_factor"] =

@@ -48,6 +48,7 @@ class Summary {
                            record.temperature_rise_K <= record.hottest_K + temperature_rounding_K);
     outside_interval_ticks_ += outside ? 1 : 0;
     limited_ticks_ += record.limited ? 1 : 0;
+    if (record.oscillated && std::isnan(oscillated_at_s_)) oscillated_at_s_ = record.time_s;
     if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
       first_not_finite_s_ = record.time_s;
     }
@@ -66,6 +67,8 @@ class Summary {
   /// Ticks at which the controller's power was no number, and the time of the first.
   std::int64_t not_finite_ticks() const { return not_finite_ticks_; }
   double first_not_finite_s() const { return first_not_finite_s_; }
+  /// When a controller first saw its loop oscillate; NaN: never.
+  double oscillated_at_s() const { return oscillated_at_s_; }
 
   /// summary.json; wall_s: how long the run took.
   nlohmann::ordered_json to_json(const Scenario& scenario, const Simulation& simulation,
@@ -96,6 +99,7 @@ class Summary {
   std::int64_t limited_ticks_ = 0;
   std::int64_t not_finite_ticks_ = 0;
   double first_not_finite_s_ = 0.0;
+  double oscillated_at_s_ = NAN;
 };
 
 }  // namespace supercoil::host_sim

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -54,7 +55,9 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
   estimate.bias_W = 0.5;
   estimate.deviation = control::Theta{0.1, 0.2, 0.3, 0.4};
   estimate.bias_deviation_W = 0.25;
+  record.thermometer_C = 31.5;
   writer.add(record, estimate);
+  record.thermometer_C = NAN;
   record.open_loop = record.asks_power = true;
   record.state = State::fault;
   record.fault = Fault::heater_open;
@@ -65,13 +68,13 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
       "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,"
       "temperature_rise_K,limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,"
       "coldest_K,hottest_K,state,fault,limited_by,bias_W,theta1_deviation,theta2_deviation,"
-      "theta3_deviation,theta4_deviation,bias_deviation_W\n"
+      "theta3_deviation,theta4_deviation,bias_deviation_W,thermometer_C\n"
       "0.30000000000000004,0.011,0,0,0,0,0.3333333333333333,0,1,1,2,3,4,1,,0,0,disarmed,none,"
-      "nothing,,,,,,\n"
+      "nothing,,,,,,,\n"
       "0.30000000000000004,0.011,0,0,0,0,0.3333333333333333,0,1,1,2,3,4,1,,0,0,disarmed,none,"
-      "nothing,0.5,0.1,0.2,0.3,0.4,0.25\n"
+      "nothing,0.5,0.1,0.2,0.3,0.4,0.25,31.5\n"
       "0.30000000000000004,,,0,0,0,0.3333333333333333,0,1,,,,,,0.011,0,0,fault,heater_open,"
-      "temperature,,,,,,\n",
+      "temperature,,,,,,,\n",
       content(folder / "trace.csv").c_str());
 }
 

@@ -21,6 +21,9 @@ struct Attack {
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
   double air_C = 30.0;             ///< the board believes that it is at most 30 °C
   bool from_start = false;         ///< not only once the muscle is warm
+  /// The board knows this muscle, its senses were compared with a meter, and a muscle that is hot
+  /// and still must prove that it answers.
+  bool identified = false;
   /// What of the board protects where the firmware does not; empty: the limit must be kept.
   std::string_view guard;
   /// Why the published interval may miss the truth; empty: it must hold it.
@@ -33,6 +36,9 @@ std::vector<Attack> all_attacks();
 enum class Activity { disarmed, hold, power, ramp, rearm, identify, calibrate };
 inline constexpr std::array<std::string_view, 7> activity_names{
     "disarmed", "hold", "power", "ramp", "re-arm", "identify", "calibrate"};
+
+/// What protects in this activity; empty: the firmware must.
+std::string_view guard_in(Activity activity, const Attack& attack);
 
 struct Muscle {
   std::string_view name;

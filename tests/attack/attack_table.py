@@ -59,7 +59,8 @@ def summary(runs):
         hottest = {m: max(r.hottest_C for r in group if r.muscle == m) for m in ("soft", "stiff")}
         outside = max(r.outside_K for r in group)
         interval = "holds" if all(map(held, group)) else f"off by {outside:.1f} K"
-        protects = "firmware" if all(map(kept, group)) else f"**{group[0].guard}**"
+        over = [run for run in group if not kept(run)]
+        protects = f"**{over[0].guard}**{only_while(over)}" if over else "firmware"
         yield f"| {attack} | {hottest['soft']:.0f} °C | {hottest['stiff']:.0f} °C | {interval} | {protects} |"
 
 
@@ -76,6 +77,12 @@ def table(runs, muscle):
         yield f"| {run.attack} | {run.activity} | {hottest} | {interval} | {fault} | {after} |"
 
 
+def only_while(over):
+    """Where a single activity leads over the limit."""
+    activities = {run.activity for run in over}
+    return f", in {activities.pop()} only" if len(activities) == 1 else ""
+
+
 def sentence(text):
     return text[0].upper() + text[1:] + "."
 
@@ -87,7 +94,7 @@ def unprotected(runs):
         missed = [run for run in group if not held(run)]
         if over:
             hottest = max(run.hottest_C for run in over)
-            yield f"- **{attack}**: {hottest:.0f} °C. Protects: the {over[0].guard}. {sentence(missed[0].blindness)}"
+            yield f"- **{attack}**: {hottest:.0f} °C{only_while(over)}. Protects: the {over[0].guard}. {sentence(missed[0].blindness)}"
         elif missed:
             outside = max(run.outside_K for run in missed)
             yield f"- {attack}: up to {outside:.1f} K outside of the published interval. {sentence(missed[0].blindness)}"

@@ -49,7 +49,8 @@ host_sim::SimulatedBoardSettings simulated_board(const Muscle& muscle) {
 }
 
 /// As a file's defaults leave it. What is soldered is the simulated board's.
-BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSettings& simulated) {
+BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSettings& simulated,
+                       bool identified) {
   std::string text = small_board;
   const auto state = [&text](const std::string& key, const std::string& before, double value) {
     text.replace(text.find(key + before), (key + before).size(), key + std::to_string(value));
@@ -75,6 +76,11 @@ BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSetti
   settings.supply.scaling = scaling(simulated.supply);
   settings.channels[0].position.scaling = scaling(soldered.position);
   settings.channels[0].heater.current.scaling = scaling(soldered.current);
+  if (identified) {
+    settings.channels[0].muscle = soldered.plant;
+    settings.channels[0].knows_muscle = settings.channels[0].muscle_identified = true;
+    settings.channels[0].senses.error_ratio = 0.02;
+  }
   return settings;
 }
 
@@ -86,7 +92,7 @@ AttackedBoard::AttackedBoard(Attack attack, const Muscle& muscle, Activity activ
       activity_(activity),
       simulated_(simulated_board(muscle)),
       board_(simulated_),
-      loop_(firmware(muscle, simulated_), board_.devices()),
+      loop_(firmware(muscle, simulated_, attack_.identified), board_.devices()),
       executive_(loop_, board_, simulated_.rate_Hz) {}
 
 void AttackedBoard::begin_attack() {

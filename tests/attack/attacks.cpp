@@ -76,7 +76,26 @@ void add_hot_air(std::vector<Attack>& attacks) {
   }
 }
 
+/// What the firmware does not withstand, or does not know, on a muscle that it knows.
+void add_identified(std::vector<Attack>& attacks) {
+  const std::vector<Attack> others = attacks;
+  for (Attack a : others) {
+    if (a.blindness.empty()) continue;
+    a.name = "identified, " + a.name;
+    a.identified = true;
+    // Compared senses leave the hot end no room for what is hotter than it knows.
+    if (a.air_C >= 60.0) a.guard = "thermal fuse";
+    attacks.push_back(a);
+  }
+}
+
 }  // namespace
+
+/// A muscle that is known must prove that it answers, but not while it is identified.
+std::string_view guard_in(Activity activity, const Attack& attack) {
+  const bool proven = attack.identified && attack.blocked && activity != Activity::identify;
+  return proven ? std::string_view() : attack.guard;
+}
 
 std::vector<Attack> all_attacks() {
   std::vector<Attack> attacks;
@@ -84,6 +103,7 @@ std::vector<Attack> all_attacks() {
   add_cooling(attacks);
   add_leaks(attacks);
   add_hot_air(attacks);
+  add_identified(attacks);
   return attacks;
 }
 

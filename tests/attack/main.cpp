@@ -42,7 +42,8 @@ void print(const Case& c, const Damage& damage) {
   std::printf("%s;%s;%s;%.1f;%.1f;%s;%.1f;%s;%s\n", string_of(c.muscle.name).c_str(),
               c.attack.name.c_str(), string_of(activity).c_str(), damage.hottest_C,
               damage.outside_K, string_of(fault).c_str(), damage.fault_s,
-              string_of(c.attack.guard).c_str(), string_of(c.attack.blindness).c_str());
+              string_of(guard_in(c.activity, c.attack)).c_str(),
+              string_of(c.attack.blindness).c_str());
 }
 
 }  // namespace

@@ -66,10 +66,9 @@ class StuckOn final : public Detector {
   bool off_ = false;
 };
 
-/// Power in, no motion: compares how far the muscle moved over a window with how far its models say
-/// that it must have: as it is believed, and as fast and as slow as the bounds of its heat allow.
-/// Trips when it moved less than a part of what each of them did. "Rose 0.3 of the 2.0 mm expected
-/// in 20 s."
+/// Power in, no motion: compares how far the muscle moved over a window with how far it must have,
+/// by the models of its heat. Trips when it moved less than a part of what each muscle did that
+/// they allow. "Rose 0.3 of the 2.0 mm expected in 20 s."
 class NotResponding final : public Detector {
  public:
   struct Settings {
@@ -79,20 +78,26 @@ class NotResponding final : public Detector {
   };
   NotResponding(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
 
-  /// Where the models are, driven by the applied power.
+  /// Where the models are, driven by the applied power: the muscle as it is believed, the fastest
+  /// and the slowest that the bounds of its heat allow.
   using Expected = std::array<double, 3>;
 
   bool step(double position_m, const Expected& expected_m) {
+    const Motions motions = possible(expected_m);
     if (elapsed_s_ == 0.0) {
       low_ = high_ = position_m;
-      expected_low_ = expected_high_ = expected_m;
+      expected_low_ = expected_high_ = motions;
     }
     elapsed_s_ += step_s_;
-    widen(low_, high_, position_m);
+    low_ = std::min(low_, position_m);
+    high_ = std::max(high_, position_m);
     // The models have heat only: a muscle may still be on its way.
-    const bool in_time = elapsed_s_ <= in_time_ratio * settings_.window_s;
-    for (std::size_t i = 0; in_time && i < expected_m.size(); ++i)
-      widen(expected_low_[i], expected_high_[i], expected_m[i]);
+    if (elapsed_s_ <= in_time_ratio * settings_.window_s) {
+      for (std::size_t i = 0; i < motions.size(); ++i) {
+        expected_low_[i] = std::min(expected_low_[i], motions[i]);
+        expected_high_[i] = std::max(expected_high_[i], motions[i]);
+      }
+    }
     if (elapsed_s_ + 0.5 * step_s_ < settings_.window_s) return false;
     elapsed_s_ = 0.0;
     const Margin seen = margin();
@@ -111,9 +116,17 @@ class NotResponding final : public Detector {
  private:
   static constexpr double in_time_ratio = 0.95;  ///< of the window
 
-  static void widen(double& low, double& high, double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
+  /// The believed muscle, and in eight steps from the fastest to the slowest: where one of those
+  /// still rises and the other falls already, one between them stands still.
+  static constexpr std::size_t steps = 8;
+  using Motions = std::array<double, steps + 2>;
+
+  static Motions possible(const Expected& expected_m) {
+    const auto [believed, fastest, slowest] = expected_m;
+    Motions motions{believed};
+    for (std::size_t i = 0; i <= steps; ++i)
+      motions[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
+    return motions;
   }
 
   Settings settings_;
@@ -121,8 +134,8 @@ class NotResponding final : public Detector {
   double elapsed_s_ = 0.0;
   double low_ = 0.0;
   double high_ = 0.0;
-  Expected expected_low_{};
-  Expected expected_high_{};
+  Motions expected_low_{};
+  Motions expected_high_{};
 };
 
 /// Trips when the PWM reads back another step than was set, for hold_s (a buffered one lags).

@@ -100,6 +100,15 @@ TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
   }
 }
 
+TEST(HeaterDetectors, NotRespondingDoesNotJudgeBetweenAModelThatRisesAndOneThatFalls) {
+  // Derated, a slow muscle still warms where a fast one cools already.
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  LONGS_EQUAL(-1, ticks_until([&](int tick) {
+    const double moved = 0.004 * tick * tick_s / 20.0;
+    return detector.step(0.011, {0.011 + moved, 0.011 + moved, 0.011 - moved});
+  }));
+}
+
 TEST(HeaterDetectors, NotRespondingDoesNotExpectAtOnceWhatIsAskedForAtItsWindowsEnd) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until(

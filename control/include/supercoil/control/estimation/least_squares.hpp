@@ -11,6 +11,7 @@
 #include "supercoil/control/estimation/estimate_drift.hpp"
 #include "supercoil/control/estimation/filtered_regression.hpp"
 #include "supercoil/control/estimation/projection.hpp"
+#include "supercoil/control/estimation/simplest_change.hpp"
 #include "supercoil/control/estimation/ud_covariance.hpp"
 
 namespace supercoil::control {
@@ -30,11 +31,13 @@ struct LeastSquaresSettings {
   double largest_bias_W = 3.0;
   double max_W = 4.5;               ///< > 0, the largest power: the scale of changes
   double position_noise_m = 10e-6;  ///< expected, rms; see EstimateAccuracy
+  bool detects_changes = true;      ///< else it only forgets: to compare
 };
 
 /// A ChangeWatch tells changes from the model's own error. After one, θ may be anywhere along the
 /// directions in which muscles change, and is otherwise known as before; the filters start anew, so
-/// that no motion of the old muscle is in them.
+/// that no motion of the old muscle is in them. Meanwhile the SimplestChange that explains it is
+/// told, and until there is one, θ as it was.
 ///
 /// What nothing excites returns to `initial` while the rest learns: else model errors make it drift
 /// to the bounds, and its covariance would grow for ever. Real muscles leave residuals far above R
@@ -142,6 +145,7 @@ class LeastSquaresEstimator {
              .unexcited = unexcited_}),
         forgetting_(to<Scalar>(std::exp(-period_s_ / s.forgetting_s))),
         counted_updates_(error_lasts_s * slowness(s.scale.nominal) / period_s_),
+        explains_s_(free_s * std::max(1.0, slowness(s.scale.nominal))),
         covariance_(All::Zero()) {
     initial_ << s.initial.cwiseQuotient(s.scale.nominal), 0.0;
     theta_ << Vector<Wide, free>::Zero(), initial_.template cast<Wide>();
@@ -202,13 +206,13 @@ class LeastSquaresEstimator {
     const All gain = covariance_.update(phi, to<Scalar>(counted_W2()), forgetting_, first_);
     theta_ += gain.template cast<Wide>() * Wide(error_);
     accuracy_.step(seen());
-    scale_ = std::min(1.0, counted_W2() / (accuracy_.mean_square() * counted_updates_));
+    scale_ = std::min(1.0, counted_scale());
     if (running_s() > settled_s) return_unexcited();
     if (updates_ % updates_per_accuracy == 0) judge();
     if (first_ == 0 && static_cast<double>(since_start_) * period_s_ > free_s) end_free_responses();
     ++since_change_;
     const Parameters now = theta_.template tail<5>().template cast<double>();
-    if (watch_.update(now)) change(position_W, now);
+    if (watch_.update(now) && settings_.detects_changes) change(position_W, now);
     tell();
   }
 
@@ -220,12 +224,20 @@ class LeastSquaresEstimator {
     errs_ = accuracy_.model_errs(theta);
     const double more = errs_ ? std::max(1.0, drift_share * drift_.mean_square()) : 1.0;
     told_covariance_ = more * parts.noise + parts.prior;
-    if (more > 1.0) told_covariance_ = accuracy_.bounded(told_covariance_);
+    if (more > 1.0 || explains()) told_covariance_ = accuracy_.bounded(told_covariance_);
     deviations_ = told_covariance_.diagonal().cwiseMax(0.0).cwiseSqrt();
   }
 
+  /// What has changed may still be told from the rest.
+  bool explains() const { return since_change_s() < explains_s_; }
+
   void tell() {
     told_ = theta_.template tail<5>().template cast<double>();
+    if (explains()) {
+      const auto simplest = change_.explained(told_, counted_covariance() / change_scale_);
+      if (simplest) told_ = *simplest;
+      if (!simplest && !settled()) told_ = change_.before();
+    }
     if (!bounds_.contains(told_)) told_ = project<5>(told_, bounds_, counted_covariance());
   }
 
@@ -247,6 +259,11 @@ class LeastSquaresEstimator {
     return covariance_.template matrix<double>().template bottomRightCorner<5, 5>();
   }
 
+  /// Of the counted covariance to a true one, as the residuals have it.
+  double counted_scale() const {
+    return counted_W2() / (accuracy_.mean_square() * counted_updates_);
+  }
+
   void change(Scalar position_W, const Parameters& theta) {
     ++changes_;
     since_change_ = 0;
@@ -258,7 +275,9 @@ class LeastSquaresEstimator {
 
     const Matrix<double, 5> before = counted_covariance();
     Matrix<Scalar, size> counted = Matrix<Scalar, size>::Zero();
-    counted.template bottomRightCorner<5, 5>() = (more * scale_).template cast<Scalar>();
+    change_scale_ = counted_scale();
+    change_.begin(theta, before / change_scale_, along, more);
+    counted.template bottomRightCorner<5, 5>() = (more * change_scale_).template cast<Scalar>();
     covariance_.add(counted);
     drift_.forget_past();
     accuracy_.spread(before, counted_covariance(), more);
@@ -286,6 +305,9 @@ class LeastSquaresEstimator {
   EstimateDrift drift_;
   Scalar forgetting_;
   double counted_updates_;  ///< for so many a model's error counts once
+  double explains_s_;       ///< so long after a change
+  SimplestChange change_;
+  double change_scale_ = 1.0;  ///< counted_scale() at the last change
   UdCovariance<Scalar, size> covariance_;
   Vector<Wide, size> theta_;
   Parameters initial_;

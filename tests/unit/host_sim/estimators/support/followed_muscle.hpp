@@ -33,6 +33,7 @@ struct FollowedMuscle {
   Course motion = Course::sine;
   unsigned seed = 1;
   control::Theta believed = control::Theta::Ones();  ///< θ(0) over that of `parameters`
+  bool detects_changes = true;
   // From change_at_s on:
   double change_at_s = 1e9;
   double stiffness_ratio = 1.0;
@@ -50,6 +51,7 @@ struct FollowedMuscle {
     s.scale = scale();
     s.initial = s.scale.nominal.cwiseProduct(believed);
     s.max_W = max_W;
+    s.detects_changes = detects_changes;
     return s;
   }
 

@@ -1,0 +1,60 @@
+#include "supercoil/control/estimation/simplest_change.hpp"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace supercoil::control {
+
+namespace {
+
+using Factor = Eigen::LLT<SimplestChange::Square>;
+
+double log_determinant(const Factor& factor) {
+  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+}
+
+}  // namespace
+
+void SimplestChange::begin(const Parameters& theta, const Square& covariance,
+                           const Directions& along, const Square& all) {
+  theta_ = theta;
+  covariance_ = covariance;
+  along_ = along;
+  all_ = all;
+}
+
+/// θ's move δ has the covariance of θ before and after together, and of the change itself: one
+/// direction more is a matrix of rank one more.
+std::optional<SimplestChange::Parameters> SimplestChange::explained(
+    const Parameters& theta, const Square& covariance) const {
+  const Parameters moved = theta - theta_;
+  const Square both = covariance_ + covariance;
+  Square unchanged = both;
+  unchanged.diagonal().array() += other_deviation * other_deviation;
+  const Factor factor(unchanged);
+  const Parameters weighed = factor.solve(moved);
+  const double log_unchanged = log_determinant(factor);
+  const Factor any(both + all_);
+
+  Vector<double, kinds + 1> log_likelihood;
+  log_likelihood[kinds] = -0.5 * (moved.dot(any.solve(moved)) + log_determinant(any));
+  Matrix<double, 5, kinds + 1> told;
+  told.col(kinds) = theta;
+  for (int i = 0; i < kinds; ++i) {
+    const Parameters along = along_.col(i);
+    const Parameters weighed_along = factor.solve(along);
+    const double spread = 1.0 + along.dot(weighed_along);
+    const Parameters rest = weighed - weighed_along * (along.dot(weighed) / spread);
+    log_likelihood[i] = -0.5 * (moved.dot(rest) + log_unchanged + std::log(spread));
+    told.col(i) = theta - covariance * rest;
+  }
+  int best = 0;
+  const double most = log_likelihood.maxCoeff(&best);
+  const double share = 1.0 / (log_likelihood.array() - most).exp().sum();
+  // Not a number is not decided either.
+  if (!(share > sure)) return std::nullopt;
+  return told.col(best);
+}
+
+}  // namespace supercoil::control

@@ -1,0 +1,87 @@
+#include "supercoil/control/estimation/simplest_change.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil::control;
+
+namespace {
+
+using Parameters = SimplestChange::Parameters;
+using Square = SimplestChange::Square;
+
+enum Kind : int { stiffness, gain, load, cooling };
+
+/// Of a muscle with θ = 1 that is known to 0.1 %.
+SimplestChange begun() {
+  SimplestChange::Directions along = SimplestChange::Directions::Zero();
+  along.col(stiffness) << 0.0, 0.0, 1.0, 1.0, 0.0;
+  along.col(gain) << 1.0, 1.0, 1.0, 1.0, 0.0;
+  along.col(load)[4] = 1.0;
+  along.col(cooling)[3] = 1.0;
+  Parameters theta = Parameters::Ones();
+  theta[4] = 0.0;
+  Square all = along * along.transpose();
+  all.diagonal().array() += 0.05 * 0.05;
+  SimplestChange change;
+  change.begin(theta, Square::Identity() * 1e-6, along, all);
+  return change;
+}
+
+Parameters moved(double theta1, double theta2, double theta3, double theta4, double bias_W) {
+  Parameters theta;
+  theta << theta1, theta2, theta3, theta4, bias_W;
+  return theta;
+}
+
+}  // namespace
+
+TEST_GROUP(SimplestChange){};
+
+TEST(SimplestChange, WhatIsKnownIsToldAsItIs) {
+  const Square known = Square::Identity() * 1e-6;
+  for (const Parameters& theta : {moved(1.0, 1.0, 0.75, 0.75, 0.0), moved(1.3, 1.3, 1.3, 1.3, 0.0),
+                                  moved(1.0, 1.0, 1.0, 1.0, 0.5), moved(1.0, 1.0, 1.0, 1.4, 0.0)}) {
+    const auto told = begun().explained(theta, known);
+    CHECK(told.has_value());
+    CHECK((*told - theta).norm() < 0.01);
+  }
+}
+
+TEST(SimplestChange, WhatTheDataLeaveOpenStaysAsItWas) {
+  // The data tell the sum of θ4 and the bias only, and that θ3 is as before: a load of 0.5 W looks
+  // much like better cooling, but not like a softer muscle.
+  Square covariance = Square::Identity() * 1e-6;
+  Parameters open = Parameters::Zero();
+  open[2] = 0.3;
+  open[4] = -0.3;
+  covariance += open * open.transpose();
+  // Least squares lies between: half of it in θ3.
+  const auto told = begun().explained(moved(1.0, 1.0, 1.25, 1.0, 0.25), covariance);
+  CHECK(told.has_value());
+  DOUBLES_EQUAL(1.0, (*told)[2], 0.02);
+  DOUBLES_EQUAL(0.5, (*told)[4], 0.03);
+}
+
+TEST(SimplestChange, TwoThatExplainItAsWellAreNotDecided) {
+  Square covariance = Square::Identity() * 1e-6;
+  Parameters open = Parameters::Zero();
+  open[3] = 0.3;
+  open[4] = -0.3;
+  covariance += open * open.transpose();
+  const SimplestChange change = begun();
+  CHECK_FALSE(change.explained(moved(1.0, 1.0, 1.0, 1.25, 0.25), covariance).has_value());
+  DOUBLES_EQUAL(1.0, change.before()[3], 0.0);
+}
+
+TEST(SimplestChange, TwoChangesAtOnceAreToldAsLeastSquaresHasThem) {
+  const Parameters theta = moved(1.0, 1.0, 0.75, 0.75, 0.5);
+  const auto told = begun().explained(theta, Square::Identity() * 1e-6);
+  CHECK(told.has_value());
+  CHECK((*told - theta).norm() < 1e-9);
+}
+
+TEST(SimplestChange, WhatIsNoNumberIsNotDecided) {
+  CHECK_FALSE(begun().explained(Parameters::Constant(NAN), Square::Identity()).has_value());
+}

@@ -41,8 +41,8 @@ LearnedFeedforward<Scalar>::LearnedFeedforward(const LearnedFeedforwardSettings&
       least_squares_(prior()),
       detector_(detection()),
       iterative_(repetition(), step_s),
-      follow_step_(step_s / s.follow_s),
-      followed_(linear_muscle()) {
+      share_(share()),
+      follow_step_(step_s / s.follow_s) {
   suit(theta_);
 }
 
@@ -74,6 +74,11 @@ IterativeLearning::Settings LearnedFeedforward<Scalar>::repetition() const {
 }
 
 template <class Scalar>
+LearnedShare LearnedFeedforward<Scalar>::share() const {
+  return {{.period_s = period_s(), .least_W = residual_ratio * settings_.max_W}, slowness(theta_)};
+}
+
+template <class Scalar>
 void LearnedFeedforward<Scalar>::suit(const Theta& theta) {
   theta_ = theta;
   pid_.set_bandwidth(
@@ -81,8 +86,12 @@ void LearnedFeedforward<Scalar>::suit(const Theta& theta) {
   pid_.suit(theta);
   regressors_.suit(theta);
   least_squares_.reset(linear_muscle());
-  followed_ = linear_muscle();
+  followed_ = goal_ = judged_ = judged_next_ = linear_muscle();
+  judged_updates_ = 0;
+  share_ = share();
   detector_ = Detector(detection());
+  signal_trend_.setZero();
+  residual_trend_W_ = 0.0;
   mean_square_W2_ = 0.0;
   recovery_updates_ = 0;
   iterative_ = IterativeLearning(repetition(), step_s_);
@@ -106,6 +115,7 @@ void LearnedFeedforward<Scalar>::start(const LawStart<Scalar>& at) {
   once_ = twice_ = {psi, static_cast<double>(at.power)};
   sum_.setZero();
   sum_W_ = 0.0;
+  error_.restart();
   tick_ = 0;
   settle_updates_ = updates_of(settle_s);
   next_unit_ = units;
@@ -120,6 +130,7 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
   if (settings_.learn) {
     sum_ += regressors_.values();
     sum_W_ += static_cast<double>(in.applied);
+    error_.step(static_cast<double>(in.model.position - in.position));
     if (in.limited) note_limit(in);
     if (++tick_ == ticks_per_update_) {
       tick_ = 0;
@@ -136,7 +147,7 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
   regressors_.step(motion_of(in), static_cast<double>(in.model_jerk));
   const Weights& psi = regressors_.values();
   if (settings_.learn) {
-    const Weights change = (least_squares_.weights() - followed_) * follow_step_;
+    const Weights change = (goal_ - followed_) * follow_step_;
     followed_ += change;
     // What the feedforward takes over, the integral has held until now.
     pid_.give_up(change.dot(psi));
@@ -168,6 +179,7 @@ void LearnedFeedforward<Scalar>::learn(int unit) {
     least_squares_.factor((unit - 1) * columns_of_unit, unit * columns_of_unit);
   } else {
     least_squares_.solve();
+    goal_ = linear_muscle() + share_.value() * (least_squares_.weights() - linear_muscle());
   }
 }
 
@@ -178,18 +190,31 @@ void LearnedFeedforward<Scalar>::observe() {
   once_.power_W += filter_share_ * (sum_W_ * share - once_.power_W);
   twice_.regressors += filter_share_ * (once_.regressors - twice_.regressors);
   twice_.power_W += filter_share_ * (once_.power_W - twice_.power_W);
+  error_.update(static_cast<double>(ticks_per_update_), filter_share_, period_s());
   sum_.setZero();
   sum_W_ = 0.0;
   const bool skip = std::exchange(skip_, false);
   settle_updates_ = std::max<std::int64_t>(0, settle_updates_ - 1);
   upset_updates_ = std::max<std::int64_t>(0, upset_updates_ - 1);
   if (skip || settle_updates_ > 0) return;
-  const double residual_W = twice_.power_W - least_squares_.weights().dot(twice_.regressors);
+  const double power_W = twice_.power_W + error_.power_W(regressors_.units());
+  const double foretold_W = least_squares_.weights().dot(twice_.regressors);
   if (pending_ < 0) {
-    least_squares_.add(twice_.regressors, twice_.power_W, variance_W2(residual_W));
+    least_squares_.add(twice_.regressors, power_W, variance_W2(power_W - foretold_W));
     recovery_updates_ = std::max<std::int64_t>(0, recovery_updates_ - 1);
   }
-  watch_for_change(residual_W);
+  judge(power_W);
+  watch_for_change(twice_.power_W - foretold_W);
+}
+
+/// What was learned, by what it says of the power some seconds later.
+template <class Scalar>
+void LearnedFeedforward<Scalar>::judge(double power_W) {
+  const double linear_W = linear_muscle().dot(twice_.regressors);
+  share_.step(power_W - linear_W, judged_.dot(twice_.regressors) - linear_W, upset_updates_ == 0);
+  if (--judged_updates_ > 0) return;
+  judged_updates_ = updates_of(judged_after_s);
+  judged_ = std::exchange(judged_next_, least_squares_.weights());
 }
 
 /// What the model does not describe counts for less where there is much of it, lest the weights fit
@@ -231,7 +256,10 @@ void LearnedFeedforward<Scalar>::watch_for_change(double residual_W) {
   typename Detector::Signals signals;
   for (int i = 0; i < directions; ++i)
     signals[i] = along(i).dot(twice_.regressors);
-  const auto found = detector_.step(signals, residual_W);
+  const double share = period_s() / (change_trend_s * slowness(theta_));
+  signal_trend_ += share * (signals - signal_trend_);
+  residual_trend_W_ += share * (residual_W - residual_trend_W_);
+  const auto found = detector_.step(signals - signal_trend_, residual_W - residual_trend_W_);
   if (pending_ < 0) {
     if (!found) return;
     ++changes_;
@@ -244,6 +272,8 @@ void LearnedFeedforward<Scalar>::watch_for_change(double residual_W) {
   const double lowest = pending_ == load ? -highest : min_amount;
   least_squares_.move(along(pending_), std::clamp(detector_.amount(pending_), lowest, highest));
   detector_.forget_window();
+  share_.restart();
+  judged_ = judged_next_ = least_squares_.weights();
   iterative_.forget();
   upset_updates_ = updates_of(upset_s);
   recovery_updates_ = updates_of(recovery_s);

@@ -9,16 +9,19 @@
 
 #include "supercoil/control/estimation/change_detector.hpp"
 #include "supercoil/control/estimation/leaky_least_squares.hpp"
+#include "supercoil/control/tracking/error_power.hpp"
 #include "supercoil/control/tracking/fixed_pid.hpp"
 #include "supercoil/control/tracking/iterative_learning.hpp"
+#include "supercoil/control/tracking/learned_share.hpp"
 #include "supercoil/control/tracking/motion_regressors.hpp"
 
 namespace supercoil::control {
 
 /// u = w̄ᵀψ + g (Kp e + Kd ė + Ki ∫e), e = xm − x, with ψ the MotionRegressors of the reference
-/// model's motion. w is learned by least squares from the power that was applied, both through
-/// 1/(s/ωf + 1)²: what the feedback had to add to one pass, the feedforward gives in the next. The
-/// model's motion is known exactly, so no noise is in ψ.
+/// model's motion. w is learned by least squares from the power that was applied and the
+/// ErrorPower, all through 1/(s/ωf + 1)²: what the feedback had to add to one pass, the feedforward
+/// gives in the next. The model's motion is known exactly, so no noise is in ψ. w̄ follows the
+/// linear muscle and as much of what was learned beyond it as has proved itself (LearnedShare).
 ///
 /// The PID's gains are those of FixedPid at the feedback bandwidth that the muscle allows. g
 /// follows the learned slope of power over velocity, since a cold muscle needs more power for a
@@ -30,7 +33,7 @@ struct LearnedFeedforwardSettings {
   double max_W = 4.5;                         ///< > 0: the scale of powers
   double bandwidth_rad_per_s = 8.0;           ///< at most
   double derivative_filter_rad_per_s = 80.0;  ///< of x, twice this pole
-  double follow_s = 0.5;                      ///< time constant with which w̄ follows w
+  double follow_s = 0.5;                      ///< time constant with which w̄ follows
   double forgetting_s = 60.0;                 ///< in which an observation's weight falls to 1/e
   bool learn = true;                          ///< otherwise w stays that of the linear muscle
   double period_s = 0.0;  ///< in which the reference repeats itself; 0: it does not
@@ -77,6 +80,7 @@ class LearnedFeedforward {
   LeakyLeastSquares<R::count>::Settings prior() const;
   typename Detector::Settings detection() const;
   IterativeLearning::Settings repetition() const;
+  LearnedShare share() const;
   double period_s() const { return step_s_ * static_cast<double>(ticks_per_update_); }
   /// So many updates take a time that suits the usual muscle.
   std::int64_t updates_of(double usual_s) const {
@@ -87,6 +91,7 @@ class LearnedFeedforward {
   void observe();
   void learn(int unit);
   double variance_W2(double residual_W);
+  void judge(double power_W);
   void watch_for_change(double residual_W);
   Weights along(int direction) const;
 
@@ -101,6 +106,10 @@ class LearnedFeedforward {
   /// In which they forget most of a motion that the muscle could not make.
   static constexpr double infeasible_s = 0.5;
   static constexpr double change_wait_s = 1.0;
+  /// A change is quicker than this, most of what the model does not describe is slower.
+  static constexpr double change_trend_s = 0.7;
+  /// Weights that are judged are so old, and up to twice that.
+  static constexpr double judged_after_s = 5.0;
   static constexpr double upset_s = 10.0;
   static constexpr double recovery_s = 60.0;
 
@@ -113,10 +122,16 @@ class LearnedFeedforward {
   LeakyLeastSquares<R::count> least_squares_;
   Detector detector_;
   IterativeLearning iterative_;
+  LearnedShare share_;
+  ErrorPower error_;
   double follow_step_;
   double filter_share_ = 0.0;
 
   Weights followed_;  // w̄
+  Weights goal_;      // of w̄
+  Weights judged_;
+  Weights judged_next_;
+  std::int64_t judged_updates_ = 0;  // before the next ones
   double slope_ = 1.0;
   Weights sum_ = Weights::Zero();  // of ψ since the last update
   double sum_W_ = 0.0;
@@ -133,6 +148,8 @@ class LearnedFeedforward {
   std::int64_t changes_ = 0;
   double mean_square_W2_ = 0.0;        // of the residual
   std::int64_t recovery_updates_ = 0;  // of those after a change that are left
+  typename Detector::Signals signal_trend_ = Detector::Signals::Zero();
+  double residual_trend_W_ = 0.0;
 };
 
 extern template class LearnedFeedforward<double>;

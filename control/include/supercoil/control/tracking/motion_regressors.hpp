@@ -63,6 +63,8 @@ class MotionRegressors {
         rate(plays_[1], v);
   }
   const Values& values() const { return values_; }
+  /// θ in watts at rest, the first one times the moving mass.
+  const Theta& units() const { return units_; }
 
   /// What a metre per second more would need, over what the linear muscle needs for it.
   double velocity_slope(const Values& weights) const {

@@ -1,0 +1,47 @@
+// The power that a muscle's distance from its reference model's motion stands for.
+#pragma once
+
+#include <utility>
+
+#include "supercoil/control/actuator/parameters.hpp"
+
+namespace supercoil::control {
+
+/// P = f(xm − e) is about f(xm) − (θ4 e + θ3 ė + θ2 ë): who regresses the applied power on the
+/// model's motion must add what the error takes, or learns the feedback's work as the muscle's. A
+/// slow feedback, as on a lightly damped muscle, leaves errors for seconds, and a limited power for
+/// as long as it lasts. The error goes through the regression's own two low-passes, after which its
+/// derivatives are not noise.
+class ErrorPower {
+ public:
+  void restart() { *this = {}; }
+
+  /// One tick. error: the model's position less the muscle's, in watts at rest. The one before
+  /// belongs to the power that acted since.
+  void step(double error) { sum_ += std::exchange(last_, error); }
+
+  /// Ends a period of so many ticks. filter_share: of a low-pass, in a period.
+  void update(double ticks, double filter_share, double period_s) {
+    once_ += filter_share * (std::exchange(sum_, 0.0) / ticks - once_);
+    const double before = twice_;
+    twice_ += filter_share * (once_ - twice_);
+    const double rate = (twice_ - before) / period_s;
+    rate_change_ = (rate - rate_) / period_s;
+    rate_ = rate;
+  }
+
+  /// units: θ in watts at rest, as MotionRegressors has it.
+  double power_W(const Theta& units) const {
+    return units[3] * twice_ + units[2] * rate_ + units[1] * rate_change_;
+  }
+
+ private:
+  double last_ = 0.0;
+  double sum_ = 0.0;
+  double once_ = 0.0;
+  double twice_ = 0.0;
+  double rate_ = 0.0;
+  double rate_change_ = 0.0;
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,67 @@
+// How much of what was learned a law should go by.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace supercoil::control {
+
+/// As much as would have foretold the power no worse than nothing learned. z is what the muscle as
+/// believed leaves of the power, d what was learned some seconds before adds to it: of all shares s
+/// in [0, 1], the largest with E(z − s d)² ≤ E z², which is 2 E[z d]/E[d²]. Of both only what is
+/// quicker than trend_s counts, since the feedback's integral has the rest. No observation counts
+/// for much more than a usual one: the first seconds after a muscle has changed would else judge
+/// for minutes.
+class LearnedShare {
+ public:
+  struct Settings {
+    double period_s;         ///< between steps
+    double least_W;          ///< of a power that says anything
+    double trend_s = 2.0;    ///< for a muscle with a thermal time constant of 1.95 s
+    double memory_s = 60.0;  ///< the same
+  };
+
+  /// slowness: of the muscle.
+  LearnedShare(const Settings& s, double slowness)
+      : least_W2_(s.least_W * s.least_W),
+        trend_share_(s.period_s / (s.trend_s * slowness)),
+        memory_share_(s.period_s / (s.memory_s * slowness)),
+        trusting_(1.0 / s.period_s) {}
+
+  /// All of it, until there is evidence.
+  void restart() { both_ = learned_ = 0.0; }
+
+  /// One observation; judge: it says something of the muscle.
+  void step(double left_W, double learned_W, bool judge) {
+    left_trend_W_ += trend_share_ * (left_W - left_trend_W_);
+    learned_trend_W_ += trend_share_ * (learned_W - learned_trend_W_);
+    if (!judge) return;
+    const double z = left_W - left_trend_W_;
+    const double d = learned_W - learned_trend_W_;
+    const double size_W2 = z * z + d * d;
+    usual_W2_ +=
+        memory_share_ * (std::min(size_W2, most_usual * usual_W2_ + least_W2_) - usual_W2_);
+    const double weight = 1.0 / (size_W2 + usual_W2_ + least_W2_);
+    both_ += weight * z * d - memory_share_ * both_;
+    learned_ += weight * d * d - memory_share_ * learned_;
+  }
+
+  double value() const {
+    return std::clamp(2.0 * (both_ + trusting_) / (learned_ + trusting_), 0.0, 1.0);
+  }
+
+ private:
+  static constexpr double most_usual = 10.0;
+
+  double least_W2_;
+  double trend_share_;
+  double memory_share_;
+  double trusting_;  ///< observations of a second, in favour
+  double left_trend_W_ = 0.0;
+  double learned_trend_W_ = 0.0;
+  double usual_W2_ = 0.0;
+  double both_ = 0.0;     // weighted sum of z d
+  double learned_ = 0.0;  // of d²
+};
+
+}  // namespace supercoil::control

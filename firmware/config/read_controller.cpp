@@ -101,6 +101,9 @@ control::LearnedFeedforwardSettings read_learned_ff(Section& section,
   l.period_s = section.number("period_s", l.period_s, {0.0, 600.0});
   if (l.period_s > 0.0 && l.period_s < 2.0)
     section.wrong("period_s", "must be 0 (the reference does not repeat itself) or 2 to 600");
+  l.find_period = section.flag("find_period", l.find_period);
+  if (l.find_period && l.period_s > 0.0)
+    section.wrong("find_period", "must be false where period_s is given");
   return l;
 }
 

@@ -41,6 +41,7 @@ LearnedFeedforward<Scalar>::LearnedFeedforward(const LearnedFeedforwardSettings&
       least_squares_(prior()),
       detector_(detection()),
       iterative_(repetition(), step_s),
+      period_finder_(step_s),
       share_(share()),
       follow_step_(step_s / s.follow_s) {
   suit(theta_);
@@ -95,6 +96,7 @@ void LearnedFeedforward<Scalar>::suit(const Theta& theta) {
   mean_square_W2_ = 0.0;
   recovery_updates_ = 0;
   iterative_ = IterativeLearning(repetition(), step_s_);
+  period_finder_.restart();
   filter_share_ = -std::expm1(-regression_pole_rad_per_s / slowness(theta_) * period_s());
 }
 
@@ -120,7 +122,9 @@ void LearnedFeedforward<Scalar>::start(const LawStart<Scalar>& at) {
   settle_updates_ = updates_of(settle_s);
   next_unit_ = units;
   pending_ = -1;
-  iterative_.reset();
+  period_finder_.restart();
+  iterative_.set_period(settings_.period_s);
+  repeated_W_ = 0.0;
   if (at.hold) pid_.hold(now, at.power, to<Scalar>(followed_.dot(psi)));
 }
 
@@ -154,10 +158,22 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
     pid_.schedule(
         to<Scalar>(std::clamp(regressors_.velocity_slope(followed_), min_slope, max_slope)));
   }
-  feedforward_W_ = followed_.dot(psi) + iterative_.power_W();
+  if (settings_.find_period) follow_period(static_cast<double>(in.reference));
+  feedforward_W_ = followed_.dot(psi) + iterative_.power_W() + repeated_W_;
   const Scalar wanted = pid_.step(in, to<Scalar>(feedforward_W_));
   iterative_.step(static_cast<double>(wanted) - feedforward_W_, !in.limited && upset_updates_ == 0);
   return wanted;
+}
+
+/// What was given for a period that has ended, or is found again, is taken away slowly.
+template <class Scalar>
+void LearnedFeedforward<Scalar>::follow_period(double reference_W) {
+  const double before_s = period_finder_.period_s();
+  period_finder_.step(reference_W);
+  repeated_W_ -= repeated_W_ * step_s_ / fade_s;
+  if (period_finder_.period_s() == before_s) return;
+  repeated_W_ += iterative_.power_W();
+  iterative_.set_period(period_finder_.period_s());
 }
 
 /// Nothing is learned from a limited tick. When the feedforward alone asked for more than the limit

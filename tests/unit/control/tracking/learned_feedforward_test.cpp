@@ -71,6 +71,23 @@ TEST(LearnedFeedforward, IterativeLearningFollowsWhatRepeatsAndForgetsItAtAChang
   CHECK(loop.rms_um<1>({{{185.4, 260.8}}})[0] <= 4.0);
 }
 
+TEST(LearnedFeedforward, IterativeLearningFollowsAPeriodThatItFindsUntilItEnds) {
+  NoisyLoop loop = learning_loop();
+  scale_belief(loop, {1.3, 0.7, 1.3, 0.7});
+  loop.controller.learned_ff.learn = false;
+  loop.reference_m = [](double time_s) {
+    return 0.011 + 0.009 * std::sin(time_s < 251.0 ? 0.25 * time_s : 0.4 * time_s - 37.65);
+  };
+  const auto once_um = loop.rms_um<2>({{{200.0, 251.0}, {255.0, 280.0}}});
+  loop.controller.learned_ff.find_period = true;
+  const auto found_um = loop.rms_um<2>({{{200.0, 251.0}, {255.0, 280.0}}});
+  UT_PRINT(StringFromFormat("um: %.2f and %.2f rms without, %.2f and %.2f with", once_um[0],
+                            once_um[1], found_um[0], found_um[1])
+               .asCharString());
+  CHECK(found_um[0] < 0.2 * once_um[0]);
+  CHECK(found_um[1] < 1.2 * once_um[1]);
+}
+
 TEST(LearnedFeedforward, FloatFollowsAsWell) {
   NoisyLoop loop = learning_loop();
   loop.controller.arithmetic = Arithmetic::float32;

@@ -37,6 +37,7 @@ struct LearningLoop {
   host_sim::PlantEffects effects{};
   double (*reference_m)(double) = sine_of_18_mm;
   bool learn = true;
+  bool find_period = false;
   double soft_from_s = 1e9;  ///< from then on a quarter of the stiffness is gone
 
   /// Of the last so many seconds.
@@ -86,6 +87,7 @@ struct LearningLoop {
     s.dc_gain_m_per_W = parameters.dc_gain_m_per_W();
     s.learned_ff.scale = {theta_from(parameters), s.dc_gain_m_per_W, parameters.moving_mass_kg};
     s.learned_ff.learn = learn;
+    s.learned_ff.find_period = find_period;
     return s;
   }
   void soften(host_sim::Plant& plant) const {
@@ -140,4 +142,13 @@ TEST(LearnedFeedforwardOnMuscles, FollowsAHardMuscleAndAgainAfterItSoftenedWhile
     loop.soft_from_s = soft_from_s;
     CHECK(loop.rms_um(soft_from_s + 6.0 * sine_period_s, 3.0 * sine_period_s) <= 16.0);
   }
+}
+
+TEST(LearnedFeedforwardOnMuscles, FindsThePeriodAndRepeatsWhatTheMuscleNeeded) {
+  LearningLoop real = believed_cold(host_sim::MusclePreset::real);
+  real.find_period = true;
+  CHECK(real.rms_um(10.0 * sine_period_s, 1.6 * sine_period_s) <= 2.5);
+  LearningLoop hard = believed_cold(host_sim::MusclePreset::real_hard);
+  hard.find_period = true;
+  CHECK(hard.rms_um(10.0 * sine_period_s, 1.6 * sine_period_s) <= 4.0);
 }

@@ -86,6 +86,11 @@ TEST(WrongScenario, MracByLeastSquaresInFixedPoint) {
       "controller = {kind = 'mrac_ls', arithmetic = 'q8.24'}");
 }
 
+TEST(WrongScenario, APeriodThatIsGivenAndToBeFound) {
+  check_answer("s.toml:1: controller.find_period = true: must be false where period_s is given",
+               "controller = {kind = 'learned_ff', period_s = 25.0, find_period = true}");
+}
+
 TEST(WrongScenario, ValueForATable) {
   check_answer("s.toml:1: plant = 3: must be a table: [plant]", "plant = 3");
 }

@@ -25,11 +25,18 @@ class IterativeLearning {
   };
 
   /// step_s: > 0, between ticks.
-  IterativeLearning(const Settings& s, double step_s)
-      : settings_(s),
-        phase_step_(s.period_s > 0.0 ? step_s / s.period_s : 0.0),
-        ahead_(slots_of(s.ahead_s)),
-        half_width_(slots_of(s.average_s)) {}
+  IterativeLearning(const Settings& s, double step_s) : settings_(s), step_s_(step_s) {
+    set_period(s.period_s);
+  }
+
+  /// Of the reference; 0: it does not repeat itself. One begins now, and nothing is learned.
+  void set_period(double period_s) {
+    settings_.period_s = period_s;
+    phase_step_ = period_s > 0.0 ? step_s_ / period_s : 0.0;
+    ahead_ = slots_of(settings_.ahead_s);
+    half_width_ = slots_of(settings_.average_s);
+    reset();
+  }
 
   /// A period begins now, and nothing is learned.
   void reset() {
@@ -121,9 +128,10 @@ class IterativeLearning {
   }
 
   Settings settings_;
-  double phase_step_;
-  std::size_t ahead_;
-  std::size_t half_width_;
+  double step_s_;
+  double phase_step_ = 0.0;
+  std::size_t ahead_ = 0;
+  std::size_t half_width_ = 0;
   Slots feedback_W_{};
   std::array<Slots, 2> given_W_{};  // by period p: in the next one, and in p itself
   double phase_ = 0.0;

@@ -26,6 +26,18 @@ std::uint16_t setting_id(std::uint8_t node) {
   return telemetry::id_of(SUPERCOIL_SETTING_FRAME_ID, node);
 }
 
+std::uint16_t refused_value_id(std::uint8_t node) {
+  return telemetry::id_of(SUPERCOIL_REFUSED_VALUE_FRAME_ID, node);
+}
+
+std::optional<double> hear_nearest(std::uint8_t node, const hal::CanFrame& frame) {
+  if (frame.id != refused_value_id(node) || frame.length != SUPERCOIL_REFUSED_VALUE_LENGTH)
+    return std::nullopt;
+  supercoil_refused_value_t m{};
+  supercoil_refused_value_unpack(&m, frame.data.data(), frame.length);
+  return m.nearest;
+}
+
 std::uint16_t status_id(std::uint8_t node) {
   return telemetry::id_of(SUPERCOIL_STATUS_FRAME_ID, node);
 }

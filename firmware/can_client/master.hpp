@@ -13,10 +13,16 @@ namespace supercoil::can_client {
 /// Of the frames by which a node answers its masters.
 std::uint16_t acknowledge_id(std::uint8_t node);
 std::uint16_t setting_id(std::uint8_t node);
+/// Of what a node tells after an answer that refuses a value.
+std::uint16_t refused_value_id(std::uint8_t node);
 /// Of its heartbeat.
 std::uint16_t status_id(std::uint8_t node);
 /// Of what it has learned.
 std::uint16_t estimate_id(std::uint8_t node);
+
+/// Of the values that the node would have obeyed the nearest to the refused one, NaN where there is
+/// none. Empty: the frame tells of no refused value.
+std::optional<double> hear_nearest(std::uint8_t node, const hal::CanFrame& frame);
 
 /// Asks for one setting of a node; needs no lease.
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);

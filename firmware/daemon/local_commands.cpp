@@ -134,7 +134,7 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
 
 void LocalCommands::pass(const Answer& given) {
   if (waiting_.empty()) return;  // of a command that nobody here sent
-  answer(waiting_.front(), answer_text(given.refusal));
+  answer(waiting_.front(), answer_text(given.refusal, given.nearest));
   waiting_.pop_front();
 }
 

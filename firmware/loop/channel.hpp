@@ -66,7 +66,7 @@ class Channel {
 
   // The stages of a tick, in this order.
   void sample(hal::Time now);
-  Refusal obey(const Command& command, const BoardNow& board);
+  Answer answer(const Command& command, const BoardNow& board);
   void supervise(const BoardNow& board);
   void estimate();
   void control();
@@ -117,6 +117,13 @@ class Channel {
   bool take_lesson(storage::Lesson& lesson) { return lessons_.pop(lesson); }
 
  private:
+  Refusal obey(const Command& command, const BoardNow& board);
+  /// nearest: what would have been obeyed.
+  Refusal refuse_beyond(double nearest) {
+    nearest_ = nearest;
+    return Refusal::out_of_range;
+  }
+  Refusal refuse_place(double place, std::size_t places);
   Refusal arm(const BoardNow& board);
   Refusal heat(Mode mode, double value, const BoardNow& board);
   Refusal scale(double true_m);
@@ -216,6 +223,7 @@ class Channel {
   bool writes_ok_ = true;
   bool lines_ok_ = true;
   bool reset_asked_ = false;
+  double nearest_ = NAN;     ///< to the value that is refused
   bool heat_known_ = false;  ///< the muscle has been cool since boot, whatever was before
   std::uint32_t turn_ = 0;   ///< of a full turn
   std::int64_t ticks_ = 0;   ///< of learning, in this second

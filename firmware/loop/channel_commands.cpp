@@ -1,4 +1,5 @@
 // What a channel does when it is told to.
+#include <algorithm>
 #include <cmath>
 
 #include "loop/channel.hpp"
@@ -14,6 +15,12 @@ Refusal answer_to(ModeResult kept) {
 }
 
 }  // namespace
+
+Answer Channel::answer(const Command& command, const BoardNow& board) {
+  nearest_ = NAN;
+  const Refusal refusal = obey(command, board);
+  return {command, refusal, nearest_};
+}
 
 Refusal Channel::obey(const Command& command, const BoardNow& board) {
   switch (command.verb) {
@@ -78,9 +85,9 @@ Refusal Channel::heat(Mode mode, double value, const BoardNow& board) {
   if (!board.proven) return Refusal::not_ready;
   if (state == State::armed && probe_.running()) return Refusal::busy;
   if (mode == Mode::position) {
-    const bool reachable =
-        value >= -settings_.supervision.max_travel_m && value <= settings_.supervision.max_travel_m;
-    if (!reachable) return Refusal::out_of_range;  // a NaN as well
+    const double max_m = settings_.supervision.max_travel_m;
+    const bool reachable = value >= -max_m && value <= max_m;
+    if (!reachable) return refuse_beyond(std::clamp(value, -max_m, max_m));  // a NaN as well
   } else if (mode == Mode::power) {
     if (!std::isfinite(value)) return Refusal::out_of_range;
   } else if (state == State::active) {
@@ -146,9 +153,13 @@ void Channel::rest() {
   power_stage_.reset();
 }
 
+Refusal Channel::refuse_place(double place, std::size_t places) {
+  return refuse_beyond(std::clamp(place, 0.0, static_cast<double>(places - 1)));
+}
+
 Refusal Channel::choose_controller(double place) {
   if (!(place >= 0.0 && place < static_cast<double>(controllers_.size())))
-    return Refusal::out_of_range;
+    return refuse_place(place, controllers_.size());
   const auto chosen = static_cast<std::size_t>(place);
   if (mode_ == Mode::position) {
     control::ControllerStart at = start_here();
@@ -161,7 +172,7 @@ Refusal Channel::choose_controller(double place) {
 
 Refusal Channel::choose_estimator(double place) {
   if (!(place >= 0.0 && place < static_cast<double>(estimators_.size())))
-    return Refusal::out_of_range;
+    return refuse_place(place, estimators_.size());
   estimator_ = static_cast<std::size_t>(place);
   estimator().restart();
   estimate_ = estimator().estimate();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
@@ -53,6 +54,8 @@ struct Command {
 struct Answer {
   Command command;
   Refusal refusal = Refusal::none;
+  /// Of what is out of range: the nearest value that would have been obeyed; NaN: none is known.
+  double nearest = NAN;
 };
 
 }  // namespace supercoil

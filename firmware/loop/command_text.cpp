@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "program/words.hpp"
 
@@ -71,9 +72,12 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
   return command;
 }
 
-std::string answer_text(Refusal refusal) {
+std::string answer_text(Refusal refusal, double nearest) {
   if (refusal == Refusal::none) return "ok";
-  return "refused: " + std::string(name(refusal));
+  std::ostringstream text;
+  text << "refused: " << name(refusal);
+  if (!std::isnan(nearest)) text << "; " << nearest << " would be obeyed";
+  return text.str();
 }
 
 }  // namespace supercoil

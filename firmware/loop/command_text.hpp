@@ -14,7 +14,8 @@ namespace supercoil {
 /// channels: how many the board has. The error says what is wrong and what is allowed.
 tl::expected<Command, std::string> parse_command(std::string_view text, std::size_t channels);
 
-/// "ok", or "refused: wrong_state".
-std::string answer_text(Refusal refusal);
+/// "ok", "refused: wrong_state", or "refused: out_of_range; 0.025 would be obeyed". nearest: as in
+/// Answer.
+std::string answer_text(Refusal refusal, double nearest);
 
 }  // namespace supercoil

@@ -107,14 +107,14 @@ void Loop::obey() {
   }
   Command command;
   for (int i = 0; i < most_commands_per_tick && commands_.pop(command); ++i) {
-    Refusal refusal = Refusal::no_such_channel;
+    Answer answer{command, Refusal::no_such_channel};
     if (command.channel < channels_.size()) {
       if (command.verb == Verb::reset) reset_board();
       Channel& channel = *channels_[command.channel];
-      refusal = channel.obey(command, now_);
-      channel.note_answer(refusal);
+      answer = channel.answer(command, now_);
+      channel.note_answer(answer.refusal);
     }
-    answers_.push({command, refusal});
+    answers_.push(answer);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "operator/board_link.hpp"
 
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <thread>
@@ -59,12 +60,13 @@ BoardLink::Answer CanLink::ask(const std::string& line) {
   if (!node) return tl::unexpected(node.error());
   const auto answer = (*node)->ask(command->verb, command->value);
   if (!answer) return tl::unexpected(answer.error());
-  return answer_text(*answer);
+  return answer_text(*answer, *answer == Refusal::out_of_range ? (*node)->nearest() : NAN);
 }
 
 tl::expected<Commander*, std::string> CanLink::commander(std::uint8_t node) {
   if (!nodes_.contains(node)) {
-    auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node)});
+    auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
+                               can_client::refused_value_id(node)});
     if (!bus) return tl::unexpected(bus.error());
     nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
   }

@@ -106,7 +106,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
     const std::string line =
         first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
     const auto answer = board.ask(line);
-    const bool is_over = answer && *answer == answer_text(Refusal::wrong_state);
+    const bool is_over = answer && *answer == answer_text(Refusal::wrong_state, NAN);
     if (is_over && !first && !renews_itself) return ended(board, options);
     if (!answer || *answer != "ok") return concluded(options, line, answer);
     if (interrupted != 0 || time_s >= options.hold_s) break;

@@ -5,6 +5,7 @@
 #include <supercoil.h>
 
 #include "telemetry/nodes.hpp"
+#include "telemetry/opcodes.hpp"
 
 namespace supercoil::telemetry {
 
@@ -42,7 +43,14 @@ CanLink::CanLink(const CanSettings& settings, const BoardSettings& board, Loop& 
       first_node_(settings.first_node) {}
 
 void CanLink::answer(const Answer& answer) {
-  if (const auto frame = commands_.answered(answer)) publisher_.send(*frame);
+  const auto frame = commands_.answered(answer);
+  if (!frame) return;
+  publisher_.send(*frame);
+  if (answer.refusal != Refusal::out_of_range) return;
+  const Command& command = answer.command;
+  publisher_.send(refused_value(static_cast<Node>(first_node_ + command.channel),
+                                sent(command.verb, command.value).value,
+                                sent(command.verb, answer.nearest).value));
 }
 
 void CanLink::poll(hal::Time now) {
@@ -67,6 +75,7 @@ void CanLink::receive(hal::Time now) {
     const RunSettings::Taken set = settings_.take(frame, now);
     if (set.damaged) loop_->send_damaged(*set.damaged);
     if (set.answer) publisher_.send(*set.answer);
+    if (set.refused_value) publisher_.send(*set.refused_value);
   }
 }
 

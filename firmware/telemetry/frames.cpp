@@ -57,6 +57,14 @@ hal::CanFrame first_cause(Node node, const Row& row) {
                 supercoil_first_cause_pack);
 }
 
+hal::CanFrame refused_value(Node node, double value, double nearest) {
+  supercoil_refused_value_t m{};
+  m.value = static_cast<float>(value);
+  m.nearest = static_cast<float>(nearest);
+  return packed(SUPERCOIL_REFUSED_VALUE_FRAME_ID, SUPERCOIL_REFUSED_VALUE_LENGTH, node, m,
+                supercoil_refused_value_pack);
+}
+
 hal::CanFrame measurement(Node node, const Row& row) {
   supercoil_measurement_t m{};
   m.position_m =

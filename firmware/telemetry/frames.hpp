@@ -52,6 +52,8 @@ struct BoardTiming {
 hal::CanFrame emergency(Node node, const Row& row);
 /// Of the row that first shows a fault.
 hal::CanFrame first_cause(Node node, const Row& row);
+/// Right after the answer that refuses it as out of range. nearest: as in Answer.
+hal::CanFrame refused_value(Node node, double value, double nearest);
 hal::CanFrame measurement(Node node, const Row& row);
 hal::CanFrame tracking(Node node, const Row& row);
 hal::CanFrame power(Node node, const Row& row);

@@ -4,8 +4,9 @@ namespace supercoil::telemetry {
 
 namespace {
 
-/// That wait for the bus. Each master waits for one before it asks again.
-constexpr std::size_t most_answers = 16;
+/// That wait for the bus, with the values that they refuse. Each master waits for one before it
+/// asks again.
+constexpr std::size_t most_answers = 32;
 
 }  // namespace
 

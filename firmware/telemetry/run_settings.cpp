@@ -1,5 +1,6 @@
 #include "telemetry/run_settings.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -52,12 +53,12 @@ RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) 
   supercoil_setting_read_t m{};
   supercoil_setting_read_unpack(&m, frame.data.data(), frame.length);
   const bool known = !std::isnan(value_of(*channel, m.setting));
-  return {{}, told(*channel, m.setting, known ? Refusal::none : Refusal::out_of_range, 0, 0)};
+  return {{}, told(*channel, m.setting, known ? Refusal::none : Refusal::out_of_range, 0, 0), {}};
 }
 
 RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& frame,
                                            hal::Time now) {
-  if (!e2e::intact(frame, SUPERCOIL_SETTING_WRITE_LENGTH)) return {channel, {}};
+  if (!e2e::intact(frame, SUPERCOIL_SETTING_WRITE_LENGTH)) return {channel, {}, {}};
   supercoil_setting_write_t m{};
   supercoil_setting_write_unpack(&m, frame.data.data(), frame.length);
   Taken taken;
@@ -65,6 +66,10 @@ RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanF
   if (refusal == Refusal::wrong_counter) taken.damaged = channel;
   if (refusal == Refusal::none) refusal = set(channel, m.setting, m.value);
   taken.answer = told(channel, m.setting, refusal, m.counter, m.session);
+  if (refusal == Refusal::out_of_range) {
+    const auto node = static_cast<Node>(can_.first_node + channel);
+    taken.refused_value = refused_value(node, m.value, nearest(channel, m.setting, m.value));
+  }
   return taken;
 }
 
@@ -87,6 +92,10 @@ Refusal RunSettings::set_rate(std::uint8_t channel, Message message, double rate
     return Refusal::out_of_range;
   publisher_->set_rates(rates);
   return Refusal::none;
+}
+
+double RunSettings::nearest(std::uint8_t channel, std::uint8_t setting, double value) const {
+  return setting == most_power ? std::clamp(value, 0.0, most_W_[channel]) : NAN;
 }
 
 double RunSettings::value_of(std::uint8_t channel, std::uint8_t setting) const {

@@ -29,10 +29,11 @@ class RunSettings {
   RunSettings(CanSettings can, const BoardSettings& board, Leases& leases, Publisher& publisher,
               Loop& loop);
 
-  /// What became of a frame. Both empty: it has nothing to do with settings.
+  /// What became of a frame. All empty: it has nothing to do with settings.
   struct Taken {
     std::optional<std::uint8_t> damaged;  ///< the channel whose write was damaged
     std::optional<hal::CanFrame> answer;
+    std::optional<hal::CanFrame> refused_value;  ///< goes after the answer
   };
   Taken take(const hal::CanFrame& frame, hal::Time now);
 
@@ -42,6 +43,8 @@ class RunSettings {
   Refusal set_rate(std::uint8_t channel, Message message, double rate_Hz);
   /// NaN: there is no such setting of this channel.
   double value_of(std::uint8_t channel, std::uint8_t setting) const;
+  /// Of the values of a setting that may be written, to this one. NaN: none is known.
+  double nearest(std::uint8_t channel, std::uint8_t setting, double value) const;
   hal::CanFrame told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
                      std::uint8_t counter, std::uint16_t session) const;
 

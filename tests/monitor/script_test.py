@@ -4,6 +4,7 @@ Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 """
 
 import json
+import re
 import signal
 import subprocess
 import unittest
@@ -62,6 +63,13 @@ class Scripts(OnSimulatedBoard):
             program.send_signal(signal.SIGINT)
 
         self.assertEqual(self.identify_by_script("--hold", meanwhile=interrupt), (1, "", ended))
+
+    def test_a_refused_value_comes_with_the_nearest_one_that_is_obeyed(self):
+        refused = self.command("1", "controller", "77")
+        nearest = re.search(r"refused: out_of_range; (\d+) would be obeyed", refused.stderr)
+        self.assertTrue(nearest, refused.stderr)
+        self.assertEqual(self.command("1", "controller", nearest[1]).returncode, 0)
+        self.assertNotEqual(self.command("1", "controller", str(int(nearest[1]) + 1)).returncode, 0)
 
     def test_a_script_reads_and_writes_settings_over_the_bus(self):
         def setting(*words, source=self.source):

@@ -272,6 +272,11 @@ constexpr std::array<SignalInfo, 2> signals_of_Gain{{
     {"value", "", 8, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
+constexpr std::array<SignalInfo, 2> signals_of_RefusedValue{{
+    {"value", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
+    {"nearest", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
 constexpr std::array<SignalInfo, 6> signals_of_Setting{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
@@ -311,7 +316,7 @@ constexpr std::array<SignalInfo, 15> signals_of_Status{{
     {"oscillated", "", 61, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<MessageInfo, 18> all{{
+constexpr std::array<MessageInfo, 19> all{{
     {"Emergency", 0x080, 8, signals_of_Emergency},
     {"FirstCause", 0x0c0, 8, signals_of_FirstCause},
     {"Command", 0x200, 8, signals_of_Command},
@@ -326,6 +331,7 @@ constexpr std::array<MessageInfo, 18> all{{
     {"Limit", 0x440, 5, signals_of_Limit},
     {"Timing", 0x480, 8, signals_of_Timing},
     {"Gain", 0x4c0, 5, signals_of_Gain},
+    {"RefusedValue", 0x500, 8, signals_of_RefusedValue},
     {"Setting", 0x580, 8, signals_of_Setting},
     {"SettingWrite", 0x5c0, 8, signals_of_SettingWrite},
     {"SettingRead", 0x600, 1, signals_of_SettingRead},

@@ -11,6 +11,8 @@ namespace {
 constexpr auto answer_within = std::chrono::milliseconds(500);
 /// A lease lasts a second by default; what may have run out is claimed again.
 constexpr auto lease_lasts = std::chrono::milliseconds(400);
+/// It follows the answer at once, where the board tells it.
+constexpr auto nearest_within = std::chrono::milliseconds(50);
 constexpr int claims_in_a_row = 3;
 constexpr auto nap = std::chrono::milliseconds(1);
 
@@ -93,6 +95,17 @@ auto Commander::insist(const Once& once) {
 
 tl::expected<Refusal, std::string> Commander::ask(Verb verb, double value) {
   return insist([&] { return command(verb, value); });
+}
+
+double Commander::nearest() {
+  const auto deadline = Clock::now() + nearest_within;
+  do {
+    for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
+      if (const auto nearest = can_client::hear_nearest(master_.node(), heard)) return *nearest;
+    }
+    std::this_thread::sleep_for(nap);
+  } while (Clock::now() < deadline);
+  return NAN;
 }
 
 Commander::Setting Commander::read(std::uint8_t setting) {

@@ -21,6 +21,9 @@ class Commander {
   /// Waits at most half a second for the answer. Claims the lease when it has run out. The error
   /// says that nobody answered, or that the bus is gone.
   tl::expected<Refusal, std::string> ask(Verb verb, double value);
+  /// After an answer out_of_range: the nearest value that would have been obeyed. NaN: there is
+  /// none, or the board does not tell.
+  double nearest();
   using Setting = tl::expected<can_client::Master::Setting, std::string>;
   /// Likewise; reading needs no lease.
   Setting read(std::uint8_t setting);

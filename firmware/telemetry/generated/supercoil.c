@@ -2539,6 +2539,117 @@ bool supercoil_gain_value_is_in_phys_range(double value)
     return (true);
 }
 
+int supercoil_refused_value_pack(
+    uint8_t *dst_p,
+    const struct supercoil_refused_value_t *src_p,
+    size_t size)
+{
+    uint32_t nearest;
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    memcpy(&value, &src_p->value, sizeof(value));
+    dst_p[0] |= pack_left_shift_u32(value, 0u, 0xffu);
+    dst_p[1] |= pack_right_shift_u32(value, 8u, 0xffu);
+    dst_p[2] |= pack_right_shift_u32(value, 16u, 0xffu);
+    dst_p[3] |= pack_right_shift_u32(value, 24u, 0xffu);
+    memcpy(&nearest, &src_p->nearest, sizeof(nearest));
+    dst_p[4] |= pack_left_shift_u32(nearest, 0u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(nearest, 8u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(nearest, 16u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(nearest, 24u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_refused_value_unpack(
+    struct supercoil_refused_value_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t nearest;
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    value = unpack_right_shift_u32(src_p[0], 0u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[1], 8u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[2], 16u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[3], 24u, 0xffu);
+    memcpy(&dst_p->value, &value, sizeof(dst_p->value));
+    nearest = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+    nearest |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+    nearest |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+    nearest |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+    memcpy(&dst_p->nearest, &nearest, sizeof(dst_p->nearest));
+
+    return (0);
+}
+
+int supercoil_refused_value_init(struct supercoil_refused_value_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_refused_value_t));
+
+    return 0;
+}
+
+float supercoil_refused_value_value_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_refused_value_value_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_refused_value_value_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_refused_value_value_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
+float supercoil_refused_value_nearest_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_refused_value_nearest_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_refused_value_nearest_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_refused_value_nearest_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
 int supercoil_setting_pack(
     uint8_t *dst_p,
     const struct supercoil_setting_t *src_p,

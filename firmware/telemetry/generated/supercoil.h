@@ -59,6 +59,7 @@ extern "C" {
 #define SUPERCOIL_LIMIT_FRAME_ID (0x441u)
 #define SUPERCOIL_TIMING_FRAME_ID (0x481u)
 #define SUPERCOIL_GAIN_FRAME_ID (0x4c1u)
+#define SUPERCOIL_REFUSED_VALUE_FRAME_ID (0x501u)
 #define SUPERCOIL_SETTING_FRAME_ID (0x581u)
 #define SUPERCOIL_SETTING_WRITE_FRAME_ID (0x5c1u)
 #define SUPERCOIL_SETTING_READ_FRAME_ID (0x601u)
@@ -79,6 +80,7 @@ extern "C" {
 #define SUPERCOIL_LIMIT_LENGTH (5u)
 #define SUPERCOIL_TIMING_LENGTH (8u)
 #define SUPERCOIL_GAIN_LENGTH (5u)
+#define SUPERCOIL_REFUSED_VALUE_LENGTH (8u)
 #define SUPERCOIL_SETTING_LENGTH (8u)
 #define SUPERCOIL_SETTING_WRITE_LENGTH (8u)
 #define SUPERCOIL_SETTING_READ_LENGTH (1u)
@@ -99,6 +101,7 @@ extern "C" {
 #define SUPERCOIL_LIMIT_IS_EXTENDED (0)
 #define SUPERCOIL_TIMING_IS_EXTENDED (0)
 #define SUPERCOIL_GAIN_IS_EXTENDED (0)
+#define SUPERCOIL_REFUSED_VALUE_IS_EXTENDED (0)
 #define SUPERCOIL_SETTING_IS_EXTENDED (0)
 #define SUPERCOIL_SETTING_WRITE_IS_EXTENDED (0)
 #define SUPERCOIL_SETTING_READ_IS_EXTENDED (0)
@@ -491,6 +494,7 @@ extern "C" {
 #define SUPERCOIL_LIMIT_NAME "Limit"
 #define SUPERCOIL_TIMING_NAME "Timing"
 #define SUPERCOIL_GAIN_NAME "Gain"
+#define SUPERCOIL_REFUSED_VALUE_NAME "RefusedValue"
 #define SUPERCOIL_SETTING_NAME "Setting"
 #define SUPERCOIL_SETTING_WRITE_NAME "SettingWrite"
 #define SUPERCOIL_SETTING_READ_NAME "SettingRead"
@@ -557,6 +561,8 @@ extern "C" {
 #define SUPERCOIL_TIMING_DROPPED_FRAMES_NAME "dropped_frames"
 #define SUPERCOIL_GAIN_GAIN_NAME "gain"
 #define SUPERCOIL_GAIN_VALUE_NAME "value"
+#define SUPERCOIL_REFUSED_VALUE_VALUE_NAME "value"
+#define SUPERCOIL_REFUSED_VALUE_NEAREST_NAME "nearest"
 #define SUPERCOIL_SETTING_CRC_NAME "crc"
 #define SUPERCOIL_SETTING_COUNTER_NAME "counter"
 #define SUPERCOIL_SETTING_SETTING_NAME "setting"
@@ -747,7 +753,7 @@ struct supercoil_acknowledge_t {
     uint16_t session;
 
     /**
-     * none: it was obeyed. Else why not. out_of_range: the value of the command with this session and counter. claim_again: claim with the number in granted as value. other_version: the frame is of another version of this protocol; disarm alone is the same in all.
+     * none: it was obeyed. Else why not. out_of_range: RefusedValue tells the value. claim_again: claim with the number in granted as value. other_version: the frame is of another version of this protocol; disarm alone is the same in all.
      *
      * Range: 0..13 (0..13 -)
      * Scale: 1
@@ -1249,6 +1255,33 @@ struct supercoil_gain_t {
      * Offset: 0
      */
     float value;
+};
+
+/**
+ * Signals in message RefusedValue.
+ *
+ * Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: which one, and what would have been obeyed. Told by boards of version 4 only, and not by all of them.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_refused_value_t {
+    /**
+     * As in the Command or SettingWrite that was refused.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float value;
+
+    /**
+     * Of the values that would have been obeyed the nearest. NaN: there is none, or more than the value spoke against it.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float nearest;
 };
 
 /**
@@ -4447,6 +4480,123 @@ bool supercoil_gain_value_is_in_range(float value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_gain_value_is_in_phys_range(double value);
+
+/**
+ * Pack message RefusedValue.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_refused_value_pack(
+    uint8_t *dst_p,
+    const struct supercoil_refused_value_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message RefusedValue.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_refused_value_unpack(
+    struct supercoil_refused_value_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from RefusedValue.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_refused_value_init(struct supercoil_refused_value_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_refused_value_value_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_refused_value_value_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_refused_value_value_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_refused_value_value_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_refused_value_nearest_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_refused_value_nearest_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_refused_value_nearest_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_refused_value_nearest_is_in_phys_range(double value);
 
 /**
  * Pack message Setting.

@@ -91,6 +91,7 @@ class CanRig {
   telemetry::CanLink link;
   std::vector<supercoil_acknowledge_t> answers;
   std::vector<supercoil_setting_t> settings_told;
+  std::vector<supercoil_refused_value_t> refused_values;
   std::vector<hal::CanFrame> emergencies;
   std::vector<hal::CanFrame> first_causes;
   long heard = 0;
@@ -104,6 +105,8 @@ class CanRig {
     last_of[frame.id] = frame;
     if (frame.id == SUPERCOIL_SETTING_FRAME_ID) settings_told.push_back(read_setting(frame));
     if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID) answers.push_back(read_answer(frame));
+    if (frame.id == SUPERCOIL_REFUSED_VALUE_FRAME_ID)
+      refused_values.push_back(unpacked(frame, supercoil_refused_value_unpack));
     if (frame.id == SUPERCOIL_EMERGENCY_FRAME_ID) emergencies.push_back(frame);
     if (frame.id == SUPERCOIL_FIRST_CAUSE_FRAME_ID) first_causes.push_back(frame);
   }

@@ -1,5 +1,7 @@
 // The whole firmware, commanded over CAN.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 
 #include <CppUTest/TestHarness.h>
@@ -65,6 +67,40 @@ TEST(OverCan, ARefusalOfTheLoopIsToldToTheMaster) {
   CHECK(rig.command(master, Verb::position, 0.5F) == Refusal::out_of_range);
   CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
   LONGS_EQUAL(static_cast<int>(Verb::arm), rig.answers.back().opcode);
+}
+
+TEST(OverCan, ARefusedValueIsToldWithTheNearestThatIsObeyed) {
+  rig.start(master);
+  const auto max_m = static_cast<float>(rig.settings.firmware.channels[0].supervision.max_travel_m);
+  struct Refused {
+    std::uint8_t opcode;
+    float value;
+    float nearest;
+  };
+  const std::array<Refused, 4> all{{{static_cast<std::uint8_t>(Verb::position), 0.5F, max_m},
+                                    {static_cast<std::uint8_t>(Verb::position), -0.5F, -max_m},
+                                    {static_cast<std::uint8_t>(Verb::controller), 77.0F, 2.0F},
+                                    {static_cast<std::uint8_t>(Verb::estimator), -1.0F, 0.0F}}};
+  for (const Refused& refused : all) {
+    rig.refused_values.clear();
+    CHECK(rig.command(master, refused.opcode, refused.value) == Refusal::out_of_range);
+    rig.tick();
+    LONGS_EQUAL(1, rig.refused_values.size());
+    DOUBLES_EQUAL(refused.value, rig.refused_values[0].value, 0.0);
+    DOUBLES_EQUAL(refused.nearest, rig.refused_values[0].nearest, 0.0);
+    if (refused.opcode == static_cast<std::uint8_t>(Verb::position))
+      CHECK(rig.command(master, Verb::position, refused.nearest) == Refusal::none);
+  }
+  // What nothing near it would help: as it was sent, and no other.
+  rig.refused_values.clear();
+  CHECK(rig.command(master, Verb::power, NAN) == Refusal::out_of_range);
+  rig.tick();
+  CHECK(std::isnan(rig.refused_values.at(0).value) && std::isnan(rig.refused_values.at(0).nearest));
+  // A refusal that is none of a value's tells none.
+  rig.refused_values.clear();
+  CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
+  rig.run(0.01);
+  LONGS_EQUAL(0, rig.refused_values.size());
 }
 
 TEST(OverCan, ACommandThatTheLoopCannotTakeIsAnsweredAllTheSame) {

@@ -1,4 +1,6 @@
 // What may be changed on a running board over CAN.
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 #include "loop/support/can_rig.hpp"
@@ -97,6 +99,12 @@ TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
   const auto configured_W = static_cast<float>(rig.settings.firmware.channels[0].limiter.max_W);
   for (const float wrong : {-0.1F, 1.001F * configured_W, 1e6F, NAN, INFINITY})
     CHECK(write(most_power, wrong) == Refusal::out_of_range);
+  rig.run(0.01);
+  LONGS_EQUAL(5, rig.refused_values.size());
+  DOUBLES_EQUAL(0.0, rig.refused_values[0].nearest, 0.0);
+  DOUBLES_EQUAL(1e6F, rig.refused_values[2].value, 0.0);
+  DOUBLES_EQUAL(configured_W, rig.refused_values[2].nearest, 0.0);
+  CHECK(std::isnan(rig.refused_values[3].nearest));
   DOUBLES_EQUAL(0.5, read(most_power), 0.0);
   CHECK(write(most_power, configured_W) == Refusal::none);
   DOUBLES_EQUAL(configured_W, read(most_power), 0.0);

@@ -52,7 +52,9 @@ TEST(CommandText, WhatIsWrongIsSaid) {
 }
 
 TEST(CommandText, EveryRefusalHasAName) {
-  STRCMP_EQUAL("ok", answer_text(Refusal::none).c_str());
-  STRCMP_EQUAL("refused: wrong_state", answer_text(Refusal::wrong_state).c_str());
-  STRCMP_EQUAL("refused: no_such_channel", answer_text(Refusal::no_such_channel).c_str());
+  STRCMP_EQUAL("ok", answer_text(Refusal::none, NAN).c_str());
+  STRCMP_EQUAL("refused: wrong_state", answer_text(Refusal::wrong_state, NAN).c_str());
+  STRCMP_EQUAL("refused: no_such_channel", answer_text(Refusal::no_such_channel, NAN).c_str());
+  STRCMP_EQUAL("refused: out_of_range; 0.025 would be obeyed",
+               answer_text(Refusal::out_of_range, 0.025).c_str());
 }

@@ -132,6 +132,11 @@ inline Values gain(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_gain_unpack);
   return values({supercoil_gain_gain_decode(m.gain), supercoil_gain_value_decode(m.value)});
 }
+inline Values refused_value(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_refused_value_unpack);
+  return values({supercoil_refused_value_value_decode(m.value),
+                 supercoil_refused_value_nearest_decode(m.nearest)});
+}
 inline Values setting(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_setting_unpack);
   return values({supercoil_setting_crc_decode(m.crc), supercoil_setting_counter_decode(m.counter),
@@ -174,7 +179,7 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 18> codec_messages{{
+constexpr std::array<CodecMessage, 19> codec_messages{{
     {"Emergency", SUPERCOIL_EMERGENCY_FRAME_ID, SUPERCOIL_EMERGENCY_LENGTH, emergency},
     {"FirstCause", SUPERCOIL_FIRST_CAUSE_FRAME_ID, SUPERCOIL_FIRST_CAUSE_LENGTH, first_cause},
     {"Command", SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, command},
@@ -189,6 +194,8 @@ constexpr std::array<CodecMessage, 18> codec_messages{{
     {"Limit", SUPERCOIL_LIMIT_FRAME_ID, SUPERCOIL_LIMIT_LENGTH, limit},
     {"Timing", SUPERCOIL_TIMING_FRAME_ID, SUPERCOIL_TIMING_LENGTH, timing},
     {"Gain", SUPERCOIL_GAIN_FRAME_ID, SUPERCOIL_GAIN_LENGTH, gain},
+    {"RefusedValue", SUPERCOIL_REFUSED_VALUE_FRAME_ID, SUPERCOIL_REFUSED_VALUE_LENGTH,
+     refused_value},
     {"Setting", SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH, setting},
     {"SettingWrite", SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH,
      setting_write},

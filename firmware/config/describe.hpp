@@ -19,6 +19,8 @@ std::string describe_channel(const BoardConfig& config, std::size_t index);
 std::string describe_heat(const ChannelSettings& channel);
 /// How far the true power may be from the told one, and since which comparison with a meter.
 std::string describe_senses(const ChannelSettings& channel, const BoardSettings& board);
+/// How much of a small motion arrives at the sensor, and up to which power that is enough.
+std::string describe_small_motions(const ChannelSettings& channel, const BoardSettings& board);
 /// One line for each detector that this configuration leaves blind, whose it is, and why.
 std::vector<std::string> weaknesses(const BoardConfig& config);
 

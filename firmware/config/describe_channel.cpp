@@ -41,6 +41,7 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
       << s.max_measured_W << " W measured is a fault, and more than " << s.energy_J << " J in "
       << s.energy_window_s << " s\n"
       << "  senses      " << describe_senses(c, board) << "\n"
+      << "  motions     of some um: " << describe_small_motions(c, board) << "\n"
       << "  travel      up to " << mm(s.max_travel_m) << " mm\n"
       << "  temperature " << (label.preset == Preset::skin ? "near skin: " : "")
       << "full power up to " << c.limiter.derate_from_C << " °C, none from " << s.trip_C
@@ -119,6 +120,22 @@ std::string describe_heat(const ChannelSettings& c) {
   } else {
     out << "; no thermometer was read (compare_rise)";
   }
+  return out.str();
+}
+
+std::string describe_small_motions(const ChannelSettings& c, const BoardSettings& board) {
+  if (!c.supervision.proof_of_response)
+    return "nobody asks for an answer: detectors.proof_of_response is false";
+  const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
+  std::ostringstream out;
+  if (c.answer_ratio > 0.0) {
+    out << std::nearbyint(1e2 * c.answer_ratio) << " % arrive at the sensor, as identify saw";
+    if (c.answer_ratio < detectors::Answer::least_answer_ratio) out << ": friction takes the rest";
+  } else {
+    out << "not measured: identify does that";
+  }
+  out << "; " << (c.muscle_identified ? "" : "once identified, ") << "up to "
+      << std::nearbyint(1e2 * plan.provable_W) / 1e2 << " W a lost contact is found in time";
   return out.str();
 }
 

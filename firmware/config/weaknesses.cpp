@@ -106,10 +106,13 @@ void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings&
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
   if (plan.provable_W >= c.limiter.max_W) return;
   std::ostringstream reason;
-  reason
-      << "a motion of 20 um or two counts is told from the sensor's noise too late for more: once "
-         "identified, the muscle gets no more than "
-      << std::nearbyint(1e2 * plan.provable_W) / 1e2 << " W (limited_by unproven)";
+  const bool friction = c.answer_ratio > 0.0 && c.answer_ratio < 1.0;
+  reason << (friction
+                 ? "friction leaves too little of a small motion to be told from noise in time: "
+                 : "a motion of 20 um or two counts is told from the sensor's noise too late for "
+                   "more: once identified, ")
+         << "the muscle gets no more than " << std::nearbyint(1e2 * plan.provable_W) / 1e2
+         << " W (limited_by unproven)";
   findings.add(Fault::heater_not_responding, reason.str());
 }
 

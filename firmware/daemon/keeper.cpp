@@ -37,6 +37,18 @@ void tell_unstable(const ChannelSettings& channel, std::size_t index, double ste
 
 }  // namespace
 
+void recall(ChannelSettings& channel, const storage::Learned& learned) {
+  channel.senses = learned.senses;
+  channel.heat = learned.heat;
+  channel.knows_muscle = learned.knows_muscle;
+  if (!channel.knows_muscle) return;
+  // Calibrating alone stores the muscle as the file has it: that is no identification.
+  channel.muscle_identified = !(learned.muscle == channel.muscle);
+  channel.muscle = learned.muscle;
+  channel.calibration = learned.calibration;
+  channel.answer_ratio = learned.answer_ratio;
+}
+
 tl::expected<void, std::string> remember(config::BoardConfig& config,
                                          std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {
@@ -51,21 +63,15 @@ tl::expected<void, std::string> remember(config::BoardConfig& config,
     for (const std::string& problem : loaded->problems)
       log(Level::warning, problem);
     ChannelSettings& channel = config.settings.channels[i];
-    if (loaded->learned) {
-      channel.senses = loaded->learned->senses;
-      channel.heat = loaded->learned->heat;
-    }
+    if (loaded->learned) recall(channel, *loaded->learned);
     log(channel.senses.compared() ? Level::info : Level::warning,
         "channel " + std::to_string(i + 1) +
             ": senses: " + config::describe_senses(channel, config.settings));
     log(Level::info,
         "channel " + std::to_string(i + 1) + ": heat: " + config::describe_heat(channel));
-    channel.knows_muscle = loaded->learned && loaded->learned->knows_muscle;
     if (!channel.knows_muscle) continue;
-    // Calibrating alone stores the muscle as the file has it: that is no identification.
-    channel.muscle_identified = !(loaded->learned->muscle == channel.muscle);
-    channel.muscle = loaded->learned->muscle;
-    channel.calibration = loaded->learned->calibration;
+    log(Level::info, "channel " + std::to_string(i + 1) + ": small motions: " +
+                         config::describe_small_motions(channel, config.settings));
     log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +
                          ") knows its muscle from version " +
                          std::to_string(loaded->learned->version));

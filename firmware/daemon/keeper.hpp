@@ -14,6 +14,9 @@
 
 namespace supercoil::daemon {
 
+/// What a channel learned before.
+void recall(ChannelSettings& channel, const storage::Learned& learned);
+
 /// What channels learned before, into the settings of a board that a keeper is made for then. The
 /// error says what cannot be read; a board does not start without what it knew, for a lost zero is
 /// a wrong position.

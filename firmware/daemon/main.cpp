@@ -8,22 +8,39 @@
 
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
+#include "daemon/keeper.hpp"
 #include "daemon/latency/latency_command.hpp"
 #include "daemon/locked_memory.hpp"
 #include "daemon/off_command.hpp"
 #include "daemon/run_command.hpp"
 #include "program/exit_status.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
 
 namespace {
 
 using namespace supercoil;
 
+/// Elsewhere than on the board there is no such folder.
+void recall_learned(config::BoardConfig& config) {
+  storage::PosixFiles files;
+  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
+    storage::LearnedStore store(config.storage_folder, static_cast<int>(i + 1), files);
+    const auto loaded = store.load();
+    if (!loaded || !loaded->learned) continue;
+    daemon::recall(config.settings.channels[i], *loaded->learned);
+    std::printf("channel %zu: with what was learned before, version %u in %s\n", i + 1,
+                loaded->learned->version, config.storage_folder.c_str());
+  }
+}
+
 int check_file(const std::string& path) {
-  const auto config = config::read_board_config(path);
+  auto config = config::read_board_config(path);
   if (!config) {
     std::fputs(config::to_text(config.error()).c_str(), stderr);
     return exit_wrong_input;
   }
+  recall_learned(*config);
   std::fputs(config::describe(*config).c_str(), stdout);
   std::fputs(daemon::describe_locked_memory(*config).c_str(), stdout);
   return exit_done;

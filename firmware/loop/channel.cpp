@@ -73,6 +73,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       probe_(settings.heater.probe_s, board.step_s()),
       proof_(proof_settings(settings, board), settings.muscle, settings.muscle_identified,
              board.rate_Hz),
+      answer_ratio_(settings.answer_ratio),
       identify_({}, settings.muscle, settings.supervision.max_travel_m, board.step_s()),
       smooth_power_W_(smoothing_s, board.step_s()),
       smooth_error_m_(smoothing_s, board.step_s()),
@@ -303,7 +304,9 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;
   s.result = result_;
-  s.identify_notes = identify_.notes();
+  const bool friction =
+      answer_ratio_ > 0.0 && answer_ratio_ < detectors::Answer::least_answer_ratio;
+  s.identify_notes = static_cast<std::uint8_t>(identify_.notes() | (friction ? note_friction : 0));
   const auto& faults = all_faults();
   turn_ += golden_turn;
   publish_estimate();

@@ -152,6 +152,7 @@ class Channel {
   /// Empty: no estimate is trusted, or it is no muscle's.
   std::optional<control::PhysicalParameters> trusted_muscle() const;
   void step_identify();
+  void step_small_signal();
   void step_calibrate();
   void end_calibrate(double cold_Ohm);
   void end_mode(ModeResult result);
@@ -195,6 +196,7 @@ class Channel {
   board::Heat heat_;
   board::Probe probe_;
   Proof proof_;
+  double answer_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
   double supply_V_ = 0.0;
 
   std::vector<control::Controller> controllers_;
@@ -206,6 +208,7 @@ class Channel {
   double reference_ = 0.0;  ///< m, or W in open loop
   modes::Identify identify_;
   std::unique_ptr<control::CoolingFit> cooling_fit_;  ///< of a weighed muscle; 36 kB
+  SmallSignal small_signal_;                          ///< the end of identify
   modes::Calibrate calibrate_{{}};
   ModeResult result_ = ModeResult::none;  ///< of either
   control::ControllerOutput wanted_;

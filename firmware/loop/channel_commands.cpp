@@ -120,6 +120,7 @@ void Channel::enter(Mode mode) {
     start_controller(controller_, at);
   } else if (mode == Mode::identify) {
     identify_.start(evidence_.position.value);
+    small_signal_.stop();
     if (cooling_fit_) cooling_fit_->start();
     result_ = ModeResult::running;
   } else if (mode == Mode::calibrate) {

@@ -56,7 +56,8 @@ Refusal Channel::go_by(const storage::SenseComparison& senses) {
   // A learned resistance was told by the senses as they were; a configured one was not.
   if (calibration.cold_resistance_Ohm != settings_.heater.cold_resistance_Ohm)
     calibration.cold_resistance_Ohm *= more_Ohm;
-  const storage::Learned learned{muscle_, calibration, senses, 0, knows_muscle_, facts};
+  const storage::Learned learned{muscle_,       calibration, senses,       0,
+                                 knows_muscle_, facts,       answer_ratio_};
   if (storage::check(learned)) return Refusal::out_of_range;
   if (!lessons_.push(learned)) return Refusal::too_many;
   calibration_ = calibration;

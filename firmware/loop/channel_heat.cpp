@@ -35,7 +35,8 @@ bool Channel::learn_cooling() {
 
 /// For the next start. What is not kept holds until then.
 bool Channel::keep_heat() {
-  const storage::Learned learned{muscle_, calibration_, senses_, 0, knows_muscle_, heat_facts_};
+  const storage::Learned learned{muscle_,       calibration_, senses_,      0,
+                                 knows_muscle_, heat_facts_,  answer_ratio_};
   return !storage::check(learned) && lessons_.push(learned);
 }
 

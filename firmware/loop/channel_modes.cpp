@@ -1,11 +1,13 @@
 // What a channel finds out about its muscle when it is asked to.
 #include <algorithm>
+#include <cmath>
 
 #include "loop/channel.hpp"
 
 namespace supercoil {
 
 void Channel::step_identify() {
+  if (small_signal_.running()) return step_small_signal();
   const ModeResult now =
       identify_.step(evidence_.position.value, acting_.power_W, limiter_.max_W());
   // It asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and a power
@@ -16,7 +18,27 @@ void Channel::step_identify() {
   wanted_ = {};
   const bool cooling_found = learn_cooling();
   if (now != ModeResult::found && cooling_found) keep_heat();
-  end_mode(now == ModeResult::found ? keep(identify_.found(), calibration_) : now);
+  if (now != ModeResult::found) return end_mode(now);
+  const control::PhysicalParameters& muscle = identify_.found();
+  const SmallSignal::Settings plan = plan_small_signal(
+      proof_.settings(), muscle, identify_.risen_m() / muscle.dc_gain_m_per_W(), 1.0 / step_s_);
+  if (!std::isfinite(plan.dither.decided_s)) {
+    // What an earlier muscle's small motions were says nothing of this one.
+    answer_ratio_ = 0.0;
+    return end_mode(keep(muscle, calibration_));
+  }
+  small_signal_.start(plan, ExpectedMotion(muscle, plan.step_s));
+}
+
+/// What a small motion of the muscle that was found leaves at the sensor.
+void Channel::step_small_signal() {
+  if (small_signal_.step(evidence_.position.value, acting_.power_W)) {
+    wanted_.wanted_power_W = std::min(small_signal_.power_W(), limiter_.max_W(heat_.hottest_C()));
+    return;
+  }
+  wanted_ = {};
+  answer_ratio_ = small_signal_.answer_ratio();
+  end_mode(keep(identify_.found(), calibration_));
 }
 
 void Channel::step_calibrate() {
@@ -45,13 +67,15 @@ void Channel::end_mode(ModeResult result) {
 /// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
 ModeResult Channel::keep(const control::PhysicalParameters& muscle,
                          const storage::Calibration& found) {
-  const storage::Learned learned{muscle, found, senses_, 0, true, heat_facts_};
+  const storage::Learned learned{muscle, found, senses_, 0, true, heat_facts_, answer_ratio_};
   if (storage::check(learned)) return ModeResult::implausible;
   if (found != calibration_) {
     supervisor_.recalibrated();
     proof_.recalibrated();
   }
-  if (!(muscle == muscle_)) proof_.learn(muscle);
+  const double answer_ratio = answer_ratio_ > 0.0 ? answer_ratio_ : 1.0;
+  if (!(muscle == muscle_) || answer_ratio != proof_.settings().answer_ratio)
+    proof_.learn(muscle, answer_ratio);
   muscle_ = muscle;
   calibration_ = found;
   knows_muscle_ = true;

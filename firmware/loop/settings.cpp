@@ -35,6 +35,7 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
   s.position_noise_rms_m = c.supervision.position_noise_rms_m;
   s.count_m = std::abs(c.position.scaling.per_count);
   s.obvious_m = c.supervision.responding_least_m;
+  if (c.answer_ratio > 0.0) s.answer_ratio = c.answer_ratio;
   return s;
 }
 

@@ -45,6 +45,7 @@ struct ChannelSettings {
   storage::Calibration calibration;    ///< its cold resistance is HeaterSettings' when not learned
   storage::SenseComparison senses;     ///< with a meter, as stored
   storage::HeatFacts heat;             ///< found out before, as stored
+  double answer_ratio = 0.0;           ///< likewise, of small motions; 0: not measured
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;

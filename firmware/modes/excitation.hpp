@@ -40,6 +40,7 @@ class Excitation {
   bool too_still() const { return too_still_; }
   /// From 0; the first one searches for the power, and teaches little.
   std::size_t cycle() const { return cycle_; }
+  double risen_m() const { return position_m_ - cold_m_; }
   /// 0 to 1.
   float progress() const {
     const float half = phase_ == Phase::cool ? 0.5F : 0.0F;

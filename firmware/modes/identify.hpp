@@ -59,6 +59,8 @@ class Identify {
 
   double power_W() const { return power_W_; }
   float progress() const { return excitation_.progress(); }
+  /// Above the cold muscle's position, smoothed.
+  double risen_m() const { return excitation_.risen_m(); }
   const control::PhysicalParameters& found() const { return found_; }
   /// IdentifyNotes of the last judgement; 0 while it runs.
   std::uint8_t notes() const { return notes_; }

@@ -27,8 +27,8 @@ inline constexpr std::array<std::string_view, 11> mode_result_names{
     "none",          "running",   "found",       "interrupted", "not_cold", "moved",
     "not_explained", "uncertain", "implausible", "not_stored",  "too_still"};
 
-/// Bits: everything that identify has to say of its last fit. Each but theta1_kept is a reason for
-/// a refusal; that one comes with found.
+/// Bits: everything that identify has to say of its last fit. Each is a reason for a refusal, but
+/// for theta1_kept and friction: they come with found.
 enum IdentifyNote : std::uint8_t {
   note_theta1_kept = 1,       ///< not known well enough: the believed one is kept
   note_theta2_uncertain = 2,  ///< its deviation is too large, or the unseen third says another
@@ -37,10 +37,11 @@ enum IdentifyNote : std::uint8_t {
   note_not_explained = 16,
   note_implausible = 32,
   note_too_still = 64,
+  note_friction = 128,  ///< less than half of a small motion arrives at the sensor
 };
-inline constexpr std::array<std::string_view, 7> identify_note_names{
+inline constexpr std::array<std::string_view, 8> identify_note_names{
     "theta1_kept",   "theta2_uncertain", "theta3_uncertain", "theta4_uncertain",
-    "not_explained", "implausible",      "too_still"};
+    "not_explained", "implausible",      "too_still",        "friction"};
 
 /// "theta2_uncertain, not_explained"; empty when there is none. A bit without a name is left out.
 inline std::string describe_notes(std::uint8_t notes, const std::string& separator = ", ") {

@@ -105,6 +105,7 @@ tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& 
   if (!bus) return tl::unexpected(bus.error());
   std::optional<std::string> result;
   std::optional<std::string> notes;
+  unsigned friction = 0;  // has no bit left in the estimates
   for (int i = 0; i < 100 && !(result && notes); ++i) {
     for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
       const auto heard = can_client::decode(frame);
@@ -115,8 +116,10 @@ tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& 
       if (frame.id == can_client::status_id(node)) {
         const std::size_t place = can_client::signal_index(*heard->message, "result");
         result = can_client::value_name(heard->message->signals[place], value("result"));
+        friction = value("friction") == 1.0 ? note_friction : 0;
       } else if (frame.id == can_client::estimate_id(node) && result) {
-        notes = describe_notes(static_cast<std::uint8_t>(value("identify_notes")), ",");
+        const unsigned rest = static_cast<unsigned>(value("identify_notes"));
+        notes = describe_notes(static_cast<std::uint8_t>(rest | friction), ",");
       }
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(10));

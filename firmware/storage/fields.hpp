@@ -15,7 +15,7 @@ struct Field {
 };
 
 /// In the order of the file; the fields of a table stand together.
-inline constexpr std::array<Field, 19> fields{{
+inline constexpr std::array<Field, 20> fields{{
     {"muscle", "thermal_mass_J_per_K",
      [](Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
     {"muscle", "heat_transfer_W_per_K",
@@ -42,17 +42,19 @@ inline constexpr std::array<Field, 19> fields{{
     {"heat", "steady_error_K", [](Learned& l) -> double& { return l.heat.steady_error_K; }},
     {"heat", "steady_min_W", [](Learned& l) -> double& { return l.heat.steady_min_W; }},
     {"heat", "steady_max_W", [](Learned& l) -> double& { return l.heat.steady_max_W; }},
+    {"small_motions", "answer_ratio", [](Learned& l) -> double& { return l.answer_ratio; }},
 }};
 
-/// Tables that a file may lack: a set without a comparison has none of senses, and one of which
-/// nothing of heat is known none of that. No file had them before there was either.
+/// Tables that a file may lack, where nothing is known of what they hold: files of earlier versions
+/// have none of them.
 inline constexpr bool may_lack(std::string_view table) {
-  return table == "senses" || table == "heat";
+  return table == "senses" || table == "heat" || table == "small_motions";
 }
 /// A set without a muscle has no other table.
 inline bool is_stored(const Field& field, const Learned& learned) {
   if (field.table == "senses") return learned.senses != SenseComparison{};
   if (field.table == "heat") return learned.heat != HeatFacts{};
+  if (field.table == "small_motions") return learned.knows_muscle && learned.answer_ratio > 0.0;
   return learned.knows_muscle;
 }
 

@@ -53,6 +53,8 @@ struct Learned {
   /// False: only the senses are known, which are the board's; muscle and calibration mean nothing.
   bool knows_muscle = true;
   HeatFacts heat;
+  /// Of the model's small motions, what arrives at the sensor, up to 10; 0: not measured.
+  double answer_ratio = 0.0;
 
   friend bool operator==(const Learned&, const Learned&) = default;
 };

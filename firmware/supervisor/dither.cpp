@@ -41,14 +41,15 @@ double decided_s(ExpectedMotion motion, const Dither& dither, const SensorStep& 
 
 }  // namespace
 
-ExpectedMotion::ExpectedMotion(const control::PhysicalParameters& muscle, double step_s) {
+ExpectedMotion::ExpectedMotion(const control::PhysicalParameters& muscle, double step_s,
+                               double answer_ratio)
+    : answer_ratio_(answer_ratio) {
   const control::ActuatorStateSpace system = control::state_space(muscle);
   discrete_ = control::zero_order_hold<3, 2>(system.a, system.b, step_s);
 }
 
-Dither dither_for(const control::PhysicalParameters& muscle, const SensorStep& sensor, double max_W,
+Dither dither_for(const ExpectedMotion& motion, const SensorStep& sensor, double max_W,
                   double in_time_s, double step_s) {
-  const ExpectedMotion motion(muscle, step_s);
   const double max_m = std::max(max_answer_m, max_counts * sensor.count_m);
   const int steps = static_cast<int>(longest_s / step_s);
   Dither best;

@@ -13,19 +13,22 @@ namespace supercoil {
 /// The position that a muscle's model has, step by step of some 10 ms.
 class ExpectedMotion {
  public:
-  ExpectedMotion(const control::PhysicalParameters& muscle, double step_s);
+  /// answer_ratio: how much of it arrives at the sensor.
+  ExpectedMotion(const control::PhysicalParameters& muscle, double step_s,
+                 double answer_ratio = 1.0);
 
   /// power_W acted during this step: the mean position in it.
   double step(double power_W) {
     const double before_m = state_[1];
     state_ = discrete_.transition * state_ + discrete_.held.col(0) * power_W;
-    return 0.5 * (before_m + state_[1]);
+    return 0.5 * answer_ratio_ * (before_m + state_[1]);
   }
   /// Where another model of the same muscle is.
   void take_over(const ExpectedMotion& other) { state_ = other.state_; }
 
  private:
   control::ZeroOrderHold<3, 2> discrete_;
+  double answer_ratio_;
   control::Vector<double, 3> state_ = control::Vector<double, 3>::Zero();
 };
 
@@ -47,6 +50,7 @@ struct Dither {
   double sign(int place) const {
     return (place + half_steps / 2) / half_steps % 2 == 0 ? 1.0 : -1.0;
   }
+  double step_W(int place) const { return sign(place) * amplitude_W; }
 };
 
 /// Slower motion counts less: a drift may be anything. Of any motion: higher, and a sine of 0.25
@@ -55,9 +59,10 @@ inline constexpr double motion_corner_rad_per_s = 1.0;
 /// Of a dither's answer: a load or a draught moves the muscle by more than the dither, but slower.
 inline constexpr double dither_corner_rad_per_s = 4.0;
 
-/// The slowest and so the gentlest dither that is decided within in_time_s on this muscle, its
-/// answer at most 20 µm or two counts; where none is in time, the one that is decided soonest.
-Dither dither_for(const control::PhysicalParameters& muscle, const SensorStep& sensor, double max_W,
+/// The slowest and so the gentlest dither that is decided within in_time_s on a muscle that moves
+/// so, its answer at most 20 µm or two counts; where none is in time, the one that is decided
+/// soonest.
+Dither dither_for(const ExpectedMotion& motion, const SensorStep& sensor, double max_W,
                   double in_time_s, double step_s);
 
 }  // namespace supercoil

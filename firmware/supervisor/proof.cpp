@@ -77,7 +77,8 @@ ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& 
   ProofPlan plan;
   const double in_time_s =
       decided_ratio / loop_ratio * time_to_limit_s(s, s.max_W, hot_end_K(s, s.max_W));
-  plan.dither = dither_for(muscle, sensor_of(s, rate_Hz), s.max_W, in_time_s, steps_s(rate_Hz));
+  const ExpectedMotion motion(muscle, steps_s(rate_Hz), s.answer_ratio);
+  plan.dither = dither_for(motion, sensor_of(s, rate_Hz), s.max_W, in_time_s, steps_s(rate_Hz));
   const double W_per_rest_K = s.max_W / rest_K(s, s.max_W);
   plan.safe_W = std::max(0.0, s.derate_from_C - s.thermal.ambient_C) * W_per_rest_K;
   // The greatest power with which the hot end, once cooling has failed, has provable_ratio of the
@@ -90,6 +91,24 @@ ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& 
   return plan;
 }
 
+SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
+                                        const control::PhysicalParameters& muscle, double hold_W,
+                                        double rate_Hz) {
+  constexpr double time_constants = 5.0;
+  constexpr double longest_s = 60.0;
+  ProofSettings all_arrives = settings;
+  all_arrives.answer_ratio = 1.0;
+  SmallSignal::Settings s;
+  s.dither = plan_proof(all_arrives, muscle, rate_Hz).dither;
+  // Both halves of the dither need room.
+  s.hold_W = std::clamp(hold_W, 2.0 * s.dither.amplitude_W, 0.5 * settings.max_W);
+  s.settle_s = std::min(longest_s, -time_constants / muscle.thermal_pole_rad_per_s());
+  s.rate_Hz = rate_Hz;
+  s.step_s = steps_s(rate_Hz);
+  s.noise_m = sensor_of(settings, rate_Hz).noise_m;
+  return s;
+}
+
 Proof::Proof(const ProofSettings& settings, const control::PhysicalParameters& muscle, bool known,
              double rate_Hz)
     : settings_(settings),
@@ -99,23 +118,24 @@ Proof::Proof(const ProofSettings& settings, const control::PhysicalParameters& m
       step_ticks_(ticks_of_step(rate_Hz)),
       plan_(plan_proof(settings, muscle, rate_Hz)),
       all_(match_for(muscle, motion_corner_rad_per_s)),
-      dither_(match_for(muscle, dither_corner_rad_per_s)) {
+      dither_(match_for(muscle, dither_corner_rad_per_s, settings.answer_ratio)) {
   enter(Stage::watching);
 }
 
-Proof::Match Proof::match_for(const control::PhysicalParameters& muscle,
-                              double corner_rad_per_s) const {
+Proof::Match Proof::match_for(const control::PhysicalParameters& muscle, double corner_rad_per_s,
+                              double answer_ratio) const {
   const detectors::SlowPartRemoved fast(corner_rad_per_s, step_s_);
-  return {ExpectedMotion(muscle, step_s_), fast, fast,
+  return {ExpectedMotion(muscle, step_s_, answer_ratio), fast, fast,
           detectors::Answer(sensor_of(settings_, rate_Hz_).noise_m)};
 }
 
-void Proof::learn(const control::PhysicalParameters& muscle) {
+void Proof::learn(const control::PhysicalParameters& muscle, double answer_ratio) {
   known_ = true;
+  settings_.answer_ratio = answer_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
   const ExpectedMotion before = all_.motion;
   all_ = match_for(muscle, motion_corner_rad_per_s);
-  dither_ = match_for(muscle, dither_corner_rad_per_s);
+  dither_ = match_for(muscle, dither_corner_rad_per_s, answer_ratio);
   all_.motion.take_over(before);
   settled_ = false;
   enter(Stage::watching);
@@ -255,7 +275,7 @@ void Proof::drive_dither(double hottest_K) {
     dither_place_ = 0;
     begin_block();  // what moved before it says nothing of now
   }
-  dither_W_ = dither_place_ < 0 ? 0.0 : plan_.dither.sign(dither_place_) * plan_.dither.amplitude_W;
+  dither_W_ = dither_place_ < 0 ? 0.0 : plan_.dither.step_W(dither_place_);
 }
 
 detectors::Margin Proof::margin() const {

@@ -5,6 +5,7 @@
 
 #include "board/heat.hpp"
 #include "supervisor/dither.hpp"
+#include "supervisor/small_signal.hpp"
 
 namespace supercoil {
 
@@ -19,6 +20,8 @@ struct ProofSettings {
   double position_noise_rms_m = 0.0;
   double count_m = 0.0;
   double obvious_m = 0.001;  ///< responding_least_m
+  /// Of the model's small motions, what arrives at the sensor, as identify measured it.
+  double answer_ratio = 1.0;
 };
 
 /// What a proof can do for one muscle: for --check as well.
@@ -30,6 +33,11 @@ struct ProofPlan {
 };
 ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParameters& muscle,
                      double rate_Hz);
+
+/// What measures the answer of a muscle that was just found, which holds its position at hold_W.
+SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
+                                        const control::PhysicalParameters& muscle, double hold_W,
+                                        double rate_Hz);
 
 /// Any motion with the power proves a muscle, whatever the loop does. That it does not move proves
 /// nothing: a loop that holds it against a fan or a load changes the power as well. So a dither is
@@ -54,8 +62,9 @@ class Proof {
         double rate_Hz);
 
   void step(const Input& in);
-  /// Another muscle is known from now on.
-  void learn(const control::PhysicalParameters& muscle);
+  /// Another muscle is known from now on. answer_ratio: as in ProofSettings.
+  void learn(const control::PhysicalParameters& muscle, double answer_ratio);
+  const ProofSettings& settings() const { return settings_; }
   /// True power over what is told of it may be this much from now on, of the same muscle.
   void plan(double max_power_ratio, const control::PhysicalParameters& muscle);
   /// Every position moved, by a new calibration.
@@ -121,7 +130,8 @@ class Proof {
     bool answered() const { return result == detectors::Answer::Result::answered; }
     bool silent() const { return result == detectors::Answer::Result::silent; }
   };
-  Match match_for(const control::PhysicalParameters& muscle, double corner_rad_per_s) const;
+  Match match_for(const control::PhysicalParameters& muscle, double corner_rad_per_s,
+                  double answer_ratio = 1.0) const;
 
   void end_step(const Input& in);
   void compare(double position_m);

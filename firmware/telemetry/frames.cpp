@@ -4,6 +4,7 @@
 
 #include <supercoil.h>
 
+#include "modes/result.hpp"
 #include "telemetry/opcodes.hpp"
 #include "telemetry/pack.hpp"
 
@@ -181,6 +182,7 @@ hal::CanFrame status(Node node, const Row& row, bool leased, std::uint8_t counte
   m.result = row.result;
   m.proof_off = has(row, row_proof_off);
   m.oscillated = has(row, row_oscillated);
+  m.friction = (row.identify_notes & note_friction) != 0;
   m.counter = counter;
   m.protocol_version = protocol_version;
   return packed(SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, node, m, supercoil_status_pack);
@@ -211,7 +213,8 @@ hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
   supercoil_estimate_t m{};
   m.parameter = parameter;
   m.trusted = has(row, row_trusted);
-  m.identify_notes = row.identify_notes;
+  // The last one has no bit left here; Status has it.
+  m.identify_notes = row.identify_notes & static_cast<std::uint8_t>(~note_friction);
   m.error_bound =
       scaled(row.error_bound, SUPERCOIL_ESTIMATE_ERROR_BOUND_NOT_AVAILABLE_CHOICE,
              supercoil_estimate_error_bound_encode, supercoil_estimate_error_bound_decode);

@@ -143,6 +143,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
   ChannelSettings& channel = board.channels[0];
   channel.muscle = c.muscle;
   channel.muscle_identified = scenario.muscle_identified;
+  channel.answer_ratio = scenario.answer_ratio;
   channel.position.scaling = scaling_of(simulated.channels[0].position);
   channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
   channel.position.max_age_s = max_age_s(scenario, simulated.channels[0].position);

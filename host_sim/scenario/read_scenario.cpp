@@ -132,6 +132,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   if (learned) {
     scenario.calibration = learned->calibration;
     scenario.muscle_identified = !(learned->muscle == configured);
+    scenario.answer_ratio = learned->answer_ratio;
   }
   // Each event is laid over all before it, and the whole is read and checked again. Events at one
   // time are one change: what the first alone would make impossible, the second may put right.

@@ -253,17 +253,18 @@ class ModulesTest(unittest.TestCase):
         self.assertIn("its feedback is slower now", told[2])
 
     def test_every_reason_of_a_refused_identify_is_told(self):
-        told = self.ask(CARD + """const shown = (time_s, result, identify_notes) => {
-                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], result: [result] },
+        told = self.ask(CARD + """const shown = (time_s, result, identify_notes, friction = 0) => {
+                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [0], result: [result], friction: [friction] },
                     Estimate: { time_s: [time_s], identify_notes: [identify_notes] } } } });
                 card.update(time_s);
                 return card.result.hidden || card.result.textContent;
             };
-            return [shown(1, 0, 0), shown(2, 2, 0), shown(3, 2, 1), shown(4, 6, 2 + 8 + 16)];""")
+            return [shown(1, 0, 0), shown(2, 2, 0), shown(3, 2, 1), shown(4, 6, 2 + 8 + 16), shown(5, 2, 0, 1)];""")
         last = "Last identify or calibrate: "
         self.assertEqual(told, [
             True, last + "found and kept.", last + "found and kept; θ1 was not known well enough, its believed value is kept.",
-            last + "the muscle did not do what the fit foretold; θ2 is uncertain; θ4 is uncertain; the motion was not explained."])
+            last + "the muscle did not do what the fit foretold; θ2 is uncertain; θ4 is uncertain; the motion was not explained.",
+            last + "found and kept; friction takes more than half of a small motion, and the power may be held to less for it."])
 
     def test_page_of_a_fault_becomes_elements_and_never_script(self):
         html = self.ask("""const text = "# 30 a <b>\\n\\nTwo ways:\\n- one `x`\\n  more\\n- **two**\\n\\n1. [other](over_travel.md)\\n";

@@ -298,7 +298,7 @@ constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
     {"setting", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
 }};
 
-constexpr std::array<SignalInfo, 15> signals_of_Status{{
+constexpr std::array<SignalInfo, 16> signals_of_Status{{
     {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
     {"fault", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
@@ -314,6 +314,7 @@ constexpr std::array<SignalInfo, 15> signals_of_Status{{
     {"result", "", 56, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_result},
     {"proof_off", "", 60, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"oscillated", "", 61, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"friction", "", 62, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
 constexpr std::array<MessageInfo, 19> all{{

@@ -87,6 +87,8 @@ std::string node_text(int number, const Newest& node) {
   if (const double notes = value(node, "Estimate", "identify_notes"); notes > 0.0)
     text += " (" + describe_notes(static_cast<std::uint8_t>(notes)) + ")";
   text += '\n';
+  if (value(node, "Status", "friction") == 1.0)
+    text += "  friction takes more than half of a small motion: the power may be held to less\n";
   const double version = value(node, "Status", "protocol_version");
   if (std::isfinite(version) && version != telemetry::protocol_version) {
     text += "  it speaks version " + std::to_string(std::lround(version)) +

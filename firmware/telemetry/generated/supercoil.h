@@ -590,6 +590,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_RESULT_NAME "result"
 #define SUPERCOIL_STATUS_PROOF_OFF_NAME "proof_off"
 #define SUPERCOIL_STATUS_OSCILLATED_NAME "oscillated"
+#define SUPERCOIL_STATUS_FRICTION_NAME "friction"
 
 /**
  * Signals in message Emergency.
@@ -1561,6 +1562,15 @@ struct supercoil_status_t {
      * Offset: 0
      */
     uint8_t oscillated;
+
+    /**
+     * 1: the last identify that found the muscle saw less than half of a small motion arrive at the sensor. Friction takes the rest, and the power may be held to what is proven. 0 also from boards that do not tell it.
+     *
+     * Range: 0..1 (0..1 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t friction;
 };
 
 /**
@@ -5825,6 +5835,46 @@ bool supercoil_status_oscillated_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_status_oscillated_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_status_friction_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_status_friction_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_friction_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_status_friction_is_in_phys_range(double value);
 
 
 #ifdef __cplusplus

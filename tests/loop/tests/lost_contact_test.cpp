@@ -80,6 +80,14 @@ class LostContact {
   long dithers = 0;
 };
 
+/// Friction of 0.5 % of the load leaves some 0.3 of a small motion.
+test::RigSettings rubbing_board(double answer_ratio) {
+  test::RigSettings s = deaf_board(true);
+  s.board.channels[Rig::tested].effects.friction_ratio = 0.005;
+  s.firmware.channels[Rig::tested].answer_ratio = answer_ratio;
+  return s;
+}
+
 auto always(double value) {
   return [value](double) { return value; };
 }
@@ -155,6 +163,24 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundInASlowRamp) {
   muscle.lose_contact();
   muscle.run(100.0);
   check_found(muscle, 120.0);
+}
+
+TEST(LostContact, IsNoneWhereFrictionLeavesWhatIdentifyMeasured) {
+  // As if all of a small motion arrived: the proof fails, and the power is held down.
+  LostContact unmeasured(rubbing_board(0.0));
+  unmeasured.start(Verb::power, always(3.0));
+  unmeasured.run(60.0);
+  CHECK(unmeasured.limited);
+
+  LostContact measured(rubbing_board(0.25));
+  measured.start(Verb::power, always(3.0));
+  measured.run(60.0);
+  CHECK(measured.rig.fault() == Fault::none);
+  CHECK_FALSE(measured.limited);
+  CHECK_COMPARE(measured.dithers, >, 0);
+  measured.lose_contact();
+  measured.run(10.0);
+  check_found(measured, 120.0);
 }
 
 TEST(LostContact, IsAlsoThatOfABlockedMuscle) {

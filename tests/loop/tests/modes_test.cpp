@@ -46,7 +46,7 @@ Ending check_nothing(const char* why, const std::string& text) {
 }
 
 const std::string identify =
-    "simulation.duration_s = 65.0\noperator.wish = 'identify'\n"
+    "simulation.duration_s = 85.0\noperator.wish = 'identify'\n"
     "[muscle]\nstiffness_N_per_m = 22.0\ndamping_Ns_per_m = 3.0\nthermal_mass_J_per_K = 0.2\n";
 const std::string calibrate = "simulation.duration_s = 30.0\noperator.wish = 'calibrate'\n";
 
@@ -69,13 +69,29 @@ TEST(Modes, IdentifyFindsTheMuscleWithinAMinute) {
 TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
   const Ending ended = ending(
       identify +
-      "[controller]\nkind = 'adaptive_ff'\n[[event]]\nat_s = 63.0\noperator.wish = 'track'\n");
+      "[controller]\nkind = 'adaptive_ff'\n[[event]]\nat_s = 83.0\noperator.wish = 'track'\n");
   CHECK(ended.learned.has_value());
   const control::AdaptiveFeedforwardSettings settings;
   const double theta3 = control::theta_from(ended.learned->muscle)[2];
   DOUBLES_EQUAL(settings.bandwidth_rad_per_s * theta3, ended.proportional_W_per_m, 1e-6);
   // It was configured as another muscle's, by which it would be a third more.
   DOUBLES_EQUAL(8.0 * 322.09, ended.proportional_W_per_m, 0.05 * 8.0 * 322.09);
+}
+
+TEST(Modes, IdentifyMeasuresHowMuchOfASmallMotionArrives) {
+  const Ending smooth = ending(identify);
+  CHECK(smooth.learned.has_value());
+  DOUBLES_EQUAL(1.0, smooth.learned->answer_ratio, 0.06);
+  STRCMP_EQUAL("", smooth.notes.c_str());
+  for (const double friction : {0.002, 0.01}) {
+    const Ending rough =
+        ending(identify + "[plant]\nfriction_ratio = " + std::to_string(friction) + "\n");
+    CHECK(rough.learned.has_value());
+    printf("friction %g: %.3f of a small motion\n", friction, rough.learned->answer_ratio);
+    CHECK_COMPARE(rough.learned->answer_ratio, <, 0.5);
+    CHECK_COMPARE(rough.learned->answer_ratio, >, 0.1);
+    STRCMP_CONTAINS("friction", rough.notes.c_str());
+  }
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesUnderway) {
@@ -87,7 +103,7 @@ TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesUnderway) {
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsNotTheOneThatWasConfigured) {
   const Ending ended = check_nothing("implausible",
-                                     "simulation.duration_s = 65.0\noperator.wish = 'identify'\n"
+                                     "simulation.duration_s = 85.0\noperator.wish = 'identify'\n"
                                      "[muscle]\nstiffness_N_per_m = 200.0\n");
   STRCMP_EQUAL("implausible", ended.notes.c_str());
 }

@@ -41,6 +41,9 @@ const NOTES = [
   "the motion was not explained", "implausible", "too little motion",
 ];
 
+// Status has this one.
+const FRICTION = "; friction takes more than half of a small motion, and the power may be held to less for it";
+
 const notes_text = (bits) => NOTES.filter((_, i) => (bits >> i) & 1).map((note) => `; ${note}`).join("");
 
 export class StateCard {
@@ -105,7 +108,8 @@ export class StateCard {
     this.result.hidden = !(result in RESULTS);
     if (!this.result.hidden) {
       const notes = this.store.at(this.node, "Estimate", now_s)?.identify_notes ?? 0;
-      show(this.result, `Last identify or calibrate: ${RESULTS[result]}${notes_text(notes)}.`);
+      show(this.result, `Last identify or calibrate: ${RESULTS[result]}${notes_text(notes)}` +
+        `${row.friction === 1 ? FRICTION : ""}.`);
     }
     return status;
   }

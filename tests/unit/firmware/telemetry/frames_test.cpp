@@ -215,6 +215,16 @@ TEST(Frames, AStatusTellsThatTheProofOfResponseIsOff) {
   LONGS_EQUAL(1, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
 }
 
+TEST(Frames, AStatusTellsOfFrictionAsAnEstimateHasNoBitLeft) {
+  Row row{};
+  LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).friction);
+  row.identify_notes = note_friction | note_theta1_kept;
+  LONGS_EQUAL(1, unpacked(status(1, row, false, 0), supercoil_status_unpack).friction);
+  const auto m = unpacked(estimate(1, row, 0, {1, 1}, {}), supercoil_estimate_unpack);
+  LONGS_EQUAL(1, m.identify_notes);
+  LONGS_EQUAL(0, m.trusted);
+}
+
 TEST(Frames, EveryEstimateTellsWhatIdentifyHasToSay) {
   Row row{};
   row.identify_notes = note_too_still | note_theta1_kept;

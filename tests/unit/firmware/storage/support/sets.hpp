@@ -81,17 +81,19 @@ inline rc::Gen<storage::Learned> learned_sets() {
   return rc::gen::apply(
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
          double scale, double resistance, const storage::SenseComparison& senses,
-         const storage::HeatFacts& heat, std::uint32_t version) {
+         const storage::HeatFacts& heat, double answer_ratio, std::uint32_t version) {
         return storage::Learned{{psi, eta, rho, mu, mass, gamma},
                                 {offset, scale, resistance},
                                 senses,
                                 version,
                                 true,
-                                heat};
+                                heat,
+                                answer_ratio};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),
       any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4), comparisons(), heat_facts(),
+      rc::gen::oneOf(rc::gen::just(0.0), any_magnitude(1e-3, 10.0)),
       rc::gen::resize(100, rc::gen::arbitrary<std::uint32_t>()));
 }
 

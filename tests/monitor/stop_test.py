@@ -5,6 +5,7 @@ Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 
 import contextlib
 import http.server
+import os
 import pathlib
 import resource
 import socket
@@ -62,6 +63,13 @@ class StopPort(OnSimulatedBoard):
         print(f"{most - before} connections at most")
         self.assertLessEqual(most - before, 256 + 8)
         self.assertEqual(served.post("/stop", "", stop_port), (200, {"nodes": [1]}))
+
+    @unittest.skipUnless(os.getpriority(os.PRIO_PROCESS, 0) < 0, "this user may not have precedence")
+    def test_stop_s_two_threads_go_before_all_others(self):
+        served = self.serve(prepare=lambda: os.setpriority(os.PRIO_PROCESS, 0, 0))
+        threads = [int(task.name) for task in pathlib.Path(f"/proc/{served.process.pid}/task").iterdir()]
+        nice = sorted(os.getpriority(os.PRIO_PROCESS, thread) for thread in threads)
+        self.assertEqual(nice, [-10, -10] + (len(nice) - 2) * [0])
 
     def test_stop_s_port_answers_what_is_no_stop(self):
         served = self.serve()

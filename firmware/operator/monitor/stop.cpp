@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "can_client/master.hpp"
+#include "operator/monitor/precedence.hpp"
 
 namespace supercoil::operating {
 
@@ -70,6 +71,7 @@ void StopServer::take(const httplib::Request& request, const StopListener::Answe
 }
 
 void StopServer::run() {
+  take_precedence();
   for (;;) {
     std::vector<Waiting> waiting;
     {

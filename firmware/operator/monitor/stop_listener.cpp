@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "operator/monitor/precedence.hpp"
 #include "operator/monitor/stop_connection.hpp"
 
 namespace supercoil::operating {
@@ -47,7 +48,10 @@ boost::system::error_code StopListener::listen(const std::string& host, int port
 void StopListener::start(Take take) {
   take_ = std::move(take);
   accept();
-  thread_ = std::thread([this] { io_.run(); });
+  thread_ = std::thread([this] {
+    take_precedence();
+    io_.run();
+  });
 }
 
 StopListener::~StopListener() {

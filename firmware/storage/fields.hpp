@@ -54,7 +54,7 @@ inline constexpr bool may_lack(std::string_view table) {
 inline bool is_stored(const Field& field, const Learned& learned) {
   if (field.table == "senses") return learned.senses != SenseComparison{};
   if (field.table == "heat") return learned.heat != HeatFacts{};
-  if (field.table == "small_motions") return learned.knows_muscle && learned.answer_ratio > 0.0;
+  if (field.table == "small_motions") return learned.knows_muscle && learned.answer_ratio != 0.0;
   return learned.knows_muscle;
 }
 

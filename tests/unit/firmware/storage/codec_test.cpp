@@ -26,6 +26,7 @@ Learned full_set() {
   Learned set;
   set.senses = {1.25, 0.875, 0.0625, 1795219200.0};
   set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
+  set.answer_ratio = 0.375;
   return set;
 }
 
@@ -102,9 +103,18 @@ TEST(Codec, WhatIsKnownOfHeatHasATableOfItsOwn) {
   CHECK(decode(encode(set)) == set);
 }
 
+TEST(Codec, WhatArrivesOfSmallMotionsHasATableOfItsOwnWhereItWasMeasured) {
+  Learned set = full_set();
+  STRCMP_CONTAINS("\n[small_motions]\nanswer_ratio = 0.375\n", encode(set).c_str());
+  set.answer_ratio = 0.0;
+  CHECK(encode(set).find("small_motions") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+}
+
 TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   Learned set = full_set();
   set.knows_muscle = false;
+  set.answer_ratio = 0.0;
   set.version = 1;
   CHECK(encode(set).find("muscle") == std::string::npos);
   CHECK(encode(set).find("calibration") == std::string::npos);

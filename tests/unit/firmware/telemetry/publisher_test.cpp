@@ -174,7 +174,7 @@ TEST(Publisher, SendsAnswersBeforeTheMessagesThatWaitAndEmergenciesBeforeThem) {
   bus.answer = hal::Status::ok;
   publisher.poll(51ms, [](std::uint8_t) { return false; });
   LONGS_EQUAL(0x080 + 5, bus.sent[0].id);
-  for (std::size_t i = 1; i <= 16; ++i)
+  for (std::size_t i = 1; i <= 32; ++i)
     LONGS_EQUAL(0x245, bus.sent[i].id);
-  LONGS_EQUAL(0x280 + 5, bus.sent[17].id);
+  LONGS_EQUAL(0x280 + 5, bus.sent[33].id);
 }

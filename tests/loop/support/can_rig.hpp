@@ -10,6 +10,7 @@
 #include "simulated_board/simulated_can_bus.hpp"
 #include "telemetry/can_link.hpp"
 #include "unit/firmware/telemetry/support/master.hpp"
+#include "unit/firmware/telemetry/support/unpacked.hpp"
 
 namespace supercoil::test {
 

@@ -27,6 +27,7 @@ ordered_json learned_json(const storage::Learned& learned) {
   json["position_offset_m"] = learned.calibration.position_offset_m;
   json["position_scale"] = learned.calibration.position_scale;
   json["cold_resistance_Ohm"] = learned.calibration.cold_resistance_Ohm;
+  json["answer_ratio"] = learned.answer_ratio;
   return json;
 }
 

@@ -61,6 +61,8 @@ class LostContact {
       hottest_C = std::max(hottest_C, 25.0 + rig.muscle().plant().temperature_rise_K());
       const Snapshot& s = rig.snapshot();
       limited = limited || s.limited_by == LimitedBy::unproven;
+      const bool under_way = s.state == State::active && rig.time_s() - start_s_ > 1.0;
+      if (under_way) lowest_W = std::min(lowest_W, s.applied_W);
       // A dither: other power than was wanted, and nothing limits it.
       const double added_W = std::abs(s.applied_W - s.wanted_W);
       dithers += !s.limited && s.state == State::active && added_W > 0.03 ? 1 : 0;
@@ -77,13 +79,13 @@ class LostContact {
   Rig rig;
   double hottest_C = 0.0;
   bool limited = false;
+  double lowest_W = 1e3;  ///< from 1 s after the start on
   long dithers = 0;
 };
 
-/// Friction of 0.5 % of the load leaves some 0.3 of a small motion.
-test::RigSettings rubbing_board(double answer_ratio) {
+test::RigSettings rubbing_board(double friction_ratio, double answer_ratio) {
   test::RigSettings s = deaf_board(true);
-  s.board.channels[Rig::tested].effects.friction_ratio = 0.005;
+  s.board.channels[Rig::tested].effects.friction_ratio = friction_ratio;
   s.firmware.channels[Rig::tested].answer_ratio = answer_ratio;
   return s;
 }
@@ -166,14 +168,15 @@ TEST(LostContact, OfAnIdentifiedMuscleIsFoundInASlowRamp) {
 }
 
 TEST(LostContact, IsNoneWhereFrictionLeavesWhatIdentifyMeasured) {
-  // As if all of a small motion arrived: the proof fails, and the power is held down.
-  LostContact unmeasured(rubbing_board(0.0));
-  unmeasured.start(Verb::power, always(3.0));
+  // As if all of a small motion arrived: the proof fails, the power is taken away, then held down.
+  LostContact unmeasured(rubbing_board(0.002, 0.0));
+  unmeasured.start(Verb::power, always(1.5));
   unmeasured.run(60.0);
   CHECK(unmeasured.limited);
+  DOUBLES_EQUAL(0.0, unmeasured.lowest_W, 1e-9);
 
-  LostContact measured(rubbing_board(0.25));
-  measured.start(Verb::power, always(3.0));
+  LostContact measured(rubbing_board(0.002, 0.17));
+  measured.start(Verb::power, always(1.5));
   measured.run(60.0);
   CHECK(measured.rig.fault() == Fault::none);
   CHECK_FALSE(measured.limited);
@@ -181,6 +184,18 @@ TEST(LostContact, IsNoneWhereFrictionLeavesWhatIdentifyMeasured) {
   measured.lose_contact();
   measured.run(10.0);
   check_found(measured, 120.0);
+}
+
+TEST(LostContact, WhereFrictionSwallowsADitherIsNotAskedForAtTheSafePower) {
+  LostContact muscle(rubbing_board(0.01, 0.001));
+  muscle.start(Verb::power, always(3.0));
+  muscle.run(60.0);
+  CHECK(muscle.rig.fault() == Fault::none);
+  CHECK(muscle.limited);
+  // 1.1 W from the start, and never taken away.
+  CHECK_COMPARE(muscle.lowest_W, >, 1.0);
+  CHECK_COMPARE(muscle.rig.snapshot().applied_W, <, 1.2);
+  LONGS_EQUAL(0, muscle.dithers);
 }
 
 TEST(LostContact, IsAlsoThatOfABlockedMuscle) {

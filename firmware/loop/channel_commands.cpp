@@ -86,8 +86,10 @@ Refusal Channel::heat(Mode mode, double value, const BoardNow& board) {
   if (state == State::armed && probe_.running()) return Refusal::busy;
   if (mode == Mode::position) {
     const double max_m = settings_.supervision.max_travel_m;
-    const bool reachable = value >= -max_m && value <= max_m;
-    if (!reachable) return refuse_beyond(std::clamp(value, -max_m, max_m));  // a NaN as well
+    const double reachable_m = as_float_tells * max_m;
+    const bool reachable = value >= -reachable_m && value <= reachable_m;
+    value = std::clamp(value, -max_m, max_m);
+    if (!reachable) return refuse_beyond(value);  // a NaN as well
   } else if (mode == Mode::power) {
     if (!std::isfinite(value)) return Refusal::out_of_range;
   } else if (state == State::active) {

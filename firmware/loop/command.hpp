@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "supervisor/channel_state.hpp"
@@ -42,6 +43,9 @@ constexpr std::string_view name(Verb verb) {
 
 /// Who asked: the answer goes back there.
 enum class Source : std::uint8_t { local, can };
+
+/// Over CAN a value is a float: a limit itself, too, may come as a little more than it is.
+inline constexpr double as_float_tells = 1.0 + std::numeric_limits<float>::epsilon();
 
 struct Command {
   std::uint8_t channel = 0;  ///< from 0

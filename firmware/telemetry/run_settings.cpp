@@ -77,8 +77,9 @@ Refusal RunSettings::set(std::uint8_t channel, std::uint8_t setting, double valu
   const bool only_read = setting >= supply_gain;
   if (only_read || std::isnan(value_of(channel, setting))) return Refusal::out_of_range;
   if (setting != most_power) return set_rate(channel, message_of(setting), value);
-  if (!(value >= 0.0 && value <= most_W_[channel])) return Refusal::out_of_range;
-  loop_->channel(channel).allow_power(value);
+  const double most_W = most_W_[channel];
+  if (!(value >= 0.0 && value <= as_float_tells * most_W)) return Refusal::out_of_range;
+  loop_->channel(channel).allow_power(std::fmin(value, most_W));
   return Refusal::none;
 }
 

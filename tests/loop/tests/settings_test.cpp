@@ -110,6 +110,16 @@ TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
   DOUBLES_EQUAL(configured_W, read(most_power), 0.0);
 }
 
+TEST(Settings, TheConfiguredPowerIsObeyedThoughAsAFloatItIsALittleMore) {
+  RigSettings settings = rough_board();
+  settings.firmware.channels[0].limiter.max_W = 2.15;
+  CanRig small(settings);
+  small.run(0.1);
+  small.claim(master);
+  CHECK(refusal_in(small.ask_setting(master.setting(most_power, 2.15F))) == Refusal::none);
+  DOUBLES_EQUAL(2.15, small.loop.channel(0).most_power_W(), 0.0);
+}
+
 TEST(Settings, AMessageComesAsOftenAsItIsWritten) {
   rig.run(0.1);
   rig.claim(master);

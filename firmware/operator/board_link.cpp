@@ -118,7 +118,7 @@ tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& 
         result = can_client::value_name(heard->message->signals[place], value("result"));
         friction = value("friction") == 1.0 ? note_friction : 0;
       } else if (frame.id == can_client::estimate_id(node) && result) {
-        const unsigned rest = static_cast<unsigned>(value("identify_notes"));
+        const auto rest = static_cast<unsigned>(value("identify_notes"));
         notes = describe_notes(static_cast<std::uint8_t>(rest | friction), ",");
       }
     }

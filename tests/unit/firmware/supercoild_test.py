@@ -7,6 +7,7 @@ import re
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 PROGRAM = os.environ["SUPERCOILD"]
 EXAMPLES = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"])
@@ -44,6 +45,27 @@ class Program(unittest.TestCase):
         done = self.run_program("--check", SLOW)
         self.assertIn("  i2c-1: 1.988 ms, 19.9 %, at 400 kHz\n", done.stdout)
         self.assertRegex(done.stdout, r"\n  together \d+ KiB\n")
+
+    def learned(self, channel, version, **tables):
+        body = f"version = {version}\n" + "".join(
+            f"\n[{name}]\n" + "".join(f"{key} = {value}\n" for key, value in table.items()) for name, table in tables.items())
+        (self.path / f"learned-{channel}.toml").write_text(
+            f"# supercoil learned, format 1, {len(body)} bytes, CRC-32 {zlib.crc32(body.encode()):08x}\n{body}")
+
+    def test_check_goes_by_what_the_board_has_learned(self):
+        muscle = {"thermal_mass_J_per_K": 0.17, "heat_transfer_W_per_K": 0.09, "stiffness_N_per_m": 16.5, "damping_Ns_per_m": 2.0,
+                  "moving_mass_kg": 0.09, "force_per_kelvin_N_per_K": 0.0086}
+        calibration = {"position_offset_m": 0.0, "position_scale": 1.0, "cold_resistance_Ohm": 10.0}
+        senses = {"supply_gain": 1.01, "current_gain": 0.99, "error_ratio": 0.02, "compared_s": 1795219200.0}
+        self.learned(1, 3, muscle=muscle, calibration=calibration, senses=senses, small_motions={"answer_ratio": 0.01})
+        name, _ = self.changed("rate_Hz = 100.0", f'rate_Hz = 100.0\nstorage_folder = "{self.path}"')
+        done = self.run_program("--check", name)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn(f"channel 1: with what was learned before, version 3 in {self.path}\n", done.stdout)
+        self.assertIn("senses      compared with a meter on 2026-11-", done.stdout)
+        self.assertIn("1 % arrive at the sensor, as identify saw: friction takes the rest; up to ", done.stdout)
+        self.assertRegex(done.stdout, "channel 1: heater_not_responding: friction leaves too little of a small motion")
+        self.assertEqual(done.stdout.count("until they are compared with a meter"), 3)
 
     def test_check_prints_the_locked_memory(self):
         # Four channels at 1 kHz, buses out of the way: most of all is the recorder.

@@ -45,7 +45,7 @@ class Program(unittest.TestCase):
 
     def test_what_is_learned_is_kept_and_used_by_the_next_run(self):
         (self.path / "memory").mkdir()
-        text = ("simulation.duration_s = 62.0\noperator.wish = 'identify'\n"
+        text = ("simulation.duration_s = 82.0\noperator.wish = 'identify'\n"
                 "muscle.stiffness_N_per_m = 22.0\n")
         options = ["--learned", "memory", "--no-plot", "--no-trace", "--quiet"]
         for out in ("first", "second"):

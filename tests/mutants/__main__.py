@@ -3,11 +3,16 @@ nearest test programs notice.
 
 The lines are divided into runs of equal length. Of each run one mutant is drawn (universalmutator makes them), compiled
 and tried; one that does not compile, compiles to the same code, or is listed in tests/mutants/equivalent.toml, is
-replaced by the next of its run. All of it happens on copies in build/mutate. A run of the program that was ended is
-carried on by the same command, as long as no file of the tree has changed.
+replaced by the next of its run. All of it happens on copies in build/mutate. Of each test
+program one file of tests after the other is tried, the nearest first.
+
+A run that was ended is carried on by the same command. When lines were only added to tests/unit and tests/loop since, or
+nothing but texts and tests/mutants/equivalent.toml changed, it keeps what was killed: a test that fails still does. What
+survived is tried again. When any other file changed, or a line of a test is gone, it begins anew.
 """
 
 import argparse
+import os
 import pathlib
 import queue
 import random
@@ -18,10 +23,11 @@ import time
 from areas import AREAS, files_of, programs
 from results import Results, equivalents, report
 from sample import strata
-from workshop import Failed, Workshop, tree_hash
+from workshop import Failed, Workshop, code_hash, tests_of
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "build" / "mutate"
+CORES = len(os.sched_getaffinity(0))
 LEAST_KILLED = 0.90  # of the interval's lower end
 AREA_OF = {file: area for area in AREAS for file in files_of(area, ROOT)}
 
@@ -48,10 +54,11 @@ class Run:
         self.programs = programs({AREA_OF[run[0].file] for run in self.runs})
         self.known = equivalents(pathlib.Path(__file__).parent / "equivalent.toml")
         FOLDER.mkdir(parents=True, exist_ok=True)
-        self.results = Results(FOLDER / "results.jsonl",
-                               [tree_hash(ROOT), options.seed, len(self.runs), options.only])
+        self.results = Results(FOLDER / "results.jsonl", [code_hash(ROOT), options.seed, len(self.runs), options.only],
+                               tests_of(ROOT), self.known)
         self.ends = time.monotonic() + 60.0 * options.minutes
         self.problems = []
+        self.preparing = threading.Lock()
 
     def by_file(self):
         """What is not decided, by the file of its first mutant: a file is restored once."""
@@ -78,8 +85,9 @@ class Run:
 
     def work(self, number, todo):
         try:
-            shop = Workshop(ROOT, FOLDER / str(number), self.programs, max(1, 2 // self.options.jobs))
-            shop.prepare(lambda text: print(f"copy {number}: {text}", flush=True))
+            shop = Workshop(ROOT, FOLDER / str(number), self.programs, max(1, CORES // self.options.jobs))
+            with self.preparing:  # a compiler cache has the second copy's objects from the first
+                shop.prepare(CORES, lambda text: print(f"copy {number}: {text}", flush=True))
             while time.monotonic() < self.ends:
                 for stratum in todo.get_nowait():
                     self.try_stratum(shop, stratum)

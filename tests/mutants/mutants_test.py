@@ -2,10 +2,12 @@
 
 import pathlib
 import sys
+import tempfile
 import unittest
 from unittest import mock
 
 import areas
+import parts
 import results
 import sample
 
@@ -43,12 +45,60 @@ class Sample(unittest.TestCase):
 
     def test_leaves_out_what_changes_a_text_or_a_type(self):
         self.assertEqual(sample.squeezed('fail("a b", 1)'), sample.squeezed('fail("", 1)'))
+        self.assertEqual(sample.squeezed("a;  // 5 %"), sample.squeezed("a;  // 6 %"))
         for before, after in (("Handle* h) {", "Handle% h) {"), ("std::vector<int> a;", "std::vector<=int> a;"),
-                              ("std::int64_t a;", "std::int1_t a;"), ("int f() {", "/*int f() {*/")):
+                              ("std::int64_t a;", "std::int1_t a;"), ("int f() {", "/*int f() {*/"),
+                              ("a = 0.5;", "a = 0.(5+1);"), ("  double a_ = 0;", "  /*double a_ = 0;*/"),
+                              ("++a;", "+%a;")):
             self.assertFalse(sample.promising(before, after), after)
         for before, after in (("a = b * c;", "a = b / c;"), ("if (a < b)", "if (a <= b)"), ("a = 64;", "a = (64-1);"),
-                              ("  f();", "  /*f();*/")):
+                              ("  f();", "  /*f();*/"), ("  a << b;", "  /*a << b;*/"), ("  return a;", "  /*return a;*/")):
             self.assertTrue(sample.promising(before, after), after)
+
+
+class Kept(unittest.TestCase):
+    """What stays of a run when the same command is given again."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        first = self.opened(["a"])
+        for number, verdict in enumerate(("killed", "survived", "invalid")):
+            first.add(number, sample.Mutant("f", number, "x", verdict), "area", verdict, "", 1.0)
+
+    def opened(self, tests, of="code", known=()):
+        return results.Results(pathlib.Path(self.folder.name) / "r.jsonl", [of], {"t": tests}, known)
+
+    def verdicts(self, *what, **how):
+        return [row["verdict"] for row in self.opened(*what, **how).rows]
+
+    def test_is_everything_when_nothing_changed(self):
+        self.assertEqual(self.verdicts(["a"]), ["killed", "survived", "invalid"])
+
+    def test_is_all_but_the_survivors_when_tests_were_added(self):
+        self.assertEqual(self.verdicts(["b", "a", "c"]), ["killed", "invalid"])
+        self.assertEqual(self.verdicts(["b", "a", "c"]), ["killed", "invalid"], "as it was stored")
+
+    def test_is_nothing_when_a_line_of_a_test_is_gone_or_the_code_changed(self):
+        self.assertEqual(self.verdicts(["b"]), [])
+        self.assertEqual(self.verdicts(["a"], of="other code"), [])
+
+    def test_is_no_survivor_that_is_now_listed_as_equivalent(self):
+        self.assertEqual(self.verdicts(["a"], known={("f", "x", "survived")}), ["killed", "invalid"])
+
+
+class Parts(unittest.TestCase):
+    def test_have_of_an_archive_what_the_linker_took(self):
+        archives = {"l/a.a": {"x.o": ["l/x.o"], "y.o": ["l/y.o", "l/m/y.o"]}}
+        for traced in ("t.o\nl/a.a(y.o)\n/usr/lib/c.a(x.o)\n", "t.o\n(l/a.a)y.o\n(/usr/lib/c.a)x.o\n"):
+            self.assertEqual(list(parts.pulled(traced, archives)), ["l/y.o", "l/m/y.o"])
+
+    def test_named_like_a_file_are_nearest_to_it(self):
+        def distance(name, source=""):
+            return parts.Part("p", name, frozenset(), [], pathlib.Path(name), source).distance("board/heat.hpp")
+        ordered = [distance("heat_test"), distance("heat_late_test"), distance("x_test", '#include "board/heat.hpp"'),
+                   distance("x_test", '#include "board/known_heat.hpp"')]
+        self.assertEqual(ordered, sorted(set(ordered)))
 
 
 class Equivalents(unittest.TestCase):

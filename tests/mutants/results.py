@@ -13,19 +13,25 @@ CONFIDENCE = 0.95
 
 
 class Results:
-    def __init__(self, path, of):
-        """`of` names tree, seed and number of strata: results of another are set aside."""
+    def __init__(self, path, of, tests, known):
+        """`of` names code, seed and number of strata: results of another are set aside. Where the tests grew since, what
+        they killed stays killed, what did not compile or was the same code still does or is, and what survived is to be
+        tried again. Where a line of theirs is gone, nothing stays. `known`: the equivalents."""
         self.path = path
         self.lock = threading.Lock()
         self.rows = []
-        header = {"of": of}
         lines = path.read_text().splitlines() if path.exists() else []
-        if lines and json.loads(lines[0]) == header:
-            self.rows = [json.loads(line) for line in lines[1:] if line.endswith("}")]
-        else:
-            if lines:
-                path.rename(path.with_suffix(".earlier.jsonl"))
-            path.write_text(json.dumps(header) + "\n")
+        before = json.loads(lines[0]) if lines else {}
+        if before.get("of") == of and only_grew(before["tests"], tests):
+            rows = [json.loads(line) for line in lines[1:] if line.endswith("}")]
+            same_tests = before["tests"] == tests
+            stays = {"equivalent": lambda row: key_of(row) in known,
+                     "survived": lambda row: same_tests and key_of(row) not in known}
+            self.rows = [row for row in rows if stays.get(row["verdict"], lambda row: True)(row)]
+        elif lines:
+            path.rename(path.with_suffix(".earlier.jsonl"))
+        header = {"of": of, "tests": tests}
+        path.write_text("".join(json.dumps(each) + "\n" for each in (header, *self.rows)))
 
     def add(self, stratum, mutant, area, verdict, by, took_s):
         row = {"stratum": stratum, "area": area, "file": mutant.file, "line": mutant.line, "before": mutant.before,
@@ -40,6 +46,23 @@ class Results:
 
     def decided(self, stratum):
         return any(row["stratum"] == stratum and row["verdict"] in ("killed", "survived") for row in self.rows)
+
+
+def mutant_of(row):
+    return Mutant(row["file"], row["line"], row["before"], row["after"])
+
+
+def key_of(row):
+    return mutant_of(row).key()
+
+
+def only_grew(before, now):
+    """Whether every line of every file is still there, and in its order."""
+    for name, lines in before.items():
+        rest = iter(now.get(name, []))
+        if not all(line in rest for line in lines):
+            return False
+    return True
 
 
 def interval(killed, counted):
@@ -68,7 +91,7 @@ def report(results, strata):
               f"{count[area, 'same code']:10} {count[area, 'invalid']:13}")
     survivors = [row for row in results.rows if row["verdict"] == "survived"]
     for row in survivors:
-        print(f"\nsurvived: {Mutant(row['file'], row['line'], row['before'], row['after'])}")
+        print(f"\nsurvived: {mutant_of(row)}")
     killed = sum(row["verdict"] == "killed" for row in results.rows)
     counted = killed + len(survivors)
     if counted == 0:

@@ -10,6 +10,9 @@ RULES = ["universal.rules", "c_like.rules", "cpp.rules"]
 # Lines that do nothing by themselves.
 NO_CODE = [r"^\s*(#|//|/\*|\*|using |namespace |static_assert|template|public:|private:|class |struct |enum )",
            r"^\s*[})\]]+[;,]?\s*(//.*)?$"]
+# What is declared is used: without it nothing compiles.
+DECLARATION = (r"\s*(?!return\b|delete\b|throw\b|else\b|if\b|for\b|while\b|case\b)"
+               r"(?!.*(<<|>>))[\w:][\w:<>,&*\s\[\]]*[\s&*>][\w:]+\s*(;|=[^=]|\{|\()")
 # The code is formatted: these have spaces on both sides where they are operators of two operands, and none in types.
 OF_TYPES_TOO = "<>*&"
 
@@ -48,20 +51,22 @@ def mutants_of(file, text):
 def promising(before, after):
     """False for what cannot compile: that saves half of all attempts."""
     if after.lstrip().startswith("/*"):
-        return before.rstrip().endswith(";")
+        return before.rstrip().endswith(";") and not re.match(DECLARATION, before)
     first = next(i for i in range(len(before)) if not after.startswith(before[:i + 1]))
     if after[first] == "=" and before[first - 1] in OF_TYPES_TOO:
         first -= 1
-    if before[first].isdigit():  # not of a name's
-        return not re.match(r"\w", before[first - 1])
+    if before[first].isdigit():  # not of a name's, and not a part of a number
+        return not re.match(r"\w", before[first - 1]) and not re.search(r"\(\d+[-+]1\)\.|\.\(\d+[-+]1\)", after)
+    if re.search(r"[%*/]\+|\+[%*/]|[%/]-|-[%*/]", after[first - 1:first + 2]):  # half of ++ or --
+        return False
     if before[first] not in OF_TYPES_TOO:
         return True
     return before[first - 1] == " " and before[first + 1] in " =&"
 
 
 def squeezed(line):
-    """Without spaces and without texts."""
-    return re.sub(r"\s", "", re.sub(r'"[^"]*"', '""', line))
+    """Without spaces, texts and comments at its end."""
+    return re.sub(r"\s|//.*", "", re.sub(r'"[^"]*"', '""', line))
 
 
 def strata(files, root, count, seed):

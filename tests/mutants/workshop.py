@@ -1,17 +1,23 @@
 """A copy of the tree with a build of its own, in which one mutant after the other is compiled and tried."""
 
+import collections
 import fcntl
 import hashlib
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
 import time
 
+from parts import parts_of
+
 # Without optimisation tests take ten times as long; line tables say which objects have code from which header.
 FLAGS = "-O1 -g1 -gno-column-info -w"
-ENVIRONMENT = {"RC_PARAMS": "seed=20261120 max_success=100"}
+ENVIRONMENT = {"RC_PARAMS": "seed=20261120 max_success=100 noshrink=1"}
+NOT_BUILT = ("docs/", "tests/coverage/", "tests/attack/", "tests/mutants/equivalent.toml", "tests/mutants/mutants_test.py")
+FAILURE = r"error: Failure in |\nFAILED "  # of CppUTest, and of the fault matrix
 PATIENCE = 10.0  # times what a program takes on the unchanged tree
 
 
@@ -25,10 +31,23 @@ def tree_files(root):
     return sorted(name for name in listed.split("\0") if name and (root / name).is_file())
 
 
-def tree_hash(root):
+def is_test(name):
+    """Of those that are run: what they found stays true when they only grow."""
+    return name.startswith(("tests/unit/", "tests/loop/"))
+
+
+def tests_of(root):
+    """The lines of each, shortened: to see whether any is gone."""
+    return {name: [hashlib.sha256(line).hexdigest()[:8] for line in (root / name).read_bytes().splitlines()]
+            for name in tree_files(root) if is_test(name)}
+
+
+def code_hash(root):
+    """Of all that is neither tests nor text."""
     digest = hashlib.sha256()
     for name in tree_files(root):
-        digest.update(name.encode() + b"\0" + hashlib.sha256((root / name).read_bytes()).digest())
+        if not is_test(name) and not name.startswith(NOT_BUILT) and not name.endswith(".md"):
+            digest.update(name.encode() + b"\0" + hashlib.sha256((root / name).read_bytes()).digest())
     return digest.hexdigest()[:16]
 
 
@@ -42,9 +61,10 @@ class Workshop:
         self.jobs = jobs
         self.mutated = None  # the file that differs from the original now
         self.lines = []  # of its original
-        self.touched = set()  # objects that were compiled with it
-        self.took_s = {}
+        self.mutants = set()  # objects that were compiled with it
+        self.absent = set()  # objects that must be compiled when they are needed
         self.originals = {}  # of objects: what their code hashes to
+        self.kills = collections.Counter()  # by file and part
         folder.mkdir(parents=True, exist_ok=True)
         self.lock = open(folder / "lock", "w")
         try:
@@ -52,21 +72,24 @@ class Workshop:
         except BlockingIOError:
             raise Failed(f"{folder}: another toolchain/mutate is at work there") from None
 
-    def prepare(self, say):
-        """The copy as the tree is, built, and every program green."""
+    def prepare(self, jobs, say):
+        """The copy as the tree is, built, and every part of the programs green."""
         self.copy()
         say("building the unchanged tree")
         self.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=",
                   f"-DCMAKE_CXX_FLAGS={FLAGS}", "-DCMAKE_UNITY_BUILD=OFF", "-DSUPERCOIL_BENCH=OFF",
                   "-DSUPERCOIL_TESTS=ON"])
-        self.ninja(self.programs, check=True)
+        self.ninja(self.programs, check=True, jobs=jobs)
         self.read_dependencies()
-        for program in self.programs:
+        self.parts = [part for program in self.programs for part in parts_of(program, self.tree, self.build, self.run)]
+        for part in self.parts:
             start = time.monotonic()
-            if not self.passes(program, None):
-                raise Failed(f"{program} is red without any mutant (in {self.build})")
-            self.took_s[program] = time.monotonic() - start
-            say(f"{program}: {self.took_s[program]:.0f} s")
+            if not self.passes(part, None):
+                raise Failed(f"{part} is red without any mutant ({part.path}, {self.log_of(part)})")
+            part.took_s = time.monotonic() - start
+        for program in self.programs:
+            times = [part.took_s for part in self.parts if part.program == program]
+            say(f"{program}: {sum(times):.0f} s in {len(times)} parts")
 
     def copy(self):
         names = tree_files(self.root)
@@ -92,10 +115,11 @@ class Workshop:
             raise Failed(f"{command[0]} failed:\n{done.stdout[-4000:]}")
         return done
 
-    def ninja(self, targets, check=False, cached=True):
+    def ninja(self, targets, check=False, cached=True, jobs=None):
         """cached: worth keeping, where a compiler cache is in use."""
-        environment = os.environ | ({} if cached else {"CCACHE_READONLY": "1"})
-        return self.run(["ninja", "-C", self.build, "-j", self.jobs, *targets], check, env=environment).returncode == 0
+        environment = os.environ | ({} if cached else {"CCACHE_DISABLE": "1"})
+        return self.run(["ninja", "-C", self.build, "-j", jobs or self.jobs, *targets], check,
+                        env=environment).returncode == 0
 
     def read_dependencies(self):
         self.objects_of = {}
@@ -128,72 +152,107 @@ class Workshop:
         self.run(["objcopy", "--strip-debug", self.build / target, stripped])
         return hashlib.sha256(stripped.read_bytes()).hexdigest()
 
-    def code_changed(self, targets):
-        return any(self.code_hash(target) != self.originals[target] for target in targets)
-
     def write(self, file, text, targets):
         """Not newer than before: ninja compiles again what has lost its object, and nothing else."""
-        path = self.tree / file
         for target in targets:
+            if target not in self.originals:
+                self.originals[target] = self.code_hash(target)
+        self.absent |= targets | self.mutants
+        self.mutants = set()
+        for target in self.absent:
             (self.build / target).unlink(missing_ok=True)
+        path = self.tree / file
         was = path.stat()
         path.write_text(text)
         os.utime(path, ns=(was.st_atime_ns, was.st_mtime_ns))
 
     def restore(self):
-        if self.mutated is None:
-            return
-        self.write(self.mutated, "".join(self.lines), self.touched)
-        self.ninja([*self.touched], check=True)
-        self.mutated, self.touched = None, set()
+        """The file's text; its objects come back when they are needed."""
+        if self.mutated is not None:
+            self.write(self.mutated, "".join(self.lines), set())
+        self.mutated = None
 
-    def compile(self, mutant, targets):
+    def mutate(self, mutant, targets):
         if self.mutated not in (None, mutant.file):
             self.restore()
-        for target in targets - self.originals.keys():
-            self.originals[target] = self.code_hash(target)
         if self.mutated is None:
             self.lines = (self.tree / mutant.file).read_text().splitlines(keepends=True)
         self.mutated = mutant.file
-        self.touched |= targets
         lines = list(self.lines)
         lines[mutant.line - 1] = mutant.after + "\n"
-        self.write(mutant.file, "".join(lines), self.touched)
-        return self.ninja(sorted(self.touched), cached=False)
+        self.write(mutant.file, "".join(lines), targets)
+
+    def compile(self, part, targets):
+        """What of a part has lost its object: with the mutant, or as it was."""
+        needed = sorted(part.objects & self.absent)
+        for mutated in (False, True):
+            some = [target for target in needed if (target in targets) == mutated]
+            if some and not self.ninja(some, cached=not mutated):
+                return False
+        self.absent.difference_update(needed)
+        self.mutants |= targets & set(needed)
+        return True
 
     def judge(self, mutant, programs):
-        """("invalid" | "same code" | "survived" | "killed", by which program)."""
-        targets = self.objects_with_code(mutant.file)
-        if targets and not self.compile(mutant, targets):
-            return "invalid", ""
-        if not self.code_changed(targets):
+        """("invalid" | "same code" | "survived" | "killed", by which part)."""
+        verdict = self.judge_by(mutant, programs, self.objects_with_code(mutant.file))
+        if verdict[0] == "same code":
             # A constant may be elsewhere, where no line of its own tells of it.
-            targets = self.objects(mutant.file)
-            if not self.compile(mutant, targets):
-                return "invalid", ""
-            if not self.code_changed(targets):
-                return "same code", ""
-        for program in programs:
-            if not self.ninja([program], cached=False):
-                return "invalid", ""
-            if not self.passes(program, self.took_s[program]):
-                return "killed", program
-        return "survived", ""
+            verdict = self.judge_by(mutant, programs, self.objects(mutant.file))
+        return verdict
 
-    def passes(self, program, usual_s):
-        """What hangs does not pass."""
+    def judge_by(self, mutant, programs, targets):
+        self.mutate(mutant, targets)
+        changed = {}
+        for part in self.nearest_first(mutant.file, programs):
+            if not part.objects & targets:
+                continue
+            if not self.compile(part, targets):
+                return "invalid", ""
+            for target in (part.objects & targets) - changed.keys():
+                changed[target] = self.code_hash(target) != self.originals[target]
+            if not any(changed[target] for target in part.objects & targets):
+                continue
+            if not self.link(part):
+                return "invalid", ""
+            if not self.passes(part, part.took_s):
+                self.kills[mutant.file, str(part)] += 1
+                return "killed", str(part)
+        return ("survived" if any(changed.values()) else "same code"), ""
+
+    def nearest_first(self, file, programs):
+        """What noticed others of the file; then what is named like it; then what takes least."""
+        parts = [part for part in self.parts if part.program in programs]
+        return sorted(parts, key=lambda part: (-self.kills[file, str(part)], part.distance(file), part.took_s))
+
+    def link(self, part):
+        return self.run(part.command, False, cwd=self.build).returncode == 0
+
+    def log_of(self, part):
+        return self.folder / f"{part}.log"
+
+    def passes(self, part, usual_s):
+        """What hangs does not pass. It is ended at its first failure."""
         limit_s = None if usual_s is None else PATIENCE * usual_s + 30.0
         environment = os.environ | ENVIRONMENT | {"SUPERCOIL_REFERENCE": str(self.build / "reference")}
-        with open(self.folder / f"{program}.log", "w") as log:
-            running = subprocess.Popen(["prlimit", "--core=0", self.build / "bin" / program],
-                                       stdout=log, stderr=subprocess.STDOUT, env=environment, cwd=self.folder,
+        with open(self.log_of(part), "w") as log:
+            running = subprocess.Popen(["prlimit", "--core=0", "stdbuf", "-oL", part.path], stdout=log,
+                                       stderr=subprocess.STDOUT, env=environment, cwd=self.folder,
                                        start_new_session=True)
             try:
-                return running.wait(limit_s) == 0
-            except subprocess.TimeoutExpired:
-                return False
+                return self.ends_well(running, part, limit_s)
             finally:
                 end_group(running)
+
+    def ends_well(self, running, part, limit_s):
+        ends = None if limit_s is None else time.monotonic() + limit_s
+        while ends is None or time.monotonic() < ends:
+            try:
+                return running.wait(0.5) == 0
+            except subprocess.TimeoutExpired:
+                if re.search(FAILURE, self.log_of(part).read_text(errors="replace")):
+                    return False
+        return False
 
 
 def end_group(process):

@@ -40,6 +40,8 @@ def arguments():
     parser.add_argument("--seed", type=int, default=1, help="of the sample (default: 1)")
     parser.add_argument("--jobs", type=int, default=2, help="mutants at a time, each in a copy of its own (default: 2)")
     parser.add_argument("--minutes", type=float, default=120.0, help="begin no mutant after so long (default: 120)")
+    parser.add_argument("--patience", type=float, default=300.0, metavar="SECONDS",
+                        help="what no test noticed after so long has survived (default: 300)")
     parser.add_argument("--only", metavar="TEXT", default="", help="files whose path contains this")
     parser.add_argument("--list", action="store_true", help="print the first mutant of each run, and try none")
     parser.add_argument("--report", action="store_true", help="print the figures of the last run, and try none")
@@ -58,6 +60,7 @@ class Run:
                                tests_of(ROOT), self.known)
         self.ends = time.monotonic() + 60.0 * options.minutes
         self.problems = []
+        self.green = {}
         self.preparing = threading.Lock()
 
     def by_file(self):
@@ -85,7 +88,8 @@ class Run:
 
     def work(self, number, todo):
         try:
-            shop = Workshop(ROOT, FOLDER / str(number), self.programs, max(1, CORES // self.options.jobs))
+            shop = Workshop(ROOT, FOLDER / str(number), self.programs, max(1, CORES // self.options.jobs),
+                            self.green)
             with self.preparing:  # a compiler cache has the second copy's objects from the first
                 shop.prepare(CORES, lambda text: print(f"copy {number}: {text}", flush=True))
             while time.monotonic() < self.ends:
@@ -106,7 +110,8 @@ class Run:
                 continue
             start = time.monotonic()
             area = AREA_OF[mutant.file]
-            verdict, by = ("equivalent", "") if mutant.key() in self.known else shop.judge(mutant, area.programs)
+            verdict, by = ("equivalent", "") if mutant.key() in self.known else \
+                shop.judge(mutant, area.programs, self.options.patience)
             self.results.add(stratum, mutant, area.name, verdict, by, time.monotonic() - start)
             if verdict in ("killed", "survived"):
                 self.tell(stratum, mutant, verdict, by, time.monotonic() - start)

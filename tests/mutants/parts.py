@@ -25,14 +25,17 @@ class Part:
         return self.path.name
 
     def distance(self, file):
-        """Smaller is nearer: the tests of a file have its name, and include its header."""
+        """Smaller is nearer: the tests of a file have its name, and include its header. What has no tests of its own is
+        a program that tries everything."""
         stem = pathlib.Path(file).stem
         tests = self.name.removesuffix("_test")
         if tests == stem:
             return 0
         if tests.startswith(stem) or stem.startswith(tests):
             return 1
-        return 2 if re.search(rf"[/\"]{re.escape(stem)}\.hpp", self.source) else 3
+        if re.search(rf"[/\"]{re.escape(stem)}\.hpp", self.source):
+            return 2
+        return 4 if self.source else 3
 
 
 def parts_of(program, tree, build, run):

@@ -3,6 +3,7 @@
 import collections
 import fcntl
 import hashlib
+import json
 import os
 import pathlib
 import re
@@ -52,19 +53,21 @@ def code_hash(root):
 
 
 class Workshop:
-    def __init__(self, root, folder, programs, jobs):
+    def __init__(self, root, folder, programs, jobs, green):
+        """green: by part, what it took on the unchanged tree; shared by the copies."""
         self.root = root
         self.folder = folder
         self.tree = folder / "tree"
         self.build = folder / "build"
         self.programs = programs
         self.jobs = jobs
+        self.green = green
         self.mutated = None  # the file that differs from the original now
         self.lines = []  # of its original
         self.mutants = set()  # objects that were compiled with it
         self.absent = set()  # objects that must be compiled when they are needed
         self.originals = {}  # of objects: what their code hashes to
-        self.kills = collections.Counter()  # by file and part
+        self.kills = collections.Counter()  # by file and part, and by part
         folder.mkdir(parents=True, exist_ok=True)
         self.lock = open(folder / "lock", "w")
         try:
@@ -83,13 +86,25 @@ class Workshop:
         self.read_dependencies()
         self.parts = [part for program in self.programs for part in parts_of(program, self.tree, self.build, self.run)]
         for part in self.parts:
-            start = time.monotonic()
-            if not self.passes(part, None):
-                raise Failed(f"{part} is red without any mutant ({part.path}, {self.log_of(part)})")
-            part.took_s = time.monotonic() - start
+            self.find_green(part)
         for program in self.programs:
             times = [part.took_s for part in self.parts if part.program == program]
             say(f"{program}: {sum(times):.0f} s in {len(times)} parts")
+
+    def find_green(self, part):
+        """Of a part of which this or another copy knows that it is, not again."""
+        stored = self.folder / "green.json"
+        known = json.loads(stored.read_text()) if stored.exists() else {}
+        program = hashlib.sha256(part.path.read_bytes()).hexdigest()
+        if known.get(str(part), [""])[0] == program:
+            self.green.setdefault(str(part), known[str(part)][1])
+        if str(part) not in self.green:
+            start = time.monotonic()
+            if not self.passes(part, None):
+                raise Failed(f"{part} is red without any mutant ({part.path}, {self.log_of(part)})")
+            self.green[str(part)] = time.monotonic() - start
+        part.took_s = self.green[str(part)]
+        stored.write_text(json.dumps(known | {str(part): [program, part.took_s]}))
 
     def copy(self):
         names = tree_files(self.root)
@@ -193,20 +208,23 @@ class Workshop:
         self.mutants |= targets & set(needed)
         return True
 
-    def judge(self, mutant, programs):
-        """("invalid" | "same code" | "survived" | "killed", by which part)."""
-        verdict = self.judge_by(mutant, programs, self.objects_with_code(mutant.file))
+    def judge(self, mutant, programs, patience_s):
+        """("invalid" | "same code" | "survived" | "killed", by which part). What nothing noticed in time has survived."""
+        ends = time.monotonic() + patience_s
+        verdict = self.judge_by(mutant, programs, self.objects_with_code(mutant.file), ends)
         if verdict[0] == "same code":
             # A constant may be elsewhere, where no line of its own tells of it.
-            verdict = self.judge_by(mutant, programs, self.objects(mutant.file))
+            verdict = self.judge_by(mutant, programs, self.objects(mutant.file), ends)
         return verdict
 
-    def judge_by(self, mutant, programs, targets):
+    def judge_by(self, mutant, programs, targets, ends):
         self.mutate(mutant, targets)
         changed = {}
         for part in self.nearest_first(mutant.file, programs):
             if not part.objects & targets:
                 continue
+            if time.monotonic() > ends:
+                return "survived", ""
             if not self.compile(part, targets):
                 return "invalid", ""
             for target in (part.objects & targets) - changed.keys():
@@ -217,13 +235,15 @@ class Workshop:
                 return "invalid", ""
             if not self.passes(part, part.took_s):
                 self.kills[mutant.file, str(part)] += 1
+                self.kills[str(part)] += 1
                 return "killed", str(part)
         return ("survived" if any(changed.values()) else "same code"), ""
 
     def nearest_first(self, file, programs):
-        """What noticed others of the file; then what is named like it; then what takes least."""
+        """What noticed others of the file; what is named like it; what noticed most; what takes least."""
         parts = [part for part in self.parts if part.program in programs]
-        return sorted(parts, key=lambda part: (-self.kills[file, str(part)], part.distance(file), part.took_s))
+        return sorted(parts, key=lambda part: (-self.kills[file, str(part)], part.distance(file), -self.kills[str(part)],
+                                               part.took_s))
 
     def link(self, part):
         return self.run(part.command, False, cwd=self.build).returncode == 0

@@ -52,6 +52,18 @@ TEST(Senses, TheSelfTestWaitsForTheFirstCurrentOfEveryChannel) {
   }
 }
 
+TEST(Senses, AProbeFindsABrokenWireFromFourTimesTheColdResistanceOn) {
+  for (const double times : {3.3, 4.7}) {
+    RigSettings settings = rough_board();
+    settings.board.channels[0].resistance_Ohm *= times;
+    Rig each(settings);
+    each.boot();
+    each.send(Verb::arm);
+    each.run(0.2);
+    CHECK(each.fault() == (times < 4.0 ? Fault::resistance_drift : Fault::heater_open));
+  }
+}
+
 TEST(Senses, APositionFromOutsideIsNoPosition) {
   rig.boot();
   rig.arm();

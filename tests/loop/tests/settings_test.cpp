@@ -188,4 +188,8 @@ TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
   CHECK(stored == Refusal::none);
   CHECK(rig.loop.channel(0).take_lesson(lesson));
   DOUBLES_EQUAL(16.0, lesson->muscle.stiffness_N_per_m, 3.0);
+  // What motion cannot tell stays as it was believed.
+  const control::PhysicalParameters& believed = rig.settings.firmware.channels[0].muscle;
+  DOUBLES_EQUAL(believed.force_per_kelvin_N_per_K, lesson->muscle.force_per_kelvin_N_per_K, 0.0);
+  DOUBLES_EQUAL(believed.moving_mass_kg, lesson->muscle.moving_mass_kg, 0.0);
 }

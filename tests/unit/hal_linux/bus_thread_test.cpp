@@ -56,6 +56,15 @@ TEST_GROUP(ABus) {
   }
 };
 
+TEST(ABus, HasNothingToTellBeforeItsFirstRound) {
+  const BusHealth health;
+  UNSIGNED_LONGS_EQUAL(0, health.rounds.load());
+  UNSIGNED_LONGS_EQUAL(0, health.skipped.load());
+  LONGS_EQUAL(0, health.last_round_ns.load());
+  LONGS_EQUAL(0, health.longest_round_ns.load());
+  LONGS_EQUAL(0, health.last_finished_ns.load());
+}
+
 TEST(ABus, ServesEveryDeviceWhileAnotherFails) {
   bad_device->status = hal::Status::io_error;
   const auto bus = started(200us);

@@ -49,3 +49,9 @@ TEST(MonotonicClock, SleepsOnThroughSignals) {
   CHECK(clock.wait_until(wake) >= wake);
   LONGS_EQUAL(0, waiting());
 }
+
+TEST(MonotonicClock, DoesNotSpinWhereTheKernelRefusesToSleep) {
+  fail_next(Call::clock_nanosleep, "", EINVAL, 2);
+  clock.wait_until(clock.now() + 2ms);
+  LONGS_EQUAL(1, waiting());
+}

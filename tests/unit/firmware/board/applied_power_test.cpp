@@ -15,6 +15,7 @@ TEST(OutputDelay, GivesWhatWasSetSoManyTicksAgo) {
       const AppliedPower& acting = delay.step({static_cast<double>(i + 1), 0.5, true});
       DOUBLES_EQUAL(expected_W, acting.power_W, 0.0);
       CHECK(acting.limited == (i >= ticks));
+      DOUBLES_EQUAL(i < ticks ? 0.0 : 0.5, acting.duty, 0.0);
     }
   }
 }

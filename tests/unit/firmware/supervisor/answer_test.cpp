@@ -65,6 +65,21 @@ TEST(Answer, IsOpenWhileSomethingElseMovesThePosition) {
   }
 }
 
+// By itself, at a rate of its own: 0.2 of the expected motion is little, 0.45 is a muscle that
+// lives.
+TEST(Answer, OfAMuscleThatMovesMuchByItselfIsOpenHoweverLongItLasts) {
+  for (const double moved_ratio : {0.2, 0.45}) {
+    detectors::Answer answer(step_noise_m);
+    auto result = detectors::Answer::Result::open;
+    for (int i = 0; i < 2000 && result == detectors::Answer::Result::open; ++i) {
+      const double expected_m = 1e-3 * std::sin(0.1 * i);
+      result = answer.step(expected_m, moved_ratio * 1e-3 * std::sin(0.37 * i));
+    }
+    CHECK((result == detectors::Answer::Result::silent) == (moved_ratio < 0.3));
+    CHECK(result != detectors::Answer::Result::answered);
+  }
+}
+
 TEST(Answer, IgnoresADrift) {
   detectors::SlowPartRemoved fast(1.0, 0.01);
   fast.settle(0.02);

@@ -1,5 +1,7 @@
 #include "supercoil/hal_linux/check/watchdog.hpp"
 
+#include <cerrno>
+
 #include <CppUTest/TestHarness.h>
 
 #include "unit/hal_linux/check/told.hpp"
@@ -66,6 +68,11 @@ TEST(CheckWatchdog, SaysThatSomebodyElseHasIt) {
 TEST(CheckWatchdog, SaysThatItCannotBeStopped) {
   root.write(first + "nowayout", "1\n");
   check_finding("warning", "cannot be stopped (nowayout)", "nowayout=0", found(device));
+}
+
+TEST(CheckWatchdog, SaysThatThisUserMayNotWriteToIt) {
+  fail_next(Call::access, device, EACCES);
+  check_finding("problem", "/dev/null: Permission denied", "run as root", found(device));
 }
 
 TEST(CheckWatchdog, SaysThatItIsNotKnown) {

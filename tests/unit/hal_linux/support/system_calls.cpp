@@ -118,6 +118,7 @@ int errno_instead(Call call, const Real& real) {
 // NOLINTBEGIN(bugprone-reserved-identifier): the linker's names
 extern "C" {
 int __real_open(const char* path, int flags, ...);
+int __real_access(const char* path, int mode);
 ssize_t __real_pread(int file, void* data, std::size_t size, off_t offset);
 ssize_t __real_pwrite(int file, const void* data, std::size_t size, off_t offset);
 ssize_t __real_read(int file, void* data, std::size_t size);
@@ -130,6 +131,9 @@ int __real_pthread_setaffinity_np(pthread_t thread, std::size_t size, const cpu_
 int __wrap_open(const char* path, int flags, mode_t mode) {
   return static_cast<int>(
       instead(Call::open, path, [&] { return __real_open(path, flags, mode); }));
+}
+int __wrap_access(const char* path, int mode) {
+  return static_cast<int>(instead(Call::access, path, [&] { return __real_access(path, mode); }));
 }
 ssize_t __wrap_pread(int file, void* data, std::size_t size, off_t offset) {
   return instead(Call::pread, supercoil::test::path_of(file),

@@ -13,6 +13,7 @@ namespace supercoil::test {
 /// The calls that can be made to fail.
 enum class Call {
   open,
+  access,
   pread,
   pwrite,
   read,

@@ -1,8 +1,11 @@
 #include "storage/learned.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <CppUTest/TestHarness.h>
 
@@ -43,6 +46,36 @@ TEST(Learned, TheEndsOfARangeAreAllowedAndWhatLiesJustBeyondIsNot) {
     CHECK(check(set).has_value());
     field.of(set) = std::nextafter(range.highest, 1e300);
     CHECK(check(set).has_value());
+  }
+}
+
+// A gain beyond half or twice is a mistyped meter, 300 K a burnt muscle, -1 W a sign that was lost:
+// whatever wrote such a file, nothing is bounded by it.
+TEST(Learned, NothingBeyondWhatAMuscleAndItsSensesCanBeIsAllowed) {
+  struct Credible {
+    std::string_view key;
+    double low;
+    double high;
+  };
+  const std::vector<Credible> all{
+      {"position_offset_m", -1.0, 1.0},   {"position_scale", 0.1, 10.0},
+      {"cold_resistance_Ohm", 0.01, 1e4}, {"supply_gain", 0.5, 2.0},
+      {"current_gain", 0.5, 2.0},         {"error_ratio", 0.0, 0.2},
+      {"time_constant_s", 0.0, 1e4},      {"time_constant_at_W", 0.0, 1e3},
+      {"steady_rise_K", 0.0, 300.0},      {"steady_error_K", 0.0, 100.0},
+      {"steady_min_W", 0.0, 1e3},         {"steady_max_W", 0.0, 1e3}};
+  for (const Credible& credible : all) {
+    const auto field = std::find_if(fields.begin(), fields.end(),
+                                    [&](const Field& f) { return f.key == credible.key; });
+    CHECK(field != fields.end());
+    const double slack = 1e-6 * credible.high;
+    for (const double value : {credible.low - slack, credible.high + slack}) {
+      Learned set;
+      field->of(set) = value;
+      const auto violation = check(set);
+      CHECK_TEXT(violation.has_value(), std::string(credible.key).c_str());
+      STRCMP_EQUAL(std::string(credible.key).c_str(), violation->quantity);
+    }
   }
 }
 

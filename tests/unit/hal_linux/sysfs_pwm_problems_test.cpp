@@ -65,6 +65,16 @@ TEST(SysfsPwmProblems, TellAnOutputThatTheKernelUses) {
   STRCMP_CONTAINS("is used by a driver of the kernel", answer(place(kernel)).c_str());
 }
 
+TEST(SysfsPwmProblems, AreNoneWhereUdevGivesTheFilesAMomentLater) {
+  PwmKernel kernel({}, false);
+  fail_next(Call::access, "/pwm5/period", EACCES, 3);
+  next(Call::access, "/pwm5/period", [] { return 0; });
+  fail_next(Call::access, "/pwm5/period", EACCES);  // nobody asks once it may be written
+  STRCMP_EQUAL("open", answer(place(kernel)).c_str());
+  LONGS_EQUAL(1, waiting());
+  reset_calls();
+}
+
 TEST(SysfsPwmProblems, NameTheWriteThatFailed) {
   for (const char* attribute : {"duty_cycle", "period", "enable", "polarity"}) {
     for (const int error : {EIO, EINVAL, ENODEV, EBUSY, EAGAIN}) {

@@ -373,6 +373,14 @@ TEST(Opcodes, EveryCommandIsMeantAsItWasSent) {
   }
 }
 
+TEST(Opcodes, HaveTheNamesOfTheProtocol) {
+  constexpr auto names = opcode_names();
+  CHECK(names[Opcode::compare] == "compare");
+  CHECK(names[static_cast<std::size_t>(Verb::store)] == "store");
+  CHECK(names[Opcode::claim_of_version_3] == "claim_of_version_3");
+  CHECK(names[Opcode::lease] == "lease");
+}
+
 TEST(Opcodes, AReadingOfTheWrongSignIsNoneOfTheOtherSense) {
   for (const Verb verb : {Verb::compare_supply, Verb::compare_current, Verb::compare_rise})
     CHECK(std::isnan(sent(verb, -0.25).value));

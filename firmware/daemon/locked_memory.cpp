@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include "supercoil/hal_linux/thread.hpp"
@@ -28,6 +29,11 @@ double mebibytes(double bytes) {
 }
 
 }  // namespace
+
+void keep_heap_small() {
+  mallopt(M_ARENA_MAX, 1);        // not one for each thread
+  mallopt(M_TOP_PAD, 16 * 1024);  // instead of 128 KiB in advance
+}
 
 std::string describe_locked_memory(const config::BoardConfig& config) {
   // Loop, telemetry, and one for each bus; the main thread's is in the program's.

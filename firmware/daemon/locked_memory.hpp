@@ -7,6 +7,10 @@
 
 namespace supercoil::daemon {
 
+/// The heap takes no more from the kernel than it needs, for all that it takes is locked. First of
+/// all that a program does.
+void keep_heap_small();
+
 /// A line for `--check`: how much memory supercoild will lock on this board; the calling program
 /// stands for its size with libraries and heap.
 std::string describe_locked_memory(const config::BoardConfig& config);

@@ -7,7 +7,6 @@
 #include <ctime>
 #include <random>
 
-#include <malloc.h>
 #include <unistd.h>
 
 #include "supercoil/hal_linux/realtime.hpp"
@@ -137,8 +136,6 @@ int run_command(const RunOptions& options) {
     return exit_wrong_input;
   }
   block_ending_signals();
-  // An arena for each thread would be locked in memory as well.
-  mallopt(M_ARENA_MAX, 1);
 
   Parts parts;
   auto lock = linux_board::LockFile::take(options.run_folder + "/lock");

@@ -8,7 +8,7 @@ using namespace supercoil::control;
 namespace {
 
 using Detector = ChangeDetector<2>;
-constexpr double period_s = 0.01;
+constexpr double detector_period_s = 0.01;
 
 Detector::Signals signals(double time_s) {
   return {std::sin(20.0 * time_s), 1.0};
@@ -21,8 +21,8 @@ struct Found {
 };
 template <class Residual>
 Found watch(Detector& detector, double to_s, Residual residual) {
-  for (int k = 0; k < static_cast<int>(to_s / period_s); ++k) {
-    const double time_s = k * period_s;
+  for (int k = 0; k < static_cast<int>(to_s / detector_period_s); ++k) {
+    const double time_s = k * detector_period_s;
     const auto found = detector.step(signals(time_s), residual(time_s));
     if (found) return {time_s, *found};
   }
@@ -30,7 +30,7 @@ Found watch(Detector& detector, double to_s, Residual residual) {
 }
 
 Detector fresh() {
-  return Detector({.period_s = period_s, .floor_rms = 0.01});
+  return Detector({.period_s = detector_period_s, .floor_rms = 0.01});
 }
 
 /// What a model that is not quite right leaves along both directions, again and again.
@@ -56,7 +56,7 @@ TEST(ChangeDetector, AChangeAlongADirectionIsFoundAndMeasured) {
     LONGS_EQUAL(direction, found.direction);
     CHECK(found.time_s > 200.0);
     CHECK(found.time_s < 201.0);
-    for (double t_s = found.time_s; t_s < found.time_s + 3.0; t_s += period_s)
+    for (double t_s = found.time_s; t_s < found.time_s + 3.0; t_s += detector_period_s)
       (void)detector.step(signals(t_s), of_model(t_s) - 0.9 * signals(t_s)[direction]);
     DOUBLES_EQUAL(-0.9, detector.amount(direction), 0.1);
   }
@@ -70,7 +70,7 @@ TEST(ChangeDetector, IsBlindAtFirstAndTellsTheSameChangeOnlyOnceInAWhile) {
   Detector later = fresh();
   int told = 0;
   for (int k = 0; k < 10'300; ++k) {
-    const double time_s = k * period_s;
+    const double time_s = k * detector_period_s;
     if (later.step(signals(time_s), time_s > 100.0 ? 1.0 : 0.0)) ++told;
   }
   LONGS_EQUAL(1, told);

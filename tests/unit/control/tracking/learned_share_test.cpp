@@ -9,20 +9,21 @@ using supercoil::control::LearnedShare;
 
 namespace {
 
-constexpr double period_s = 0.01;
+constexpr double observation_period_s = 0.01;
 
 /// Two minutes of swings of 1 W: what is left of the power is `true_share` of what was learned and
 /// an unrelated swing of `other_W`.
 double share_of(double true_share, double other_W, LearnedShare share) {
   for (int k = 0; k < 12'000; ++k) {
-    const double learned_W = std::sin(0.9 * k * period_s);
-    share.step(true_share * learned_W + other_W * std::sin(2.3 * k * period_s), learned_W, true);
+    const double learned_W = std::sin(0.9 * k * observation_period_s);
+    share.step(true_share * learned_W + other_W * std::sin(2.3 * k * observation_period_s),
+               learned_W, true);
   }
   return share.value();
 }
 
 LearnedShare usual() {
-  return LearnedShare({.period_s = period_s, .least_W = 0.01}, 1.0);
+  return LearnedShare({.period_s = observation_period_s, .least_W = 0.01}, 1.0);
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ TEST(LearnedShare, IsNothingOfWhatIsUnrelatedOrContrary) {
 TEST(LearnedShare, ALastingDifferenceIsTheIntegralsAndJudgesNothing) {
   LearnedShare share = usual();
   for (int k = 0; k < 12'000; ++k) {
-    const double learned_W = std::sin(0.9 * k * period_s);
+    const double learned_W = std::sin(0.9 * k * observation_period_s);
     share.step(learned_W - 3.0, learned_W, true);
   }
   DOUBLES_EQUAL(1.0, share.value(), 0.0);
@@ -55,15 +56,18 @@ TEST(LearnedShare, ALastingDifferenceIsTheIntegralsAndJudgesNothing) {
 TEST(LearnedShare, TenSecondsOfAnUpheavalDoNotJudgeForMinutes) {
   LearnedShare share = usual();
   for (int k = 0; k < 12'000; ++k)
-    share.step(std::sin(0.9 * k * period_s), std::sin(0.9 * k * period_s), true);
+    share.step(std::sin(0.9 * k * observation_period_s), std::sin(0.9 * k * observation_period_s),
+               true);
   for (int k = 0; k < 1'000; ++k)
-    share.step(-30.0 * std::sin(2.0 * k * period_s), 30.0 * std::sin(2.0 * k * period_s), true);
+    share.step(-30.0 * std::sin(2.0 * k * observation_period_s),
+               30.0 * std::sin(2.0 * k * observation_period_s), true);
   DOUBLES_EQUAL(1.0, share_of(1.0, 0.0, share), 0.0);
 }
 
 TEST(LearnedShare, WhatSaysNothingOfTheMuscleDoesNotCount) {
   LearnedShare share = usual();
   for (int k = 0; k < 12'000; ++k)
-    share.step(-std::sin(0.9 * k * period_s), std::sin(0.9 * k * period_s), false);
+    share.step(-std::sin(0.9 * k * observation_period_s), std::sin(0.9 * k * observation_period_s),
+               false);
   DOUBLES_EQUAL(1.0, share.value(), 0.0);
 }

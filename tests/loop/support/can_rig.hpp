@@ -10,7 +10,6 @@
 #include "simulated_board/simulated_can_bus.hpp"
 #include "telemetry/can_link.hpp"
 #include "unit/firmware/telemetry/support/master.hpp"
-#include "unit/firmware/telemetry/support/unpacked.hpp"
 
 namespace supercoil::test {
 
@@ -107,7 +106,7 @@ class CanRig {
     if (frame.id == SUPERCOIL_SETTING_FRAME_ID) settings_told.push_back(read_setting(frame));
     if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID) answers.push_back(read_answer(frame));
     if (frame.id == SUPERCOIL_REFUSED_VALUE_FRAME_ID)
-      refused_values.push_back(unpacked(frame, supercoil_refused_value_unpack));
+      refused_values.push_back(read_refused_value(frame));
     if (frame.id == SUPERCOIL_EMERGENCY_FRAME_ID) emergencies.push_back(frame);
     if (frame.id == SUPERCOIL_FIRST_CAUSE_FRAME_ID) first_causes.push_back(frame);
   }

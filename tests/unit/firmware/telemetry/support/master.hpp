@@ -55,4 +55,10 @@ inline supercoil_setting_t read_setting(const hal::CanFrame& frame) {
   return m;
 }
 
+inline supercoil_refused_value_t read_refused_value(const hal::CanFrame& frame) {
+  supercoil_refused_value_t m{};
+  supercoil_refused_value_unpack(&m, frame.data.data(), frame.length);
+  return m;
+}
+
 }  // namespace supercoil::test

@@ -54,7 +54,7 @@ struct LearningLoop {
     double count = 0.0;
     for (int k = 0; k < static_cast<int>(duration_s / loop_step_s); ++k) {
       const double time_s = k * loop_step_s;
-      if (k == static_cast<int>(soft_from_s / loop_step_s)) soften(plant);
+      if (k == std::llround(soft_from_s / loop_step_s)) soften(plant);
       constexpr double count_m = 0.040 / 65536;
       const double seen_m =
           std::nearbyint((plant.position_m() + noise(source)) / count_m) * count_m;

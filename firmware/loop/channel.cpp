@@ -82,9 +82,10 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
   told_senses_.set(senses_);
-  if (settings.thermal.weighed())
+  if (settings.thermal.weighed()) {
     cooling_fit_ =
         std::make_unique<control::CoolingFit>(cooling_settings(settings), board.step_s());
+  }
   know_heat();
   for (const auto& controller : settings.controllers)
     controllers_.emplace_back(controller, step_s_).suit(control::theta_from(muscle_));

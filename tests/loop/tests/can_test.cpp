@@ -237,7 +237,8 @@ TEST(OverCan, ARecordedSessionGetsNoLeaseAndNoHeat) {
   Master recording = master;
   rig.run(16.0);
   for (int claims = 0; claims < 2; ++claims) {
-    const float nonce = claims == 0 ? telemetry::claims : rig.answers.back().granted;
+    const float nonce =
+        claims == 0 ? telemetry::claims : static_cast<float>(rig.answers.back().granted);
     recording.session = recording.name;
     recorded.push_back(recording.frame(telemetry::Opcode::lease, nonce));
     rig.answers.clear();

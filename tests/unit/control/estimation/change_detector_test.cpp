@@ -56,8 +56,10 @@ TEST(ChangeDetector, AChangeAlongADirectionIsFoundAndMeasured) {
     LONGS_EQUAL(direction, found.direction);
     CHECK(found.time_s > 200.0);
     CHECK(found.time_s < 201.0);
-    for (double t_s = found.time_s; t_s < found.time_s + 3.0; t_s += detector_period_s)
+    for (int k = 0; k < 300; ++k) {
+      const double t_s = found.time_s + k * detector_period_s;
       (void)detector.step(signals(t_s), of_model(t_s) - 0.9 * signals(t_s)[direction]);
+    }
     DOUBLES_EQUAL(-0.9, detector.amount(direction), 0.1);
   }
 }

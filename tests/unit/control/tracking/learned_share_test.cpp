@@ -55,19 +55,22 @@ TEST(LearnedShare, ALastingDifferenceIsTheIntegralsAndJudgesNothing) {
 
 TEST(LearnedShare, TenSecondsOfAnUpheavalDoNotJudgeForMinutes) {
   LearnedShare share = usual();
-  for (int k = 0; k < 12'000; ++k)
+  for (int k = 0; k < 12'000; ++k) {
     share.step(std::sin(0.9 * k * observation_period_s), std::sin(0.9 * k * observation_period_s),
                true);
-  for (int k = 0; k < 1'000; ++k)
+  }
+  for (int k = 0; k < 1'000; ++k) {
     share.step(-30.0 * std::sin(2.0 * k * observation_period_s),
                30.0 * std::sin(2.0 * k * observation_period_s), true);
+  }
   DOUBLES_EQUAL(1.0, share_of(1.0, 0.0, share), 0.0);
 }
 
 TEST(LearnedShare, WhatSaysNothingOfTheMuscleDoesNotCount) {
   LearnedShare share = usual();
-  for (int k = 0; k < 12'000; ++k)
+  for (int k = 0; k < 12'000; ++k) {
     share.step(-std::sin(0.9 * k * observation_period_s), std::sin(0.9 * k * observation_period_s),
                false);
+  }
   DOUBLES_EQUAL(1.0, share.value(), 0.0);
 }

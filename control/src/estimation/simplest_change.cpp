@@ -8,10 +8,10 @@ namespace supercoil::control {
 
 namespace {
 
-using Factor = Eigen::LLT<SimplestChange::Square>;
+using Factor = Eigen::LDLT<SimplestChange::Square>;
 
 double log_determinant(const Factor& factor) {
-  return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  return factor.vectorD().array().log().sum();
 }
 
 }  // namespace

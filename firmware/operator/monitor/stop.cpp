@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "can_client/master.hpp"
-#include "operator/monitor/precedence.hpp"
 
 namespace supercoil::operating {
 

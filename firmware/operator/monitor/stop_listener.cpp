@@ -4,7 +4,8 @@
 #include <chrono>
 #include <utility>
 
-#include "operator/monitor/precedence.hpp"
+#include <sys/resource.h>
+
 #include "operator/monitor/stop_connection.hpp"
 
 namespace supercoil::operating {
@@ -43,6 +44,13 @@ boost::system::error_code StopListener::listen(const std::string& host, int port
   if (!error) acceptor_.listen(boost::asio::socket_base::max_listen_connections, error);
   if (!error) port_ = acceptor_.local_endpoint(error).port();
   return error;
+}
+
+void take_precedence() {
+  constexpr int nice = -10;
+  const id_t this_thread = 0;
+  if (::getpriority(PRIO_PROCESS, this_thread) > nice)
+    static_cast<void>(::setpriority(PRIO_PROCESS, this_thread, nice));
 }
 
 void StopListener::start(Take take) {

@@ -19,6 +19,11 @@ namespace supercoil::operating {
 
 class StopConnection;
 
+/// For STOP's threads: the calling one gets the processor before others do, where the system lets
+/// this user have that (RLIMIT_NICE). No real-time priority: whoever floods STOP's port would take
+/// a processor from all else.
+void take_precedence();
+
 /// One thread that never waits for one connection: each must bring a whole request within 250 ms of
 /// being accepted, and when too many are open, the oldest one without a whole request is closed.
 class StopListener {

@@ -101,27 +101,41 @@ TEST(Motion, StartsWarmAndMovingWhereItIsTold) {
 }
 
 TEST(Motion, OfEachEffectIsTheEquations) {
-  Muscle drift = other_muscle();
-  drift.drift_m_per_s = 1e-4;
-  drift.heat_drift_m_per_J = -1e-4;
-  DOUBLES_EQUAL(0.0, difference(drift), 1e-3);
-  Muscle force = other_muscle();
-  force.force_ratio = 3.0;
-  DOUBLES_EQUAL(0.0, difference(force), 1e-3);
-  Muscle transfer = other_muscle();
-  transfer.transfer_ratio = 2.0;
-  transfer.heated_ratio = 1.5;
-  DOUBLES_EQUAL(0.0, difference(transfer), 2e-3);
-  Muscle plays = other_muscle();
-  plays.play_ratio = 0.5;
-  plays.play_range_W = 0.6;
-  DOUBLES_EQUAL(0.0, difference(plays), 1e-3);
-  Muscle creep = other_muscle();
-  creep.creep_ratio = 0.3;
-  creep.creep_s = 6.0;
-  DOUBLES_EQUAL(0.0, difference(creep), 2e-3);
-  Muscle lonely = other_muscle();
-  lonely.lonely_stroke_m = 0.004;
-  lonely.lonely_stroke_W = 0.8;
-  DOUBLES_EQUAL(0.0, difference(lonely), 1e-3);
+  struct Effect {
+    void (*set)(Muscle&);
+    double allowed;  ///< over the stroke
+  };
+  constexpr std::array<Effect, 6> effects{{
+      {[](Muscle& m) {
+         m.drift_m_per_s = 1e-4;
+         m.heat_drift_m_per_J = -1e-4;
+       },
+       1e-3},
+      {[](Muscle& m) { m.force_ratio = 3.0; }, 1e-3},
+      {[](Muscle& m) {
+         m.transfer_ratio = 2.0;
+         m.heated_ratio = 1.5;
+       },
+       2e-3},
+      {[](Muscle& m) {
+         m.play_ratio = 0.5;
+         m.play_range_W = 0.6;
+       },
+       1e-3},
+      {[](Muscle& m) {
+         m.creep_ratio = 0.3;
+         m.creep_s = 6.0;
+       },
+       2e-3},
+      {[](Muscle& m) {
+         m.lonely_stroke_m = 0.004;
+         m.lonely_stroke_W = 0.8;
+       },
+       1e-3},
+  }};
+  for (const Effect& effect : effects) {
+    Muscle muscle = other_muscle();
+    effect.set(muscle);
+    DOUBLES_EQUAL(0.0, difference(muscle), effect.allowed);
+  }
 }

@@ -28,6 +28,7 @@ struct Devices {
   hal::DigitalOutput* light;        ///< may be null: no status light
   hal::Watchdog* watchdog;          ///< may be null: none
   std::vector<ChannelDevices> channels;
+  hal::AdcChannel* air = nullptr;  ///< of its temperature; null: not measured
 };
 
 }  // namespace supercoil::board

@@ -21,6 +21,7 @@ class Heat {
  public:
   Heat(const ThermalSettings& settings, const control::PhysicalParameters& muscle, double step_s)
       : settings_(settings),
+        air_(settings.air, settings.bounds, step_s),
         interval_(with_weighed_mass(settings), step_s),
         by_reading_(settings.bounds, step_s),
         learned_(settings.thermal_mass_J_per_K, step_s),
@@ -62,6 +63,8 @@ class Heat {
     for (control::ThermalObserver& expected : expected_)
       expected.step(probably_W);
   }
+  /// What the board's sensor reads of the air, in °C, at each tick; never, without one.
+  void follow_air(const Measured& reading) { air_.step(reading); }
   /// The muscle's thermal pole, as estimated and trusted.
   /// Beyond what the configured bounds allow it is not believed.
   void learn(double pole_rad_per_s) {
@@ -80,8 +83,9 @@ class Heat {
                                        : interval_.highest_K();
     return std::max(highest_K, learned_.rise_K());
   }
-  double coldest_C() const { return settings_.coldest_ambient_C + coldest_K(); }
-  double hottest_C() const { return settings_.ambient_C + hottest_K(); }
+  double coldest_C() const { return air_.coldest_C() + coldest_K(); }
+  double hottest_C() const { return air_.warmest_C() + hottest_K(); }
+  const Air& air() const { return air_; }
   /// Where the muscle should be: as it is believed, and the fastest and the slowest that the
   /// configured bounds allow. What is only believed may be wrong by as much.
   std::array<double, 3> expected_m() const {
@@ -94,6 +98,7 @@ class Heat {
 
  private:
   ThermalSettings settings_;
+  Air air_;
   control::RiseIntervalObserver interval_;
   control::RiseIntervalObserver by_reading_;  ///< in power as the senses tell it
   PowerBounds::Interval true_over_told_{1.0, 1.0};

@@ -9,6 +9,7 @@
 
 #include "supercoil/control/thermal/rise_interval_observer.hpp"
 
+#include "board/air.hpp"
 #include "board/power_bounds.hpp"
 #include "storage/learned.hpp"
 
@@ -26,8 +27,7 @@ struct ThermalSettings {
   double time_constant_error_ratio = 0.25;
   double thermometer_error_K = 1.0;  ///< of a rise that is read: the difference of two readings
   double boot_rise_K = 135.0;        ///< how hot it may be at boot: the history is unknown
-  double ambient_C = 25.0;           ///< the warmest that the air can be
-  double coldest_ambient_C = 15.0;
+  AirSettings air;
 
   bool weighed() const { return mass_error_ratio > 0.0; }
 };

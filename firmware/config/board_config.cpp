@@ -78,13 +78,13 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
   WiringReader wiring(config.wiring.buses, chip, config.settings.step_s());
   read_lines(lines, wiring, config.wiring);
   read_supply(root.section("supply"), wiring, config);
-  const Ambient ambient = read_ambient(root.section("ambient"));
+  const board::AirSettings air = read_ambient(root.section("ambient"), wiring, config);
   const CommandRules rules = read_command(root.section("command"), config.settings.step_s());
 
   Section every = root.section("every_channel");
-  const BoardContext context{config.settings,       wiring,          ambient.warmest_C,
-                             ambient.coldest_C,     rules.timeout_s, rules.damaged_in_a_row,
-                             rules.refused_in_a_row};
+  const BoardContext context{
+      config.settings,       wiring, air, rules.timeout_s, rules.damaged_in_a_row,
+      rules.refused_in_a_row};
   const std::vector<Section> channels = root.sections("channel");
   read_channels(channels, every, context, config);
   Section can = root.section("can");

@@ -17,6 +17,7 @@ BusTime bus_time(const BoardWiring& wiring, const BusAddress& bus) {
     result.total_s += time_s;
   };
   add(wiring.supply.access, "supply");
+  if (wiring.air) add(wiring.air->access, "air");
   int number = 0;
   for (const ChannelWiring& channel : wiring.channels) {
     const std::string name = "channel " + std::to_string(++number);

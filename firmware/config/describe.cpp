@@ -20,10 +20,22 @@ double rounded(double value, double to) {
   return std::nearbyint(value / to) * to;
 }
 
+std::string shown(const board::AirSettings& air, const BoardWiring& wiring) {
+  std::ostringstream out;
+  out << air.coldest_C << " to " << air.warmest_C << " °C, ";
+  if (wiring.air) {
+    out << "measured at " << shown(*wiring.air) << " to " << air.error_K << " K";
+  } else {
+    out << "not measured: what is warmer makes the muscle hotter than the board says";
+  }
+  return out.str();
+}
+
 void describe_board(std::ostream& out, const BoardConfig& config) {
   const BoardSettings& s = config.settings;
   const BoardWiring& w = config.wiring;
   const BoardSupervision& v = s.supervision;
+  const board::AirSettings& air = s.channels.front().thermal.air;
   out << "heartbeat      " << shown(w.heartbeat) << "; when it stops, the charge pump opens the "
       << "supply within " << 1e3 * v.charge_pump_decay_s << " ms\n"
       << "stop circuit   " << shown(w.stop_circuit) << "\n"
@@ -36,8 +48,7 @@ void describe_board(std::ostream& out, const BoardConfig& config) {
   }
   out << "supply         " << shown(w.supply) << "\n               " << v.lowest_supply_V << " to "
       << v.highest_supply_V << " V; outside for " << 1e3 * v.supply_s << " ms is a fault\n"
-      << "air            " << s.channels.front().thermal.coldest_ambient_C << " to "
-      << s.channels.front().thermal.ambient_C << " °C\n"
+      << "air            " << shown(air, w) << "\n"
       << "commands       to heat expire after "
       << 1e3 * s.channels.front().supervision.command_timeout_s << " ms\n"
       << "lateness       " << v.overruns_in_a_row << " overruns in a row are a fault, and "

@@ -52,10 +52,10 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
   out << "              from " << b.lowest_mass_J_per_K << " to " << b.highest_mass_J_per_K
       << " J/K and " << b.lowest_transfer_W_per_K << " to " << b.highest_transfer_W_per_K
       << " W/K; " << c.limiter.max_W << " W for good may heat it to "
-      << std::nearbyint(c.thermal.ambient_C + rest_K) << " °C\n"
+      << std::nearbyint(c.thermal.air.warmest_C + rest_K) << " °C\n"
       << "              " << describe_heat(c) << "\n"
       << "              taken to be at up to "
-      << std::nearbyint(c.thermal.ambient_C + c.thermal.boot_rise_K) << " °C at boot\n";
+      << std::nearbyint(c.thermal.air.warmest_C + c.thermal.boot_rise_K) << " °C at boot\n";
 }
 
 void describe_margin(std::ostream& out, const control::ControllerSettings& controller,

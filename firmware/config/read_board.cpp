@@ -68,13 +68,24 @@ void read_supply(Section section, WiringReader& reader, BoardConfig& config) {
   section.finish();
 }
 
-Ambient read_ambient(Section section) {
-  Ambient a{};
-  a.coldest_C = section.required_number("coldest_C", {-40.0, 80.0});
-  a.warmest_C = section.required_number("warmest_C", {-40.0, 80.0});
-  if (a.coldest_C > a.warmest_C) section.wrong("coldest_C", "must not exceed warmest_C");
+board::AirSettings read_ambient(Section section, WiringReader& reader, BoardConfig& config) {
+  board::AirSettings air;
+  air.coldest_C = section.required_number("coldest_C", {-40.0, 80.0});
+  air.warmest_C = section.required_number("warmest_C", {-40.0, 80.0});
+  if (air.coldest_C > air.warmest_C) section.wrong("coldest_C", "must not exceed warmest_C");
+  Section sensor = section.section("sensor");
+  if (section.has("sensor")) {
+    InputSettings& input = config.settings.air;
+    config.wiring.air = reader.converter(sensor, "the air's sensor");
+    input.scaling.per_count = sensor.required_number("C_per_count", {-10.0, 10.0});
+    if (input.scaling.per_count == 0.0) sensor.wrong("C_per_count", "must not be 0");
+    input.scaling.offset = sensor.number("offset_C", 0.0, {-1000.0, 1000.0});
+    input.max_age_s = reader.max_age_s(sensor, *config.wiring.air);
+    air.error_K = sensor.number("error_K", 2.0, {0.1, 20.0});
+    sensor.finish();
+  }
   section.finish();
-  return a;
+  return air;
 }
 
 CommandRules read_command(Section section, double step_s) {

@@ -13,12 +13,8 @@ void read_lines(Section& section, WiringReader& reader, BoardWiring& wiring);
 /// [supply].
 void read_supply(Section section, WiringReader& reader, BoardConfig& config);
 
-struct Ambient {
-  double warmest_C;
-  double coldest_C;
-};
-/// [ambient]: the air around the muscles, a constant with bounds.
-Ambient read_ambient(Section section);
+/// [ambient] with [ambient.sensor]: bounds of the air around the muscles, and what measures it.
+board::AirSettings read_ambient(Section section, WiringReader& reader, BoardConfig& config);
 
 struct CommandRules {
   double timeout_s;

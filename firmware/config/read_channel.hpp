@@ -12,8 +12,7 @@ namespace supercoil::config {
 struct BoardContext {
   const BoardSettings& board;  ///< complete but for its channels
   WiringReader& wiring;
-  double ambient_C;
-  double coldest_ambient_C;
+  board::AirSettings air;
   double command_timeout_s;
   int damaged_in_a_row;
   int refused_in_a_row;

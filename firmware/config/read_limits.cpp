@@ -62,7 +62,7 @@ void read_temperatures(Section& section, const BoardContext& context, ChannelSet
   if (l.derate_from_C >= l.derate_to_C) {
     section.wrong("derate_from_C", "must be less than trip_C");
   }
-  if (l.derate_from_C <= context.ambient_C) {
+  if (l.derate_from_C <= context.air.warmest_C) {
     section.wrong("derate_from_C",
                   "must exceed ambient.warmest_C: else a cold muscle counts as a hot one");
   }

@@ -86,10 +86,9 @@ void read_muscle(Section muscle, Section thermal, const BoardContext& context, C
                   "must lie between lowest_mass_J_per_K and highest_mass_J_per_K");
   }
   read_heat_errors(thermal, weighed, t);
-  t.ambient_C = context.ambient_C;
-  t.coldest_ambient_C = context.coldest_ambient_C;
+  t.air = context.air;
   // The last life of this board may have ended a moment ago, just below the trip.
-  const double below_trip_K = std::fmax(0.0, c.supervision.trip_C - t.ambient_C);
+  const double below_trip_K = std::fmax(0.0, c.supervision.trip_C - t.air.warmest_C);
   const double boot_K = std::isfinite(below_trip_K) ? below_trip_K : 0.0;
   t.boot_rise_K = thermal.number("boot_rise_K", boot_K, {0.0, 300.0});
   thermal.finish();

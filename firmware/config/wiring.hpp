@@ -80,6 +80,7 @@ struct BoardWiring {
   std::optional<LineAddress> light;
   std::optional<WatchdogAddress> watchdog;
   ConverterAddress supply;
+  std::optional<ConverterAddress> air;  ///< of its temperature
   std::vector<BusAddress> buses;
   std::vector<ChannelWiring> channels;
 };

@@ -52,6 +52,7 @@ tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> LinuxBoard::
   board->stop_circuit_ = std::move(*parts.stop_circuit.device);
   if (parts.light) board->light_ = std::move(*parts.light->device);
   board->supply_ = take.converter(parts.supply, wiring.supply.access);
+  if (parts.air) board->air_ = take.converter(*parts.air, wiring.air->access);
   for (std::size_t i = 0; i < wiring.channels.size(); ++i) {
     const config::ChannelWiring& where = wiring.channels[i];
     linux_board::ChannelParts& channel = parts.channels[i];
@@ -95,7 +96,7 @@ void LinuxBoard::release() {
 board::Devices LinuxBoard::devices() {
   board::Devices devices{
       &clock_, supply_.get(), heartbeat_.get(), stop_circuit_.get(), light_.get(), watchdog_.get(),
-      {}};
+      {},      air_.get()};
   for (const Channel& channel : channels_) {
     devices.channels.push_back(
         {channel.pwm.get(), channel.enable.get(), channel.position.get(), channel.current.get()});

@@ -53,6 +53,7 @@ class LinuxBoard {
   std::unique_ptr<hal::DigitalInput> stop_circuit_;
   std::unique_ptr<hal::DigitalOutput> light_;
   std::unique_ptr<hal::AdcChannel> supply_;
+  std::unique_ptr<hal::AdcChannel> air_;
   struct Channel {
     std::unique_ptr<hal::DigitalOutput> enable;
     std::unique_ptr<hal::PwmOutput> pwm;

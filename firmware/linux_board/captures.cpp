@@ -24,6 +24,7 @@ class CapturedInput final : public hal::AdcChannel {
 Captures::Captures(const config::BoardWiring& wiring, hal_linux::Machine machine)
     : machine_(std::move(machine)) {
   want(wiring.supply);
+  if (wiring.air) want(*wiring.air);
   for (const config::ChannelWiring& channel : wiring.channels) {
     want(channel.position);
     want(channel.current);

@@ -49,6 +49,7 @@ std::vector<std::string> Parts::missing() const {
   note(stop_circuit, all);
   if (light) note(*light, all);
   note(supply, all);
+  if (air) note(*air, all);
   for (const ChannelParts& channel : channels) {
     note(channel.position, all);
     note(channel.current, all);
@@ -70,7 +71,9 @@ Parts open_parts(const config::BoardWiring& wiring, const hal_linux::Machine& ma
               {},
               open.input("stop_circuit", wiring.stop_circuit),
               {},
-              open.converter("supply", wiring.supply)};
+              open.converter("supply", wiring.supply),
+              {}};
+  if (wiring.air) parts.air = open.converter("air", *wiring.air);
   if (wiring.light) parts.light = open.output("light", *wiring.light);
   for (std::size_t i = 0; i < wiring.channels.size(); ++i) {
     const config::ChannelWiring& channel = wiring.channels[i];

@@ -41,6 +41,7 @@ struct Parts {
   InputPart stop_circuit;
   std::optional<OutputPart> light;
   ConverterPart supply;
+  std::optional<ConverterPart> air;
 
   /// A line for each device that cannot be had.
   std::vector<std::string> missing() const;

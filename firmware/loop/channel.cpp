@@ -96,6 +96,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
 
 void Channel::supervise(const BoardNow& board) {
   supply_V_ = board.supply_V * senses_.supply_gain;
+  if (board.air != nullptr) heat_.follow_air(*board.air);
   observe_heat(board.periods);
   follow_probe(supply_V_);
 
@@ -112,7 +113,7 @@ void Channel::supervise(const BoardNow& board) {
   e.expected_m = heat_.expected_m();
   // How hot it was before boot is not known: nothing is armed before it must have cooled.
   heat_known_ = heat_known_ || heat_.hottest_C() < settings_.limiter.derate_from_C;
-  e.hottest_C = heat_known_ ? heat_.hottest_C() : settings_.thermal.ambient_C;
+  e.hottest_C = heat_known_ ? heat_.hottest_C() : heat_.air().warmest_C();
   e.applied_W = acting_.power_W;
   e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
   e.resistance_Ohm = resistance_.value_Ohm();

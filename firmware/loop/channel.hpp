@@ -37,6 +37,7 @@ struct BoardNow {
   bool testing = true;        ///< the self-test runs: nothing is latched
   bool proven = false;        ///< it has passed: both ways of cutting cut
   std::int64_t periods = 1;   ///< since the last tick
+  const board::Measured* air = nullptr;  ///< in °C; null: no sensor
 };
 
 /// The gains and the error that remains, from the loop to other threads.

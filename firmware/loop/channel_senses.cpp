@@ -92,7 +92,7 @@ void Channel::prove(std::int64_t periods) {
   const bool heats = state_.may_heat() && (mode_ == Mode::position || mode_ == Mode::power);
   const board::Measured& position = evidence_.position;
   proof_.step({acting_.power_W, acting_.dither_W, periods, position.present, position.value,
-               heat_.hottest_K(), heats});
+               heat_.hottest_K(), heats, heat_.air().above_configured_K()});
   evidence_.unanswered = proof_.unanswered();
   if (evidence_.unanswered) evidence_.answer = proof_.margin();
 }

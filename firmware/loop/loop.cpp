@@ -155,11 +155,17 @@ void Loop::judge_board(hal::Time now, double late_s, std::int64_t skipped) {
   now_.supply_V = e.supply.present ? e.supply.value : 0.0;
   now_.testing = self_test_.under_way() || (settling && !self_test_.failed());
   now_.proven = self_test_.passed();
+  if (devices_.air != nullptr) measure_air(now);
   now_.periods = 1 + std::min(skipped, most_periods);
   if (verdict.board_fault() != Fault::none)
     latch(verdict.board_fault(), verdict.margin(verdict.board_fault()));
   now_.fault = board_fault_ != Fault::none ? board_fault_ : present;
   if (now_.fault != Fault::none) now_.margin = verdict.margin(now_.fault);
+}
+
+void Loop::measure_air(hal::Time now) {
+  board::measure(devices_.air->latest(), settings_.air.scaling, now, settings_.air.max_age_s, air_);
+  now_.air = &air_;
 }
 
 /// The first cause is kept. From the next tick on no channel of this board may be hot; those of

@@ -88,6 +88,7 @@ class Loop {
 
  private:
   void obey();
+  void measure_air(hal::Time now);
   void judge_board(hal::Time now, double late_s, std::int64_t skipped);
   void latch(Fault cause, const detectors::Margin& margin);
   void reset_board();
@@ -101,6 +102,7 @@ class Loop {
   std::vector<std::unique_ptr<Channel>> channels_;  ///< they cannot move
   BoardSupervisor supervisor_;
   BoardEvidence evidence_;
+  board::Measured air_;  ///< in °C
   SelfTest self_test_;
   Fault board_fault_ = Fault::none;  ///< latched
   BoardNow now_;

@@ -59,6 +59,7 @@ struct ChannelSettings {
 struct BoardSettings {
   double rate_Hz = 1000.0;
   InputSettings supply;
+  InputSettings air;  ///< in °C, where there is a sensor
   BoardSupervision supervision;
   std::vector<ChannelSettings> channels{1};
 

@@ -153,7 +153,7 @@ class Guide {
 double safe_power_W(ChannelSettings channel, const BoardSettings& board) {
   channel.senses = {};
   const double unseen = power_bounds(channel, board).true_over_told().max;
-  const double rise_K = channel.limiter.derate_from_C - channel.thermal.ambient_C;
+  const double rise_K = channel.limiter.derate_from_C - channel.thermal.air.warmest_C;
   const double true_W = rise_K * 0.25 * channel.thermal.bounds.lowest_transfer_W_per_K;
   return std::min(channel.limiter.max_W, std::max(0.0, true_W) / unseen);
 }

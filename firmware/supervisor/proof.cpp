@@ -60,10 +60,27 @@ double slowest_s(const ProofSettings& s) {
 /// With all the power that there is, from the hottest that it may be, with the least mass.
 double time_to_limit_s(const ProofSettings& s, double full_W, double hottest_K) {
   const double full_K = rest_K(s, full_W);
-  const double limit_K = s.trip_C - s.thermal.ambient_C;
+  const double limit_K = s.trip_C - s.thermal.air.warmest_C;
   if (full_K <= limit_K) return INFINITY;
   if (hottest_K >= limit_K) return 0.0;
   return slowest_s(s) * std::log((full_K - hottest_K) / (full_K - limit_K));
+}
+
+/// Held for ever, a quarter of the least cooling stays below derating.
+double safe_W(const ProofSettings& s, double warmer_air_K) {
+  const double W_per_rest_K = s.max_W / rest_K(s, s.max_W);
+  return std::max(0.0, s.derate_from_C - s.thermal.air.warmest_C - warmer_air_K) * W_per_rest_K;
+}
+
+/// The greatest power with which the hot end, once cooling has failed, has provable_ratio of the
+/// dither's time to the limit: time_to_limit_s() with this power as full and as held.
+double provable_W(const ProofSettings& s, const Dither& dither, double warmer_air_K) {
+  const double limit_K = s.trip_C - s.thermal.air.warmest_C - warmer_air_K;
+  const bool decides = std::isfinite(dither.decided_s) || rest_K(s, s.max_W) <= limit_K;
+  if (!decides) return safe_W(s, warmer_air_K);
+  const double growth = std::exp(provable_ratio * dither.decided_s / slowest_s(s));
+  const double provable_K = limit_K / (1.0 - (1.0 - worst_cooling_ratio) / growth);
+  return std::clamp(provable_K * s.max_W / rest_K(s, s.max_W), 0.0, s.max_W);
 }
 
 double steps_s(double rate_Hz) {
@@ -72,6 +89,11 @@ double steps_s(double rate_Hz) {
 
 }  // namespace
 
+void ProofPlan::for_air(const ProofSettings& s, double warmer_K) {
+  safe_W = supercoil::safe_W(s, warmer_K);
+  provable_W = supercoil::provable_W(s, dither, warmer_K);
+}
+
 ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& muscle,
                      double rate_Hz) {
   ProofPlan plan;
@@ -79,15 +101,7 @@ ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& 
       decided_ratio / loop_ratio * time_to_limit_s(s, s.max_W, hot_end_K(s, s.max_W));
   const ExpectedMotion motion(muscle, steps_s(rate_Hz), s.answer_ratio);
   plan.dither = dither_for(motion, sensor_of(s, rate_Hz), s.max_W, in_time_s, steps_s(rate_Hz));
-  const double W_per_rest_K = s.max_W / rest_K(s, s.max_W);
-  plan.safe_W = std::max(0.0, s.derate_from_C - s.thermal.ambient_C) * W_per_rest_K;
-  // The greatest power with which the hot end, once cooling has failed, has provable_ratio of the
-  // dither's time to the limit: time_to_limit_s() with this power as full and as held.
-  const double limit_K = s.trip_C - s.thermal.ambient_C;
-  const double growth = std::exp(provable_ratio * plan.dither.decided_s / slowest_s(s));
-  const double provable_K = limit_K / (1.0 - (1.0 - worst_cooling_ratio) / growth);
-  const bool decides = std::isfinite(plan.dither.decided_s) || rest_K(s, s.max_W) <= limit_K;
-  plan.provable_W = std::min(s.max_W, decides ? provable_K * W_per_rest_K : plan.safe_W);
+  plan.for_air(s, 0.0);
   return plan;
 }
 
@@ -133,6 +147,7 @@ void Proof::learn(const control::PhysicalParameters& muscle, double answer_ratio
   known_ = true;
   settings_.answer_ratio = answer_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
+  plan_.for_air(settings_, warmer_air_K_);
   const ExpectedMotion before = all_.motion;
   all_ = match_for(muscle, motion_corner_rad_per_s);
   dither_ = match_for(muscle, dither_corner_rad_per_s, answer_ratio);
@@ -144,6 +159,7 @@ void Proof::learn(const control::PhysicalParameters& muscle, double answer_ratio
 void Proof::plan(double max_power_ratio, const control::PhysicalParameters& muscle) {
   settings_.max_power_ratio = max_power_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
+  plan_.for_air(settings_, warmer_air_K_);
   dither_place_ = -1;  // of one that may have had other halves
   allow();
 }
@@ -172,9 +188,14 @@ void Proof::end_step(const Input& in) {
   const double power_W = power_sum_W_ / ticks;
   all_.expect(power_W);
   dither_.expect(dither_sum_W_ / ticks);
+  if (in.warmer_air_K != warmer_air_K_) {
+    warmer_air_K_ = in.warmer_air_K;
+    plan_.for_air(settings_, warmer_air_K_);
+    allow();
+  }
   if (positions_ > 0) {
     compare(position_sum_m_ / static_cast<double>(positions_));
-    in.heating ? judge(power_W, in.hottest_K) : rest();
+    in.heating ? judge(power_W, in.hottest_K + in.warmer_air_K) : rest();
   } else {
     settled_ = false;
   }

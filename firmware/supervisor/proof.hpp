@@ -30,6 +30,9 @@ struct ProofPlan {
   double safe_W = 0.0;  ///< held for ever, a quarter of the least cooling stays below derating
   /// Held, contact lost, and no more given than this: it is found out before the limit.
   double provable_W = 0.0;
+
+  /// Both powers in air that is warmer than the warmest that is configured, with the same dither.
+  void for_air(const ProofSettings& settings, double warmer_K);
 };
 ProofPlan plan_proof(const ProofSettings& settings, const control::PhysicalParameters& muscle,
                      double rate_Hz);
@@ -54,7 +57,8 @@ class Proof {
     bool present = false;      ///< the position
     double position_m = 0.0;
     double hottest_K = 0.0;
-    bool heating = false;  ///< following a position or a power
+    bool heating = false;       ///< following a position or a power
+    double warmer_air_K = 0.0;  ///< than the warmest that is configured
   };
 
   /// known: identified, or learned before; of a muscle that is only believed nothing is judged.
@@ -167,6 +171,7 @@ class Proof {
   int dither_place_ = -1;  ///< -1: none
   double dither_W_ = 0.0;
   double max_W_ = INFINITY;
+  double warmer_air_K_ = 0.0;
   double unproven_s_ = 0.0;  ///< above the safe power
   double block_s_ = 0.0;
   double stage_s_ = 0.0;

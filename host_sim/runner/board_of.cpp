@@ -89,10 +89,12 @@ board::ThermalSettings thermal_of(const Conditions& c) {
   t.min_power_ratio = spans.power_part[0];
   t.max_power_ratio = spans.power_part[1];
   t.thermal_mass_J_per_K = m.thermal_mass_J_per_K;
-  t.ambient_C = c.ambient.warmest_C;
-  t.coldest_ambient_C = c.ambient.coldest_C;
+  t.air = {c.ambient.warmest_C, c.ambient.coldest_C, c.ambient.sensor_error_K};
   return t;
 }
+
+/// In °C; beside its error, as good as any.
+const ConverterSettings air_sensor{.low = -100.0, .high = 200.0};
 
 }  // namespace
 
@@ -123,6 +125,7 @@ SimulatedBoardSettings simulated_board_of(const Scenario& scenario) {
   s.substeps = scenario.substeps;
   s.supply_V = scenario.start.power.supply_V;
   s.supply.high = 2.0 * s.supply_V;
+  if (scenario.start.ambient.sensor_error_K > 0.0) s.air = air_sensor;
   s.charge_pump_decay_s = pump_decay_s(scenario);
   s.seed = scenario.seed;
   s.channels = {muscle_channel_of(scenario, scenario.start)};
@@ -135,6 +138,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
   BoardSettings board;
   board.rate_Hz = scenario.rate_Hz;
   board.supply.scaling = scaling_of(simulated.supply);
+  if (simulated.air) board.air.scaling = scaling_of(*simulated.air);
   board.supervision.lowest_supply_V = 0.6 * c.power.supply_V;
   board.supervision.highest_supply_V = 1.25 * c.power.supply_V;
   board.supervision.late_s = 0.5 * scenario.step_s();

@@ -27,6 +27,7 @@ Simulation::Simulation(const Scenario& scenario)
       board_(simulated_board_of(scenario)),
       loop_(firmware_of(scenario), board_.devices()),
       executive_(loop_, board_, scenario.rate_Hz) {
+  set_air();
   boot();
 }
 
@@ -94,12 +95,17 @@ void Simulation::happen(const Event& event) {
   muscle.set(settings);
   muscle.position.set(settings.position);
   board_.set_supply_V(conditions_->power.supply_V);
+  set_air();
   break_things(conditions_->trouble);
   loop_.channel(0).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
   if (event.new_controller) send(Verb::controller, static_cast<double>(++controllers_used_));
   if (event.new_estimator) send(Verb::estimator, static_cast<double>(++estimators_used_));
   resetting_ = resetting_ || event.reset;
   if (event.reset) send(Verb::reset);
+}
+
+void Simulation::set_air() {
+  board_.set_air_C(conditions_->ambient.air_C + conditions_->ambient.sensor_offset_K);
 }
 
 void Simulation::break_things(const Trouble& t) {

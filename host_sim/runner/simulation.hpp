@@ -77,6 +77,7 @@ class Simulation {
   void boot();
   void boot_for(double time_s);
   void happen(const Event& event);
+  void set_air();
   void break_things(const Trouble& trouble);
   void ask(double reference);
   void send(Verb verb, double value = 0.0);

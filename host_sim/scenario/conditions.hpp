@@ -73,6 +73,8 @@ struct Ambient {
   double air_C = 25.0;
   double warmest_C = 25.0;
   double coldest_C = 25.0;
+  double sensor_error_K = 0.0;   ///< what the board assumes of its sensor; 0: it has none
+  double sensor_offset_K = 0.0;  ///< what the sensor does err by
 
   friend bool operator==(const Ambient&, const Ambient&) = default;
 };

@@ -106,6 +106,8 @@ Ambient read_ambient(Section section) {
   a.warmest_C = section.number("warmest_C", a.warmest_C, air);
   a.coldest_C = section.number("coldest_C", a.coldest_C, air);
   if (a.coldest_C > a.warmest_C) section.wrong("coldest_C", "must not exceed warmest_C");
+  a.sensor_error_K = section.number("sensor_error_K", a.sensor_error_K, {0.0, 20.0});
+  a.sensor_offset_K = section.number("sensor_offset_K", a.sensor_offset_K, {-100.0, 100.0});
   section.finish();
   return a;
 }

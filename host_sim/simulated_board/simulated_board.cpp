@@ -7,6 +7,7 @@ SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
       pump(hal::duration_from(settings.charge_pump_decay_s)),
       step_(hal::duration_from(1.0 / settings.rate_Hz / settings.substeps)),
       supply_V_(settings.supply_V) {
+  if (settings.air) air.emplace(*settings.air, settings.seed + 3000017);
   std::uint64_t seed = settings.seed;
   for (const MuscleChannelSettings& channel : settings.channels)
     channels_.push_back(std::make_unique<MuscleChannel>(channel, step_, now_, seed++));
@@ -32,6 +33,7 @@ void SimulatedBoard::step() {
     channel->advance(now_, closed_ ? supply_V_ : 0.0);
   now_ += step_;
   supply.offer(supply_V_, now_);
+  if (air) air->offer(air_C_, now_);
 }
 
 board::Devices SimulatedBoard::devices() {
@@ -40,6 +42,7 @@ board::Devices SimulatedBoard::devices() {
     devices.channels.push_back(
         {&channel->pwm, &channel->enable, &channel->position, &channel->current});
   }
+  if (air) devices.air = &*air;
   return devices;
 }
 

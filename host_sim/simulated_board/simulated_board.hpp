@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "board/devices.hpp"
@@ -14,6 +15,7 @@ struct SimulatedBoardSettings {
   int substeps = 1;
   double supply_V = 12.0;
   ConverterSettings supply{0.0, 30.0, 0, 0.0};
+  std::optional<ConverterSettings> air;  ///< in °C; absent: the board has no sensor
   double charge_pump_decay_s = 0.02;
   std::uint64_t seed = 1;
   std::vector<MuscleChannelSettings> channels{1};
@@ -41,11 +43,13 @@ class SimulatedBoard final : public hal::Clock {
 
   MuscleChannel& channel(std::size_t i) { return *channels_[i]; }
   const MuscleChannel& channel(std::size_t i) const { return *channels_[i]; }
+  void set_air_C(double air_C) { air_C_ = air_C; }
   void set_supply_V(double supply_V) { supply_V_ = supply_V; }
   bool supply_closed() const { return closed_; }
   hal::Time true_time() const { return now_; }
 
   SimulatedConverter supply;
+  std::optional<SimulatedConverter> air;  ///< where the board has a sensor
   SimulatedOutput heartbeat;
   SimulatedOutput light;
   SimulatedInput stop_circuit;
@@ -57,6 +61,7 @@ class SimulatedBoard final : public hal::Clock {
 
   hal::Duration step_;
   double supply_V_;
+  double air_C_ = 25.0;
   hal::Time now_{};
   hal::Duration to_lose_{};
   hal::Duration lost_{};  ///< of this tick; for the muscles it passes on the way to the next

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,8 +20,10 @@ struct Attack {
   double cooling_ratio = worst_configured_cooling;
   bool blocked = false;            ///< heat does not move the sensor
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
-  double air_C = 30.0;             ///< the board believes that it is at most 30 °C
-  bool from_start = false;         ///< not only once the muscle is warm
+  double air_C = 30.0;             ///< configured are 15 to 30 °C
+  /// The board's sensor of the air errs by so much; empty: it has none.
+  std::optional<double> air_sensor_offset_K;
+  bool from_start = false;  ///< not only once the muscle is warm
   /// The board knows this muscle, its senses were compared with a meter, and a muscle that is hot
   /// and still must prove that it answers.
   bool identified = false;

@@ -36,9 +36,10 @@ double duration_s(Activity activity) {
   }
 }
 
-host_sim::SimulatedBoardSettings simulated_board(const Muscle& muscle) {
+host_sim::SimulatedBoardSettings simulated_board(const Muscle& muscle, bool measures_air) {
   host_sim::SimulatedBoardSettings s;
   s.supply = {0.0, 60.0, 16, 0.005};
+  if (measures_air) s.air = {-60.0, 140.0, 12, 0.1};
   host_sim::MuscleChannelSettings& channel = s.channels.front();
   channel.plant.stiffness_N_per_m = muscle.stiffness_N_per_m;
   channel.plant.heat_transfer_W_per_K *= worst_configured_cooling;
@@ -58,6 +59,10 @@ BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSetti
   state("lowest_V = ", "10.8", muscle.min_supply_V);
   state("highest_V = ", "13.2", muscle.max_supply_V);
   state("max_W = ", "4.5", muscle.max_W);
+  if (simulated.air) {
+    text += "[ambient.sensor]\ndevice = 'adc'\ninput = 'temp'\nC_per_count = " +
+            std::to_string(simulated.air->per_count()) + "\n";
+  }
   // Where nothing limits the travel, nothing but heat ends a run.
   state("highest_m = ", "0.041", 0.081);
   state("max_travel_m = ", "0.025", 0.08);
@@ -74,6 +79,7 @@ BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSetti
   };
   const host_sim::MuscleChannelSettings& soldered = simulated.channels.front();
   settings.supply.scaling = scaling(simulated.supply);
+  if (simulated.air) settings.air.scaling = scaling(*simulated.air);
   settings.channels[0].position.scaling = scaling(soldered.position);
   settings.channels[0].heater.current.scaling = scaling(soldered.current);
   if (identified) {
@@ -90,10 +96,12 @@ AttackedBoard::AttackedBoard(Attack attack, const Muscle& muscle, Activity activ
     : attack_(std::move(attack)),
       muscle_(muscle),
       activity_(activity),
-      simulated_(simulated_board(muscle)),
+      simulated_(simulated_board(muscle, attack_.air_sensor_offset_K.has_value())),
       board_(simulated_),
       loop_(firmware(muscle, simulated_, attack_.identified), board_.devices()),
-      executive_(loop_, board_, simulated_.rate_Hz) {}
+      executive_(loop_, board_, simulated_.rate_Hz) {
+  board_.set_air_C(attack_.air_C + attack_.air_sensor_offset_K.value_or(0.0));
+}
 
 void AttackedBoard::begin_attack() {
   host_sim::MuscleChannel& channel = board_.channel(0);

@@ -6,6 +6,9 @@ namespace supercoil::test {
 
 namespace {
 
+constexpr std::string_view worse_cooling =
+    "the cooling is worse than `lowest_transfer_W_per_K` says";
+
 std::string text_of(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%g", value);
@@ -48,7 +51,7 @@ void add_cooling(std::vector<Attack>& attacks) {
       a.blocked = blocked;
       if (ratio < worst_configured_cooling) {
         a.guard = "thermal fuse";
-        a.blindness = "the cooling is worse than `lowest_transfer_W_per_K` says";
+        a.blindness = worse_cooling;
       }
       attacks.push_back(a);
     }
@@ -73,6 +76,32 @@ void add_hot_air(std::vector<Attack>& attacks) {
     a.from_start = true;
     a.blindness = "the air is warmer than `ambient.warmest_C` says";
     attacks.push_back(a);
+  }
+}
+
+void add_measured_air(std::vector<Attack>& attacks) {
+  const auto add = [&](const std::string& name, double air_C, double offset_K, bool identified) {
+    Attack a;
+    a.name = (identified ? "identified, " : "") + name;
+    a.air_C = air_C;
+    a.air_sensor_offset_K = offset_K;
+    a.from_start = true;
+    a.identified = identified;
+    attacks.push_back(a);
+  };
+  for (const bool identified : {false, true}) {
+    for (const double air_C : {0.0, 40.0, 60.0})
+      add("air at " + text_of(air_C) + " °C, measured", air_C, -1.9, identified);
+    add("the wire of the air's sensor is off", 30.0, -200.0, identified);
+  }
+  // A lost contact has to be found the sooner.
+  for (const double air_C : {40.0, 60.0}) {
+    add("blocked, cooling × 0.25, air at " + text_of(air_C) + " °C, measured", air_C, -1.9, true);
+    attacks.back().blocked = true;
+    attacks.back().cooling_ratio = 0.25;
+    attacks.back().from_start = false;
+    attacks.back().guard = "thermal fuse";
+    attacks.back().blindness = worse_cooling;
   }
 }
 
@@ -104,6 +133,7 @@ std::vector<Attack> all_attacks() {
   add_leaks(attacks);
   add_hot_air(attacks);
   add_identified(attacks);
+  add_measured_air(attacks);
   return attacks;
 }
 

@@ -35,6 +35,20 @@ Expected supply_of(const BoardSettings& settings) {
           .remedy = "switch the supply on; else correct the divider, V_per_count and offset_V"};
 }
 
+Expected air_of(const BoardSettings& settings) {
+  const board::AirSettings& air = settings.channels.front().thermal.air;
+  return {.quantity = "the air's sensor",
+          .scaling = settings.air.scaling,
+          .lowest = air.coldest_C - air.error_K,
+          .highest = air.warmest_C + air.error_K,
+          .unit = "°C",
+          .shown_per_unit = 1.0,
+          .must_move = false,
+          .remedy =
+              "compare it with a thermometer, and correct C_per_count and offset_C; or the "
+              "bounds in [ambient]"};
+}
+
 Expected position_of(const ChannelSettings& settings) {
   const ChannelSupervision& s = settings.supervision;
   return {.quantity = "the position's sensor",
@@ -64,6 +78,7 @@ Expected current_of(const ChannelSettings& settings) {
 std::vector<Candidate> candidates(const config::BoardConfig& config, linux_board::Parts& parts) {
   std::vector<Candidate> all;
   all.push_back({&parts.supply, &config.wiring.supply, supply_of(config.settings), {}});
+  if (parts.air) all.push_back({&*parts.air, &*config.wiring.air, air_of(config.settings), {}});
   for (std::size_t i = 0; i < parts.channels.size(); ++i) {
     const config::ChannelWiring& wiring = config.wiring.channels[i];
     const ChannelSettings& settings = config.settings.channels[i];

@@ -169,8 +169,8 @@ class Life {
                 least * believed.heat_transfer_W_per_K, 2.2 * believed.heat_transfer_W_per_K};
     t.boot_rise_K = 20.0;  // it is known to be cold
     const bool knows_air = knowledge != Knowledge::defaults;
-    t.coldest_ambient_C = knows_air ? air_C - air_error_K : 15.0;
-    t.ambient_C = knows_air ? air_C + air_error_K : 35.0;
+    t.air.coldest_C = knows_air ? air_C - air_error_K : 15.0;
+    t.air.warmest_C = knows_air ? air_C + air_error_K : 35.0;
     if (knows_air) c.senses.error_ratio = sense_error_ratio;
     if (knowledge == Knowledge::weighed || knowledge == Knowledge::thermometer) {
       t.thermal_mass_J_per_K = believed.thermal_mass_J_per_K * truth.weighed_ratio;

@@ -42,7 +42,7 @@ void add_channel(RigSettings& s) {
   channel.heater.temperature_coefficient_per_K = coefficient_per_K;
   channel.supervision.max_travel_m = 0.025;
   // The simulated air is as the firmware believes: no slack for the interval.
-  channel.thermal.coldest_ambient_C = channel.thermal.ambient_C;
+  channel.thermal.air.coldest_C = channel.thermal.air.warmest_C;
   channel.controllers = {controller(control::ControllerKind::pi),
                          controller(control::ControllerKind::pd_ff),
                          controller(control::ControllerKind::mrac)};
@@ -80,7 +80,7 @@ Rig::Rig(const RigSettings& settings)
       loop(settings.firmware, board.devices()),
       executive(loop, board, settings.firmware.rate_Hz),
       period_s_(settings.firmware.step_s()),
-      ambient_C_(settings.firmware.channels[tested].thermal.ambient_C) {}
+      ambient_C_(settings.firmware.channels[tested].thermal.air.warmest_C) {}
 
 void Rig::ask() {
   if (!commands_flow) return;

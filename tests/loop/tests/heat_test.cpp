@@ -5,6 +5,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "loop/support/rig.hpp"
 #include "loop/support/situations.hpp"
 #include "runner/simulation.hpp"
 #include "scenario/builtin.hpp"
@@ -12,6 +13,7 @@
 
 using namespace supercoil;
 using namespace supercoil::host_sim;
+using namespace supercoil::test;
 
 namespace {
 
@@ -227,4 +229,45 @@ TEST(Heat, OfComparedSensesComesNearerToTheLimit) {
   LONGS_EQUAL(0, narrow.outside_ticks);
   CHECK_COMPARE(narrow.hottest_C, >, wide.hottest_C + 10.0);
   CHECK_COMPARE(narrow.hottest_C, <, trip_C);
+}
+
+TEST(Heat, IsContainedInAirThatIsMeasuredAndNotAsConfigured) {
+  const std::string measured =
+      "simulation.duration_s = 150.0\ncontroller.kind = 'pi'\nplant.air_acts = true\n"
+      "ambient.sensor_error_K = 1.5\nambient.sensor_offset_K = ";
+  const std::string events =
+      "\n[[event]]\nat_s = 30.0\nambient.air_C = 45.0\n"
+      "[[event]]\nat_s = 60.0\nambient.air_C = 5.0\n"
+      "[[event]]\nat_s = 90.0\nambient.air_C = 70.0\n"
+      "[[event]]\nat_s = 120.0\nambient.air_C = 25.0\n";
+  for (const char* offset_K : {"-1.5", "0.0", "1.5"})
+    check_contained("air, its sensor off by " + std::string(offset_K),
+                    read(measured + offset_K + events));
+  // The truth is outside where nothing measures it, so that this tests something.
+  const Heat blind =
+      heat_of(read("simulation.duration_s = 150.0\ncontroller.kind = 'pi'\n"
+                   "plant.air_acts = true" +
+                   events));
+  CHECK_COMPARE(blind.outside_ticks, >, 0);
+}
+
+TEST(Heat, CountsFromTheConfiguredAirWhileItsSensorIsSilent) {
+  RigSettings s = rough_board(1000.0);
+  s.board.air = host_sim::ConverterSettings{.low = -60.0, .high = 140.0};
+  s.firmware.air.scaling = {s.board.air->per_count(), s.board.air->low};
+  for (ChannelSettings& channel : s.firmware.channels)
+    channel.thermal.air = {40.0, 10.0, 1.0};
+  Rig rig(s);
+  const auto run = [&rig](double time_s) {
+    for (int i = 0; i < static_cast<int>(1000.0 * time_s); ++i)
+      rig.tick();
+    return rig.loop.channel(0).snapshot();
+  };
+  const Snapshot read = run(60.0);
+  DOUBLES_EQUAL(26.0, read.hottest_C, 0.1);
+  DOUBLES_EQUAL(24.0, read.coldest_C, 0.1);
+  rig.board.air->set({.silent = true});
+  const Snapshot silent = run(1.0);
+  DOUBLES_EQUAL(40.0, silent.hottest_C, 0.1);
+  DOUBLES_EQUAL(10.0, silent.coldest_C, 0.1);
 }

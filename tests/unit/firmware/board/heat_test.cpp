@@ -50,8 +50,8 @@ TEST(HotEnd, IsTheHotterOfWhatIsConfiguredAndWhatIsLearned) {
 
 TEST(HotEnd, MayBeAnythingUpToTheConfiguredAtBoot) {
   Heat heat(settings, {}, tick_s);
-  DOUBLES_EQUAL(settings.ambient_C + settings.boot_rise_K, heat.hottest_C(), 1e-9);
-  DOUBLES_EQUAL(settings.coldest_ambient_C, heat.coldest_C(), 1e-9);
+  DOUBLES_EQUAL(settings.air.warmest_C + settings.boot_rise_K, heat.hottest_C(), 1e-9);
+  DOUBLES_EQUAL(settings.air.coldest_C, heat.coldest_C(), 1e-9);
   for (const double expected_m : heat.expected_m())
     DOUBLES_EQUAL(0.0, expected_m, 0.0);
 }
@@ -69,4 +69,12 @@ TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
                 1e-5);
   DOUBLES_EQUAL(2.0 / settings.bounds.lowest_transfer_W_per_K * metres_per_K, heat.expected_m()[2],
                 1e-5);
+}
+
+TEST(HotEnd, CountsFromTheAirThatIsMeasured) {
+  settings.air = {25.0, 15.0, 2.0};
+  Heat heat(settings, {}, tick_s);
+  heat.follow_air({40.0, 0.0, true, hal::Status::ok});
+  DOUBLES_EQUAL(42.0 + settings.boot_rise_K, heat.hottest_C(), 1e-9);
+  DOUBLES_EQUAL(heat.air().coldest_C(), heat.coldest_C(), 1e-9);
 }

@@ -49,7 +49,7 @@ TEST(BoardConfig, SlowExampleIsFourChannelsBehindI2c) {
   DOUBLES_EQUAL(0.03, c.settings.channels[0].position.max_age_s, 1e-12);
   DOUBLES_EQUAL(4.5, c.settings.channels[0].limiter.max_W, 0.0);
   DOUBLES_EQUAL(160.0, c.settings.channels[0].limiter.derate_to_C, 0.0);
-  DOUBLES_EQUAL(30.0, c.settings.channels[0].thermal.ambient_C, 0.0);
+  DOUBLES_EQUAL(30.0, c.settings.channels[0].thermal.air.warmest_C, 0.0);
   STRCMP_EQUAL("", check(c.settings).c_str());
 }
 
@@ -214,4 +214,23 @@ TEST(BoardConfig, DescriptionTellsTheLoadOfTheCanBus) {
   check_says(text, "CAN on can0 at 500 kbit/s, nodes 7 to 7");
   check_says(text, "load    7.6 % at worst");
   check_says(text, "status 5 Hz");
+}
+
+TEST(BoardConfig, AirIsConfiguredAndMayBeMeasured) {
+  check_says(describe(read(supercoil::test::small_board)),
+             "air            15 to 30 °C, not measured");
+  const BoardConfig c = read(supercoil::test::small_board_with("warmest_C = 30\n", R"(warmest_C = 30
+[ambient.sensor]
+device = "thermometer"
+input = "temp"
+bus = "i2c-1"
+C_per_count = 0.0625
+offset_C = -2
+)"));
+  STRCMP_EQUAL("thermometer", c.wiring.air->device.c_str());
+  DOUBLES_EQUAL(0.0625, c.settings.air.scaling.per_count, 0.0);
+  DOUBLES_EQUAL(-2.0, c.settings.air.scaling.offset, 0.0);
+  DOUBLES_EQUAL(2.0, c.settings.channels[0].thermal.air.error_K, 0.0);
+  check_says(describe(c), "measured at temp of thermometer");
+  check_says(describe(c), "air 0.1");  // of bus time, in ms
 }

@@ -337,3 +337,16 @@ TEST(WrongBoard, NameOfAnInterfaceThatTheKernelCannotHave) {
       "b.toml:43: can.interface = 'a-name-of-16-char': must be a name of 1 to 15 characters",
       small_board + "[can]\ninterface = 'a-name-of-16-char'\n");
 }
+
+TEST(WrongBoard, SensorOfTheAirWithoutAScaleOrWithAnInputThatIsTaken) {
+  check_replaced(
+      "warmest_C = 30\n", "warmest_C = 30\n[ambient.sensor]\ndevice = 'adc'\ninput = 'voltage3'\n",
+      "b.toml:10: ambient.sensor.C_per_count: is missing: it must be a number, -10 to 10");
+  check_replaced("warmest_C = 30\n",
+                 "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage3', C_per_count = 0}\n",
+                 "b.toml:10: ambient.sensor.C_per_count = 0: must not be 0");
+  check_replaced("warmest_C = 30\n",
+                 "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage0', C_per_count = 1}\n",
+                 "b.toml:10: ambient.sensor.input = 'voltage0': is already the supply: input "
+                 "voltage0 of adc");
+}

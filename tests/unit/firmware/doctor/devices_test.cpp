@@ -157,3 +157,18 @@ TEST(DoctorDevices, ABussTimeIsTheSumOfItsDevices) {
   LONGS_EQUAL(1, times.size());
   CHECK(times.at("i2c-1").count() > 0);
 }
+
+TEST(DoctorDevices, TheAirsSensorReadsWhatTheAirMayBe) {
+  text = small_board_with(
+      "warmest_C = 30\n",
+      "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage3', C_per_count = 0.01}\n");
+  pwm.tree.write(adc + "in_voltage3_raw", "3100\n");
+  look();
+  check_finding("ok", ": 31 to 31 °C, ", "", found("air"));
+  pwm.tree.write(adc + "in_voltage3_raw", "3300\n");
+  look();
+  check_finding("problem", ": must be 13 to 32 °C", "compare it with a thermometer", found("air"));
+  pwm.tree.remove(adc + "in_voltage3_raw");
+  look();
+  check_finding("problem", "no input 'voltage3' on iio:device0 'adc' at ", "load", found("air"));
+}

@@ -32,7 +32,8 @@ class Held {
 
   double wanted_W = 3.0;
   bool off_sensor = false;
-  double play_m = 0.0;   ///< friction: the sensor's end follows when it is drawn by so much
+  double play_m = 0.0;  ///< friction: the sensor's end follows when it is drawn by so much
+  double warmer_air_K = 0.0;
   double swing_m = 0.0;  ///< of a load that swings at 1 Hz
 
   Proof proof;
@@ -48,7 +49,7 @@ class Held {
     heat_.step(1.05 * power_W_);
     const double swing = swing_m * std::sin(6.28 * time_s_);
     const double position_m = end_m_ + swing + noise_(random_);
-    proof.step({power_W_, dither_W_, 1, true, position_m, heat_.highest_K(), true});
+    proof.step({power_W_, dither_W_, 1, true, position_m, heat_.highest_K(), true, warmer_air_K});
     unanswered = unanswered || proof.unanswered();
     const double asked_W = proof.added_to(wanted_W);
     power_W_ = std::min(asked_W, proof.max_W());
@@ -142,4 +143,40 @@ TEST(Proof, IsNotAskedOfAMuscleThatIsOnlyBelievedNorWhereItIsSwitchedOff) {
     CHECK_FALSE(muscle.unanswered);
     CHECK(std::isinf(muscle.proof.max_W()));
   }
+}
+
+TEST(Proof, IsGivenThePowerThatIsSafeInAirThatIsWarmerThanConfigured) {
+  const ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
+  const double left_K = paper_proof().derate_from_C - paper_proof().thermal.air.warmest_C;
+  Held muscle(paper_proof());
+  muscle.play_m = 200e-6;  // so that nothing can be proven
+  muscle.warmer_air_K = 0.5 * left_K;
+  muscle.run(60.0);
+  DOUBLES_EQUAL(0.5 * plan.safe_W, muscle.proof.max_W(), 1e-9);
+  muscle.warmer_air_K = 2.0 * left_K;
+  muscle.run(1.0);
+  DOUBLES_EQUAL(0.0, muscle.proof.max_W(), 0.0);
+  muscle.warmer_air_K = 0.0;
+  muscle.run(1.0);
+  DOUBLES_EQUAL(plan.safe_W, muscle.proof.max_W(), 0.0);
+}
+
+TEST(Proof, ProvesLessInAirThatIsWarmerThanConfigured) {
+  ProofSettings strong = paper_proof();
+  strong.max_W = 11.0;
+  const double limit_K = strong.trip_C - strong.thermal.air.warmest_C;
+  ProofPlan plan = plan_proof(strong, {}, 1000.0);
+  const double provable_W = plan.provable_W;
+  CHECK_COMPARE(provable_W, <, strong.max_W);
+  plan.for_air(strong, 0.25 * limit_K);
+  DOUBLES_EQUAL(0.75 * provable_W, plan.provable_W, 1e-9);
+  plan.for_air(strong, 2.0 * limit_K);
+  DOUBLES_EQUAL(0.0, plan.provable_W, 0.0);
+
+  Held muscle(strong);
+  muscle.warmer_air_K = 0.25 * limit_K;
+  muscle.run(1.0);
+  DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
+  muscle.proof.learn({}, 1.0);
+  DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
 }

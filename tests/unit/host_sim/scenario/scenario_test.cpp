@@ -64,6 +64,8 @@ power_part = [0.9, 1.1]
 air_C = 21.0
 warmest_C = 30.0
 coldest_C = 10.0
+sensor_error_K = 1.5
+sensor_offset_K = -0.5
 [senses]
 error_ratio = 0.05
 [trouble]
@@ -111,7 +113,7 @@ trusted_error = 0.1
   CHECK(c.position_sensor == sensor);
   CHECK(c.power == (PowerSettings{4.0, 0.1, 12, 10.0, false, 0.004, 0.9}));
   CHECK(c.thermal == (ThermalSpans{{0.8, 1.2}, {0.5, 2.0}, {0.9, 1.1}}));
-  CHECK(c.ambient == (Ambient{21.0, 30.0, 10.0}));
+  CHECK(c.ambient == (Ambient{21.0, 30.0, 10.0, 1.5, -0.5}));
   DOUBLES_EQUAL(0.05, c.sense_error_ratio, 0.0);
   CHECK(c.trouble == Trouble{.heater_open = true});
   CHECK(c.wish == Wish::identify);

@@ -1,0 +1,57 @@
+// The air around a muscle, as far as its temperature can have followed it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "supercoil/control/thermal/interval_observer.hpp"
+
+#include "board/measurement.hpp"
+
+namespace supercoil::board {
+
+/// Where nothing measures it, the air lies between these. A reading may be wrong by error_K.
+struct AirSettings {
+  double warmest_C = 25.0;
+  double coldest_C = 15.0;
+  double error_K = 0.0;  ///< > 0, of a sensor; 0: there is none
+};
+
+/// A muscle's temperature is its rise, which its power makes, and the air, low-pass filtered with
+/// its time constant. Both ends of what that filter can give: an end follows the air at once where
+/// that makes the interval wider, and with the slowest time constant of the bounds where narrower.
+class Air {
+ public:
+  Air(const AirSettings& settings, const control::ThermalBounds& bounds, double step_s)
+      : settings_(settings),
+        stays_(std::exp(-step_s * bounds.lowest_transfer_W_per_K / bounds.highest_mass_J_per_K)),
+        warmest_C_(settings.warmest_C),
+        coldest_C_(settings.coldest_C) {}
+
+  /// One tick of a board with a sensor. What it reads is in °C. Beyond the configured air, and
+  /// where it is absent or NaN, a reading can make the interval wider, but not narrower: so reads
+  /// a sensor whose wire is off.
+  void step(const Measured& reading) {
+    const double warmest_C = reading.present && reading.value >= settings_.coldest_C
+                                 ? reading.value + settings_.error_K
+                                 : settings_.warmest_C;
+    const double coldest_C = reading.present && reading.value <= settings_.warmest_C
+                                 ? reading.value - settings_.error_K
+                                 : settings_.coldest_C;
+    warmest_C_ = std::max(warmest_C, warmest_C + stays_ * (warmest_C_ - warmest_C));
+    coldest_C_ = std::min(coldest_C, coldest_C + stays_ * (coldest_C_ - coldest_C));
+  }
+
+  double warmest_C() const { return warmest_C_; }
+  double coldest_C() const { return coldest_C_; }
+  /// How much warmer than configured.
+  double above_configured_K() const { return std::max(0.0, warmest_C_ - settings_.warmest_C); }
+
+ private:
+  AirSettings settings_;
+  double stays_;  ///< of a difference, after a tick
+  double warmest_C_;
+  double coldest_C_;
+};
+
+}  // namespace supercoil::board

@@ -125,12 +125,4 @@ SetupStep WakefulCpus::hold(const std::string& path) {
   return outcome(step, "", "");
 }
 
-std::vector<SetupStep> set_up_realtime(const RealtimeWish& wish, WakefulCpus& cpus) {
-  std::vector<SetupStep> steps{lock_memory(), prefault_stack(wish.stack_bytes),
-                               set_fifo_priority(::pthread_self(), wish.priority)};
-  if (wish.cpu >= 0) steps.push_back(pin_to_cpu(::pthread_self(), wish.cpu));
-  steps.push_back(cpus.hold());
-  return steps;
-}
-
 }  // namespace supercoil::hal_linux

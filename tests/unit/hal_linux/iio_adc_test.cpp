@@ -130,28 +130,6 @@ TEST(IioAdc, DoesNotHangOnAPipeOrAFolder) {
   STRCMP_CONTAINS("is not a file", answer(place()).c_str());
 }
 
-TEST(IioAdc, TellsTheKernelsScale) {
-  tree.write(at_48 + "/in_voltage0_scale", "0.125000000\n");
-  tree.write(at_48 + "/in_voltage_offset", "-12.5\n");
-  const auto own = kernel_scaling(place());
-  DOUBLES_EQUAL(0.125, own->scale, 1e-12);
-  DOUBLES_EQUAL(-12.5, own->offset_counts, 1e-12);
-  tree.remove(at_48 + "/in_voltage0_scale");
-  tree.write(at_48 + "/in_voltage_scale", "2e-3\n");
-  tree.remove(at_48 + "/in_voltage_offset");
-  const auto shared = kernel_scaling(place());
-  DOUBLES_EQUAL(2e-3, shared->scale, 1e-12);
-  DOUBLES_EQUAL(0.0, shared->offset_counts, 1e-12);
-}
-
-TEST(IioAdc, SaysWhyThereIsNoScale) {
-  STRCMP_CONTAINS("tells no scale of voltage0", kernel_scaling(place()).error().text.c_str());
-  for (const char* scale : {"nan\n", "inf\n", "0.1 V\n", "x\n"}) {
-    tree.write(at_48 + "/in_voltage0_scale", scale);
-    STRCMP_CONTAINS("which is not a number", kernel_scaling(place()).error().text.c_str());
-  }
-}
-
 TEST(IioAdc, TellsBetweenWhichCountsItsValuesLie) {
   const std::string type = at_48 + "/scan_elements/in_voltage0_type";
   CHECK_FALSE(count_range(place()).has_value());

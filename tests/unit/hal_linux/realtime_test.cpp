@@ -125,19 +125,6 @@ TEST(Realtime, SaysWhyTheCpusMaySleep) {
   check_failed(cpus.hold(dev / "cpu_dma_latency"), "cpu_dma_latency: input/output error");
 }
 
-TEST(Realtime, TellsEveryStepAlsoAfterOneThatFailed) {
-  fail_next(Call::mlockall, "", EPERM);
-  fail_next(Call::set_scheduling, "", EPERM);
-  fail_next(Call::set_affinity, "", EINVAL);
-  fail_next(Call::open, "/dev/cpu_dma_latency", EACCES);
-  WakefulCpus cpus;
-  const auto steps = set_up_realtime({80, 1, std::size_t{64} * 1024}, cpus);
-  LONGS_EQUAL(5, steps.size());
-  LONGS_EQUAL(0, waiting());
-  for (const SetupStep& step : steps)
-    CHECK(step.worked == (step.step.find("stack") != std::string::npos));
-}
-
 TEST(Realtime, AThreadsStackThatIsTooSmallIsAnError) {
   const auto thread = Thread::start({"small", 0, -1, 1}, [] {});
   STRCMP_EQUAL("cannot start the thread 'small' with 1 bytes of stack: Invalid argument",

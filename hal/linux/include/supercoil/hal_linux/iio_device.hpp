@@ -23,16 +23,6 @@ Result<std::vector<DeviceFolder>> iio_devices(const std::string& root);
 /// The one that is meant.
 Result<DeviceFolder> find_iio_device(const std::string& device, const std::string& root);
 
-/// How the kernel turns counts into its unit (millivolts for a voltage): (counts + offset) * scale.
-struct Scaling {
-  double scale = 1.0;
-  double offset_counts = 0.0;
-};
-
-/// The input's own scale and offset, or those of all inputs of its kind; a device without an offset
-/// has 0. For a check of the configuration: the firmware scales by what the configuration says.
-Result<Scaling> kernel_scaling(const ConverterPlace& place);
-
 /// Between which counts a converter's values lie: at either end it is at its rail.
 struct CountRange {
   std::int64_t lowest = 0;

@@ -41,14 +41,4 @@ class WakefulCpus {
   Descriptor file_;
 };
 
-/// How the loop's thread should run.
-struct RealtimeWish {
-  int priority = 80;
-  int cpu = -1;  ///< negative: any
-  std::size_t stack_bytes = std::size_t{128} * 1024;
-};
-
-/// All steps, for the calling thread. Keep `cpus` for as long as the loop runs.
-std::vector<SetupStep> set_up_realtime(const RealtimeWish& wish, WakefulCpus& cpus);
-
 }  // namespace supercoil::hal_linux

@@ -44,12 +44,9 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
 }
 
 void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
-  times_.late.add(woke - due);
-
   // Sample: counts become volts, amperes and metres, each with its age.
   for (const auto& channel : channels_)
     channel->sample(woke);
-  const hal::Time sampled = devices_.clock->now();
 
   // Decide: commands, and whether anything may be hot.
   obey();
@@ -60,7 +57,6 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
     const Fault fault = channel->present_board_fault();
     if (fault != Fault::none) latch(fault, channel->verdict().margin(fault));
   }
-  const hal::Time decided = devices_.clock->now();
 
   // Compute: learn from the power that acted, and find the one that is wanted.
   for (const auto& channel : channels_) {
@@ -68,7 +64,6 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
     channel->control();
     channel->limit();
   }
-  const hal::Time computed = devices_.clock->now();
 
   // Drive: watts become duties.
   if (!now_.proven) {
@@ -78,7 +73,6 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
       channel->drive();
   }
   beat();
-  const hal::Time driven = devices_.clock->now();
 
   // Publish: rows for the recorder and for telemetry; then the light, which may wait.
   for (const auto& channel : channels_) {
@@ -86,15 +80,8 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   }
   shine();
   if (devices_.watchdog != nullptr) devices_.watchdog->feed();
-  const hal::Time published = devices_.clock->now();
-
-  times_.sample.add(sampled - woke);
-  times_.decide.add(decided - sampled);
-  times_.compute.add(computed - decided);
-  times_.drive.add(driven - computed);
-  times_.publish.add(published - driven);
-  times_.whole.add(published - woke);
-  timing_.add(woke - due, published - woke, skipped);
+  last_tick_ = {woke - due, devices_.clock->now() - woke};
+  timing_.add(last_tick_, skipped);
   ++ticks_;
 }
 

@@ -11,7 +11,6 @@
 #include "loop/channel.hpp"
 #include "loop/row.hpp"
 #include "loop/self_test.hpp"
-#include "loop/stage_times.hpp"
 #include "supervisor/board_supervisor.hpp"
 
 namespace supercoil {
@@ -24,15 +23,10 @@ struct Health {
   std::atomic<bool> configuration_changed{false};
 };
 
-/// How long each part of a tick takes, and how late ticks are.
-struct LoopTimes {
-  StageTime late;  ///< woke after its time
-  StageTime sample;
-  StageTime decide;   ///< commands and supervisor
-  StageTime compute;  ///< estimators and controllers
-  StageTime drive;
-  StageTime publish;
-  StageTime whole;
+/// Of one tick.
+struct TickTime {
+  hal::Duration late{};  ///< woke after its time
+  hal::Duration execution{};
 };
 
 /// What the loop tells one other thread of its time, which takes the largest by putting `none` in
@@ -44,9 +38,9 @@ struct LoopTiming {
   std::atomic<std::uint32_t> overruns{0};        ///< periods left out since boot
 
   /// In the tick.
-  void add(hal::Duration late, hal::Duration execution, std::int64_t skipped) {
-    raise(late_ns, late.count());
-    raise(execution_ns, execution.count());
+  void add(const TickTime& tick, std::int64_t skipped) {
+    raise(late_ns, tick.late.count());
+    raise(execution_ns, tick.execution.count());
     if (skipped > 0) overruns.fetch_add(static_cast<std::uint32_t>(skipped));
   }
 
@@ -82,7 +76,7 @@ class Loop {
   Fault board_fault() const { return board_fault_; }
   const BoardSupervisor& supervisor() const { return supervisor_; }
   const SelfTest& self_test() const { return self_test_; }
-  const LoopTimes& times() const { return times_; }
+  const TickTime& last_tick() const { return last_tick_; }
   std::int64_t overruns() const { return overruns_; }
   std::int64_t lost_rows() const { return lost_rows_; }
 
@@ -116,7 +110,7 @@ class Loop {
   std::int64_t ticks_ = 0;
   std::int64_t overruns_ = 0;
   std::int64_t lost_rows_ = 0;
-  LoopTimes times_;
+  TickTime last_tick_;
   std::int64_t settling_ticks_;
   Health health_;
   LoopTiming timing_;

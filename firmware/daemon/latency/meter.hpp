@@ -48,9 +48,9 @@ class LatencyMeter final : public hal::Clock {
     if (waits_ <= settling_) {
       overruns_before_ = loop_->overruns();
     } else if (!done()) {
-      const LoopTimes& times = loop_->times();
-      result_.late.add(times.late.last());
-      result_.tick.add(times.whole.last());
+      const TickTime& tick = loop_->last_tick();
+      result_.late.add(tick.late);
+      result_.tick.add(tick.execution);
       result_.overruns = loop_->overruns() - overruns_before_;
       latest_ns_.store(result_.late.longest().count(), std::memory_order_relaxed);
       measured_.store(result_.late.count(), std::memory_order_relaxed);

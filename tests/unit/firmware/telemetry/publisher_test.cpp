@@ -147,8 +147,8 @@ TEST(Publisher, FallsSilentWhenTheLoopStandsStill) {
 
 TEST(Publisher, TellsTheLargestTimesSinceItLastTold) {
   Publisher publisher(only(Message::timing, 10.0), {1, {0.0086, 0.09}}, timing, bus);
-  timing.add(30us, 5us, 0);
-  timing.add(20us, 8us, 2);
+  timing.add({30us, 5us}, 0);
+  timing.add({20us, 8us}, 2);
   publish(publisher, 0, 150);
   supercoil_timing_t m{};
   supercoil_timing_unpack(&m, bus.sent.at(0).data.data(), 8);

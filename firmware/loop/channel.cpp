@@ -11,10 +11,6 @@ namespace supercoil {
 
 namespace {
 
-board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
-  return {h.sense_filter_s, h.resistance_filter_s, h.probe_duty, h.cold_resistance_Ohm};
-}
-
 /// Longer than every hold time at 1 kHz but the slowest; so many overruns are a fault by
 /// themselves.
 constexpr std::int64_t most_repeats = 1000;
@@ -45,48 +41,33 @@ control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
           b.highest_mass_J_per_K / b.lowest_transfer_W_per_K, channel.limiter.max_W};
 }
 
-std::size_t ticks_of(double time_s, double step_s) {
-  return static_cast<std::size_t>(std::nearbyint(time_s / step_s));
-}
-
 }  // namespace
 
 Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
                  const board::ChannelDevices& devices, std::uint8_t index)
     : settings_(settings),
-      devices_(devices),
+      sensor_(devices.position),
       step_s_(board.step_s()),
       ticks_per_s_(std::llround(board.rate_Hz)),
       index_(index),
+      heater_(settings, board, devices),
       calibration_(settings.calibration),
-      senses_(settings.senses),
       comparison_(comparison_settings(settings, board), board.step_s()),
-      heat_facts_(settings.heat),
       steady_heat_(settings.thermal, board.step_s()),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
                   board.supervision.lowest_supply_V, board.step_s()),
       muscle_(settings.muscle),
       knows_muscle_(settings.knows_muscle),
-      resistance_(resistance_settings(settings.heater), board.step_s()),
-      power_bounds_(power_bounds(settings, board)),
-      heat_(settings.thermal, settings.muscle, board.step_s()),
-      probe_(settings.heater.probe_s, board.step_s()),
       proof_(proof_settings(settings, board), settings.muscle, settings.muscle_identified,
              board.rate_Hz),
       answer_ratio_(settings.answer_ratio),
       identify_({}, settings.muscle, settings.supervision.max_travel_m, board.step_s()),
       smooth_power_W_(smoothing_s, board.step_s()),
-      smooth_error_m_(smoothing_s, board.step_s()),
-      most_power_W_(settings.limiter.max_W),
-      limiter_(settings.limiter, board.step_s()),
-      power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
-      delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
-  told_senses_.set(senses_);
+      smooth_error_m_(smoothing_s, board.step_s()) {
   if (settings.thermal.weighed()) {
     cooling_fit_ =
         std::make_unique<control::CoolingFit>(cooling_settings(settings), board.step_s());
   }
-  know_heat();
   for (const auto& controller : settings.controllers)
     controllers_.emplace_back(controller, step_s_).suit(control::theta_from(muscle_));
   for (const auto& estimator : settings.estimators)
@@ -95,33 +76,14 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
 }
 
 void Channel::supervise(const BoardNow& board) {
-  supply_V_ = board.supply_V * senses_.supply_gain;
-  if (board.air != nullptr) heat_.follow_air(*board.air);
-  observe_heat(board.periods);
-  follow_probe(supply_V_);
-
-  Evidence& e = evidence_;
+  heater_.observe(board);
   prove(board.periods);
-  e.supply_V = supply_V_;
-  e.hot = heat_.hottest_K() > hot_K;
+  Evidence& e = evidence_;
+  heater_.tell(state_, e);
   e.heating = state_.may_heat();
-  e.off = acting_.duty == 0.0 || !state_.enable();
-  e.duty = resistance_.duty();
-  e.set_step = written_step_;
-  e.read_back = devices_.pwm->read_back();
-  e.devices_ok = writes_ok_;
-  e.expected_m = heat_.expected_m();
-  // How hot it was before boot is not known: nothing is armed before it must have cooled.
-  heat_known_ = heat_known_ || heat_.hottest_C() < settings_.limiter.derate_from_C;
-  e.hottest_C = heat_known_ ? heat_.hottest_C() : heat_.air().warmest_C();
-  e.applied_W = acting_.power_W;
-  e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
-  e.resistance_Ohm = resistance_.value_Ohm();
-  const auto [least_Ohm, most_Ohm] = calibrated_Ohm();
-  e.least_Ohm = least_Ohm;
-  e.most_Ohm = most_Ohm;
+  e.from_position_K =
+      heater_.tells_temperature() ? e.position.value / heater_.heat().metres_per_K() : 0.0;
   e.wanted_W = wanted_.wanted_power_W;
-  e.limited = acting_.limited;
   present_fault_ = supervisor_.step(e);
   // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.
   e.renewed = e.damaged_command = e.refused_command = e.obeyed_command = false;
@@ -144,7 +106,7 @@ void Channel::supervise(const BoardNow& board) {
 
 void Channel::estimate() {
   if (!state_.may_heat() || !evidence_.position.present) return;
-  estimator().step(evidence_.position.value, acting_.power_W);
+  estimator().step(evidence_.position.value, heater_.acting().power_W);
   estimate_ = estimator().estimate();
   // Once a second: what the estimator knows of cooling, when it may be trusted.
   if (++ticks_ < ticks_per_s_) return;
@@ -160,19 +122,18 @@ void Channel::control() {
       control::ControllerInput input;
       input.reference_m = reference_;
       input.position_m = evidence_.position.value;
-      input.applied_power_W = acting_.power_W;
-      input.limited = acting_.limited;
-      input.range = {limiter_.min_W(),
-                     std::fmin(limiter_.max_W(), supply_V_ * supply_V_ / resistance_.value_Ohm())};
+      input.applied_power_W = heater_.acting().power_W;
+      input.limited = heater_.acting().limited;
+      input.range = heater_.power_range();
       if (estimate_) controllers_[controller_].learn(*estimate_);
       wanted_ = controllers_[controller_].step(input);
-      smooth_power_W_.step(acting_.power_W);
+      smooth_power_W_.step(heater_.acting().power_W);
       smooth_error_m_.step(evidence_.position.value - wanted_.model_m);
       break;
     }
     case Mode::power:
       wanted_.wanted_power_W = reference_;
-      smooth_power_W_.set(acting_.power_W);
+      smooth_power_W_.set(heater_.acting().power_W);
       follow_comparison();
       break;
     case Mode::identify:
@@ -187,45 +148,21 @@ void Channel::control() {
 }
 
 void Channel::limit() {
-  limiter_.set_most(most_power_W());
-  limiter_.set_unproven(proof_.max_W());
-  if (state_.may_heat()) {
-    allowed_ = limiter_.step(proof_.added_to(wanted_.wanted_power_W), heat_.hottest_C());
-  } else {
-    allowed_ = {};
-  }
+  heater_.limit(state_, proof_.added_to(wanted_.wanted_power_W), proof_.max_W());
 }
 
 /// A reference that was shaped says why, where the limiter knows nothing better.
 LimitedBy Channel::limited_by() const {
   using control::Infeasible;
-  const bool at_an_end = allowed_.by <= LimitedBy::maximum;
-  if (!at_an_end || wanted_.infeasible == Infeasible::nothing) return allowed_.by;
+  const LimitedBy by = heater_.allowed().by;
+  const bool at_an_end = by <= LimitedBy::maximum;
+  if (!at_an_end || wanted_.infeasible == Infeasible::nothing) return by;
   return wanted_.infeasible == Infeasible::cooling ? LimitedBy::cooling : LimitedBy::maximum;
 }
 
 void Channel::drive() {
-  const HeaterSettings& h = settings_.heater;
-  board::PowerStage::Output out;
-  if (state_.may_heat()) {
-    // Calibration probes when it has found the zero, and not before.
-    const bool old = resistance_.age_s() > h.probe_every_s && mode_ != Mode::calibrate;
-    if (old && !probe_.running()) probe_.start();
-    out = power_stage_.step(allowed_.power_W, resistance_.value_Ohm(), supply_V_, limiter_.max_W());
-  }
-  if (state_.enable() && probe_.running() && out.duty < h.probe_duty) {
-    out.step = static_cast<int>(h.probe_duty * devices_.pwm->steps());
-    out.duty = static_cast<double>(out.step) / devices_.pwm->steps();
-    out.applied_W = out.duty * supply_V_ * supply_V_ / resistance_.value_Ohm();
-    out.clipped = true;
-  }
-  write_enable(state_.enable());
-  write_duty(state_.enable() ? out.step : 0);
-  const bool limited = allowed_.by != LimitedBy::nothing || out.clipped;
-  // A dither that was cut is none.
-  const double dither_W = state_.may_heat() && !limited ? proof_.dither_W() : 0.0;
-  set_ = {out.applied_W, out.duty, limited, dither_W};
-  acting_ = delay_.step(set_);
+  // Calibration probes when it has found the zero, and not before.
+  heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W());
 }
 
 void Channel::disarm(Fault cause, const detectors::Margin& margin) {
@@ -234,30 +171,9 @@ void Channel::disarm(Fault cause, const detectors::Margin& margin) {
     cause_is_new_ = cause != Fault::none;
   }
   state_.disarm(cause);
-  probe_.stop();
   comparison_.forget();
   rest();
-  write_duty(0);
-  write_enable(false);
-}
-
-void Channel::test_drive(double duty, bool enable) {
-  write_enable(enable);
-  write_duty(static_cast<int>(duty * devices_.pwm->steps()));
-  // Of a board that is well, none of it reaches the muscle.
-  acting_ = delay_.step({});
-}
-
-void Channel::write_duty(int step) {
-  if (step == written_step_ && writes_ok_) return;
-  writes_ok_ = devices_.pwm->set(step) == hal::Status::ok;
-  written_step_ = step;
-}
-
-void Channel::write_enable(bool high) {
-  if (static_cast<int>(high) == written_enable_ && lines_ok_) return;
-  lines_ok_ = devices_.enable->set(high) == hal::Status::ok;
-  written_enable_ = static_cast<int>(high);
+  heater_.cut();
 }
 
 void Channel::publish_estimate() {
@@ -286,22 +202,22 @@ const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_ver
   s.fault = state_.first_cause();
   s.limited_by = limited_by();
   s.controller = static_cast<std::uint8_t>(controller_);
-  s.probing = probe_.running();
+  s.probing = heater_.probing();
   s.reference = reference_;
   s.model_m = wanted_.model_m;
   s.position_m = evidence_.position.present ? evidence_.position.value : std::nan("");
   s.wanted_W = wanted_.wanted_power_W;
-  s.applied_W = acting_.power_W;
-  s.limited = acting_.limited;
+  s.applied_W = heater_.acting().power_W;
+  s.limited = heater_.acting().limited;
   s.proof_off = !settings_.supervision.proof_of_response;
   s.oscillated = wanted_.oscillated;
-  s.duty = set_.duty;
-  s.supply_V = supply_V_;
-  s.current_A = evidence_.current.present ? evidence_.current.value : std::nan("");
-  s.resistance_Ohm = resistance_.value_Ohm();
-  s.resistance_age_s = resistance_.age_s();
-  s.coldest_C = heat_.coldest_C();
-  s.hottest_C = heat_.hottest_C();
+  s.duty = heater_.set_duty();
+  s.supply_V = heater_.supply_V();
+  s.current_A = heater_.current().present ? heater_.current().value : std::nan("");
+  s.resistance_Ohm = heater_.resistance().value_Ohm();
+  s.resistance_age_s = heater_.resistance().age_s();
+  s.coldest_C = heater_.heat().coldest_C();
+  s.hottest_C = heater_.heat().hottest_C();
   s.progress = mode_ == Mode::identify    ? identify_.progress()
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;

@@ -1,7 +1,6 @@
 // One muscle: everything that happens to it in a tick, in the order of the loop's stages.
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 
@@ -9,15 +8,10 @@
 
 #include "supercoil/control/estimation/cooling_fit.hpp"
 
-#include "board/applied_power.hpp"
-#include "board/devices.hpp"
-#include "board/heat.hpp"
 #include "board/meter_comparison.hpp"
-#include "board/power_stage.hpp"
-#include "board/probe.hpp"
-#include "board/resistance.hpp"
 #include "board/steady_heat.hpp"
 #include "loop/command.hpp"
+#include "loop/heater.hpp"
 #include "loop/settings.hpp"
 #include "loop/smoothed.hpp"
 #include "loop/snapshot.hpp"
@@ -27,37 +21,6 @@
 #include "supervisor/channel_supervisor.hpp"
 
 namespace supercoil {
-
-/// What the whole board tells its channels at a tick.
-struct BoardNow {
-  hal::Time time{};
-  double supply_V = 0.0;
-  Fault fault = Fault::none;  ///< of the board, latched or present: every channel is made safe
-  detectors::Margin margin;   ///< of that fault
-  bool testing = true;        ///< the self-test runs: nothing is latched
-  bool proven = false;        ///< it has passed: both ways of cutting cut
-  std::int64_t periods = 1;   ///< since the last tick
-  const board::Measured* air = nullptr;  ///< in °C; null: no sensor
-};
-
-/// The gains and the error that remains, from the loop to other threads.
-class ToldSenses {
- public:
-  void set(const storage::SenseComparison& senses) {
-    supply_.store(senses.supply_gain, std::memory_order_relaxed);
-    current_.store(senses.current_gain, std::memory_order_relaxed);
-    error_.store(senses.error_ratio, std::memory_order_relaxed);
-  }
-  storage::SenseComparison get() const {
-    return {supply_.load(std::memory_order_relaxed), current_.load(std::memory_order_relaxed),
-            error_.load(std::memory_order_relaxed), 0.0};
-  }
-
- private:
-  std::atomic<double> supply_{1.0};
-  std::atomic<double> current_{1.0};
-  std::atomic<double> error_{0.0};
-};
 
 class Channel {
  public:
@@ -79,9 +42,9 @@ class Channel {
   /// ordinary stop.
   void disarm(Fault cause, const detectors::Margin& margin = {});
   /// For the self-test: a duty and the enable line by hand. Only while disarmed.
-  void test_drive(double duty, bool enable);
+  void test_drive(double duty, bool enable) { heater_.test_drive(duty, enable); }
   double measured_current_A() const {
-    return evidence_.current.present ? evidence_.current.value : INFINITY;
+    return heater_.current().present ? heater_.current().value : INFINITY;
   }
   /// A command was damaged on its way, and obeyed by nobody.
   void note_damaged() { evidence_.damaged_command = true; }
@@ -102,18 +65,18 @@ class Channel {
   /// The fault that a detector sees now, latched or not.
   Fault present_fault() const { return present_fault_; }
   const std::optional<control::Estimate>& estimates() const { return estimate_; }
-  bool lines_ok() const { return lines_ok_; }
+  bool lines_ok() const { return heater_.lines_ok(); }
   /// Between ticks only: what the limiter allows from now on.
   void set_power_range(double min_W, double max_W) {
-    limiter_.set_range(min_W, max_W);
+    heater_.set_power_range(min_W, max_W);
     allow_power(max_W);
   }
   /// From one other thread, and from the next tick on: no more power than this, nor than the
   /// configured maximum. most_W: at least 0.
-  void allow_power(double most_W) { most_power_W_.store(most_W, std::memory_order_relaxed); }
-  double most_power_W() const { return most_power_W_.load(std::memory_order_relaxed); }
+  void allow_power(double most_W) { heater_.allow_power(most_W); }
+  double most_power_W() const { return heater_.max_power_W(); }
   /// By which the readings are corrected, without its date; from any thread.
-  storage::SenseComparison senses() const { return told_senses_.get(); }
+  storage::SenseComparison senses() const { return heater_.told_senses(); }
   /// What identify or calibrate found, or was asked to store or clear; from one other thread.
   bool take_lesson(storage::Lesson& lesson) { return lessons_.pop(lesson); }
 
@@ -137,8 +100,7 @@ class Channel {
   void follow_steady_heat(bool steady);
   void follow_cooling();
   bool learn_cooling();
-  bool keep_heat();
-  void know_heat();
+  bool keep_heat(const storage::HeatFacts& facts);
   Refusal choose_controller(double place);
   Refusal choose_estimator(double place);
   void enter(Mode mode);
@@ -146,9 +108,6 @@ class Channel {
   void start_controller(std::size_t place, const control::ControllerStart& at);
   void rest();
   void sample_position(hal::Time now);
-  void observe_heat(std::int64_t periods);
-  board::PowerBounds::Interval calibrated_Ohm() const;
-  void follow_probe(double supply_V);
   void learn_heat();
   /// Empty: no estimate is trusted, or it is no muscle's.
   std::optional<control::PhysicalParameters> trusted_muscle() const;
@@ -161,27 +120,19 @@ class Channel {
   LimitedBy limited_by() const;
   void prove(std::int64_t periods);
   void publish_estimate();
-  void write_duty(int step);
-  void write_enable(bool high);
   control::Estimator& estimator() { return estimators_[estimator_]; }
   const control::Estimator& estimator() const { return estimators_[estimator_]; }
 
-  /// A muscle that may be warmer than this has a sensor that shows at least its own noise.
-  static constexpr double hot_K = 5.0;
-
   ChannelSettings settings_;
-  board::ChannelDevices devices_;
+  hal::AdcChannel* sensor_;  ///< of the position
   double step_s_;
   std::int64_t ticks_per_s_;
   std::uint8_t index_;
 
+  Heater heater_;
   storage::Calibration calibration_;
-  storage::SenseComparison senses_;
-  ToldSenses told_senses_;
   board::MeterComparison comparison_;
-  storage::HeatFacts heat_facts_;
   board::SteadyHeat steady_heat_;
-  board::PowerBounds::Interval told_W_{0.0, 0.0};  ///< of this tick, as compared senses tell it
   ChannelState state_;
   ChannelSupervisor supervisor_;
   Evidence evidence_;
@@ -192,13 +143,8 @@ class Channel {
   hal::Time position_taken_{-1};
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
   bool knows_muscle_;                   ///< learned before or since: what is stored has it
-  board::Resistance resistance_;
-  board::PowerBounds power_bounds_;
-  board::Heat heat_;
-  board::Probe probe_;
   Proof proof_;
   double answer_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
-  double supply_V_ = 0.0;
 
   std::vector<control::Controller> controllers_;
   std::vector<control::Estimator> estimators_;
@@ -215,22 +161,10 @@ class Channel {
   control::ControllerOutput wanted_;
   Smoothed smooth_power_W_;
   Smoothed smooth_error_m_;  ///< position over the reference model
-  std::atomic<double> most_power_W_;
-  Limiter limiter_;
-  Limiter::Result allowed_;
-  board::PowerStage power_stage_;
-  board::OutputDelay delay_;
-  board::AppliedPower set_;     ///< at this tick
-  board::AppliedPower acting_;  ///< from this tick to the next
-  int written_step_ = -1;
-  int written_enable_ = -1;
-  bool writes_ok_ = true;
-  bool lines_ok_ = true;
   bool reset_asked_ = false;
-  double nearest_ = NAN;     ///< to the value that is refused
-  bool heat_known_ = false;  ///< the muscle has been cool since boot, whatever was before
-  std::uint32_t turn_ = 0;   ///< of a full turn
-  std::int64_t ticks_ = 0;   ///< of learning, in this second
+  double nearest_ = NAN;    ///< to the value that is refused
+  std::uint32_t turn_ = 0;  ///< of a full turn
+  std::int64_t ticks_ = 0;  ///< of learning, in this second
   Snapshot snapshot_;
   boost::lockfree::spsc_queue<storage::Lesson, boost::lockfree::capacity<4>> lessons_;
 };

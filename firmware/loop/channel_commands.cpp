@@ -70,12 +70,12 @@ Refusal Channel::obey(const Command& command, const BoardNow& board) {
 
 Refusal Channel::arm(const BoardNow& board) {
   if (state_.state() != State::disarmed) return Refusal::wrong_state;
-  const bool measured = evidence_.position.present && evidence_.current.present;
+  const bool measured = evidence_.position.present && heater_.current().present;
   const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
-  if (!board.proven || !measured || !quiet || !heat_known_) return Refusal::not_ready;
+  if (!board.proven || !measured || !quiet || !heater_.heat_known()) return Refusal::not_ready;
   state_.arm();
   supervisor_.rearmed();
-  probe_.start();
+  heater_.start_probe();
   return Refusal::none;
 }
 
@@ -83,7 +83,7 @@ Refusal Channel::heat(Mode mode, double value, const BoardNow& board) {
   const State state = state_.state();
   if (state != State::armed && state != State::active) return Refusal::wrong_state;
   if (!board.proven) return Refusal::not_ready;
-  if (state == State::armed && probe_.running()) return Refusal::busy;
+  if (state == State::armed && heater_.probing()) return Refusal::busy;
   if (mode == Mode::position) {
     const double max_m = settings_.supervision.max_travel_m;
     const double reachable_m = as_float_tells * max_m;
@@ -110,7 +110,7 @@ Refusal Channel::heat(Mode mode, double value, const BoardNow& board) {
 /// The channel becomes active in another mode, or changes it while hot.
 void Channel::enter(Mode mode) {
   const bool was_driven = mode_ == Mode::power || mode_ == Mode::position;
-  if (!was_driven) smooth_power_W_.set(acting_.power_W);
+  if (!was_driven) smooth_power_W_.set(heater_.acting().power_W);
   smooth_error_m_.set(0.0);
   if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = mode;
@@ -152,8 +152,7 @@ void Channel::rest() {
   if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = Mode::rest;
   reference_ = 0.0;
-  limiter_.reset();
-  power_stage_.reset();
+  heater_.rest();
 }
 
 Refusal Channel::refuse_place(double place, std::size_t places) {
@@ -198,8 +197,7 @@ Refusal Channel::store(double what) {
   if (what == 0.0) {
     if (!lessons_.push(std::nullopt)) return Refusal::too_many;
     knows_muscle_ = false;
-    heat_facts_ = {};
-    know_heat();
+    heater_.know({});
     return Refusal::none;
   }
   if (what != 1.0) return Refusal::out_of_range;

@@ -14,10 +14,11 @@ double resistance_gain(const storage::SenseComparison& senses) {
 
 /// Averages what the senses tell while a power is held.
 void Channel::follow_comparison() {
-  const board::Measured& current = evidence_.current;
-  const bool steady = allowed_.by <= LimitedBy::maximum && current.present && supply_V_ > 0.0;
+  const board::Measured& current = heater_.current();
+  const bool sensed = current.present && heater_.supply_V() > 0.0;
+  const bool steady = sensed && heater_.allowed().by <= LimitedBy::maximum;
   if (steady) {
-    comparison_.step(acting_.duty, supply_V_, current.value);
+    comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);
   } else {
     comparison_.restart();
   }
@@ -38,9 +39,9 @@ Refusal Channel::compare(board::MeterComparison::Sense sense, double meter) {
   // Not the calibrated resistance: the senses that are in question measured that.
   const double cold_Ohm = settings_.heater.cold_resistance_Ohm;
   const double per_K = settings_.heater.temperature_coefficient_per_K;
-  const Refusal refusal = comparison_.read(
-      sense, meter, senses_,
-      {cold_Ohm * (1.0 + per_K * heat_.coldest_K()), cold_Ohm * (1.0 + per_K * heat_.hottest_K())});
+  const Refusal refusal = comparison_.read(sense, meter, heater_.senses(),
+                                           {cold_Ohm * (1.0 + per_K * heater_.heat().coldest_K()),
+                                            cold_Ohm * (1.0 + per_K * heater_.heat().hottest_K())});
   if (refusal != Refusal::none) return refusal;
   const auto found = comparison_.found();
   return found ? go_by(*found) : Refusal::none;
@@ -48,10 +49,10 @@ Refusal Channel::compare(board::MeterComparison::Sense sense, double meter) {
 
 /// From now on, and kept for the next start. What cannot be kept changes nothing.
 Refusal Channel::go_by(const storage::SenseComparison& senses) {
-  const double more_Ohm = resistance_gain(senses) / resistance_gain(senses_);
+  const double more_Ohm = resistance_gain(senses) / resistance_gain(heater_.senses());
   storage::Calibration calibration = calibration_;
   // The thermometer was read in what the senses told then.
-  storage::HeatFacts facts = heat_facts_;
+  storage::HeatFacts facts = heater_.facts();
   facts.forget_reading();
   // A learned resistance was told by the senses as they were; a configured one was not.
   if (calibration.cold_resistance_Ohm != settings_.heater.cold_resistance_Ohm)
@@ -61,14 +62,10 @@ Refusal Channel::go_by(const storage::SenseComparison& senses) {
   if (storage::check(learned)) return Refusal::out_of_range;
   if (!lessons_.push(learned)) return Refusal::too_many;
   calibration_ = calibration;
-  resistance_.set(resistance_.value_Ohm() * more_Ohm);
-  evidence_.current.value *= senses.current_gain / senses_.current_gain;
-  senses_ = senses;
-  told_senses_.set(senses_);
-  power_bounds_.set(senses_);
-  heat_facts_ = facts;
-  know_heat();
-  proof_.plan(power_bounds_.true_over_told().max, muscle_);
+  heater_.calibrate(calibration.cold_resistance_Ohm);
+  heater_.go_by(senses, more_Ohm);
+  heater_.know(facts);
+  proof_.plan(heater_.power_bounds().true_over_told().max, muscle_);
   comparison_.forget();
   restart_comparisons();
   return Refusal::none;

@@ -9,15 +9,16 @@ namespace supercoil {
 void Channel::step_identify() {
   if (small_signal_.running()) return step_small_signal();
   const ModeResult now =
-      identify_.step(evidence_.position.value, acting_.power_W, limiter_.max_W());
+      identify_.step(evidence_.position.value, heater_.acting().power_W, heater_.limiter().max_W());
   // It asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and a power
   // that is cut for so long is a controller's fault.
-  wanted_.wanted_power_W = std::min(identify_.power_W(), limiter_.max_W(heat_.hottest_C()));
+  wanted_.wanted_power_W =
+      std::min(identify_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
   follow_cooling();
   if (now == ModeResult::running) return;
   wanted_ = {};
   const bool cooling_found = learn_cooling();
-  if (now != ModeResult::found && cooling_found) keep_heat();
+  if (now != ModeResult::found && cooling_found) keep_heat(heater_.facts());
   if (now != ModeResult::found) return end_mode(now);
   const control::PhysicalParameters& muscle = identify_.found();
   const SmallSignal::Settings plan = plan_small_signal(
@@ -32,8 +33,9 @@ void Channel::step_identify() {
 
 /// What a small motion of the muscle that was found leaves at the sensor.
 void Channel::step_small_signal() {
-  if (small_signal_.step(evidence_.position.value, acting_.power_W)) {
-    wanted_.wanted_power_W = std::min(small_signal_.power_W(), limiter_.max_W(heat_.hottest_C()));
+  if (small_signal_.step(evidence_.position.value, heater_.acting().power_W)) {
+    wanted_.wanted_power_W =
+        std::min(small_signal_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
     return;
   }
   wanted_ = {};
@@ -42,10 +44,11 @@ void Channel::step_small_signal() {
 }
 
 void Channel::step_calibrate() {
-  if (probe_.running()) return;
-  const ModeResult now = calibrate_.step(heat_.hottest_K(), evidence_.position.value, step_s_);
+  if (heater_.probing()) return;
+  const ModeResult now =
+      calibrate_.step(heater_.heat().hottest_K(), evidence_.position.value, step_s_);
   if (now != ModeResult::running) return end_mode(now);
-  if (calibrate_.knows_zero()) probe_.start();
+  if (calibrate_.knows_zero()) heater_.start_probe();
 }
 
 /// The probe that follows the zero ends calibration. cold_Ohm: 0 when it measured nothing.
@@ -67,7 +70,8 @@ void Channel::end_mode(ModeResult result) {
 /// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
 ModeResult Channel::keep(const control::PhysicalParameters& muscle,
                          const storage::Calibration& found) {
-  const storage::Learned learned{muscle, found, senses_, 0, true, heat_facts_, answer_ratio_};
+  const storage::Learned learned{muscle, found,           heater_.senses(), 0,
+                                 true,   heater_.facts(), answer_ratio_};
   if (storage::check(learned)) return ModeResult::implausible;
   if (found != calibration_) {
     supervisor_.recalibrated();
@@ -78,6 +82,7 @@ ModeResult Channel::keep(const control::PhysicalParameters& muscle,
     proof_.learn(muscle, answer_ratio);
   muscle_ = muscle;
   calibration_ = found;
+  heater_.calibrate(found.cold_resistance_Ohm);
   knows_muscle_ = true;
   return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }

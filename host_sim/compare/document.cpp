@@ -1,6 +1,7 @@
 #include "compare/document.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <filesystem>
 #include <string_view>
@@ -30,6 +31,23 @@ tl::expected<Document, std::string> find(const std::string& name, const char* wh
   }
   return tl::unexpected(std::string(what) + " " + name +
                         ": must be a .toml file or one of: " + known + "\n");
+}
+
+/// A controller's file may not also choose the muscle or what is asked of it: it would replace the
+/// disturbance's, and the table would still name the disturbance.
+tl::expected<Document, std::string> find_controller(const std::string& name) {
+  constexpr std::array<std::string_view, 3> allowed{"controller", "estimator", "reference_model"};
+  auto document = find(name, "--controllers", controllers());
+  if (!document) return document;
+  config::Diagnostics diagnostics(name);
+  for (const auto& [key, node] : config::parse(document->text, diagnostics)) {
+    if (std::find(allowed.begin(), allowed.end(), key.str()) != allowed.end()) continue;
+    diagnostics.add(static_cast<int>(key.source().begin.line), std::string(key.str()),
+                    "a controller's file has only [controller], [estimator] and "
+                    "[reference_model]; this belongs in a file for --disturbances");
+  }
+  if (diagnostics.empty()) return document;
+  return tl::unexpected(config::to_text(diagnostics.problems()));
 }
 
 /// NAME or NAME:steps.
@@ -88,8 +106,7 @@ Documents find_all(const std::vector<std::string>& names, Find find_one) {
 }  // namespace
 
 Documents find_controllers(const std::vector<std::string>& names) {
-  return find_all(
-      names, [](const std::string& name) { return find(name, "--controllers", controllers()); });
+  return find_all(names, find_controller);
 }
 
 Documents find_disturbances(const std::vector<std::string>& names) {

@@ -142,6 +142,16 @@ class Compare(unittest.TestCase):
                 self.assertIn(message, self.compare(*arguments, "--out", "out", status=2).stderr)
                 self.assertFalse((self.path / "out").exists())
 
+    def test_a_controllers_file_cannot_change_the_muscle_or_the_reference(self):
+        (self.path / "mine.toml").write_text(
+            "controller.kind = 'pi'\n[plant]\nstiffness_N_per_m = 12.0\n[reference]\nkind = 'steps'\n[reference_model]\n"
+            "kind = 'eq8'\n")
+        arguments = ["--controllers", "mine.toml", "--disturbances", "brief.toml", "--seeds", "1", "--out", "out"]
+        said = self.compare(*arguments, status=2).stderr.splitlines()
+        self.assertEqual([line.split(": ")[0:2] for line in said], [["mine.toml:2", "plant"], ["mine.toml:4", "reference"]])
+        self.assertIn("belongs in a file for --disturbances", said[0])
+        self.assertFalse((self.path / "out").exists())
+
     def test_what_fixed_point_cannot_hold_is_left_out(self):
         said = self.compare("--controllers", "pi,mrac-c", "--disturbances", "brief.toml", "--arithmetic",
                             "double,q8.24", "--seeds", "1", "--no-plot", "--out", "out").stderr

@@ -1,5 +1,6 @@
 #include "plot/figure.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -51,6 +52,13 @@ void write_data(std::ostream& out, const Figure& figure) {
   }
 }
 
+/// "name" 0, "name" 1, …
+void write_names(std::ostream& out, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out << (i > 0 ? ", " : "(") << quoted(names[i]) << " " << i;
+  out << ")\n";
+}
+
 /// A number for each unit of x, or a name.
 void write_x_tics(std::ostream& out, const Panel& panel) {
   if (panel.x_names.empty()) {
@@ -58,10 +66,28 @@ void write_x_tics(std::ostream& out, const Panel& panel) {
     return;
   }
   out << "set logscale y\nset xrange [-0.7:" << static_cast<double>(panel.x_names.size()) - 0.3
-      << "]\nset xtics rotate by 30 right (";
-  for (std::size_t i = 0; i < panel.x_names.size(); ++i)
-    out << (i > 0 ? ", " : "") << quoted(panel.x_names[i]) << " " << i;
-  out << ")\n";
+      << "]\nset xtics rotate by 30 right ";
+  write_names(out, panel.x_names);
+}
+
+bool draws_anything(const Panel& panel) {
+  for (const Curve& curve : panel.curves) {
+    if (std::any_of(curve.y.begin(), curve.y.end(), [](double y) { return std::isfinite(y); }))
+      return true;
+  }
+  return false;
+}
+
+void write_y_range(std::ostream& out, const Panel& panel) {
+  out << "unset label\n";
+  if (panel.y_low < panel.y_high) {
+    out << "set yrange [" << panel.y_low << ":" << panel.y_high << "]\n";
+  } else if (draws_anything(panel)) {
+    out << "set autoscale y\n";
+  } else {
+    // gnuplot gives up on a panel whose range it cannot choose, and with it on the whole figure.
+    out << "set yrange [1:10]\nset label 'no value to draw' at graph 0.5,0.5 center\n";
+  }
 }
 
 void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
@@ -71,11 +97,7 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
       << "set format y '%g'\n"
       << (panel.logarithmic ? "set" : "unset") << " logscale xy\n";
   write_x_tics(out, panel);
-  if (panel.y_low < panel.y_high) {
-    out << "set yrange [" << panel.y_low << ":" << panel.y_high << "]\n";
-  } else {
-    out << "set autoscale y\n";
-  }
+  write_y_range(out, panel);
   out << "plot ";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];

@@ -170,6 +170,13 @@ class Compare(unittest.TestCase):
         self.assertEqual((row["fault"], row["peak_m"], row["settling_s"]), ("heater_open", "inf", "inf"))
         self.assertIn("∞", (self.path / "out/compare.md").read_text())
 
+    def test_a_table_without_a_finite_value_is_drawn(self):
+        (self.path / "broken.toml").write_text(
+            "[simulation]\nduration_s = 21.5\n[[event]]\nat_s = 0.5\ntrouble.heater_open = true\n")
+        said = self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--out", "out").stderr
+        self.assertEqual(said, "")
+        self.assertIn("no value to draw", (self.path / "out/compare.svg").read_text())
+
     def test_a_later_disturbance_has_later_windows(self):
         self.compare("--controllers", "pi", "--disturbances", "brief.toml+5", "--seeds", "1", "--no-plot", "--out", "out")
         self.assertIn("pi,brief+5,double,1,", (self.path / "out/runs.csv").read_text())

@@ -62,7 +62,12 @@ void write_names(std::ostream& out, const std::vector<std::string>& names) {
 /// A number for each unit of x, or a name.
 void write_x_tics(std::ostream& out, const Panel& panel) {
   if (panel.x_names.empty()) {
-    out << "set autoscale xfix\nset xtics norotate autofreq\n";
+    if (panel.x_low < panel.x_high) {
+      out << "set xrange [" << panel.x_low << ":" << panel.x_high << "]\n";
+    } else {
+      out << "set autoscale xfix\n";
+    }
+    out << "set xtics norotate autofreq\n";
     return;
   }
   out << "set logscale y\nset xrange [-0.7:" << static_cast<double>(panel.x_names.size()) - 0.3
@@ -79,7 +84,12 @@ bool draws_anything(const Panel& panel) {
 }
 
 void write_y_range(std::ostream& out, const Panel& panel) {
-  out << "unset label\n";
+  out << "unset label\nset ytics ";
+  if (panel.y_names.empty()) {
+    out << "autofreq\n";
+  } else {
+    write_names(out, panel.y_names);
+  }
   if (panel.y_low < panel.y_high) {
     out << "set yrange [" << panel.y_low << ":" << panel.y_high << "]\n";
   } else if (draws_anything(panel)) {
@@ -92,7 +102,7 @@ void write_y_range(std::ostream& out, const Panel& panel) {
 
 void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "set title " << quoted(panel.title) << "\n"
-      << "set xlabel " << quoted(panel.x_label) << "\n"
+      << "set xlabel " << quoted(panel.x_label) << " offset 0,0.8\n"
       << "set ylabel " << quoted(panel.y_label) << "\n"
       << "set format y '%g'\n"
       << (panel.logarithmic ? "set" : "unset") << " logscale xy\n";
@@ -122,7 +132,7 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
       << line_styles
       << "set grid lc rgb '#dddddd'\nset border 3 lc rgb '#888888'\nset tics nomirror\n"
       << "set key bmargin center horizontal samplen 2\n"
-      << "set lmargin 9\nset rmargin 3\n"
+      << "set lmargin 12\nset rmargin 5\n"
       << "set multiplot layout " << rows << "," << figure.columns << "\n";
   std::size_t block = 0;
   for (const Panel& panel : figure.panels)

@@ -30,6 +30,10 @@ struct Panel {
   bool logarithmic = false;  ///< both axes: values must be above 0
   /// Not empty: what stands at x = 0, 1, …; y is then logarithmic.
   std::vector<std::string> x_names{};
+  double x_low = 0.0;  ///< with x_high equal: as far as the curves go
+  double x_high = 0.0;
+  /// Not empty: what stands at y = 0, 1, …
+  std::vector<std::string> y_names{};
 };
 
 struct Figure {

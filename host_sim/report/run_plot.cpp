@@ -69,15 +69,16 @@ Figure RunPlot::figure() const {
        {curve("at most", 3, [](const TickRecord& r) { return r.hottest_K; }),
         curve("muscle", 2, [](const TickRecord& r) { return r.temperature_rise_K; }),
         curve("at least", 0, [](const TickRecord& r) { return r.coldest_K; })}});
-  figure.panels.push_back(
-      {"state: 0 disarmed, 1 armed, 2 active, 3 fault",
-       "",
-       "",
-       {curve("state", 1, [](const TickRecord& r) { return static_cast<double>(r.state); })},
-       -0.2,
-       3.2});
+  Panel state{"state",
+              "",
+              "",
+              {curve("state", 1, [](const TickRecord& r) { return static_cast<double>(r.state); })},
+              -0.2,
+              3.2};
+  state.y_names.assign(state_names.begin(), state_names.end());
+  figure.panels.push_back(state);
   if (!theta_.empty()) {
-    Panel estimates{"estimates over the muscle's own at the start", "", "1", {}, -0.5, 2.5};
+    Panel estimates{"estimates over the muscle's own at the start", "", "ratio", {}, -0.5, 2.5};
     const control::Theta& nominal = scenario_->start.estimator.gradient.scale.nominal;
     for (int i = 0; i < 4; ++i) {
       std::size_t at = 0;
@@ -89,6 +90,9 @@ Figure RunPlot::figure() const {
     }
     figure.panels.push_back(estimates);
   }
+  // What has no value at the start or the end is still drawn under what has.
+  for (Panel& panel : figure.panels)
+    panel.x_high = scenario_->duration_s;
   figure.panels.back().x_label = "time (s)";
   return figure;
 }

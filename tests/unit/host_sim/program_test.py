@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import pathlib
+import re
 import resource
 import signal
 import subprocess
@@ -77,6 +78,16 @@ class Program(unittest.TestCase):
         self.assertAlmostEqual(summary["tracking_rms_m"], (sum(late) / len(late)) ** 0.5, places=12)
         self.assertEqual(summary["ticks"], 2000)
         self.assertGreater(summary["realtime_factor"], 0)
+
+    def test_the_plot_has_one_time_axis_and_names_of_states(self):
+        # The muscle follows a reference model from 15 to 20 s only.
+        self.run_program("run", self.scenario(
+            "simulation.duration_s = 40.0\noperator.wish = 'calibrate'\n[[event]]\nat_s = 15.0\noperator.wish = 'track'\n"
+            "[[event]]\nat_s = 20.0\ntrouble.heater_open = true\n"), "--out", "out", "--no-trace", "--no-can")
+        drawing = (self.path / "out/plot.svg").read_text()
+        self.assertLessEqual({"disarmed", "armed", "active", "fault"}, set(re.findall("<text>(.*)</text>", drawing)))
+        ends = re.findall(r'translate\(([\d.]+),[\d.]+\)"[^>]*text-anchor="middle"[^>]*>\s*<text> *40</text>', drawing)
+        self.assertEqual((len(ends), len(set(ends))), (6, 1))
 
     def test_the_same_scenario_gives_the_same_trace(self):
         for name in "ab":

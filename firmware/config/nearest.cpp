@@ -40,6 +40,14 @@ Nearest nearest_name(std::string_view written, const std::vector<std::string>& k
   return best;
 }
 
+std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
+                         std::string_view otherwise) {
+  const Nearest nearest = nearest_name(written, known);
+  if (nearest.name.empty()) return std::string(otherwise) + ": " + joined(known);
+  return "did you mean " + nearest.name +
+         (nearest.lacks_unit ? " (the unit is part of the name)?" : "?");
+}
+
 std::string joined(const std::vector<std::string>& names) {
   std::string result;
   for (const std::string& name : names)

@@ -16,6 +16,10 @@ struct Nearest {
 /// edits, up to a third of its length.
 Nearest nearest_name(std::string_view written, const std::vector<std::string>& known);
 
+/// What to say after "…; ": "did you mean NAME?", or where nothing is near all: "OTHERWISE: a, b".
+std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
+                         std::string_view otherwise);
+
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& names);
 

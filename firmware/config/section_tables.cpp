@@ -52,17 +52,9 @@ std::vector<std::string> Section::refuse_unknown(const toml::table* table,
   for (const auto& [key, node] : *table) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    std::string message = "is not a key of " + (path.empty() ? "this file" : "[" + path + "]");
-    const Nearest nearest = nearest_name(name, known_);
-    if (nearest.lacks_unit) {
-      message += "; did you mean " + nearest.name + " (the unit is part of the name)?";
-    } else if (!nearest.name.empty()) {
-      message += "; did you mean " + nearest.name + "?";
-    } else {
-      message += "; its keys are: " + joined(known_);
-    }
-    wrong(name, message);
-    meant.push_back(nearest.name);
+    wrong(name, "is not a key of " + (path.empty() ? "this file" : "[" + path + "]") + "; " +
+                    meant_or_all(name, known_, "its keys are"));
+    meant.push_back(nearest_name(name, known_).name);
   }
   return meant;
 }

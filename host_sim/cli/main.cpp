@@ -1,4 +1,5 @@
 // supercoil-sim: the muscle and its firmware on any PC.
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.hpp"
+#include "config/nearest.hpp"
 
 namespace {
 
@@ -120,6 +122,20 @@ void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   estimators->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
+/// What is wrong with the first word, if it is no command. CLI11 would only say that one is
+/// missing.
+std::string wrong_command(const CLI::App& app, int count, char** arguments) {
+  const std::string written = count > 1 ? arguments[1] : "";
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({}))
+    names.push_back(command->get_name());
+  if (written.empty() || written.front() == '-' ||
+      std::find(names.begin(), names.end(), written) != names.end())
+    return {};
+  return "'" + written + "' is no command; " +
+         config::meant_or_all(written, names, "the commands are");
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.",
                "supercoil-sim"};
@@ -134,6 +150,8 @@ int run_program(int count, char** arguments) {
   add_compare(app, compare);
   add_estimators(app, estimators);
   app.add_subcommand("list", "List built-in scenarios, presets and reference models");
+  if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
+    return fail(exit_wrong_input, wrong);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {

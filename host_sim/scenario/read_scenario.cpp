@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "config/nearest.hpp"
 #include "config/section.hpp"
 #include "config/toml_file.hpp"
 #include "scenario/builtin.hpp"
@@ -166,7 +167,12 @@ ScenarioOrProblems read_scenario(const std::string& path,
   const std::string text = config::read_text(path, diagnostics);
   if (!diagnostics.empty()) {
     if (path.find('.') == std::string::npos && path.find('/') == std::string::npos) {
-      diagnostics.add(0, "", "and no built-in scenario is called so (see supercoil-sim list)");
+      std::vector<std::string> names;
+      for (const BuiltinScenario& scenario : builtin_scenarios())
+        names.emplace_back(scenario.name);
+      diagnostics.add(0, "",
+                      "and no built-in scenario is called so; " +
+                          config::meant_or_all(path, names, "they are"));
     }
     return tl::unexpected(diagnostics.problems());
   }

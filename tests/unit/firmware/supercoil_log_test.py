@@ -189,6 +189,12 @@ class Log(unittest.TestCase):
         self.assertEqual(running.wait(), 1)
         self.assertIn("standard output: cannot be written: Broken pipe", errors)
 
+    def test_a_misspelt_command_is_told_with_the_one_that_was_meant(self):
+        for written, meant in (("comand", "did you mean command?"), ("xyzzy", "the commands are: log, command, ")):
+            done = subprocess.run([PROGRAM, written, "state"], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertIn(f"supercoil: '{written}' is no command; {meant}", done.stderr)
+
     def test_help_and_version(self):
         self.assertIn("log", subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout)
         done = self.log("--help")

@@ -142,6 +142,12 @@ class Program(unittest.TestCase):
 
     def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
         def small_disk():
+    def test_a_misspelt_name_is_told_with_the_one_that_was_meant(self):
+        self.check_refused("supercoil-sim: 'rum' is no command; did you mean run?", "rum", "sine")
+        self.check_refused("'fly' is no command; the commands are: run, reproduce, ", "fly")
+        self.check_refused("no built-in scenario is called so; did you mean sine?", "run", "sin", "--out", "out")
+        self.check_refused("no built-in scenario is called so; they are: b, bench, ", "run", "zzz", "--out", "out")
+
             resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot",
                                 preexec_fn=small_disk, restore_signals=False)

@@ -240,6 +240,7 @@ TEST(WrongScenario, NameThatNoBuiltInScenarioHas) {
   const auto scenario = read_scenario("sinus");
   STRCMP_EQUAL(
       "sinus: there is no such file\n"
-      "sinus: and no built-in scenario is called so (see supercoil-sim list)\n",
+      "sinus: and no built-in scenario is called so; they are: b, bench, c, disturbances, "
+      "first-motion, fixed-point, identify, pwm, real, real_hard, sine, steps\n",
       supercoil::config::to_text(scenario.error()).c_str());
 }

@@ -47,6 +47,7 @@ class Section {
   /// One of a set of names.
   template <class Value, std::size_t N>
   Value choice(std::string_view key, Value fallback, const control::Names<Value, N>& names) {
+    if (key == "kind" && !has(key)) default_kind_ = control::name_of(names, fallback);
     const std::string given = text(key, control::name_of(names, fallback));
     if (const auto value = control::find_named(names, given)) return *value;
     std::string allowed;
@@ -105,6 +106,7 @@ class Section {
   std::string under_path_;
   Diagnostics* diagnostics_;
   std::vector<std::string> known_;
+  std::string default_kind_;  ///< which keys there are depends on it; empty: kind is given
   std::vector<Missing> missing_;
 };
 

@@ -52,8 +52,10 @@ std::vector<std::string> Section::refuse_unknown(const toml::table* table,
   for (const auto& [key, node] : *table) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
-    wrong(name, "is not a key of " + (path.empty() ? "this file" : "[" + path + "]") + "; " +
-                    meant_or_all(name, known_, "its keys are"));
+    std::string message = "is not a key of ";
+    message += path.empty() ? "this file" : "[" + path + "]";
+    if (!default_kind_.empty()) message += " of kind \"" + default_kind_ + "\" (its default)";
+    wrong(name, message + "; " + meant_or_all(name, known_, "its keys are"));
     meant.push_back(nearest_name(name, known_).name);
   }
   return meant;

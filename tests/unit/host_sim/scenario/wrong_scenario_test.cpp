@@ -225,6 +225,14 @@ TEST(WrongScenario, PolesThatAreNotGiven) {
                "reference_model.kind = 'poles'\ncontroller.kind = 'pi'");
 }
 
+TEST(WrongScenario, KeyOfAnotherKindNamesTheKindThatIsMeantByDefault) {
+  STRCMP_CONTAINS(
+      "is not a key of [controller] of kind \"mrac\" (its default); its keys are: kind, ",
+      problems("[controller]\nproportional_W_per_m = 3.0").c_str());
+  STRCMP_CONTAINS("is not a key of [controller]; its keys are: kind, ",
+                  problems("[controller]\nkind = 'pi'\ngain = [1.0]").c_str());
+}
+
 TEST(WrongScenario, FileThatIsNotThere) {
   const auto scenario = read_scenario("/nowhere/s.toml");
   STRCMP_EQUAL("/nowhere/s.toml: there is no such file\n",

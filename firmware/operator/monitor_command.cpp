@@ -45,6 +45,12 @@ tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
     return source;
   }
   auto bus = open_bus(options.source);
+  if (!bus && !names_socketcand(options.source)) {
+    // An interface's name has no slash, and hardly ever a dot.
+    const bool file = options.source.find_first_of("./") != std::string::npos;
+    return tl::unexpected(file ? options.source + ": there is no such log"
+                               : bus.error() + "; nor is there a log of that name");
+  }
   if (!bus) return tl::unexpected(bus.error());
   source.listener = std::make_unique<Listener>(std::move(*bus), *source.recent);
   return source;

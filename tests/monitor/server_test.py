@@ -257,6 +257,9 @@ class Sources(unittest.TestCase):
         (self.path / "text").write_text("what is this\n")
         for source, why in ((self.path / "empty", "is empty"), (self.path / "text", "text:1: must begin with"),
                             (self.path, "is a folder"), ("no-such-can", "no CAN interface"),
+                            ("no-such-can", "nor is there a log of that name"),
+                            ("none.log", "supercoil: none.log: there is no such log\n"),
+                            ("logs/none", "logs/none: there is no such log\n"),
                             ("socketcand:", "must be socketcand:"), ("socketcand:70000", "must be socketcand:"),
                             (f"socketcand:{free_ports()}", "refused")):
             done = self.run_monitor(source)

@@ -82,14 +82,12 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   if (const auto kept = keep(recorder, simulation, store, options); !kept)
     return fail(exit_failed, kept.error());
   if (trace) {
-    if (const auto finished = trace->finish(); !finished) {
-      return fail(exit_failed, finished.error());
-    }
+    if (const auto finished = trace->finish(); !finished)
+      return fail(exit_failed, (folder.path() / finished.error()).string());
   }
   if (can_log) {
-    if (const auto finished = can_log->finish(); !finished) {
-      return fail(exit_failed, finished.error());
-    }
+    if (const auto finished = can_log->finish(); !finished)
+      return fail(exit_failed, (folder.path() / finished.error()).string());
   }
   if (plot) draw_into(folder, plot->figure(), "plot.svg");
   const auto concluded =

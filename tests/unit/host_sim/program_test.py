@@ -152,7 +152,7 @@ class Program(unittest.TestCase):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot",
                                 preexec_fn=small_disk, restore_signals=False)
         self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertIn("trace.csv: cannot be written", done.stderr)
+        self.assertEqual(done.stderr, "supercoil-sim: out/trace.csv: cannot be written: File too large\n")
         self.assertFalse((self.path / "out").exists())
 
     def test_a_killed_run_leaves_an_earlier_result_whole_and_the_next_run_tidies_up(self):

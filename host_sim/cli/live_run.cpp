@@ -58,6 +58,11 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
     if (server) server->poll();
     pace.wait();
   }
+  if (!simulation.done() && !options.quiet) {
+    // The terminal has shown ^C on this line.
+    std::printf("\nended at %s\n", reached(simulation, scenario).c_str());
+    std::fflush(stdout);
+  }
   if (pace.slips() > 0) {
     std::fprintf(stderr, "supercoil-sim: warning: this machine was too slow %" PRId64 " times\n",
                  pace.slips());

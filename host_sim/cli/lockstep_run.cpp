@@ -62,9 +62,11 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   catch_interrupts();
   if (!simulate(simulation, summary, trace ? &*trace : nullptr, plot ? &*plot : nullptr,
                 progress)) {
-    return fail(exit_interrupted,
-                "interrupted; nothing of this run is kept but recordings of faults");
+    progress.end();
+    return fail(exit_interrupted, "interrupted at " + reached(simulation, scenario) +
+                                      "; nothing of this run is kept but recordings of faults");
   }
+  progress.end();
   if (summary.not_finite_ticks() > 0) {
     std::fprintf(stderr,
                  "supercoil-sim: warning: the controller's power was no number in %" PRId64

@@ -16,7 +16,12 @@ Progress::Progress(std::string what, bool quiet)
       next_(start_ + 2s) {}
 
 Progress::~Progress() {
+  end();
+}
+
+void Progress::end() {
   if (shown_ && terminal_) std::fputs("\r\033[K", stderr);
+  shown_ = false;
 }
 
 void Progress::show(double done, const std::string& detail) {

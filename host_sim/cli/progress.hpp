@@ -19,6 +19,8 @@ class Progress {
 
   /// done: 0 to 1; detail: what else to say. Cheap: looks at the clock only.
   void show(double done, const std::string& detail);
+  /// Takes its line off a terminal, so that the next message has one of its own.
+  void end();
   double elapsed_s() const;
 
  private:

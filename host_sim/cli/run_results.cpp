@@ -1,5 +1,6 @@
 #include "cli/run_results.hpp"
 
+#include <array>
 #include <cinttypes>
 #include <csignal>
 #include <cstdint>
@@ -45,6 +46,13 @@ void catch_interrupts() {
 
 bool interrupted() {
   return signalled != 0;
+}
+
+std::string reached(const Simulation& simulation, const Scenario& scenario) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%g s of %g s",
+                static_cast<double>(simulation.tick()) * scenario.step_s(), scenario.duration_s);
+  return text.data();
 }
 
 tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,

@@ -18,6 +18,9 @@ namespace supercoil::host_sim {
 void catch_interrupts();
 bool interrupted();
 
+/// How much was simulated: "12.3 s of 200 s".
+std::string reached(const Simulation& simulation, const Scenario& scenario);
+
 /// All that happened: the recorder's last file, its notes, what the board learned.
 /// The error says what could not be kept.
 tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,

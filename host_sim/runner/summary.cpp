@@ -64,7 +64,10 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["arithmetic"] =
       control::name_of(control::arithmetic_names, scenario.start.controller.arithmetic);
   json["events"] = scenario.events.size();
-  json["window_s"] = {window_.from_s, std::fmin(window_.to_s, scenario.duration_s)};
+  // An interrupted run ended before its scenario.
+  const double reached_s = static_cast<double>(ticks_) * scenario.step_s();
+  json["window_s"] = {window_.from_s,
+                      std::fmax(window_.from_s, std::fmin(window_.to_s, reached_s))};
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
   json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
   const auto estimate = simulation.estimate();

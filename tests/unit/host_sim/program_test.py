@@ -1,9 +1,11 @@
 """supercoil-sim as a user or a script meets it: exit status, messages, files."""
 
+import contextlib
 import csv
 import json
 import os
 import pathlib
+import pty
 import re
 import resource
 import signal
@@ -140,14 +142,14 @@ class Program(unittest.TestCase):
         self.assertEqual(self.run_program().returncode, 2)
         self.assertEqual(self.run_program("run", "sine", "--evry", "3").returncode, 2)
 
-    def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
-        def small_disk():
     def test_a_misspelt_name_is_told_with_the_one_that_was_meant(self):
         self.check_refused("supercoil-sim: 'rum' is no command; did you mean run?", "rum", "sine")
         self.check_refused("'fly' is no command; the commands are: run, reproduce, ", "fly")
         self.check_refused("no built-in scenario is called so; did you mean sine?", "run", "sin", "--out", "out")
         self.check_refused("no built-in scenario is called so; they are: b, bench, ", "run", "zzz", "--out", "out")
 
+    def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
+        def small_disk():
             resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot",
                                 preexec_fn=small_disk, restore_signals=False)
@@ -198,8 +200,39 @@ class Program(unittest.TestCase):
             running.send_signal(number)
             errors = running.communicate()[1]
             self.assertEqual(running.returncode, 130)
-            self.assertIn("interrupted; nothing of this run is kept but recordings of faults", errors)
+            self.assertRegex(errors, r"^supercoil-sim: interrupted at [\d.]+ s of 20000 s; nothing of this run is kept but "
+                                     "recordings of faults\n$")
             self.assertFalse((self.path / "out").exists())
+
+    def test_on_a_terminal_the_message_of_an_interruption_has_a_line_of_its_own(self):
+        self.scenario("simulation.duration_s = 20000.0\n")
+        screen, terminal = pty.openpty()
+        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot", "--no-trace", "--no-can"],
+                                   cwd=self.path, stderr=terminal)
+        os.close(terminal)
+        seen = ""
+        while "s simulated" not in seen:
+            seen += os.read(screen, 4096).decode()
+        running.send_signal(signal.SIGINT)
+        running.wait()
+        with contextlib.suppress(OSError):  # the end of a terminal
+            while True:
+                seen += os.read(screen, 4096).decode()
+        os.close(screen)
+        self.assertRegex(seen, r"\r\x1b\[Ksupercoil-sim: interrupted at [^\r\n]*\r\n$")
+
+    def test_a_run_in_real_time_says_how_far_it_came(self):
+        self.scenario("simulation.duration_s = 86400.0\n")
+        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--real-time"], cwd=self.path,
+                                   stdout=subprocess.PIPE, text=True)
+        running.stdout.readline()
+        time.sleep(0.5)
+        running.send_signal(signal.SIGINT)
+        told = running.communicate()[0]
+        summary = json.loads((self.path / "out/summary.json").read_text())
+        self.assertEqual(summary["window_s"], [0, summary["ticks"] / 1000])
+        self.assertIn(f"\nended at {summary['ticks'] / 1000:g} s of 86400 s\n", told)
+        self.assertIn(f"(0 to {summary['ticks'] / 1000:g} s)", told)
 
     def test_two_runs_do_not_write_into_one_folder(self):
         running = self.start_long_run()

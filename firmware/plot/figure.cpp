@@ -1,11 +1,15 @@
 #include "plot/figure.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <system_error>
 
 namespace supercoil {
 
@@ -118,6 +122,14 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "\n";
 }
 
+/// gnuplot says nothing when the disk is full, and ends as if all were well.
+bool complete(const std::filesystem::path& svg) {
+  constexpr std::string_view end = "</svg>";
+  std::ifstream in(svg, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return text.find(end, text.size() - std::min(text.size(), 2 * end.size())) != std::string::npos;
+}
+
 }  // namespace
 
 std::string gnuplot_script(const Figure& figure, const std::filesystem::path& svg) {
@@ -144,8 +156,17 @@ std::string gnuplot_script(const Figure& figure, const std::filesystem::path& sv
 tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem::path& svg) {
   const std::filesystem::path script = svg.string() + ".gnuplot";
   const std::filesystem::path log = svg.string() + ".log";
-  if (!(std::ofstream(script) << gnuplot_script(figure, svg))) {
-    return tl::unexpected(script.string() + ": cannot be written");
+  std::error_code ignored;
+  std::ofstream out(script);
+  if (!out) {
+    return tl::unexpected(script.string() +
+                          ": cannot be written: " + std::generic_category().message(errno));
+  }
+  out << gnuplot_script(figure, svg);
+  out.close();
+  if (!out) {
+    std::filesystem::remove(script, ignored);
+    return tl::unexpected(script.string() + ": cannot be written: is the disk full?");
   }
   // The paths go in by the environment: no shell reads them.
   constexpr const char* command = R"(gnuplot "$SUPERCOIL_PLOT" 2>"$SUPERCOIL_PLOT_LOG")";
@@ -157,10 +178,11 @@ tl::expected<void, std::string> draw(const Figure& figure, const std::filesystem
   for (std::string line; std::getline(said, line);) {
     if (!line.empty() && line.find("arning:") == std::string::npos) complaint = line;
   }
-  std::error_code ignored;
   std::filesystem::remove(script, ignored);
   std::filesystem::remove(log, ignored);
-  if (status == 0) return {};
+  if (status == 0 && complete(svg)) return {};
+  if (status == 0)
+    return tl::unexpected(svg.string() + ": gnuplot could not write all of it: is the disk full?");
   constexpr int not_found = 127 << 8;
   if (status == not_found) {
     return tl::unexpected(

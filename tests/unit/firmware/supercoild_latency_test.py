@@ -93,7 +93,8 @@ class Latency(unittest.TestCase):
         done = self.run_program(*GENTLE, "--ticks", 50, "--plot", "none/a.svg")
         self.assertEqual(done.returncode, 1)
         self.assertTrue(done.stdout.startswith("50 ticks"))
-        self.assertIn("supercoild: problem: none/a.svg.gnuplot: cannot be written\n", done.stderr)
+        self.assertIn("supercoild: problem: none/a.svg.gnuplot: cannot be written: No such file or directory\n",
+                      done.stderr)
 
     def start(self, *arguments, **options):
         program = subprocess.Popen([PROGRAM, *GENTLE, *map(str, arguments), "--json"], cwd=self.path,

@@ -157,6 +157,16 @@ class Program(unittest.TestCase):
         self.assertEqual(done.stderr, "supercoil-sim: out/trace.csv: cannot be written: File too large\n")
         self.assertFalse((self.path / "out").exists())
 
+    def test_a_plot_that_the_disk_does_not_hold_is_left_out(self):
+        for bytes_left, why in ((50000, "plot.svg.part.gnuplot: cannot be written"), (350000, "gnuplot could not write all of it")):
+            def small_disk():
+                resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_left, bytes_left))
+                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            done = self.run_program("run", self.scenario("simulation.duration_s = 20.0\n"), "--out", "out", "--no-trace",
+                                    "--no-can", preexec_fn=small_disk, restore_signals=False)
+            self.assertIn(why, done.stderr)
+            self.assertEqual([file.name for file in (self.path / "out").iterdir()], ["summary.json"])
+
     def test_a_killed_run_leaves_an_earlier_result_whole_and_the_next_run_tidies_up(self):
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
         earlier = (self.path / "out/trace.csv").read_bytes()

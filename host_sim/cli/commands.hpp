@@ -1,5 +1,5 @@
 // The commands of supercoil-sim. Each returns the program's exit status: 0 done, 1 failed while
-// running, 2 wrong input (nothing was written), 130 interrupted.
+// running or nothing was followed, 2 wrong input (nothing was written), 130 interrupted.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@ struct RunOptions {
   std::optional<std::uint16_t> socketcand_port;  ///< in real time; 0: a free one
   bool check = false;                            ///< only read the scenario
   bool quiet = false;
-  std::string learned;  ///< folder; empty: nothing is remembered
+  bool allow_fault = false;  ///< a run that ends in a fault is no failure
+  std::string learned;       ///< folder; empty: nothing is remembered
 };
 int run_command(const RunOptions& options);
 

@@ -94,7 +94,8 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   if (plot) draw_into(folder, plot->figure(), "plot.svg");
   const auto concluded =
       conclude(summary, scenario, simulation, progress.elapsed_s(), folder, options.quiet);
-  return concluded ? exit_done : fail(exit_failed, concluded.error());
+  if (!concluded) return fail(exit_failed, concluded.error());
+  return judge(summary, scenario, options);
 }
 
 }  // namespace supercoil::host_sim

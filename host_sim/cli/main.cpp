@@ -55,6 +55,8 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->type_name("BUS")
       ->needs(real_time);
   run->add_flag("--check", options.check, "Only say whether the scenario is in order");
+  run->add_flag("--allow-fault", options.allow_fault,
+                "Exit status 0 although the muscle never armed or the run ended in a fault");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 

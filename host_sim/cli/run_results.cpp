@@ -1,8 +1,10 @@
 #include "cli/run_results.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cinttypes>
 #include <csignal>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 
@@ -18,7 +20,32 @@ void note_signal(int) {
   signalled = 1;
 }
 
-void print_summary(const nlohmann::ordered_json& json, const std::string& folder) {
+/// "power limited in 12.3 % of the ticks: maximum 10 %, slew 2.3 %"
+void print_limits(const Summary& summary) {
+  std::string limits;
+  const auto percent = [&](std::int64_t ticks) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.1f %%",
+                  100.0 * static_cast<double>(ticks) / static_cast<double>(summary.ticks()));
+    return std::string(text.data());
+  };
+  std::int64_t all = 0;
+  for (std::size_t i = 1; i < limit_names.size(); ++i) {
+    const std::int64_t ticks = summary.limit_ticks(static_cast<LimitedBy>(i));
+    if (ticks == 0) continue;
+    all += ticks;
+    limits += (limits.empty() ? "" : ", ") + std::string(limit_names[i]) + " " + percent(ticks);
+  }
+  if (all > 0)
+    std::printf("at a limit in %s of the ticks: %s\n", percent(all).c_str(), limits.c_str());
+}
+
+bool asks_to_arm(const Conditions& conditions) {
+  return conditions.wish != Wish::none && conditions.wish != Wish::disarm;
+}
+
+void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
+                   const std::string& folder) {
   std::printf("%s: %" PRId64 " ticks in %.2f s, %.0f x real time\n",
               json["scenario"].get<std::string>().c_str(), json["ticks"].get<std::int64_t>(),
               json["wall_s"].get<double>(), json["realtime_factor"].get<double>());
@@ -28,6 +55,7 @@ void print_summary(const nlohmann::ordered_json& json, const std::string& folder
                 json["tracking_max_m"].get<double>() * 1e6, json["window_s"][0].get<double>(),
                 json["window_s"][1].get<double>());
   }
+  print_limits(summary);
   for (const auto& fault : json["faults"]) {
     std::printf("fault %d %s at %.3f s (docs/faults/%s.md)\n", fault["number"].get<int>(),
                 fault["name"].get<std::string>().c_str(), fault["at_s"].get<double>(),
@@ -77,8 +105,31 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (auto written = folder.write("summary.json", text); !written) return written;
   if (auto done = folder.commit(); !done) return done;
-  if (!quiet) print_summary(json, folder.path().string());
+  if (!quiet) print_summary(summary, json, folder.path().string());
   return {};
+}
+
+int judge(const Summary& summary, const Scenario& scenario, const RunOptions& options) {
+  const Fault fault = summary.ended_in();
+  if (summary.armed() && fault == Fault::none) return exit_done;
+  const bool asked = asks_to_arm(scenario.start);
+  const bool asked_later =
+      std::any_of(scenario.events.begin(), scenario.events.end(),
+                  [](const Event& event) { return asks_to_arm(event.conditions); });
+  std::string told = summary.armed() ? "the run ended in " : "never armed: ";
+  if (fault != Fault::none) {
+    told += "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
+            "; docs/faults/" + std::string(name(fault)) + ".md";
+  } else if (asked) {
+    told += "the self-test did not end";
+  } else {
+    told += "[operator] wish asks for nothing at the start, and it arms only there";
+  }
+  const bool meant = fault == Fault::none && !asked && !asked_later;
+  if (!options.allow_fault && !meant)
+    return fail(exit_failed, told + " (--allow-fault: exit status 0)");
+  if (!options.quiet) std::puts(told.c_str());
+  return exit_done;
 }
 
 void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name) {

@@ -32,6 +32,10 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
                                          const Simulation& simulation, double wall_s,
                                          OutputFolder& folder, bool quiet);
 
+/// What of the run to tell after its figures: an error where nothing was followed. Returns the
+/// program's exit status.
+int judge(const Summary& summary, const Scenario& scenario, const RunOptions& options);
+
 /// Draws the figure into the folder, or says why not: results are worth more than their picture.
 void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);
 

@@ -1,7 +1,9 @@
 // The figures by which a run is judged.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -48,6 +50,9 @@ class Summary {
                            record.temperature_rise_K <= record.hottest_K + temperature_rounding_K);
     outside_interval_ticks_ += outside ? 1 : 0;
     limited_ticks_ += record.limited ? 1 : 0;
+    ++limit_ticks_[static_cast<std::size_t>(record.limited_by)];
+    state_ = record.state;
+    armed_ = armed_ || state_ == State::armed || state_ == State::active;
     if (record.oscillated && std::isnan(oscillated_at_s_)) oscillated_at_s_ = record.time_s;
     if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
       first_not_finite_s_ = record.time_s;
@@ -64,6 +69,18 @@ class Summary {
   };
   /// In the order in which they latched.
   const std::vector<FaultAt>& faults() const { return faults_; }
+  std::int64_t ticks() const { return ticks_; }
+  /// Ticks at which this limit held; a limit of LimitedBy.
+  std::int64_t limit_ticks(LimitedBy limit) const {
+    return limit_ticks_[static_cast<std::size_t>(limit)];
+  }
+  /// At any tick.
+  bool armed() const { return armed_; }
+  /// What is still latched; none: it did not end in a fault.
+  Fault ended_in() const {
+    if (state_ != State::fault) return Fault::none;
+    return fault_ != Fault::none ? fault_ : board_fault_;
+  }
   /// Ticks at which the controller's power was no number, and the time of the first.
   std::int64_t not_finite_ticks() const { return not_finite_ticks_; }
   double first_not_finite_s() const { return first_not_finite_s_; }
@@ -97,6 +114,9 @@ class Summary {
   ErrorMeter tracking_;
   std::int64_t ticks_ = 0;
   std::int64_t limited_ticks_ = 0;
+  std::array<std::int64_t, limit_names.size()> limit_ticks_{};
+  State state_ = State::disarmed;
+  bool armed_ = false;
   std::int64_t not_finite_ticks_ = 0;
   double first_not_finite_s_ = 0.0;
   double oscillated_at_s_ = NAN;

@@ -90,8 +90,8 @@ class Run(unittest.TestCase):
         cls.addClassCleanup(cls.folder.cleanup)
         cls.path = pathlib.Path(cls.folder.name)
         (cls.path / "s.toml").write_text(SCENARIO)
-        subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", "out", "--no-plot", "--quiet"],
-                       check=True, cwd=cls.path, capture_output=True)
+        subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", "out", "--no-plot", "--allow-fault",
+                        "--quiet"], check=True, cwd=cls.path, capture_output=True)
         cls.database = cantools.database.load_file(DBC)
         cls.out = cls.path / "out"
         fault, = json.loads((cls.out / "summary.json").read_text())["faults"]

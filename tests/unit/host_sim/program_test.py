@@ -35,7 +35,9 @@ class Program(unittest.TestCase):
     def test_a_fault_is_told_summarised_and_recorded(self):
         text = "simulation.duration_s = 14.0\n[[event]]\nat_s = 12.0\ntrouble.heater_open = true\n"
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace")
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "supercoil-sim: the run ended in fault 20 heater_open; docs/faults/heater_open.md (--allow-fault: "
+                             "exit status 0)\n"))
         self.assertIn("fault 20 heater_open at 12.", done.stdout)
         self.assertIn("flight-1.scfr", done.stdout)
         fault, = json.loads((self.path / "out/summary.json").read_text())["faults"]
@@ -45,6 +47,31 @@ class Program(unittest.TestCase):
         recording = (self.path / "out/flight-1.scfr").read_bytes()
         self.assertGreater(len(recording), 11000 * 112)
         self.assertLess(len(recording), 11002 * 112 + 4096)
+
+    def test_the_exit_status_tells_whether_anything_was_followed(self):
+        options = ["--out", "out", "--no-plot", "--no-trace", "--no-can"]
+        broken = "simulation.duration_s = 3.0\n[[event]]\nat_s = 1.0\ntrouble.heater_open = true\n"
+        mended = broken + "[[event]]\nat_s = 2.0\nreset = true\ntrouble.heater_open = false\n"
+        for text, allowed, status, told in (
+                (broken, False, 1, "ended in fault 20 heater_open"), (broken, True, 0, "ended in fault 20 heater_open"),
+                (mended, False, 0, ""), (SHORT + "trouble.stop_pressed = true\n", False, 1, "never armed: fault 63 emergency_stop"),
+                (SHORT + "operator.wish = 'none'\n", False, 0, "never armed: [operator] wish asks for nothing"),
+                (SHORT + "operator.wish = 'none'\n[[event]]\nat_s = 1.0\noperator.wish = 'track'\n", False, 1,
+                 "never armed: [operator] wish asks for nothing at the start, and it arms only there")):
+            done = self.run_program("run", self.scenario(text), *options, *["--allow-fault"] * allowed)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(told, done.stderr if status else done.stdout)
+            self.assertTrue((self.path / "out/summary.json").exists())
+
+    def test_the_share_of_ticks_at_each_limit_is_told(self):
+        done = self.run_program("run", self.scenario(SHORT + "power.max_W = 0.5\n"), "--out", "out", "--no-plot")
+        with open(self.path / "out/trace.csv") as file:
+            limits = [row["limited_by"] for row in csv.DictReader(file)]
+        shares = {limit: f"{limit} {limits.count(limit) / 20:.1f} %" for limit in limits if limit != "nothing"}
+        self.assertIn("maximum", shares)
+        line, = re.findall("at a limit in (.*) % of the ticks: (.*)", done.stdout)
+        self.assertEqual(line[0], f"{100 - limits.count('nothing') / 20:.1f}")
+        self.assertEqual(sorted(line[1].split(", ")), sorted(shares.values()))
 
     def test_what_is_learned_is_kept_and_used_by_the_next_run(self):
         (self.path / "memory").mkdir()

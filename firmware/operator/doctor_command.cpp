@@ -1,5 +1,7 @@
 // supercoil doctor: looks at a board before anybody heats anything.
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 
 #include "operator/commands.hpp"
 #include "operator/doctor/check_board.hpp"
@@ -7,24 +9,27 @@
 
 namespace supercoil::operating {
 
-int doctor_command(const DoctorOptions& options) {
-  if (options.compare_senses) return compare_senses(options);
-  const auto config = config::read_board_config(options.config);
-  if (!config) {
-    std::fputs(config::to_text(config.error()).c_str(), stderr);
-    return exit_wrong_input;
-  }
-  doctor::Report report{config->name, options.config, {}};
-  const doctor::CheckOptions check{
-      {}, {options.priority, options.cpu}, options.run_folder, options.can};
-  doctor::check_board(*config, check, [&](const hal::Finding& finding) {
+namespace {
+
+/// Nobody has written the board's file yet. One that is asked for by name must be there.
+bool unconfigured(const DoctorOptions& options) {
+  std::error_code error;
+  return options.config == DoctorOptions().config &&
+         !std::filesystem::exists(options.config, error) && !error;
+}
+
+/// Each finding is printed as it comes: a device that hangs is the one after the last line.
+hal::Tell teller(doctor::Report& report, bool json) {
+  return [&report, json](const hal::Finding& finding) {
     report.findings.push_back(finding);
-    // As it comes: a device that hangs is the one after the last line.
-    if (options.json) return;
+    if (json) return;
     std::fputs(doctor::to_text(finding).c_str(), stdout);
     std::fflush(stdout);
-  });
-  if (options.json) {
+  };
+}
+
+int conclude(const doctor::Report& report, bool json) {
+  if (json) {
     std::fputs(doctor::to_json(report).c_str(), stdout);
   } else {
     std::printf("%s: %s\n", report.board.c_str(), doctor::summary(report).c_str());
@@ -33,6 +38,33 @@ int doctor_command(const DoctorOptions& options) {
     return fail(exit_failed, "cannot write to standard output");
   }
   return report.count(hal::Verdict::problem) == 0 ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+int doctor_command(const DoctorOptions& options) {
+  if (options.compare_senses) return compare_senses(options);
+  const doctor::CheckOptions check{
+      {}, {options.priority, options.cpu}, options.run_folder, options.can};
+  if (unconfigured(options)) {
+    doctor::Report report{"this machine", options.config, {}};
+    const hal::Tell tell = teller(report, options.json);
+    doctor::check_machine(check, tell);
+    tell({"configuration", hal::Verdict::problem,
+          "none: " + options.config + ": there is no such file",
+          "copy the nearest of the examples in /etc/supercoil/boards (in the sources "
+          "firmware/config/examples) there and correct it, docs/configuration.md has every key; "
+          "or name another with --config"});
+    return conclude(report, options.json);
+  }
+  const auto config = config::read_board_config(options.config);
+  if (!config) {
+    std::fputs(config::to_text(config.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  doctor::Report report{config->name, options.config, {}};
+  doctor::check_board(*config, check, teller(report, options.json));
+  return conclude(report, options.json);
 }
 
 }  // namespace supercoil::operating

@@ -1,8 +1,13 @@
 #include "operator/doctor/check_board.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include "supercoil/hal_linux/check/can_link.hpp"
 #include "supercoil/hal_linux/check/kernel.hpp"
@@ -10,6 +15,7 @@
 #include "supercoil/hal_linux/check/rivals.hpp"
 #include "supercoil/hal_linux/check/watchdog.hpp"
 
+#include "config/nearest.hpp"
 #include "linux_board/lock_file.hpp"
 #include "operator/doctor/check_buses.hpp"
 #include "operator/doctor/check_devices.hpp"
@@ -52,7 +58,38 @@ void check_can(const config::BoardConfig& config, const CheckOptions& options,
         ""});
 }
 
+/// What there is of a kind, by the names that the kernel gives it.
+void list_devices(const std::string& what, const std::string& folder, const std::string& prefix,
+                  const std::string& remedy, const hal::Tell& tell) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+    std::string name = entry.path().filename().string();
+    if (name.starts_with(prefix)) names.push_back(std::move(name));
+  }
+  std::sort(names.begin(), names.end());
+  if (names.empty()) return tell({what, Verdict::warning, "none in " + folder, remedy});
+  tell({what, Verdict::ok, config::joined(names), ""});
+}
+
 }  // namespace
+
+void check_machine(const CheckOptions& options, const hal::Tell& tell) {
+  check_system(options, tell);
+  if (!options.can.empty()) check_can_link(options.machine, options.can, tell);
+  const hal_linux::Machine& m = options.machine;
+  list_devices("GPIO chips", m.dev, "gpiochip", "load the driver of this board's GPIO", tell);
+  list_devices("PWM chips", m.pwm_chips(), "pwmchip",
+               "enable PWM, or an expander such as the PCA9685, in the device tree", tell);
+  list_devices("I2C buses", m.sys + "/bus/i2c/devices", "i2c-",
+               "enable I2C in the device tree, if a device is on it", tell);
+  list_devices("SPI devices", m.sys + "/bus/spi/devices", "spi",
+               "enable SPI in the device tree, if a device is on it", tell);
+  list_devices("CAN interfaces", m.sys + "/class/net", "can",
+               "bring one up (docs/can.md), if this board is to be on a bus", tell);
+  list_devices("converters", m.converters(), "iio:device",
+               "enable the converter in the device tree", tell);
+}
 
 void check_board(const config::BoardConfig& config, const CheckOptions& options,
                  const hal::Tell& tell) {

@@ -23,4 +23,8 @@ struct CheckOptions {
 void check_board(const config::BoardConfig& config, const CheckOptions& options,
                  const hal::Tell& tell);
 
+/// The same of a machine that has no configuration yet: kernel, processor, rights, and what buses
+/// and devices it has. Opens none.
+void check_machine(const CheckOptions& options, const hal::Tell& tell);
+
 }  // namespace supercoil::doctor

@@ -118,6 +118,28 @@ class Doctor(unittest.TestCase):
         self.assertEqual(found["verdict"], "problem")
         self.assertIn("no interface 'no-can7' in /sys/class/net: there ", found["found"])
 
+    def test_a_realtime_kernel_is_named_for_this_architecture(self):
+        found = self.findings()["kernel"]
+        package = {"x86_64": "linux-image-rt-amd64", "aarch64": "linux-image-rt-arm64"}.get(os.uname().machine)
+        if found["verdict"] == "ok" or package is None:
+            self.skipTest("no advice here")
+        self.assertIn(f"on Debian {package}:", found["remedy"])
+
+    @unittest.skipIf(pathlib.Path("/etc/supercoil/board.toml").exists(), "this machine has one")
+    def test_without_a_configuration_it_looks_at_the_machine_and_points_to_the_examples(self):
+        done = subprocess.run([PROGRAM, "doctor", "--json"], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (1, ""))
+        found = {finding["what"]: finding for finding in json.loads(done.stdout)["findings"]}
+        for what in ("kernel", "priority", "processors", "GPIO chips", "PWM chips", "I2C buses", "SPI devices",
+                     "CAN interfaces", "converters"):
+            self.assertIn(found[what]["verdict"], ("ok", "warning"))
+        self.assertEqual(found["configuration"]["verdict"], "problem")
+        self.assertIn("/etc/supercoil/boards", found["configuration"]["remedy"])
+        self.assertIn("this machine: 1 problem, ", subprocess.run([PROGRAM, "doctor"], capture_output=True, text=True).stdout)
+        for arguments in (("--config", "none.toml"), ("--config", "none.toml", "--json")):
+            done = subprocess.run([PROGRAM, "doctor", *arguments], capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+
     def test_a_wrong_configuration(self):
         (self.path / "b.toml").write_text("nonsense")
         done = self.run_doctor()

@@ -1,10 +1,14 @@
 #include "supercoil/hal_linux/check/kernel.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <sys/utsname.h>
 
 #include "supercoil/hal_linux/attribute.hpp"
 #include "supercoil/hal_linux/device_folder.hpp"
@@ -31,6 +35,21 @@ bool in_list(std::string_view list, int number) {
   return false;
 }
 
+/// Debian's package of a real-time kernel for this architecture.
+std::string realtime_package() {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> packages{
+      {{"x86_64", "linux-image-rt-amd64"},
+       {"aarch64", "linux-image-rt-arm64"},
+       {"armv7l", "linux-image-rt-armmp"},
+       {"i686", "linux-image-rt-686-pae"}}};
+  utsname machine{};
+  const std::string_view architecture = ::uname(&machine) == 0 ? &machine.machine[0] : "";
+  for (const auto& [of, package] : packages) {
+    if (architecture == of) return std::string(package);
+  }
+  return "linux-image-rt-… (apt-cache search linux-image-rt)";
+}
+
 }  // namespace
 
 void check_kernel(const Machine& machine, const hal::Tell& tell) {
@@ -43,8 +62,8 @@ void check_kernel(const Machine& machine, const hal::Tell& tell) {
   }
   tell({"kernel", Verdict::warning,
         name + ", not a real-time kernel (" + machine.sys + "/kernel/realtime is not 1)",
-        "install a kernel with PREEMPT_RT, on Debian linux-image-rt-arm64: this one may wake the "
-        "loop milliseconds late when the board is busy"});
+        "install a kernel with PREEMPT_RT, on Debian " + realtime_package() +
+            ": this one may wake the loop milliseconds late when the board is busy"});
 }
 
 void check_throttling(const Machine& machine, const hal::Tell& tell) {

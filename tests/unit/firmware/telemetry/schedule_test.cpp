@@ -44,6 +44,23 @@ TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
   }
 }
 
+/// What docs/can.md says of supercoild's rounds of 5 ms, and of the simulated board's ticks of 1
+/// ms.
+TEST(Schedule, SendsAMessageOnceForEachLookAtTheBus) {
+  Rates rates = usual_rates();
+  rates[static_cast<std::size_t>(Message::measurement)] = 1000.0;
+  for (const auto& [every, expected] : {std::pair{5, 2000}, std::pair{1, 10'000}}) {
+    Schedule schedule({rates});
+    int count = 0;
+    for (int ms = 0; ms < 10'000; ms += every) {
+      schedule.due(ms * 1ms, [&](std::uint8_t, Message message) {
+        count += message == Message::measurement ? 1 : 0;
+      });
+    }
+    DOUBLES_EQUAL(expected, count, 2);
+  }
+}
+
 TEST(Schedule, HasNoBursts) {
   for (const std::size_t channels : {1U, 2U, 4U, 8U, 16U}) {
     Schedule schedule(std::vector<Rates>(channels, usual_rates()));

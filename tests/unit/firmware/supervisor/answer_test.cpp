@@ -80,6 +80,12 @@ TEST(Answer, OfAMuscleThatMovesMuchByItselfIsOpenHoweverLongItLasts) {
   }
 }
 
+TEST(Answer, HasNoRatioBeforeAnythingWasExpected) {
+  detectors::Answer answer(step_noise_m);
+  CHECK(answer.step(0.0, 1e-3) == detectors::Answer::Result::open);
+  DOUBLES_EQUAL(0.0, answer.ratio(), 0.0);
+}
+
 TEST(Answer, IgnoresADrift) {
   detectors::SlowPartRemoved fast(1.0, 0.01);
   fast.settle(0.02);

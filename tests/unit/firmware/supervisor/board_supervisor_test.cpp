@@ -98,6 +98,7 @@ TEST(BoardSupervisor, FindsThatTheTelemetryThreadStands) {
   for (int i = 1; i < 500; ++i)
     check_fault(Fault::none, board.step());
   check_fault(Fault::telemetry_dead, board.step());
+  CHECK_COMPARE(board.supervisor.verdict().margin(Fault::telemetry_dead).used(), >=, 0.99);
 }
 
 TEST(BoardSupervisor, ForgetsWhatIsOver) {
@@ -132,4 +133,12 @@ TEST(BoardSupervisor, TheFirstCauseOfATickHidesNoFaultOfTheBoard) {
   board.evidence.configuration_changed = true;
   check_fault(Fault::bus_off, board.step());
   check_fault(Fault::configuration_invalid, board.supervisor.verdict().board_fault());
+}
+
+TEST(BoardSupervisor, OfTwoFaultsOfTheBoardTellsTheFirst) {
+  Board board;
+  board.evidence.stop_circuit.high = false;
+  board.evidence.configuration_changed = true;
+  board.step();
+  check_fault(Fault::emergency_stop, board.supervisor.verdict().board_fault());
 }

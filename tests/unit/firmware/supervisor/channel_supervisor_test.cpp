@@ -77,7 +77,11 @@ const std::vector<Trouble> troubles{
        e.off = true;
        e.current.value = 0.051;
      }},
-    {Fault::heater_not_responding, 1, [](Evidence& e) { e.unanswered = true; }},
+    {Fault::heater_not_responding, 1,
+     [](Evidence& e) {
+       e.unanswered = true;
+       e.answer = {0.001, 0.002, true, true};
+     }},
     {Fault::duty_wrong, 5, [](Evidence& e) { e.read_back = 1001; }},
     {Fault::duty_wrong, 5, [](Evidence& e) { e.devices_ok = false; }},
     {Fault::over_temperature, 1, [](Evidence& e) { e.hottest_C = 160.1; }},
@@ -129,6 +133,30 @@ TEST(ChannelSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
   }
 }
 
+// But where a probe finds no resistance: that has no size.
+TEST(ChannelSupervisor, TellsOfEachTroubleThatItsMarginIsUsed) {
+  for (const Trouble& trouble : troubles) {
+    Channel channel;
+    channel.step();
+    const detectors::Margin before = channel.supervisor.verdict().margin(trouble.fault);
+    CHECK_COMPARE(before.used(), <, 1.0);
+    trouble.begins(channel.evidence);
+    for (int i = 0; i < trouble.ticks; ++i)
+      channel.step();
+    const detectors::Margin full = channel.supervisor.verdict().margin(trouble.fault);
+    if (channel.evidence.probe_failed) continue;
+    CHECK_COMPARE(full.used(), >=, 0.99);
+  }
+}
+
+TEST(ChannelSupervisor, HasNoMarginOfWhatConcernsTheBoard) {
+  Channel channel;
+  channel.step();
+  const Verdict& verdict = channel.supervisor.verdict();
+  CHECK_FALSE(verdict.judges(Fault::under_voltage));
+  DOUBLES_EQUAL(0.0, verdict.margin(Fault::under_voltage).used(), 0.0);
+}
+
 TEST(ChannelSupervisor, ForgetsWhatIsOver) {
   for (const Trouble& trouble : troubles) {
     // What was heated too much stays so; a place that was taken for the truth is left by a jump.
@@ -156,6 +184,49 @@ TEST(ChannelSupervisor, FindsASensorWithoutItsNoiseWhileTheMuscleIsHot) {
     while (quiet < 1100 && channel.step() == Fault::none)
       ++quiet;
     LONGS_EQUAL(hot ? 999 : 1100, quiet);
+    DOUBLES_EQUAL(hot ? 1.0 : 0.0, channel.supervisor.verdict().margin(Fault::sensor_frozen).used(),
+                  0.01);
+  }
+}
+
+TEST(ChannelSupervisor, CannotTellASensorWithoutNoiseFromAFrozenOne) {
+  ChannelSupervision quiet;
+  quiet.position_noise_rms_m = 0.0;
+  ChannelSupervisor supervisor(quiet, 10.0, 10.8, tick_s);
+  const Evidence evidence = Channel().evidence;
+  for (int i = 0; i < 2000; ++i)
+    check_fault(Fault::none, supervisor.step(evidence));
+}
+
+TEST(ChannelSupervisor, AReadingThatIsNotFreshIsNoJump) {
+  Channel channel;
+  channel.step();
+  channel.evidence.sensor_m = 0.0108;
+  channel.evidence.position_elapsed_s = 0.0;
+  for (int i = 0; i < 10; ++i)
+    check_fault(Fault::none, channel.step());
+}
+
+TEST(ChannelSupervisor, WithoutASupplyThatIsKnownNoCurrentIsAShort) {
+  Channel channel;
+  channel.evidence.supply_V = 0.0;
+  channel.evidence.current.value = 1.0;
+  for (int i = 0; i < 10; ++i)
+    check_fault(Fault::none, channel.step());
+}
+
+TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome) {
+  for (const Fault fault : {Fault::command_damaged, Fault::command_not_allowed}) {
+    Channel channel;
+    Evidence& e = channel.evidence;
+    bool& wrong = fault == Fault::command_damaged ? e.damaged_command : e.refused_command;
+    e.obeyed_command = false;
+    for (int i = 1; i <= 10; ++i) {
+      wrong = false;
+      check_fault(Fault::none, channel.step());
+      wrong = true;
+      check_fault(i < 10 ? Fault::none : fault, channel.step());
+    }
   }
 }
 

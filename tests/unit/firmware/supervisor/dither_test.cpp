@@ -64,6 +64,26 @@ TEST(Dither, IsDecidedInTimeAtThePowerThatItAllowsAndNotAtMore) {
   CHECK_COMPARE(left_s(1.01 * plan.provable_W), <, needed_s);
 }
 
+TEST(Dither, IsTheSlowestAndGentlestThatIsDecidedInTime) {
+  const ProofPlan hurried = plan_proof(paper_proof(), {}, 1000.0);
+  ProofSettings patient = paper_proof();
+  patient.trip_C = 300.0;
+  const ProofPlan plan = plan_proof(patient, {}, 1000.0);
+  CHECK_COMPARE(plan.dither.decided_s, >, hurried.dither.decided_s);
+  CHECK_COMPARE(plan.dither.amplitude_W, <, hurried.dither.amplitude_W);
+  CHECK_COMPARE(plan.dither.half_steps, >, hurried.dither.half_steps);
+}
+
+TEST(Dither, IsNotNeededWhereAllThePowerThatThereIsCannotPassTheLimit) {
+  ProofSettings weak = paper_proof();
+  weak.position_noise_rms_m = 200e-6;
+  weak.max_W = 1.4;  // 1.05 times that over 0.25 * 0.045 W/K is 131 K, and 135 K are allowed
+  const ProofPlan plan = plan_proof(weak, {}, 1000.0);
+  CHECK(std::isinf(plan.dither.decided_s));
+  CHECK_COMPARE(plan.safe_W, <, weak.max_W);
+  DOUBLES_EQUAL(weak.max_W, plan.provable_W, 1e-9);
+}
+
 TEST(Dither, ThatTheNoiseHidesHoldsTheMuscleToTheSafePower) {
   ProofSettings noisy = paper_proof();
   noisy.position_noise_rms_m = 200e-6;

@@ -47,6 +47,21 @@ TEST(Limiter, SaysWhichLimitItWas) {
   check(limiter.step(4.0, 500.0), 0.0, LimitedBy::temperature);
 }
 
+TEST(Limiter, GivesNoMoreThanTheMuscleHasProven) {
+  Limiter limiter({}, tick_s);
+  limiter.set_unproven(1.5);
+  check(limiter.step(2.0, cool_C), 1.5, LimitedBy::unproven);
+  check(limiter.step(1.4, cool_C), 1.4, LimitedBy::nothing);
+}
+
+TEST(Limiter, KeepsToANewRange) {
+  Limiter limiter({}, tick_s);
+  limiter.set_range(0.2, 3.0);
+  DOUBLES_EQUAL(0.2, limiter.min_W(), 0.0);
+  check(limiter.step(0.1, cool_C), 0.2, LimitedBy::minimum);
+  check(limiter.step(3.1, cool_C), 3.0, LimitedBy::maximum);
+}
+
 TEST(Limiter, SlowsRisesAndNeverFalls) {
   LimiterSettings settings;
   settings.slew_W_per_s = 100.0;

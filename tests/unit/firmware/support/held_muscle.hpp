@@ -1,0 +1,73 @@
+// The paper's muscle in open loop under the proof of response, its sensor and what keeps the one
+// from the other.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "supervisor/proof.hpp"
+
+namespace supercoil::test {
+
+class HeldMuscle {
+ public:
+  static constexpr double tick_s = 1e-3;
+
+  explicit HeldMuscle(const ProofSettings& settings, bool known = true)
+      : proof(settings, {}, known, 1.0 / tick_s), heat_(settings.thermal.bounds, tick_s) {}
+
+  /// Until a fault, for at most so long.
+  void run(double time_s) {
+    const double end_s = time_s_ + time_s;
+    while (time_s_ + 0.5 * tick_s < end_s && !unanswered)
+      tick();
+  }
+
+  double wanted_W = 3.0;
+  bool off_sensor = false;
+  bool present = true;    ///< the position
+  bool heating = true;    ///< a command to heat is in force
+  bool obeys = true;      ///< false: more acts than was allowed
+  double hotter_K = 0.0;  ///< than the interval of its temperature says
+  double warmer_air_K = 0.0;
+  double play_m = 0.0;   ///< friction: the sensor's end follows when it is drawn by so much
+  double swing_m = 0.0;  ///< of a load that swings at 1 Hz
+  double moved_m = 0.0;  ///< the position, by a new calibration
+
+  Proof proof;
+  bool unanswered = false;
+  long dither_ticks = 0;
+  double lowest_W = 1e3;   ///< that was allowed
+  double highest_W = 0.0;  ///< that was asked for
+
+ private:
+  void tick() {
+    time_s_ += tick_s;
+    const double muscle_m = muscle_.step(power_W_);
+    if (!off_sensor) end_m_ = std::clamp(end_m_, muscle_m - play_m, muscle_m + play_m);
+    heat_.step(1.05 * power_W_);
+    const double swing = swing_m * std::sin(6.28 * time_s_);
+    const double position_m = end_m_ + moved_m + swing + noise_(random_);
+    proof.step({power_W_, dither_W_, 1, present, position_m, heat_.highest_K() + hotter_K, heating,
+                warmer_air_K});
+    unanswered = unanswered || proof.unanswered();
+    const double asked_W = proof.added_to(wanted_W);
+    power_W_ = obeys ? std::min(asked_W, proof.max_W()) : asked_W;
+    dither_W_ = power_W_ < asked_W ? 0.0 : proof.dither_W();
+    dither_ticks += dither_W_ != 0.0 ? 1 : 0;
+    lowest_W = std::min(lowest_W, proof.max_W());
+    highest_W = std::max(highest_W, asked_W);
+  }
+
+  ExpectedMotion muscle_{{}, tick_s};
+  control::IntervalObserver heat_;
+  std::mt19937_64 random_{1};
+  std::normal_distribution<double> noise_{0.0, 10e-6};
+  double time_s_ = 0.0;
+  double end_m_ = 0.0;
+  double power_W_ = 0.0;
+  double dither_W_ = 0.0;
+};
+
+}  // namespace supercoil::test

@@ -23,6 +23,16 @@ double hottest_after_K(const ThermalSettings& settings, double learned_pole_rad_
   return heat.hottest_K();
 }
 
+/// Of a thermometer, at 2 W.
+storage::HeatFacts read_at_2_W() {
+  storage::HeatFacts facts;
+  facts.steady_rise_K = 22.5;
+  facts.steady_error_K = 1.0;
+  facts.steady_min_W = 1.98;
+  facts.steady_max_W = 2.02;
+  return facts;
+}
+
 }  // namespace
 
 TEST_GROUP(HotEnd) {
@@ -77,4 +87,33 @@ TEST(HotEnd, CountsFromTheAirThatIsMeasured) {
   heat.follow_air({40.0, 0.0, true, hal::Status::ok});
   DOUBLES_EQUAL(42.0 + settings.boot_rise_K, heat.hottest_C(), 1e-9);
   DOUBLES_EQUAL(heat.air().coldest_C(), heat.coldest_C(), 1e-9);
+}
+
+TEST(HotEnd, GoesOnFromWhereItIsWhenTheMuscleIsKnownAnew) {
+  Heat heat(settings, {}, tick_s);
+  const storage::HeatFacts facts = read_at_2_W();
+  const PowerBounds::Interval true_over_told{0.96, 1.04};
+  heat.know(facts, true_over_told);
+  for (int i = 0; i < 60'000; ++i)
+    heat.step(1.9, 2.1, 2.0);
+  const double hottest_K = heat.hottest_K();
+  const double coldest_K = heat.coldest_K();
+  CHECK_COMPARE(hottest_K, <, 30.0);  // without the reading 47 K
+  heat.know(facts, true_over_told);
+  DOUBLES_EQUAL(hottest_K, heat.hottest_K(), 0.0);
+  DOUBLES_EQUAL(coldest_K, heat.coldest_K(), 0.0);
+  heat.know({}, true_over_told);
+  DOUBLES_EQUAL(2.1 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
+}
+
+TEST(HotEnd, OfAReadingIsHotterWherePowerIsAssumedInsteadOfSensed) {
+  const auto hottest_K = [&](bool sensed) {
+    Heat heat(settings, {}, tick_s);
+    heat.know(read_at_2_W(), {0.8, 1.2});
+    for (int i = 0; i < 60'000; ++i)
+      heat.step(1.9, 2.1, 2.0, sensed);
+    return heat.hottest_K();
+  };
+  // Of what the senses tell the reading knows the error; assumed power may be all true.
+  CHECK_COMPARE(hottest_K(false), >, 1.3 * hottest_K(true));
 }

@@ -96,3 +96,24 @@ TEST(SelfTest, FailsOnACurrentThatIsNoNumber) {
   const auto current = [](SelfTest::Lines l) { return l.pulse ? NAN : 0.0; };
   CHECK(verdict(current) == SelfTest::Verdict::pump_does_not_open);
 }
+
+TEST(SelfTest, ThatIsDecidedStaysSo) {
+  for (const bool well : {true, false}) {
+    SelfTest test({0.02}, tick_s);
+    const auto step = [&](double current_A) { test.step(true, current_A, idle_A); };
+    while (!test.passed() && !test.failed())
+      step(well ? 0.0 : 1.2);
+    const SelfTest::Verdict decided = test.verdict();
+    CHECK((decided == SelfTest::Verdict::passed) == well);
+    for (int i = 0; i < 1000; ++i)
+      step(well ? 1.2 : 0.0);
+    CHECK(test.verdict() == decided);
+  }
+}
+
+TEST(SelfTest, FailsWhereAPulseIsTooShortToBeMeasured) {
+  SelfTest test({.pump_decay_s = 0.02, .pulse_s = tick_s}, tick_s);
+  for (int i = 0; i < 1000; ++i)
+    test.step(true, 0.0, idle_A);
+  CHECK(test.verdict() == SelfTest::Verdict::pump_does_not_open);
+}

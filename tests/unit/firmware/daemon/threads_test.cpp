@@ -70,8 +70,11 @@ TEST_GROUP(DaemonThreads) {
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
   sigset_t before{};
+  void (*hangup_before)(int) = SIG_DFL;
 
   void setup() override {
+    // Ignored, as nohup leaves it also for this program, it would not be blocked.
+    hangup_before = std::signal(SIGHUP, SIG_DFL);
     // As the daemon does, before there are threads.
     pthread_sigmask(SIG_BLOCK, nullptr, &before);
     block_ending_signals();
@@ -91,6 +94,7 @@ TEST_GROUP(DaemonThreads) {
     thread.reset();
     telemetry.reset();
     pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    std::signal(SIGHUP, hangup_before);
   }
 
   BoardSocket client() const {
@@ -188,7 +192,6 @@ TEST(DaemonThreads, APendingSigintCoolsWhileTheMainThreadIsBusyElsewhere) {
 }
 
 TEST(DaemonThreads, APendingSighupCoolsWhileTheMainThreadIsBusyElsewhere) {
-  std::signal(SIGHUP, SIG_DFL);  // nohup has it ignored, also for this program
   cools_at(SIGHUP);
 }
 

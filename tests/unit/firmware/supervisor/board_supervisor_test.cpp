@@ -15,7 +15,7 @@ using supercoil::test::tick_s;
 
 namespace {
 
-using Change = std::function<void(BoardEvidence&)>;
+using BoardChange = std::function<void(BoardEvidence&)>;
 
 /// A board on which all is well, tick by tick.
 class Board {
@@ -34,13 +34,13 @@ class Board {
   bool telemetry_lives = true;
 };
 
-struct Trouble {
+struct BoardCause {
   Fault fault;
   int ticks;  ///< until it is found
-  Change begins;
+  BoardChange begins;
 };
 
-const std::vector<Trouble> troubles{
+const std::vector<BoardCause> board_causes{
     {Fault::emergency_stop, 1, [](BoardEvidence& e) { e.stop_circuit.high = false; }},
     {Fault::emergency_stop, 1,
      [](BoardEvidence& e) { e.stop_circuit.status = hal::Status::io_error; }},
@@ -60,7 +60,7 @@ const std::vector<Trouble> troubles{
     {Fault::self_test_failed, 1, [](BoardEvidence& e) { e.self_test_failed = true; }},
 };
 
-void check_fault(Fault expected, Fault found) {
+void check_board_fault(Fault expected, Fault found) {
   STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(found)).c_str());
 }
 
@@ -72,18 +72,18 @@ TEST(BoardSupervisor, FindsNothingWrongWhereAllIsWell) {
   Board board;
   board.evidence.late_s = 0.00049;
   for (int i = 0; i < 3000; ++i)
-    check_fault(Fault::none, board.step());
+    check_board_fault(Fault::none, board.step());
 }
 
 TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
-  for (const Trouble& trouble : troubles) {
+  for (const BoardCause& trouble : board_causes) {
     Board board;
     for (int i = 0; i < 10; ++i)
-      check_fault(Fault::none, board.step());
+      check_board_fault(Fault::none, board.step());
     trouble.begins(board.evidence);
     for (int i = 1; i < trouble.ticks; ++i)
-      check_fault(Fault::none, board.step());
-    check_fault(trouble.fault, board.step());
+      check_board_fault(Fault::none, board.step());
+    check_board_fault(trouble.fault, board.step());
     CHECK(board.supervisor.verdict().fault() == trouble.fault);
     // Whose margin is full.
     CHECK_COMPARE(board.supervisor.verdict().margin(trouble.fault).used(), >=, 0.99);
@@ -93,16 +93,16 @@ TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
 TEST(BoardSupervisor, FindsThatTheTelemetryThreadStands) {
   Board board;
   for (int i = 0; i < 10; ++i)
-    check_fault(Fault::none, board.step());
+    check_board_fault(Fault::none, board.step());
   board.telemetry_lives = false;
   for (int i = 1; i < 500; ++i)
-    check_fault(Fault::none, board.step());
-  check_fault(Fault::telemetry_dead, board.step());
+    check_board_fault(Fault::none, board.step());
+  check_board_fault(Fault::telemetry_dead, board.step());
   CHECK_COMPARE(board.supervisor.verdict().margin(Fault::telemetry_dead).used(), >=, 0.99);
 }
 
 TEST(BoardSupervisor, ForgetsWhatIsOver) {
-  for (const Trouble& trouble : troubles) {
+  for (const BoardCause& trouble : board_causes) {
     Board board;
     const BoardEvidence well = board.evidence;
     trouble.begins(board.evidence);
@@ -110,20 +110,21 @@ TEST(BoardSupervisor, ForgetsWhatIsOver) {
       board.step();
     board.evidence = well;
     board.evidence.telemetry_beats = 1000;
-    check_fault(Fault::none, board.step());
-    check_fault(Fault::none, board.supervisor.verdict().board_fault());
+    check_board_fault(Fault::none, board.step());
+    check_board_fault(Fault::none, board.supervisor.verdict().board_fault());
   }
 }
 
 // A bus is no reason to doubt the switches: it leaves the board's latch free.
 TEST(BoardSupervisor, KeepsApartWhatStopsTheHeartbeat) {
-  for (const Trouble& trouble : troubles) {
+  for (const BoardCause& trouble : board_causes) {
     Board board;
     trouble.begins(board.evidence);
     for (int i = 0; i < trouble.ticks; ++i)
       board.step();
     const bool stops = info(trouble.fault)->scope == Scope::board;
-    check_fault(stops ? trouble.fault : Fault::none, board.supervisor.verdict().board_fault());
+    check_board_fault(stops ? trouble.fault : Fault::none,
+                      board.supervisor.verdict().board_fault());
   }
 }
 
@@ -131,8 +132,8 @@ TEST(BoardSupervisor, TheFirstCauseOfATickHidesNoFaultOfTheBoard) {
   Board board;
   board.evidence.bus = hal::CanState::bus_off;
   board.evidence.configuration_changed = true;
-  check_fault(Fault::bus_off, board.step());
-  check_fault(Fault::configuration_invalid, board.supervisor.verdict().board_fault());
+  check_board_fault(Fault::bus_off, board.step());
+  check_board_fault(Fault::configuration_invalid, board.supervisor.verdict().board_fault());
 }
 
 TEST(BoardSupervisor, OfTwoFaultsOfTheBoardTellsTheFirst) {
@@ -140,5 +141,5 @@ TEST(BoardSupervisor, OfTwoFaultsOfTheBoardTellsTheFirst) {
   board.evidence.stop_circuit.high = false;
   board.evidence.configuration_changed = true;
   board.step();
-  check_fault(Fault::emergency_stop, board.supervisor.verdict().board_fault());
+  check_board_fault(Fault::emergency_stop, board.supervisor.verdict().board_fault());
 }

@@ -52,6 +52,15 @@ TEST(HeaterDetectors, StuckOnTripsForCurrentWhileOff) {
   LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, 0.4); }));
 }
 
+TEST(HeaterDetectors, StuckOnHasNothingToJudgeWhileOn) {
+  StuckOn detector({0.02, 0.05}, tick_s);
+  detector.step(false, 0.4);
+  CHECK_FALSE(detector.margin().judged);
+  detector.step(true, 0.4);
+  CHECK(detector.margin().judged);
+  DOUBLES_EQUAL(20.0, detector.margin().used(), 1e-9);
+}
+
 TEST(HeaterDetectors, StuckOnAllowsTheSenseFilterToDecay) {
   StuckOn detector({0.02, 0.05}, tick_s);
   LONGS_EQUAL(

@@ -1,0 +1,40 @@
+// What calibrate hands to whoever stores it.
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+RigSettings other_heater() {
+  RigSettings settings = rough_board(1000.0);
+  settings.board.channels[0].resistance_Ohm = 11.0;
+  return settings;
+}
+
+}  // namespace
+
+TEST_GROUP(Calibrate) {
+  Rig rig{other_heater()};
+  storage::Lesson lesson;
+};
+
+TEST(Calibrate, FindsTheResistanceThatIsThereAndKeepsIt) {
+  rig.boot();
+  rig.arm();
+  rig.run(0.5);
+  rig.heat(Task::calibrate);
+  CHECK(rig.run_until([&] { return rig.loop.channel(0).take_lesson(lesson); }, 60.0));
+  CHECK(rig.snapshot().result == ModeResult::found);
+  DOUBLES_EQUAL(11.0, lesson->calibration.cold_resistance_Ohm, 0.5);
+  CHECK(lesson->knows_muscle);
+  // Also by what is stored later: nothing has forgotten the muscle since.
+  rig.send(Verb::disarm);
+  rig.run(0.1);
+  rig.send(Verb::compare_supply, 0.0);
+  CHECK(rig.run_until([&] { return rig.loop.channel(0).take_lesson(lesson); }, 1.0));
+  CHECK(lesson->knows_muscle);
+  DOUBLES_EQUAL(11.0, lesson->calibration.cold_resistance_Ohm, 0.5);
+}

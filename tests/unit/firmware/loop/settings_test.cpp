@@ -1,0 +1,44 @@
+#include "loop/settings.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil;
+
+TEST_GROUP(BoardSettingsCheck) {
+  BoardSettings settings;
+  void check_says(const char* what) const {
+    STRCMP_CONTAINS(what, check(settings).c_str());
+  }
+};
+
+TEST(BoardSettingsCheck, DefaultsMayRun) {
+  STRCMP_EQUAL("", check(settings).c_str());
+}
+
+TEST(BoardSettingsCheck, RefusesWhatIsNoBoard) {
+  settings.channels.clear();
+  check_says("a board has 1 to 16 channels, not 0");
+  settings.channels.resize(17);
+  check_says("not 17");
+  settings.channels.resize(16);
+  STRCMP_EQUAL("", check(settings).c_str());
+  settings.channels[3].controllers.clear();
+  check_says("needs a controller");
+  settings.channels[3].controllers.resize(1);
+  settings.channels[3].estimators.clear();
+  check_says("and an estimator");
+}
+
+TEST(BoardSettingsCheck, RefusesAPumpThatALateTickWouldStop) {
+  settings.supervision.overruns_in_a_row = 10;
+  settings.supervision.charge_pump_decay_s = 0.0201;
+  STRCMP_EQUAL("", check(settings).c_str());
+  settings.supervision.charge_pump_decay_s = 0.0199;
+  check_says("10 in a row at 1000 Hz are 10 ms, so more than 20 ms, not 19.9");
+}
+
+TEST(BoardSettingsCheck, TheLoopsDelayIsATickAndTheHeaters) {
+  ChannelSettings channel;
+  channel.heater.delay_s = 0.004;
+  DOUBLES_EQUAL(0.005, loop_delay_s(channel, 0.001), 1e-15);
+}

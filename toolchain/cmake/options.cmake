@@ -1,7 +1,9 @@
 # What every target of supercoil is compiled with.
+option(SUPERCOIL_WARNINGS_ARE_ERRORS "What the presets set" OFF)
+
 add_library(supercoil_options INTERFACE)
 target_compile_options(supercoil_options INTERFACE
-  -Wall -Wextra -Wconversion -Wshadow -Werror
+  -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${SUPERCOIL_WARNINGS_ARE_ERRORS}>:-Werror>
   # g++ 12 reports std::string's own operator+ (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Contracted multiply-adds would make arm64 and x86-64 differ in the last bit.

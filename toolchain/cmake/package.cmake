@@ -1,7 +1,7 @@
 # What is installed beside the programs, and the Debian package. toolchain/cross builds it.
 set(SUPERCOIL_VERSION_SUFFIX "" CACHE STRING "For which Debian the package is, e.g. +deb12")
 set(package_version ${PROJECT_VERSION}${SUPERCOIL_VERSION_SUFFIX})
-set(package_files ${CMAKE_SOURCE_DIR}/toolchain/package)
+set(package_files ${PROJECT_SOURCE_DIR}/toolchain/package)
 set(documents share/doc/supercoil)
 
 # Debian wants manual pages and changelogs compressed, and without a time in them.
@@ -15,7 +15,7 @@ function(supercoil_install_compressed file folder)
 endfunction()
 
 foreach(section 1 8)
-  file(GLOB pages CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/man/*.${section})
+  file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/man/*.${section})
   foreach(page IN LISTS pages)
     supercoil_install_compressed(${page} share/man/man${section})
   endforeach()
@@ -23,13 +23,13 @@ endforeach()
 configure_file(${package_files}/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY)
 supercoil_install_compressed(${CMAKE_BINARY_DIR}/changelog ${documents})
 install(FILES ${package_files}/copyright DESTINATION ${documents})
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/ DESTINATION ${documents} PATTERN man EXCLUDE)
-install(FILES ${CMAKE_SOURCE_DIR}/examples/python/move_muscle.py ${CMAKE_SOURCE_DIR}/firmware/telemetry/supercoil.dbc
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${documents} PATTERN man EXCLUDE)
+install(FILES ${PROJECT_SOURCE_DIR}/examples/python/move_muscle.py ${PROJECT_SOURCE_DIR}/firmware/telemetry/supercoil.dbc
         DESTINATION ${documents}/examples)
 
 # Files that the administrator may change: dpkg keeps what was changed. No board.toml among them: what is wired to a
 # board, no default can know, and without it the service does not start.
-file(GLOB boards CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/firmware/config/examples/*.toml)
+file(GLOB boards CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/firmware/config/examples/*.toml)
 set(conffiles "")
 foreach(board IN LISTS boards)
   get_filename_component(name ${board} NAME)

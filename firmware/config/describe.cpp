@@ -24,7 +24,7 @@ std::string shown(const board::AirSettings& air, const BoardWiring& wiring) {
   std::ostringstream out;
   out << air.coldest_C << " to " << air.warmest_C << " °C, ";
   if (wiring.air) {
-    out << "measured at " << shown(*wiring.air) << " to " << air.error_K << " K";
+    out << "measured to " << air.error_K << " K at " << shown(*wiring.air);
   } else {
     out << "not measured: what is warmer makes the muscle hotter than the board says";
   }

@@ -231,6 +231,6 @@ offset_C = -2
   DOUBLES_EQUAL(0.0625, c.settings.air.scaling.per_count, 0.0);
   DOUBLES_EQUAL(-2.0, c.settings.air.scaling.offset, 0.0);
   DOUBLES_EQUAL(2.0, c.settings.channels[0].thermal.air.error_K, 0.0);
-  check_says(describe(c), "measured at temp of thermometer");
+  check_says(describe(c), "measured to 2 K at temp of thermometer");
   check_says(describe(c), "air 0.1");  // of bus time, in ms
 }

@@ -1,4 +1,6 @@
 // The process is killed, or the kernel hangs: nothing of the firmware runs any more.
+#include <algorithm>
+
 #include <CppUTest/TestHarness.h>
 
 #include "loop/support/situations.hpp"
@@ -13,6 +15,7 @@ constexpr hal::Duration decay = std::chrono::milliseconds(20);
 }  // namespace
 
 TEST_GROUP(StoppedFirmware){};
+TEST_GROUP(SelfTestPower){};
 
 TEST(StoppedFirmware, BetweenAnyTwoTicksLeavesTheSupplyOpenWithinTheDecay) {
   for (const SituationName& s : situations) {
@@ -75,5 +78,27 @@ TEST(StoppedFirmware, ForFewerPeriodsThanAreToleratedKeepsTheTemperatureInItsInt
     CHECK(rig.state() == State::active);
     CHECK_FALSE(rig.interval_missed);
     CHECK_COMPARE(rig.loop.overruns(), >, 1000);
+  }
+}
+
+TEST(SelfTestPower, IsNoMoreThanAProbesOnABoardThatDoesNotCut) {
+  for (const bool pump_stuck : {true, false}) {
+    const RigSettings settings = rough_board();
+    const HeaterSettings& heater = settings.firmware.channels[0].heater;
+    const double probe_W = heater.probe_duty * settings.board.supply_V * settings.board.supply_V /
+                           heater.cold_resistance_Ohm;
+    Rig rig(settings);
+    rig.board.pump.stuck_closed = pump_stuck;
+    rig.muscle().trouble.enable_stuck_on = !pump_stuck;
+    double max_W = 0.0;
+    rig.run_until(
+        [&] {
+          max_W = std::max(max_W, rig.muscle().true_power_W());
+          return rig.loop.self_test().failed();
+        },
+        5.0);
+    CHECK(rig.loop.self_test().failed());
+    CHECK_COMPARE(max_W, <=, 1.01 * probe_W);
+    CHECK_COMPARE(max_W, >, 0.5 * probe_W);
   }
 }

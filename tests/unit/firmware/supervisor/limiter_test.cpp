@@ -1,6 +1,7 @@
 #include "supervisor/limiter.hpp"
 
 #include <cmath>
+#include <string>
 
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
@@ -95,4 +96,16 @@ TEST(Limiter, NeverGivesMoreThanAskedNorMoreThanAllowed) {
       RC_ASSERT((result.by == LimitedBy::nothing) == (result.power_W == wanted));
     }
   }));
+}
+
+TEST(Limiter, NamesEachLimitByItsOwnName) {
+  using enum LimitedBy;
+  STRCMP_EQUAL("nothing", std::string(name(nothing)).c_str());
+  STRCMP_EQUAL("minimum", std::string(name(minimum)).c_str());
+  STRCMP_EQUAL("maximum", std::string(name(maximum)).c_str());
+  STRCMP_EQUAL("slew", std::string(name(slew)).c_str());
+  STRCMP_EQUAL("temperature", std::string(name(temperature)).c_str());
+  STRCMP_EQUAL("invalid", std::string(name(invalid)).c_str());
+  STRCMP_EQUAL("cooling", std::string(name(cooling)).c_str());
+  STRCMP_EQUAL("unproven", std::string(name(unproven)).c_str());
 }

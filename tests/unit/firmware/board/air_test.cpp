@@ -41,8 +41,8 @@ TEST(Air, IsAsConfiguredBeforeAnythingIsRead) {
 
 TEST(Air, IsAsReadAndItsErrorAfterAWhile) {
   read_for(20.0, slowest_s);
-  DOUBLES_EQUAL(22.0 + 8.0 * std::exp(-1.0), air.warmest_C(), 1e-6);
-  DOUBLES_EQUAL(18.0 - 3.0 * std::exp(-1.0), air.coldest_C(), 1e-6);
+  DOUBLES_EQUAL(22.0 + 8.0 * std::exp(-1.0), air.warmest_C(), 1e-3);
+  DOUBLES_EQUAL(18.0 - 3.0 * std::exp(-1.0), air.coldest_C(), 1e-3);
   read_for(20.0, 20.0 * slowest_s);
   DOUBLES_EQUAL(22.0, air.warmest_C(), 1e-6);
   DOUBLES_EQUAL(18.0, air.coldest_C(), 1e-6);

@@ -1,7 +1,8 @@
 """Every layer includes only what it may (docs/architecture.md).
 
 The build enforces this between our own layers and for libraries with CMake targets; header-only system libraries and
-the operating system's headers it cannot see, so their includes are read here.
+the operating system's headers it cannot see, so their includes are read here. Nor can it see a file of tests that no list
+of sources names, and that therefore never runs.
 """
 
 import pathlib
@@ -54,7 +55,14 @@ def problems():
                     yield f"{file.relative_to(ROOT)}: {layer} may not include {include}"
 
 
+def never_run():
+    lists = {file.parent: file.read_text() for file in (ROOT / "tests").rglob("CMakeLists.txt")}
+    for file in (ROOT / "tests").rglob("*_test.cpp"):
+        if not any(str(file.relative_to(folder)) in text for folder, text in lists.items() if folder in file.parents):
+            yield f"{file.relative_to(ROOT)}: no CMakeLists.txt names it: its tests never run"
+
+
 if __name__ == "__main__":
-    found = list(problems())
-    print("\n".join(found) or "every include is allowed")
+    found = [*problems(), *never_run()]
+    print("\n".join(found) or "every include is allowed, and every file of tests is built")
     sys.exit(bool(found))

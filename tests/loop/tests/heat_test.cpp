@@ -240,9 +240,10 @@ TEST(Heat, IsContainedInAirThatIsMeasuredAndNotAsConfigured) {
       "[[event]]\nat_s = 60.0\nambient.air_C = 5.0\n"
       "[[event]]\nat_s = 90.0\nambient.air_C = 70.0\n"
       "[[event]]\nat_s = 120.0\nambient.air_C = 25.0\n";
-  for (const char* offset_K : {"-1.5", "0.0", "1.5"})
-    check_contained("air, its sensor off by " + std::string(offset_K),
-                    read(measured + offset_K + events));
+  for (const char* offset_K : {"-1.5", "0.0", "1.5"}) {
+    const std::string text = std::string(measured).append(offset_K).append(events);
+    check_contained(std::string("air, its sensor off by ") + offset_K, read(text));
+  }
   // The truth is outside where nothing measures it, so that this tests something.
   const Heat blind =
       heat_of(read("simulation.duration_s = 150.0\ncontroller.kind = 'pi'\n"

@@ -81,9 +81,9 @@ TEST(RowOf, HasWhatTakesTurns) {
     DOUBLES_EQUAL(i + 1.0, row.theta.at(static_cast<std::size_t>(i)), 0.0);
   CHECK(std::isnan(row.aside));
   constexpr std::array asides{0.125, 5.0, 6.0, 7.0, 8.0, 9.0};
-  for (std::uint8_t i = 0; i < asides.size(); ++i) {
-    s.aside = static_cast<std::uint8_t>(i + 1);
-    DOUBLES_EQUAL(asides.at(i), row_of(s).aside, 0.0);
-    LONGS_EQUAL(i + 1, row_of(s).aside_turn);
+  for (const double aside : asides) {
+    ++s.aside;
+    DOUBLES_EQUAL(aside, row_of(s).aside, 0.0);
+    LONGS_EQUAL(s.aside, row_of(s).aside_turn);
   }
 }

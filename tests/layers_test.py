@@ -30,6 +30,7 @@ OF_PROGRAMS = {
     "firmware/daemon": ["daemon/", "linux_board/", "CLI/", "supercoil/hal_linux/", "malloc.h", "poll.h"],
     "firmware/daemon/latency": ["daemon/", "supercoil/hal_linux/", "nlohmann/"],
     "firmware/can_client": ["can_client/"],
+    "firmware/program": ["CLI/"],
     "firmware/operator/identify": ["operator/", "operator/identify/", "supercoil/identification/", "CLI/", "nlohmann/json.hpp"],
     "firmware/operator": ["operator/", "CLI/", "nlohmann/json.hpp", "poll.h"],
     "firmware/operator/bus": ["operator/bus/", "boost/asio/", "supercoil/hal_linux/socket_can.hpp"],

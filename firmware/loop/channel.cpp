@@ -76,7 +76,7 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
 }
 
 void Channel::supervise(const BoardNow& board) {
-  heater_.observe(board);
+  heater_.observe(board.supply_V, board.air, board.periods);
   prove(board.periods);
   Evidence& e = evidence_;
   heater_.tell(state_, e);

@@ -22,6 +22,18 @@
 
 namespace supercoil {
 
+/// What the whole board tells its channels at a tick.
+struct BoardNow {
+  hal::Time time{};
+  double supply_V = 0.0;
+  Fault fault = Fault::none;  ///< of the board, latched or present: every channel is made safe
+  detectors::Margin margin;   ///< of that fault
+  bool testing = true;        ///< the self-test runs: nothing is latched
+  bool proven = false;        ///< it has passed: both ways of cutting cut
+  std::int64_t periods = 1;   ///< since the last tick
+  const board::Measured* air = nullptr;  ///< in °C; null: no sensor
+};
+
 class Channel {
  public:
   /// index: from 0. Devices outlive the channel. Allocates; nothing after it does.
@@ -117,6 +129,11 @@ class Channel {
   void end_calibrate(double cold_Ohm);
   void end_mode(ModeResult result);
   ModeResult keep(const control::PhysicalParameters& muscle, const storage::Calibration& found);
+  /// From now on; the resistance is the heater's.
+  void calibrate(const storage::Calibration& calibration) {
+    calibration_ = calibration;
+    heater_.calibrate(calibration.cold_resistance_Ohm);
+  }
   LimitedBy limited_by() const;
   void prove(std::int64_t periods);
   void publish_estimate();

@@ -37,11 +37,8 @@ Refusal Channel::compare(board::MeterComparison::Sense sense, double meter) {
     return active ? Refusal::wrong_state : go_by({});
   if (!active || mode_ != Mode::power) return Refusal::wrong_state;
   // Not the calibrated resistance: the senses that are in question measured that.
-  const double cold_Ohm = settings_.heater.cold_resistance_Ohm;
-  const double per_K = settings_.heater.temperature_coefficient_per_K;
   const Refusal refusal = comparison_.read(sense, meter, heater_.senses(),
-                                           {cold_Ohm * (1.0 + per_K * heater_.heat().coldest_K()),
-                                            cold_Ohm * (1.0 + per_K * heater_.heat().hottest_K())});
+                                           heater_.warm_Ohm(settings_.heater.cold_resistance_Ohm));
   if (refusal != Refusal::none) return refusal;
   const auto found = comparison_.found();
   return found ? go_by(*found) : Refusal::none;
@@ -61,8 +58,7 @@ Refusal Channel::go_by(const storage::SenseComparison& senses) {
                                  knows_muscle_, facts,       answer_ratio_};
   if (storage::check(learned)) return Refusal::out_of_range;
   if (!lessons_.push(learned)) return Refusal::too_many;
-  calibration_ = calibration;
-  heater_.calibrate(calibration.cold_resistance_Ohm);
+  calibrate(calibration);
   heater_.go_by(senses, more_Ohm);
   heater_.know(facts);
   proof_.plan(heater_.power_bounds().true_over_told().max, muscle_);

@@ -81,8 +81,7 @@ ModeResult Channel::keep(const control::PhysicalParameters& muscle,
   if (!(muscle == muscle_) || answer_ratio != proof_.settings().answer_ratio)
     proof_.learn(muscle, answer_ratio);
   muscle_ = muscle;
-  calibration_ = found;
-  heater_.calibrate(found.cold_resistance_Ohm);
+  calibrate(found);
   knows_muscle_ = true;
   return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }

@@ -46,20 +46,19 @@ void Heater::sample(hal::Time now) {
   current_.value *= senses_.current_gain;
 }
 
-void Heater::observe(const BoardNow& board) {
-  if (board.air != nullptr) heat_.follow_air(*board.air);
-  supply_V_ = board.supply_V * senses_.supply_gain;
-  observe_power(board.periods);
+void Heater::observe(double supply_V, const board::Measured* air, std::int64_t periods) {
+  if (air != nullptr) heat_.follow_air(*air);
+  supply_V_ = supply_V * senses_.supply_gain;
+  observe_power(periods);
   follow_probe();
   // How hot it was before boot is not known: nothing is armed before it must have cooled.
   heat_known_ = heat_known_ || heat_.hottest_C() < derate_from_C_;
 }
 
-/// What a heater that is as it was calibrated has at the muscle's coldest and hottest.
-board::PowerBounds::Interval Heater::calibrated_Ohm() const {
+board::PowerBounds::Interval Heater::warm_Ohm(double cold_Ohm) const {
   const double per_K = settings_.temperature_coefficient_per_K;
-  return {cold_Ohm_ * (1.0 + per_K * heat_.coldest_K()),
-          cold_Ohm_ * (1.0 + per_K * heat_.hottest_K())};
+  return {cold_Ohm * (1.0 + per_K * heat_.coldest_K()),
+          cold_Ohm * (1.0 + per_K * heat_.hottest_K())};
 }
 
 /// The muscle's temperature, from the power that was set and the one that was measured: if a switch
@@ -69,7 +68,7 @@ void Heater::observe_power(std::int64_t periods) {
   if (sensed) resistance_.step(acting_.duty, supply_V_, current_.value);
   // Senses that lied while the resistance was calibrated cannot narrow the bounds by that.
   const double as_configured = settings_.cold_resistance_Ohm / cold_Ohm_;
-  const auto [min_Ohm, max_Ohm] = calibrated_Ohm();
+  const auto [min_Ohm, max_Ohm] = warm_Ohm(cold_Ohm_);
   const auto power_W = power_bounds_.step(
       acting_.duty, supply_V_, current_,
       {min_Ohm * std::min(1.0, as_configured), max_Ohm * std::max(1.0, as_configured)});
@@ -118,7 +117,7 @@ void Heater::tell(const ChannelState& state, Evidence& e) const {
   e.probe_failed = probe_failed_;
   e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
   e.resistance_Ohm = resistance_.value_Ohm();
-  const auto [least_Ohm, most_Ohm] = calibrated_Ohm();
+  const auto [least_Ohm, most_Ohm] = warm_Ohm(cold_Ohm_);
   e.least_Ohm = least_Ohm;
   e.most_Ohm = most_Ohm;
   e.limited = acting_.limited;

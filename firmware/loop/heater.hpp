@@ -12,7 +12,6 @@
 #include "board/power_stage.hpp"
 #include "board/probe.hpp"
 #include "board/resistance.hpp"
-#include "loop/board_now.hpp"
 #include "loop/settings.hpp"
 #include "storage/learned.hpp"
 #include "supervisor/channel_state.hpp"
@@ -48,8 +47,8 @@ class Heater {
   // In a tick, in this order.
   void sample(hal::Time now);
   /// How hot what acted since the last tick has made the muscle, by what was set and by what was
-  /// measured.
-  void observe(const BoardNow& board);
+  /// measured. supply_V: as read. air: in °C, null without a sensor. periods: since the last tick.
+  void observe(double supply_V, const board::Measured* air, std::int64_t periods);
   /// Its inputs of the supervisor.
   void tell(const ChannelState& state, Evidence& e) const;
   /// proven_W: what a muscle may have by what it has proven.
@@ -82,6 +81,8 @@ class Heater {
 
   const board::Measured& current() const { return current_; }
   double supply_V() const { return supply_V_; }
+  /// What a heater that has cold_Ohm when cold has at the muscle's coldest and hottest.
+  board::PowerBounds::Interval warm_Ohm(double cold_Ohm) const;
   const board::Resistance& resistance() const { return resistance_; }
   bool probing() const { return probe_.running(); }
   /// Whether the resistance tells the muscle's temperature now.
@@ -105,7 +106,6 @@ class Heater {
  private:
   void observe_power(std::int64_t periods);
   void follow_probe();
-  board::PowerBounds::Interval calibrated_Ohm() const;
   void write_duty(int step);
   void write_enable(bool high);
 

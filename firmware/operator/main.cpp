@@ -1,17 +1,15 @@
 // supercoil: the operator's tool beside the daemon.
-#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
-#include "config/nearest.hpp"
 #include "operator/commands.hpp"
 #include "operator/identify/options.hpp"
+#include "program/commands.hpp"
 #include "telemetry/frames.hpp"
 
 namespace {
@@ -175,20 +173,6 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
       ->delimiter(',')
       ->check(CLI::Range(1, telemetry::most_nodes));
   dbc->add_option("--out", options.out, "Write it to this file [standard output]");
-}
-
-/// What is wrong with the first word, if it is no command. CLI11 would only say that one is
-/// missing.
-std::string wrong_command(const CLI::App& app, int count, char** arguments) {
-  const std::string written = count > 1 ? arguments[1] : "";
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({}))
-    names.push_back(command->get_name());
-  if (written.empty() || written.front() == '-' ||
-      std::find(names.begin(), names.end(), written) != names.end())
-    return {};
-  return "'" + written + "' is no command; " +
-         config::meant_or_all(written, names, "the commands are");
 }
 
 int run_program(int count, char** arguments) {

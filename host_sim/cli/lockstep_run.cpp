@@ -95,7 +95,7 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   const auto concluded =
       conclude(summary, scenario, simulation, progress.elapsed_s(), folder, options.quiet);
   if (!concluded) return fail(exit_failed, concluded.error());
-  return judge(summary, scenario, options);
+  return judge(summary, scenario, simulation, options);
 }
 
 }  // namespace supercoil::host_sim

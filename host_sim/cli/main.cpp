@@ -1,5 +1,4 @@
 // supercoil-sim: the muscle and its firmware on any PC.
-#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.hpp"
-#include "config/nearest.hpp"
+#include "program/commands.hpp"
 
 namespace {
 
@@ -122,20 +121,6 @@ void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   estimators->add_option("--out", options.out, "Folder for the results [supercoil-out/estimators]");
   estimators->add_flag("!--no-plot", options.plot, "Write no estimators.svg");
   estimators->add_flag("--quiet", options.quiet, "Print nothing but errors");
-}
-
-/// What is wrong with the first word, if it is no command. CLI11 would only say that one is
-/// missing.
-std::string wrong_command(const CLI::App& app, int count, char** arguments) {
-  const std::string written = count > 1 ? arguments[1] : "";
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({}))
-    names.push_back(command->get_name());
-  if (written.empty() || written.front() == '-' ||
-      std::find(names.begin(), names.end(), written) != names.end())
-    return {};
-  return "'" + written + "' is no command; " +
-         config::meant_or_all(written, names, "the commands are");
 }
 
 int run_program(int count, char** arguments) {

@@ -20,7 +20,7 @@ void note_signal(int) {
   signalled = 1;
 }
 
-/// "power limited in 12.3 % of the ticks: maximum 10 %, slew 2.3 %"
+/// "at a limit in 12.3 % of the ticks: maximum 10.0 %, slew 2.3 %"
 void print_limits(const Summary& summary) {
   std::string limits;
   const auto percent = [&](std::int64_t ticks) {
@@ -109,7 +109,8 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
   return {};
 }
 
-int judge(const Summary& summary, const Scenario& scenario, const RunOptions& options) {
+int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
+          const RunOptions& options) {
   const Fault fault = summary.ended_in();
   if (summary.armed() && fault == Fault::none) return exit_done;
   const bool asked = asks_to_arm(scenario.start);
@@ -121,7 +122,9 @@ int judge(const Summary& summary, const Scenario& scenario, const RunOptions& op
     told += "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
             "; docs/faults/" + std::string(name(fault)) + ".md";
   } else if (asked) {
-    told += "the self-test did not end";
+    told += simulation.loop().self_test().passed()
+                ? "with these [thermal] bounds the muscle may still be hot from before the start"
+                : "the self-test did not end";
   } else {
     told += "[operator] wish asks for nothing at the start, and it arms only there";
   }

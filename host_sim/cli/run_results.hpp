@@ -34,7 +34,8 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
 
 /// What of the run to tell after its figures: an error where nothing was followed. Returns the
 /// program's exit status.
-int judge(const Summary& summary, const Scenario& scenario, const RunOptions& options);
+int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
+          const RunOptions& options);
 
 /// Draws the figure into the folder, or says why not: results are worth more than their picture.
 void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);

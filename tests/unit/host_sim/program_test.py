@@ -55,6 +55,9 @@ class Program(unittest.TestCase):
         for text, allowed, status, told in (
                 (broken, False, 1, "ended in fault 20 heater_open"), (broken, True, 0, "ended in fault 20 heater_open"),
                 (mended, False, 0, ""), (SHORT + "trouble.stop_pressed = true\n", False, 1, "never armed: fault 63 emergency_stop"),
+                (SHORT + "simulation.rate_Hz = 100.0\ncontroller.kind = 'pi'\nthermal.transfer_part = [0.01, 2.2]\n"
+                 "thermal.mass_part = [0.75, 100.0]\n", False, 1,
+                 "never armed: with these [thermal] bounds the muscle may still be hot"),
                 (SHORT + "operator.wish = 'none'\n", False, 0, "never armed: [operator] wish asks for nothing"),
                 (SHORT + "operator.wish = 'none'\n[[event]]\nat_s = 1.0\noperator.wish = 'track'\n", False, 1,
                  "never armed: [operator] wish asks for nothing at the start, and it arms only there")):

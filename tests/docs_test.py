@@ -1,4 +1,4 @@
-"""The documentation of faults matches firmware/supervisor/fault.{hpp,cpp}, and links lead somewhere.
+"""The documentation of faults matches firmware/core/supervisor/fault.{hpp,cpp}, and links lead somewhere.
 
 Every fault has a page of its name, headed by its number, and a row in docs/faults/README.md with its number, group and
 scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not.
@@ -10,7 +10,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FAULTS = ROOT / "docs" / "faults"
-SUPERVISOR = ROOT / "firmware" / "supervisor"
+SUPERVISOR = ROOT / "firmware" / "core" / "supervisor"
 
 NUMBER = re.compile(r"^\s*(\w+) = (\d+),", re.M)
 ENTRY = re.compile(r'\{\s*(\w+),\s*"(\w+)",\s*"(\w+)",\s*(channel|board),')

@@ -13,30 +13,26 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 # What a step must not touch, in std.
 OS_IN_STD = {"thread", "mutex", "filesystem", "fstream", "iostream", "chrono", "future", "memory", "vector", "string",
              "map", "condition_variable"}
+CORE = ["supercoil/control/", "supercoil/hal/", "board/", "loop/", "modes/", "supervisor/", "boost/circular_buffer.hpp",
+        "boost/lockfree/"]
+IO = ["can_client/", "config/", "plot/", "recorder/", "storage/", "supercoil.h", "telemetry/", "text/", "boost/crc.hpp", "toml++/",
+      "tl/", "fcntl.h", "sys/", "unistd.h"]
 ALLOWED = {
     "control": ["supercoil/control/", "Eigen/", "unsupported/Eigen/"],
     "identification": ["supercoil/control/", "supercoil/identification/", "Eigen/", "unsupported/Eigen/", "tl/"],
     "hal/include": ["supercoil/hal/"],
     "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "net/if.h", "pthread.h",
                   "sched.h", "sys/", "unistd.h"],
-    "firmware": ["supercoil/control/", "supercoil/hal/", "board/", "can_client/", "config/", "loop/", "modes/", "plot/", "program/",
-                 "recorder/", "storage/", "supercoil.h", "supervisor/", "telemetry/", "boost/circular_buffer.hpp",
-                 "boost/crc.hpp", "boost/lockfree/", "toml++/", "tl/", "fcntl.h", "sys/", "unistd.h"],
+    "firmware/core": CORE,
+    "firmware/io": [*CORE, *IO],
+    "firmware/apps": [*CORE, *IO, "apps/common/", "linux_board/", "supercoil/hal_linux/", "CLI/", "nlohmann/"],
     "host_sim/plant": ["supercoil/control/", "plant/"],
 }
-# What a program inside a layer may include beside that.
-OF_PROGRAMS = {
-    "firmware/linux_board": ["linux_board/", "supercoil/hal_linux/"],
-    "firmware/daemon": ["daemon/", "linux_board/", "CLI/", "supercoil/hal_linux/", "malloc.h", "poll.h"],
-    "firmware/daemon/latency": ["daemon/", "supercoil/hal_linux/", "nlohmann/"],
-    "firmware/can_client": ["can_client/"],
-    "firmware/program": ["CLI/"],
-    "firmware/operator/identify": ["operator/", "operator/identify/", "supercoil/identification/", "CLI/", "nlohmann/json.hpp"],
-    "firmware/operator": ["operator/", "CLI/", "nlohmann/json.hpp", "poll.h"],
-    "firmware/operator/bus": ["operator/bus/", "boost/asio/", "supercoil/hal_linux/socket_can.hpp"],
-    "firmware/operator/monitor": ["operator/bus/", "operator/monitor/", "boost/asio/", "boost/beast/", "httplib.h",
-                                  "nlohmann/json.hpp"],
-    "firmware/operator/doctor": ["operator/doctor/", "linux_board/", "nlohmann/json.hpp", "supercoil/hal_linux/"],
+# What some folders inside may include beside that.
+BESIDE = {
+    "firmware/io/linux_board": ["linux_board/", "supercoil/hal_linux/"],
+    "firmware/apps/supercoild": ["apps/supercoild/", "malloc.h", "poll.h"],
+    "firmware/apps/supercoil": ["apps/supercoil/", "supercoil/identification/", "boost/asio/", "boost/beast/", "httplib.h", "poll.h"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.M)
 
@@ -47,7 +43,8 @@ def problems():
         if not files:
             yield f"{layer}: no files: has it moved?"
         for file in files:
-            here = allowed + OF_PROGRAMS.get(str(file.parent.relative_to(ROOT)), [])
+            folder = str(file.parent.relative_to(ROOT)) + "/"
+            here = allowed + [prefix for beside, more in BESIDE.items() if folder.startswith(beside + "/") for prefix in more]
             for include in INCLUDE.findall(file.read_text()):
                 of_std = "/" not in include and "." not in include
                 if of_std and not (layer == "control" and include in OS_IN_STD):

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/common/exit_status.hpp"
 #include "compare/plan.hpp"
-#include "program/exit_status.hpp"
 
 namespace supercoil::host_sim {
 

@@ -9,8 +9,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/common/commands.hpp"
 #include "cli/commands.hpp"
-#include "program/commands.hpp"
 
 namespace {
 

@@ -40,7 +40,7 @@ std::optional<Window> read_window(const std::string& text, double duration_s, do
 int run_command(const RunOptions& options) {
   storage::PosixFiles files;
   storage::LearnedStore store(options.learned, 1, files);
-  std::optional<storage::Learned> learned;
+  std::optional<board::Learned> learned;
   if (!options.learned.empty()) {
     const auto loaded = store.load();
     if (!loaded) return fail(exit_wrong_input, loaded.error());

@@ -71,7 +71,7 @@ class Simulation {
   /// The board's clock at the scenario's time 0.
   hal::Time start() const { return start_; }
   /// What identify or calibrate found last; empty when nothing was.
-  const std::optional<storage::Learned>& learned() const { return learned_; }
+  const std::optional<board::Learned>& learned() const { return learned_; }
 
  private:
   void boot();
@@ -103,7 +103,7 @@ class Simulation {
   hal::Time start_{};
   std::optional<SimulatedCanBus> bus_;
   std::optional<telemetry::CanLink> link_;
-  std::optional<storage::Learned> learned_;
+  std::optional<board::Learned> learned_;
 };
 
 }  // namespace supercoil::host_sim

@@ -22,7 +22,7 @@ ordered_json physical_json(const control::PhysicalParameters& p) {
           {"damping_Ns_per_m", p.damping_Ns_per_m}};
 }
 
-ordered_json learned_json(const storage::Learned& learned) {
+ordered_json learned_json(const board::Learned& learned) {
   ordered_json json = physical_json(learned.muscle);
   json["position_offset_m"] = learned.calibration.position_offset_m;
   json["position_scale"] = learned.calibration.position_scale;

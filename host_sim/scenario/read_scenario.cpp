@@ -5,11 +5,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "config/nearest.hpp"
 #include "config/section.hpp"
 #include "config/toml_file.hpp"
 #include "scenario/builtin.hpp"
 #include "scenario/read_conditions.hpp"
+#include "text/nearest.hpp"
 
 namespace supercoil::host_sim {
 
@@ -113,7 +113,7 @@ void lay_over(toml::table& document, toml::table&& changes) {
 }
 
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
-                                  const std::optional<storage::Learned>& learned) {
+                                  const std::optional<board::Learned>& learned) {
   config::Diagnostics diagnostics(name);
   toml::table document = config::parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
@@ -121,7 +121,7 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
 }
 
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
-                                 const std::optional<storage::Learned>& learned) {
+                                 const std::optional<board::Learned>& learned) {
   config::Diagnostics diagnostics(name);
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
@@ -159,7 +159,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
 }
 
 ScenarioOrProblems read_scenario(const std::string& path,
-                                 const std::optional<storage::Learned>& learned) {
+                                 const std::optional<board::Learned>& learned) {
   if (const auto text = builtin_scenario(path)) {
     return parse_scenario(std::string(*text), path, learned);
   }
@@ -170,9 +170,8 @@ ScenarioOrProblems read_scenario(const std::string& path,
       std::vector<std::string> names;
       for (const BuiltinScenario& scenario : builtin_scenarios())
         names.emplace_back(scenario.name);
-      diagnostics.add(0, "",
-                      "and no built-in scenario is called so; " +
-                          config::meant_or_all(path, names, "they are"));
+      diagnostics.add(
+          0, "", "and no built-in scenario is called so; " + meant_or_all(path, names, "they are"));
     }
     return tl::unexpected(diagnostics.problems());
   }

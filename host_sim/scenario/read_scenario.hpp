@@ -19,11 +19,11 @@ using ScenarioOrProblems = tl::expected<Scenario, std::vector<config::Problem>>;
 /// path: a .toml file, or the name of a built-in scenario.
 /// learned: what a board learned before takes the place of [muscle].
 ScenarioOrProblems read_scenario(const std::string& path,
-                                 const std::optional<storage::Learned>& learned = {});
+                                 const std::optional<board::Learned>& learned = {});
 
 /// The same from text; name: how messages call it.
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
-                                  const std::optional<storage::Learned>& learned = {});
+                                  const std::optional<board::Learned>& learned = {});
 
 /// Lays one document over another, as an event is laid over what was before it: a table that names
 /// its kind replaces the old one, other keys come beside those that are there.
@@ -31,6 +31,6 @@ void lay_over(toml::table& document, toml::table&& changes);
 
 /// The same from a document.
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
-                                 const std::optional<storage::Learned>& learned = {});
+                                 const std::optional<board::Learned>& learned = {});
 
 }  // namespace supercoil::host_sim

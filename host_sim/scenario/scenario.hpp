@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "board/learned.hpp"
 #include "scenario/conditions.hpp"
-#include "storage/learned.hpp"
 
 namespace supercoil::host_sim {
 
@@ -26,9 +26,9 @@ struct Scenario {
   double rate_Hz = 1000.0;
   std::uint64_t seed = 1;
   int substeps = 1;
-  bool muscle_identified = false;    ///< identified before: not only believed
-  double answer_ratio = 0.0;         ///< of small motions, learned before
-  storage::Calibration calibration;  ///< learned before; its resistance is [plant]'s otherwise
+  bool muscle_identified = false;  ///< identified before: not only believed
+  double answer_ratio = 0.0;       ///< of small motions, learned before
+  board::Calibration calibration;  ///< learned before; its resistance is [plant]'s otherwise
   Conditions start;
   std::vector<Event> events;  ///< in the order of their times
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "config/board_config.hpp"
-#include "unit/firmware/config/support/small_board.hpp"
+#include "unit/firmware/io/config/support/small_board.hpp"
 
 namespace supercoil::test {
 

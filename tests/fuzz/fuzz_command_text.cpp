@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "fuzz/fuzz.hpp"
-#include "loop/command_text.hpp"
+#include "text/command_text.hpp"
 
 using namespace supercoil;
 

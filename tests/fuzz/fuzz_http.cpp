@@ -12,10 +12,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "apps/supercoil/monitor/api.hpp"
+#include "apps/supercoil/monitor/order.hpp"
+#include "apps/supercoil/monitor/server_thread.hpp"
 #include "fuzz/fuzz.hpp"
-#include "operator/monitor/api.hpp"
-#include "operator/monitor/order.hpp"
-#include "operator/monitor/server_thread.hpp"
 #include "telemetry/frames.hpp"
 
 using namespace supercoil;

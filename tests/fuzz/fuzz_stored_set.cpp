@@ -15,7 +15,7 @@ void read(std::string_view file) {
     fuzz::require(!learned.error().empty(), "what is refused is refused with a reason");
     return;
   }
-  fuzz::require(!storage::check(*learned), "what is accepted is in range");
+  fuzz::require(!board::check(*learned), "what is accepted is in range");
   const auto again = storage::decode(storage::encode(*learned));
   fuzz::require(again && *again == *learned, "what is written is read back to the bit");
 }

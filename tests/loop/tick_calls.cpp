@@ -90,7 +90,7 @@ void live(Seen& seen) {
   run(rig, 1.0, seen);
   rig.send(Verb::arm);
   run(rig, 0.2, seen);
-  storage::Lesson lesson;
+  board::Lesson lesson;
   int results = 0;
   while (rig.loop.channel(Rig::tested).take_lesson(lesson))
     ++results;

@@ -12,16 +12,16 @@ class Area:
     programs: tuple  # built and run in this order, until one of them notices
 
 
-WHOLE_FIRMWARE = ("firmware_tests", "loop_tests", "fault_matrix")
+WHOLE_FIRMWARE = ("core_tests", "config_tests", "loop_tests", "fault_matrix")
 AREAS = (
-    Area("supervisor", ("firmware/supervisor/**/*",), WHOLE_FIRMWARE),
-    Area("board", ("firmware/board/*",), WHOLE_FIRMWARE),
-    Area("loop", ("firmware/loop/*",), WHOLE_FIRMWARE),
+    Area("supervisor", ("firmware/core/supervisor/**/*",), WHOLE_FIRMWARE),
+    Area("board", ("firmware/core/board/*",), WHOLE_FIRMWARE),
+    Area("loop", ("firmware/core/loop/*",), WHOLE_FIRMWARE),
     Area("telemetry commands",
-         tuple(f"firmware/telemetry/{name}.*" for name in ("can_link", "commands", "e2e", "leases", "nodes", "opcodes",
+         tuple(f"firmware/io/telemetry/{name}.*" for name in ("can_link", "commands", "e2e", "leases", "nodes", "opcodes",
                                                            "run_settings")),
          ("telemetry_tests", "loop_tests")),
-    Area("storage", ("firmware/storage/*",), ("storage_tests",)),
+    Area("storage", ("firmware/io/storage/*",), ("storage_tests",)),
     Area("Linux HAL", ("hal/linux/**/*",), ("hal_linux_tests", "gpio_tests", "bus_tests", "can_tests")),
 )
 

@@ -1,4 +1,4 @@
-"""Prints firmware/can_client/generated/protocol.cpp, every message and signal as a table, from the DBC that is named on
+"""Prints firmware/io/can_client/generated/protocol.cpp, every message and signal as a table, from the DBC that is named on
 the command line."""
 
 import sys
@@ -6,7 +6,7 @@ import sys
 import cantools
 
 HEAD = """\
-// Generated from firmware/telemetry/supercoil.dbc by toolchain/generate-can. Do not edit.
+// Generated from firmware/io/telemetry/supercoil.dbc by toolchain/generate-can. Do not edit.
 #include "can_client/protocol.hpp"
 
 namespace supercoil::can_client {

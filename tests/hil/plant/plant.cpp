@@ -10,7 +10,7 @@ host_sim::ConverterSettings converter(double unit_per_V, double noise_rms) {
   return {0.0, full_scale_V * unit_per_V, 15, noise_rms};
 }
 
-// Sensors as in firmware/config/examples/raspberry-pi-pca9685-ads1115.toml.
+// Sensors as in firmware/io/config/examples/raspberry-pi-pca9685-ads1115.toml.
 host_sim::SimulatedBoardSettings board_of(const PlantSettings& settings) {
   host_sim::MuscleChannelSettings channel;
   channel.sense_filter_s = settings.sense_filter_ms / 1000.0;

@@ -8,7 +8,7 @@
 #include "supercoil/hal_linux/realtime.hpp"
 
 #include "config/board_config.hpp"
-#include "daemon/linux_board.hpp"
+#include "linux_board/linux_board.hpp"
 #include "loop/executive.hpp"
 #include "support/watched_calls.hpp"
 
@@ -71,7 +71,7 @@ int main(int count, char** arguments) {
   if (test::prove_the_counters() != 0) return fail("a counter is blind");
   const auto config = config::read_board_config(arguments[1]);
   if (!config) return fail(config::to_text(config.error()));
-  auto board = daemon::LinuxBoard::open(config->wiring);
+  auto board = linux_board::LinuxBoard::open(config->wiring);
   if (!board) return fail(board.error().front());
   const double rate_Hz = config->settings.rate_Hz;
   if (const auto started = (*board)->start(rate_Hz, bus_priority); !started) {

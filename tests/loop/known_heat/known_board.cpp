@@ -66,7 +66,7 @@ control::ControllerSettings pi() {
 class Life {
  public:
   Life(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth, double max_W,
-       const storage::HeatFacts& facts, std::uint64_t seed, Findings& findings)
+       const board::HeatFacts& facts, std::uint64_t seed, Findings& findings)
       : muscle_(muscle),
         truth_(truth),
         findings_(findings),
@@ -105,9 +105,9 @@ class Life {
   void command(Verb verb, double value) { loop_.send({0, verb, value}); }
   void note_widths(std::vector<double>* widths_K) { widths_K_ = widths_K; }
   /// The last that the channel handed over.
-  std::optional<storage::Learned> lesson() {
-    std::optional<storage::Learned> last;
-    for (storage::Lesson lesson; loop_.channel(0).take_lesson(lesson);)
+  std::optional<board::Learned> lesson() {
+    std::optional<board::Learned> last;
+    for (board::Lesson lesson; loop_.channel(0).take_lesson(lesson);)
       last = lesson;
     return last;
   }
@@ -142,7 +142,7 @@ class Life {
     return s;
   }
   BoardSettings firmware(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth,
-                         double max_W, const storage::HeatFacts& facts) const {
+                         double max_W, const board::HeatFacts& facts) const {
     BoardSettings s;
     s.supply.scaling = scaling(simulated_.supply);
     ChannelSettings& c = s.channels[0];
@@ -218,9 +218,9 @@ class Life {
 };
 
 /// identify, and a thermometer read in steady heat.
-storage::HeatFacts found_out(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth,
-                             std::uint64_t seed, Findings& findings) {
-  storage::HeatFacts facts;
+board::HeatFacts found_out(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth,
+                           std::uint64_t seed, Findings& findings) {
+  board::HeatFacts facts;
   if (knowledge == Knowledge::defaults || knowledge == Knowledge::air_and_senses) return facts;
   Life life(muscle, knowledge, truth, muscle.max_W, facts, seed, findings);
   if (knowledge != Knowledge::thermometer_alone) {
@@ -250,7 +250,7 @@ double level_W(double time_s, double max_W) {
 Findings measure(const MuscleCase& muscle, Knowledge knowledge, std::uint64_t seed) {
   Findings findings;
   const Truth truth(seed);
-  const storage::HeatFacts facts = found_out(muscle, knowledge, truth, seed, findings);
+  const board::HeatFacts facts = found_out(muscle, knowledge, truth, seed, findings);
   const double ample_W = std::min(most_W, ample_ratio * muscle.max_W);
   Life life(muscle, knowledge, truth, ample_W, facts, seed, findings);
   std::vector<double> widths_K;

@@ -9,7 +9,7 @@
 #include "loop/support/rig.hpp"
 #include "simulated_board/simulated_can_bus.hpp"
 #include "telemetry/can_link.hpp"
-#include "unit/firmware/telemetry/support/master.hpp"
+#include "unit/firmware/io/telemetry/support/master.hpp"
 
 namespace supercoil::test {
 

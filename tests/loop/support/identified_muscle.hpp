@@ -43,7 +43,7 @@ struct Identified {
   ModeResult result = ModeResult::none;
   std::uint8_t notes = 0;
   Fault fault = Fault::none;
-  std::optional<storage::Learned> learned;
+  std::optional<board::Learned> learned;
   control::PhysicalParameters truth;  ///< of the cold muscle, without its effects
   double ended_s = 0.0;               ///< in the scenario,
   double took_s = 0.0;                ///< after it was asked for

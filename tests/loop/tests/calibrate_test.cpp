@@ -18,7 +18,7 @@ RigSettings other_heater() {
 
 TEST_GROUP(Calibrate) {
   Rig rig{other_heater()};
-  storage::Lesson lesson;
+  board::Lesson lesson;
 };
 
 TEST(Calibrate, FindsTheResistanceThatIsThereAndKeepsIt) {

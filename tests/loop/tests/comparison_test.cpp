@@ -81,8 +81,8 @@ TEST_GROUP(Comparison) {
     check(Refusal::none, ask(Verb::compare_supply, supply_V));
     check(Refusal::none, ask(Verb::compare_current, line_A()));
   }
-  std::optional<storage::Learned> lesson() {
-    storage::Lesson lesson;
+  std::optional<board::Learned> lesson() {
+    board::Lesson lesson;
     channel().take_lesson(lesson);
     return lesson;
   }
@@ -197,7 +197,7 @@ TEST(Comparison, IsForgottenWhenAskedTo) {
   check(Refusal::none, ask(Verb::compare_supply, 0.0));
   const auto forgotten = lesson();
   CHECK(forgotten.has_value());
-  CHECK(forgotten->senses == storage::SenseComparison{});
+  CHECK(forgotten->senses == board::SenseComparison{});
   rig.run(0.1);
   DOUBLES_EQUAL(supply_gain * supply_V, rig.snapshot().supply_V, 0.02);
 }
@@ -245,7 +245,7 @@ TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {
   calibrated.boot();
   calibrated.arm();
   calibrated.run(0.1);
-  storage::Lesson found;
+  board::Lesson found;
   for (const double power_W : {0.5, 1.0}) {
     for (int i = 0; i < 50; ++i) {
       calibrated.send(Verb::power, power_W);
@@ -282,7 +282,7 @@ TEST(Comparison, IsMadeOverCanToo) {
     CHECK(can.command(master, telemetry::compare, 12.0F) == Refusal::none);
     CHECK(can.command(master, telemetry::compare, -line_A) == Refusal::none);
   }
-  storage::Lesson found;
+  board::Lesson found;
   CHECK(can.loop.channel(0).take_lesson(found));
   DOUBLES_EQUAL(1.0 / supply_gain, found->senses.supply_gain, 0.005);
   DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.02);

@@ -14,7 +14,7 @@ using namespace supercoil::host_sim;
 namespace {
 
 struct Ending {
-  std::optional<storage::Learned> learned;
+  std::optional<board::Learned> learned;
   std::string result;
   std::string notes;
   double proportional_W_per_m = 0.0;  ///< the controller's gain, as published last

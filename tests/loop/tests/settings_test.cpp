@@ -170,7 +170,7 @@ TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
   CHECK(rig.command(master, Verb::store, 1.0F) == Refusal::not_ready);
   CHECK(rig.command(master, Verb::store, 0.5F) == Refusal::out_of_range);
   CHECK(rig.command(master, Verb::store, NAN) == Refusal::out_of_range);
-  storage::Lesson lesson;
+  board::Lesson lesson;
   CHECK_FALSE(rig.loop.channel(0).take_lesson(lesson));
   CHECK(rig.command(master, Verb::store, 0.0F) == Refusal::none);
   CHECK(rig.loop.channel(0).take_lesson(lesson));

@@ -47,8 +47,8 @@ TEST_GROUP(SteadyHeatRead) {
   double width_K() {
     return rig().snapshot().hottest_C - rig().snapshot().coldest_C;
   }
-  std::optional<storage::Learned> lesson() {
-    storage::Lesson lesson;
+  std::optional<board::Learned> lesson() {
+    board::Lesson lesson;
     rig().loop.channel(0).take_lesson(lesson);
     return lesson;
   }

@@ -1,0 +1,139 @@
+#include "apps/supercoil/board_link.hpp"
+
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <thread>
+#include <utility>
+
+#include "apps/supercoil/bus/bus_name.hpp"
+#include "apps/supercoil/bus/listener.hpp"
+#include "apps/supercoil/bus/terminal.hpp"
+#include "can_client/decode.hpp"
+#include "modes/result.hpp"
+#include "telemetry/frames.hpp"
+#include "telemetry/run_settings.hpp"
+#include "text/command_text.hpp"
+
+namespace supercoil::operating {
+
+BoardLink::Answer LocalLink::line_of(const std::string& request, const std::string& channel) {
+  const auto lines = socket_.ask(request);
+  if (!lines) return tl::unexpected(lines.error());
+  std::istringstream text(*lines);
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with(channel + " ")) return line;
+  }
+  return tl::unexpected("nothing is known of channel " + channel);
+}
+
+/// The last two words of the channel's line.
+tl::expected<BoardLink::Ending, std::string> LocalLink::ending(const std::string& channel) {
+  const auto line = line_of("state", channel);
+  if (!line) return tl::unexpected(line.error());
+  Ending ending;
+  std::istringstream words(*line);
+  for (std::string word; words >> word;)
+    ending = {std::exchange(ending.notes, word), word};
+  if (ending.notes == "-") ending.notes.clear();
+  return ending;
+}
+
+tl::expected<board::SenseComparison, std::string> LocalLink::senses(const std::string& channel) {
+  const auto line = line_of("senses", channel);
+  if (!line) return tl::unexpected(line.error());
+  board::SenseComparison senses;
+  std::istringstream text(line->substr(channel.size()));
+  if (text >> senses.supply_gain >> senses.current_gain >> senses.error_ratio) return senses;
+  return tl::unexpected("senses: " + *line);
+}
+
+CanLink::~CanLink() {
+  for (const auto& [node, commander] : nodes_)
+    commander->release();
+}
+
+BoardLink::Answer CanLink::ask(const std::string& line) {
+  const auto command = parse_command(line, telemetry::most_nodes);
+  if (!command) return command.error();
+  const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
+  if (!node) return tl::unexpected(node.error());
+  const auto answer = (*node)->ask(command->verb, command->value);
+  if (!answer) return tl::unexpected(answer.error());
+  return answer_text(*answer, *answer == Refusal::out_of_range ? (*node)->nearest() : NAN);
+}
+
+tl::expected<Commander*, std::string> CanLink::commander(std::uint8_t node) {
+  if (!nodes_.contains(node)) {
+    auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
+                               can_client::refused_value_id(node)});
+    if (!bus) return tl::unexpected(bus.error());
+    nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
+  }
+  return nodes_.at(node).get();
+}
+
+tl::expected<board::SenseComparison, std::string> CanLink::senses(const std::string& channel) {
+  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
+  if (!node) return tl::unexpected(node.error());
+  board::SenseComparison senses;
+  using telemetry::SenseSetting;
+  for (const auto& [setting, value] : {std::pair{SenseSetting::supply_gain, &senses.supply_gain},
+                                       std::pair{SenseSetting::current_gain, &senses.current_gain},
+                                       std::pair{SenseSetting::sense_error, &senses.error_ratio}}) {
+    const auto heard = (*node)->read(setting);
+    if (!heard) return tl::unexpected(heard.error());
+    *value = heard->value;
+  }
+  return senses;
+}
+
+BoardLink::Answer CanLink::state() {
+  auto bus = open_bus(bus_);
+  if (!bus) return tl::unexpected(bus.error());
+  constexpr double keep_s = 10.0;
+  constexpr double usual_bit_rate = 500e3;
+  Recent recent(keep_s, usual_bit_rate);
+  const Listener listener(std::move(*bus), recent);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  return state_text(recent);
+}
+
+tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& channel) {
+  const auto node = static_cast<std::uint8_t>(std::stoi(channel));
+  auto bus = open_bus(bus_, {can_client::status_id(node), can_client::estimate_id(node)});
+  if (!bus) return tl::unexpected(bus.error());
+  std::optional<std::string> result;
+  std::optional<std::string> notes;
+  unsigned friction = 0;  // has no bit left in the estimates
+  for (int i = 0; i < 100 && !(result && notes); ++i) {
+    for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
+      const auto heard = can_client::decode(frame);
+      if (!heard) continue;
+      const auto value = [&](const char* signal) {
+        return heard->values.at(can_client::signal_index(*heard->message, signal));
+      };
+      if (frame.id == can_client::status_id(node)) {
+        const std::size_t place = can_client::signal_index(*heard->message, "result");
+        result = can_client::value_name(heard->message->signals[place], value("result"));
+        friction = value("friction") == 1.0 ? note_friction : 0;
+      } else if (frame.id == can_client::estimate_id(node) && result) {
+        const auto rest = static_cast<unsigned>(value("identify_notes"));
+        notes = describe_notes(static_cast<std::uint8_t>(rest | friction), ",");
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  if (!result) return tl::unexpected("no heartbeat of node " + channel + " within 1 s");
+  return Ending{*result, notes.value_or("")};
+}
+
+tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
+                                                                const std::string& socket) {
+  if (!can.empty()) return std::make_unique<CanLink>(can);
+  auto opened = BoardSocket::open(socket);
+  if (!opened) return tl::unexpected(opened.error());
+  return std::make_unique<LocalLink>(std::move(*opened));
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,78 @@
+// Whoever obeys commands: the supercoild of this board, or nodes on a CAN bus.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/board_socket.hpp"
+#include "apps/supercoil/bus/commander.hpp"
+#include "board/learned.hpp"
+
+namespace supercoil::operating {
+
+class BoardLink {
+ public:
+  using Answer = tl::expected<std::string, std::string>;
+
+  BoardLink() = default;
+  BoardLink(const BoardLink&) = delete;
+  BoardLink& operator=(const BoardLink&) = delete;
+  virtual ~BoardLink() = default;
+
+  /// "1 arm": "ok", "refused: why", or what is wrong with the line. The error: nobody answered.
+  virtual Answer ask(const std::string& line) = 0;
+  /// What is known of the board, in lines.
+  virtual Answer state() = 0;
+  /// How identify or calibrate ended: a ModeResult by its name, and IdentifyNotes by theirs.
+  struct Ending {
+    std::string result;
+    std::string notes;  ///< "theta2_uncertain,not_explained"; empty: none
+  };
+  /// channel: as in a line.
+  virtual tl::expected<Ending, std::string> ending(const std::string& channel) = 0;
+  /// What a comparison with a meter found; the date is not told. channel: as in a line.
+  virtual tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) = 0;
+};
+
+class LocalLink final : public BoardLink {
+ public:
+  explicit LocalLink(BoardSocket socket) : socket_(std::move(socket)) {}
+  Answer ask(const std::string& line) override { return socket_.ask(line); }
+  Answer state() override { return socket_.ask("state"); }
+  tl::expected<Ending, std::string> ending(const std::string& channel) override;
+  tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
+
+ private:
+  /// The line of a channel in what is told of all.
+  Answer line_of(const std::string& request, const std::string& channel);
+
+  BoardSocket socket_;
+};
+
+/// The first number of a line is a node. Leases are given back at the end.
+class CanLink final : public BoardLink {
+ public:
+  explicit CanLink(std::string bus) : bus_(std::move(bus)) {}
+  ~CanLink() override;
+  Answer ask(const std::string& line) override;
+  /// Listens for a second and a half.
+  Answer state() override;
+  /// From the next heartbeat; notes from the next estimates, if the board sends any.
+  tl::expected<Ending, std::string> ending(const std::string& channel) override;
+  tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
+
+ private:
+  tl::expected<Commander*, std::string> commander(std::uint8_t node);
+
+  std::string bus_;
+  std::map<std::uint8_t, std::unique_ptr<Commander>> nodes_;
+};
+
+/// can: a bus by its name; empty: the supercoild that listens at this socket.
+tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
+                                                                const std::string& socket);
+
+}  // namespace supercoil::operating

@@ -1,0 +1,59 @@
+#include "apps/supercoil/board_socket.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+namespace supercoil::operating {
+
+namespace {
+
+constexpr time_t most_s = 2;
+constexpr std::size_t longest_answer = 8192;
+
+std::string reason() {
+  return std::generic_category().message(errno);
+}
+
+}  // namespace
+
+tl::expected<BoardSocket, std::string> BoardSocket::open(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof(address.sun_path)) {
+    return tl::unexpected(path + ": the name of a socket is shorter");
+  }
+  std::memcpy(address.sun_path, path.data(), path.size());
+  BoardSocket socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  if (socket.file_ < 0) return tl::unexpected("no socket: " + reason());
+  const timeval patience{most_s, 0};
+  ::setsockopt(socket.file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
+  if (::connect(socket.file_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    const bool nobody = errno == ENOENT || errno == ECONNREFUSED;
+    return tl::unexpected(path + ": " + reason() + (nobody ? "; does supercoild run?" : ""));
+  }
+  return socket;
+}
+
+BoardSocket::~BoardSocket() {
+  if (file_ >= 0) ::close(file_);
+}
+
+tl::expected<std::string, std::string> BoardSocket::ask(const std::string& line) const {
+  if (::send(file_, line.data(), line.size(), MSG_NOSIGNAL) < 0) {
+    return tl::unexpected("supercoild does not listen: " + reason());
+  }
+  std::array<char, longest_answer> answer{};
+  const ssize_t size = ::recv(file_, answer.data(), answer.size(), 0);
+  if (size == 0) return tl::unexpected(std::string("supercoild has ended"));
+  if (size < 0) return tl::unexpected("supercoild does not answer: " + reason());
+  return std::string(answer.data(), static_cast<std::size_t>(size));
+}
+
+}  // namespace supercoil::operating

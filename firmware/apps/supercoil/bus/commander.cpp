@@ -1,0 +1,137 @@
+#include "apps/supercoil/bus/commander.hpp"
+
+#include <cmath>
+#include <random>
+#include <thread>
+
+namespace supercoil::operating {
+
+namespace {
+
+constexpr auto answer_within = std::chrono::milliseconds(500);
+/// A lease lasts a second by default; what may have run out is claimed again.
+constexpr auto lease_lasts = std::chrono::milliseconds(400);
+/// It follows the answer at once, where the board tells it.
+constexpr auto nearest_within = std::chrono::milliseconds(50);
+constexpr int claims_in_a_row = 3;
+constexpr auto nap = std::chrono::milliseconds(1);
+
+Refusal refusal_of(Refusal answer) {
+  return answer;
+}
+Refusal refusal_of(const can_client::Master::Setting& answer) {
+  return answer.refusal;
+}
+
+}  // namespace
+
+Commander::Commander(std::unique_ptr<hal::CanBus> bus, std::uint8_t node)
+    : bus_(std::move(bus)), master_(node, static_cast<std::uint16_t>(std::random_device()())) {}
+
+void Commander::drain() {
+  for (hal::CanFrame frame; bus_->receive(frame) == hal::Status::ok;) {
+  }
+}
+
+template <class Heard>
+tl::expected<Heard, std::string> Commander::exchange(
+    const hal::CanFrame& frame,
+    const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear) {
+  const auto deadline = Clock::now() + answer_within;
+  hal::Status sent = bus_->send(frame);
+  while (sent == hal::Status::busy && Clock::now() < deadline) {
+    std::this_thread::sleep_for(nap);
+    sent = bus_->send(frame);
+  }
+  if (sent != hal::Status::ok)
+    return tl::unexpected(std::string("the bus does not take the command: ") + text(sent));
+  do {
+    for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
+      if (const auto answer = hear(heard)) return *answer;
+    }
+    std::this_thread::sleep_for(nap);
+  } while (Clock::now() < deadline);
+  return tl::unexpected("no answer from node " + std::to_string(master_.node()) + " within 0.5 s");
+}
+
+Commander::Answer Commander::exchange(const hal::CanFrame& frame) {
+  return exchange<Refusal>(frame, [&](const hal::CanFrame& heard) -> std::optional<Refusal> {
+    const auto answer = master_.hear(heard);
+    if (!answer) return std::nullopt;
+    return answer->refusal;
+  });
+}
+
+Commander::Answer Commander::claim() {
+  if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts) return Refusal::none;
+  const bool anew = !master_.holds_lease();
+  Answer answer = exchange(master_.claim());
+  // A nonce may be taken by somebody else first.
+  for (int i = 0; i < claims_in_a_row && answer && *answer == Refusal::claim_again; ++i)
+    answer = exchange(master_.claim());
+  // To a board of an older version the claim was a command without a lease.
+  if (anew && answer && *answer == Refusal::no_lease) return Refusal::other_version;
+  return answer;
+}
+
+Commander::Answer Commander::command(Verb verb, double value) {
+  if (verb != Verb::disarm) {
+    Answer claimed = claim();
+    if (!claimed || *claimed != Refusal::none) return claimed;
+  }
+  return exchange(master_.command(verb, value));
+}
+
+template <class Once>
+auto Commander::insist(const Once& once) {
+  drain();
+  auto answer = once();
+  const auto is = [&](Refusal refusal) { return answer && refusal_of(*answer) == refusal; };
+  // The lease ran out meanwhile, or frames were lost before this one.
+  if (is(Refusal::no_lease) || is(Refusal::wrong_counter)) answer = once();
+  if (is(Refusal::none)) lease_from_ = Clock::now();
+  return answer;
+}
+
+tl::expected<Refusal, std::string> Commander::ask(Verb verb, double value) {
+  return insist([&] { return command(verb, value); });
+}
+
+double Commander::nearest() {
+  const auto deadline = Clock::now() + nearest_within;
+  do {
+    for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
+      if (const auto nearest = can_client::hear_nearest(master_.node(), heard)) return *nearest;
+    }
+    std::this_thread::sleep_for(nap);
+  } while (Clock::now() < deadline);
+  return NAN;
+}
+
+Commander::Setting Commander::read(std::uint8_t setting) {
+  drain();
+  return exchange<can_client::Master::Setting>(can_client::setting_read(master_.node(), setting),
+                                               [&](const hal::CanFrame& frame) {
+                                                 auto heard = master_.hear_setting(frame, false);
+                                                 if (heard && heard->setting != setting)
+                                                   heard.reset();
+                                                 return heard;
+                                               });
+}
+
+Commander::Setting Commander::write(std::uint8_t setting, double value) {
+  return insist([&]() -> Setting {
+    const Answer claimed = claim();
+    if (!claimed) return tl::unexpected(claimed.error());
+    if (*claimed != Refusal::none) return can_client::Master::Setting{setting, *claimed, NAN};
+    return exchange<can_client::Master::Setting>(
+        master_.setting_write(setting, value),
+        [&](const hal::CanFrame& frame) { return master_.hear_setting(frame, true); });
+  });
+}
+
+void Commander::release() {
+  if (master_.holds_lease()) static_cast<void>(exchange(master_.release()));
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,154 @@
+#include "apps/supercoil/bus/terminal.hpp"
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <thread>
+
+#include <unistd.h>
+
+#include "apps/common/exit_status.hpp"
+#include "can_client/decode.hpp"
+#include "modes/result.hpp"
+#include "telemetry/opcodes.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using can_client::Decoded;
+
+/// The newest message of each kind of one node.
+using Newest = std::map<std::string_view, Decoded>;
+
+double value(const Newest& node, std::string_view message, std::string_view signal) {
+  const auto found = node.find(message);
+  if (found == node.end()) return NAN;
+  return found->second.values.at(can_client::signal_index(*found->second.message, signal));
+}
+
+std::string named(const Newest& node, std::string_view message, std::string_view signal) {
+  const auto found = node.find(message);
+  if (found == node.end()) return "-";
+  const auto& known = found->second.message->signals;
+  const std::size_t i = can_client::signal_index(*found->second.message, signal);
+  return std::string(can_client::value_name(known[i], found->second.values.at(i)));
+}
+
+/// "position 12.345 mm"; what is not available is "-".
+std::string shown(const char* what, double quantity, int digits, const char* unit) {
+  std::array<char, 80> text{};
+  if (std::isnan(quantity)) {
+    std::snprintf(text.data(), text.size(), "  %-12s %10s %s", what, "-", unit);
+  } else {
+    std::snprintf(text.data(), text.size(), "  %-12s %10.*f %s", what, digits, quantity, unit);
+  }
+  return text.data();
+}
+
+/// Off is not cold: how hot it may be, by the hot end of its interval.
+std::string off_text(const Newest& node) {
+  const double hottest_C = value(node, "Temperature", "hottest_C");
+  if (std::isnan(hottest_C)) return "off; temperature not known";
+  // Skin that is touched for hours is burnt from here on (docs/safety.md).
+  constexpr double hot_C = 43.0;
+  return (hottest_C < hot_C ? "off; at most " : "off; may still be at ") +
+         std::to_string(std::lround(std::ceil(hottest_C))) + " C";
+}
+
+/// Of the detector that led to the fault, in its own unit (docs/faults).
+std::string margin_text(const Newest& node) {
+  const double measured = value(node, "FirstCause", "measured");
+  const double limit = value(node, "FirstCause", "limit");
+  if (std::isnan(limit)) return "";
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), " (measured %.3g, limit %.3g)", measured, limit);
+  return text.data();
+}
+
+std::string node_text(int number, const Newest& node) {
+  const std::string fault = named(node, "Status", "fault");
+  const std::string state = named(node, "Status", "state");
+  std::string text =
+      "node " + std::to_string(number) + ": " + state + ", " + named(node, "Status", "mode");
+  if (state == "disarmed" || state == "armed" || state == "fault") text += ", " + off_text(node);
+  if (fault != "none" && fault != "-") text += ", FAULT " + fault + margin_text(node);
+  const std::string limit = named(node, "Power", "limited_by");
+  if (limit != "nothing" && limit != "-") text += ", limited by " + limit;
+  const double progress = value(node, "Status", "progress");
+  const std::string mode = named(node, "Status", "mode");
+  if (mode == "identify" || mode == "calibrate")
+    text += ", " + std::to_string(std::lround(100.0 * progress)) + " %";
+  const std::string result = named(node, "Status", "result");
+  if (result != "none" && result != "running" && result != "-")
+    text += ", last identification or calibration: " + result;
+  if (const double notes = value(node, "Estimate", "identify_notes"); notes > 0.0)
+    text += " (" + describe_notes(static_cast<std::uint8_t>(notes)) + ")";
+  text += '\n';
+  if (value(node, "Status", "friction") == 1.0)
+    text += "  friction takes more than half of a small motion: the power may be held to less\n";
+  const double version = value(node, "Status", "protocol_version");
+  if (std::isfinite(version) && version != telemetry::protocol_version) {
+    text += "  it speaks version " + std::to_string(std::lround(version)) +
+            " of the protocol, this program " + std::to_string(telemetry::protocol_version) +
+            ": numbers may be wrong; take the supercoil that belongs to it\n";
+  }
+  if (value(node, "Status", "proof_off") == 1.0)
+    text += "  proof_of_response is false: a muscle that is off its sensor may overheat unseen\n";
+  if (value(node, "Status", "oscillated") == 1.0)
+    text += "  the loop oscillated by itself: its feedback is slower now\n";
+  text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +
+          shown("reference", 1e3 * value(node, "Tracking", "reference_m"), 3, "mm") +
+          shown("error", 1e6 * value(node, "Tracking", "error_m"), 0, "um") + '\n';
+  text += shown("power", value(node, "Power", "applied_W"), 3, "W ") +
+          shown("demanded", value(node, "Power", "demanded_W"), 3, "W ") +
+          shown("resistance", value(node, "Measurement", "resistance_Ohm"), 3, "Ohm") + '\n';
+  text += shown("coldest", value(node, "Temperature", "coldest_C"), 1, "C ") +
+          shown("hottest", value(node, "Temperature", "hottest_C"), 1, "C ") +
+          shown("supply", value(node, "Heater", "supply_V"), 2, "V") + '\n';
+  return text;
+}
+
+}  // namespace
+
+std::string state_text(const Recent& recent) {
+  std::map<int, Newest> nodes;
+  hal::Time newest{};
+  // Everything is sent within this time.
+  for (const hal::CanFrame& frame : recent.between(-std::chrono::seconds(3), hal::Time::max())) {
+    newest = frame.received;
+    if (const auto decoded = can_client::decode(frame))
+      nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
+  }
+  for (auto& [number, node] : nodes) {
+    const auto cause = recent.first_cause(static_cast<std::uint8_t>(number));
+    const auto decoded = cause ? can_client::decode(*cause) : std::nullopt;
+    if (decoded) node.insert_or_assign(decoded->message->name, *decoded);
+  }
+  const BusFigures bus = recent.figures();
+  std::array<char, 120> head{};
+  std::snprintf(head.data(), head.size(), "at %.3f s: %.0f frames/s, bus %.1f %% busy%s%s\n",
+                hal::seconds(newest), bus.frames_per_s, 100.0 * bus.load,
+                recent.lost().empty() ? "" : "; LOST: ", recent.lost().c_str());
+  std::string text = head.data();
+  if (nodes.empty()) text += "no node of supercoil is heard\n";
+  for (const auto& [number, node] : nodes)
+    text += node_text(number, node);
+  return text;
+}
+
+int show_on_terminal(const Recent& recent, bool log, const std::function<bool()>& ended) {
+  const bool terminal = isatty(STDOUT_FILENO) == 1;
+  const auto every = std::chrono::milliseconds(terminal ? 200 : 1000);
+  do {
+    if (!log) std::this_thread::sleep_for(every);
+    // Home, and clear what is below.
+    const std::string text = (terminal && !log ? "\x1b[H\x1b[J" : "") + state_text(recent);
+    if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return exit_failed;
+  } while (!log && !ended());
+  return exit_done;
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,143 @@
+// supercoil command: one command to a board, once or again and again.
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "apps/supercoil/commands.hpp"
+#include "apps/supercoil/interrupted.hpp"
+#include "text/command_text.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A board's answer as an exit status; anything but "ok" is also said.
+int judged(const std::string& line, const std::string& answer) {
+  if (answer == "ok") return exit_done;
+  const bool refused = answer.starts_with("refused");
+  return fail(refused ? exit_failed : exit_wrong_input, line + ": " + answer);
+}
+
+/// One command's end, as text or as JSON on standard output.
+int concluded(const CommandOptions& options, const std::string& line,
+              const BoardLink::Answer& answer) {
+  if (options.json) {
+    nlohmann::ordered_json told{{"command", line}};
+    told[answer ? "answer" : "error"] = answer ? *answer : answer.error();
+    std::printf("%s\n", told.dump().c_str());
+  }
+  return answer ? judged(line, *answer) : fail(exit_failed, answer.error());
+}
+
+int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
+  return concluded(options, line, board.ask(line));
+}
+
+bool is_number(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words)
+    line += (line.empty() ? "" : " ") + word;
+  return line;
+}
+
+/// Channel and verb as they are; the value on its sine, if there is one.
+std::string line_at(const CommandOptions& options, double time_s) {
+  if (options.sine_period_s <= 0.0) return joined(options.words);
+  constexpr double turn = 6.283185307179586;
+  const double value = std::stod(options.words[2]) +
+                       options.sine_amplitude * std::sin(turn * time_s / options.sine_period_s);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.9g", value);
+  return joined({options.words[0], options.words[1], text.data()});
+}
+
+/// identify and calibrate end by themselves, with a result.
+bool has_result(const CommandOptions& options) {
+  return options.words[1] == name(Verb::identify) || options.words[1] == name(Verb::calibrate);
+}
+
+/// A mode ended by itself, or was ended: if it has a result, which.
+int ended(BoardLink& board, const CommandOptions& options) {
+  if (!has_result(options)) return exit_done;
+  const std::string line = joined(options.words);
+  auto ending = board.ending(options.words[0]);
+  // What is told of the board's state may be a moment older than its refusal.
+  for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ending = board.ending(options.words[0]);
+  }
+  if (options.json) {
+    nlohmann::ordered_json told{{"command", line}};
+    told[ending ? "result" : "error"] = ending ? ending->result : ending.error();
+    if (ending && !ending->notes.empty()) told["notes"] = ending->notes;
+    std::printf("%s\n", told.dump().c_str());
+  }
+  if (!ending) return fail(exit_failed, ending.error());
+  const std::string notes = ending->notes.empty() ? "" : " (" + ending->notes + ")";
+  const bool found = ending->result == "found";
+  if (found && !notes.empty() && !options.json)
+    std::printf("%s ended: found%s\n", line.c_str(), notes.c_str());
+  return found ? exit_done : fail(exit_failed, line + " ended: " + ending->result + notes);
+}
+
+/// Until its time is over or it is interrupted; then the muscle rests.
+int hold(BoardLink& board, const CommandOptions& options) {
+  watch_for_interrupts();
+  const bool renews_itself = options.words.size() == 3;
+  const auto begin = Clock::now();
+  auto next = begin;
+  for (;;) {
+    const double time_s = std::chrono::duration<double>(Clock::now() - begin).count();
+    const bool first = next == begin;
+    const std::string line =
+        first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
+    const auto answer = board.ask(line);
+    const bool is_over = answer && *answer == answer_text(Refusal::wrong_state, NAN);
+    if (is_over && !first && !renews_itself) return ended(board, options);
+    if (!answer || *answer != "ok") return concluded(options, line, answer);
+    if (interrupted != 0 || time_s >= options.hold_s) break;
+    next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);
+    std::this_thread::sleep_until(next);
+  }
+  const std::string rest = options.words[0] + " rest";
+  if (!has_result(options)) return ask(board, options, rest);
+  const auto answer = board.ask(rest);
+  return answer ? ended(board, options) : concluded(options, rest, answer);
+}
+
+}  // namespace
+
+int command_command(const CommandOptions& options) {
+  const bool number = options.words.size() == 3 && is_number(options.words[2]);
+  if (options.sine_period_s > 0.0 && !number) {
+    return fail(exit_wrong_input, joined(options.words) + ": a sine needs a number as its middle");
+  }
+  if (options.sine_period_s > 0.0 && options.hold_s <= 0.0)
+    return fail(exit_wrong_input, "a sine needs --for or --hold");
+  const auto board = open_link(options.can, options.socket);
+  if (!board) return fail(exit_failed, board.error());
+  const std::string line = joined(options.words);
+  if (line == "state") {
+    const auto answer = (*board)->state();
+    if (!answer) return fail(exit_failed, answer.error());
+    std::fputs(answer->c_str(), stdout);
+    return exit_done;
+  }
+  return options.hold_s > 0.0 ? hold(**board, options) : ask(**board, options, line);
+}
+
+}  // namespace supercoil::operating

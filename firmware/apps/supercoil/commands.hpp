@@ -1,0 +1,85 @@
+// The commands of supercoil. Each returns the program's exit status.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/common/exit_status.hpp"
+
+namespace supercoil::operating {
+
+/// Prints the message to standard error and returns the status.
+int fail(int status, const std::string& message);
+
+struct LogOptions {
+  std::string file;
+  std::string out;                                           ///< empty: standard output
+  double from_s = -std::numeric_limits<double>::infinity();  ///< relative to the fault
+  double to_s = std::numeric_limits<double>::infinity();
+  int channel = 0;  ///< from 1; 0: all
+  bool damaged = false;
+  bool summary = false;
+  int node = 0;         ///< of a CAN log, 1 to 63; 0: all
+  std::string message;  ///< of a CAN log; empty: all
+};
+/// A flight recording or a CAN log, whichever the file is.
+int log_command(const LogOptions& options);
+bool is_can_log(const std::string& path);
+int can_log_command(const LogOptions& options);
+
+struct CommandOptions {
+  std::string can;  ///< a bus; empty: the board on which this runs
+  bool json = false;
+  std::string socket = "/run/supercoil/commands";
+  std::vector<std::string> words;  ///< "state", or channel, verb, value
+  double hold_s = 0.0;             ///< 0: once
+  double sine_amplitude = 0.0;
+  double sine_period_s = 0.0;  ///< 0: no sine
+};
+int command_command(const CommandOptions& options);
+
+struct SettingOptions {
+  std::string can;  ///< a bus
+  int node = 1;
+  std::string name;             ///< empty: all
+  std::optional<double> value;  ///< to write
+  bool json = false;
+};
+int setting_command(const SettingOptions& options);
+
+struct DoctorOptions {
+  std::string config = "/etc/supercoil/board.toml";
+  std::string run_folder = "/run/supercoil";
+  int priority = 80;  ///< that supercoild is given
+  int cpu = -1;       ///< that supercoild is given; negative: any
+  std::string can;    ///< an interface to look at, e.g. can0; empty: that of [can]
+  bool json = false;
+  bool compare_senses = false;  ///< then can is a bus to command over; empty: the socket
+  int channel = 1;
+  double power_W = 0.0;  ///< of the comparison; 0: what is safe by the configuration
+  std::string socket = "/run/supercoil/commands";
+};
+/// Leads a person with a meter through a comparison of a running board's senses.
+int compare_senses(const DoctorOptions& options);
+int doctor_command(const DoctorOptions& options);
+
+struct MonitorOptions {
+  std::string source;                ///< an interface, socketcand:PORT or a candump log
+  std::string listen = "127.0.0.1";  ///< address
+  int port = 8080;                   ///< 0: a free one
+  bool read_only = false;
+  bool text = false;        ///< on the terminal; no page
+  double keep_s = 3600.0;   ///< how much a page that is opened later still sees
+  double bit_rate = 500e3;  ///< of the bus, for its load
+};
+int monitor_command(const MonitorOptions& options);
+
+struct DbcOptions {
+  std::vector<int> nodes;  ///< empty: node 1, under the messages' own names
+  std::string out;         ///< empty: standard output
+};
+int dbc_command(const DbcOptions& options);
+
+}  // namespace supercoil::operating

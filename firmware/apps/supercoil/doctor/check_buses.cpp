@@ -1,0 +1,52 @@
+#include "apps/supercoil/doctor/check_buses.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "config/bus_time.hpp"
+
+namespace supercoil::doctor {
+
+namespace {
+
+/// Measured times vary with what else the board does.
+constexpr double borne = 1.25;
+
+std::string of_tick(double time_s, double tick_s) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.3f ms (%.1f %% of a tick)", 1e3 * time_s,
+                100.0 * time_s / tick_s);
+  return text.data();
+}
+
+}  // namespace
+
+void check_buses(const config::BoardConfig& config, const BusTimes& measured,
+                 const hal::Tell& tell) {
+  using hal::Verdict;
+  const double tick_s = config.settings.step_s();
+  for (const config::BusAddress& bus : config.wiring.buses) {
+    const std::string what = "bus " + bus.name;
+    const double computed_s = config::bus_time(config.wiring, bus).total_s;
+    const std::string computed = of_tick(computed_s, tick_s) + " by the configuration";
+    const auto found = measured.find(bus.name);
+    if (found == measured.end()) {
+      tell({what, Verdict::ok, computed + "; not measured", ""});
+      continue;
+    }
+    const double time_s = hal::seconds(found->second);
+    const std::string both = computed + ", " + of_tick(time_s, tick_s) + " measured";
+    if (time_s > config::most_bus_part * tick_s) {
+      tell({what, Verdict::problem, both + ": 70 % is the most",
+            "a faster clock, fewer devices on this bus, or a lower rate_Hz"});
+    } else if (time_s > borne * computed_s) {
+      tell({what, Verdict::warning, both,
+            "correct clock_Hz, overhead_us, transactions or wait_ms: the check of the bus's time "
+            "relies on them"});
+    } else {
+      tell({what, Verdict::ok, both, ""});
+    }
+  }
+}
+
+}  // namespace supercoil::doctor

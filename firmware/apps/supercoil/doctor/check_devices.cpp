@@ -1,0 +1,40 @@
+#include "apps/supercoil/doctor/check_devices.hpp"
+
+#include <set>
+
+#include "apps/supercoil/doctor/check_converters.hpp"
+#include "apps/supercoil/doctor/check_lines.hpp"
+#include "apps/supercoil/doctor/check_pwm.hpp"
+#include "linux_board/parts.hpp"
+
+namespace supercoil::doctor {
+
+namespace {
+
+/// The sum over each bus's devices. A bus of which a device is missing has none: a part of its time
+/// would look like good news.
+BusTimes sums(const std::vector<BusShare>& shares) {
+  BusTimes times;
+  std::set<std::string> incomplete;
+  for (const BusShare& share : shares) {
+    times[share.bus] += share.time.value_or(hal::Duration{});
+    if (!share.time) incomplete.insert(share.bus);
+  }
+  for (const std::string& bus : incomplete)
+    times.erase(bus);
+  return times;
+}
+
+}  // namespace
+
+BusTimes check_devices(const config::BoardConfig& config, const hal_linux::Machine& machine,
+                       int priority, const hal::Tell& tell) {
+  linux_board::Parts parts = linux_board::open_parts(config.wiring, machine);
+  check_lines(config.wiring, machine, parts, priority, tell);
+  std::vector<BusShare> shares;
+  check_pwms(config.wiring, parts, priority, tell, shares);
+  check_converters(config, machine, parts, priority, tell, shares);
+  return sums(shares);
+}
+
+}  // namespace supercoil::doctor

@@ -1,0 +1,121 @@
+#include "apps/supercoil/doctor/check_lines.hpp"
+
+#include "apps/supercoil/doctor/call_time.hpp"
+#include "config/describe.hpp"
+
+namespace supercoil::doctor {
+
+namespace {
+
+using hal::Verdict;
+
+constexpr const char* rename_line =
+    "correct chip and line in the board's file (gpiodetect, gpioinfo), or name the line in the "
+    "device tree (gpio-line-names)";
+constexpr const char* line_is_slow =
+    "use a line of the processor itself, not of an expander behind a bus: lines are the timed cut";
+
+const char* text(hal_linux::Bias bias) {
+  switch (bias) {
+    case hal_linux::Bias::none:
+      return "the chip pulls it nowhere";
+    case hal_linux::Bias::pull_up:
+      return "the chip pulls it up";
+    case hal_linux::Bias::pull_down:
+      return "the chip pulls it down";
+    case hal_linux::Bias::unknown:
+      break;
+  }
+  return "what pulls it is not told";
+}
+
+void check_output(const config::LineAddress& address, linux_board::OutputPart& part, int priority,
+                  const hal::Tell& tell) {
+  if (!part.device)
+    return tell({part.what, Verdict::problem, part.device.error().text, rename_line});
+  hal::Status status = hal::Status::ok;
+  // Low, as it is already: what is timed is the call.
+  const CallTime time = time_calls([&] { status = (*part.device)->set(false); }, priority);
+  if (status != hal::Status::ok) {
+    return tell({part.what, Verdict::problem,
+                 config::shown(address) + " cannot be set: " + hal::text(status),
+                 "look at what the kernel says of its chip (dmesg)"});
+  }
+  tell(judged(part.what, config::shown(address) + ", low", time, line_is_slow));
+}
+
+void check_stop(const config::LineAddress& address, linux_board::InputPart& part, int priority,
+                const hal::Tell& tell) {
+  if (!part.device)
+    return tell({part.what, Verdict::problem, part.device.error().text, rename_line});
+  hal::Level level;
+  const CallTime time = time_calls([&] { level = (*part.device)->read(); }, priority);
+  const std::string where = config::shown(address);
+  if (level.status != hal::Status::ok) {
+    tell({part.what, Verdict::problem, where + " cannot be read: " + hal::text(level.status),
+          "look at what the kernel says of its chip (dmesg)"});
+  } else if (!level.high) {
+    tell({part.what, Verdict::warning, where + ": open (pressed, or a wire of it is off)",
+          "close it: nothing can be armed before"});
+  } else {
+    tell(judged(part.what, where + ": closed", time, line_is_slow));
+  }
+}
+
+/// Duty 0 is what makes this safe on a board whose resistor is missing.
+void check_released(const config::LineAddress& address, const hal_linux::Machine& machine,
+                    linux_board::ChannelParts& channel, const hal::Tell& tell) {
+  linux_board::OutputPart& enable = channel.enable;
+  const std::string what = enable.what + " released";
+  // What is missing has been told.
+  if (!enable.device) return;
+  if (!channel.pwm.device) {
+    return tell({what, Verdict::warning, "not looked at: its duty is not known to be 0",
+                 "see to " + channel.pwm.what + " first"});
+  }
+  const hal_linux::LineName name = linux_board::line_name(address);
+  enable.device->reset();
+  const auto at_rest = hal_linux::look_at_rest(name, machine.dev);
+  enable.device = hal_linux::GpioOutput::open(name, machine.dev);
+  if (at_rest && enable.device) return tell(judged(what, *at_rest));
+  const std::string& why = at_rest ? enable.device.error().text : at_rest.error().text;
+  tell({what, Verdict::problem, "given up for a moment, and then: " + why,
+        "end what else takes this line"});
+}
+
+}  // namespace
+
+hal::Finding judged(const std::string& what, const hal_linux::LineAtRest& found) {
+  using hal_linux::Bias;
+  constexpr const char* fit_resistor =
+      "see that a resistor on the board pulls it down: without one the gate may open when the "
+      "firmware dies, and while the board starts";
+  const std::string told = std::string("; ") + text(found.bias);
+  if (found.level.status != hal::Status::ok) {
+    return {what, Verdict::warning,
+            std::string("cannot be read while nobody drives it: ") + hal::text(found.level.status) +
+                told,
+            fit_resistor};
+  }
+  if (found.level.high) {
+    return {what, Verdict::problem, "high while nobody drives it" + told,
+            "fit a resistor that pulls it down, stronger than what pulls it up: the gate opens "
+            "when the firmware dies"};
+  }
+  const std::string low = "low while nobody drives it" + told;
+  if (found.bias == Bias::pull_down) return {what, Verdict::ok, low, ""};
+  return {what, Verdict::warning, low, fit_resistor};
+}
+
+void check_lines(const config::BoardWiring& wiring, const hal_linux::Machine& machine,
+                 linux_board::Parts& parts, int priority, const hal::Tell& tell) {
+  check_output(wiring.heartbeat, parts.heartbeat, priority, tell);
+  check_stop(wiring.stop_circuit, parts.stop_circuit, priority, tell);
+  if (parts.light) check_output(*wiring.light, *parts.light, priority, tell);
+  for (std::size_t i = 0; i < parts.channels.size(); ++i) {
+    check_output(wiring.channels[i].enable, parts.channels[i].enable, priority, tell);
+    check_released(wiring.channels[i].enable, machine, parts.channels[i], tell);
+  }
+}
+
+}  // namespace supercoil::doctor

@@ -1,0 +1,70 @@
+// supercoil doctor: looks at a board before anybody heats anything.
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "apps/supercoil/commands.hpp"
+#include "apps/supercoil/doctor/check_board.hpp"
+#include "apps/supercoil/doctor/report.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+/// Nobody has written the board's file yet. One that is asked for by name must be there.
+bool unconfigured(const DoctorOptions& options) {
+  std::error_code error;
+  return options.config == DoctorOptions().config &&
+         !std::filesystem::exists(options.config, error) && !error;
+}
+
+/// Each finding is printed as it comes: a device that hangs is the one after the last line.
+hal::Tell teller(doctor::Report& report, bool json) {
+  return [&report, json](const hal::Finding& finding) {
+    report.findings.push_back(finding);
+    if (json) return;
+    std::fputs(doctor::to_text(finding).c_str(), stdout);
+    std::fflush(stdout);
+  };
+}
+
+int conclude(const doctor::Report& report, bool json) {
+  if (json) {
+    std::fputs(doctor::to_json(report).c_str(), stdout);
+  } else {
+    std::printf("%s: %s\n", report.board.c_str(), doctor::summary(report).c_str());
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    return fail(exit_failed, "cannot write to standard output");
+  }
+  return report.count(hal::Verdict::problem) == 0 ? exit_done : exit_failed;
+}
+
+}  // namespace
+
+int doctor_command(const DoctorOptions& options) {
+  if (options.compare_senses) return compare_senses(options);
+  const doctor::CheckOptions check{
+      {}, {options.priority, options.cpu}, options.run_folder, options.can};
+  if (unconfigured(options)) {
+    doctor::Report report{"this machine", options.config, {}};
+    const hal::Tell tell = teller(report, options.json);
+    doctor::check_machine(check, tell);
+    tell({"configuration", hal::Verdict::problem,
+          "none: " + options.config + ": there is no such file",
+          "copy the nearest of the examples in /etc/supercoil/boards (in the sources "
+          "firmware/io/config/examples) there and correct it, docs/configuration.md has every key; "
+          "or name another with --config"});
+    return conclude(report, options.json);
+  }
+  const auto config = config::read_board_config(options.config);
+  if (!config) {
+    std::fputs(config::to_text(config.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  doctor::Report report{config->name, options.config, {}};
+  doctor::check_board(*config, check, teller(report, options.json));
+  return conclude(report, options.json);
+}
+
+}  // namespace supercoil::operating

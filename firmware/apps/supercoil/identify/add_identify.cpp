@@ -1,0 +1,77 @@
+// The options of supercoil identify.
+#include <CLI/CLI.hpp>
+
+#include "apps/supercoil/identify/options.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+void add_column(CLI::App& identify, const std::string& quantity, identification::Column& column,
+                const std::string& units) {
+  identify
+      .add_option("--" + quantity + "-column", column.name,
+                  "Its name, or its number from 1 [found by its name]")
+      ->type_name("NAME");
+  identify.add_option("--" + quantity + "-unit", column.unit, units)->type_name("UNIT");
+}
+
+}  // namespace
+
+void add_identify(CLI::App& app, IdentifyOptions& o) {
+  CLI::App* identify = app.add_subcommand(
+      "identify",
+      "Fit a recording of position and power: which muscle it is, how well each model predicts "
+      "what it has not seen, and a [muscle] table");
+  identify
+      ->add_option("FILE", o.file,
+                   "CSV with a line of names; trace.csv of supercoil-sim; a flight recording")
+      ->required();
+  add_column(*identify, "time", o.columns.time, "s, ms, us or min [by the name, else s]");
+  add_column(*identify, "position", o.columns.position, "m, cm, mm or um [by the name, else m]");
+  identify
+      ->add_option("--position-scale", o.columns.position.scale,
+                   "Times this; −1 where the sensor counts the other way: position grows when the "
+                   "muscle is heated")
+      ->capture_default_str();
+  add_column(*identify, "power", o.columns.power, "W or mW [by the name, else W]");
+  identify
+      ->add_option("--power-scale", o.columns.power.scale,
+                   "Times this: of a column that is 1 while heated, the power")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  identify->add_option("--channel", o.columns.channel, "Of a file with several, 1 to 16")
+      ->check(CLI::Range(1, 16));
+  identify->add_option("--from", o.from_s, "Use nothing before this time in s [the first]");
+  identify->add_option("--to", o.to_s, "Use nothing after this time in s [the last]");
+  identify
+      ->add_option("--fit", o.fit,
+                   "FROM:TO in s: fit to this [until the last heating from rest; without two of "
+                   "them, the first two thirds]")
+      ->type_name("SPAN");
+  identify
+      ->add_option("--judge", o.judge, "FROM:TO in s: judge by this [what is not fitted after it]")
+      ->type_name("SPAN");
+  identify->add_flag("--bridge-gaps", o.bridge_gaps,
+                     "Where rows are missing, power stayed as it was");
+  identify
+      ->add_option("--thermal-mass", o.thermal_mass_J_per_K,
+                   "Of the muscle in J/K, which position and power cannot tell [0.162]")
+      ->check(CLI::Range(1e-4, 1e3));
+  CLI::Option* stiffness = identify
+                               ->add_option("--stiffness", o.stiffness_N_per_m,
+                                            "In N/m, which position and power cannot tell [16]")
+                               ->check(CLI::Range(1e-2, 1e6));
+  identify
+      ->add_option("--moving-mass", o.moving_mass_kg,
+                   "In kg, the load's with it: then the stiffness follows")
+      ->check(CLI::Range(1e-5, 1e3))
+      ->excludes(stiffness);
+  identify->add_option("--muscle", o.muscle, "Write the [muscle] table to this file [print it]")
+      ->type_name("TOML");
+  identify->add_option("--plot", o.plot, "Draw measured, predicted and what is left (gnuplot)")
+      ->type_name("SVG");
+  identify->add_flag("--json", o.json, "Print one JSON object instead of text");
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,77 @@
+#include "apps/supercoil/identify/input.hpp"
+
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+#include "recorder/recording.hpp"
+#include "storage/posix_files.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+namespace fs = std::filesystem;
+using identification::Problem;
+using identification::Recording;
+
+constexpr std::uintmax_t max_bytes = 1ULL << 30;
+
+tl::expected<std::string, std::string> content_of(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return tl::unexpected(path + ": there is no such file");
+  if (!fs::is_regular_file(path, error)) return tl::unexpected(path + ": is not a file");
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error) return tl::unexpected(path + ": cannot be read: " + error.message());
+  if (bytes > max_bytes) return tl::unexpected(path + ": is larger than 1 GiB");
+  storage::PosixFiles files;
+  auto content = files.read(path, bytes);
+  if (!content) return tl::unexpected(content.error().text);
+  return std::move(*content);
+}
+
+/// The rows of one channel. Lines are counted as supercoil log would write them.
+tl::expected<Recording, Problem> from_flight_recording(std::string_view content, int channel) {
+  const auto flight = recorder::decode(content, recorder::Damaged::refuse);
+  if (!flight) return tl::unexpected(Problem{0, flight.error()});
+  if (channel == 0 && flight->header.channels > 1) {
+    return tl::unexpected(Problem{
+        0, "has " + std::to_string(flight->header.channels) + " channels: say which by --channel"});
+  }
+  Recording recording;
+  for (std::size_t i = 0; i < flight->rows.size(); ++i) {
+    const Row& row = flight->rows[i];
+    if (channel != 0 && row.channel + 1 != channel) continue;
+    recording.time_s.push_back(flight->time_s(row));
+    recording.position_m.push_back(row.position_m);
+    recording.power_W.push_back(row.applied_W);
+    recording.line.push_back(i + 2);
+  }
+  return recording;
+}
+
+}  // namespace
+
+std::string to_text(const std::string& file, const Problem& problem) {
+  return file + ":" + (problem.line > 0 ? std::to_string(problem.line) + ":" : "") + " " +
+         problem.text;
+}
+
+tl::expected<Recording, std::string> read_input(const IdentifyOptions& o) {
+  const auto content = content_of(o.file);
+  if (!content) return tl::unexpected(content.error());
+  const auto text_of = [&](const Problem& problem) {
+    return tl::unexpected(to_text(o.file, problem));
+  };
+  const bool flight = content->starts_with("supercoil flight recording");
+  auto recording = flight ? from_flight_recording(*content, o.columns.channel)
+                          : identification::read_csv(*content, o.columns);
+  if (!recording) return text_of(recording.error());
+  identification::cut(*recording, {o.from_s, o.to_s});
+  const auto gaps = o.bridge_gaps ? identification::Gaps::bridge : identification::Gaps::refuse;
+  if (auto checked = identification::check(*recording, gaps); !checked)
+    return text_of(checked.error());
+  return std::move(*recording);
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,58 @@
+#include <array>
+#include <cstdio>
+
+#include "apps/supercoil/identify/findings.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+void add_line(std::string& text, const char* key, double value, const char* comment) {
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(), "%s = %.6g%s%s\n", key, value, *comment ? "  # " : "",
+                comment);
+  text += line.data();
+}
+
+bool told_of(const identification::Fit& fit, double identification::Muscle::*member) {
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    if (fit.parameters[i].member == member) return told(fit, i);
+  return false;
+}
+
+}  // namespace
+
+tl::expected<std::string, std::string> muscle_table(const Findings& f) {
+  using identification::Muscle;
+  const auto p = identification::physical_from(f.linear.muscle, f.assumed);
+  if (const auto wrong = control::check(p)) {
+    std::array<char, 300> text{};
+    std::snprintf(text.data(), text.size(),
+                  "%s would be %.4g, which is not between %.4g and %.4g: no muscle of thread, or "
+                  "another --thermal-mass, --stiffness or --moving-mass is needed",
+                  wrong->quantity, wrong->value, wrong->lowest, wrong->highest);
+    return tl::unexpected(std::string(text.data()));
+  }
+  const bool by_mass = f.assumed.moving_mass_kg.has_value();
+  const bool frequency = told_of(f.linear, &Muscle::natural_frequency_rad_per_s);
+  const bool damping = told_of(f.linear, &Muscle::damping_ratio);
+  const char* unseen = "not told by the recording: too fast, or too little motion";
+  std::string text = "# " + f.file + ", " + name(f.linear.effects) + ", the whole recording\n";
+  text += "[muscle]\n";
+  add_line(text, "thermal_mass_J_per_K", p.thermal_mass_J_per_K,
+           f.thermal_mass_assumed ? "assumed: weigh the muscle, and say --thermal-mass"
+                                  : "as told by --thermal-mass");
+  add_line(text, "heat_transfer_W_per_K", p.heat_transfer_W_per_K, "follows from it");
+  const char* follows = frequency ? "" : unseen;
+  add_line(text, "stiffness_N_per_m", p.stiffness_N_per_m,
+           by_mass               ? follows
+           : f.stiffness_assumed ? "assumed: say --stiffness or --moving-mass"
+                                 : "as told by --stiffness");
+  add_line(text, "damping_Ns_per_m", p.damping_Ns_per_m, damping ? "" : unseen);
+  add_line(text, "moving_mass_kg", p.moving_mass_kg,
+           by_mass ? "as told by --moving-mass" : follows);
+  add_line(text, "force_per_kelvin_N_per_K", p.force_per_kelvin_N_per_K, "follows from both");
+  return text;
+}
+
+}  // namespace supercoil::operating

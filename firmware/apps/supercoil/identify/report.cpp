@@ -1,0 +1,130 @@
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "apps/supercoil/identify/findings.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using identification::Comparison;
+using identification::Fit;
+using identification::Judged;
+
+/// Less motion than this share of the stroke judges no model.
+constexpr double still = 0.1;
+
+// NOLINTNEXTLINE(cert-dcl50-cpp): printf's own form
+[[gnu::format(printf, 2, 3)]] void print(std::string& text, const char* format, ...) {
+  std::array<char, 600> line{};
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line.data(), line.size(), format, arguments);
+  va_end(arguments);
+  text += line.data();
+}
+
+void add_model(std::string& text, const Comparison& c, const Judged& model, bool chosen) {
+  const double percent = 100.0 / c.sizes.stroke_m;
+  print(text, "%s %-42s %7.2f %8.2f %8.2f %8.2f %%", chosen ? "*" : " ",
+        name(model.fit.effects).c_str(), model.fitted_rms_m * percent,
+        model.fit.cross_validated_m * percent, model.unseen_rms_m * percent,
+        100.0 * model.fitted_explained);
+  if (c.unseen_stroke_ratio < still) {
+    print(text, "        –\n");
+  } else {
+    print(text, " %8.2f %%\n", 100.0 * model.unseen_explained);
+  }
+}
+
+void add_models(std::string& text, const Comparison& c) {
+  print(text, "\n%-44s %7s %8s %8s %19s\n", "", "", "left", "", "motion explained");
+  print(text, "%-44s %7s %8s %8s %10s %10s\n", "  error in % of the stroke (rms)", "fitted", "out",
+        "unseen", "fitted", "unseen");
+  for (std::size_t i = 0; i < c.models.size(); ++i)
+    add_model(text, c, c.models[i], i == c.chosen && c.not_a_muscle.empty());
+  add_model(text, c, c.transformation, false);
+  if (c.unseen_stroke_ratio < still) {
+    print(text,
+          "The unseen part moves by %.1f %% of the stroke only and judges little: choose another "
+          "by --fit and --judge.\n",
+          100.0 * c.unseen_stroke_ratio);
+  }
+}
+
+void add_value(std::string& text, const Fit& fit, std::size_t i) {
+  const double value = fit.muscle.*fit.parameters[i].member;
+  print(text, " %11.4g ± %-9.2g", value, fit.deviation(i));
+}
+
+/// A model's parameters after the fitted part and after all of it.
+void add_parameters(std::string& text, const Fit& part, const Fit& whole) {
+  print(text, "\n%-31s %23s %23s\n", (name(part.effects) + ":").c_str(), "fitted part",
+        "whole recording");
+  for (std::size_t i = 0; i < part.parameters.size(); ++i) {
+    if (!part.parameters[i].of_muscle) continue;
+    print(text, "  %-29s", std::string(part.parameters[i].name).c_str());
+    add_value(text, part, i);
+    add_value(text, whole, i);
+    text += told(whole, i) ? "\n" : " not told\n";
+  }
+}
+
+void add_change(std::string& text, const Findings& f) {
+  const auto change = identification::largest_change(f.linear_first, f.linear);
+  const std::string what(f.linear.parameters[change.parameter].name);
+  const double percent = 100.0 * (change.ratio - 1.0);
+  if (change.deviations <= 3.0) {
+    print(text, "No change: %s moves by %+.1f %%, %.1f standard deviations, with the rest.\n",
+          what.c_str(), percent, change.deviations);
+  } else {
+    print(text,
+          "%s moves by %+.1f %%, %.1f standard deviations, with the rest: the muscle changed, or "
+          "one linear model does not hold for all of the recording.\n",
+          what.c_str(), percent, change.deviations);
+  }
+}
+
+void add_theta(std::string& text, const Findings& f) {
+  const auto theta = identification::theta_of(f.linear, f.assumed);
+  print(text, "θ of the whole recording, of %s:", name(f.linear.effects).c_str());
+  for (int i = 0; i < 4; ++i)
+    print(text, "%s %.4g ± %.2g", i > 0 ? "," : "", theta.theta[i], theta.deviation[i]);
+  text += "\n";
+}
+
+}  // namespace
+
+bool told(const Fit& fit, std::size_t parameter) {
+  const auto i = static_cast<Eigen::Index>(parameter);
+  return std::sqrt(fit.covariance(i, i)) < 0.7 * fit.parameters[parameter].deviation;
+}
+
+std::string report(const Findings& f) {
+  const Comparison& c = f.comparison;
+  std::string text;
+  print(text, "%s: %zu rows, %.4g to %.4g s, used at %.4g Hz; stroke %.4g mm, power up to %.4g W\n",
+        f.file.c_str(), f.rows, f.samples.start_s, f.samples.end_s(), 1.0 / f.samples.step_s,
+        1e3 * c.sizes.stroke_m, c.sizes.full_W);
+  print(
+      text,
+      "Fitted to %.4g to %.4g s, judged by %.4g to %.4g s, which no fit has seen. Left out: each\n"
+      "fifth of the fitted part, by a fit to the others. Both choose the model (*).\n",
+      c.parts.fitted.from_s, c.parts.fitted.to_s, c.parts.unseen.from_s, c.parts.unseen.to_s);
+  add_models(text, c);
+  if (!c.not_a_muscle.empty()) {
+    text += "\nThis is not a super-coiled polymer muscle, as far as the recording says: " +
+            c.not_a_muscle + ".\n";
+    return text;
+  }
+  add_parameters(text, c.best().fit, f.whole);
+  if (!(f.linear.effects == f.whole.effects)) add_parameters(text, f.linear_first, f.linear);
+  text += "Standard deviations include the model's own error.\n";
+  add_change(text, f);
+  add_theta(text, f);
+  return text;
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,108 @@
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include <unistd.h>
+
+#include "apps/supercoil/commands.hpp"
+#include "apps/supercoil/output_file.hpp"
+#include "apps/supercoil/summary.hpp"
+#include "recorder/recording.hpp"
+#include "storage/posix_files.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::expected<std::string, std::string> read(const std::string& path, storage::Files& files) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    return tl::unexpected(
+        path + ": " +
+        (error && error.value() != ENOENT ? error.message() : "there is no such file"));
+  }
+  if (!fs::is_regular_file(status)) return tl::unexpected(path + ": is not a file");
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error) return tl::unexpected(path + ": cannot be read: " + error.message());
+  auto content = files.read(path, bytes);
+  if (!content) return tl::unexpected(content.error().text);
+  return std::move(*content);
+}
+
+int say(const std::string& text, storage::Files& files) {
+  const auto written = files.write({STDOUT_FILENO, "standard output"}, text);
+  return written ? exit_done : fail(exit_failed, written.error().text);
+}
+
+int print_csv(const recorder::Recording& recording, storage::Files& files) {
+  const auto written =
+      recorder::to_csv(recording, [&](std::string_view part) -> tl::expected<void, std::string> {
+        auto result = files.write({STDOUT_FILENO, "standard output"}, part);
+        if (!result) return tl::unexpected(result.error().text);
+        return {};
+      });
+  return written ? exit_done : fail(exit_failed, written.error());
+}
+
+int write_csv(const recorder::Recording& recording, const std::string& path,
+              storage::Files& files) {
+  auto file = OutputFile::open(path, files);
+  if (!file) return fail(exit_wrong_input, file.error());
+  auto written =
+      recorder::to_csv(recording, [&](std::string_view part) { return file->write(part); });
+  if (written) written = file->commit();
+  return written ? exit_done : fail(exit_failed, written.error());
+}
+
+/// Why these rows cannot be shown; empty when they can.
+std::string wrong_choice(const LogOptions& o, const recorder::Recording& recording) {
+  // Written so that NaN is wrong as well.
+  if (!(o.from_s <= o.to_s)) return "--from must not be later than --to";
+  if (o.channel > recording.header.channels) {
+    return "--channel " + std::to_string(o.channel) + ": the recording has channels 1 to " +
+           std::to_string(recording.header.channels);
+  }
+  std::error_code ignored;
+  if (!o.out.empty() && fs::equivalent(o.file, o.out, ignored))
+    return o.out + ": is the recording itself";
+  return {};
+}
+
+}  // namespace
+
+int fail(int status, const std::string& message) {
+  std::fprintf(stderr, "supercoil: %s\n", message.c_str());
+  return status;
+}
+
+int log_command(const LogOptions& options) {
+  if (is_can_log(options.file)) return can_log_command(options);
+  if (options.node != 0 || !options.message.empty()) {
+    return fail(exit_wrong_input,
+                options.file + ": is no CAN log, which --node and --message are for");
+  }
+  storage::PosixFiles files;
+  const auto content = read(options.file, files);
+  if (!content) return fail(exit_wrong_input, content.error());
+  auto recording = recorder::decode(
+      *content, options.damaged ? recorder::Damaged::read : recorder::Damaged::refuse);
+  if (!recording) return fail(exit_wrong_input, options.file + ": " + recording.error());
+  if (const std::string wrong = wrong_choice(options, *recording); !wrong.empty())
+    return fail(exit_wrong_input, wrong);
+  if (!recording->damage.empty()) {
+    std::fprintf(stderr, "supercoil: %s: %s; %zu rows are read\n", options.file.c_str(),
+                 recording->damage.c_str(), recording->rows.size());
+  }
+  if (options.summary) return say(summary(*recording), files);
+  recorder::select(*recording, options.from_s, options.to_s, options.channel - 1);
+  if (recording->rows.empty())
+    return fail(exit_wrong_input, options.file + ": has no rows of that time and channel");
+  if (options.out.empty()) return print_csv(*recording, files);
+  return write_csv(*recording, options.out, files);
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,224 @@
+// supercoil: the operator's tool beside the daemon.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <limits>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/common/commands.hpp"
+#include "apps/supercoil/commands.hpp"
+#include "apps/supercoil/identify/options.hpp"
+#include "telemetry/frames.hpp"
+
+namespace {
+
+using namespace supercoil;
+using namespace supercoil::operating;
+
+void add_log(CLI::App& app, LogOptions& options) {
+  CLI::App* log = app.add_subcommand(
+      "log",
+      "Read a flight recording, its rows as CSV or what happened in words; or a CAN log, decoded "
+      "as CSV");
+  log->add_option("FILE", options.file, "A recording, flight-NUMBER.scfr, or a log of candump -L")
+      ->required();
+  CLI::Option* out =
+      log->add_option("--out", options.out, "Write the CSV to this file [standard output]");
+  CLI::Option* from = log->add_option("--from", options.from_s,
+                                      "First time in s: of a recording relative to the fault, of a "
+                                      "CAN log its own [the first]");
+  CLI::Option* to = log->add_option("--to", options.to_s, "Last time in s, likewise [the last]");
+  CLI::Option* channel =
+      log->add_option("--channel", options.channel, "Only this channel, 1 to 16 [all]")
+          ->check(CLI::Range(1, 16));
+  log->add_flag("--damaged", options.damaged, "Read what can be read of a damaged file");
+  CLI::Option* summary =
+      log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
+  log->add_option("--node", options.node, "Of a CAN log only this node [all]")
+      ->check(CLI::Range(1, telemetry::most_nodes));
+  log->add_option("--message", options.message,
+                  "Of a CAN log only this message, a column for each signal [a row for each value]")
+      ->type_name("NAME");
+  for (CLI::Option* of_csv : {out, from, to, channel})
+    summary->excludes(of_csv);
+}
+
+void add_command(CLI::App& app, CommandOptions& options) {
+  CLI::App* command = app.add_subcommand("command",
+                                         "Give one command to the board on which this runs or to "
+                                         "one on a CAN bus, or ask for its state");
+  command
+      ->add_option("COMMAND", options.words,
+                   "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
+                   "calibrate, position M, power W, scale M, controller N, estimator N, store "
+                   "(keep what the estimator has learned) or clear (forget what is kept)")
+      ->required()
+      ->expected(1, 3);
+  CLI::Option* hold = command->add_option(
+      "--for", options.hold_s,
+      "Renew it for so many seconds or until Ctrl-C; then the muscle rests [once: it expires]");
+  hold->check(CLI::PositiveNumber);
+  command
+      ->add_flag_callback(
+          "--hold", [&] { options.hold_s = std::numeric_limits<double>::infinity(); },
+          "Renew it until Ctrl-C; then the muscle rests")
+      ->excludes(hold);
+  CLI::Option* amplitude = command->add_option("--amplitude", options.sine_amplitude,
+                                               "With --for: the value is the middle of a sine");
+  CLI::Option* period = command->add_option("--period", options.sine_period_s, "Of the sine, in s")
+                            ->check(CLI::Range(0.2, 1e4));
+  amplitude->needs(period);
+  period->needs(amplitude);
+  CLI::Option* socket = command->add_option("--socket", options.socket, "Where supercoild listens")
+                            ->capture_default_str();
+  command
+      ->add_option("--can", options.can,
+                   "Command over this bus instead, where CHANNEL is the node: can0, or "
+                   "socketcand:[HOST:]PORT[/INTERFACE]")
+      ->type_name("BUS")
+      ->excludes(socket);
+  command->add_flag("--json", options.json, "Print the answer as one line of JSON too");
+}
+
+void add_setting(CLI::App& app, SettingOptions& options) {
+  CLI::App* setting = app.add_subcommand(
+      "setting",
+      "Read or change what may be changed on a running board, until it starts again: the greatest "
+      "power, and how often it sends each message");
+  setting->add_option("NODE", options.node, "1 to 63")
+      ->required()
+      ->check(CLI::Range(1, telemetry::most_nodes));
+  setting->add_option("NAME", options.name, "e.g. most_power_W [all]");
+  setting->add_option("VALUE", options.value, "To write [read it]");
+  setting->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
+      ->type_name("BUS")
+      ->required();
+  setting->add_flag("--json", options.json, "Print each setting as one line of JSON");
+}
+
+void add_doctor(CLI::App& app, DoctorOptions& options) {
+  CLI::App* doctor = app.add_subcommand(
+      "doctor",
+      "Look at the board on which this runs before anybody heats anything: kernel, rights, lines, "
+      "PWM, converters, watchdog. Heats nothing, but with --compare-senses; opens devices only "
+      "while no supercoild runs");
+  doctor->add_option("--config", options.config, "The board's configuration")
+      ->type_name("FILE")
+      ->capture_default_str();
+  doctor->add_option("--run-folder", options.run_folder, "Where supercoild's lock is")
+      ->type_name("DIR")
+      ->capture_default_str();
+  doctor->add_option("--priority", options.priority, "That supercoild is given")
+      ->check(CLI::Range(1, 99))
+      ->capture_default_str();
+  doctor->add_option("--cpu", options.cpu, "That supercoild is given [any]")
+      ->check(CLI::Range(0, 1023));
+  doctor
+      ->add_option("--can", options.can,
+                   "Look at this CAN interface, e.g. can0 [that of the configuration]; with "
+                   "--compare-senses command over this bus, can0 or "
+                   "socketcand:[HOST:]PORT[/INTERFACE] [the supercoild of this board]")
+      ->type_name("NAME");
+  CLI::Option* compare = doctor->add_flag(
+      "--compare-senses", options.compare_senses,
+      "Instead compare the senses of a running board with a meter: heats a little, asks for the "
+      "meter's volts and amperes at two powers, and makes the bounds of its power narrow");
+  doctor->add_option("--channel", options.channel, "To compare: from 1; over CAN its node")
+      ->check(CLI::Range(1, telemetry::most_nodes))
+      ->capture_default_str()
+      ->needs(compare);
+  doctor
+      ->add_option("--power", options.power_W,
+                   "The greater of the two powers in W [what cannot burn by the configuration]")
+      ->check(CLI::Range(0.01, 1e3))
+      ->needs(compare);
+  doctor->add_option("--socket", options.socket, "Where supercoild listens, to compare")
+      ->capture_default_str()
+      ->needs(compare);
+  doctor->add_flag("--json", options.json, "Print one JSON object instead of lines");
+}
+
+void add_monitor(CLI::App& app, MonitorOptions& options) {
+  CLI::App* monitor = app.add_subcommand(
+      "monitor", "Serve a page that shows the boards of a bus live, and commands them");
+  monitor
+      ->add_option("SOURCE", options.source,
+                   "can0, socketcand:[HOST:]PORT[/INTERFACE], or a log of candump -L")
+      ->required();
+  monitor->add_option("--port", options.port, "Of the page; 0 takes a free one")
+      ->check(CLI::Range(0, 65534))
+      ->capture_default_str();
+  monitor
+      ->add_option("--listen", options.listen,
+                   "Address that others may reach, e.g. 0.0.0.0: looking needs the token then too")
+      ->type_name("ADDRESS")
+      ->capture_default_str();
+  monitor->add_flag("--read-only", options.read_only, "Nobody may command");
+  monitor->add_flag("--text", options.text, "Show it on this terminal; serve no page");
+  monitor->add_option("--keep", options.keep_s, "Seconds that a page opened later still sees")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  monitor->add_option("--bit-rate", options.bit_rate, "Of the bus in bit/s, to work out its load")
+      ->check(CLI::Range(1e4, 1e6))
+      ->capture_default_str();
+}
+
+void add_dbc(CLI::App& app, DbcOptions& options) {
+  CLI::App* dbc = app.add_subcommand(
+      "dbc", "Print the DBC of the CAN protocol: of node 1, or of a bus with certain nodes");
+  dbc->add_option("--nodes", options.nodes,
+                  "The bus's nodes, e.g. 1,2,5: messages' names end with their node's")
+      ->delimiter(',')
+      ->check(CLI::Range(1, telemetry::most_nodes));
+  dbc->add_option("--out", options.out, "Write it to this file [standard output]");
+}
+
+int run_program(int count, char** arguments) {
+  CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
+  app.set_version_flag("--version", SUPERCOIL_VERSION);
+  app.require_subcommand(1);
+  LogOptions log;
+  add_log(app, log);
+  CommandOptions command;
+  add_command(app, command);
+  SettingOptions setting;
+  add_setting(app, setting);
+  DoctorOptions doctor;
+  add_doctor(app, doctor);
+  MonitorOptions monitor;
+  add_monitor(app, monitor);
+  IdentifyOptions identify;
+  add_identify(app, identify);
+  DbcOptions dbc;
+  add_dbc(app, dbc);
+  if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
+    return fail(exit_wrong_input, wrong);
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? exit_done : exit_wrong_input;
+  }
+  if (app.got_subcommand("doctor")) return doctor_command(doctor);
+  if (app.got_subcommand("monitor")) return monitor_command(monitor);
+  if (app.got_subcommand("setting")) return setting_command(setting);
+  if (app.got_subcommand("identify")) return identify_command(identify);
+  if (app.got_subcommand("dbc")) return dbc_command(dbc);
+  return app.got_subcommand("log") ? log_command(log) : command_command(command);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  // A reader that closes the pipe early is an error of writing, with its message and status.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    const int status = run_program(count, arguments);
+    if (status != exit_done || std::fflush(stdout) == 0) return status;
+    return fail(exit_failed, "cannot write to standard output");
+  } catch (const std::exception& error) {
+    return fail(exit_failed, error.what());
+  }
+}

@@ -1,0 +1,92 @@
+#include "apps/supercoil/monitor/access.hpp"
+
+#include <array>
+#include <cstdio>
+#include <random>
+
+namespace supercoil::operating {
+
+namespace {
+
+/// Takes as long whatever the difference is.
+bool same(const std::string& a, const std::string& b) {
+  if (a.size() != b.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    difference |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+  return difference == 0;
+}
+
+/// "HOST:PORT" of this server, as a browser would name it.
+bool names_us(const Access& access, const std::string& host_and_port, int port) {
+  const std::string end = ":" + std::to_string(port);
+  if (host_and_port == access.host + end) return true;
+  if (access.loopback) return host_and_port == "localhost" + end;
+  // Whoever listens on every address cannot know by which one he is called; the token decides.
+  return access.host == "0.0.0.0";
+}
+
+}  // namespace
+
+void take_port_alone(httplib::Server& server) {
+  server.set_socket_options([](socket_t socket) {
+    const int on = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+  });
+}
+
+std::string new_token() {
+  std::random_device random;
+  std::string token;
+  std::array<char, 16> part{};
+  for (int i = 0; i < 4; ++i) {
+    std::snprintf(part.data(), part.size(), "%08x", random());
+    token += part.data();
+  }
+  return token;
+}
+
+bool is_loopback(const std::string& host) {
+  return host == "localhost" || host.starts_with("127.");
+}
+
+bool host_is_ours(const Access& access, const httplib::Request& request, int port) {
+  return names_us(access, request.get_header_value("Host"), port);
+}
+
+bool has_token(const Access& access, const httplib::Request& request) {
+  return same(access.token, request.has_header("X-Supercoil-Token")
+                                ? request.get_header_value("X-Supercoil-Token")
+                                : request.get_param_value("token"));
+}
+
+bool comes_from_our_page(const Access& access, const httplib::Request& request) {
+  const std::string origin = request.get_header_value("Origin");
+  const std::string scheme = "http://";
+  return origin.starts_with(scheme) && names_us(access, origin.substr(scheme.size()), access.port);
+}
+
+std::string refuse_to_show(const Access& access, const httplib::Request& request) {
+  if (!host_is_ours(access, request, access.port)) return "asked for under another host's name";
+  if (!access.loopback && !has_token(access, request)) return "needs the token that was printed";
+  return {};
+}
+
+std::string refuse_to_command(const Access& access, const httplib::Request& request) {
+  if (access.read_only) return "this monitor is read-only";
+  if (!host_is_ours(access, request, access.port)) return "asked for under another host's name";
+  if (!comes_from_our_page(access, request)) return "does not come from this monitor's page";
+  if (!has_token(access, request)) return "needs the token that was printed";
+  return {};
+}
+
+std::string refuse_to_stop(const Access& access, const httplib::Request& request, int port) {
+  if (access.read_only) return "this monitor is read-only";
+  if (!host_is_ours(access, request, port)) return "asked for under another host's name";
+  if (!comes_from_our_page(access, request)) return "does not come from this monitor's page";
+  if (!access.loopback && !same(access.token, request.body))
+    return "needs the token that was printed";
+  return {};
+}
+
+}  // namespace supercoil::operating

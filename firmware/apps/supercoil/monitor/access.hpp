@@ -1,0 +1,40 @@
+// Who may look, and who may command.
+#pragma once
+
+#include <string>
+
+#include "apps/supercoil/monitor/httplib.hpp"
+
+namespace supercoil::operating {
+
+struct Access {
+  std::string host;        ///< that it listens on
+  int port = 0;            ///< of the page
+  std::string token;       ///< 32 hexadecimal digits
+  bool loopback = true;    ///< whoever is on this machine may look without it
+  bool read_only = false;  ///< nobody may command
+};
+
+/// Sets the server up so that a port that another program has is refused: the library's own way
+/// shares it, and half of the requests would go to the other.
+void take_port_alone(httplib::Server& server);
+
+/// From a source of true randomness.
+std::string new_token();
+bool is_loopback(const std::string& host);
+
+/// The request names this server as its host: another name that leads here is somebody else's page
+/// that wants to read ours (DNS rebinding).
+bool host_is_ours(const Access& access, const httplib::Request& request, int port);
+/// The token that came with it, as header X-Supercoil-Token or as ?token=, is right.
+bool has_token(const Access& access, const httplib::Request& request);
+/// The page that sent it is ours.
+bool comes_from_our_page(const Access& access, const httplib::Request& request);
+
+/// Why it is refused; empty: it is not.
+std::string refuse_to_show(const Access& access, const httplib::Request& request);
+std::string refuse_to_command(const Access& access, const httplib::Request& request);
+/// A muscle may be stopped without the token from this machine.
+std::string refuse_to_stop(const Access& access, const httplib::Request& request, int port);
+
+}  // namespace supercoil::operating

@@ -1,0 +1,202 @@
+#include "apps/supercoil/monitor/api.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <thread>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/monitor/assets.hpp"
+#include "apps/supercoil/monitor/batch.hpp"
+#include "apps/supercoil/monitor/order.hpp"
+#include "telemetry/opcodes.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using nlohmann::json;
+
+/// With a parameter, so that the library does not take it for a type to compress: its Brotli needs
+/// 5 s for 2 MB.
+constexpr const char* json_type = "application/json; charset=utf-8";
+constexpr auto stream_every = std::chrono::milliseconds(50);
+constexpr int beat_after = 20;  // quiet pieces: a second
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  response.status = status;
+  response.set_content(json{{"error", why}}.dump(), json_type);
+}
+
+/// Seconds of a query; the fallback when there are none.
+std::optional<hal::Time> time_of(const httplib::Request& request, const std::string& name,
+                                 hal::Time fallback) {
+  if (!request.has_param(name)) return fallback;
+  const std::string text = request.get_param_value(name);
+  double time_s = 0.0;
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), time_s);
+  constexpr double most_s = 4e9;
+  const bool right = read.ec == std::errc{} && read.ptr == text.data() + text.size();
+  if (!right || !(std::abs(time_s) < most_s)) return std::nullopt;
+  return hal::duration_from(time_s);
+}
+
+/// Where the page may post STOP to: this server's other port, under whatever name the page was
+/// asked for.
+std::string stop_origins(const Access& access, int stop_port) {
+  const std::string port = ":" + std::to_string(stop_port);
+  if (!access.loopback) return "http://*" + port;
+  return "http://" + access.host + port + " http://localhost" + port;
+}
+
+void add_headers(httplib::Server& server, const Access& access, int stop_port) {
+  server.set_default_headers(
+      {{"Content-Security-Policy",
+        "default-src 'self'; connect-src 'self' " + stop_origins(access, stop_port) +
+            "; style-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'"},
+       {"X-Content-Type-Options", "nosniff"},
+       {"Referrer-Policy", "no-referrer"},
+       {"Cache-Control", "no-store"}});
+}
+
+/// A provider's content is not compressed either.
+void answer_with(httplib::Response& response, const Asset& file, const std::string& type) {
+  response.set_content_provider(
+      file.text.size(), type,
+      [&file](std::size_t from, std::size_t length, httplib::DataSink& sink) {
+        return sink.write(file.text.data() + from, length);
+      });
+}
+
+void serve_files(httplib::Server& server) {
+  for (const Asset& file : page_files()) {
+    const std::string path = "/" + std::string(file.name == "index.html" ? "" : file.name);
+    server.Get(path, [&file](const httplib::Request&, httplib::Response& response) {
+      answer_with(response, file, std::string(media_type(file.name)));
+    });
+  }
+}
+
+}  // namespace
+
+Hand& Hands::of(std::uint8_t node) {
+  const std::lock_guard lock(mutex_);
+  auto& hand = hands_[node];
+  if (!hand) hand = std::make_unique<Hand>(node, bus_of_(node));
+  return *hand;
+}
+
+void Hands::let_go(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [node, hand] : hands_)
+    hand->let_go(reason);
+}
+
+Api::Api(Access access, const Recent& recent, Hands& hands, About about)
+    : access_(std::move(access)), recent_(&recent), hands_(&hands), about_(std::move(about)) {}
+
+void Api::serve_with(httplib::Server& server) {
+  add_headers(server, access_, about_.stop_port);
+  serve_files(server);
+  const auto shown = [this](auto handler) {
+    return [this, handler](const Request& request, Response& response) {
+      const std::string refused = refuse_to_show(access_, request);
+      if (!refused.empty()) return refuse(response, 403, refused);
+      handler(request, response);
+    };
+  };
+  const auto commanded = [this](auto handler) {
+    return [this, handler](const Request& request, Response& response) {
+      const std::string refused =
+          about_.log ? "a log cannot be commanded" : refuse_to_command(access_, request);
+      if (!refused.empty()) return refuse(response, 403, refused);
+      handler(request, response);
+    };
+  };
+  server.Get("/api/about", shown([this](const auto& q, auto& a) { about(q, a); }));
+  server.Get("/api/history", shown([this](const auto& q, auto& a) { history(q, a); }));
+  server.Get("/api/stream", shown([this](const auto& q, auto& a) { stream(q, a); }));
+  server.Get(R"(/api/fault/([a-z_]+))", [](const Request& request, Response& response) {
+    const Asset* text = find_asset(fault_pages(), request.matches[1].str());
+    if (text == nullptr) return refuse(response, 404, "there is no such fault");
+    answer_with(response, *text, "text/markdown; charset=utf-8");
+  });
+  server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
+  server.Post("/api/alive", commanded([this](const auto& q, auto& a) { alive(q, a); }));
+}
+
+void Api::about(const Request& request, Response& response) const {
+  // A request for data has no Origin that could be asked for.
+  const bool may = !about_.log && !access_.read_only && has_token(access_, request);
+  const json told{{"version", SUPERCOIL_VERSION},
+                  {"source", about_.source},
+                  {"kind", about_.log ? "log" : "live"},
+                  {"read_only", access_.read_only},
+                  {"may_command", may},
+                  {"stop_port", about_.stop_port},
+                  {"page_timeout_s", std::chrono::duration<double>(Hand::page_timeout).count()},
+                  {"protocol", json::parse(protocol_json())},
+                  {"protocol_version", telemetry::protocol_version}};
+  response.set_content(told.dump(), json_type);
+}
+
+void Api::history(const Request& request, Response& response) const {
+  const auto from = time_of(request, "from_s", hal::Time::zero());
+  const auto to = time_of(request, "to_s", hal::Time::max());
+  if (!from || !to) return refuse(response, 400, "from_s and to_s must be seconds");
+  response.set_content(to_batch(recent_->between(*from, *to), recent_->figures()), json_type);
+}
+
+bool Api::stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost) {
+  const auto send = [&](const std::string& text) { return sink.write(text.data(), text.size()); };
+  for (int quiet = 0; quiet < beat_after && !ending_; ++quiet) {
+    std::this_thread::sleep_for(stream_every);
+    const std::string lost = recent_->lost();
+    if (lost.empty() == was_lost) {
+      was_lost = !was_lost;
+      const json told{{"reason", lost}};
+      return send((was_lost ? "event: lost\ndata: " : "event: found\ndata: ") + told.dump() +
+                  "\n\n");
+    }
+    Recent::Part part = recent_->since(next);
+    next = part.next;
+    if (!part.frames.empty())
+      return send("data: " + to_batch(part.frames, recent_->figures()) + "\n\n");
+  }
+  if (ending_) return false;
+  return send(": beat\n\n");
+}
+
+void Api::stream(const Request&, Response& response) {
+  if (streams_.fetch_add(1) >= most_streams) {
+    --streams_;
+    return refuse(response, 503, "too many pages watch: close some");
+  }
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [this, next = recent_->end(), was_lost = false](std::size_t,
+                                                      httplib::DataSink& sink) mutable {
+        return stream_piece(sink, next, was_lost);
+      },
+      [this](bool) { --streams_; });
+}
+
+void Api::command(const Request& request, Response& response) {
+  const auto order = parse_order(request.body);
+  if (!order) return refuse(response, 400, order.error());
+  const auto answer = hands_->of(order->node).ask(order->verb, order->value);
+  if (!answer) return refuse(response, 504, answer.error());
+  response.set_content(json{{"refusal", name(*answer)}}.dump(), json_type);
+}
+
+void Api::alive(const Request& request, Response& response) {
+  const auto node = parse_node(request.body);
+  if (!node) return refuse(response, 400, node.error());
+  const Hand::Holding holding = hands_->of(*node).alive();
+  json told{{"holding", holding.holding}};
+  if (!holding.holding) told["reason"] = holding.reason;
+  response.set_content(told.dump(), json_type);
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,69 @@
+// What the page asks the monitor for: its files, the bus's data, commands.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "apps/supercoil/bus/recent.hpp"
+#include "apps/supercoil/monitor/access.hpp"
+#include "apps/supercoil/monitor/hand.hpp"
+
+namespace supercoil::operating {
+
+/// The hands on all nodes; each is made when it is first asked for. Safe from any thread.
+class Hands {
+ public:
+  explicit Hands(std::function<Hand::OpenBus(std::uint8_t)> bus_of) : bus_of_(std::move(bus_of)) {}
+
+  Hand& of(std::uint8_t node);
+  void let_go(const std::string& reason);
+
+ private:
+  std::function<Hand::OpenBus(std::uint8_t)> bus_of_;
+  std::mutex mutex_;
+  std::map<std::uint8_t, std::unique_ptr<Hand>> hands_;
+};
+
+/// Handlers of one server. Nothing of it is copied; all outlives the server.
+class Api {
+ public:
+  struct About {
+    std::string source;  ///< as the user named it
+    bool log = false;
+    int stop_port = 0;  ///< 0: nothing can be commanded
+  };
+
+  Api(Access access, const Recent& recent, Hands& hands, About about);
+
+  void serve_with(httplib::Server& server);
+  /// Streams end within a second.
+  void end() { ending_ = true; }
+
+ private:
+  using Request = httplib::Request;
+  using Response = httplib::Response;
+
+  void about(const Request& request, Response& response) const;
+  void history(const Request& request, Response& response) const;
+  void stream(const Request& request, Response& response);
+  void command(const Request& request, Response& response);
+  void alive(const Request& request, Response& response);
+  /// One piece of a stream; false: the reader is gone.
+  bool stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost);
+
+  /// The page's threads are more, so that streams cannot take them all.
+  static constexpr int most_streams = 24;
+
+  Access access_;
+  const Recent* recent_;
+  Hands* hands_;
+  About about_;
+  std::atomic<bool> ending_{false};
+  std::atomic<int> streams_{0};
+};
+
+}  // namespace supercoil::operating

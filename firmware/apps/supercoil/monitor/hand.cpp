@@ -1,0 +1,127 @@
+#include "apps/supercoil/monitor/hand.hpp"
+
+#include <utility>
+
+namespace supercoil::operating {
+
+namespace {
+
+/// Five times before a command expires by default.
+constexpr auto renew_every = std::chrono::milliseconds(50);
+
+bool heats(Verb verb) {
+  return verb == Verb::position || verb == Verb::power || verb == Verb::identify ||
+         verb == Verb::calibrate;
+}
+
+bool cools(Verb verb) {
+  return verb == Verb::rest || verb == Verb::disarm;
+}
+
+}  // namespace
+
+Hand::Hand(std::uint8_t node, OpenBus open_bus)
+    : node_(node), open_bus_(std::move(open_bus)), thread_([this] { run(); }) {}
+
+Hand::~Hand() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  woken_.notify_one();
+  thread_.join();
+}
+
+Hand::Answer Hand::ask(Verb verb, double value) {
+  const std::lock_guard turn(turn_);
+  std::future<Answer> answer;
+  {
+    const std::lock_guard lock(mutex_);
+    order_.emplace(Order{verb, value, {}});
+    answer = order_->answer.get_future();
+  }
+  woken_.notify_one();
+  return answer.get();
+}
+
+Hand::Holding Hand::alive() {
+  const std::lock_guard lock(mutex_);
+  if (holding_) alive_ = Clock::now();
+  return {holding_, holding_ ? "" : reason_};
+}
+
+void Hand::let_go(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  if (!holding_) return;
+  holding_ = false;
+  reason_ = reason;
+}
+
+bool Hand::holds() const {
+  const std::lock_guard lock(mutex_);
+  return holding_;
+}
+
+/// A board that did not answer is asked over a new connection the next time.
+Hand::Answer Hand::command(Verb verb, double value) {
+  if (!commander_) {
+    auto bus = open_bus_();
+    if (!bus) return tl::unexpected(bus.error());
+    commander_ = std::make_unique<Commander>(std::move(*bus), node_);
+  }
+  Answer answer = commander_->ask(verb, value);
+  if (!answer) commander_.reset();
+  return answer;
+}
+
+void Hand::obey(Order& order) {
+  const Answer answer = command(order.verb, order.value);
+  const bool obeyed = answer && *answer == Refusal::none;
+  if (obeyed && heats(order.verb)) {
+    const std::lock_guard lock(mutex_);
+    holding_ = true;
+    alive_ = Clock::now();
+  } else if (obeyed && cools(order.verb)) {
+    let_go("cooled by a command");
+  }
+  order.answer.set_value(answer);
+}
+
+void Hand::renew() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (holding_ && Clock::now() - alive_ > page_timeout) {
+      holding_ = false;
+      reason_ = "expired: no page was alive for 1.5 s";
+    }
+  }
+  if (!holds()) {
+    if (commander_) commander_->drain();
+    return;
+  }
+  const Answer answer = command(Verb::renew, 0.0);
+  if (!answer) return let_go("expired: " + answer.error());
+  // Identification and calibration end by themselves; what else ended it, the board's state tells.
+  if (*answer == Refusal::wrong_state) return let_go("ended: the board let it go");
+  if (*answer != Refusal::none) let_go("refused: " + std::string(name(*answer)));
+}
+
+void Hand::run() {
+  for (;;) {
+    std::optional<Order> order;
+    {
+      std::unique_lock lock(mutex_);
+      woken_.wait_for(lock, renew_every, [&] { return ending_ || order_; });
+      if (ending_) break;
+      order = std::exchange(order_, std::nullopt);
+    }
+    if (order) {
+      obey(*order);
+    } else {
+      renew();
+    }
+  }
+  if (commander_) commander_->release();
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,53 @@
+#include "apps/supercoil/monitor/order.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "telemetry/frames.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using nlohmann::json;
+
+tl::expected<std::uint8_t, std::string> node_of(const json& read) {
+  const auto node = read.is_object() ? read.find("node") : read.end();
+  if (!read.is_object() || node == read.end() || !node->is_number_integer() || *node < 1 ||
+      *node > telemetry::most_nodes) {
+    return tl::unexpected("node must be 1 to " + std::to_string(telemetry::most_nodes));
+  }
+  return node->get<std::uint8_t>();
+}
+
+json read_json(const std::string& text) {
+  return json::parse(text, nullptr, false);
+}
+
+}  // namespace
+
+tl::expected<std::uint8_t, std::string> parse_node(const std::string& text) {
+  return node_of(read_json(text));
+}
+
+tl::expected<Order, std::string> parse_order(const std::string& text) {
+  const json read = read_json(text);
+  const auto node = node_of(read);
+  if (!node) return tl::unexpected(node.error());
+  const std::string opcode = read.contains("opcode") && read["opcode"].is_string()
+                                 ? read["opcode"].get<std::string>()
+                                 : std::string();
+  const auto verb = std::find(verb_names.begin() + 1, verb_names.end(), opcode);
+  if (verb == verb_names.end()) return tl::unexpected("'" + opcode + "' is no opcode");
+  double value = 0.0;
+  if (const auto given = read.find("value"); given != read.end()) {
+    if (!given->is_number() || !std::isfinite(given->get<double>()))
+      return tl::unexpected(std::string("value must be a number"));
+    value = given->get<double>();
+  }
+  return Order{*node, static_cast<Verb>(std::distance(verb_names.begin(), verb)), value};
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,144 @@
+#include "apps/supercoil/monitor/stop.hpp"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "can_client/master.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A frame that the bus lost is made up for by the next one.
+constexpr int repetitions = 3;
+constexpr auto between = std::chrono::milliseconds(10);
+constexpr auto max_busy_time = std::chrono::milliseconds(500);
+/// While nobody stops: what the bus brings is read, and a lost bus is tried again.
+constexpr auto read_every = std::chrono::milliseconds(50);
+constexpr auto try_every = std::chrono::seconds(1);
+
+}  // namespace
+
+StopServer::StopServer(Access access, Hand::OpenBus open_bus, const Recent& recent,
+                       std::function<void()> let_go)
+    : access_(std::move(access)),
+      new_bus_(std::move(open_bus)),
+      recent_(&recent),
+      let_go_(std::move(let_go)) {}
+
+tl::expected<std::unique_ptr<StopServer>, std::string> StopServer::start(
+    const Access& access, Hand::OpenBus open_bus, const Recent& recent,
+    std::function<void()> let_go) {
+  auto listener = StopListener::open(access.host, access.port + 1);
+  if (!listener) return tl::unexpected(listener.error());
+  std::unique_ptr<StopServer> server(
+      new StopServer(access, std::move(open_bus), recent, std::move(let_go)));
+  server->listener_ = std::move(*listener);
+  server->thread_ = std::thread([server = server.get()] { server->run(); });
+  server->listener_->start([server = server.get()](const auto& request, const auto& answer) {
+    server->take(request, answer);
+  });
+  return server;
+}
+
+/// The listener goes last: answers need it.
+StopServer::~StopServer() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  woken_.notify_one();
+  if (thread_.joinable()) thread_.join();
+}
+
+void StopServer::take(const httplib::Request& request, const StopListener::Answer& answer) {
+  // The page's own port is another origin than this one.
+  const std::string origin =
+      comes_from_our_page(access_, request) ? request.get_header_value("Origin") : std::string();
+  if (request.method != "POST" || request.path != "/stop") return answer({404, origin, "{}"});
+  if (const std::string refused = refuse_to_stop(access_, request, port()); !refused.empty())
+    return answer({403, origin, nlohmann::json{{"error", refused}}.dump()});
+  let_go_();
+  {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back({answer, origin});
+  }
+  woken_.notify_one();
+}
+
+void StopServer::run() {
+  take_precedence();
+  for (;;) {
+    std::vector<Waiting> waiting;
+    {
+      std::unique_lock lock(mutex_);
+      woken_.wait_for(lock, read_every, [&] { return ending_ || !waiting_.empty(); });
+      if (ending_) return;
+      waiting.swap(waiting_);
+    }
+    if (waiting.empty()) {
+      keep_bus();
+    } else {
+      stop(waiting);
+    }
+  }
+}
+
+/// Whoever asked while others were stopped for is stopped for together with all who wait.
+void StopServer::stop(const std::vector<Waiting>& waiting) {
+  const std::string failed = disarm_all();
+  nlohmann::json told{{"nodes", recent_->nodes()}};
+  if (!failed.empty()) told["error"] = failed;
+  for (const auto& [answer, origin] : waiting)
+    answer({failed.empty() ? 200 : 502, origin, told.dump()});
+}
+
+std::string StopServer::open_bus() {
+  if (bus_ && bus_->state() != hal::CanState::down) return {};
+  bus_.reset();
+  auto bus = new_bus_();
+  if (!bus) return bus.error();
+  bus_ = std::move(*bus);
+  return {};
+}
+
+/// A bus that was lost without a word is only noticed by who reads it; what it brings is nobody's.
+void StopServer::keep_bus() {
+  if (bus_) {
+    for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
+    }
+  } else if (Clock::now() >= next_try_) {
+    open_bus();
+    next_try_ = Clock::now() + try_every;
+  }
+}
+
+std::string StopServer::disarm_all() {
+  const std::string failed = send_disarm();
+  if (failed.empty()) return {};
+  bus_.reset();
+  return send_disarm();
+}
+
+std::string StopServer::send_disarm() {
+  if (std::string failed = open_bus(); !failed.empty()) return failed;
+  const auto deadline = Clock::now() + max_busy_time;
+  for (int i = 0; i < repetitions; ++i) {
+    for (const std::uint8_t node : recent_->nodes()) {
+      const hal::CanFrame frame = can_client::Master(node, 0).command(Verb::disarm, 0.0);
+      hal::Status sent = bus_->send(frame);
+      while (sent == hal::Status::busy && Clock::now() < deadline) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        sent = bus_->send(frame);
+      }
+      if (sent != hal::Status::ok) return std::string("the bus does not take it: ") + text(sent);
+    }
+    std::this_thread::sleep_for(between);
+  }
+  return {};
+}
+
+}  // namespace supercoil::operating

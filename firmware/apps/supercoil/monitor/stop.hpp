@@ -1,0 +1,67 @@
+// STOP, whatever else the monitor does.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "apps/supercoil/bus/recent.hpp"
+#include "apps/supercoil/monitor/access.hpp"
+#include "apps/supercoil/monitor/hand.hpp"
+#include "apps/supercoil/monitor/stop_listener.hpp"
+
+namespace supercoil::operating {
+
+/// POST /stop to a port of its own disarms every node that was heard. One thread listens and never
+/// waits; another has a connection of its own to the bus, open before it is needed.
+class StopServer {
+ public:
+  /// let_go: tells the hands, without waiting. port: the one after the page's if it is free, else
+  /// any. recent outlives it. The error says why it cannot listen.
+  static tl::expected<std::unique_ptr<StopServer>, std::string> start(const Access& access,
+                                                                      Hand::OpenBus open_bus,
+                                                                      const Recent& recent,
+                                                                      std::function<void()> let_go);
+  StopServer(const StopServer&) = delete;
+  StopServer& operator=(const StopServer&) = delete;
+  ~StopServer();
+
+  int port() const { return listener_->port(); }
+
+ private:
+  StopServer(Access access, Hand::OpenBus open_bus, const Recent& recent,
+             std::function<void()> let_go);
+  struct Waiting {
+    StopListener::Answer answer;
+    std::string allowed_origin;
+  };
+
+  void take(const httplib::Request& request, const StopListener::Answer& answer);
+  void run();
+  void stop(const std::vector<Waiting>& waiting);
+  /// Empty: done.
+  std::string disarm_all();
+  std::string send_disarm();
+  std::string open_bus();
+  void keep_bus();
+
+  Access access_;
+  Hand::OpenBus new_bus_;
+  const Recent* recent_;
+  std::function<void()> let_go_;
+  std::unique_ptr<hal::CanBus> bus_;  ///< of the thread
+  std::chrono::steady_clock::time_point next_try_{};
+  std::mutex mutex_;
+  std::condition_variable woken_;
+  std::vector<Waiting> waiting_;
+  bool ending_ = false;
+  std::unique_ptr<StopListener> listener_;
+  std::thread thread_;
+};
+
+}  // namespace supercoil::operating

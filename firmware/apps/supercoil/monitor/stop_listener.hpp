@@ -1,0 +1,67 @@
+// The port of STOP: nobody who is slow, or says nothing, keeps anybody else out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <list>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/monitor/httplib.hpp"
+
+namespace supercoil::operating {
+
+class StopConnection;
+
+/// For STOP's threads: the calling one gets the processor before others do, where the system lets
+/// this user have that (RLIMIT_NICE). No real-time priority: whoever floods STOP's port would take
+/// a processor from all else.
+void take_precedence();
+
+/// One thread that never waits for one connection: each must bring a whole request within 250 ms of
+/// being accepted, and when too many are open, the oldest one without a whole request is closed.
+class StopListener {
+ public:
+  struct Reply {
+    int status = 200;
+    std::string allowed_origin;  ///< empty: no other origin may read it
+    std::string json;
+  };
+  /// Safe from any thread while the listener lives, also when the connection is gone.
+  using Answer = std::function<void(Reply)>;
+  /// Is called in the listener's thread with every whole request, and must not wait.
+  using Take = std::function<void(const httplib::Request&, Answer)>;
+
+  /// port: the one that is wanted; another when it is not free. The error says why there is none.
+  static tl::expected<std::unique_ptr<StopListener>, std::string> open(const std::string& host,
+                                                                       int port);
+  StopListener() = default;
+  StopListener(const StopListener&) = delete;
+  StopListener& operator=(const StopListener&) = delete;
+  ~StopListener();
+
+  int port() const { return port_; }
+  void start(Take take);
+
+ private:
+  boost::system::error_code listen(const std::string& host, int port);
+  void accept();
+  void accept_later();
+  void close_oldest();
+
+  Take take_;
+  boost::asio::io_context io_;
+  boost::asio::ip::tcp::acceptor acceptor_{io_};
+  boost::asio::steady_timer retry_{io_};
+  int port_ = 0;
+  std::list<std::shared_ptr<StopConnection>> connections_;  ///< the oldest first
+  std::thread thread_;
+};
+
+}  // namespace supercoil::operating

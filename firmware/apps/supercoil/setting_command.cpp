@@ -1,0 +1,75 @@
+// supercoil setting: what may be changed on a running board, until it starts again.
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/bus/bus_name.hpp"
+#include "apps/supercoil/bus/commander.hpp"
+#include "apps/supercoil/commands.hpp"
+#include "telemetry/run_settings.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+std::string all_names() {
+  std::string all;
+  for (std::uint8_t i = 0; i < telemetry::run_settings; ++i)
+    all += (i == 0 ? "" : ", ") + telemetry::run_setting_name(i);
+  return all;
+}
+
+std::optional<std::uint8_t> setting_of(const std::string& name) {
+  for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
+    if (telemetry::run_setting_name(i) == name) return i;
+  }
+  return std::nullopt;
+}
+
+void tell(const can_client::Master::Setting& heard, bool json) {
+  const std::string name = telemetry::run_setting_name(heard.setting);
+  if (json) {
+    const nlohmann::ordered_json told{
+        {"setting", name}, {"value", heard.value}, {"refusal", supercoil::name(heard.refusal)}};
+    std::printf("%s\n", told.dump().c_str());
+  } else {
+    std::printf("%s = %.7g\n", name.c_str(), heard.value);
+  }
+}
+
+int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
+  const auto heard = options.value ? node.write(setting, *options.value) : node.read(setting);
+  if (!heard) return fail(exit_failed, heard.error());
+  tell(*heard, options.json);
+  if (heard->refusal == Refusal::none) return exit_done;
+  return fail(exit_failed, options.name + ": refused: " + std::string(name(heard->refusal)));
+}
+
+/// Those that this node has: the board's own are its first node's.
+int all(Commander& node, bool json) {
+  for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
+    const auto heard = node.read(i);
+    if (!heard) return fail(exit_failed, heard.error());
+    if (heard->refusal == Refusal::none) tell(*heard, json);
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+int setting_command(const SettingOptions& options) {
+  const auto setting = setting_of(options.name);
+  if (!options.name.empty() && !setting) {
+    return fail(exit_wrong_input,
+                "'" + options.name + "' is not a setting; there are " + all_names());
+  }
+  const auto id = static_cast<std::uint8_t>(options.node);
+  auto bus = open_bus(options.can, {can_client::acknowledge_id(id), can_client::setting_id(id)});
+  if (!bus) return fail(exit_failed, bus.error());
+  Commander node(std::move(*bus), id);
+  const int status = setting ? one(node, *setting, options) : all(node, options.json);
+  node.release();
+  return status;
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,184 @@
+#include "apps/supercoil/summary.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cmath>
+#include <cstdarg>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+
+#include "recorder/names.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using recorder::Recording;
+
+class Lines {
+ public:
+  [[gnu::format(printf, 2, 3)]] void add(const char* format, ...) {
+    std::array<char, 400> text{};
+    va_list values;
+    va_start(values, format);
+    // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start is two lines above.
+    std::vsnprintf(text.data(), text.size(), format, values);
+    va_end(values);
+    all_ += text.data();
+    all_ += '\n';
+  }
+  std::string take() { return std::move(all_); }
+
+ private:
+  std::string all_;
+};
+
+void tell_fault(Lines& lines, const Recording& recording) {
+  const recorder::Header& h = recording.header;
+  if (h.fault == 0) {
+    lines.add("No fault is in what could be read; times are relative to the last row.");
+    return;
+  }
+  const std::string name = h.fault_name.empty() ? recorder::fault_name(h.fault) : h.fault_name;
+  lines.add("%s (fault %d) on channel %d", name.c_str(), h.fault, h.fault_channel + 1);
+  if (const auto known = info(static_cast<Fault>(h.fault))) {
+    lines.add("  meaning: %s", std::string(known->meaning).c_str());
+  }
+  lines.add("  when: %.6f s after the board's clock began (as a rule, its start)",
+            static_cast<double>(h.fault_time_ns) / 1e9);
+}
+
+/// Ticks that are further apart than one and a half periods have lost rows, or were left out.
+void tell_extent(Lines& lines, const Recording& recording) {
+  const auto& rows = recording.rows;
+  lines.add("  recorded: %.3f s to %.3f s, %zu rows", recording.time_s(rows.front()),
+            recording.time_s(rows.back()), rows.size());
+  const double rate_Hz = recording.header.rate_Hz;
+  if (rate_Hz <= 0.0) return;
+  lines.add("  %d channels at %g Hz", recording.header.channels, rate_Hz);
+  std::int64_t gaps = 0;
+  double longest_s = 0.0, longest_at_s = 0.0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const double before_s = recording.time_s(rows[i - 1]);
+    const double gap_s = recording.time_s(rows[i]) - before_s;
+    if (gap_s * rate_Hz <= 1.5) continue;
+    ++gaps;
+    if (gap_s > longest_s) longest_at_s = before_s;
+    longest_s = std::max(longest_s, gap_s);
+  }
+  if (gaps > 0) {
+    lines.add("  ticks are missing: %" PRId64 " gap%s, the longest of %.3f s from %.3f s on", gaps,
+              gaps == 1 ? "" : "s", longest_s, longest_at_s);
+  }
+}
+
+void tell_other_faults(Lines& lines, const Recording& recording) {
+  std::array<std::uint8_t, 256> last{};
+  constexpr int most = 20;
+  int told = 0;
+  for (const Row& row : recording.rows) {
+    const bool changed = row.fault != last[row.channel];
+    last[row.channel] = row.fault;
+    const bool the_one = row.channel == recording.header.fault_channel &&
+                         row.time_ns == recording.header.fault_time_ns;
+    if (!changed || the_one || told++ >= most) continue;
+    lines.add("  %+.3f s: channel %d: %s", recording.time_s(row), row.channel + 1,
+              row.fault == 0 ? "fault reset" : recorder::fault_name(row.fault).c_str());
+  }
+  if (told > most) lines.add("  and %d more faults and resets", told - most);
+}
+
+/// What a channel did up to the fault, and the most there was in the whole recording.
+struct Channel {
+  const Row* last_before = nullptr;
+  const Row* hottest = nullptr;
+  double sum_W = 0.0;
+  std::int64_t powers = 0;
+  float most_W = 0.0F;
+  std::map<int, const Row*> margins;  ///< the last of each detector, up to the fault
+
+  void add(const Row& row, double time_s) {
+    if (!std::isnan(row.hottest_C) && (hottest == nullptr || row.hottest_C > hottest->hottest_C))
+      hottest = &row;
+    most_W = std::fmax(most_W, row.applied_W);
+    if (time_s < 0.0) {
+      last_before = &row;
+      if (!std::isnan(row.applied_W)) {
+        sum_W += static_cast<double>(row.applied_W);
+        ++powers;
+      }
+    }
+    if (time_s <= 0.0 && row.turn != 0) margins[row.turn] = &row;
+  }
+};
+
+double of(float value) {
+  return static_cast<double>(value);
+}
+
+/// "?" for what could not be measured.
+std::string number(float value) {
+  if (std::isnan(value)) return "?";
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.4g", of(value));
+  return text.data();
+}
+
+void tell_last(Lines& lines, const Row& r) {
+  lines.add("  just before: %s, %s, limited by %s; position %s m, reference %s %s",
+            recorder::state_name(r.state).c_str(), recorder::mode_name(r.mode).c_str(),
+            recorder::limit_name(r.limited_by).c_str(), number(r.position_m).c_str(),
+            number(r.reference).c_str(), r.mode == static_cast<int>(Mode::power) ? "W" : "m");
+  lines.add("  just before: supply %s V, current %s A, resistance %s Ohm, %s s old",
+            number(r.supply_V).c_str(), number(r.current_A).c_str(),
+            number(r.resistance_Ohm).c_str(), number(r.resistance_age_s).c_str());
+}
+
+void tell_channel(Lines& lines, const Recording& recording, int number_, const Channel& c) {
+  lines.add("channel %d", number_ + 1);
+  if (c.last_before != nullptr) tell_last(lines, *c.last_before);
+  if (c.powers > 0) {
+    lines.add("  power: %.4g W on average before the fault, %.4g W at most",
+              c.sum_W / static_cast<double>(c.powers), of(c.most_W));
+  }
+  if (c.hottest != nullptr) {
+    lines.add("  hottest: at most %.1f C, at %.3f s", of(c.hottest->hottest_C),
+              recording.time_s(*c.hottest));
+  }
+}
+
+void tell_margins(Lines& lines, const Channel& c, const Recording& recording) {
+  if (c.margins.empty()) return;
+  std::vector<const Row*> rows;
+  for (const auto& [turn, row] : c.margins)
+    rows.push_back(row);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const Row* a, const Row* b) { return a->margin_used > b->margin_used; });
+  lines.add("  last margins up to the fault, the fullest first:");
+  for (const Row* row : rows) {
+    lines.add("    %-24s %6.0f %% used: %.5g of %.5g, at %.3f s",
+              recorder::fault_name(row->turn).c_str(), 100.0 * of(row->margin_used),
+              of(row->margin_measured), of(row->margin_limit), recording.time_s(*row));
+  }
+}
+
+}  // namespace
+
+std::string summary(const Recording& recording) {
+  Lines lines;
+  tell_fault(lines, recording);
+  tell_extent(lines, recording);
+  tell_other_faults(lines, recording);
+  std::map<int, Channel> channels;
+  for (const Row& row : recording.rows)
+    channels[row.channel].add(row, recording.time_s(row));
+  for (const auto& [number, channel] : channels) {
+    tell_channel(lines, recording, number, channel);
+    if (number == recording.header.fault_channel) tell_margins(lines, channel, recording);
+  }
+  return lines.take();
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,199 @@
+#include "apps/supercoild/keeper.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include "apps/supercoild/log.hpp"
+#include "config/describe.hpp"
+#include "recorder/names.hpp"
+#include "recorder/pump.hpp"
+
+namespace supercoil::daemon {
+
+namespace {
+
+/// In brackets, what identify has to say beside its result.
+std::string notes_text(const Row& row) {
+  const std::string notes = describe_notes(row.identify_notes);
+  return notes.empty() ? notes : " (" + notes + ")";
+}
+
+/// Of rows that wait for the keeper while it waits for the disk.
+constexpr double relayed_s = 1.0;
+
+std::size_t rows_relayed(const BoardSettings& board) {
+  return static_cast<std::size_t>(relayed_s * board.rate_Hz) * board.channels.size();
+}
+
+/// What the configuration's muscle allowed, the one that was found may not.
+void tell_unstable(const ChannelSettings& channel, std::size_t index, double step_s) {
+  for (std::size_t i = 0; i < channel.controllers.size(); ++i) {
+    const auto margin = margin_of(channel.controllers[i], channel, step_s);
+    if (!margin || margin->stable()) continue;
+    log(Level::problem, "channel " + std::to_string(index + 1) + ": controller " +
+                            std::to_string(i) + " is unstable on the muscle that it knows");
+  }
+}
+
+}  // namespace
+
+void recall(ChannelSettings& channel, const board::Learned& learned) {
+  channel.senses = learned.senses;
+  channel.heat = learned.heat;
+  channel.knows_muscle = learned.knows_muscle;
+  if (!channel.knows_muscle) return;
+  // Calibrating alone stores the muscle as the file has it: that is no identification.
+  channel.muscle_identified = !(learned.muscle == channel.muscle);
+  channel.muscle = learned.muscle;
+  channel.calibration = learned.calibration;
+  channel.answer_ratio = learned.answer_ratio;
+}
+
+tl::expected<void, std::string> remember(config::BoardConfig& config,
+                                         std::vector<storage::LearnedStore>& stores) {
+  for (std::size_t i = 0; i < stores.size(); ++i) {
+    if (!config.settings.channels[i].supervision.proof_of_response) {
+      log(Level::warning,
+          "channel " + std::to_string(i + 1) +
+              ": detectors.proof_of_response is false: nothing proves that a muscle "
+              "which is held still and hot answers");
+    }
+    const auto loaded = stores[i].load();
+    if (!loaded) return tl::unexpected(loaded.error());
+    for (const std::string& problem : loaded->problems)
+      log(Level::warning, problem);
+    ChannelSettings& channel = config.settings.channels[i];
+    if (loaded->learned) recall(channel, *loaded->learned);
+    log(channel.senses.compared() ? Level::info : Level::warning,
+        "channel " + std::to_string(i + 1) +
+            ": senses: " + config::describe_senses(channel, config.settings));
+    log(Level::info,
+        "channel " + std::to_string(i + 1) + ": heat: " + config::describe_heat(channel));
+    if (!channel.knows_muscle) continue;
+    log(Level::info, "channel " + std::to_string(i + 1) + ": small motions: " +
+                         config::describe_small_motions(channel, config.settings));
+    log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +
+                         ") knows its muscle from version " +
+                         std::to_string(loaded->learned->version));
+    tell_unstable(channel, i, config.settings.step_s());
+  }
+  return {};
+}
+
+Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
+               storage::Files& files)
+    : config_(&config),
+      stores_(&stores),
+      recorder_(config.storage_folder, static_cast<int>(config.settings.channels.size()),
+                config.settings.rate_Hz, files),
+      relay_(rows_relayed(config.settings)),
+      last_(config.settings.channels.size()) {
+  for (const ChannelSettings& channel : config.settings.channels)
+    senses_.push_back(channel.senses);
+}
+
+void Keeper::poll(Loop& loop, hal::Time now) {
+  struct Tee {
+    bool take(Row& row) const {
+      if (!keeper->relay_.take(row)) return false;
+      keeper->watch(row);
+      return true;
+    }
+    Keeper* keeper;
+  } tee{this};
+  recorder::pump(tee, recorder_, now);
+  tell_notes();
+  for (std::size_t i = 0; i < stores_->size(); ++i)
+    store_learned(loop, i);
+}
+
+void Keeper::store_learned(Loop& loop, std::size_t channel) {
+  const std::string who = "channel " + std::to_string(channel + 1);
+  board::Lesson lesson;
+  while (loop.channel(channel).take_lesson(lesson)) {
+    if (!lesson) {
+      forget(channel, who);
+      continue;
+    }
+    date(channel, who, lesson->senses);
+    const auto saved = (*stores_)[channel].save(*lesson);
+    if (saved) {
+      log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
+    } else {
+      log(Level::problem, who + " learned, but it is not stored: " + saved.error());
+    }
+  }
+}
+
+/// The loop has no calendar: a comparison that it made has its date from here.
+void Keeper::date(std::size_t channel, const std::string& who, board::SenseComparison& senses) {
+  board::SenseComparison& known = senses_[channel];
+  const bool is_known = senses.supply_gain == known.supply_gain &&
+                        senses.current_gain == known.current_gain &&
+                        senses.error_ratio == known.error_ratio;
+  if (is_known) {
+    senses.compared_s = known.compared_s;
+    return;
+  }
+  if (senses.compared()) senses.compared_s = static_cast<double>(std::time(nullptr));
+  known = senses;
+  ChannelSettings now = config_->settings.channels[channel];
+  now.senses = senses;
+  log(Level::info, who + ": senses: " + config::describe_senses(now, config_->settings));
+}
+
+void Keeper::forget(std::size_t channel, const std::string& who) {
+  if (const auto forgotten = (*stores_)[channel].forget(); !forgotten) {
+    log(Level::problem, who + " is to forget its muscle, but: " + forgotten.error());
+    return;
+  }
+  log(Level::info, who + " has forgotten its muscle, from the next start on");
+}
+
+void Keeper::finish() {
+  recorder_.finish();
+  tell_notes();
+}
+
+bool Keeper::all_off() const {
+  return std::none_of(last_.begin(), last_.end(), [](const Row& row) {
+    const auto state = static_cast<State>(row.state);
+    return state == State::armed || state == State::active;
+  });
+}
+
+void Keeper::watch(const Row& row) {
+  ++rows_;
+  if (row.channel >= last_.size()) return;
+  Row& before = last_[row.channel];
+  if (row.state != before.state || row.mode != before.mode) {
+    const bool fault = static_cast<State>(row.state) == State::fault;
+    std::string text = "channel " + std::to_string(row.channel + 1) + " (" +
+                       config_->labels[row.channel].name + ") is " +
+                       recorder::state_name(row.state);
+    if (fault) {
+      text += ": " + recorder::fault_name(row.fault) + " (" + std::to_string(row.fault) + ")";
+    } else if (row.mode != 0) {
+      text += ", " + recorder::mode_name(row.mode);
+    }
+    log(fault ? Level::problem : Level::info, text);
+  }
+  if (row.result != before.result && static_cast<ModeResult>(row.result) > ModeResult::found) {
+    log(Level::warning,
+        "channel " + std::to_string(row.channel + 1) + ": " + recorder::mode_name(before.mode) +
+            " ended, nothing is stored: " + recorder::result_name(row.result) + notes_text(row));
+  }
+  before = row;
+}
+
+void Keeper::tell_notes() {
+  if (const std::size_t lost = relay_.lost(); lost != told_lost_) {
+    log(Level::warning, std::to_string(lost - told_lost_) +
+                            " rows are missing in recordings: the disk kept the recorder waiting");
+    told_lost_ = lost;
+  }
+  for (const recorder::RecorderNote& note : recorder_.take_notes())
+    log(note.problem ? Level::problem : Level::info, note.text);
+}
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,62 @@
+// Keeps what the loop tells: recordings, what was learned, and the log.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/supercoild/row_relay.hpp"
+#include "config/board_config.hpp"
+#include "loop/loop.hpp"
+#include "recorder/flight_recorder.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
+
+namespace supercoil::daemon {
+
+/// What a channel learned before.
+void recall(ChannelSettings& channel, const board::Learned& learned);
+
+/// What channels learned before, into the settings of a board that a keeper is made for then. The
+/// error says what cannot be read; a board does not start without what it knew, for a lost zero is
+/// a wrong position.
+tl::expected<void, std::string> remember(config::BoardConfig& config,
+                                         std::vector<storage::LearnedStore>& stores);
+
+/// The one thread that may wait for the disk. Everything of it is taken when it is made, before
+/// memory is locked.
+class Keeper {
+ public:
+  /// Both outlive it.
+  Keeper(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
+         storage::Files& files);
+
+  /// Takes what has come since by the relay. now: on the loop's clock, read before.
+  void poll(Loop& loop, hal::Time now);
+  /// Writes at once what would be written later.
+  void finish();
+
+  RowRelay& relay() { return relay_; }
+  /// How many rows have come: a loop that is alive makes them.
+  std::uint64_t rows() const { return rows_; }
+  /// No channel is armed or active, as far as rows tell.
+  bool all_off() const;
+
+ private:
+  void watch(const Row& row);
+  void store_learned(Loop& loop, std::size_t channel);
+  void forget(std::size_t channel, const std::string& who);
+  void date(std::size_t channel, const std::string& who, board::SenseComparison& senses);
+  void tell_notes();
+
+  const config::BoardConfig* config_;
+  std::vector<storage::LearnedStore>* stores_;
+  recorder::FlightRecorder recorder_;
+  RowRelay relay_;
+  std::size_t told_lost_ = 0;
+  std::vector<board::SenseComparison> senses_;  ///< that each channel goes by
+  std::vector<Row> last_;                       ///< of each channel
+  std::uint64_t rows_ = 0;
+};
+
+}  // namespace supercoil::daemon

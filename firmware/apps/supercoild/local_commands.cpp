@@ -1,0 +1,141 @@
+#include "apps/supercoild/local_commands.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+#include <system_error>
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "text/command_text.hpp"
+
+namespace supercoil::daemon {
+
+namespace {
+
+constexpr std::size_t most_clients = 8;
+constexpr int backlog = 4;
+/// Longer lines are cut, and are then no command.
+constexpr std::size_t longest_line = 200;
+
+void answer(int client, const std::string& text) {
+  // A client that does not read its answers loses them.
+  if (client >= 0) {
+    static_cast<void>(::send(client, text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL) < 0);
+  }
+}
+
+/// Makes the socket with its permissions, which bind() takes from the descriptor less the umask. A
+/// chmod() of the path afterwards would follow a link that the folder's owner put there meanwhile.
+int bind_for_group(const hal_linux::Descriptor& listener, const sockaddr_un& address) {
+  if (::fchmod(listener.number(), 0660) != 0) return -1;
+  const mode_t usual = ::umask(0);
+  const int result =
+      ::bind(listener.number(), reinterpret_cast<const sockaddr*>(&address), sizeof(address));
+  const int error = errno;
+  ::umask(usual);
+  errno = error;
+  return result;
+}
+
+/// A line for each channel, "1 1.02 0.985 0.021": gains of supply and current, and the error that a
+/// comparison with a meter left.
+std::string senses_text(const Loop& loop) {
+  std::ostringstream text;
+  text.precision(9);
+  for (std::size_t i = 0; i < loop.channels(); ++i) {
+    const board::SenseComparison s = loop.channel(i).senses();
+    text << i + 1 << ' ' << s.supply_gain << ' ' << s.current_gain << ' ' << s.error_ratio << '\n';
+  }
+  return text.str();
+}
+
+}  // namespace
+
+tl::expected<LocalCommands, std::string> LocalCommands::open(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const auto fail = [&](const char* what) {
+    return tl::unexpected(path + ": " + what + ": " + std::generic_category().message(errno));
+  };
+  if (path.size() >= sizeof(address.sun_path)) {
+    return tl::unexpected(path + ": the name of a socket has at most " +
+                          std::to_string(sizeof(address.sun_path) - 1) + " bytes");
+  }
+  std::memcpy(address.sun_path, path.data(), path.size());
+  hal_linux::Descriptor listener(
+      ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (!listener.is_open()) return fail("no socket for commands");
+  ::unlink(path.c_str());
+  if (bind_for_group(listener, address) != 0) return fail("cannot be made");
+  if (::listen(listener.number(), backlog) != 0) return fail("cannot be listened to");
+  return LocalCommands(std::move(listener));
+}
+
+void LocalCommands::serve(Loop& loop, const NewestRows& rows, int most_ms) {
+  std::array<pollfd, most_clients + 1> watched{};
+  watched[0] = {listener_.number(), POLLIN, 0};
+  const std::size_t count = clients_.size();
+  for (std::size_t i = 0; i < count; ++i)
+    watched[i + 1] = {clients_[i].number(), POLLIN, 0};
+  ::poll(watched.data(), count + 1, most_ms);
+  for (std::size_t i = count; i-- > 0;) {
+    if (watched[i + 1].revents == 0 || take_packet(clients_[i], loop, rows)) continue;
+    for (int& client : waiting_)
+      client = client == clients_[i].number() ? -1 : client;
+    clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  if (watched[0].revents != 0) accept_one();
+}
+
+void LocalCommands::accept_one() {
+  hal_linux::Descriptor client(
+      ::accept4(listener_.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (!client.is_open()) return;
+  if (clients_.size() == most_clients) {
+    answer(client.number(), "refused: too many clients");
+    return;
+  }
+  clients_.push_back(std::move(client));
+}
+
+/// False when the client is gone.
+bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
+                                const NewestRows& rows) {
+  std::array<char, longest_line> line{};
+  const ssize_t size = ::recv(client.number(), line.data(), line.size(), MSG_DONTWAIT);
+  if (size <= 0) return size < 0 && (errno == EAGAIN || errno == EINTR);
+  std::string_view text(line.data(), static_cast<std::size_t>(size));
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+    text.remove_suffix(1);
+  if (text == "state") {
+    answer(client.number(), rows.describe());
+    return true;
+  }
+  if (text == "senses") {
+    answer(client.number(), senses_text(loop));
+    return true;
+  }
+  const auto command = parse_command(text, loop.channels());
+  if (!command) {
+    answer(client.number(), "wrong: " + command.error());
+  } else if (!loop.send(*command)) {
+    answer(client.number(), "refused: too many commands");
+  } else {
+    waiting_.push_back(client.number());
+  }
+  return true;
+}
+
+void LocalCommands::pass(const Answer& given) {
+  if (waiting_.empty()) return;  // of a command that nobody here sent
+  answer(waiting_.front(), answer_text(given.refusal, given.nearest));
+  waiting_.pop_front();
+}
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,41 @@
+// Commands from programs on the board itself, by a socket in the file system.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal_linux/descriptor.hpp"
+
+#include "apps/supercoild/newest_rows.hpp"
+#include "loop/loop.hpp"
+
+namespace supercoil::daemon {
+
+/// A socket of packets (SOCK_SEQPACKET): each is one line of command_text.hpp, or "state", and is
+/// answered by one packet, in order. Who may open the file may command: the folder's permissions
+/// decide. A command to heat expires as everywhere, so a client that dies lets the muscle cool.
+/// Used by one thread.
+class LocalCommands {
+ public:
+  /// A file that an earlier life left is replaced: the lock is held already.
+  static tl::expected<LocalCommands, std::string> open(const std::string& path);
+
+  /// Waits at most most_ms for something to do, and does it.
+  void serve(Loop& loop, const NewestRows& rows, int most_ms);
+  /// The loop's answer to a command with Source::local, in their order.
+  void pass(const Answer& given);
+
+ private:
+  explicit LocalCommands(hal_linux::Descriptor listener) : listener_(std::move(listener)) {}
+  void accept_one();
+  bool take_packet(const hal_linux::Descriptor& client, Loop& loop, const NewestRows& rows);
+
+  hal_linux::Descriptor listener_;
+  std::vector<hal_linux::Descriptor> clients_;
+  std::deque<int> waiting_;  ///< whose commands the loop has not answered yet; −1: gone since
+};
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,134 @@
+// supercoild: the firmware as a program.
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "apps/common/exit_status.hpp"
+#include "apps/supercoild/keeper.hpp"
+#include "apps/supercoild/latency/latency_command.hpp"
+#include "apps/supercoild/locked_memory.hpp"
+#include "apps/supercoild/off_command.hpp"
+#include "apps/supercoild/run_command.hpp"
+#include "config/board_config.hpp"
+#include "config/describe.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
+
+namespace {
+
+using namespace supercoil;
+
+/// Elsewhere than on the board there is no such folder.
+void recall_learned(config::BoardConfig& config) {
+  storage::PosixFiles files;
+  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
+    storage::LearnedStore store(config.storage_folder, static_cast<int>(i + 1), files);
+    const auto loaded = store.load();
+    if (!loaded || !loaded->learned) continue;
+    daemon::recall(config.settings.channels[i], *loaded->learned);
+    std::printf("channel %zu: with what was learned before, version %u in %s\n", i + 1,
+                loaded->learned->version, config.storage_folder.c_str());
+  }
+}
+
+int check_file(const std::string& path) {
+  auto config = config::read_board_config(path);
+  if (!config) {
+    std::fputs(config::to_text(config.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  recall_learned(*config);
+  std::fputs(config::describe(*config).c_str(), stdout);
+  std::fputs(daemon::describe_locked_memory(*config).c_str(), stdout);
+  return exit_done;
+}
+
+/// What only goes with --latency says so when it stands alone.
+void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
+  CLI::Option* latency = app.add_flag(
+      "--latency", wanted,
+      "Measure how late the loop wakes and how long its ticks take, without opening any device, "
+      "and end");
+  CLI::Option* rate =
+      app.add_option("--rate", options.rate_Hz, "Without --config: Hz of one channel")
+          ->check(CLI::Range(100.0, 10e3))
+          ->capture_default_str();
+  CLI::Option* seconds = app.add_option("--seconds", options.seconds, "How long it measures")
+                             ->check(CLI::Range(0.1, 1e6))
+                             ->capture_default_str();
+  CLI::Option* ticks = app.add_option("--ticks", options.ticks, "How many ticks it measures")
+                           ->check(CLI::Range(1.0, 1e9))
+                           ->excludes(seconds);
+  CLI::Option* plot =
+      app.add_option("--plot", options.plot, "Draw the histograms (gnuplot)")->type_name("SVG");
+  CLI::Option* json = app.add_flag("--json", options.json, "Print JSON instead of text");
+  rate->excludes("--config");
+  for (CLI::Option* option : {rate, seconds, ticks, plot, json})
+    option->needs(latency)->group("With --latency");
+  latency->excludes("--check")->excludes("--off");
+}
+
+int run_program(int count, char** arguments) {
+  CLI::App app{
+      "The firmware of a board that drives super-coiled polymer muscles.\n"
+      "Drives the board until SIGTERM, SIGINT or SIGHUP, which cool first. It starts disarmed.",
+      "supercoild"};
+  app.set_version_flag("--version", SUPERCOIL_VERSION);
+  std::string file;
+  daemon::RunOptions options;
+  CLI::Option* check = app.add_option("--check", file,
+                                      "Read a board's configuration, say what was understood, "
+                                      "and end")
+                           ->type_name("FILE");
+  bool off = false;
+  app.add_flag("--off", off, "Set every line low and every duty to 0, and end")->excludes(check);
+  app.add_option("--config", options.config, "The board's configuration")
+      ->type_name("FILE")
+      ->capture_default_str();
+  app.add_option("--run-folder", options.run_folder,
+                 "Where the lock and the socket for local commands are")
+      ->type_name("DIR")
+      ->capture_default_str();
+  app.add_option("--priority", options.priority,
+                 "Of the loop, in SCHED_FIFO; 0 runs without real time")
+      ->check(CLI::Range(0, 99))
+      ->capture_default_str();
+  app.add_option("--cpu", options.cpu, "The loop's own CPU; any if not given")
+      ->check(CLI::Range(0, 1023));
+  daemon::LatencyOptions latency;
+  bool measures = false;
+  add_latency(app, latency, measures);
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? exit_done : exit_wrong_input;
+  }
+  if (app.count("--check") > 0) return check_file(file);
+  if (off) return daemon::off_command(options.config, options.run_folder);
+  if (!measures) return daemon::run_command(options);
+  if (app.count("--config") > 0) latency.config = options.config;
+  latency.priority = options.priority;
+  latency.cpu = options.cpu;
+  return daemon::latency_command(latency);
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  supercoil::daemon::keep_heap_small();
+  // A log or a result that nobody reads any more is no reason to drop the muscles.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    const int status = run_program(count, arguments);
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    std::fputs("supercoild: cannot write to standard output\n", stderr);
+    return exit_failed;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "supercoild: %s\n", error.what());
+    return exit_failed;
+  }
+}

@@ -1,0 +1,190 @@
+#include "apps/supercoild/run_command.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <random>
+
+#include <unistd.h>
+
+#include "supercoil/hal_linux/realtime.hpp"
+#include "supercoil/hal_linux/socket_can.hpp"
+
+#include "apps/common/exit_status.hpp"
+#include "apps/supercoild/ending_signals.hpp"
+#include "apps/supercoild/keeper.hpp"
+#include "apps/supercoild/log.hpp"
+#include "apps/supercoild/loop_thread.hpp"
+#include "apps/supercoild/service.hpp"
+#include "apps/supercoild/telemetry.hpp"
+#include "linux_board/linux_board.hpp"
+#include "linux_board/lock_file.hpp"
+
+namespace supercoil::daemon {
+
+namespace {
+
+constexpr hal::Duration round = std::chrono::milliseconds(20);
+/// A loop that made no row in so many rounds hangs: a second. Rounds are counted, not time, because
+/// this thread may itself be kept from running, and wakes before those that bring the rows.
+constexpr int hangs_after_rounds = 50;
+/// Duties and enable lines are off a tick after the command; so long is far more than that.
+constexpr hal::Duration cool_within = std::chrono::seconds(2);
+/// Buses must not hold up the loop.
+constexpr int below_the_loop = 10;
+
+/// The daemon's parts, in the order in which they are made; they end in the opposite one.
+struct Parts {
+  storage::PosixFiles files;
+  std::vector<storage::LearnedStore> stores;
+  std::optional<linux_board::LockFile> lock;
+  std::unique_ptr<linux_board::LinuxBoard> board;
+  hal_linux::WakefulCpus wakeful;
+  std::unique_ptr<Loop> loop;
+  std::unique_ptr<Keeper> keeper;
+  std::unique_ptr<hal_linux::SocketCan> can_bus;
+  std::unique_ptr<telemetry::CanLink> can;
+  std::unique_ptr<Telemetry> telemetry;
+  std::unique_ptr<LoopThread> thread;
+};
+
+/// text: a warning, or nothing.
+void warn(const std::string& text) {
+  if (!text.empty()) log(Level::warning, text);
+}
+
+/// A bus that is down is no error, and may come up later.
+tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig& config) {
+  if (!config.can) return {};
+  const auto ids = telemetry::heard_ids(*config.can, config.settings.channels.size());
+  auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
+  if (!bus) return tl::unexpected("can: " + bus.error().text);
+  parts.can_bus = std::move(*bus);
+  parts.can =
+      std::make_unique<telemetry::CanLink>(*config.can, config.settings, *parts.loop,
+                                           *parts.can_bus, [] { return std::random_device()(); });
+  return {};
+}
+
+/// Buses, watchdog, commands, and at last the loop.
+tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& config,
+                                      const RunOptions& options, LocalCommands commands) {
+  const double rate_Hz = config.settings.rate_Hz;
+  const bool realtime = options.priority > 0;
+  if (realtime) log_steps({hal_linux::lock_memory(), parts.wakeful.hold()});
+  const int bus_priority = realtime ? std::max(1, options.priority - below_the_loop) : 0;
+  auto warning = parts.board->start(rate_Hz, bus_priority);
+  if (!warning) return tl::unexpected(std::move(warning.error()));
+  warn(*warning);
+  const board::Devices devices = parts.board->devices();
+  parts.loop = std::make_unique<Loop>(config.settings, devices);
+  if (auto joined = join_can(parts, config); !joined) return joined;
+  parts.telemetry = std::make_unique<Telemetry>(*parts.loop, parts.keeper->relay(),
+                                                std::move(commands), parts.can.get());
+  if (auto started = parts.telemetry->start(); !started) return started;
+  auto thread = LoopThread::start(*parts.loop, *devices.clock, rate_Hz,
+                                  {"loop", options.priority, options.cpu});
+  if (!thread) return tl::unexpected(thread.error());
+  parts.thread = std::move(*thread);
+  if (realtime) {
+    log_steps(parts.board->steps());
+    log_steps(parts.thread->steps());
+  }
+  return {};
+}
+
+/// Rows keep coming, or the signal has come. Returns false when the loop hangs.
+bool keep_until_signal(Parts& parts, Service& service) {
+  hal_linux::MonotonicClock clock;
+  std::uint64_t rows = 0;
+  int rounds_without = 0;
+  while (!ending_signal_within(round)) {
+    const hal::Time now = clock.now();
+    parts.keeper->poll(*parts.loop, now);
+    if (parts.keeper->rows() != rows) {
+      rows = parts.keeper->rows();
+      rounds_without = 0;
+      service.alive(now);
+    } else if (++rounds_without > hangs_after_rounds) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Every channel is off, and the loop stands still. Returns false when that could not be had.
+bool cool(Parts& parts) {
+  parts.telemetry->cool();
+  hal_linux::MonotonicClock clock;
+  const hal::Time asked = clock.now();
+  const timespec a_round{0, static_cast<decltype(timespec::tv_nsec)>(round.count())};
+  do {
+    nanosleep(&a_round, nullptr);
+    parts.keeper->poll(*parts.loop, clock.now());
+    if (clock.now() - asked > cool_within) return false;
+  } while (!parts.keeper->all_off());
+  parts.thread->stop();
+  parts.thread.reset();
+  // The last rows come through the telemetry thread.
+  nanosleep(&a_round, nullptr);
+  parts.keeper->poll(*parts.loop, clock.now());
+  parts.keeper->finish();
+  return true;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  auto config = config::read_board_config(options.config);
+  if (!config) {
+    std::fputs(config::to_text(config.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  block_ending_signals();
+
+  Parts parts;
+  auto lock = linux_board::LockFile::take(options.run_folder + "/lock");
+  if (!lock) return fail(lock.error());
+  parts.lock.emplace(std::move(*lock));
+  for (std::size_t i = 0; i < config->settings.channels.size(); ++i)
+    parts.stores.emplace_back(config->storage_folder, static_cast<int>(i + 1), parts.files);
+  if (const auto known = remember(*config, parts.stores); !known) {
+    return fail(options.config + ": board.storage_folder: " + known.error());
+  }
+  auto board = linux_board::LinuxBoard::open(config->wiring);
+  if (!board) {
+    for (const std::string& problem : board.error())
+      log(Level::problem, options.config + ": " + problem);
+    return fail("nothing was started");
+  }
+  parts.board = std::move(*board);
+  auto commands = LocalCommands::open(options.run_folder + "/commands");
+  if (!commands) return fail(commands.error());
+  parts.keeper = std::make_unique<Keeper>(*config, parts.stores, parts.files);
+
+  if (const auto started = start(parts, *config, options, std::move(*commands)); !started) {
+    // No loop runs that would feed it, and nothing was ever on.
+    warn(parts.board->release());
+    return fail(started.error());
+  }
+  log(Level::info, config->name + ": " + std::to_string(config->settings.channels.size()) +
+                       " channels, disarmed");
+
+  Service service;
+  service.tell("READY=1\nSTATUS=disarmed at start");
+  const bool alive = keep_until_signal(parts, service);
+  service.tell("STOPPING=1");
+  if (alive && cool(parts)) {
+    warn(parts.board->release());
+    log(Level::info, "everything is off; ended");
+    return exit_done;
+  }
+  // The thread cannot be waited for. Its heartbeat has stopped, and the charge pump has opened the
+  // supply; the kernel closes the rest, and the watchdog, not being fed, bites.
+  log(Level::problem, "the loop hangs: ended without it");
+  std::_Exit(exit_failed);
+}
+
+}  // namespace supercoil::daemon

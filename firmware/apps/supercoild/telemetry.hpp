@@ -1,0 +1,58 @@
+// The thread between the loop and whoever commands.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal_linux/thread.hpp"
+
+#include "apps/supercoild/local_commands.hpp"
+#include "apps/supercoild/row_relay.hpp"
+#include "telemetry/can_link.hpp"
+
+namespace supercoil::daemon {
+
+/// Takes the loop's rows, speaks on the CAN bus, serves commands, and shows the loop that it lives.
+/// Touches no disk: so it is the one that cools at an ending signal that is blocked and pending,
+/// however long the main thread waits for a disk. The loop's commands, answers and rows are this
+/// thread's alone.
+class Telemetry {
+ public:
+  /// relay: where rows go on to. can: null for a board without a bus. All outlive it.
+  Telemetry(Loop& loop, RowRelay& relay, std::optional<LocalCommands> commands,
+            telemetry::CanLink* can = nullptr)
+      : loop_(&loop),
+        relay_(&relay),
+        commands_(std::move(commands)),
+        can_(can),
+        rows_(loop.channels()) {}
+  ~Telemetry() { ending_ = true; }
+
+  tl::expected<void, std::string> start();
+  /// From now on every channel is told to disarm, again and again, and nobody else is heard or
+  /// spoken to.
+  void cool() { cooling_.store(true, std::memory_order_relaxed); }
+
+ private:
+  void run();
+  void disarm_all();
+  void pass_rows();
+  void pass_answers();
+
+  Loop* loop_;
+  RowRelay* relay_;
+  std::optional<LocalCommands> commands_;
+  telemetry::CanLink* can_;
+  NewestRows rows_;
+  std::uint32_t beats_ = 0;
+  std::atomic<bool> cooling_{false};
+  std::atomic<bool> ending_{false};
+  std::unique_ptr<hal_linux::Thread> thread_;  ///< last: it ends first
+};
+
+}  // namespace supercoil::daemon

@@ -1,0 +1,41 @@
+#include "board/learned.hpp"
+
+#include <array>
+
+namespace supercoil::board {
+
+bool same_content(const Learned& a, const Learned& b) {
+  return a.muscle == b.muscle && a.calibration == b.calibration && a.senses == b.senses &&
+         a.knows_muscle == b.knows_muscle && a.heat == b.heat && a.answer_ratio == b.answer_ratio;
+}
+
+std::optional<control::Violation> check(const Learned& learned) {
+  if (const auto violation = control::check(learned.muscle)) return violation;
+  const Calibration& c = learned.calibration;
+  const SenseComparison& s = learned.senses;
+  constexpr double year_9999_s = 253'402'300'799.0;
+  const HeatFacts& h = learned.heat;
+  const std::array<control::Violation, 14> rules{{
+      {"position_offset_m", c.position_offset_m, -1.0, 1.0},
+      {"position_scale", c.position_scale, 0.1, 10.0},
+      {"cold_resistance_Ohm", c.cold_resistance_Ohm, 1e-2, 1e4},
+      {"supply_gain", s.supply_gain, 0.5, 2.0},
+      {"current_gain", s.current_gain, 0.5, 2.0},
+      {"error_ratio", s.error_ratio, 0.0, 0.2},
+      {"compared_s", s.compared_s, 0.0, year_9999_s},
+      {"time_constant_s", h.time_constant_s, 0.0, 1e4},
+      {"time_constant_at_W", h.time_constant_at_W, 0.0, 1e3},
+      {"steady_rise_K", h.steady_rise_K, 0.0, 300.0},
+      {"steady_error_K", h.steady_error_K, 0.0, 100.0},
+      {"steady_min_W", h.steady_min_W, 0.0, 1e3},
+      {"steady_max_W", h.steady_max_W, 0.0, 1e3},
+      {"answer_ratio", learned.answer_ratio, 0.0, 10.0},
+  }};
+  for (const control::Violation& rule : rules) {
+    // Written so that a NaN fails.
+    if (!(rule.value >= rule.lowest && rule.value <= rule.highest)) return rule;
+  }
+  return std::nullopt;
+}
+
+}  // namespace supercoil::board

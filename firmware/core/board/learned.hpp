@@ -1,0 +1,71 @@
+// What a channel learns about its muscle and keeps over a power cut.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "supercoil/control/actuator/parameters.hpp"
+
+namespace supercoil::board {
+
+/// How the channel's measurements relate to this muscle, as `calibrate` found it.
+struct Calibration {
+  double position_offset_m = 0.0;     ///< measured position of the muscle at rest, −1 to 1
+  double position_scale = 1.0;        ///< true displacement over the measured one, 0.1 to 10
+  double cold_resistance_Ohm = 10.0;  ///< of the muscle at ambient temperature, 0.01 to 10000
+
+  friend bool operator==(const Calibration&, const Calibration&) = default;
+};
+
+/// What a comparison of the channel's senses with a meter found.
+struct SenseComparison {
+  double supply_gain = 1.0;   ///< true over measured supply voltage, 0.5 to 2
+  double current_gain = 1.0;  ///< true over measured current, 0.5 to 2
+  double error_ratio = 0.0;  ///< that may remain of each after its gain, up to 0.2; 0: not compared
+  double compared_s = 0.0;   ///< when, in seconds since 1970
+
+  bool compared() const { return error_ratio > 0.0; }
+  friend bool operator==(const SenseComparison&, const SenseComparison&) = default;
+};
+
+/// What was found out of the muscle's heat, where it hangs.
+struct HeatFacts {
+  double time_constant_s = 0.0;     ///< thermal mass over heat transfer, up to 10000; 0: not known
+  double time_constant_at_W = 0.0;  ///< mean power at which it was found, up to 1000
+  /// Above the air, read from a thermometer in steady heat, up to 300; 0: not read.
+  double steady_rise_K = 0.0;
+  double steady_error_K = 0.0;  ///< of that, up to 100
+  double steady_min_W = 0.0;    ///< between these the power was, as the compared senses tell it
+  double steady_max_W = 0.0;
+
+  bool knows_time_constant() const { return time_constant_s > 0.0; }
+  bool was_read() const { return steady_rise_K > 0.0; }
+  void forget_reading() { steady_rise_K = steady_error_K = steady_min_W = steady_max_W = 0.0; }
+  friend bool operator==(const HeatFacts&, const HeatFacts&) = default;
+};
+
+/// One whole set: parameters and calibration belong together, as one was found under the other.
+struct Learned {
+  control::PhysicalParameters muscle;
+  Calibration calibration;
+  SenseComparison senses;
+  std::uint32_t version = 0;  ///< counts the saves of a channel, from 1; LearnedStore sets it
+  /// False: only the senses are known, which are the board's; muscle and calibration mean nothing.
+  bool knows_muscle = true;
+  HeatFacts heat;
+  /// Of the model's small motions, what arrives at the sensor, up to 10; 0: not measured.
+  double answer_ratio = 0.0;
+
+  friend bool operator==(const Learned&, const Learned&) = default;
+};
+
+/// What a channel hands to whoever stores it; empty: the muscle is to be forgotten.
+using Lesson = std::optional<Learned>;
+
+/// The same muscle, calibration and senses, whichever version they are.
+bool same_content(const Learned& a, const Learned& b);
+
+/// The first quantity that is NaN or out of its range; the muscle's ranges are control::check's.
+std::optional<control::Violation> check(const Learned& learned);
+
+}  // namespace supercoil::board

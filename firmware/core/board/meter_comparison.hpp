@@ -1,0 +1,168 @@
+// A channel's senses compared with a meter.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "board/learned.hpp"
+#include "board/power_bounds.hpp"
+#include "supervisor/channel_state.hpp"
+
+namespace supercoil::board {
+
+/// A person reads a meter at two powers; a reading alone changes nothing. What the senses tell is
+/// averaged while the power is steady, as the meter's display is. The gains are found when four
+/// readings agree with each other and with the configured resistance. One that does not is refused,
+/// and all are forgotten: nobody knows which of them was wrong.
+class MeterComparison {
+ public:
+  struct Settings {
+    double min_supply_V = 9.0;
+    double max_supply_V = 15.0;
+    double resistance_tolerance_ratio = 0.3;
+    double supply_step_V = 0.0;  ///< of a count
+    double current_step_A = 0.0;
+  };
+  enum Sense : std::uint8_t { supply, current };
+
+  static constexpr double min_gain = 0.7;
+  static constexpr double max_gain = 1.4;
+  static constexpr double min_level_ratio = 1.4;    ///< of the second power over the first
+  static constexpr double same_level_ratio = 0.05;  ///< duties this near are of one power
+  static constexpr double max_spread_ratio = 0.02;  ///< of a sense's gains at both
+  static constexpr double meter_ratio = 0.01;       ///< what a usual meter is wrong by
+  static constexpr double floor_ratio = 0.01;       ///< for what two powers do not show
+  static constexpr double max_error_ratio = 0.2;
+
+  MeterComparison(const Settings& settings, double step_s)
+      : settings_(settings),
+        steady_ticks_(static_cast<int>(std::lround(steady_s / step_s))),
+        smallest_weight_(step_s / smoothing_s) {}
+
+  /// A tick at unchanged power, with what the senses tell.
+  void step(double duty, double supply_V, double current_A) {
+    if (ticks_ < steady_ticks_) ++ticks_;
+    // In the first half the power still settles.
+    if (2 * ticks_ <= steady_ticks_) return;
+    duty_ += weight_ * (duty - duty_);
+    told_[supply] += weight_ * (supply_V - told_[supply]);
+    told_[current] += weight_ * (current_A - told_[current]);
+    // A mean, until it is as long as the low-pass.
+    if (weight_ > smallest_weight_) weight_ = std::max(smallest_weight_, weight_ / (1.0 + weight_));
+  }
+  /// The power is another one from now on, or a sense tells nothing.
+  void restart() {
+    ticks_ = 0;
+    weight_ = 1.0;
+  }
+  void forget() { levels_ = {}; }
+
+  /// What the meter shows now: volts at the supply's terminals, or the mean of the amperes.
+  /// present: by which the senses were corrected. resistance_Ohm: what the configured heater may
+  /// have at its present temperature.
+  Refusal read(Sense sense, double meter, const board::SenseComparison& present,
+               const PowerBounds::Interval& resistance_Ohm) {
+    if (ticks_ < steady_ticks_) return Refusal::not_ready;
+    const double corrected_by = sense == supply ? present.supply_gain : present.current_gain;
+    const Reading reading{meter, told_[sense] / corrected_by};
+    if (!is_plausible(sense, reading)) return refuse();
+    const auto level = level_here();
+    if (!level) return Refusal::not_ready;
+    levels_[*level].duty = duty_;
+    levels_[*level].readings[sense] = reading;
+    if (!fits(levels_[*level], resistance_Ohm) || spread_ratio(sense) > max_spread_ratio)
+      return refuse();
+    return !is_complete() || found() ? Refusal::none : refuse();
+  }
+
+  /// When all four readings agree.
+  std::optional<board::SenseComparison> found() const {
+    if (!is_complete()) return std::nullopt;
+    const double error_ratio =
+        floor_ratio + std::max({meter_ratio, spread_ratio(supply), spread_ratio(current),
+                                count_ratio(supply, settings_.supply_step_V),
+                                count_ratio(current, settings_.current_step_A)});
+    if (!(error_ratio <= max_error_ratio)) return std::nullopt;
+    return board::SenseComparison{mean_gain(supply), mean_gain(current), error_ratio, 0.0};
+  }
+
+ private:
+  static constexpr double steady_s = 1.0;
+  static constexpr double smoothing_s = 0.5;
+
+  struct Reading {
+    double meter = 0.0;  ///< 0: none yet
+    double told = 0.0;
+    bool is_there() const { return meter > 0.0; }
+    double gain() const { return meter / told; }
+  };
+  struct Level {
+    double duty = 0.0;
+    std::array<Reading, 2> readings;
+  };
+
+  Refusal refuse() {
+    forget();
+    return Refusal::out_of_range;
+  }
+  /// Written so that a NaN is not.
+  bool is_plausible(Sense sense, const Reading& r) const {
+    if (sense == supply &&
+        !(r.meter >= settings_.min_supply_V && r.meter <= settings_.max_supply_V))
+      return false;
+    return r.told > 0.0 && r.gain() >= min_gain && r.gain() <= max_gain;
+  }
+  /// Which of the two powers acts; empty: neither the first nor enough more than that.
+  std::optional<std::size_t> level_here() const {
+    for (std::size_t i = 0; i < levels_.size(); ++i) {
+      const double known = levels_[i].duty;
+      if (known > 0.0 && std::abs(duty_ - known) <= same_level_ratio * known) return i;
+      const bool above = i == 0 || duty_ >= min_level_ratio * levels_[0].duty;
+      if (known == 0.0 && above) return i;
+    }
+    return std::nullopt;
+  }
+  /// Also finds volts and amperes that were swapped.
+  bool fits(const Level& level, const PowerBounds::Interval& resistance_Ohm) const {
+    const auto& [volts, amperes] = level.readings;
+    if (!volts.is_there() || !amperes.is_there()) return true;
+    const double meter_Ohm = level.duty * volts.meter / amperes.meter;
+    const double part = settings_.resistance_tolerance_ratio;
+    return meter_Ohm >= resistance_Ohm.min * (1.0 - part) &&
+           meter_Ohm <= resistance_Ohm.max * (1.0 + part);
+  }
+  bool is_complete() const {
+    return std::all_of(levels_.begin(), levels_.end(), [](const Level& level) {
+      return level.readings[supply].is_there() && level.readings[current].is_there();
+    });
+  }
+  double mean_gain(Sense sense) const {
+    return 0.5 * (levels_[0].readings[sense].gain() + levels_[1].readings[sense].gain());
+  }
+  double spread_ratio(Sense sense) const {
+    const Reading& first = levels_[0].readings[sense];
+    const Reading& second = levels_[1].readings[sense];
+    if (!first.is_there() || !second.is_there()) return 0.0;
+    return std::abs(first.gain() - second.gain()) / mean_gain(sense);
+  }
+  /// What one count of the converter is of the smaller reading.
+  double count_ratio(Sense sense, double step) const {
+    return std::abs(step) /
+           std::min(levels_[0].readings[sense].told, levels_[1].readings[sense].told);
+  }
+
+  Settings settings_;
+  int steady_ticks_;
+  double smallest_weight_;
+  int ticks_ = 0;
+  double weight_ = 1.0;
+  double duty_ = 0.0;
+  std::array<double, 2> told_{};  ///< smoothed, by Sense
+  std::array<Level, 2> levels_;
+};
+
+}  // namespace supercoil::board

@@ -1,0 +1,150 @@
+// A muscle's heater: what is measured of it, how hot it makes the muscle, and what drives it.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "supercoil/control/tracking/law.hpp"
+
+#include "board/applied_power.hpp"
+#include "board/devices.hpp"
+#include "board/heat.hpp"
+#include "board/learned.hpp"
+#include "board/power_stage.hpp"
+#include "board/probe.hpp"
+#include "board/resistance.hpp"
+#include "loop/settings.hpp"
+#include "supervisor/channel_state.hpp"
+#include "supervisor/channel_supervisor.hpp"
+
+namespace supercoil {
+
+/// The gains and the error that remains, from the loop to other threads.
+class ToldSenses {
+ public:
+  void set(const board::SenseComparison& senses) {
+    supply_.store(senses.supply_gain, std::memory_order_relaxed);
+    current_.store(senses.current_gain, std::memory_order_relaxed);
+    error_.store(senses.error_ratio, std::memory_order_relaxed);
+  }
+  board::SenseComparison get() const {
+    return {supply_.load(std::memory_order_relaxed), current_.load(std::memory_order_relaxed),
+            error_.load(std::memory_order_relaxed), 0.0};
+  }
+
+ private:
+  std::atomic<double> supply_{1.0};
+  std::atomic<double> current_{1.0};
+  std::atomic<double> error_{0.0};
+};
+
+class Heater {
+ public:
+  /// Devices outlive the heater.
+  Heater(const ChannelSettings& settings, const BoardSettings& board,
+         const board::ChannelDevices& devices);
+
+  // In a tick, in this order.
+  void sample(hal::Time now);
+  /// How hot what acted since the last tick has made the muscle, by what was set and by what was
+  /// measured. supply_V: as read. air: in °C, null without a sensor. periods: since the last tick.
+  void observe(double supply_V, const board::Measured* air, std::int64_t periods);
+  /// Its inputs of the supervisor.
+  void tell(const ChannelState& state, Evidence& e) const;
+  /// proven_W: what a muscle may have by what it has proven.
+  void limit(const ChannelState& state, double wanted_W, double proven_W);
+  /// may_probe: a resistance that is old may be measured again. dither_W: of the power.
+  void drive(const ChannelState& state, bool may_probe, double dither_W);
+
+  /// Duty 0 and enable low, at once.
+  void cut();
+  /// The next rise of power starts from nothing.
+  void rest();
+  /// For the self-test: a duty and the enable line by hand.
+  void test_drive(double duty, bool enable);
+  void start_probe() { probe_.start(); }
+
+  /// By a comparison with a meter, from now on. more_Ohm: what the senses tell of a resistance,
+  /// over what they told.
+  void go_by(const board::SenseComparison& senses, double more_Ohm);
+  /// What was found out of the muscle's heat, from now on.
+  void know(const board::HeatFacts& facts);
+  void calibrate(double cold_Ohm) { cold_Ohm_ = cold_Ohm; }
+  /// Thermal pole of the muscle, as estimated and trusted.
+  void learn(double pole_rad_per_s) { heat_.learn(pole_rad_per_s); }
+  void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
+  /// From any thread; no more power than this, nor than the configured maximum.
+  void allow_power(double max_W) { max_power_W_.store(max_W, std::memory_order_relaxed); }
+  double max_power_W() const { return max_power_W_.load(std::memory_order_relaxed); }
+  /// From any thread.
+  board::SenseComparison told_senses() const { return told_senses_.get(); }
+
+  const board::Measured& current() const { return current_; }
+  double supply_V() const { return supply_V_; }
+  /// What a heater that has cold_Ohm when cold has at the muscle's coldest and hottest.
+  board::PowerBounds::Interval warm_Ohm(double cold_Ohm) const;
+  const board::Resistance& resistance() const { return resistance_; }
+  bool probing() const { return probe_.running(); }
+  /// Whether the resistance tells the muscle's temperature now.
+  bool tells_temperature() const { return tells_temperature_; }
+  const board::Heat& heat() const { return heat_; }
+  /// The muscle has been cool since boot, whatever was before.
+  bool heat_known() const { return heat_known_; }
+  const board::SenseComparison& senses() const { return senses_; }
+  const board::HeatFacts& facts() const { return facts_; }
+  const board::PowerBounds& power_bounds() const { return power_bounds_; }
+  /// Of this tick, as compared senses tell it.
+  const board::PowerBounds::Interval& told_W() const { return told_W_; }
+  /// What a controller may count on.
+  control::PowerRange power_range() const;
+  const Limiter& limiter() const { return limiter_; }
+  const Limiter::Result& allowed() const { return allowed_; }
+  const board::AppliedPower& acting() const { return acting_; }
+  double set_duty() const { return set_.duty; }
+  bool lines_ok() const { return lines_ok_; }
+
+ private:
+  void observe_power(std::int64_t periods);
+  void follow_probe();
+  void write_duty(int step);
+  void write_enable(bool high);
+
+  /// A muscle that may be warmer than this has a sensor that shows at least its own noise.
+  static constexpr double hot_K = 5.0;
+
+  HeaterSettings settings_;
+  board::ChannelDevices devices_;
+  double current_noise_A_;
+  double derate_from_C_;
+  double cold_Ohm_;  ///< as calibrated
+
+  board::SenseComparison senses_;
+  ToldSenses told_senses_;
+  board::HeatFacts facts_;
+  board::Measured current_;
+  double supply_V_ = 0.0;
+  board::Resistance resistance_;
+  board::PowerBounds power_bounds_;
+  board::PowerBounds::Interval told_W_{0.0, 0.0};
+  board::Heat heat_;
+  bool heat_known_ = false;
+  double measured_W_ = 0.0;
+  bool tells_temperature_ = false;
+  double from_resistance_K_ = 0.0;
+  board::Probe probe_;
+  bool probed_ = false;
+  bool probe_failed_ = false;
+  std::atomic<double> max_power_W_;
+  Limiter limiter_;
+  Limiter::Result allowed_;
+  board::PowerStage power_stage_;
+  board::OutputDelay delay_;
+  board::AppliedPower set_;     ///< at this tick
+  board::AppliedPower acting_;  ///< from this tick to the next
+  int written_step_ = -1;
+  int written_enable_ = -1;
+  bool writes_ok_ = true;
+  bool lines_ok_ = true;
+};
+
+}  // namespace supercoil

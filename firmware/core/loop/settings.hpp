@@ -1,0 +1,89 @@
+// All that the loop needs to know of a board, in SI units, checked before it starts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/tracking/controller.hpp"
+#include "supercoil/control/tracking/loop_margin.hpp"
+
+#include "board/heat.hpp"
+#include "board/learned.hpp"
+#include "board/measurement.hpp"
+#include "board/power_bounds.hpp"
+#include "supervisor/limiter.hpp"
+#include "supervisor/proof.hpp"
+#include "supervisor/supervision.hpp"
+
+namespace supercoil {
+
+/// A converter's input: what its counts mean, and how old a value may be.
+struct InputSettings {
+  board::Scaling scaling;
+  double max_age_s = 0.01;
+};
+
+/// The heater as the power stage and its measurement see it.
+struct HeaterSettings {
+  InputSettings current;
+  double sense_filter_s = 0.0;  ///< time constant of the averaging current sense; 0: a tick's mean
+  double resistance_filter_s = 0.2;  ///< smoothing of the measured resistance
+  double cold_resistance_Ohm = 10.0;
+  double temperature_coefficient_per_K = 0.0;  ///< of the resistance; 0: it tells no temperature
+  double probe_duty = 0.02;                    ///< at most 0.02
+  double probe_s = 0.05;                       ///< at most 0.05
+  double probe_every_s = 5.0;  ///< while hot below probe_duty: the age at which it probes again
+  bool error_feedback = true;  ///< of the duty's rounding
+  double delay_s = 0.0;        ///< from a duty's setting to its acting
+};
+
+struct ChannelSettings {
+  control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
+  bool knows_muscle = false;           ///< it and the calibration were learned before
+  bool muscle_identified = false;      ///< it was identified: not only believed
+  board::Calibration calibration;      ///< its cold resistance is HeaterSettings' when not learned
+  board::SenseComparison senses;       ///< with a meter, as stored
+  board::HeatFacts heat;               ///< found out before, as stored
+  double answer_ratio = 0.0;           ///< likewise, of small motions; 0: not measured
+  InputSettings position;
+  HeaterSettings heater;
+  board::ThermalSettings thermal;
+  LimiterSettings limiter;
+  ChannelSupervision supervision;
+  /// At least one of each; commands choose among them by their place.
+  std::vector<control::ControllerSettings> controllers{1};
+  std::vector<control::EstimatorSettings> estimators{1};
+};
+
+struct BoardSettings {
+  double rate_Hz = 1000.0;
+  InputSettings supply;
+  InputSettings air;  ///< in °C, where there is a sensor
+  BoardSupervision supervision;
+  std::vector<ChannelSettings> channels{1};
+
+  double step_s() const { return 1.0 / rate_Hz; }
+};
+
+/// From the sampling of a position, which may be a tick old, until the power acts that answers it.
+inline double loop_delay_s(const ChannelSettings& channel, double step_s) {
+  return step_s + channel.heater.delay_s;
+}
+
+/// The true power of a channel, from what its senses and its calibration may be wrong by.
+board::PowerBounds power_bounds(const ChannelSettings& channel, const BoardSettings& board);
+
+/// The room that a controller leaves on the channel's muscle, when it has adapted to it if it
+/// adapts. Empty: it works in open loop.
+std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,
+                                             const ChannelSettings& channel, double step_s);
+
+/// What the proof that the muscle answers rests on.
+ProofSettings proof_settings(const ChannelSettings& channel, const BoardSettings& board);
+
+/// What makes settings unusable whoever wrote them; empty when they may run. (Ranges of single
+/// values are the configuration's to check.)
+std::string check(const BoardSettings& settings);
+
+}  // namespace supercoil

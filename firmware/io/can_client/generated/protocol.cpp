@@ -1,0 +1,348 @@
+// Generated from firmware/io/telemetry/supercoil.dbc by toolchain/generate-can. Do not edit.
+#include "can_client/protocol.hpp"
+
+namespace supercoil::can_client {
+
+namespace {
+
+constexpr std::array<ValueName, 32> names_of_fault{{
+    {0, "none"},
+    {10, "sensor_out_of_range"},
+    {11, "sensor_stale"},
+    {12, "sensor_frozen"},
+    {13, "sensor_jump"},
+    {14, "sensors_disagree"},
+    {20, "heater_open"},
+    {21, "heater_short"},
+    {22, "heater_stuck_on"},
+    {23, "heater_not_responding"},
+    {24, "duty_wrong"},
+    {25, "line_failed"},
+    {30, "over_temperature"},
+    {31, "over_travel"},
+    {32, "energy_budget_exceeded"},
+    {33, "resistance_drift"},
+    {40, "under_voltage"},
+    {41, "over_voltage"},
+    {42, "power_limit_exceeded"},
+    {50, "overrun"},
+    {51, "tick_late"},
+    {52, "telemetry_dead"},
+    {60, "command_timeout"},
+    {61, "command_damaged"},
+    {62, "command_not_allowed"},
+    {63, "emergency_stop"},
+    {70, "bus_off"},
+    {71, "bus_error_passive"},
+    {72, "node_conflict"},
+    {80, "configuration_invalid"},
+    {81, "controller_invalid"},
+    {82, "self_test_failed"},
+}};
+
+constexpr std::array<ValueName, 16> names_of_gain{{
+    {0, "none"},
+    {1, "proportional"},
+    {2, "integral"},
+    {3, "derivative"},
+    {4, "feedforward"},
+    {5, "power_rate"},
+    {6, "power"},
+    {7, "position_rate"},
+    {8, "position_lag"},
+    {9, "position"},
+    {10, "reference"},
+    {11, "sigma"},
+    {12, "feedforward_velocity"},
+    {13, "feedforward_acceleration"},
+    {14, "feedforward_jerk"},
+    {15, "bias"},
+}};
+
+constexpr std::array<ValueName, 8> names_of_limited_by{{
+    {0, "nothing"},
+    {1, "minimum"},
+    {2, "maximum"},
+    {3, "slew"},
+    {4, "temperature"},
+    {5, "invalid"},
+    {6, "cooling"},
+    {7, "unproven"},
+}};
+
+constexpr std::array<ValueName, 5> names_of_mode{{
+    {0, "rest"},
+    {1, "position"},
+    {2, "power"},
+    {3, "identify"},
+    {4, "calibrate"},
+}};
+
+constexpr std::array<ValueName, 16> names_of_opcode{{
+    {0, "compare"},
+    {1, "arm"},
+    {2, "disarm"},
+    {3, "reset"},
+    {4, "position"},
+    {5, "power"},
+    {6, "renew"},
+    {7, "rest"},
+    {8, "identify"},
+    {9, "calibrate"},
+    {10, "scale"},
+    {11, "controller"},
+    {12, "estimator"},
+    {13, "store"},
+    {14, "claim_of_version_3"},
+    {15, "lease"},
+}};
+
+constexpr std::array<ValueName, 14> names_of_parameter{{
+    {0, "theta1"},
+    {1, "theta2"},
+    {2, "theta3"},
+    {3, "theta4"},
+    {4, "thermal_mass"},
+    {5, "heat_transfer"},
+    {6, "stiffness"},
+    {7, "damping"},
+    {8, "bias"},
+    {9, "theta1_deviation"},
+    {10, "theta2_deviation"},
+    {11, "theta3_deviation"},
+    {12, "theta4_deviation"},
+    {13, "bias_deviation"},
+}};
+
+constexpr std::array<ValueName, 14> names_of_refusal{{
+    {0, "none"},
+    {1, "wrong_state"},
+    {2, "cause_persists"},
+    {3, "no_edge"},
+    {4, "not_ready"},
+    {5, "busy"},
+    {6, "out_of_range"},
+    {7, "no_such_channel"},
+    {8, "not_yours"},
+    {9, "no_lease"},
+    {10, "wrong_counter"},
+    {11, "too_many"},
+    {12, "claim_again"},
+    {13, "other_version"},
+}};
+
+constexpr std::array<ValueName, 11> names_of_result{{
+    {0, "none"},
+    {1, "running"},
+    {2, "found"},
+    {3, "interrupted"},
+    {4, "not_cold"},
+    {5, "moved"},
+    {6, "not_explained"},
+    {7, "uncertain"},
+    {8, "implausible"},
+    {9, "not_stored"},
+    {10, "too_still"},
+}};
+
+constexpr std::array<ValueName, 15> names_of_setting{{
+    {0, "most_power_W"},
+    {1, "measurement_Hz"},
+    {2, "tracking_Hz"},
+    {3, "power_Hz"},
+    {4, "heater_Hz"},
+    {5, "temperature_Hz"},
+    {6, "estimate_Hz"},
+    {7, "margin_Hz"},
+    {8, "limit_Hz"},
+    {9, "timing_Hz"},
+    {10, "status_Hz"},
+    {11, "gain_Hz"},
+    {12, "supply_gain"},
+    {13, "current_gain"},
+    {14, "sense_error_ratio"},
+}};
+
+constexpr std::array<ValueName, 4> names_of_state{{
+    {0, "disarmed"},
+    {1, "armed"},
+    {2, "active"},
+    {3, "fault"},
+}};
+
+constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
+    {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
+    {"state", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
+    {"board_time_s", "s", 16, 48, Raw::unsigned_integer, 1e-06, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 2> signals_of_FirstCause{{
+    {"measured", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
+    {"limit", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 5> signals_of_Command{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"opcode", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_opcode},
+    {"session", "", 16, 16, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 6> signals_of_Acknowledge{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"opcode", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_opcode},
+    {"session", "", 16, 16, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"refusal", "", 32, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_refusal},
+    {"granted", "", 40, 16, Raw::unsigned_integer, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 3> signals_of_Measurement{{
+    {"position_m", "m", 0, 24, Raw::signed_integer, 1e-07, -8388608, always, {}},
+    {"resistance_Ohm", "Ohm", 24, 24, Raw::unsigned_integer, 0.001, 16777215, always, {}},
+    {"resistance_age_s", "s", 48, 16, Raw::unsigned_integer, 0.01, 65535, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 3> signals_of_Tracking{{
+    {"reference_m", "m", 0, 24, Raw::signed_integer, 1e-07, -8388608, always, {}},
+    {"model_m", "m", 24, 24, Raw::signed_integer, 1e-07, -8388608, always, {}},
+    {"error_m", "m", 48, 16, Raw::signed_integer, 1e-06, -32768, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 4> signals_of_Power{{
+    {"demanded_W", "W", 0, 24, Raw::signed_integer, 0.0002, -8388608, always, {}},
+    {"applied_W", "W", 24, 24, Raw::signed_integer, 0.0002, -8388608, always, {}},
+    {"limited_by", "", 48, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_limited_by},
+    {"limited", "", 52, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 3> signals_of_Heater{{
+    {"supply_V", "V", 0, 16, Raw::unsigned_integer, 0.001, 65535, always, {}},
+    {"current_A", "A", 16, 24, Raw::signed_integer, 1e-05, -8388608, always, {}},
+    {"duty", "", 40, 16, Raw::unsigned_integer, 2e-05, 65535, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 2> signals_of_Temperature{{
+    {"coldest_C", "degC", 0, 16, Raw::signed_integer, 0.01, -32768, always, {}},
+    {"hottest_C", "degC", 16, 16, Raw::signed_integer, 0.01, -32768, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 18> signals_of_Estimate{{
+    {"parameter", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_parameter},
+    {"trusted", "", 8, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"identify_notes", "", 9, 7, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"error_bound", "", 16, 16, Raw::unsigned_integer, 0.0001, 65535, always, {}},
+    {"theta1", "m", 32, 32, Raw::floating, 1.0, no_value, 0, {}},
+    {"theta2", "W s2/m", 32, 32, Raw::floating, 1.0, no_value, 1, {}},
+    {"theta3", "W s/m", 32, 32, Raw::floating, 1.0, no_value, 2, {}},
+    {"theta4", "W/m", 32, 32, Raw::floating, 1.0, no_value, 3, {}},
+    {"thermal_mass_J_per_K", "J/K", 32, 32, Raw::floating, 1.0, no_value, 4, {}},
+    {"heat_transfer_W_per_K", "W/K", 32, 32, Raw::floating, 1.0, no_value, 5, {}},
+    {"stiffness_N_per_m", "N/m", 32, 32, Raw::floating, 1.0, no_value, 6, {}},
+    {"damping_Ns_per_m", "Ns/m", 32, 32, Raw::floating, 1.0, no_value, 7, {}},
+    {"bias_W", "W", 32, 32, Raw::floating, 1.0, no_value, 8, {}},
+    {"theta1_deviation", "m", 32, 32, Raw::floating, 1.0, no_value, 9, {}},
+    {"theta2_deviation", "W s2/m", 32, 32, Raw::floating, 1.0, no_value, 10, {}},
+    {"theta3_deviation", "W s/m", 32, 32, Raw::floating, 1.0, no_value, 11, {}},
+    {"theta4_deviation", "W/m", 32, 32, Raw::floating, 1.0, no_value, 12, {}},
+    {"bias_deviation_W", "W", 32, 32, Raw::floating, 1.0, no_value, 13, {}},
+}};
+
+constexpr std::array<SignalInfo, 3> signals_of_Margin{{
+    {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
+    {"used", "", 8, 16, Raw::unsigned_integer, 0.001, 65535, always, {}},
+    {"measured", "", 24, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 2> signals_of_Limit{{
+    {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
+    {"limit", "", 8, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 4> signals_of_Timing{{
+    {"late_s", "s", 0, 20, Raw::unsigned_integer, 1e-07, 1048575, always, {}},
+    {"execution_s", "s", 20, 20, Raw::unsigned_integer, 1e-07, 1048575, always, {}},
+    {"overruns", "", 40, 12, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"dropped_frames", "", 52, 12, Raw::unsigned_integer, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 2> signals_of_Gain{{
+    {"gain", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_gain},
+    {"value", "", 8, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 2> signals_of_RefusedValue{{
+    {"value", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
+    {"nearest", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 6> signals_of_Setting{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"setting", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
+    {"refusal", "", 16, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_refusal},
+    {"session_low", "", 24, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 5> signals_of_SettingWrite{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"setting", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
+    {"session", "", 16, 16, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
+    {"setting", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
+}};
+
+constexpr std::array<SignalInfo, 16> signals_of_Status{{
+    {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
+    {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
+    {"fault", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
+    {"limited_by", "", 16, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_limited_by},
+    {"probing", "", 20, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"trusted", "", 21, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"limited", "", 22, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"leased", "", 23, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"controller", "", 24, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"progress", "", 32, 8, Raw::unsigned_integer, 0.005, 255, always, {}},
+    {"counter", "", 40, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"protocol_version", "", 48, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"result", "", 56, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_result},
+    {"proof_off", "", 60, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"oscillated", "", 61, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"friction", "", 62, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
+}};
+
+constexpr std::array<MessageInfo, 19> all{{
+    {"Emergency", 0x080, 8, signals_of_Emergency},
+    {"FirstCause", 0x0c0, 8, signals_of_FirstCause},
+    {"Command", 0x200, 8, signals_of_Command},
+    {"Acknowledge", 0x240, 7, signals_of_Acknowledge},
+    {"Measurement", 0x280, 8, signals_of_Measurement},
+    {"Tracking", 0x2c0, 8, signals_of_Tracking},
+    {"Power", 0x300, 7, signals_of_Power},
+    {"Heater", 0x340, 7, signals_of_Heater},
+    {"Temperature", 0x380, 4, signals_of_Temperature},
+    {"Estimate", 0x3c0, 8, signals_of_Estimate},
+    {"Margin", 0x400, 7, signals_of_Margin},
+    {"Limit", 0x440, 5, signals_of_Limit},
+    {"Timing", 0x480, 8, signals_of_Timing},
+    {"Gain", 0x4c0, 5, signals_of_Gain},
+    {"RefusedValue", 0x500, 8, signals_of_RefusedValue},
+    {"Setting", 0x580, 8, signals_of_Setting},
+    {"SettingWrite", 0x5c0, 8, signals_of_SettingWrite},
+    {"SettingRead", 0x600, 1, signals_of_SettingRead},
+    {"Status", 0x700, 8, signals_of_Status},
+}};
+
+}  // namespace
+
+std::span<const MessageInfo> protocol() {
+  return all;
+}
+
+}  // namespace supercoil::can_client

@@ -1,0 +1,86 @@
+// Tables in tables, and what is left over when everything has been asked for.
+#include <algorithm>
+
+#include "config/section.hpp"
+#include "text/nearest.hpp"
+
+namespace supercoil::config {
+
+Section Section::over(const toml::table* under, std::string under_path) const {
+  Section both = *this;
+  both.under_ = under;
+  both.under_path_ = std::move(under_path);
+  return both;
+}
+
+Section Section::section(std::string_view key) {
+  known_.emplace_back(key);
+  const auto table_in = [&](const toml::table* outer) -> const toml::table* {
+    const toml::node* node = outer == nullptr ? nullptr : outer->get(key);
+    return node == nullptr ? nullptr : node->as_table();
+  };
+  const toml::node* node = look(key).node;
+  if (node != nullptr && !node->is_table()) {
+    wrong(key, "must be a table: [" + full(key) + "]");
+  }
+  const std::string own = path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+  const Section inner(table_in(table_), own, *diagnostics_, path_.empty() ? 0 : line());
+  return inner.over(table_in(under_), under_path_ + "." + std::string(key));
+}
+
+std::vector<Section> Section::sections(std::string_view key) {
+  const toml::node* node = find(key);
+  std::vector<Section> found;
+  if (node == nullptr) return found;
+  if (const toml::table* one = node->as_table()) {
+    found.emplace_back(one, full(key), *diagnostics_);
+  } else if (node->is_array_of_tables()) {
+    for (const toml::node& element : *node->as_array()) {
+      const std::string place = "[" + std::to_string(found.size() + 1) + "]";
+      found.emplace_back(element.as_table(), full(key) + place, *diagnostics_);
+    }
+  } else {
+    wrong(key, "must be written as [[" + full(key) + "]], one for each");
+  }
+  return found;
+}
+
+std::vector<std::string> Section::refuse_unknown(const toml::table* table,
+                                                 const std::string& path) {
+  std::vector<std::string> meant;
+  if (table == nullptr) return meant;
+  for (const auto& [key, node] : *table) {
+    const std::string name(key.str());
+    if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    std::string message = "is not a key of ";
+    message += path.empty() ? "this file" : "[" + path + "]";
+    if (!default_kind_.empty()) message += " of kind \"" + default_kind_ + "\" (its default)";
+    wrong(name, message + "; " + meant_or_all(name, known_, "its keys are"));
+    meant.push_back(nearest_name(name, known_).name);
+  }
+  return meant;
+}
+
+void Section::refuse_missing(const std::vector<std::string>& meant) {
+  std::string keys;
+  for (const Missing& missing : missing_) {
+    // Said already: it is there under a misspelt name.
+    if (std::find(meant.begin(), meant.end(), missing.key) != meant.end()) continue;
+    if (table_ != nullptr || under_ != nullptr) {
+      diagnostics_->add(line(), path_.empty() ? missing.key : path_ + "." + missing.key,
+                        "is missing: it must be " + missing.rule);
+    } else {
+      keys += (keys.empty() ? "" : ", ") + missing.key;
+    }
+  }
+  if (!keys.empty()) diagnostics_->add(line(), path_, "is missing; it needs " + keys);
+}
+
+void Section::finish() {
+  std::vector<std::string> meant = refuse_unknown(table_, path_);
+  const std::vector<std::string> below = refuse_unknown(under_, under_path_);
+  meant.insert(meant.end(), below.begin(), below.end());
+  refuse_missing(meant);
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,73 @@
+// The devices of a Linux board, as its configuration names them.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/hal_linux/bus_thread.hpp"
+#include "supercoil/hal_linux/dev_watchdog.hpp"
+#include "supercoil/hal_linux/gpio_line.hpp"
+#include "supercoil/hal_linux/monotonic_clock.hpp"
+
+#include "board/devices.hpp"
+#include "config/wiring.hpp"
+
+namespace supercoil::linux_board {
+
+/// Opened, everything off: heartbeat still, enable lines low, duties 0. When it ends, it is left
+/// so.
+class LinuxBoard {
+ public:
+  /// Opens lines, then PWM, then converters. Every device that cannot be had is a line of the
+  /// error.
+  static tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> open(
+      const config::BoardWiring& wiring);
+
+  /// Starts a thread for each bus and, last, the watchdog, which bites from now on. Answers a
+  /// warning, or nothing.
+  tl::expected<std::string, std::string> start(double rate_Hz, int priority);
+  /// Stops the watchdog: the loop stands still, and everything is off. Answers a
+  /// warning, or nothing.
+  std::string release();
+
+  /// For as long as this lives.
+  board::Devices devices();
+  /// How setting up the buses' threads went.
+  std::vector<hal_linux::SetupStep> steps() const;
+
+ private:
+  /// One bus's devices in the order in which they are served: duties before conversions.
+  struct Bus {
+    std::string name;
+    std::vector<hal_linux::Served*> duties;
+    std::vector<hal_linux::Served*> conversions;
+  };
+  class Taking;
+
+  LinuxBoard() = default;
+
+  hal_linux::MonotonicClock clock_;
+  std::unique_ptr<hal::DigitalOutput> heartbeat_;
+  std::unique_ptr<hal::DigitalInput> stop_circuit_;
+  std::unique_ptr<hal::DigitalOutput> light_;
+  std::unique_ptr<hal::AdcChannel> supply_;
+  std::unique_ptr<hal::AdcChannel> air_;
+  struct Channel {
+    std::unique_ptr<hal::DigitalOutput> enable;
+    std::unique_ptr<hal::PwmOutput> pwm;
+    std::unique_ptr<hal::AdcChannel> position;
+    std::unique_ptr<hal::AdcChannel> current;
+  };
+  std::vector<Channel> channels_;
+  std::vector<Bus> buses_;
+  std::optional<config::WatchdogAddress> watchdog_address_;
+  std::unique_ptr<hal_linux::DevWatchdog> watchdog_;
+  // Last, so that they end first: they use the devices.
+  std::vector<std::unique_ptr<hal_linux::BusThread>> threads_;
+};
+
+}  // namespace supercoil::linux_board

@@ -1,0 +1,133 @@
+#include "storage/codec.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include <toml++/toml.h>
+
+#include "storage/envelope.hpp"
+#include "storage/fields.hpp"
+
+namespace supercoil::storage {
+
+namespace {
+
+std::string shown(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+/// With a point or exponent: "-0" would be read as the integer 0, without its sign.
+std::string number(double value) {
+  const std::string text = shown(value);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+std::string path(const Field& field) {
+  return std::string(field.table) + "." + std::string(field.key);
+}
+
+bool is_table(std::string_view name) {
+  for (const Field& field : fields) {
+    if (field.table == name) return true;
+  }
+  return false;
+}
+
+bool is_field(std::string_view table, std::string_view key) {
+  for (const Field& field : fields) {
+    if (field.table == table && field.key == key) return true;
+  }
+  return false;
+}
+
+std::optional<std::string> unknown_key(const toml::table& file) {
+  for (const auto& [name, node] : file) {
+    if (name == "version") continue;
+    const toml::table* table = node.as_table();
+    if (table == nullptr || !is_table(name)) return std::string(name.str());
+    for (const auto& [key, value] : *table) {
+      if (!is_field(name, key)) return std::string(name.str()) + "." + std::string(key.str());
+    }
+  }
+  return std::nullopt;
+}
+
+/// The message of what is wrong, or nothing, with the number in value.
+std::optional<std::string> read_number(const toml::node* node, double& value) {
+  if (node == nullptr) return "is missing";
+  if (!node->is_number()) return "is not a number";
+  value = *node->value<double>();
+  if (!std::isfinite(value)) return "is " + shown(value) + ", which is not a finite number";
+  return std::nullopt;
+}
+
+std::optional<std::string> read_version(const toml::node* node, std::uint32_t& version) {
+  constexpr std::int64_t highest = std::numeric_limits<std::uint32_t>::max();
+  if (node == nullptr) return "is missing";
+  const auto value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+  if (!value || *value < 0 || *value > highest)
+    return "must be a whole number, 0 to " + std::to_string(highest);
+  version = static_cast<std::uint32_t>(*value);
+  return std::nullopt;
+}
+
+tl::expected<board::Learned, std::string> read(const toml::table& file) {
+  if (const auto key = unknown_key(file)) {
+    return tl::unexpected("has a key that this firmware does not know: " + *key);
+  }
+  board::Learned learned;
+  if (const auto wrong = read_version(file.get("version"), learned.version)) {
+    return tl::unexpected("version " + *wrong);
+  }
+  learned.knows_muscle = file.contains("muscle") || file.contains("calibration");
+  for (const Field& field : fields) {
+    const toml::table* table = file[field.table].as_table();
+    const bool left_out = may_lack(field.table) ? table == nullptr : !learned.knows_muscle;
+    if (left_out) continue;
+    const toml::node* node = table == nullptr ? nullptr : table->get(field.key);
+    if (const auto wrong = read_number(node, field.of(learned))) {
+      return tl::unexpected(path(field) + " " + *wrong);
+    }
+  }
+  if (const auto violation = check(learned)) {
+    return tl::unexpected(std::string(violation->quantity) + " = " + shown(violation->value) +
+                          " is out of range: must be " + shown(violation->lowest) + " to " +
+                          shown(violation->highest));
+  }
+  return learned;
+}
+
+}  // namespace
+
+std::string encode(const board::Learned& learned) {
+  std::string body =
+      "# Written by supercoild. An edited file counts as damaged and is not used.\n"
+      "version = " +
+      std::to_string(learned.version) + "\n";
+  board::Learned copy = learned;
+  std::string_view table;
+  for (const Field& field : fields) {
+    if (!is_stored(field, learned)) continue;
+    if (field.table != table) body += "\n[" + std::string(field.table) + "]\n";
+    table = field.table;
+    body += std::string(field.key) + " = " + number(field.of(copy)) + "\n";
+  }
+  return seal(body);
+}
+
+tl::expected<board::Learned, std::string> decode(std::string_view text) {
+  const auto body = unseal(text);
+  if (!body) return tl::unexpected(body.error());
+  try {
+    return read(toml::parse(*body));
+  } catch (const toml::parse_error& error) {
+    return tl::unexpected("is not valid TOML: " + std::string(error.description()));
+  }
+}
+
+}  // namespace supercoil::storage

@@ -1,0 +1,24 @@
+// A stored file as it was found.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "board/learned.hpp"
+#include "storage/files.hpp"
+
+namespace supercoil::storage {
+
+struct Examined {
+  bool exists = false;
+  std::optional<board::Learned> learned;  ///< empty: there is none, or it is damaged
+  std::string problem;                    ///< "path: what is wrong"; empty when it is good
+
+  bool damaged() const { return exists && !learned; }
+};
+
+/// Reads and decodes a file. One that cannot be read (EIO, no permission) counts as damaged: what
+/// must not happen to it is the same.
+Examined examine(Files& files, const std::string& path);
+
+}  // namespace supercoil::storage

@@ -1,0 +1,65 @@
+// Every number of a stored set, with its place in the file: what writes and what reads it agree.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "board/learned.hpp"
+
+namespace supercoil::storage {
+
+struct Field {
+  std::string_view table;
+  std::string_view key;
+  double& (*of)(board::Learned&);
+};
+
+/// In the order of the file; the fields of a table stand together.
+inline constexpr std::array<Field, 20> fields{{
+    {"muscle", "thermal_mass_J_per_K",
+     [](board::Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
+    {"muscle", "heat_transfer_W_per_K",
+     [](board::Learned& l) -> double& { return l.muscle.heat_transfer_W_per_K; }},
+    {"muscle", "stiffness_N_per_m",
+     [](board::Learned& l) -> double& { return l.muscle.stiffness_N_per_m; }},
+    {"muscle", "damping_Ns_per_m",
+     [](board::Learned& l) -> double& { return l.muscle.damping_Ns_per_m; }},
+    {"muscle", "moving_mass_kg",
+     [](board::Learned& l) -> double& { return l.muscle.moving_mass_kg; }},
+    {"muscle", "force_per_kelvin_N_per_K",
+     [](board::Learned& l) -> double& { return l.muscle.force_per_kelvin_N_per_K; }},
+    {"calibration", "position_offset_m",
+     [](board::Learned& l) -> double& { return l.calibration.position_offset_m; }},
+    {"calibration", "position_scale",
+     [](board::Learned& l) -> double& { return l.calibration.position_scale; }},
+    {"calibration", "cold_resistance_Ohm",
+     [](board::Learned& l) -> double& { return l.calibration.cold_resistance_Ohm; }},
+    {"senses", "supply_gain", [](board::Learned& l) -> double& { return l.senses.supply_gain; }},
+    {"senses", "current_gain", [](board::Learned& l) -> double& { return l.senses.current_gain; }},
+    {"senses", "error_ratio", [](board::Learned& l) -> double& { return l.senses.error_ratio; }},
+    {"senses", "compared_s", [](board::Learned& l) -> double& { return l.senses.compared_s; }},
+    {"heat", "time_constant_s",
+     [](board::Learned& l) -> double& { return l.heat.time_constant_s; }},
+    {"heat", "time_constant_at_W",
+     [](board::Learned& l) -> double& { return l.heat.time_constant_at_W; }},
+    {"heat", "steady_rise_K", [](board::Learned& l) -> double& { return l.heat.steady_rise_K; }},
+    {"heat", "steady_error_K", [](board::Learned& l) -> double& { return l.heat.steady_error_K; }},
+    {"heat", "steady_min_W", [](board::Learned& l) -> double& { return l.heat.steady_min_W; }},
+    {"heat", "steady_max_W", [](board::Learned& l) -> double& { return l.heat.steady_max_W; }},
+    {"small_motions", "answer_ratio", [](board::Learned& l) -> double& { return l.answer_ratio; }},
+}};
+
+/// Tables that a file may lack, where nothing is known of what they hold: files of earlier versions
+/// have none of them.
+inline constexpr bool may_lack(std::string_view table) {
+  return table == "senses" || table == "heat" || table == "small_motions";
+}
+/// A set without a muscle has no other table.
+inline bool is_stored(const Field& field, const board::Learned& learned) {
+  if (field.table == "senses") return learned.senses != board::SenseComparison{};
+  if (field.table == "heat") return learned.heat != board::HeatFacts{};
+  if (field.table == "small_motions") return learned.knows_muscle && learned.answer_ratio != 0.0;
+  return learned.knows_muscle;
+}
+
+}  // namespace supercoil::storage

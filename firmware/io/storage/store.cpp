@@ -1,0 +1,178 @@
+#include "storage/store.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <limits>
+#include <utility>
+
+#include "storage/codec.hpp"
+
+namespace supercoil::storage {
+
+namespace {
+
+/// The first eight damaged files of a channel are kept, and the latest: a disk that damages every
+/// file must not be filled with them.
+constexpr int most_damaged = 9;
+
+std::uint32_t version_after(const Examined& current, const Examined& previous) {
+  const std::uint32_t last = std::max(current.learned.value_or(board::Learned{}).version,
+                                      previous.learned.value_or(board::Learned{}).version);
+  return last == std::numeric_limits<std::uint32_t>::max() ? last : last + 1;
+}
+
+}  // namespace
+
+LearnedStore::LearnedStore(std::string folder, int channel, Files& files)
+    : folder_(std::move(folder)),
+      path_(folder_ + "/learned-" + std::to_string(channel) + ".toml"),
+      previous_path_(path_ + ".previous"),
+      new_path_(path_ + ".new"),
+      previous_new_path_(previous_path_ + ".new"),
+      cleared_path_(path_ + ".cleared"),
+      files_(&files) {
+  assert(channel >= 1 && channel <= 16);
+}
+
+tl::expected<Loaded, std::string> LearnedStore::load() {
+  const Examined current = examine(*files_, path_);
+  const Examined previous = examine(*files_, previous_path_);
+  if (current.learned) {
+    Loaded loaded{Source::current, current.learned, {}};
+    if (previous.damaged()) loaded.problems.push_back(previous.problem);
+    return loaded;
+  }
+  if (previous.learned) return Loaded{Source::previous, previous.learned, {current.problem}};
+  if (current.exists || previous.exists) {
+    return tl::unexpected(current.problem + "; " + previous.problem);
+  }
+  if (const auto folder = files_->check_folder(folder_); !folder) {
+    return tl::unexpected(folder.error().text);
+  }
+  return Loaded{};
+}
+
+tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned& learned) {
+  const Examined current = examine(*files_, path_);
+  const Examined previous = examine(*files_, previous_path_);
+  if (current.learned && board::same_content(*current.learned, learned)) {
+    // An earlier save may have failed, or a process ended, just before this.
+    if (const auto synced = synced_ ? Result<void>{} : files_->sync_folder(folder_); !synced) {
+      return tl::unexpected(synced.error().text);
+    }
+    synced_ = true;
+    return current.learned->version;
+  }
+  board::Learned next = learned;
+  next.version = version_after(current, previous);
+  const std::string content = encode(next);
+  // What could not be read back must not replace what can be.
+  if (const auto readable = decode(content); !readable) {
+    return tl::unexpected("is not stored: " + readable.error());
+  }
+  synced_ = false;
+  if (const auto replaced = replace(current, previous, content); !replaced) {
+    static_cast<void>(remove(new_path_));  // a full disk needs the room; the cause is reported
+    return tl::unexpected(replaced.error().text);
+  }
+  synced_ = true;
+  return next.version;
+}
+
+tl::expected<void, std::string> LearnedStore::forget() {
+  const auto before = load();
+  if (before && before->learned && !knows_muscle()) return {};
+  if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text);
+  if (!before || !before->learned || !before->learned->senses.compared()) return {};
+  board::Learned senses_only;
+  senses_only.senses = before->learned->senses;
+  senses_only.knows_muscle = false;
+  if (const auto saved = save(senses_only); !saved) return tl::unexpected(saved.error());
+  return {};
+}
+
+/// Of either file that is whole; a damaged one may.
+bool LearnedStore::knows_muscle() const {
+  const auto may_know = [&](const std::string& path) {
+    const Examined file = examine(*files_, path);
+    return file.damaged() || (file.learned && (file.learned->knows_muscle ||
+                                               file.learned->heat != board::HeatFacts{}));
+  };
+  return may_know(path_) || may_know(previous_path_);
+}
+
+/// What load() would give goes last: until then it gives that, never an older set or an error.
+Result<void> LearnedStore::clear() {
+  synced_ = false;
+  const bool by_current = examine(*files_, path_).learned.has_value();
+  for (const bool current : {!by_current, by_current}) {
+    auto gone = current ? files_->rename(path_, cleared_path_) : files_->unlink(previous_path_);
+    if (!gone && gone.error().code != ENOENT) return gone;
+    if (auto synced = files_->sync_folder(folder_); !synced) return synced;
+  }
+  return {};
+}
+
+Result<void> LearnedStore::replace(const Examined& current, const Examined& previous,
+                                   const std::string& content) {
+  if (auto written = write_new(content); !written) return written;
+  // A damaged file is set aside only when its name is about to be taken.
+  if (current.damaged()) {
+    if (auto kept = set_aside(path_); !kept) return kept;
+  }
+  // After a power cut in a save both names may hold one version; it is kept already.
+  const bool becomes_previous =
+      current.learned && (!previous.learned || *previous.learned != *current.learned);
+  if (becomes_previous) {
+    if (auto kept = previous.damaged() ? set_aside(previous_path_) : Result<void>{}; !kept) {
+      return kept;
+    }
+    if (auto linked = link_fresh(path_, previous_new_path_); !linked) return linked;
+  }
+  // In this order the two names never hold the same version, so that there are always two.
+  if (auto renamed = files_->rename(new_path_, path_); !renamed) return renamed;
+  if (becomes_previous) {
+    if (auto renamed = files_->rename(previous_new_path_, previous_path_); !renamed) return renamed;
+  }
+  return files_->sync_folder(folder_);
+}
+
+Result<void> LearnedStore::write_new(const std::string& content) {
+  // Not truncated but made anew: after a power cut it may be another name of the current file.
+  if (auto removed = remove(new_path_); !removed) return removed;
+  const auto file = files_->create(new_path_);
+  if (!file) return tl::unexpected(file.error());
+  auto result = files_->write(*file, content);
+  if (result) result = files_->sync(*file);
+  const auto closed = files_->close(*file);
+  return result ? closed : result;
+}
+
+Result<void> LearnedStore::set_aside(const std::string& path) {
+  const std::string name = path_ + ".damaged-";
+  Result<void> linked;
+  for (int i = 1; i < most_damaged; ++i) {
+    linked = files_->link(path, name + std::to_string(i));
+    if (linked || linked.error().code != EEXIST) break;
+  }
+  if (!linked && linked.error().code == EEXIST) {
+    linked = link_fresh(path, name + std::to_string(most_damaged));
+  }
+  if (!linked) return linked;
+  // Or a power cut might keep the file that takes its name and undo this link.
+  return files_->sync_folder(folder_);
+}
+
+Result<void> LearnedStore::link_fresh(const std::string& from, const std::string& to) {
+  if (auto removed = remove(to); !removed) return removed;
+  return files_->link(from, to);
+}
+
+Result<void> LearnedStore::remove(const std::string& path) {
+  auto removed = files_->unlink(path);
+  if (!removed && removed.error().code == ENOENT) return {};
+  return removed;
+}
+
+}  // namespace supercoil::storage

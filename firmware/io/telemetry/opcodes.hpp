@@ -1,0 +1,65 @@
+// What can be asked for over CAN: every verb of the loop, and the lease.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+
+#include "loop/command.hpp"
+
+namespace supercoil::telemetry {
+
+/// Of firmware/io/telemetry/supercoil.dbc; a change that an old reader would misunderstand gives a
+/// new number.
+inline constexpr std::uint8_t protocol_version = 4;
+
+/// An opcode has 4 bits, and each means something. A verb has its own number, but for those that
+/// compare with a meter or a thermometer: they share what is no verb's, and the value tells which.
+/// Up to version 3 claim was 14, and release 15 with value 0.
+enum Opcode : std::uint8_t { compare = 0, claim_of_version_3 = 14, lease = 15 };
+
+/// What a command of the lease carries as its value, beside the number that claim_again told.
+inline constexpr float claims = 0.0F;
+inline constexpr float releases = -1.0F;
+
+inline constexpr std::size_t opcodes = 16;
+
+/// A rise of 0 K is sent as this many; no supply has so many volts.
+inline constexpr double rises_from = 1000.0;
+
+/// A command as it is sent.
+struct Sent {
+  std::uint8_t opcode;
+  double value;
+};
+constexpr Sent sent(Verb verb, double value) {
+  // A meter's value of the wrong sign must not become the other sense's.
+  constexpr double nonsense = std::numeric_limits<double>::quiet_NaN();
+  if (verb == Verb::compare_supply) {
+    const bool volts = value >= 0.0 && value < rises_from;
+    return {compare, volts ? value : nonsense};
+  }
+  if (verb == Verb::compare_current) return {compare, value > 0.0 ? -value : nonsense};
+  if (verb == Verb::compare_rise) return {compare, value >= 0.0 ? rises_from + value : nonsense};
+  return {static_cast<std::uint8_t>(verb), value};
+}
+/// What was sent; opcode: not the lease's. A NaN is no current.
+constexpr Command meant(std::uint8_t opcode, double value) {
+  if (opcode != compare) return {0, static_cast<Verb>(opcode), value};
+  if (value >= rises_from) return {0, Verb::compare_rise, value - rises_from};
+  return value < 0.0 ? Command{0, Verb::compare_current, -value}
+                     : Command{0, Verb::compare_supply, value};
+}
+
+constexpr std::array<std::string_view, opcodes> opcode_names() {
+  std::array<std::string_view, opcodes> names{};
+  for (std::size_t i = 0; i < claim_of_version_3; ++i)
+    names[i] = verb_names[i];
+  names[compare] = "compare";
+  names[claim_of_version_3] = "claim_of_version_3";
+  names[lease] = "lease";
+  return names;
+}
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,124 @@
+#include "telemetry/run_settings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <supercoil.h>
+
+#include "telemetry/e2e.hpp"
+#include "telemetry/pack.hpp"
+
+namespace supercoil::telemetry {
+
+namespace {
+
+constexpr std::uint8_t most_power = 0;
+
+Message message_of(std::uint8_t setting) {
+  return static_cast<Message>(setting - 1);
+}
+
+}  // namespace
+
+std::string run_setting_name(std::uint8_t setting) {
+  if (setting == most_power) return "most_power_W";
+  if (setting >= supply_gain) {
+    constexpr std::array names{"supply_gain", "current_gain", "sense_error_ratio"};
+    return names.at(static_cast<std::size_t>(setting - supply_gain));
+  }
+  return std::string(all_messages()[setting - 1U].name) + "_Hz";
+}
+
+RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& leases,
+                         Publisher& publisher, Loop& loop)
+    : can_(std::move(can)),
+      tick_Hz_(board.rate_Hz),
+      leases_(&leases),
+      publisher_(&publisher),
+      loop_(&loop) {
+  for (const ChannelSettings& channel : board.channels)
+    most_W_.push_back(channel.limiter.max_W);
+}
+
+RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
+  const auto meant = [&](unsigned id) {
+    return channel_of(frame, id, can_.first_node, most_W_.size());
+  };
+  if (const auto channel = meant(SUPERCOIL_SETTING_WRITE_FRAME_ID))
+    return take_write(*channel, frame, now);
+  const auto channel = meant(SUPERCOIL_SETTING_READ_FRAME_ID);
+  if (!channel || frame.length != SUPERCOIL_SETTING_READ_LENGTH) return {};
+  supercoil_setting_read_t m{};
+  supercoil_setting_read_unpack(&m, frame.data.data(), frame.length);
+  const bool known = !std::isnan(value_of(*channel, m.setting));
+  return {{}, told(*channel, m.setting, known ? Refusal::none : Refusal::out_of_range, 0, 0), {}};
+}
+
+RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& frame,
+                                           hal::Time now) {
+  if (!e2e::intact(frame, SUPERCOIL_SETTING_WRITE_LENGTH)) return {channel, {}, {}};
+  supercoil_setting_write_t m{};
+  supercoil_setting_write_unpack(&m, frame.data.data(), frame.length);
+  Taken taken;
+  Refusal refusal = leases_->check(channel, m.session, m.counter, now);
+  if (refusal == Refusal::wrong_counter) taken.damaged = channel;
+  if (refusal == Refusal::none) refusal = set(channel, m.setting, m.value);
+  taken.answer = told(channel, m.setting, refusal, m.counter, m.session);
+  if (refusal == Refusal::out_of_range) {
+    const auto node = static_cast<Node>(can_.first_node + channel);
+    taken.refused_value = refused_value(node, m.value, nearest(channel, m.setting, m.value));
+  }
+  return taken;
+}
+
+Refusal RunSettings::set(std::uint8_t channel, std::uint8_t setting, double value) {
+  const bool only_read = setting >= supply_gain;
+  if (only_read || std::isnan(value_of(channel, setting))) return Refusal::out_of_range;
+  if (setting != most_power) return set_rate(channel, message_of(setting), value);
+  const double most_W = most_W_[channel];
+  if (!(value >= 0.0 && value <= as_float_tells * most_W)) return Refusal::out_of_range;
+  loop_->channel(channel).allow_power(std::fmin(value, most_W));
+  return Refusal::none;
+}
+
+Refusal RunSettings::set_rate(std::uint8_t channel, Message message, double rate_Hz) {
+  if (!is_allowed(message, rate_Hz, tick_Hz_)) return Refusal::out_of_range;
+  std::vector<Rates> rates = publisher_->rates_Hz();
+  rates[channel][static_cast<std::size_t>(message)] = rate_Hz;
+  const double load = bus_load(rates, can_.bit_rate);
+  // Less is always allowed.
+  if (load > can_.most_load && load > bus_load(publisher_->rates_Hz(), can_.bit_rate))
+    return Refusal::out_of_range;
+  publisher_->set_rates(rates);
+  return Refusal::none;
+}
+
+double RunSettings::nearest(std::uint8_t channel, std::uint8_t setting, double value) const {
+  return setting == most_power ? std::clamp(value, 0.0, most_W_[channel]) : NAN;
+}
+
+double RunSettings::value_of(std::uint8_t channel, std::uint8_t setting) const {
+  if (setting == most_power) return loop_->channel(channel).most_power_W();
+  const board::SenseComparison senses = loop_->channel(channel).senses();
+  if (setting == supply_gain) return senses.supply_gain;
+  if (setting == current_gain) return senses.current_gain;
+  if (setting == sense_error) return senses.error_ratio;
+  if (setting >= run_settings || !is_of(channel, message_of(setting))) return NAN;
+  return publisher_->rates_Hz()[channel][setting - 1U];
+}
+
+hal::CanFrame RunSettings::told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
+                                std::uint8_t counter, std::uint16_t session) const {
+  supercoil_setting_t m{};
+  m.counter = counter;
+  m.setting = setting;
+  m.refusal = static_cast<std::uint8_t>(refusal);
+  m.session_low = static_cast<std::uint8_t>(session);
+  m.value = static_cast<float>(value_of(channel, setting));
+  return sealed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH,
+                static_cast<Node>(can_.first_node + channel), m, supercoil_setting_pack);
+}
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,58 @@
+#include "text/nearest.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace supercoil {
+
+namespace {
+
+/// Levenshtein's distance.
+std::size_t edits(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+Nearest nearest_name(std::string_view written, const std::vector<std::string>& known) {
+  const std::string with_unit = std::string(written) + "_";
+  Nearest best;
+  std::size_t fewest = 0;
+  for (const std::string& name : known) {
+    if (name.starts_with(with_unit)) return {name, true};
+    const std::size_t distance = edits(written, name);
+    if (distance <= name.size() / 3 && (best.name.empty() || distance < fewest)) {
+      best.name = name;
+      fewest = distance;
+    }
+  }
+  return best;
+}
+
+std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
+                         std::string_view otherwise) {
+  const Nearest nearest = nearest_name(written, known);
+  if (nearest.name.empty()) return std::string(otherwise) + ": " + joined(known);
+  return "did you mean " + nearest.name +
+         (nearest.lacks_unit ? " (the unit is part of the name)?" : "?");
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string result;
+  for (const std::string& name : names)
+    result += (result.empty() ? "" : ", ") + name;
+  return result;
+}
+
+}  // namespace supercoil

@@ -1,0 +1,26 @@
+// What somebody who wrote an unknown name probably meant.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace supercoil {
+
+struct Nearest {
+  std::string name;         ///< empty when nothing is near
+  bool lacks_unit = false;  ///< what was written is the name without its unit
+};
+
+/// The known name that starts with what was written and "_", or else the one with the fewest
+/// edits, up to a third of its length.
+Nearest nearest_name(std::string_view written, const std::vector<std::string>& known);
+
+/// What to say after "…; ": "did you mean NAME?", or where nothing is near all: "OTHERWISE: a, b".
+std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
+                         std::string_view otherwise);
+
+/// "a, b, c"
+std::string joined(const std::vector<std::string>& names);
+
+}  // namespace supercoil

@@ -1,0 +1,102 @@
+// What the keeper stores of a comparison with a meter, and what the next start makes of it.
+#include "apps/supercoild/keeper.hpp"
+
+#include <ctime>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil;
+
+TEST_GROUP(Keeper) {
+  static constexpr double supply_V = 12.0;
+
+  test::TemporaryFolder folder;
+  storage::PosixFiles files;
+  test::RigSettings settings = test::rough_board();
+  test::Rig rig{settings};
+  std::vector<storage::LearnedStore> stores;
+  std::unique_ptr<daemon::Keeper> keeper;
+
+  config::BoardConfig config() const {
+    config::BoardConfig config;
+    config.settings = settings.firmware;
+    config.storage_folder = folder.path();
+    config.labels.resize(settings.firmware.channels.size());
+    return config;
+  }
+  config::BoardConfig configured = config();
+
+  void setup() override {
+    for (int channel : {1, 2})
+      stores.emplace_back(folder.path(), channel, files);
+    keeper = std::make_unique<daemon::Keeper>(configured, stores, files);
+    rig.boot();
+    rig.arm();
+    rig.run(0.1);
+  }
+  void compare() {
+    for (const double power_W : {0.5, 1.0}) {
+      for (int i = 0; i < 40; ++i) {
+        rig.send(Verb::power, power_W);
+        rig.run(0.05);
+      }
+      rig.send(Verb::compare_supply, supply_V);
+      rig.send(Verb::compare_current, rig.muscle().true_power_W() / supply_V);
+      rig.run_ticks(1);
+    }
+    keep();
+  }
+  void keep() {
+    keeper->poll(rig.loop, hal::Time{});
+  }
+  /// The first channel of a board that starts now.
+  ChannelSettings next_start() {
+    config::BoardConfig next = config();
+    const auto known = daemon::remember(next, stores);
+    if (!known) FAIL(known.error().c_str());
+    return next.settings.channels[0];
+  }
+};
+
+TEST(Keeper, DatesAComparisonAndTheNextStartGoesByIt) {
+  CHECK_FALSE(next_start().senses.compared());
+  const auto before = static_cast<double>(std::time(nullptr));
+  compare();
+  const ChannelSettings next = next_start();
+  CHECK(next.senses.compared());
+  CHECK(next.senses.compared_s >= before);
+  CHECK(next.senses.compared_s <= static_cast<double>(std::time(nullptr)));
+  // The muscle was never learned: the configuration's goes on to hold.
+  CHECK_FALSE(next.knows_muscle);
+  CHECK(next.muscle == settings.firmware.channels[0].muscle);
+}
+
+TEST(Keeper, WhatIsLearnedLaterKeepsTheDate) {
+  compare();
+  const board::SenseComparison compared = next_start().senses;
+  rig.send(Verb::scale, 0.9 * rig.snapshot().position_m);
+  rig.run_ticks(1);
+  keep();
+  const ChannelSettings next = next_start();
+  CHECK(next.knows_muscle);
+  DOUBLES_EQUAL(0.9, next.calibration.position_scale, 0.05);
+  CHECK(next.senses == compared);
+}
+
+TEST(Keeper, TheComparisonOutlivesTheMuscleAndIsForgottenByItsOwnCommand) {
+  compare();
+  rig.send(Verb::scale, 0.9 * rig.snapshot().position_m);
+  rig.send(Verb::store, 0.0);
+  rig.run_ticks(1);
+  keep();
+  CHECK_FALSE(next_start().knows_muscle);
+  CHECK(next_start().senses.compared());
+  rig.send(Verb::rest);
+  rig.send(Verb::compare_supply, 0.0);
+  rig.run_ticks(1);
+  keep();
+  CHECK_FALSE(next_start().senses.compared());
+}

@@ -1,0 +1,134 @@
+// The socket for programs on the board itself, without the daemon's threads around it.
+#include "apps/supercoild/local_commands.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil;
+using namespace supercoil::daemon;
+
+namespace {
+
+class Client {
+ public:
+  explicit Client(const std::string& path) : socket_(::socket(AF_UNIX, SOCK_SEQPACKET, 0)) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::memcpy(address.sun_path, path.data(), path.size());
+    const auto* where = reinterpret_cast<const sockaddr*>(&address);
+    LONGS_EQUAL(0, ::connect(socket_.number(), where, sizeof(address)));
+  }
+  void say(const std::string& line) const {
+    LONGS_EQUAL(line.size(), ::send(socket_.number(), line.data(), line.size(), MSG_NOSIGNAL));
+  }
+  /// Empty: nothing has come.
+  std::string heard() const {
+    std::array<char, 8192> text{};
+    const ssize_t size = ::recv(socket_.number(), text.data(), text.size(), MSG_DONTWAIT);
+    return size > 0 ? std::string(text.data(), static_cast<std::size_t>(size)) : "";
+  }
+
+ private:
+  hal_linux::Descriptor socket_;
+};
+
+LocalCommands opened(const std::string& path) {
+  auto commands = LocalCommands::open(path);
+  if (!commands) FAIL(commands.error().c_str());
+  return std::move(*commands);
+}
+
+}  // namespace
+
+TEST_GROUP(LocalCommands) {
+  test::TemporaryFolder folder;
+  std::string path = folder / "commands";
+  LocalCommands commands = opened(path);
+  test::Rig rig{test::rough_board()};
+  NewestRows rows{rig.loop.channels()};
+
+  std::string answer_to(const Client& client, const std::string& line) {
+    client.say(line);
+    commands.serve(rig.loop, rows, 0);
+    return client.heard();
+  }
+  void pass_answers() {
+    for (Answer answer; rig.loop.answer(answer);)
+      commands.pass(answer);
+  }
+  /// As accepted.
+  Client client() {
+    Client made(path);
+    commands.serve(rig.loop, rows, 0);
+    return made;
+  }
+};
+
+TEST(LocalCommands, OwnerAndGroupMayCommandWhateverTheUmask) {
+  for (const mode_t mask : {0U, 0007U, 0077U}) {
+    const mode_t usual = ::umask(mask);
+    const LocalCommands again = opened(path);
+    LONGS_EQUAL(mask, ::umask(usual));
+    struct stat made {};
+    LONGS_EQUAL(0, ::lstat(path.c_str(), &made));
+    CHECK(S_ISSOCK(made.st_mode));
+    LONGS_EQUAL(0660, made.st_mode & 07777U);
+  }
+}
+
+/// Whoever owns the folder can leave anything there before the socket is made.
+TEST(LocalCommands, WhatALinkInItsPlacePointsToStaysAsItWas) {
+  folder.write("other", "of somebody else");
+  LONGS_EQUAL(0, ::chmod((folder / "other").c_str(), 0600));
+  folder.link("link", "other");
+  const LocalCommands again = opened(folder / "link");
+  struct stat other {};
+  LONGS_EQUAL(0, ::stat((folder / "other").c_str(), &other));
+  LONGS_EQUAL(0600, other.st_mode & 07777U);
+  STRCMP_EQUAL("of somebody else", folder.read("other").c_str());
+}
+
+TEST(LocalCommands, AreAnsweredWhenTheLoopHasObeyedThem) {
+  const Client one = client();
+  const Client other = client();
+  STRCMP_EQUAL("", answer_to(one, "1 disarm").c_str());
+  STRCMP_EQUAL("", answer_to(other, "1 rest").c_str());
+  rig.executive.run_tick();
+  pass_answers();
+  STRCMP_EQUAL("ok", one.heard().c_str());
+  STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
+}
+
+TEST(LocalCommands, ThatTheLoopCannotTakeAreAnsweredAtOnceAndTheOthersInTheirOrder) {
+  const Client busy = client();
+  STRCMP_EQUAL("", answer_to(busy, "1 rest").c_str());
+  while (rig.loop.send({0, Verb::disarm, 0.0, Source::can})) {
+  }
+  STRCMP_EQUAL("refused: too many commands", answer_to(busy, "1 disarm").c_str());
+  rig.executive.run_tick();
+  for (Answer answer; rig.loop.answer(answer);) {
+    if (answer.command.source != Source::can) commands.pass(answer);
+  }
+  STRCMP_EQUAL("refused: wrong_state", busy.heard().c_str());
+  STRCMP_EQUAL("", busy.heard().c_str());
+}
+
+TEST(LocalCommands, ANinthClientIsToldWhyItIsNotHeard) {
+  std::vector<Client> clients;
+  clients.reserve(8);
+  for (int i = 0; i < 8; ++i)
+    clients.push_back(client());
+  const Client ninth = client();
+  STRCMP_EQUAL("refused: too many clients", ninth.heard().c_str());
+  CHECK_FALSE(answer_to(clients.back(), "state").empty());
+}

@@ -1,0 +1,224 @@
+// The daemon's threads over a simulated board in real time: they run under ThreadSanitizer as well.
+// Nothing here is timed: every wait is for something to come about.
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include <unistd.h>
+
+#include <CppUTest/TestHarness.h>
+
+#include "apps/supercoil/board_socket.hpp"
+#include "apps/supercoild/ending_signals.hpp"
+#include "apps/supercoild/keeper.hpp"
+#include "apps/supercoild/local_commands.hpp"
+#include "apps/supercoild/loop_thread.hpp"
+#include "apps/supercoild/telemetry.hpp"
+#include "loop/support/rig.hpp"
+#include "unit/firmware/apps/supercoild/support/meeting_bus.hpp"
+#include "unit/firmware/apps/supercoild/support/real_time_board.hpp"
+#include "unit/firmware/io/telemetry/support/master.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil;
+using namespace supercoil::daemon;
+using operating::BoardSocket;
+
+namespace {
+
+/// 200 Hz and patient: a machine that is busy with something else is no fault here.
+test::RigSettings patient_board() {
+  test::RigSettings s = test::rough_board();
+  s.board.rate_Hz = s.firmware.rate_Hz = 200.0;
+  BoardSupervision& board = s.firmware.supervision;
+  s.board.charge_pump_decay_s = board.charge_pump_decay_s = 1.01;
+  board.overruns_in_a_row = 100;
+  board.late_in_a_row = 1000;
+  board.telemetry_silence_s = 30.0;
+  for (ChannelSettings& channel : s.firmware.channels) {
+    channel.thermal.boot_rise_K = 0.0;
+    channel.supervision.command_timeout_s = 2.0;
+    channel.position.max_age_s = channel.heater.current.max_age_s = 5.0;
+  }
+  s.firmware.supply.max_age_s = 5.0;
+  return s;
+}
+
+config::BoardConfig config_of(const BoardSettings& settings, const std::string& folder) {
+  config::BoardConfig config;
+  config.name = "test";
+  config.settings = settings;
+  config.storage_folder = folder;
+  for (std::size_t i = 0; i < settings.channels.size(); ++i)
+    config.labels.emplace_back().name = "muscle " + std::to_string(i + 1);
+  return config;
+}
+
+}  // namespace
+
+TEST_GROUP(DaemonThreads) {
+  test::TemporaryFolder folder;
+  test::RigSettings settings = patient_board();
+  config::BoardConfig config = config_of(settings.firmware, folder.path());
+  storage::PosixFiles files;
+  std::vector<storage::LearnedStore> stores;
+  test::RealTimeBoard board{settings.board};
+  Loop loop{settings.firmware, board.devices()};
+  std::unique_ptr<Keeper> keeper;
+  test::MeetingBus bus;
+  supercoil::telemetry::CanLink can{{}, settings.firmware, loop, bus, std::mt19937(1)};
+  std::unique_ptr<Telemetry> telemetry;
+  std::unique_ptr<LoopThread> thread;
+  sigset_t before{};
+  void (*hangup_before)(int) = SIG_DFL;
+
+  void setup() override {
+    // Ignored, as nohup leaves it also for this program, it would not be blocked.
+    hangup_before = std::signal(SIGHUP, SIG_DFL);
+    // As the daemon does, before there are threads.
+    pthread_sigmask(SIG_BLOCK, nullptr, &before);
+    block_ending_signals();
+    for (std::size_t i = 0; i < loop.channels(); ++i)
+      stores.emplace_back(folder.path(), static_cast<int>(i + 1), files);
+    keeper = std::make_unique<Keeper>(config, stores, files);
+    auto commands = LocalCommands::open(folder / "commands");
+    if (!commands) FAIL(commands.error().c_str());
+    telemetry = std::make_unique<Telemetry>(loop, keeper->relay(), std::move(*commands), &can);
+    CHECK(telemetry->start().has_value());
+    auto started = LoopThread::start(loop, board, settings.firmware.rate_Hz, {"loop"});
+    if (!started) FAIL(started.error().c_str());
+    thread = std::move(*started);
+  }
+  void teardown() override {
+    thread->stop();
+    thread.reset();
+    telemetry.reset();
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    std::signal(SIGHUP, hangup_before);
+  }
+
+  BoardSocket client() const {
+    auto socket = BoardSocket::open(folder / "commands");
+    if (!socket) FAIL(socket.error().c_str());
+    return std::move(*socket);
+  }
+  static std::string ask(const BoardSocket& socket, const std::string& line) {
+    const auto answer = socket.ask(line);
+    return answer ? *answer : answer.error();
+  }
+  /// Keeps rows, as the daemon's main thread does, until the condition holds.
+  template <class Condition>
+  void until(const Condition& holds) {
+    constexpr int most_rounds = 6000;
+    for (int i = 0; i < most_rounds; ++i) {
+      keeper->poll(loop, board.now());
+      if (holds()) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    FAIL("it did not come about");
+  }
+  void until_state(const BoardSocket& socket, const std::string& begins) {
+    until([&] { return ask(socket, "state").starts_with(begins); });
+  }
+  void arm(const BoardSocket& socket) {
+    until([&] { return ask(socket, "1 arm") == "ok"; });
+    until_state(socket, "1 armed");
+  }
+  void cools_at(int signal) {
+    const BoardSocket socket = client();
+    arm(socket);
+    kill(getpid(), signal);
+    until([&] { return keeper->all_off(); });
+    sigset_t sent;
+    sigemptyset(&sent);
+    sigaddset(&sent, signal);
+    int taken = 0;
+    sigwait(&sent, &taken);
+    LONGS_EQUAL(signal, taken);
+  }
+};
+
+TEST(DaemonThreads, ACommandThatIsNotRenewedExpires) {
+  const BoardSocket socket = client();
+  arm(socket);
+  until([&] { return ask(socket, "1 power 1") == "ok"; });  // busy while it probes
+  until_state(socket, "1 active power none");
+  until_state(socket, "1 fault rest command_timeout");
+  STRCMP_EQUAL("refused: wrong_state", ask(socket, "1 power 1").c_str());
+  STRCMP_EQUAL("ok", ask(socket, "1 reset").c_str());
+  until_state(socket, "1 disarmed");
+}
+
+TEST(DaemonThreads, CoolingIsObeyedAndNobodyElseIsHeard) {
+  const BoardSocket socket = client();
+  arm(socket);
+  CHECK_FALSE(keeper->all_off());
+  telemetry->cool();
+  until([&] { return keeper->all_off(); });
+}
+
+TEST(DaemonThreads, AMasterOnTheBusIsAnsweredThereAndLocalProgramsHere) {
+  constexpr std::uint16_t acknowledge = SUPERCOIL_ACKNOWLEDGE_FRAME_ID;
+  const BoardSocket socket = client();
+  test::Master master;
+  master.session = master.name;
+  float nonce = telemetry::claims;
+  for (const std::size_t claims : {1U, 2U}) {
+    bus.order(master.frame(telemetry::Opcode::lease, nonce));
+    until([&] { return bus.heard(acknowledge).size() == claims; });
+    nonce = test::read_answer(bus.heard(acknowledge).back()).granted;
+  }
+  master.session = test::read_answer(bus.heard(acknowledge).back()).granted;
+  CHECK(master.session != 0);
+
+  const auto obeyed = [&](Verb verb) {
+    const std::size_t answers = bus.heard(acknowledge).size();
+    bus.order(master.frame(verb));
+    STRCMP_EQUAL("refused: wrong_state", ask(socket, "1 rest").c_str());
+    until([&] { return bus.heard(acknowledge).size() > answers; });
+    return test::read_answer(bus.heard(acknowledge).back()).refusal == 0;
+  };
+  until([&] { return obeyed(Verb::disarm); });
+  constexpr std::uint16_t status = SUPERCOIL_STATUS_FRAME_ID;  // of node 1
+  until([&] { return !bus.heard(status).empty() && !bus.heard(status + 1).empty(); });
+}
+
+TEST(DaemonThreads, APendingSigtermCoolsWhileTheMainThreadIsBusyElsewhere) {
+  cools_at(SIGTERM);
+}
+
+TEST(DaemonThreads, APendingSigintCoolsWhileTheMainThreadIsBusyElsewhere) {
+  cools_at(SIGINT);
+}
+
+TEST(DaemonThreads, APendingSighupCoolsWhileTheMainThreadIsBusyElsewhere) {
+  cools_at(SIGHUP);
+}
+
+TEST(DaemonThreads, ClientsThatGoAwayTakeNobodysAnswers) {
+  const BoardSocket stays = client();
+  for (int i = 0; i < 20; ++i) {
+    {
+      const BoardSocket leaves = client();
+      STRCMP_EQUAL("refused: wrong_state", ask(leaves, "1 rest").c_str());
+    }
+    STRCMP_EQUAL("ok", ask(stays, "1 disarm").c_str());
+  }
+}
+
+TEST(DaemonThreads, NonsenseIsAnswered) {
+  const BoardSocket socket = client();
+  STRCMP_EQUAL("wrong: channel 'x': must be 1 to 2", ask(socket, "x").c_str());
+  CHECK(ask(socket, std::string(5000, 'a')).starts_with("wrong: channel"));
+  CHECK(ask(socket, std::string("1 arm\0disarm", 12)).starts_with("wrong: "));
+}
+
+TEST(DaemonThreads, NoMoreClientsThanEight) {
+  std::vector<BoardSocket> clients;
+  for (int i = 0; i < 8; ++i) {
+    clients.push_back(client());
+    CHECK(ask(clients.back(), "state").starts_with("1 "));
+  }
+  const BoardSocket ninth = client();
+  CHECK(ask(ninth, "state") != ask(clients.front(), "state"));
+}

@@ -1,0 +1,119 @@
+#include "board/heat.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/core/support/tick.hpp"
+
+using namespace supercoil;
+using namespace supercoil::board;
+using supercoil::test::tick_s;
+
+namespace {
+
+constexpr double heating_W = 2.0;
+
+double hottest_after_K(const ThermalSettings& settings, double learned_pole_rad_per_s,
+                       double time_s) {
+  Heat heat(settings, {}, tick_s);
+  heat.learn(learned_pole_rad_per_s);
+  for (long i = std::lround(time_s / tick_s); i > 0; --i)
+    heat.step(heating_W, heating_W, heating_W);
+  return heat.hottest_K();
+}
+
+/// Of a thermometer, at 2 W.
+board::HeatFacts read_at_2_W() {
+  board::HeatFacts facts;
+  facts.steady_rise_K = 22.5;
+  facts.steady_error_K = 1.0;
+  facts.steady_min_W = 1.98;
+  facts.steady_max_W = 2.02;
+  return facts;
+}
+
+}  // namespace
+
+TEST_GROUP(HotEnd) {
+  ThermalSettings settings;
+  double slowest_pole =
+      -settings.bounds.lowest_transfer_W_per_K / settings.bounds.highest_mass_J_per_K;
+  double fastest_pole =
+      -settings.bounds.highest_transfer_W_per_K / settings.bounds.lowest_mass_J_per_K;
+};
+
+TEST(HotEnd, WhatIsLearnedOfCoolingIsNotBelievedBeyondTheConfiguredBounds) {
+  const double rest_K = heating_W / (-slowest_pole * settings.thermal_mass_J_per_K);
+  for (const double absurd : {-1e-9, 0.01 * slowest_pole, slowest_pole})
+    DOUBLES_EQUAL(rest_K, hottest_after_K(settings, absurd, 60.0), 0.01);
+}
+
+TEST(HotEnd, IsTheHotterOfWhatIsConfiguredAndWhatIsLearned) {
+  const double configured_K = heating_W / settings.bounds.lowest_transfer_W_per_K;
+  DOUBLES_EQUAL(configured_K, hottest_after_K(settings, fastest_pole, 60.0), 0.01);
+  DOUBLES_EQUAL(configured_K, hottest_after_K(settings, 100.0 * fastest_pole, 60.0), 0.01);
+  const double slower_pole = 1.05 * slowest_pole;
+  DOUBLES_EQUAL(heating_W / (-slower_pole * settings.thermal_mass_J_per_K),
+                hottest_after_K(settings, slower_pole, 60.0), 0.01);
+}
+
+TEST(HotEnd, MayBeAnythingUpToTheConfiguredAtBoot) {
+  Heat heat(settings, {}, tick_s);
+  DOUBLES_EQUAL(settings.air.warmest_C + settings.boot_rise_K, heat.hottest_C(), 1e-9);
+  DOUBLES_EQUAL(settings.air.coldest_C, heat.coldest_C(), 1e-9);
+  for (const double expected_m : heat.expected_m())
+    DOUBLES_EQUAL(0.0, expected_m, 0.0);
+}
+
+TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
+  const control::PhysicalParameters muscle;
+  Heat heat(settings, muscle, tick_s);
+  for (int i = 0; i < 120'000; ++i)
+    heat.step(1.0, 3.0, 2.0);
+  DOUBLES_EQUAL(1.0 / settings.bounds.highest_transfer_W_per_K, heat.coldest_K(), 0.01);
+  DOUBLES_EQUAL(3.0 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
+  const double metres_per_K = muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;
+  DOUBLES_EQUAL(2.0 * muscle.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);
+  DOUBLES_EQUAL(2.0 / settings.bounds.highest_transfer_W_per_K * metres_per_K, heat.expected_m()[1],
+                1e-5);
+  DOUBLES_EQUAL(2.0 / settings.bounds.lowest_transfer_W_per_K * metres_per_K, heat.expected_m()[2],
+                1e-5);
+}
+
+TEST(HotEnd, CountsFromTheAirThatIsMeasured) {
+  settings.air = {25.0, 15.0, 2.0};
+  Heat heat(settings, {}, tick_s);
+  heat.follow_air({40.0, 0.0, true, hal::Status::ok});
+  DOUBLES_EQUAL(42.0 + settings.boot_rise_K, heat.hottest_C(), 1e-9);
+  DOUBLES_EQUAL(heat.air().coldest_C(), heat.coldest_C(), 1e-9);
+}
+
+TEST(HotEnd, GoesOnFromWhereItIsWhenTheMuscleIsKnownAnew) {
+  Heat heat(settings, {}, tick_s);
+  const board::HeatFacts facts = read_at_2_W();
+  const PowerBounds::Interval true_over_told{0.96, 1.04};
+  heat.know(facts, true_over_told);
+  for (int i = 0; i < 60'000; ++i)
+    heat.step(1.9, 2.1, 2.0);
+  const double hottest_K = heat.hottest_K();
+  const double coldest_K = heat.coldest_K();
+  CHECK_COMPARE(hottest_K, <, 30.0);  // without the reading 47 K
+  heat.know(facts, true_over_told);
+  DOUBLES_EQUAL(hottest_K, heat.hottest_K(), 0.0);
+  DOUBLES_EQUAL(coldest_K, heat.coldest_K(), 0.0);
+  heat.know({}, true_over_told);
+  DOUBLES_EQUAL(2.1 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
+}
+
+TEST(HotEnd, OfAReadingIsHotterWherePowerIsAssumedInsteadOfSensed) {
+  const auto hottest_K = [&](bool sensed) {
+    Heat heat(settings, {}, tick_s);
+    heat.know(read_at_2_W(), {0.8, 1.2});
+    for (int i = 0; i < 60'000; ++i)
+      heat.step(1.9, 2.1, 2.0, sensed);
+    return heat.hottest_K();
+  };
+  // Of what the senses tell the reading knows the error; assumed power may be all true.
+  CHECK_COMPARE(hottest_K(false), >, 1.3 * hottest_K(true));
+}

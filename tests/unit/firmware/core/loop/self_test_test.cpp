@@ -1,0 +1,119 @@
+#include "loop/self_test.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/core/support/tick.hpp"
+
+using supercoil::SelfTest;
+using supercoil::test::tick_s;
+
+namespace {
+
+constexpr double idle_A = 0.007;
+
+/// Runs it on a board whose current depends on what the lines are.
+template <class Current>
+SelfTest::Verdict verdict(Current current) {
+  SelfTest test({0.02}, tick_s);
+  for (int i = 0; i < 10000 && !test.passed() && !test.failed(); ++i) {
+    test.step(true, current(test.lines()), idle_A);
+  }
+  return test.verdict();
+}
+
+}  // namespace
+
+TEST_GROUP(SelfTest){};
+
+TEST(SelfTest, PassesWhenNothingEverFlows) {
+  CHECK(verdict([](SelfTest::Lines) { return 0.001; }) == SelfTest::Verdict::passed);
+}
+
+TEST(SelfTest, FindsASupplySwitchThatIsStuckClosed) {
+  const auto current = [](SelfTest::Lines l) { return l.pulse && l.enable ? 0.024 : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::pump_does_not_open);
+}
+
+TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
+  const auto current = [](SelfTest::Lines l) { return l.pulse && l.heartbeat ? 0.024 : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::enable_does_not_cut);
+}
+
+TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
+  SelfTest test({0.02}, tick_s);
+  int pulses = 0;
+  while (!test.passed()) {
+    const auto lines = test.lines();
+    CHECK_FALSE(lines.pulse && lines.enable && lines.heartbeat);
+    pulses += lines.pulse ? 1 : 0;
+    test.step(true, 0.0, idle_A);
+  }
+  LONGS_EQUAL(60, pulses);
+}
+
+TEST(SelfTest, WaitsForTheLastLifesChargePumpToDecayFirst) {
+  SelfTest test({0.02}, tick_s);
+  for (int i = 0; i < 20; ++i) {
+    CHECK_FALSE(test.lines().pulse);
+    test.step(true, 0.0, idle_A);
+  }
+}
+
+TEST(SelfTest, IsNotFailedByASingleNoisyReading) {
+  int tick = 0;
+  const auto current = [&](SelfTest::Lines l) { return l.pulse && ++tick % 7 == 0 ? 0.024 : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::passed);
+}
+
+TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
+  SelfTest test({0.02}, tick_s);
+  int hot_ticks = 0;
+  while (!test.passed() && !test.failed()) {
+    const bool hot = test.lines().heartbeat;
+    hot_ticks += hot ? 1 : 0;
+    test.step(true, hot ? 1.2 : 0.0, idle_A);
+  }
+  CHECK(test.verdict() == SelfTest::Verdict::enable_does_not_cut);
+  CHECK_COMPARE(hot_ticks, <=, 10);
+}
+
+TEST(SelfTest, WaitsColdWhileItMayNotRunAndBeginsAgain) {
+  SelfTest test({0.02}, tick_s);
+  for (int i = 0; i < 90; ++i)
+    test.step(true, 0.0, idle_A);
+  CHECK(test.lines().pulse);
+  test.step(false, 0.0, idle_A);
+  CHECK_FALSE(test.lines().pulse || test.lines().enable || test.lines().heartbeat);
+  int ticks = 0;
+  for (; !test.passed(); ++ticks)
+    test.step(true, 0.0, idle_A);
+  DOUBLES_EQUAL(test.duration_s(), ticks * tick_s, 2e-3);
+}
+
+TEST(SelfTest, FailsOnACurrentThatIsNoNumber) {
+  const auto current = [](SelfTest::Lines l) { return l.pulse ? NAN : 0.0; };
+  CHECK(verdict(current) == SelfTest::Verdict::pump_does_not_open);
+}
+
+TEST(SelfTest, ThatIsDecidedStaysSo) {
+  for (const bool well : {true, false}) {
+    SelfTest test({0.02}, tick_s);
+    const auto step = [&](double current_A) { test.step(true, current_A, idle_A); };
+    while (!test.passed() && !test.failed())
+      step(well ? 0.0 : 1.2);
+    const SelfTest::Verdict decided = test.verdict();
+    CHECK((decided == SelfTest::Verdict::passed) == well);
+    for (int i = 0; i < 1000; ++i)
+      step(well ? 1.2 : 0.0);
+    CHECK(test.verdict() == decided);
+  }
+}
+
+TEST(SelfTest, FailsWhereAPulseIsTooShortToBeMeasured) {
+  SelfTest test({.pump_decay_s = 0.02, .pulse_s = tick_s}, tick_s);
+  for (int i = 0; i < 1000; ++i)
+    test.step(true, 0.0, idle_A);
+  CHECK(test.verdict() == SelfTest::Verdict::pump_does_not_open);
+}

@@ -1,0 +1,145 @@
+// Which evidence is which fault of a board, from when on, and none other.
+#include "supervisor/board_supervisor.hpp"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/core/support/tick.hpp"
+
+using namespace supercoil;
+using supercoil::test::tick_s;
+
+namespace {
+
+using BoardChange = std::function<void(BoardEvidence&)>;
+
+/// A board on which all is well, tick by tick.
+class Board {
+ public:
+  BoardEvidence evidence;
+  BoardSupervisor supervisor{BoardSupervision{}, tick_s};
+
+  Board() {
+    evidence.supply = {12.0, 0.0, true, hal::Status::ok};
+    evidence.stop_circuit = {true, hal::Status::ok};
+  }
+  Fault step() {
+    if (telemetry_lives) ++evidence.telemetry_beats;
+    return supervisor.step(evidence);
+  }
+  bool telemetry_lives = true;
+};
+
+struct BoardCause {
+  Fault fault;
+  int ticks;  ///< until it is found
+  BoardChange begins;
+};
+
+const std::vector<BoardCause> board_causes{
+    {Fault::emergency_stop, 1, [](BoardEvidence& e) { e.stop_circuit.high = false; }},
+    {Fault::emergency_stop, 1,
+     [](BoardEvidence& e) { e.stop_circuit.status = hal::Status::io_error; }},
+    {Fault::under_voltage, 20, [](BoardEvidence& e) { e.supply.value = 10.7; }},
+    {Fault::under_voltage, 20, [](BoardEvidence& e) { e.supply.present = false; }},
+    {Fault::over_voltage, 20, [](BoardEvidence& e) { e.supply.value = 13.3; }},
+    {Fault::overrun, 5, [](BoardEvidence& e) { e.skipped = 1; }},
+    {Fault::overrun, 1, [](BoardEvidence& e) { e.skipped = 5; }},
+    {Fault::tick_late, 5, [](BoardEvidence& e) { e.late_s = 0.00051; }},
+    {Fault::bus_off, 1, [](BoardEvidence& e) { e.bus = hal::CanState::bus_off; }},
+    {Fault::bus_off, 1, [](BoardEvidence& e) { e.bus = hal::CanState::down; }},
+    {Fault::bus_error_passive, 1000,
+     [](BoardEvidence& e) { e.bus = hal::CanState::error_passive; }},
+    {Fault::node_conflict, 1, [](BoardEvidence& e) { e.node_conflict = true; }},
+    {Fault::line_failed, 1, [](BoardEvidence& e) { e.lines_ok = false; }},
+    {Fault::configuration_invalid, 1, [](BoardEvidence& e) { e.configuration_changed = true; }},
+    {Fault::self_test_failed, 1, [](BoardEvidence& e) { e.self_test_failed = true; }},
+};
+
+void check_board_fault(Fault expected, Fault found) {
+  STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(found)).c_str());
+}
+
+}  // namespace
+
+TEST_GROUP(BoardSupervisor){};
+
+TEST(BoardSupervisor, FindsNothingWrongWhereAllIsWell) {
+  Board board;
+  board.evidence.late_s = 0.00049;
+  for (int i = 0; i < 3000; ++i)
+    check_board_fault(Fault::none, board.step());
+}
+
+TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
+  for (const BoardCause& trouble : board_causes) {
+    Board board;
+    for (int i = 0; i < 10; ++i)
+      check_board_fault(Fault::none, board.step());
+    trouble.begins(board.evidence);
+    for (int i = 1; i < trouble.ticks; ++i)
+      check_board_fault(Fault::none, board.step());
+    check_board_fault(trouble.fault, board.step());
+    CHECK(board.supervisor.verdict().fault() == trouble.fault);
+    // Whose margin is full.
+    CHECK_COMPARE(board.supervisor.verdict().margin(trouble.fault).used(), >=, 0.99);
+  }
+}
+
+TEST(BoardSupervisor, FindsThatTheTelemetryThreadStands) {
+  Board board;
+  for (int i = 0; i < 10; ++i)
+    check_board_fault(Fault::none, board.step());
+  board.telemetry_lives = false;
+  for (int i = 1; i < 500; ++i)
+    check_board_fault(Fault::none, board.step());
+  check_board_fault(Fault::telemetry_dead, board.step());
+  CHECK_COMPARE(board.supervisor.verdict().margin(Fault::telemetry_dead).used(), >=, 0.99);
+}
+
+TEST(BoardSupervisor, ForgetsWhatIsOver) {
+  for (const BoardCause& trouble : board_causes) {
+    Board board;
+    const BoardEvidence well = board.evidence;
+    trouble.begins(board.evidence);
+    for (int i = 0; i < trouble.ticks; ++i)
+      board.step();
+    board.evidence = well;
+    board.evidence.telemetry_beats = 1000;
+    check_board_fault(Fault::none, board.step());
+    check_board_fault(Fault::none, board.supervisor.verdict().board_fault());
+  }
+}
+
+// A bus is no reason to doubt the switches: it leaves the board's latch free.
+TEST(BoardSupervisor, KeepsApartWhatStopsTheHeartbeat) {
+  for (const BoardCause& trouble : board_causes) {
+    Board board;
+    trouble.begins(board.evidence);
+    for (int i = 0; i < trouble.ticks; ++i)
+      board.step();
+    const bool stops = info(trouble.fault)->scope == Scope::board;
+    check_board_fault(stops ? trouble.fault : Fault::none,
+                      board.supervisor.verdict().board_fault());
+  }
+}
+
+TEST(BoardSupervisor, TheFirstCauseOfATickHidesNoFaultOfTheBoard) {
+  Board board;
+  board.evidence.bus = hal::CanState::bus_off;
+  board.evidence.configuration_changed = true;
+  check_board_fault(Fault::bus_off, board.step());
+  check_board_fault(Fault::configuration_invalid, board.supervisor.verdict().board_fault());
+}
+
+TEST(BoardSupervisor, OfTwoFaultsOfTheBoardTellsTheFirst) {
+  Board board;
+  board.evidence.stop_circuit.high = false;
+  board.evidence.configuration_changed = true;
+  board.step();
+  check_board_fault(Fault::emergency_stop, board.supervisor.verdict().board_fault());
+}

@@ -1,0 +1,247 @@
+// Which evidence is which fault of a channel, from when on, and none other.
+#include "supervisor/channel_supervisor.hpp"
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/core/support/tick.hpp"
+
+using namespace supercoil;
+using supercoil::test::tick_s;
+
+namespace {
+
+/// A muscle of 10 Ohm that is heated with 3.6 W, hot and where it should be.
+class Channel {
+ public:
+  Evidence evidence;
+  ChannelSupervisor supervisor{ChannelSupervision{}, 10.0, 10.8, tick_s};
+  bool sensor_lives = true;
+
+  Channel() {
+    Evidence& e = evidence;
+    e.position = {0.01, 0.0, true, hal::Status::ok};
+    e.sensor_m = 0.01;
+    e.position_elapsed_s = tick_s;
+    e.current = {0.3, 0.0, true, hal::Status::ok};
+    e.supply_V = 12.0;
+    e.hot = e.heating = true;
+    e.off = false;
+    e.duty = 0.25;
+    e.set_step = e.read_back = 1000;
+    e.expected_m = {0.01, 0.01, 0.01};
+    e.hottest_C = 100.0;
+    e.applied_W = e.measured_W = e.wanted_W = 3.6;
+    e.resistance_Ohm = e.least_Ohm = e.most_Ohm = 10.0;
+    e.renewed = e.obeyed_command = true;
+  }
+  Fault step() {
+    if (sensor_lives) noise_m_ = -noise_m_;
+    Evidence now = evidence;
+    now.position.value += noise_m_;
+    now.sensor_m += noise_m_;
+    return supervisor.step(now);
+  }
+
+ private:
+  double noise_m_ = 15e-6;
+};
+
+struct Trouble {
+  Fault fault;
+  int ticks;  ///< until it is found
+  std::function<void(Evidence&)> begins;
+};
+
+void drift(Evidence& e) {
+  e.resistance_fresh = true;
+  e.resistance_Ohm = 13.1;
+}
+
+const std::vector<Trouble> troubles{
+    {Fault::sensor_stale, 1, [](Evidence& e) { e.position.present = false; }},
+    {Fault::sensor_stale, 1, [](Evidence& e) { e.current.present = false; }},
+    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.sensor_m = 0.0421; }},
+    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.sensor_m = -0.0021; }},
+    {Fault::sensor_jump, 2, [](Evidence& e) { e.sensor_m = 0.0108; }},
+    {Fault::sensors_disagree, 2000, [](Evidence& e) { e.from_resistance_K = 30.1; }},
+    {Fault::heater_open, 20, [](Evidence& e) { e.current.value = 0.067; }},
+    {Fault::heater_open, 1, [](Evidence& e) { e.probe_failed = true; }},
+    {Fault::heater_short, 2, [](Evidence& e) { e.current.value = 0.651; }},
+    {Fault::heater_stuck_on, 50,
+     [](Evidence& e) {
+       e.off = true;
+       e.current.value = 0.051;
+     }},
+    {Fault::heater_not_responding, 1,
+     [](Evidence& e) {
+       e.unanswered = true;
+       e.answer = {0.001, 0.002, true, true};
+     }},
+    {Fault::duty_wrong, 5, [](Evidence& e) { e.read_back = 1001; }},
+    {Fault::duty_wrong, 5, [](Evidence& e) { e.devices_ok = false; }},
+    {Fault::over_temperature, 1, [](Evidence& e) { e.hottest_C = 160.1; }},
+    {Fault::over_temperature, 1, [](Evidence& e) { e.hottest_C = std::nan(""); }},
+    {Fault::over_travel, 1, [](Evidence& e) { e.position.value = 0.0351; }},
+    {Fault::energy_budget_exceeded, 1, [](Evidence& e) { e.measured_W = 298.0 / tick_s; }},
+    {Fault::resistance_drift, 500, drift},
+    {Fault::resistance_drift, 1,
+     [](Evidence& e) {
+       drift(e);
+       e.probed = true;
+     }},
+    {Fault::power_limit_exceeded, 100, [](Evidence& e) { e.current.value = 0.4945; }},
+    {Fault::controller_invalid, 1, [](Evidence& e) { e.wanted_W = std::nan(""); }},
+    {Fault::controller_invalid, 120000,
+     [](Evidence& e) {
+       e.limited = true;
+       e.wanted_W = 3.61;
+     }},
+    {Fault::command_timeout, 251, [](Evidence& e) { e.renewed = false; }},
+    {Fault::command_damaged, 10, [](Evidence& e) { e.damaged_command = true; }},
+    {Fault::command_not_allowed, 10, [](Evidence& e) { e.refused_command = true; }},
+};
+
+void check_fault(Fault expected, Fault found) {
+  STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(found)).c_str());
+}
+
+}  // namespace
+
+TEST_GROUP(ChannelSupervisor){};
+
+TEST(ChannelSupervisor, FindsNothingWrongWhereAllIsWell) {
+  Channel channel;
+  for (int i = 0; i < 150000; ++i)
+    check_fault(Fault::none, channel.step());
+}
+
+TEST(ChannelSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
+  for (const Trouble& trouble : troubles) {
+    Channel channel;
+    for (int i = 0; i < 10; ++i)
+      check_fault(Fault::none, channel.step());
+    trouble.begins(channel.evidence);
+    for (int i = 1; i < trouble.ticks; ++i)
+      check_fault(Fault::none, channel.step());
+    check_fault(trouble.fault, channel.step());
+    CHECK(channel.supervisor.verdict().fault() == trouble.fault);
+  }
+}
+
+// But where a probe finds no resistance: that has no size.
+TEST(ChannelSupervisor, TellsOfEachTroubleThatItsMarginIsUsed) {
+  for (const Trouble& trouble : troubles) {
+    Channel channel;
+    channel.step();
+    const detectors::Margin before = channel.supervisor.verdict().margin(trouble.fault);
+    CHECK_COMPARE(before.used(), <, 1.0);
+    trouble.begins(channel.evidence);
+    for (int i = 0; i < trouble.ticks; ++i)
+      channel.step();
+    const detectors::Margin full = channel.supervisor.verdict().margin(trouble.fault);
+    if (channel.evidence.probe_failed) continue;
+    CHECK_COMPARE(full.used(), >=, 0.99);
+  }
+}
+
+TEST(ChannelSupervisor, HasNoMarginOfWhatConcernsTheBoard) {
+  Channel channel;
+  channel.step();
+  const Verdict& verdict = channel.supervisor.verdict();
+  CHECK_FALSE(verdict.judges(Fault::under_voltage));
+  DOUBLES_EQUAL(0.0, verdict.margin(Fault::under_voltage).used(), 0.0);
+}
+
+TEST(ChannelSupervisor, ForgetsWhatIsOver) {
+  for (const Trouble& trouble : troubles) {
+    // What was heated too much stays so; a place that was taken for the truth is left by a jump.
+    if (trouble.fault == Fault::energy_budget_exceeded || trouble.fault == Fault::sensor_jump)
+      continue;
+    Channel channel;
+    channel.step();
+    const Evidence well = channel.evidence;
+    trouble.begins(channel.evidence);
+    for (int i = 0; i < trouble.ticks; ++i)
+      channel.step();
+    channel.evidence = well;
+    check_fault(Fault::none, channel.step());
+  }
+}
+
+TEST(ChannelSupervisor, FindsASensorWithoutItsNoiseWhileTheMuscleIsHot) {
+  for (const bool hot : {false, true}) {
+    Channel channel;
+    channel.evidence.hot = hot;
+    for (int i = 0; i < 10; ++i)
+      check_fault(Fault::none, channel.step());
+    channel.sensor_lives = false;
+    int quiet = 0;
+    while (quiet < 1100 && channel.step() == Fault::none)
+      ++quiet;
+    LONGS_EQUAL(hot ? 999 : 1100, quiet);
+    DOUBLES_EQUAL(hot ? 1.0 : 0.0, channel.supervisor.verdict().margin(Fault::sensor_frozen).used(),
+                  0.01);
+  }
+}
+
+TEST(ChannelSupervisor, CannotTellASensorWithoutNoiseFromAFrozenOne) {
+  ChannelSupervision quiet;
+  quiet.position_noise_rms_m = 0.0;
+  ChannelSupervisor supervisor(quiet, 10.0, 10.8, tick_s);
+  const Evidence evidence = Channel().evidence;
+  for (int i = 0; i < 2000; ++i)
+    check_fault(Fault::none, supervisor.step(evidence));
+}
+
+TEST(ChannelSupervisor, AReadingThatIsNotFreshIsNoJump) {
+  Channel channel;
+  channel.step();
+  channel.evidence.sensor_m = 0.0108;
+  channel.evidence.position_elapsed_s = 0.0;
+  for (int i = 0; i < 10; ++i)
+    check_fault(Fault::none, channel.step());
+}
+
+TEST(ChannelSupervisor, WithoutASupplyThatIsKnownNoCurrentIsAShort) {
+  Channel channel;
+  channel.evidence.supply_V = 0.0;
+  channel.evidence.current.value = 1.0;
+  for (int i = 0; i < 10; ++i)
+    check_fault(Fault::none, channel.step());
+}
+
+TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome) {
+  for (const Fault fault : {Fault::command_damaged, Fault::command_not_allowed}) {
+    Channel channel;
+    Evidence& e = channel.evidence;
+    bool& wrong = fault == Fault::command_damaged ? e.damaged_command : e.refused_command;
+    e.obeyed_command = false;
+    for (int i = 1; i <= 10; ++i) {
+      wrong = false;
+      check_fault(Fault::none, channel.step());
+      wrong = true;
+      check_fault(i < 10 ? Fault::none : fault, channel.step());
+    }
+  }
+}
+
+TEST(ChannelSupervisor, CoolingIsNoLostController) {
+  Channel channel;
+  channel.evidence.limited = true;
+  channel.evidence.wanted_W = -5.0;
+  for (int i = 0; i < 130000; ++i)
+    check_fault(Fault::none, channel.step());
+}
+
+TEST(ChannelSupervisor, AnOldCommandIsNoTroubleOfAMuscleThatRests) {
+  Channel channel;
+  channel.evidence.heating = false;
+  channel.evidence.renewed = false;
+  for (int i = 0; i < 1000; ++i)
+    check_fault(Fault::none, channel.step());
+}

@@ -1,0 +1,42 @@
+// A detector that has judged nothing yet has used nothing of its limit.
+#include <CppUTest/TestHarness.h>
+
+#include "supervisor/detectors/heater.hpp"
+#include "supervisor/detectors/liveness.hpp"
+#include "supervisor/detectors/muscle.hpp"
+#include "supervisor/detectors/sensor.hpp"
+#include "unit/firmware/core/support/tick.hpp"
+
+using namespace supercoil::detectors;
+using supercoil::test::tick_s;
+
+namespace {
+
+void check_fresh(const Detector& detector) {
+  DOUBLES_EQUAL(0.0, detector.margin().measured, 0.0);
+  DOUBLES_EQUAL(0.0, detector.margin().used(), 0.0);
+}
+
+}  // namespace
+
+TEST_GROUP(FreshDetectors){};
+
+TEST(FreshDetectors, HaveUsedNothing) {
+  check_fresh(Limit(160.0));
+  check_fresh(Flag());
+  check_fresh(Above({5.9, 0.1}, tick_s));
+  check_fresh(Lasting(0.1, tick_s));
+  check_fresh(InARow(10));
+  check_fresh(Silent(0.5, tick_s));
+  check_fresh(Expired(0.25, tick_s));
+  check_fresh(ControllerLost(120.0, tick_s));
+  check_fresh(Frozen({1e-6, 1.0}, tick_s));
+  check_fresh(Disagree({30.0, 2.0}, tick_s));
+  check_fresh(EnergyBudget({297.0, 60.0}, tick_s));
+  check_fresh(WrongDuty(0.005, tick_s));
+}
+
+TEST(FreshDetectors, HaveNothingToJudge) {
+  CHECK_FALSE(OpenLoad({0.02, 1.0, 0.02}, tick_s).margin().judged);
+  CHECK_FALSE(StuckOn({0.05, 0.05}, tick_s).margin().judged);
+}

@@ -1,0 +1,137 @@
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supervisor/detectors/heater.hpp"
+#include "unit/firmware/core/support/tick.hpp"
+
+using namespace supercoil::detectors;
+using supercoil::test::tick_s;
+
+namespace {
+
+/// Ticks until a detector trips, or -1.
+template <class Step>
+int ticks_until(Step step, int most = 100000) {
+  for (int tick = 1; tick <= most; ++tick) {
+    if (step(tick)) return tick;
+  }
+  return -1;
+}
+
+}  // namespace
+
+TEST_GROUP(HeaterDetectors){};
+
+TEST(HeaterDetectors, OpenLoadTripsForDutyWithoutCurrent) {
+  OpenLoad detector({0.02, 0.5, 0.02}, tick_s);
+  LONGS_EQUAL(20, ticks_until([&](int) { return detector.step(0.3, 0.01); }));
+}
+
+TEST(HeaterDetectors, OpenLoadDoesNotJudgeASmallDutyNorTripForAGoodHeater) {
+  OpenLoad detector({0.02, 0.5, 0.02}, tick_s);
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, 0.0); }, 1000));
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.3, 0.36); }, 1000));
+  DOUBLES_EQUAL(0.15 / 0.36, detector.margin().used(), 1e-9);
+}
+
+TEST(HeaterDetectors, OpenLoadTripsForACurrentThatIsNoNumber) {
+  OpenLoad detector({0.02, 0.5, 0.002}, tick_s);
+  LONGS_EQUAL(2, ticks_until([&](int) { return detector.step(0.3, std::nan("")); }));
+}
+
+TEST(HeaterDetectors, ShortTripsAboveItsCurrent) {
+  Short detector({3.0, 0.002}, tick_s);
+  CHECK_FALSE(detector.step(3.0));
+  CHECK_FALSE(detector.step(5.0));
+  CHECK(detector.step(5.0));
+}
+
+TEST(HeaterDetectors, StuckOnTripsForCurrentWhileOff) {
+  StuckOn detector({0.02, 0.05}, tick_s);
+  LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, 0.4); }));
+}
+
+TEST(HeaterDetectors, StuckOnHasNothingToJudgeWhileOn) {
+  StuckOn detector({0.02, 0.05}, tick_s);
+  detector.step(false, 0.4);
+  CHECK_FALSE(detector.margin().judged);
+  detector.step(true, 0.4);
+  CHECK(detector.margin().judged);
+  DOUBLES_EQUAL(20.0, detector.margin().used(), 1e-9);
+}
+
+TEST(HeaterDetectors, StuckOnAllowsTheSenseFilterToDecay) {
+  StuckOn detector({0.02, 0.05}, tick_s);
+  LONGS_EQUAL(
+      -1, ticks_until(
+              [&](int tick) { return detector.step(true, 1.2 * std::exp(-tick * tick_s / 0.01)); },
+              1000));
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(false, 1.2); }, 1000));
+}
+
+TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  const int ticks = ticks_until([&](int tick) {
+    const double t = tick * tick_s;
+    const double expected = 0.002 * t / 20.0;
+    return detector.step(0.0003 * t / 20.0, {expected, expected, expected});
+  });
+  LONGS_EQUAL(20000, ticks);
+  DOUBLES_EQUAL(0.0003, detector.margin().measured, 1e-6);
+  // What is expected in the last second may still come.
+  DOUBLES_EQUAL(0.3 * 0.95 * 0.002, detector.margin().limit, 1e-6);
+}
+
+TEST(HeaterDetectors, NotRespondingIsContentWithAMuscleThatMoves) {
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  LONGS_EQUAL(-1, ticks_until([&](int tick) {
+    const double expected = 0.011 + 0.009 * std::sin(0.25 * tick * tick_s);
+    return detector.step(0.8 * expected, {expected, expected, expected});
+  }));
+}
+
+TEST(HeaterDetectors, NotRespondingDoesNotJudgeRest) {
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, {0.011, 0.011, 0.011}); }));
+}
+
+TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
+  // It is held: one that is as slow as is possible still creeps, another has arrived.
+  for (const std::size_t slow : {0U, 1U, 2U}) {
+    NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+    NotResponding::Expected expected{0.011, 0.011, 0.011};
+    LONGS_EQUAL(-1, ticks_until([&](int tick) {
+      expected = {0.011, 0.011, 0.011};
+      expected[slow] += 0.005 * tick * tick_s / 20.0;
+      return detector.step(0.011, expected);
+    }));
+  }
+}
+
+TEST(HeaterDetectors, NotRespondingDoesNotJudgeBetweenAModelThatRisesAndOneThatFalls) {
+  // Derated, a slow muscle still warms where a fast one cools already.
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  LONGS_EQUAL(-1, ticks_until([&](int tick) {
+    const double moved = 0.004 * tick * tick_s / 20.0;
+    return detector.step(0.011, {0.011 + moved, 0.011 + moved, 0.011 - moved});
+  }));
+}
+
+TEST(HeaterDetectors, NotRespondingDoesNotExpectAtOnceWhatIsAskedForAtItsWindowsEnd) {
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  LONGS_EQUAL(-1, ticks_until(
+                      [&](int tick) {
+                        const double expected = tick < 19'500 ? 0.011 : 0.008;
+                        return detector.step(0.011, {expected, expected, expected});
+                      },
+                      20'000));
+}
+
+TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {
+  WrongDuty detector(0.003, tick_s);
+  CHECK_FALSE(detector.step(100, 90));
+  CHECK_FALSE(detector.step(100, 100));
+  LONGS_EQUAL(3, ticks_until([&](int) { return detector.step(100, 90); }));
+  CHECK_FALSE(detector.step(100, -1));
+}

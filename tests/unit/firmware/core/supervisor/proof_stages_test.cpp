@@ -1,0 +1,145 @@
+// What follows where a muscle that is held does not prove that it answers, or not at once.
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supervisor/proof.hpp"
+#include "unit/firmware/core/support/held_muscle.hpp"
+#include "unit/firmware/core/support/paper_proof.hpp"
+
+using namespace supercoil;
+using test::HeldMuscle;
+using test::paper_proof;
+
+namespace {
+
+double paper_safe_W() {
+  return plan_proof(paper_proof(), {}, 1000.0).safe_W;
+}
+
+}  // namespace
+
+TEST_GROUP(ProofStages){};
+
+TEST(ProofStages, UndecidedInTimeGivesTheSafePowerUntilSomethingIsAnswered) {
+  HeldMuscle muscle(paper_proof());
+  // Too much for a dead muscle, too little to be no dead sensor's.
+  muscle.swing_m = 60e-6;
+  muscle.run(60.0);
+  CHECK_FALSE(muscle.unanswered);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.lowest_W, 1e-9);
+  muscle.swing_m = 0.0;
+  muscle.run(0.5);
+  muscle.wanted_W = 0.5;
+  muscle.run(5.0);
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+}
+
+TEST(ProofStages, ThatAreOverdueStaySoWhileMorePowerActsThanIsAllowed) {
+  HeldMuscle muscle(paper_proof());
+  muscle.swing_m = 60e-6;
+  muscle.obeys = false;
+  muscle.run(10.0);
+  muscle.off_sensor = true;
+  muscle.run(20.0);
+  CHECK_FALSE(muscle.unanswered);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
+}
+
+// Neither has the plan an amplitude then, nor would it be begun.
+TEST(ProofStages, NoDitherIsAddedThatIsNeverDecided) {
+  ProofSettings noisy = paper_proof();
+  noisy.position_noise_rms_m = 200e-6;
+  noisy.derate_from_C = 170.0;  // so that the safe power passes the limit in time
+  HeldMuscle muscle(noisy);
+  muscle.obeys = false;
+  muscle.run(20.0);
+  LONGS_EQUAL(0, muscle.dither_ticks);
+}
+
+TEST(ProofStages, AtItsLimitAMuscleIsGivenTheSafePowerAtOnce) {
+  HeldMuscle muscle(paper_proof());
+  muscle.run(5.0);
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+  muscle.hotter_K = 500.0;  // more than all the power comes to
+  muscle.run(0.05);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
+}
+
+TEST(ProofStages, ADitherHasRoomAtTheGreatestPower) {
+  HeldMuscle muscle(paper_proof());
+  muscle.wanted_W = 4.5;
+  muscle.run(60.0);
+  CHECK_FALSE(muscle.unanswered);
+  CHECK_COMPARE(muscle.dither_ticks, >, 100);
+  CHECK_COMPARE(muscle.highest_W, <=, 4.5);
+}
+
+TEST(ProofStages, ARemovalOfPowerThatMovesNoMuscleFarEndsInTime) {
+  ProofSettings far = paper_proof();
+  far.obvious_m = 0.1;  // farther than the muscle ever moves
+  for (const bool contact : {false, true}) {
+    HeldMuscle muscle(far);
+    muscle.run(20.0);
+    muscle.off_sensor = !contact;
+    muscle.play_m = contact ? 200e-6 : 0.0;
+    muscle.run(10.0);
+    LONGS_EQUAL(!contact, muscle.unanswered);
+    DOUBLES_EQUAL(0.0, muscle.lowest_W, 0.0);
+    DOUBLES_EQUAL(contact ? paper_safe_W() : 0.0, muscle.proof.max_W(), 1e-9);
+  }
+}
+
+TEST(ProofStages, WhereFrictionSwallowsADitherSilenceIsNoFaultUntilTheNextStart) {
+  HeldMuscle muscle(paper_proof());
+  muscle.play_m = 200e-6;
+  muscle.run(60.0);
+  muscle.off_sensor = true;
+  for (const double wanted_W : {0.2, 1.0, 0.2, 1.0}) {
+    muscle.wanted_W = wanted_W;
+    muscle.run(2.0);
+    DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
+  }
+  CHECK_FALSE(muscle.unanswered);
+  muscle.heating = false;
+  muscle.run(0.1);
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+}
+
+TEST(ProofStages, WithoutAPositionNothingIsJudged) {
+  HeldMuscle muscle(paper_proof());
+  muscle.run(20.0);
+  muscle.present = false;
+  muscle.off_sensor = true;
+  muscle.run(20.0);
+  CHECK_FALSE(muscle.unanswered);
+  muscle.present = true;
+  muscle.moved_m = 0.01;  // where it is then is no motion
+  muscle.run(2.5);
+  CHECK(muscle.unanswered);
+}
+
+TEST(ProofStages, BeginAnewWithAMuscleThatWasLearned) {
+  HeldMuscle muscle(paper_proof(), false);
+  muscle.run(20.0);
+  CHECK(std::isinf(muscle.proof.max_W()));
+  muscle.proof.learn({}, 0.5);
+  DOUBLES_EQUAL(0.5, muscle.proof.settings().answer_ratio, 0.0);
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+  muscle.off_sensor = true;
+  muscle.run(20.0);
+  CHECK(muscle.unanswered);
+}
+
+TEST(ProofStages, ANewCalibrationIsNoMotion) {
+  for (const bool told : {false, true}) {
+    HeldMuscle muscle(paper_proof());
+    muscle.run(20.0);
+    muscle.off_sensor = true;
+    muscle.run(0.3);
+    muscle.moved_m = 0.01;
+    if (told) muscle.proof.recalibrated();
+    muscle.run(2.5);
+    LONGS_EQUAL(told, muscle.unanswered);
+  }
+}

@@ -1,0 +1,124 @@
+// A muscle that is held at a power, hot and still: does it have to prove that it answers?
+#include "supervisor/proof.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/core/support/held_muscle.hpp"
+#include "unit/firmware/core/support/paper_proof.hpp"
+
+using namespace supercoil;
+using test::HeldMuscle;
+using test::paper_proof;
+
+TEST_GROUP(Proof){};
+
+TEST(Proof, OfALivingMuscleIsFoundAgainAndAgain) {
+  HeldMuscle muscle(paper_proof());
+  muscle.run(600.0);
+  CHECK_FALSE(muscle.unanswered);
+  CHECK_COMPARE(muscle.dither_ticks, >, 1000);
+  DOUBLES_EQUAL(4.5, muscle.lowest_W, 1e-9);
+}
+
+TEST(Proof, IsMissedWithinSecondsOfALostContact) {
+  for (const double moment_s : {20.0, 20.3, 20.6, 20.9, 21.2}) {
+    HeldMuscle muscle(paper_proof());
+    muscle.run(moment_s);
+    muscle.off_sensor = true;
+    muscle.run(3.0);
+    CHECK(muscle.unanswered);
+    DOUBLES_EQUAL(0.0, muscle.lowest_W, 1e-9);
+    const detectors::Margin margin = muscle.proof.margin();
+    CHECK_COMPARE(margin.measured, <, margin.limit);
+  }
+}
+
+TEST(Proof, IsNoFaultWhereFrictionSwallowsADither) {
+  HeldMuscle muscle(paper_proof());
+  muscle.play_m = 200e-6;
+  muscle.run(60.0);
+  CHECK_FALSE(muscle.unanswered);
+  DOUBLES_EQUAL(plan_proof(paper_proof(), {}, 1000.0).safe_W, muscle.proof.max_W(), 1e-9);
+}
+
+TEST(Proof, IsNoFaultWhileALoadSwings) {
+  HeldMuscle muscle(paper_proof());
+  muscle.swing_m = 300e-6;
+  muscle.run(60.0);
+  CHECK_FALSE(muscle.unanswered);
+}
+
+TEST(Proof, IsNotAskedForAtThePowerThatIsSafeAnyway) {
+  HeldMuscle muscle(paper_proof());
+  muscle.wanted_W = 1.1;
+  muscle.run(60.0);
+  LONGS_EQUAL(0, muscle.dither_ticks);
+}
+
+TEST(Proof, AllowsWhatItCanProveWithPowerThatIsKnownBetterOrWorse) {
+  ProofSettings uncompared = paper_proof();
+  uncompared.max_power_ratio = 3.0;
+  HeldMuscle muscle(uncompared);
+  muscle.run(30.0);
+  const double wide_W = muscle.proof.max_W();
+  DOUBLES_EQUAL(plan_proof(uncompared, {}, 1000.0).provable_W, wide_W, 1e-9);
+  CHECK_COMPARE(wide_W, <, 3.0);
+  muscle.proof.plan(1.05, {});
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+  muscle.run(30.0);
+  CHECK_FALSE(muscle.unanswered);
+  muscle.proof.plan(3.0, {});
+  DOUBLES_EQUAL(wide_W, muscle.proof.max_W(), 1e-9);
+}
+
+TEST(Proof, IsNotAskedOfAMuscleThatIsOnlyBelievedNorWhereItIsSwitchedOff) {
+  ProofSettings off = paper_proof();
+  off.wanted = false;
+  for (const bool known : {false, true}) {
+    HeldMuscle muscle(known ? off : paper_proof(), known);
+    muscle.run(20.0);
+    muscle.off_sensor = true;
+    muscle.run(20.0);
+    LONGS_EQUAL(0, muscle.dither_ticks);
+    CHECK_FALSE(muscle.unanswered);
+    CHECK(std::isinf(muscle.proof.max_W()));
+  }
+}
+
+TEST(Proof, IsGivenThePowerThatIsSafeInAirThatIsWarmerThanConfigured) {
+  const ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
+  const double left_K = paper_proof().derate_from_C - paper_proof().thermal.air.warmest_C;
+  HeldMuscle muscle(paper_proof());
+  muscle.play_m = 200e-6;  // so that nothing can be proven
+  muscle.warmer_air_K = 0.5 * left_K;
+  muscle.run(60.0);
+  DOUBLES_EQUAL(0.5 * plan.safe_W, muscle.proof.max_W(), 1e-9);
+  muscle.warmer_air_K = 2.0 * left_K;
+  muscle.run(1.0);
+  DOUBLES_EQUAL(0.0, muscle.proof.max_W(), 0.0);
+  muscle.warmer_air_K = 0.0;
+  muscle.run(1.0);
+  DOUBLES_EQUAL(plan.safe_W, muscle.proof.max_W(), 0.0);
+}
+
+TEST(Proof, ProvesLessInAirThatIsWarmerThanConfigured) {
+  ProofSettings strong = paper_proof();
+  strong.max_W = 11.0;
+  const double limit_K = strong.trip_C - strong.thermal.air.warmest_C;
+  ProofPlan plan = plan_proof(strong, {}, 1000.0);
+  const double provable_W = plan.provable_W;
+  CHECK_COMPARE(provable_W, <, strong.max_W);
+  plan.for_air(strong, 0.25 * limit_K);
+  DOUBLES_EQUAL(0.75 * provable_W, plan.provable_W, 1e-9);
+  plan.for_air(strong, 2.0 * limit_K);
+  DOUBLES_EQUAL(0.0, plan.provable_W, 0.0);
+
+  HeldMuscle muscle(strong);
+  muscle.warmer_air_K = 0.25 * limit_K;
+  muscle.run(1.0);
+  DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
+  muscle.proof.learn({}, 1.0);
+  DOUBLES_EQUAL(0.75 * provable_W, muscle.proof.max_W(), 1e-9);
+}

@@ -1,0 +1,74 @@
+// How much of a small motion arrives at the sensor.
+#include "supervisor/small_signal.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/core/support/paper_proof.hpp"
+
+using namespace supercoil;
+using test::paper_proof;
+
+namespace {
+
+constexpr double rate_Hz = 1000.0;
+constexpr double held_W = 0.6;
+
+struct Sensor {
+  double ratio = 1.0;   ///< of the motion that arrives
+  double play_m = 0.0;  ///< the sensor's end follows when it is drawn by so much
+  double noise_m = 10e-6;
+};
+
+/// What is measured of the paper's muscle behind this sensor.
+double measured_ratio(const Sensor& sensor, const ProofSettings& settings = paper_proof()) {
+  const control::PhysicalParameters muscle;
+  ExpectedMotion motion(muscle, 1.0 / rate_Hz);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0.0, sensor.noise_m);
+  SmallSignal measuring;
+  const auto plan = plan_small_signal(settings, muscle, held_W, rate_Hz);
+  measuring.start(plan, ExpectedMotion(muscle, plan.step_s));
+  double end_m = 0.0;
+  double power_W = 0.0;
+  bool goes_on = true;
+  for (int i = 0; goes_on && i < 60'000; ++i) {
+    const double muscle_m = motion.step(power_W);
+    end_m = std::clamp(end_m, muscle_m - sensor.play_m, muscle_m + sensor.play_m);
+    goes_on = measuring.step(sensor.ratio * end_m + noise(random), power_W);
+    power_W = measuring.power_W();
+  }
+  CHECK_FALSE(goes_on);
+  return measuring.answer_ratio();
+}
+
+}  // namespace
+
+TEST_GROUP(SmallSignal){};
+
+TEST(SmallSignal, OfALinearMuscleIsWhatArrives) {
+  for (const double ratio : {0.3, 1.0, 1.6})
+    DOUBLES_EQUAL(ratio, measured_ratio({.ratio = ratio}), 0.05);
+}
+
+TEST(SmallSignal, IsTakenByPlayBetweenMuscleAndSensor) {
+  CHECK_COMPARE(measured_ratio({.play_m = 100e-6}), <, 0.05);
+}
+
+TEST(SmallSignal, BehindNoiseIsNotKnown) {
+  ProofSettings noisy = paper_proof();
+  noisy.position_noise_rms_m = 500e-6;
+  DOUBLES_EQUAL(0.0, measured_ratio({.noise_m = 500e-6}, noisy), 0.0);
+}
+
+TEST(SmallSignal, ThatIsStoppedIsOver) {
+  SmallSignal measuring;
+  CHECK_FALSE(measuring.running());
+  const auto plan = plan_small_signal(paper_proof(), {}, held_W, rate_Hz);
+  measuring.start(plan, ExpectedMotion({}, plan.step_s));
+  CHECK(measuring.running());
+  measuring.stop();
+  CHECK_FALSE(measuring.running());
+}

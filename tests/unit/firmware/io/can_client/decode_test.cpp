@@ -1,0 +1,144 @@
+// What the table of the protocol makes of a frame is what the generated codec makes of it.
+#include "can_client/decode.hpp"
+
+#include <bit>
+#include <stdexcept>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
+
+#include "unit/firmware/io/can_client/support/any_frame.hpp"
+#include "unit/firmware/io/can_client/support/by_codec.hpp"
+
+using namespace supercoil;
+using namespace supercoil::can_client;
+using namespace supercoil::test;
+
+namespace {
+
+constexpr int most_nodes = 63;
+
+hal::CanFrame empty_frame(const CodecMessage& message, std::uint16_t node = 1) {
+  hal::CanFrame frame;
+  frame.id = static_cast<std::uint16_t>(message.id - 1 + node);
+  frame.length = message.length;
+  return frame;
+}
+
+bool same(const Values& a, const Values& b) {
+  return std::equal(a.begin(), a.end(), b.begin(),
+                    [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); });
+}
+
+bool is_right(const CodecMessage& message, const hal::CanFrame& frame) {
+  const auto decoded = decode(frame);
+  return decoded && decoded->message->name == message.name &&
+         same(decoded->values, message.read(frame));
+}
+
+/// Puts a signal's raw value, modulo its length, into a frame.
+void put(hal::CanFrame& frame, const SignalInfo& signal, std::int64_t raw) {
+  for (unsigned bit = 0; bit < signal.length; ++bit) {
+    const unsigned at = signal.start + bit;
+    const auto value = static_cast<std::uint8_t>(static_cast<std::uint64_t>(raw) >> bit & 1U);
+    frame.data.at(at / 8) = static_cast<std::uint8_t>(frame.data.at(at / 8) | value << at % 8);
+  }
+}
+
+double value(const hal::CanFrame& frame, std::string_view signal) {
+  const auto decoded = decode(frame);
+  CHECK(decoded.has_value());
+  return decoded->values.at(signal_index(*decoded->message, signal));
+}
+
+}  // namespace
+
+TEST_GROUP(Decode){};
+
+TEST(Decode, TheTableHasTheCodecsMessages) {
+  LONGS_EQUAL(codec_messages.size(), protocol().size());
+}
+
+TEST(Decode, EveryFrameReadsAsTheCodecReadsIt) {
+  for (const CodecMessage& message : codec_messages) {
+    const bool holds = rc::check(std::string(message.name), [&] {
+      hal::CanFrame frame = empty_frame(message, *rc::gen::inRange<std::uint16_t>(1, 64));
+      for (std::size_t i = 0; i < frame.length; ++i)
+        frame.data.at(i) = *extreme_byte();
+      RC_ASSERT(is_right(message, frame));
+    });
+    CHECK_TEXT(holds, message.name.data());
+  }
+}
+
+TEST(Decode, RawValuesAtTheEndsOfTheirRangesReadAsTheCodecReadsThem) {
+  for (const CodecMessage& message : codec_messages) {
+    for (const SignalInfo& signal : find_message(message.name)->signals) {
+      const std::int64_t sign = std::int64_t{1} << (signal.length - 1U);
+      for (const std::int64_t raw : {std::int64_t{0}, std::int64_t{1}, sign - 1, sign, sign + 1,
+                                     2 * sign - 2, 2 * sign - 1}) {
+        hal::CanFrame frame = empty_frame(message);
+        put(frame, signal, raw);
+        CHECK_TEXT(is_right(message, frame), signal.name.data());
+      }
+    }
+  }
+}
+
+TEST(Decode, TheReservedRawValueIsNoNumber) {
+  int reserved = 0;
+  for (const CodecMessage& message : codec_messages) {
+    for (const SignalInfo& signal : find_message(message.name)->signals) {
+      hal::CanFrame frame = empty_frame(message);
+      if (signal.reserved == no_value) continue;
+      put(frame, signal, signal.reserved);
+      CHECK_TEXT(std::isnan(value(frame, signal.name)), signal.name.data());
+      ++reserved;
+    }
+  }
+  LONGS_EQUAL(18, reserved);
+}
+
+TEST(Decode, AnEstimateHasTheParameterThatItCarriesAndNoOther) {
+  const CodecMessage& message = codec_messages[9];
+  constexpr std::size_t first = 4;  // after parameter, trusted, identify_notes, error_bound
+  for (std::uint8_t parameter = 0; parameter < 16; ++parameter) {
+    hal::CanFrame frame = empty_frame(message);
+    frame.data[0] = parameter;
+    put(frame, find_message("Estimate")->signals[first], std::bit_cast<std::uint32_t>(1.5F));
+    const auto decoded = decode(frame);
+    for (std::size_t i = first; i < first + 14; ++i) {
+      const double shown = decoded->values.at(i);
+      CHECK(i - first == parameter ? shown == 1.5 : std::isnan(shown));
+    }
+  }
+}
+
+TEST(Decode, OnlyIdentifiersAndLengthsOfTheProtocolAreFrames) {
+  for (int id = 0; id < 0x10000; ++id) {
+    for (std::uint8_t length = 0; length <= 9; ++length) {
+      hal::CanFrame frame;
+      frame.id = static_cast<std::uint16_t>(id);
+      frame.length = length;
+      const bool ours = std::any_of(
+          codec_messages.begin(), codec_messages.end(), [&](const CodecMessage& message) {
+            return id >= message.id && id < message.id + most_nodes && length == message.length;
+          });
+      const auto decoded = decode(frame);
+      CHECK_EQUAL(ours, decoded.has_value());
+      if (decoded) LONGS_EQUAL(id - decoded->message->base, decoded->node);
+    }
+  }
+}
+
+TEST(Decode, NamesAreFoundAndWrongOnesTold) {
+  CHECK(find_message("Nonsense") == nullptr);
+  const MessageInfo& status = *find_message("Status");
+  LONGS_EQUAL(10, signal_index(status, "counter"));
+  CHECK_THROWS(std::out_of_range, signal_index(status, "nonsense"));
+  const SignalInfo& fault = status.signals[signal_index(status, "fault")];
+  CHECK(value_name(fault, 60.0) == "command_timeout");
+  CHECK(value_name(fault, 1.0).empty());
+  CHECK(value_name(fault, NAN).empty());
+}

@@ -1,0 +1,352 @@
+// What a mistaken board configuration is answered: file, line, key, value and what is allowed.
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/io/config/support/small_board.hpp"
+
+using supercoil::test::problems_of;
+using supercoil::test::small_board;
+using supercoil::test::small_board_with;
+
+namespace {
+
+void check_answer(const std::string& expected, const std::string& text) {
+  STRCMP_EQUAL((expected + "\n").c_str(), problems_of(text).c_str());
+}
+
+/// The small board with a part of it replaced.
+void check_replaced(const std::string& old, const std::string& replacement,
+                    const std::string& expected) {
+  check_answer(expected, small_board_with(old, replacement));
+}
+
+}  // namespace
+
+TEST_GROUP(WrongBoard){};
+
+TEST(WrongBoard, SmallBoardIsInOrder) {
+  STRCMP_EQUAL("", problems_of(small_board).c_str());
+}
+
+TEST(WrongBoard, MisspeltKeyIsSaidOnceAlthoughItIsRequired) {
+  check_replaced("cold_resistance_Ohm", "cold_resistence_Ohm",
+                 "b.toml:33: channel[1].heater.cold_resistence_Ohm = 10: is not a key of "
+                 "[channel[1].heater]; did you mean cold_resistance_Ohm?");
+}
+
+TEST(WrongBoard, MissingUnitIsToldTheUnit) {
+  check_replaced("max_W = 4.5", "max = 4.5",
+                 "b.toml:40: channel[1].limits.max = 4.5: is not a key of [channel[1].limits]; did "
+                 "you mean max_W (the unit is part of the name)?");
+}
+
+TEST(WrongBoard, ValueOutOfRange) {
+  check_replaced("[lines]", "rate_Hz = 50\n[lines]",
+                 "b.toml:3: board.rate_Hz = 50: must be 100 to 10000");
+}
+
+TEST(WrongBoard, NotANumber) {
+  check_replaced("max_W = 4.5", "max_W = nan",
+                 "b.toml:40: channel[1].limits.max_W = nan: must be 0.001 to 1000");
+}
+
+TEST(WrongBoard, ThermalFuseThatNobodyMakes) {
+  check_replaced("cold_resistance_Ohm = 10.0", "cold_resistance_Ohm = 10.0\nthermal_fuse_C = 45",
+                 "b.toml:34: channel[1].heater.thermal_fuse_C = 45: must be 60 to 260, or 0 where "
+                 "there is no thermal fuse");
+}
+
+TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
+  check_replaced("lowest_mass_J_per_K = 0.13",
+                 "lowest_mass_J_per_K = 0.13\nweighed_mass_error_ratio = 0.03",
+                 "b.toml:36: channel[1].thermal.weighed_mass_error_ratio = 0.03: needs "
+                 "weighed_mass_J_per_K: what is only believed narrows nothing");
+}
+
+TEST(WrongBoard, TextForANumber) {
+  check_replaced("max_W = 4.5", "max_W = '4.5 W'",
+                 "b.toml:40: channel[1].limits.max_W = '4.5 W': must be a number, 0.001 to 1000");
+}
+
+TEST(WrongBoard, MissingKeyHasTheLineOfItsTable) {
+  check_replaced("cold_resistance_Ohm = 10.0", "",
+                 "b.toml:32: channel[1].heater.cold_resistance_Ohm: is missing: it must be a "
+                 "number, 0.1 to 10000");
+}
+
+TEST(WrongBoard, MissingTableSaysWhatItNeeds) {
+  check_replaced("[ambient]\ncoldest_C = 15\nwarmest_C = 30\n", "",
+                 "b.toml: ambient: is missing; it needs coldest_C, warmest_C");
+}
+
+TEST(WrongBoard, MissingTextIsNotEmptyText) {
+  check_replaced("line = \"BEAT\"", "",
+                 "b.toml:5: lines.heartbeat.line: is missing: it must be text in quotes");
+  check_replaced("line = \"BEAT\"", "line = ''",
+                 "b.toml:5: lines.heartbeat.line = '': must not be empty");
+}
+
+TEST(WrongBoard, LineGivenTwice) {
+  check_replaced("EN1", "STOP",
+                 "b.toml:20: channel[1].enable.line = 'STOP': is already the stop circuit: line "
+                 "STOP of gpio");
+}
+
+TEST(WrongBoard, ConverterInputGivenTwice) {
+  check_replaced("voltage2", "voltage1",
+                 "b.toml:30: channel[1].current.input = 'voltage1': is already channel 1's "
+                 "position: input voltage1 of adc");
+}
+
+TEST(WrongBoard, PwmOutputGivenTwice) {
+  const std::string other = small_board.substr(small_board.find("[[channel]]"));
+  std::string text = small_board + other;
+  const auto replace_last = [&text](const std::string& old, const std::string& replacement) {
+    text.replace(text.rfind(old), old.size(), replacement);
+  };
+  replace_last("EN1", "EN2");
+  replace_last("voltage1", "voltage3");
+  replace_last("voltage2", "voltage4");
+  check_answer("b.toml:44: channel[2].pwm.number = 0: is already channel 1's PWM: output 0 of pwm",
+               text);
+}
+
+TEST(WrongBoard, BufferedHeartbeat) {
+  check_replaced(
+      "line = \"BEAT\"", "line = \"BEAT\", buffered = true",
+      "b.toml:5: lines.heartbeat.buffered = true: must be false: lines are direct (20 us "
+      "or less), because they, not the duty, are the timed cut");
+}
+
+TEST(WrongBoard, BufferedWithoutABus) {
+  check_replaced("number = 0", "number = 0, buffered = true",
+                 "b.toml:21: channel[1].pwm.buffered = true: needs bus = \"…\"");
+  check_replaced("number = 0", "number = 0, bus = 'i2c-7'",
+                 "b.toml:21: channel[1].pwm.bus = 'i2c-7': is not the name of a [[bus]]");
+  check_replaced("number = 0", "number = 0, bus = 'i2c-1', buffered = false",
+                 "b.toml:21: channel[1].pwm.buffered = false: must be true: what hangs on a bus is "
+                 "served by the bus's thread");
+}
+
+TEST(WrongBoard, PumpThatOpensBeforeToleratedOverrunsAreOver) {
+  check_replaced("charge_pump_decay_ms = 20", "charge_pump_decay_ms = 8",
+                 "b.toml:2: board.charge_pump_decay_ms = 8: must exceed twice the tolerated "
+                 "overruns: 5 in a row at 1000 Hz are 5 ms, so more than 10 ms, not 8");
+}
+
+TEST(WrongBoard, BusThatIsTooSlow) {
+  check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nwait_ms = 1.2",
+                 "b.toml:11: bus[1].name = 'i2c-1': the bus would be busy for 1.34 ms of a tick of "
+                 "1 ms (134 %), and 70 % is the most");
+}
+
+TEST(WrongBoard, BusTimeOfADirectDevice) {
+  check_replaced("voltage1\"", "voltage1\"\nwait_ms = 1.2",
+                 "b.toml:25: channel[1].position.wait_ms = 1.2: is for buffered devices: needs bus "
+                 "= \"…\"");
+}
+
+TEST(WrongBoard, AgeThatABufferedValueAlwaysHas) {
+  check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nmax_age_ms = 0.5",
+                 "b.toml:26: channel[1].position.max_age_ms = 0.5: must be at least a tick: a "
+                 "buffered value is older than that before the next one comes");
+}
+
+TEST(WrongBoard, SeventeenChannels) {
+  std::string text = small_board;
+  for (int i = 2; i <= 17; ++i) {
+    const std::string n = std::to_string(i);
+    for (const char* part :
+         {"[[channel]]\nenable = {line = 'EN", "'}\npwm = {device = 'pwm', number = ",
+          "}\nposition = {device = 'position', input = 'voltage",
+          "'}\ncurrent = {device = 'current', input = 'voltage"}) {
+      text += part;
+      text += n;
+    }
+    text += "'}\n";
+  }
+  text +=
+      "[every_channel]\nposition = {m_per_count = 1e-6, lowest_m = 0.0, highest_m = 0.04}\n"
+      "current.A_per_count = 0.0001\nheater.cold_resistance_Ohm = 10.0\n"
+      "thermal = {lowest_mass_J_per_K = 0.13, highest_mass_J_per_K = 0.2, "
+      "lowest_transfer_W_per_K = 0.045, highest_transfer_W_per_K = 0.18}\n"
+      "limits = {max_W = 4.5, max_travel_m = 0.025}\n";
+  check_answer("b.toml:117: channel: a board has 1 to 16 [[channel]], not 17", text);
+}
+
+TEST(WrongBoard, NoChannel) {
+  check_answer("b.toml: channel: a board has 1 to 16 [[channel]], not 0",
+               small_board.substr(0, small_board.find("[[channel]]")));
+}
+
+TEST(WrongBoard, ThermalBoundsThatDoNotContainTheMuscle) {
+  check_replaced(
+      "lowest_mass_J_per_K = 0.13", "lowest_mass_J_per_K = 0.17",
+      "b.toml:35: channel[1].thermal.lowest_mass_J_per_K = 0.17: must not exceed what is "
+      "believed: muscle.thermal_mass_J_per_K = 0.162");
+  check_replaced("highest_transfer_W_per_K = 0.18", "highest_transfer_W_per_K = 0.08",
+                 "b.toml:38: channel[1].thermal.highest_transfer_W_per_K = 0.08: must not be less "
+                 "than what is believed: muscle.heat_transfer_W_per_K = 0.089");
+}
+
+TEST(WrongBoard, ThermalBoundsOutOfOrder) {
+  check_replaced("lowest_transfer_W_per_K = 0.045", "lowest_transfer_W_per_K = 0.2",
+                 "b.toml:37: channel[1].thermal.lowest_transfer_W_per_K = 0.2: must be less than "
+                 "highest_transfer_W_per_K");
+}
+
+TEST(WrongBoard, BoundOfPowerNarrowerThanWhatTheSensesMayHide) {
+  check_replaced("highest_transfer_W_per_K = 0.18",
+                 "highest_transfer_W_per_K = 0.18\npower_part = [0.95, 1.05]",
+                 "b.toml:39: channel[1].thermal.power_part = [0.95, 1.05]: contradicts "
+                 "detectors.resistance_part, below which no error of the senses is noticed; leave "
+                 "it out: the bounds of power follow from that until the senses are compared with "
+                 "a meter (supercoil doctor --compare-senses)");
+}
+
+TEST(WrongBoard, LawThatDoesNotHoldItsMuscle) {
+  check_replaced("max_travel_m = 0.025",
+                 "max_travel_m = 0.025\n"
+                 "[channel.controller]\nkind = 'pi'\nproportional_W_per_m = 50000.0\n",
+                 "b.toml:43: channel[1].controller.kind = 'pi': is unstable on this muscle with 1 "
+                 "ms of delay: "
+                 "lower its gains, or shorten the delay");
+  check_replaced("max_travel_m = 0.025",
+                 "max_travel_m = 0.025\n"
+                 "[channel.controller]\nkind = 'mrac_ls'\nbandwidth_rad_per_s = 5.0\n",
+                 "b.toml:43: channel[1].controller.kind = 'mrac_ls': is unstable on this muscle, "
+                 "even when it has adapted to it, with 1 ms of delay: lower its "
+                 "bandwidth_rad_per_s, or shorten the delay");
+}
+
+TEST(WrongBoard, PowerBeyondTheSupply) {
+  check_replaced(
+      "max_W = 4.5", "max_W = 12.0",
+      "b.toml:40: channel[1].limits.max_W = 12: must not exceed what the supply gives at "
+      "a duty of 1: lowest_V²/cold_resistance_Ohm = 11.664 W");
+}
+
+TEST(WrongBoard, DeratingThatBeginsAfterTheTrip) {
+  check_replaced("max_W = 4.5", "max_W = 4.5\nderate_from_C = 165.0",
+                 "b.toml:41: channel[1].limits.derate_from_C = 165: must be less than trip_C");
+}
+
+TEST(WrongBoard, NothingNearSkinIsHotterThanThePreset) {
+  check_replaced("max_W = 4.5", "max_W = 4.5\npreset = 'skin'\ntrip_C = 60.0",
+                 "b.toml:42: channel[1].limits.trip_C = 60: must be 0 to 43");
+}
+
+TEST(WrongBoard, TravelBeyondTheSensor) {
+  check_replaced("max_travel_m = 0.025", "max_travel_m = 0.05",
+                 "b.toml:41: channel[1].limits.max_travel_m = 0.05: must be within what the sensor "
+                 "can read: position.highest_m = 0.041");
+}
+
+TEST(WrongBoard, ProbeThatIsTooMuchTooLongOrNothing) {
+  const std::string heater = "cold_resistance_Ohm = 10.0";
+  check_replaced(heater, heater + "\nprobe_duty = 0.05",
+                 "b.toml:34: channel[1].heater.probe_duty = 0.05: must be 0.0001 to 0.02");
+  check_replaced(heater, heater + "\nprobe_ms = 80",
+                 "b.toml:34: channel[1].heater.probe_ms = 80: must be 1 to 50");
+  check_replaced("number = 0", "number = 0, bits = 5",
+                 "b.toml:32: channel[1].heater.probe_duty (its default): is less than one of the "
+                 "PWM's 31 steps: a probe would be nothing");
+}
+
+TEST(WrongBoard, WhatFixedPointCannotHold) {
+  const std::string answer = problems_of(
+      small_board +
+      "[channel.controller]\nkind = 'pi'\narithmetic = 'q8.24'\nproportional_W_per_m = 50000.0\n");
+  STRCMP_EQUAL(
+      "b.toml:45: channel[1].controller.proportional_W_per_m = 50000: does not fit arithmetic = "
+      "\"q8.24\": it is held as 301.966 there, and must be -127 to 127\n",
+      answer.c_str());
+}
+
+TEST(WrongBoard, MistakeInEveryChannelIsSaidOnce) {
+  const std::string channels = "[[channel]]\n[[channel]]\n";
+  const std::string answer =
+      problems_of(small_board + channels + "[every_channel.limits]\nmax_w = 3.0\n");
+  const std::string message =
+      "b.toml:45: every_channel.limits.max_w = 3: is not a key of "
+      "[every_channel.limits]; did you mean max_W?\n";
+  const std::size_t at = answer.find(message);
+  CHECK_TEXT(at != std::string::npos, answer.c_str());
+  CHECK_TEXT(answer.find("max_w = 3", at + message.size()) == std::string::npos, answer.c_str());
+}
+
+TEST(WrongBoard, CaptureOfSomeInputsOfADevice) {
+  check_replaced(
+      "input = \"voltage1\"", "input = \"voltage1\"\ncapture = {trigger = 'clock'}",
+      "b.toml:23: channel[1].position.device = 'adc': has another input with another "
+      "capture: all its inputs are converted together, and none can be read beside that");
+}
+
+TEST(WrongBoard, CaptureBehindABus) {
+  check_replaced(
+      "device = \"adc\"\ninput = \"voltage1\"",
+      "device = \"fast\"\ninput = \"voltage1\"\nbus = 'i2c-1'\ncapture = {trigger = 'clock', "
+      "length = 1}",
+      "b.toml:25: channel[1].position.bus = 'i2c-1': and capture exclude each other: the kernel "
+      "reads, not a bus's thread\n"
+      "b.toml:26: channel[1].position.capture.length = 1: must be 2 to 65536");
+}
+
+TEST(WrongBoard, EveryMistakeIsSaidInTheOrderOfTheFile) {
+  std::string text = small_board_with("charge_pump_decay_ms = 20", "charge_pump_decay_ms = -1");
+  text.replace(text.find("max_W = 4.5"), 11, "max_W = 0.0");
+  text += "[operator]\nport = 8080\n";
+  check_answer(
+      "b.toml:2: board.charge_pump_decay_ms = -1: must be 0.1 to 1000\n"
+      "b.toml:40: channel[1].limits.max_W = 0: must be 0.001 to 1000\n"
+      "b.toml:42: operator: is not a key of this file; its keys are: bus, board, lines, supply, "
+      "ambient, command, every_channel, channel, can",
+      text);
+}
+
+TEST(WrongBoard, FileThatIsNotThere) {
+  const auto config = supercoil::config::read_board_config("/nowhere/b.toml");
+  STRCMP_EQUAL("/nowhere/b.toml: there is no such file\n",
+               supercoil::config::to_text(config.error()).c_str());
+}
+
+TEST(WrongBoard, CanBusThatWouldBeTooBusy) {
+  check_answer(
+      "b.toml:43: can.bit_rate = 50000: the bus would be busy for 90 % with what is sent at a "
+      "rate, and 50 % is the most (most_load): choose lower rates",
+      small_board + "[can]\nbit_rate = 50000\n");
+}
+
+TEST(WrongBoard, NodesOfCanThatThereAreNot) {
+  check_answer("b.toml:43: can.first_node = 64: must be 1 to 63",
+               small_board + "[can]\nfirst_node = 64\n");
+}
+
+TEST(WrongBoard, RatesOfCanThatThereAreNot) {
+  check_answer("b.toml:43: can.rates.status_Hz = 0: must be 1 to 1000",
+               small_board + "[can]\nrates = {status_Hz = 0}\n");
+  check_answer(
+      "b.toml:43: can.rates.powr_Hz = 10: is not a key of [can.rates]; did you mean "
+      "power_Hz?",
+      small_board + "[can]\nrates = {powr_Hz = 10}\n");
+}
+
+TEST(WrongBoard, NameOfAnInterfaceThatTheKernelCannotHave) {
+  check_answer(
+      "b.toml:43: can.interface = 'a-name-of-16-char': must be a name of 1 to 15 characters",
+      small_board + "[can]\ninterface = 'a-name-of-16-char'\n");
+}
+
+TEST(WrongBoard, SensorOfTheAirWithoutAScaleOrWithAnInputThatIsTaken) {
+  check_replaced(
+      "warmest_C = 30\n", "warmest_C = 30\n[ambient.sensor]\ndevice = 'adc'\ninput = 'voltage3'\n",
+      "b.toml:10: ambient.sensor.C_per_count: is missing: it must be a number, -10 to 10");
+  check_replaced("warmest_C = 30\n",
+                 "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage3', C_per_count = 0}\n",
+                 "b.toml:10: ambient.sensor.C_per_count = 0: must not be 0");
+  check_replaced("warmest_C = 30\n",
+                 "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage0', C_per_count = 1}\n",
+                 "b.toml:10: ambient.sensor.input = 'voltage0': is already the supply: input "
+                 "voltage0 of adc");
+}

@@ -1,0 +1,201 @@
+#include "storage/codec.hpp"
+
+#include <bit>
+#include <limits>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+#include <rapidcheck.h>
+
+#include "storage/envelope.hpp"
+#include "storage/fields.hpp"
+#include "unit/firmware/io/storage/support/sets.hpp"
+
+using namespace supercoil;
+using namespace supercoil::storage;
+using supercoil::test::answer;
+using supercoil::test::learned_sets;
+
+namespace {
+
+void check_answer(const char* expected, const std::string& text) {
+  STRCMP_EQUAL(expected, answer(text).c_str());
+}
+
+/// With every table that a file may have.
+board::Learned full_set() {
+  board::Learned set;
+  set.senses = {1.25, 0.875, 0.0625, 1795219200.0};
+  set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
+  set.answer_ratio = 0.375;
+  return set;
+}
+
+/// What the file says behind its first line, with something in it exchanged, and sealed anew.
+std::string sealed_with(const std::string& what, const std::string& instead) {
+  const std::string text = encode(full_set());
+  std::string body = text.substr(text.find('\n') + 1);
+  const std::size_t at = body.find(what);
+  CHECK_TEXT(at != std::string::npos, what.c_str());
+  return seal(body.replace(at, what.size(), instead));
+}
+
+}  // namespace
+
+TEST_GROUP(Codec){};
+
+// The checksum is what Python's zlib.crc32 gives for these lines.
+TEST(Codec, WritesWhatAPersonCanRead) {
+  board::Learned set;
+  set.calibration.position_offset_m = -0.00125;
+  set.version = 3;
+  STRCMP_EQUAL(
+      "# supercoil learned, format 1, 352 bytes, CRC-32 b7433581\n"
+      "# Written by supercoild. An edited file counts as damaged and is not used.\n"
+      "version = 3\n"
+      "\n"
+      "[muscle]\n"
+      "thermal_mass_J_per_K = 0.162\n"
+      "heat_transfer_W_per_K = 0.089\n"
+      "stiffness_N_per_m = 16.0\n"
+      "damping_Ns_per_m = 2.0\n"
+      "moving_mass_kg = 0.09\n"
+      "force_per_kelvin_N_per_K = 0.0086\n"
+      "\n"
+      "[calibration]\n"
+      "position_offset_m = -0.00125\n"
+      "position_scale = 1.0\n"
+      "cold_resistance_Ohm = 10.0\n",
+      encode(set).c_str());
+}
+
+TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
+  // As the firmware before wrote it.
+  const std::string before =
+      "# supercoil learned, format 1, 352 bytes, CRC-32 b7433581\n"
+      "# Written by supercoild. An edited file counts as damaged and is not used.\n"
+      "version = 3\n\n[muscle]\nthermal_mass_J_per_K = 0.162\nheat_transfer_W_per_K = 0.089\n"
+      "stiffness_N_per_m = 16.0\ndamping_Ns_per_m = 2.0\nmoving_mass_kg = 0.09\n"
+      "force_per_kelvin_N_per_K = 0.0086\n\n[calibration]\nposition_offset_m = -0.00125\n"
+      "position_scale = 1.0\ncold_resistance_Ohm = 10.0\n";
+  const auto read = decode(before);
+  CHECK(read.has_value());
+  CHECK(read->knows_muscle);
+  CHECK_FALSE(read->senses.compared());
+  CHECK(read->senses == board::SenseComparison{});
+}
+
+TEST(Codec, AComparisonHasATableOfItsOwn) {
+  STRCMP_CONTAINS(
+      "\n[senses]\nsupply_gain = 1.25\ncurrent_gain = 0.875\nerror_ratio = 0.0625\n"
+      "compared_s = 1795219200.0\n",
+      encode(full_set()).c_str());
+}
+
+TEST(Codec, WhatIsKnownOfHeatHasATableOfItsOwn) {
+  STRCMP_CONTAINS(
+      "\n[heat]\ntime_constant_s = 1.75\ntime_constant_at_W = 2.25\nsteady_rise_K = 21.5\n"
+      "steady_error_K = 1.25\nsteady_min_W = 1.5\nsteady_max_W = 1.625\n",
+      encode(full_set()).c_str());
+  board::Learned set = full_set();
+  CHECK(decode(encode(set)) == set);
+  set.heat = {};
+  CHECK(encode(set).find("heat]") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+}
+
+TEST(Codec, WhatArrivesOfSmallMotionsHasATableOfItsOwnWhereItWasMeasured) {
+  board::Learned set = full_set();
+  STRCMP_CONTAINS("\n[small_motions]\nanswer_ratio = 0.375\n", encode(set).c_str());
+  set.answer_ratio = 0.0;
+  CHECK(encode(set).find("small_motions") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+}
+
+TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
+  board::Learned set = full_set();
+  set.knows_muscle = false;
+  set.answer_ratio = 0.0;
+  set.version = 1;
+  CHECK(encode(set).find("muscle") == std::string::npos);
+  CHECK(encode(set).find("calibration") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+  // And neither, when the comparison was forgotten as well.
+  set.senses = {};
+  set.heat = {};
+  CHECK(decode(encode(set)) == set);
+}
+
+TEST(Codec, EveryValidSetComesBackBitForBit) {
+  CHECK(rc::check("round trip", [] {
+    board::Learned set = *learned_sets();
+    RC_ASSERT_FALSE(check(set).has_value());
+    auto read = decode(encode(set));
+    if (!read) RC_FAIL(read.error());
+    RC_ASSERT(read->version == set.version);
+    for (const Field& field : fields) {
+      RC_ASSERT(std::bit_cast<std::uint64_t>(field.of(*read)) ==
+                std::bit_cast<std::uint64_t>(field.of(set)));
+    }
+  }));
+}
+
+TEST(Codec, NoInvalidSetIsAccepted) {
+  for (const Field& field : fields) {
+    for (const double bad : {-1e15, 1e15}) {
+      board::Learned set = full_set();
+      field.of(set) = bad;
+      STRCMP_CONTAINS(" is out of range: must be ", answer(encode(set)).c_str());
+    }
+  }
+}
+
+TEST(Codec, SaysWhichNumberIsOutOfWhichRange) {
+  check_answer("stiffness_N_per_m = -16 is out of range: must be 0.01 to 1e+06",
+               sealed_with("= 16.0", "= -16.0"));
+  check_answer("position_scale = 0 is out of range: must be 0.1 to 10",
+               sealed_with("scale = 1.0", "scale = 0.0"));
+}
+
+TEST(Codec, RefusesNumbersThatAreNotFinite) {
+  board::Learned set;
+  set.muscle.damping_Ns_per_m = std::numeric_limits<double>::quiet_NaN();
+  check_answer("muscle.damping_Ns_per_m is nan, which is not a finite number", encode(set));
+  set.muscle.damping_Ns_per_m = -std::numeric_limits<double>::infinity();
+  check_answer("muscle.damping_Ns_per_m is -inf, which is not a finite number", encode(set));
+}
+
+TEST(Codec, RefusesAMissingKey) {
+  for (const Field& field : fields) {
+    const std::string key(field.key);
+    const std::string path = std::string(field.table) + "." + key;
+    check_answer((path + " is missing").c_str(), sealed_with(key, "# " + key));
+  }
+  check_answer("version is missing", sealed_with("version", "# version"));
+  check_answer("muscle.thermal_mass_J_per_K is missing",
+               seal("version = 1\n[calibration]\nposition_scale = 1.0\n"));
+}
+
+TEST(Codec, RefusesAnUnknownKey) {
+  check_answer("has a key that this firmware does not know: muscle.colour",
+               sealed_with("[calibration]", "colour = 1.0\n[calibration]"));
+  check_answer("has a key that this firmware does not know: colour",
+               sealed_with("version", "colour = 1.0\nversion"));
+  check_answer("has a key that this firmware does not know: colours",
+               seal("version = 1\n[colours]\n"));
+  check_answer("has a key that this firmware does not know: muscle",
+               seal("version = 1\nmuscle = 3\n"));
+}
+
+TEST(Codec, RefusesAnotherType) {
+  check_answer("muscle.moving_mass_kg is not a number", sealed_with("0.09\n", "'0.09'\n"));
+  for (const char* version : {"1.5", "-1", "4294967296", "'1'"}) {
+    check_answer("version must be a whole number, 0 to 4294967295",
+                 sealed_with("version = 0", std::string("version = ") + version));
+  }
+}
+
+TEST(Codec, RefusesWhatIsNotToml) {
+  STRCMP_CONTAINS("is not valid TOML: ", answer(sealed_with("= 16.0", "= = 16.0")).c_str());
+  STRCMP_CONTAINS("is not valid TOML: ", answer(sealed_with("[calibration]", "[muscle]")).c_str());
+}

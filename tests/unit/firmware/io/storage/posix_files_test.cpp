@@ -1,0 +1,90 @@
+#include "storage/posix_files.hpp"
+
+#include <cerrno>
+#include <string>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/io/storage/support/temporary_folder.hpp"
+
+using namespace supercoil::storage;
+using supercoil::test::TemporaryFolder;
+
+TEST_GROUP(PosixFiles) {
+  TemporaryFolder folder;
+  PosixFiles files;
+  std::string path(const std::string& name) const {
+    return folder.path() + "/" + name;
+  }
+  void put(const std::string& name, const std::string& content) {
+    const auto file = files.create(path(name));
+    CHECK(file.has_value());
+    CHECK(files.write(*file, content).has_value());
+    CHECK(files.sync(*file).has_value());
+    CHECK(files.close(*file).has_value());
+  }
+};
+
+TEST(PosixFiles, ReadWhatTheyWrote) {
+  const std::string content("a\0b\n", 4);
+  put("x", content);
+  CHECK(*files.read(path("x"), 100) == content);
+  CHECK(*files.read(path("x"), 2) == content.substr(0, 2));
+}
+
+TEST(PosixFiles, NeverWriteOverAFile) {
+  put("x", "1");
+  const auto again = files.create(path("x"));
+  CHECK_FALSE(again.has_value());
+  LONGS_EQUAL(EEXIST, again.error().code);
+  STRCMP_EQUAL((path("x") + ": cannot be made: File exists").c_str(), again.error().text.c_str());
+}
+
+TEST(PosixFiles, LinkRenameAndUnlinkAsTheContractSays) {
+  put("x", "1");
+  CHECK(files.link(path("x"), path("y")).has_value());
+  LONGS_EQUAL(EEXIST, files.link(path("x"), path("y")).error().code);
+  CHECK(files.rename(path("x"), path("y")).has_value());
+  CHECK(files.read(path("x"), 9).has_value());  // two names of one file: nothing happened
+  CHECK(files.unlink(path("x")).has_value());
+  LONGS_EQUAL(ENOENT, files.unlink(path("x")).error().code);
+  CHECK(files.sync_folder(folder.path()).has_value());
+  STRCMP_EQUAL("1", files.read(path("y"), 9)->c_str());
+}
+
+TEST(PosixFiles, SayWhichPathIsNotThere) {
+  const std::string gone = path("gone/x");
+  const auto read = files.read(gone, 9);
+  LONGS_EQUAL(ENOENT, read.error().code);
+  STRCMP_EQUAL((gone + ": cannot be opened: No such file or directory").c_str(),
+               read.error().text.c_str());
+  LONGS_EQUAL(ENOENT, files.create(gone).error().code);
+  LONGS_EQUAL(ENOENT, files.sync_folder(path("gone")).error().code);
+  LONGS_EQUAL(ENOENT, files.check_folder(path("gone")).error().code);
+  LONGS_EQUAL(ENOENT, files.rename(gone, path("y")).error().code);
+}
+
+TEST(PosixFiles, AFileIsNoFolderAndAFolderIsNoFile) {
+  put("x", "1");
+  LONGS_EQUAL(ENOTDIR, files.check_folder(path("x")).error().code);
+  LONGS_EQUAL(EISDIR, files.read(folder.path(), 9).error().code);
+}
+
+TEST(PosixFiles, DoNotWaitForAPipeThatStandsInAFilesPlace) {
+  LONGS_EQUAL(0, mkfifo(path("pipe").c_str(), 0600));
+  STRCMP_EQUAL("", files.read(path("pipe"), 9)->c_str());
+}
+
+TEST(PosixFiles, ReportAFullDisk) {
+  const NewFile full{open("/dev/full", O_WRONLY | O_CLOEXEC), "/dev/full"};
+  const auto written = files.write(full, "x");
+  LONGS_EQUAL(ENOSPC, written.error().code);
+  STRCMP_EQUAL("/dev/full: cannot be written: No space left on device",
+               written.error().text.c_str());
+  CHECK(files.close(full).has_value());
+  LONGS_EQUAL(EBADF, files.close(full).error().code);
+}

@@ -1,0 +1,166 @@
+#include "storage/store.hpp"
+
+#include <cerrno>
+#include <limits>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/io/storage/support/store_on_a_disk.hpp"
+
+using namespace supercoil;
+using namespace supercoil::storage;
+using namespace supercoil::test;
+
+TEST_GROUP_BASE(LearnedStore, StoreOnADisk){};
+
+TEST(LearnedStore, HasNothingAtFirst) {
+  const auto loaded = store.load();
+  CHECK(loaded.has_value());
+  CHECK(loaded->source == Source::nothing);
+  CHECK_FALSE(loaded->learned.has_value());
+  CHECK(loaded->problems.empty());
+}
+
+TEST(LearnedStore, GivesBackWhatWasSavedLast) {
+  for (const int n : {1, 2, 3})
+    save(n);
+  check_loaded(Source::current, 3);
+}
+
+TEST(LearnedStore, CountsTheVersionsWhateverItIsGiven) {
+  board::Learned set = nth_set(1);
+  set.version = 77;
+  LONGS_EQUAL(1, *store.save(set));
+  LONGS_EQUAL(2, *store.save(nth_set(2)));
+  LONGS_EQUAL(2, store.load()->learned->version);
+}
+
+TEST(LearnedStore, ForgetsAllAndBeginsAnew) {
+  save(1);
+  save(2);
+  CHECK(store.forget().has_value());
+  CHECK(store.load()->source == Source::nothing);
+  CHECK(store.load()->problems.empty());
+  LONGS_EQUAL(2, which(*decode(text_of(path + ".cleared"))));
+  LONGS_EQUAL(1, *store.save(nth_set(3)));
+  check_loaded(Source::current, 3);
+  CHECK(store.forget().has_value());
+  CHECK(store.forget().has_value());
+  LONGS_EQUAL(3, which(*decode(text_of(path + ".cleared"))));
+}
+
+TEST(LearnedStore, KeepsTheComparisonOfTheSensesWhenTheMuscleIsForgotten) {
+  board::Learned set = nth_set(1);
+  set.senses = {1.25, 0.875, 0.0625, 1.7e9};
+  CHECK(store.save(nth_set(2)).has_value());
+  CHECK(store.save(set).has_value());
+  for (int i = 0; i < 2; ++i) {
+    CHECK(store.forget().has_value());
+    const auto kept = store.load()->learned;
+    CHECK(kept.has_value());
+    CHECK_FALSE(kept->knows_muscle);
+    CHECK(kept->senses == set.senses);
+    LONGS_EQUAL(1, kept->version);
+    // Still the muscle, when there was none to forget.
+    CHECK(decode(text_of(path + ".cleared"))->knows_muscle);
+  }
+}
+
+TEST(LearnedStore, ForgetsWithTheMuscleWhatIsKnownOfItsHeat) {
+  for (const bool knows_muscle : {true, false}) {
+    board::Learned set = nth_set(1);
+    set.senses = {1.25, 0.875, 0.0625, 1.7e9};
+    set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
+    set.knows_muscle = knows_muscle;
+    CHECK(store.save(set).has_value());
+    CHECK(store.forget().has_value());
+    CHECK(store.load()->learned->heat == board::HeatFacts{});
+    CHECK(store.load()->learned->senses == set.senses);
+  }
+}
+
+TEST(LearnedStore, StillSavesWhenTheVersionsHaveRunOut) {
+  board::Learned last = nth_set(1);
+  last.version = std::numeric_limits<std::uint32_t>::max();
+  save(2);
+  text_of(path) = encode(last);
+  CHECK(*store.save(nth_set(3)) == std::numeric_limits<std::uint32_t>::max());
+  check_loaded(Source::current, 3);
+}
+
+TEST(LearnedStore, WritesNothingWhenTheContentIsTheSame) {
+  save(1);
+  save(2);
+  const int changes = files.changes();
+  LONGS_EQUAL(2, *store.save(nth_set(2)));
+  LONGS_EQUAL(changes, files.changes());
+}
+
+TEST(LearnedStore, MakesSureOfTheFolderWhenAnEarlierSaveDidNot) {
+  const int calls = [] {
+    Disk trial;
+    SimulatedFiles counted(trial);
+    static_cast<void>(LearnedStore("/d", 3, counted).save(nth_set(1)));
+    return counted.calls();
+  }();
+  SimulatedFiles failing(disk, {calls - 1, EIO, false, false});
+  LearnedStore unsure("/d", 3, failing);
+  CHECK_FALSE(unsure.save(nth_set(1)).has_value());
+  CHECK(disk.survivors().size() > 1);
+  CHECK(unsure.save(nth_set(1)).has_value());
+  LONGS_EQUAL(1, disk.survivors().size());
+}
+
+TEST(LearnedStore, RefusesASetThatFailsItsCheckAndTouchesNothing) {
+  save(1);
+  const Content before = disk.seen();
+  const int changes = files.changes();
+  board::Learned bad = nth_set(2);
+  bad.muscle.stiffness_N_per_m = -16.0;
+  const auto saved = store.save(bad);
+  CHECK_FALSE(saved.has_value());
+  STRCMP_EQUAL("is not stored: stiffness_N_per_m = -16 is out of range: must be 0.01 to 1e+06",
+               saved.error().c_str());
+  bad.muscle.stiffness_N_per_m = std::numeric_limits<double>::quiet_NaN();
+  CHECK_FALSE(store.save(bad).has_value());
+  CHECK(disk.seen() == before);
+  LONGS_EQUAL(changes, files.changes());
+}
+
+TEST(LearnedStore, LoadingChangesNothing) {
+  save(1);
+  save(2);
+  text_of(path) = "damaged";
+  const Content before = disk.seen();
+  const int changes = files.changes();
+  static_cast<void>(store.load());
+  CHECK(disk.seen() == before);
+  LONGS_EQUAL(changes, files.changes());
+}
+
+TEST(LearnedStore, LeavesNothingButItsFilesBehind) {
+  for (int n = 1; n <= 3; ++n)
+    save(n);
+  LONGS_EQUAL(2, disk.names.size());
+}
+
+/// As a power cut between the two renames of a save may leave them: a third name could not be
+/// renamed over the second of the same file.
+TEST(LearnedStore, LeavesNothingBehindWhereBothNamesAreOneFile) {
+  save(1);
+  save(2);
+  disk.names.at(path + ".previous") = disk.names.at(path);
+  save(3);
+  LONGS_EQUAL(2, disk.names.size());
+  check_loaded(Source::current, 3);
+  LONGS_EQUAL(2, which(*decode(text_of(path + ".previous"))));
+}
+
+TEST(LearnedStore, ChannelsDoNotMeet) {
+  LearnedStore other("/d", 4, files);
+  save(1);
+  CHECK(other.load()->source == Source::nothing);
+  CHECK(other.save(nth_set(2)).has_value());
+  check_loaded(Source::current, 1);
+}

@@ -1,0 +1,60 @@
+#include "text/command_text.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil;
+
+TEST_GROUP(CommandText){
+    static Command read(std::string_view text){const auto command = parse_command(text, 4);
+if (!command) FAIL(command.error().c_str());
+return *command;
+}
+static void check_wrong(std::string_view text, const char* why) {
+  const auto command = parse_command(text, 4);
+  CHECK_FALSE(command.has_value());
+  STRCMP_EQUAL(why, command.error().c_str());
+}
+}
+;
+
+TEST(CommandText, ChannelVerbAndValue) {
+  const Command follow = read(" 2  position 0.0125\n");
+  LONGS_EQUAL(1, follow.channel);
+  CHECK(follow.verb == Verb::position);
+  DOUBLES_EQUAL(0.0125, follow.value, 0.0);
+  CHECK(read("1 arm").verb == Verb::arm);
+  CHECK(read("4 power 1e0").verb == Verb::power);
+  CHECK(read("1 compare_supply 12.03").verb == Verb::compare_supply);
+  DOUBLES_EQUAL(0.217, read("1 compare_current 0.217").value, 0.0);
+  DOUBLES_EQUAL(61.5, read("1 compare_rise 61.5").value, 0.0);
+  CHECK(read("1 store").verb == Verb::store);
+  DOUBLES_EQUAL(1.0, read("1 store").value, 0.0);
+  CHECK(read("1 clear").verb == Verb::store);
+  DOUBLES_EQUAL(0.0, read("1 clear").value, 0.0);
+}
+
+TEST(CommandText, WhatIsWrongIsSaid) {
+  check_wrong("", "channel '': must be 1 to 4");
+  check_wrong("0 arm", "channel '0': must be 1 to 4");
+  check_wrong("5 arm", "channel '5': must be 1 to 4");
+  check_wrong("-1 arm", "channel '-1': must be 1 to 4");
+  check_wrong("99999999999999999999 arm", "channel '99999999999999999999': must be 1 to 4");
+  check_wrong("1 position", "'': position needs a number");
+  check_wrong("1 position 5mm", "'5mm': position needs a number");
+  check_wrong("1 position nan", "'nan': position needs a number");
+  check_wrong("1 power inf", "'inf': power needs a number");
+  check_wrong("1 arm now", "'now' is too much");
+  check_wrong("1 heat",
+              "'heat' is not a command; there are arm, disarm, reset, position, power, renew, "
+              "rest, identify, calibrate, scale, controller, estimator, store, compare_supply, "
+              "compare_current, compare_rise, clear");
+  check_wrong("1 store 1", "'1' is too much");
+}
+
+TEST(CommandText, EveryRefusalHasAName) {
+  STRCMP_EQUAL("ok", answer_text(Refusal::none, NAN).c_str());
+  STRCMP_EQUAL("refused: wrong_state", answer_text(Refusal::wrong_state, NAN).c_str());
+  STRCMP_EQUAL("refused: no_such_channel", answer_text(Refusal::no_such_channel, NAN).c_str());
+  STRCMP_EQUAL("refused: out_of_range; 0.025 would be obeyed",
+               answer_text(Refusal::out_of_range, 0.025).c_str());
+}

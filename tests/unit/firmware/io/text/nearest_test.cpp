@@ -1,0 +1,24 @@
+#include "text/nearest.hpp"
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil::config;
+
+TEST_GROUP(Nearest){};
+
+TEST(Nearest, ForgottenUnitComesFirst) {
+  const Nearest nearest = nearest_name("max", {"min_W", "max_W"});
+  STRCMP_EQUAL("max_W", nearest.name.c_str());
+  CHECK(nearest.lacks_unit);
+}
+
+TEST(Nearest, OtherwiseTheFewestEdits) {
+  const Nearest nearest = nearest_name("rate_hz", {"duration_s", "rate_Hz", "seed"});
+  STRCMP_EQUAL("rate_Hz", nearest.name.c_str());
+  CHECK_FALSE(nearest.lacks_unit);
+}
+
+TEST(Nearest, NothingWhenAllAreFar) {
+  STRCMP_EQUAL("", nearest_name("banana", {"seed", "rate_Hz"}).name.c_str());
+  STRCMP_EQUAL("", nearest_name("banana", {}).name.c_str());
+}

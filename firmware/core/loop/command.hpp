@@ -54,12 +54,20 @@ struct Command {
   Source source = Source::local;
 };
 
+/// How a channel takes a command.
+struct Reply {
+  Reply(Refusal why, double instead = NAN) : refusal(why), nearest(instead) {}
+
+  Refusal refusal;
+  /// Of what is out of range: the nearest value that would have been obeyed; NaN: none is known.
+  double nearest;
+};
+
 /// Every command is answered, in order.
 struct Answer {
   Command command;
   Refusal refusal = Refusal::none;
-  /// Of what is out of range: the nearest value that would have been obeyed; NaN: none is known.
-  double nearest = NAN;
+  double nearest = NAN;  ///< as in Reply
 };
 
 }  // namespace supercoil

@@ -99,7 +99,8 @@ void Heater::follow_probe() {
   if (probed_) resistance_.set(probed.resistance_Ohm);
 }
 
-void Heater::tell(const ChannelState& state, Evidence& e) const {
+const HeaterEvidence& Heater::evidence(const ChannelState& state) {
+  HeaterEvidence& e = evidence_;
   e.current = current_;
   e.supply_V = supply_V_;
   e.hot = heat_.hottest_K() > hot_K;
@@ -117,10 +118,24 @@ void Heater::tell(const ChannelState& state, Evidence& e) const {
   e.probe_failed = probe_failed_;
   e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();
   e.resistance_Ohm = resistance_.value_Ohm();
-  const auto [least_Ohm, most_Ohm] = warm_Ohm(cold_Ohm_);
-  e.least_Ohm = least_Ohm;
-  e.most_Ohm = most_Ohm;
+  const auto [min_Ohm, max_Ohm] = warm_Ohm(cold_Ohm_);
+  e.min_Ohm = min_Ohm;
+  e.max_Ohm = max_Ohm;
   e.limited = acting_.limited;
+  return e;
+}
+
+void Heater::publish(Snapshot& s) const {
+  s.probing = probe_.running();
+  s.applied_W = acting_.power_W;
+  s.limited = acting_.limited;
+  s.duty = set_.duty;
+  s.supply_V = supply_V_;
+  s.current_A = current_.present ? current_.value : std::nan("");
+  s.resistance_Ohm = resistance_.value_Ohm();
+  s.resistance_age_s = resistance_.age_s();
+  s.coldest_C = heat_.coldest_C();
+  s.hottest_C = heat_.hottest_C();
 }
 
 void Heater::limit(const ChannelState& state, double wanted_W, double proven_W) {

@@ -14,8 +14,9 @@
 #include "board/probe.hpp"
 #include "board/resistance.hpp"
 #include "loop/settings.hpp"
+#include "loop/snapshot.hpp"
 #include "supervisor/channel_state.hpp"
-#include "supervisor/channel_supervisor.hpp"
+#include "supervisor/evidence.hpp"
 
 namespace supercoil {
 
@@ -49,8 +50,10 @@ class Heater {
   /// How hot what acted since the last tick has made the muscle, by what was set and by what was
   /// measured. supply_V: as read. air: in °C, null without a sensor. periods: since the last tick.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
-  /// Its inputs of the supervisor.
-  void tell(const ChannelState& state, Evidence& e) const;
+  /// For the supervisor, of this tick.
+  const HeaterEvidence& evidence(const ChannelState& state);
+  /// Its part of what is published.
+  void publish(Snapshot& s) const;
   /// proven_W: what a muscle may have by what it has proven.
   void limit(const ChannelState& state, double wanted_W, double proven_W);
   /// may_probe: a resistance that is old may be measured again. dither_W: of the power.
@@ -83,8 +86,10 @@ class Heater {
   double supply_V() const { return supply_V_; }
   /// What a heater that has cold_Ohm when cold has at the muscle's coldest and hottest.
   board::PowerBounds::Interval warm_Ohm(double cold_Ohm) const;
-  const board::Resistance& resistance() const { return resistance_; }
   bool probing() const { return probe_.running(); }
+  /// At this tick; with what it measured, or 0.
+  bool probe_ended() const { return probed_ || probe_failed_; }
+  double probed_Ohm() const { return probed_ ? resistance_.value_Ohm() : 0.0; }
   /// Whether the resistance tells the muscle's temperature now.
   bool tells_temperature() const { return tells_temperature_; }
   const board::Heat& heat() const { return heat_; }
@@ -100,7 +105,6 @@ class Heater {
   const Limiter& limiter() const { return limiter_; }
   const Limiter::Result& allowed() const { return allowed_; }
   const board::AppliedPower& acting() const { return acting_; }
-  double set_duty() const { return set_.duty; }
   bool lines_ok() const { return lines_ok_; }
 
  private:
@@ -123,6 +127,7 @@ class Heater {
   board::HeatFacts facts_;
   board::Measured current_;
   double supply_V_ = 0.0;
+  HeaterEvidence evidence_;
   board::Resistance resistance_;
   board::PowerBounds power_bounds_;
   board::PowerBounds::Interval told_W_{0.0, 0.0};

@@ -99,7 +99,6 @@ void Loop::obey() {
       if (command.verb == Verb::reset) reset_board();
       Channel& channel = *channels_[command.channel];
       answer = channel.answer(command, now_);
-      channel.note_answer(answer.refusal);
     }
     answers_.push(answer);
   }

@@ -44,33 +44,34 @@ ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_re
       refused_(s.refused_in_a_row),
       lost_(s.saturated_s, step_s) {}
 
-Fault ChannelSupervisor::step(const Evidence& e) {
+Fault ChannelSupervisor::step(const AxisEvidence& axis, const HeaterEvidence& heater,
+                              const CommandEvidence& commands) {
   verdict_.begin();
-  judge_sensors(e);
-  judge_heater(e);
-  judge_muscle(e);
-  judge_commands(e);
+  judge_sensors(axis, heater);
+  judge_heater(heater);
+  judge_answer(axis, heater);
+  judge_muscle(axis, heater);
+  judge_commands(commands, axis, heater);
   return verdict_.fault();
 }
 
-void ChannelSupervisor::judge_sensors(const Evidence& e) {
+void ChannelSupervisor::judge_sensors(const AxisEvidence& axis, const HeaterEvidence& heater) {
   using enum Fault;
-  const bool absent = !e.position.present || !e.current.present;
+  const bool absent = !axis.position.present || !heater.current.present;
   verdict_.note(sensor_stale, stale_.step(absent), stale_);
-  if (!e.position.present) return;  // nothing to judge, and stale already says so
-  const double position_m = e.position.value;
-  verdict_.note(sensor_out_of_range, out_of_range_.step(e.sensor_m), out_of_range_);
+  if (!axis.position.present) return;  // nothing to judge, and stale already says so
+  verdict_.note(sensor_out_of_range, out_of_range_.step(axis.sensor_m), out_of_range_);
   // A reading from outside is no position: coming and going it would look like a jump.
   // Judged as the sensor gives it: a new calibration moves every position.
-  if (e.position_elapsed_s > 0.0 && inside(e.sensor_m)) {
-    verdict_.note(sensor_jump, jump_.step(e.sensor_m, e.position_elapsed_s), jump_);
+  if (axis.position_elapsed_s > 0.0 && inside(axis.sensor_m)) {
+    verdict_.note(sensor_jump, jump_.step(axis.sensor_m, axis.position_elapsed_s), jump_);
   }
-  verdict_.note(sensor_frozen, frozen_.step(position_m, e.hot), frozen_);
-  verdict_.note(sensors_disagree, disagree_.step(e.from_resistance_K, e.from_position_K),
+  verdict_.note(sensor_frozen, frozen_.step(axis.position.value, heater.hot), frozen_);
+  verdict_.note(sensors_disagree, disagree_.step(heater.from_resistance_K, axis.from_position_K),
                 disagree_);
 }
 
-void ChannelSupervisor::judge_heater(const Evidence& e) {
+void ChannelSupervisor::judge_heater(const HeaterEvidence& e) {
   using enum Fault;
   const double current_A = e.current.present ? e.current.value : 0.0;
   verdict_.note(duty_wrong, wrong_duty_.step(e.set_step, e.devices_ok ? e.read_back : 1 << 30),
@@ -87,44 +88,52 @@ void ChannelSupervisor::judge_heater(const Evidence& e) {
   verdict_.note(heater_short, short_.step(judged ? current_A - most_A : 0.0), short_);
   const double measured_W = e.supply_V * current_A;
   verdict_.note(power_limit_exceeded, power_.step(measured_W), power_);
-  if (e.position.present) {
-    verdict_.note(heater_not_responding, not_responding_.step(e.position.value, e.expected_m),
-                  not_responding_);
+}
+
+void ChannelSupervisor::judge_answer(const AxisEvidence& axis, const HeaterEvidence& heater) {
+  using enum Fault;
+  if (axis.recalibrated) not_responding_.reset();
+  if (!heater.current.present) return;
+  if (axis.position.present) {
+    verdict_.note(heater_not_responding,
+                  not_responding_.step(axis.position.value, heater.expected_m), not_responding_);
   }
-  if (e.unanswered) {
-    verdict_.note(heater_not_responding, unanswered_.step(true, e.answer), unanswered_);
+  if (axis.unanswered) {
+    verdict_.note(heater_not_responding, unanswered_.step(true, axis.answer), unanswered_);
   }
 }
 
-void ChannelSupervisor::judge_muscle(const Evidence& e) {
+void ChannelSupervisor::judge_muscle(const AxisEvidence& axis, const HeaterEvidence& heater) {
   using enum Fault;
-  verdict_.note(over_temperature, temperature_.step(e.hottest_C), temperature_);
-  if (e.position.present && inside(e.sensor_m)) {
-    verdict_.note(over_travel, travel_.step(e.position.value), travel_);
+  verdict_.note(over_temperature, temperature_.step(heater.hottest_C), temperature_);
+  if (axis.position.present && inside(axis.sensor_m)) {
+    verdict_.note(over_travel, travel_.step(axis.position.value), travel_);
   }
-  verdict_.note(energy_budget_exceeded, energy_.step(e.measured_W), energy_);
+  verdict_.note(energy_budget_exceeded, energy_.step(heater.measured_W), energy_);
   // While heating as well: a sense that tells too little current makes the power stage give more.
-  if (e.resistance_fresh) {
+  if (heater.resistance_fresh) {
     verdict_.note(resistance_drift,
-                  drift_.step(e.resistance_Ohm, e.least_Ohm, e.most_Ohm, e.probed), drift_);
+                  drift_.step(heater.resistance_Ohm, heater.min_Ohm, heater.max_Ohm, heater.probed),
+                  drift_);
   } else {
     drift_.skip();
   }
-  if (e.probe_failed) verdict_.note(heater_open, true, open_);
+  if (heater.probe_failed) verdict_.note(heater_open, true, open_);
 }
 
-void ChannelSupervisor::judge_commands(const Evidence& e) {
+void ChannelSupervisor::judge_commands(const CommandEvidence& commands, const AxisEvidence& axis,
+                                       const HeaterEvidence& heater) {
   using enum Fault;
   // Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
-  const bool wants_more = e.heating && e.limited && e.wanted_W > e.applied_W;
-  verdict_.note(controller_invalid, lost_.step(e.wanted_W, wants_more), lost_);
-  verdict_.note(command_timeout, expired_.step(e.renewed, e.heating), expired_);
+  const bool wants_more = commands.heating && heater.limited && axis.wanted_W > heater.applied_W;
+  verdict_.note(controller_invalid, lost_.step(axis.wanted_W, wants_more), lost_);
+  verdict_.note(command_timeout, expired_.step(commands.renewed, commands.heating), expired_);
   // Only an obeyed command ends a row: damaged and refused ones may alternate.
-  if (e.damaged_command || e.obeyed_command) {
-    verdict_.note(command_damaged, damaged_.step(e.damaged_command), damaged_);
+  if (commands.damaged || commands.obeyed) {
+    verdict_.note(command_damaged, damaged_.step(commands.damaged), damaged_);
   }
-  if (e.refused_command || e.obeyed_command) {
-    verdict_.note(command_not_allowed, refused_.step(e.refused_command), refused_);
+  if (commands.refused || commands.obeyed) {
+    verdict_.note(command_not_allowed, refused_.step(commands.refused), refused_);
   }
 }
 

@@ -15,6 +15,12 @@ using supercoil::test::tick_s;
 
 namespace {
 
+struct Evidence {
+  AxisEvidence axis;
+  HeaterEvidence heater;
+  CommandEvidence commands;
+};
+
 /// A muscle of 10 Ohm that is heated with 3.6 W, hot and where it should be.
 class Channel {
  public:
@@ -24,27 +30,27 @@ class Channel {
 
   Channel() {
     Evidence& e = evidence;
-    e.position = {0.01, 0.0, true, hal::Status::ok};
-    e.sensor_m = 0.01;
-    e.position_elapsed_s = tick_s;
-    e.current = {0.3, 0.0, true, hal::Status::ok};
-    e.supply_V = 12.0;
-    e.hot = e.heating = true;
-    e.off = false;
-    e.duty = 0.25;
-    e.set_step = e.read_back = 1000;
-    e.expected_m = {0.01, 0.01, 0.01};
-    e.hottest_C = 100.0;
-    e.applied_W = e.measured_W = e.wanted_W = 3.6;
-    e.resistance_Ohm = e.least_Ohm = e.most_Ohm = 10.0;
-    e.renewed = e.obeyed_command = true;
+    e.axis.position = {0.01, 0.0, true, hal::Status::ok};
+    e.axis.sensor_m = 0.01;
+    e.axis.position_elapsed_s = tick_s;
+    e.heater.current = {0.3, 0.0, true, hal::Status::ok};
+    e.heater.supply_V = 12.0;
+    e.heater.hot = e.commands.heating = true;
+    e.heater.off = false;
+    e.heater.duty = 0.25;
+    e.heater.set_step = e.heater.read_back = 1000;
+    e.heater.expected_m = {0.01, 0.01, 0.01};
+    e.heater.hottest_C = 100.0;
+    e.heater.applied_W = e.heater.measured_W = e.axis.wanted_W = 3.6;
+    e.heater.resistance_Ohm = e.heater.min_Ohm = e.heater.max_Ohm = 10.0;
+    e.commands.renewed = e.commands.obeyed = true;
   }
   Fault step() {
     if (sensor_lives) noise_m_ = -noise_m_;
     Evidence now = evidence;
-    now.position.value += noise_m_;
-    now.sensor_m += noise_m_;
-    return supervisor.step(now);
+    now.axis.position.value += noise_m_;
+    now.axis.sensor_m += noise_m_;
+    return supervisor.step(now.axis, now.heater, now.commands);
   }
 
  private:
@@ -58,52 +64,52 @@ struct Trouble {
 };
 
 void drift(Evidence& e) {
-  e.resistance_fresh = true;
-  e.resistance_Ohm = 13.1;
+  e.heater.resistance_fresh = true;
+  e.heater.resistance_Ohm = 13.1;
 }
 
 const std::vector<Trouble> troubles{
-    {Fault::sensor_stale, 1, [](Evidence& e) { e.position.present = false; }},
-    {Fault::sensor_stale, 1, [](Evidence& e) { e.current.present = false; }},
-    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.sensor_m = 0.0421; }},
-    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.sensor_m = -0.0021; }},
-    {Fault::sensor_jump, 2, [](Evidence& e) { e.sensor_m = 0.0108; }},
-    {Fault::sensors_disagree, 2000, [](Evidence& e) { e.from_resistance_K = 30.1; }},
-    {Fault::heater_open, 20, [](Evidence& e) { e.current.value = 0.067; }},
-    {Fault::heater_open, 1, [](Evidence& e) { e.probe_failed = true; }},
-    {Fault::heater_short, 2, [](Evidence& e) { e.current.value = 0.651; }},
+    {Fault::sensor_stale, 1, [](Evidence& e) { e.axis.position.present = false; }},
+    {Fault::sensor_stale, 1, [](Evidence& e) { e.heater.current.present = false; }},
+    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.axis.sensor_m = 0.0421; }},
+    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.axis.sensor_m = -0.0021; }},
+    {Fault::sensor_jump, 2, [](Evidence& e) { e.axis.sensor_m = 0.0108; }},
+    {Fault::sensors_disagree, 2000, [](Evidence& e) { e.heater.from_resistance_K = 30.1; }},
+    {Fault::heater_open, 20, [](Evidence& e) { e.heater.current.value = 0.067; }},
+    {Fault::heater_open, 1, [](Evidence& e) { e.heater.probe_failed = true; }},
+    {Fault::heater_short, 2, [](Evidence& e) { e.heater.current.value = 0.651; }},
     {Fault::heater_stuck_on, 50,
      [](Evidence& e) {
-       e.off = true;
-       e.current.value = 0.051;
+       e.heater.off = true;
+       e.heater.current.value = 0.051;
      }},
     {Fault::heater_not_responding, 1,
      [](Evidence& e) {
-       e.unanswered = true;
-       e.answer = {0.001, 0.002, true, true};
+       e.axis.unanswered = true;
+       e.axis.answer = {0.001, 0.002, true, true};
      }},
-    {Fault::duty_wrong, 5, [](Evidence& e) { e.read_back = 1001; }},
-    {Fault::duty_wrong, 5, [](Evidence& e) { e.devices_ok = false; }},
-    {Fault::over_temperature, 1, [](Evidence& e) { e.hottest_C = 160.1; }},
-    {Fault::over_temperature, 1, [](Evidence& e) { e.hottest_C = std::nan(""); }},
-    {Fault::over_travel, 1, [](Evidence& e) { e.position.value = 0.0351; }},
-    {Fault::energy_budget_exceeded, 1, [](Evidence& e) { e.measured_W = 298.0 / tick_s; }},
+    {Fault::duty_wrong, 5, [](Evidence& e) { e.heater.read_back = 1001; }},
+    {Fault::duty_wrong, 5, [](Evidence& e) { e.heater.devices_ok = false; }},
+    {Fault::over_temperature, 1, [](Evidence& e) { e.heater.hottest_C = 160.1; }},
+    {Fault::over_temperature, 1, [](Evidence& e) { e.heater.hottest_C = std::nan(""); }},
+    {Fault::over_travel, 1, [](Evidence& e) { e.axis.position.value = 0.0351; }},
+    {Fault::energy_budget_exceeded, 1, [](Evidence& e) { e.heater.measured_W = 298.0 / tick_s; }},
     {Fault::resistance_drift, 500, drift},
     {Fault::resistance_drift, 1,
      [](Evidence& e) {
        drift(e);
-       e.probed = true;
+       e.heater.probed = true;
      }},
-    {Fault::power_limit_exceeded, 100, [](Evidence& e) { e.current.value = 0.4945; }},
-    {Fault::controller_invalid, 1, [](Evidence& e) { e.wanted_W = std::nan(""); }},
+    {Fault::power_limit_exceeded, 100, [](Evidence& e) { e.heater.current.value = 0.4945; }},
+    {Fault::controller_invalid, 1, [](Evidence& e) { e.axis.wanted_W = std::nan(""); }},
     {Fault::controller_invalid, 120000,
      [](Evidence& e) {
-       e.limited = true;
-       e.wanted_W = 3.61;
+       e.heater.limited = true;
+       e.axis.wanted_W = 3.61;
      }},
-    {Fault::command_timeout, 251, [](Evidence& e) { e.renewed = false; }},
-    {Fault::command_damaged, 10, [](Evidence& e) { e.damaged_command = true; }},
-    {Fault::command_not_allowed, 10, [](Evidence& e) { e.refused_command = true; }},
+    {Fault::command_timeout, 251, [](Evidence& e) { e.commands.renewed = false; }},
+    {Fault::command_damaged, 10, [](Evidence& e) { e.commands.damaged = true; }},
+    {Fault::command_not_allowed, 10, [](Evidence& e) { e.commands.refused = true; }},
 };
 
 void check_fault(Fault expected, Fault found) {
@@ -144,7 +150,7 @@ TEST(ChannelSupervisor, TellsOfEachTroubleThatItsMarginIsUsed) {
     for (int i = 0; i < trouble.ticks; ++i)
       channel.step();
     const detectors::Margin full = channel.supervisor.verdict().margin(trouble.fault);
-    if (channel.evidence.probe_failed) continue;
+    if (channel.evidence.heater.probe_failed) continue;
     CHECK_COMPARE(full.used(), >=, 0.99);
   }
 }
@@ -176,7 +182,7 @@ TEST(ChannelSupervisor, ForgetsWhatIsOver) {
 TEST(ChannelSupervisor, FindsASensorWithoutItsNoiseWhileTheMuscleIsHot) {
   for (const bool hot : {false, true}) {
     Channel channel;
-    channel.evidence.hot = hot;
+    channel.evidence.heater.hot = hot;
     for (int i = 0; i < 10; ++i)
       check_fault(Fault::none, channel.step());
     channel.sensor_lives = false;
@@ -195,22 +201,22 @@ TEST(ChannelSupervisor, CannotTellASensorWithoutNoiseFromAFrozenOne) {
   ChannelSupervisor supervisor(quiet, 10.0, 10.8, tick_s);
   const Evidence evidence = Channel().evidence;
   for (int i = 0; i < 2000; ++i)
-    check_fault(Fault::none, supervisor.step(evidence));
+    check_fault(Fault::none, supervisor.step(evidence.axis, evidence.heater, evidence.commands));
 }
 
 TEST(ChannelSupervisor, AReadingThatIsNotFreshIsNoJump) {
   Channel channel;
   channel.step();
-  channel.evidence.sensor_m = 0.0108;
-  channel.evidence.position_elapsed_s = 0.0;
+  channel.evidence.axis.sensor_m = 0.0108;
+  channel.evidence.axis.position_elapsed_s = 0.0;
   for (int i = 0; i < 10; ++i)
     check_fault(Fault::none, channel.step());
 }
 
 TEST(ChannelSupervisor, WithoutASupplyThatIsKnownNoCurrentIsAShort) {
   Channel channel;
-  channel.evidence.supply_V = 0.0;
-  channel.evidence.current.value = 1.0;
+  channel.evidence.heater.supply_V = 0.0;
+  channel.evidence.heater.current.value = 1.0;
   for (int i = 0; i < 10; ++i)
     check_fault(Fault::none, channel.step());
 }
@@ -219,8 +225,8 @@ TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome
   for (const Fault fault : {Fault::command_damaged, Fault::command_not_allowed}) {
     Channel channel;
     Evidence& e = channel.evidence;
-    bool& wrong = fault == Fault::command_damaged ? e.damaged_command : e.refused_command;
-    e.obeyed_command = false;
+    bool& wrong = fault == Fault::command_damaged ? e.commands.damaged : e.commands.refused;
+    e.commands.obeyed = false;
     for (int i = 1; i <= 10; ++i) {
       wrong = false;
       check_fault(Fault::none, channel.step());
@@ -232,16 +238,16 @@ TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome
 
 TEST(ChannelSupervisor, CoolingIsNoLostController) {
   Channel channel;
-  channel.evidence.limited = true;
-  channel.evidence.wanted_W = -5.0;
+  channel.evidence.heater.limited = true;
+  channel.evidence.axis.wanted_W = -5.0;
   for (int i = 0; i < 130000; ++i)
     check_fault(Fault::none, channel.step());
 }
 
 TEST(ChannelSupervisor, AnOldCommandIsNoTroubleOfAMuscleThatRests) {
   Channel channel;
-  channel.evidence.heating = false;
-  channel.evidence.renewed = false;
+  channel.evidence.commands.heating = false;
+  channel.evidence.commands.renewed = false;
   for (int i = 0; i < 1000; ++i)
     check_fault(Fault::none, channel.step());
 }

@@ -1,12 +1,12 @@
-// What a channel finds out about its muscle when it is asked to.
+// What an axis finds out about its muscle when it is asked to: identify and calibrate.
 #include <algorithm>
 #include <cmath>
 
-#include "loop/channel.hpp"
+#include "loop/axis.hpp"
 
 namespace supercoil {
 
-void Channel::step_identify() {
+bool Axis::step_identify() {
   if (small_signal_.running()) return step_small_signal();
   const ModeResult now =
       identify_.step(evidence_.position.value, heater_.acting().power_W, heater_.limiter().max_W());
@@ -15,7 +15,7 @@ void Channel::step_identify() {
   wanted_.wanted_power_W =
       std::min(identify_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
   follow_cooling();
-  if (now == ModeResult::running) return;
+  if (now == ModeResult::running) return false;
   wanted_ = {};
   const bool cooling_found = learn_cooling();
   if (now != ModeResult::found && cooling_found) keep_heat(heater_.facts());
@@ -29,61 +29,67 @@ void Channel::step_identify() {
     return end_mode(keep(muscle, calibration_));
   }
   small_signal_.start(plan, ExpectedMotion(muscle, plan.step_s));
+  return false;
 }
 
 /// What a small motion of the muscle that was found leaves at the sensor.
-void Channel::step_small_signal() {
+bool Axis::step_small_signal() {
   if (small_signal_.step(evidence_.position.value, heater_.acting().power_W)) {
     wanted_.wanted_power_W =
         std::min(small_signal_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
-    return;
+    return false;
   }
   wanted_ = {};
   answer_ratio_ = small_signal_.answer_ratio();
-  end_mode(keep(identify_.found(), calibration_));
+  return end_mode(keep(identify_.found(), calibration_));
 }
 
-void Channel::step_calibrate() {
-  if (heater_.probing()) return;
+/// Whether its motion is linear does not matter here.
+void Axis::follow_cooling() {
+  if (cooling_fit_) cooling_fit_->step(evidence_.position.value, heater_.acting().power_W);
+}
+
+/// Position and power alone tell the muscle's time constant only; a weighed mass makes its heat
+/// transfer of that. At the end of identify; whether anything was found.
+bool Axis::learn_cooling() {
+  if (!cooling_fit_) return false;
+  const auto found = cooling_fit_->found();
+  if (!found) return false;
+  board::HeatFacts facts = heater_.facts();
+  facts.time_constant_s = found->time_constant_s;
+  facts.time_constant_at_W = found->mean_W;
+  // The thermometer may have been read of another muscle.
+  const board::KnownHeat known = board::known_heat(settings_.thermal, facts);
+  if (facts.was_read() &&
+      !board::is_possible(known, facts, heater_.power_bounds().true_over_told()))
+    facts.forget_reading();
+  heater_.know(facts);
+  return true;
+}
+
+bool Axis::step_calibrate() {
+  if (heater_.probing()) return false;
   const ModeResult now =
       calibrate_.step(heater_.heat().hottest_K(), evidence_.position.value, step_s_);
   if (now != ModeResult::running) return end_mode(now);
   if (calibrate_.knows_zero()) heater_.start_probe();
+  return false;
 }
 
-/// The probe that follows the zero ends calibration. cold_Ohm: 0 when it measured nothing.
-void Channel::end_calibrate(double cold_Ohm) {
-  const ModeResult now = calibrate_.probed(cold_Ohm);
+bool Axis::end_probe() {
+  if (mode_ != Mode::calibrate || !heater_.probe_ended()) return false;
+  const ModeResult now = calibrate_.probed(heater_.probed_Ohm());
   if (now != ModeResult::found) return end_mode(now);
   board::Calibration found = calibration_;
   found.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
   found.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
-  end_mode(keep(muscle_, found));
+  return end_mode(keep(muscle_, found));
 }
 
-void Channel::end_mode(ModeResult result) {
+bool Axis::end_mode(ModeResult result) {
   result_ = result;
-  state_.rest();
   rest();
-}
-
-/// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
-ModeResult Channel::keep(const control::PhysicalParameters& muscle,
-                         const board::Calibration& found) {
-  const board::Learned learned{muscle, found,           heater_.senses(), 0,
-                               true,   heater_.facts(), answer_ratio_};
-  if (board::check(learned)) return ModeResult::implausible;
-  if (found != calibration_) {
-    supervisor_.recalibrated();
-    proof_.recalibrated();
-  }
-  const double answer_ratio = answer_ratio_ > 0.0 ? answer_ratio_ : 1.0;
-  if (!(muscle == muscle_) || answer_ratio != proof_.settings().answer_ratio)
-    proof_.learn(muscle, answer_ratio);
-  muscle_ = muscle;
-  calibrate(found);
-  knows_muscle_ = true;
-  return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
+  return true;
 }
 
 }  // namespace supercoil

@@ -1,0 +1,141 @@
+// One muscle's motion: its position, its heater, what is known of it, and what moves it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <boost/lockfree/spsc_queue.hpp>
+
+#include "supercoil/control/estimation/cooling_fit.hpp"
+
+#include "board/meter_comparison.hpp"
+#include "board/steady_heat.hpp"
+#include "loop/command.hpp"
+#include "loop/estimation.hpp"
+#include "loop/heater.hpp"
+#include "loop/settings.hpp"
+#include "loop/snapshot.hpp"
+#include "loop/tracking.hpp"
+#include "modes/calibrate.hpp"
+#include "modes/identify.hpp"
+#include "supervisor/channel_state.hpp"
+#include "supervisor/evidence.hpp"
+#include "supervisor/proof.hpp"
+#include "supervisor/small_signal.hpp"
+
+namespace supercoil {
+
+/// Reads the channel's state, and never changes it: what ends by itself is told to the channel.
+class Axis {
+ public:
+  /// Devices and state outlive the axis. Allocates; nothing after it does.
+  Axis(const ChannelSettings& settings, const BoardSettings& board,
+       const board::ChannelDevices& devices, const ChannelState& state);
+
+  // In a tick, in this order.
+  void sample(hal::Time now);
+  /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
+  void observe(double supply_V, const board::Measured* air, std::int64_t periods);
+  const AxisEvidence& evidence() const { return evidence_; }
+  /// The supervisor has judged what happened since the last tick.
+  void judged() {
+    evidence_.position_elapsed_s = 0.0;
+    evidence_.recalibrated = false;
+  }
+  /// A sensor that is well cannot give this position.
+  void reject_position() { evidence_.position.present = false; }
+  /// A probe may have ended calibrate; true when it did.
+  bool end_probe();
+  void estimate();
+  /// True when a mode ended: the axis rests.
+  bool control();
+  void limit() { heater_.limit(state_, proof_.added_to(wanted_.wanted_power_W), proof_.max_W()); }
+  /// Calibrate probes when it has found the zero, and not before.
+  void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
+  /// Its part of what is published, with the heater's. turn: of a full turn, what is told in turn.
+  void publish(std::uint32_t turn, Snapshot& s) const;
+
+  /// Whether it may be armed: everything is measured, and how hot the muscle is is known.
+  bool ready() const;
+  /// Whether a command to heat can be followed. What it asks for is limited to what is reachable.
+  Reply admits(Mode mode, double& value) const;
+  /// The channel became active.
+  void start() { estimation_.restart(); }
+  /// Follows what was admitted. value: m, or W in open loop.
+  void follow(Mode mode, double value);
+  void rest();
+  /// Cold, at once.
+  void disarm();
+  /// Commands that neither arm nor heat.
+  Reply obey(const Command& command);
+
+  Mode mode() const { return mode_; }
+  const board::Measured& position() const { return evidence_.position; }
+  const Estimation& estimation() const { return estimation_; }
+  Heater& heater() { return heater_; }
+  const Heater& heater() const { return heater_; }
+  /// As Channel::take_lesson.
+  bool take_lesson(board::Lesson& lesson) { return lessons_.pop(lesson); }
+
+ private:
+  void prove(std::int64_t periods);
+  void learn_heat();
+  LimitedBy limited_by() const;
+  void enter(Mode mode);
+
+  bool step_identify();
+  bool step_small_signal();
+  bool step_calibrate();
+  bool end_mode(ModeResult result);
+  void follow_cooling();
+  bool learn_cooling();
+
+  Reply scale(double true_m);
+  Reply choose_controller(double place);
+  Reply choose_estimator(double place);
+  Refusal store(double what);
+  Refusal compare(board::MeterComparison::Sense sense, double meter);
+  Refusal compare_rise(double rise_K);
+  Refusal go_by(const board::SenseComparison& senses);
+  void follow_comparisons();
+  void restart_comparisons();
+
+  board::Learned known() const;
+  static Refusal refusal_of(ModeResult kept);
+  ModeResult keep(const control::PhysicalParameters& muscle, const board::Calibration& found);
+  Refusal keep_heat(const board::HeatFacts& facts);
+  void calibrate(const board::Calibration& calibration);
+
+  ChannelSettings settings_;
+  const ChannelState& state_;
+  double step_s_;
+  hal::AdcChannel* sensor_;
+  hal::Time position_taken_{-1};
+  AxisEvidence evidence_;
+  Heater heater_;
+  Tracking tracking_;
+  Estimation estimation_;
+  std::int64_t ticks_per_s_;
+  std::int64_t estimated_ticks_ = 0;  ///< in this second
+  Proof proof_;
+
+  // Known of the muscle; of its heat and of the senses the heater knows.
+  control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
+  bool knows_muscle_;                   ///< learned before or since: what is stored has it
+  board::Calibration calibration_;
+  double answer_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
+  boost::lockfree::spsc_queue<board::Lesson, boost::lockfree::capacity<4>> lessons_;
+
+  Mode mode_ = Mode::rest;
+  double reference_ = 0.0;  ///< m, or W in open loop
+  control::ControllerOutput wanted_;
+  modes::Identify identify_;
+  std::unique_ptr<control::CoolingFit> cooling_fit_;  ///< of a weighed muscle; 36 kB
+  SmallSignal small_signal_;                          ///< the end of identify
+  modes::Calibrate calibrate_{{}};
+  ModeResult result_ = ModeResult::none;  ///< of either
+  board::MeterComparison comparison_;
+  board::SteadyHeat steady_heat_;
+};
+
+}  // namespace supercoil

@@ -1,0 +1,166 @@
+// What an axis does when it is told to.
+#include <algorithm>
+#include <cmath>
+
+#include "loop/axis.hpp"
+
+namespace supercoil {
+
+namespace {
+
+Reply no_such_place(double place, std::size_t places) {
+  return {Refusal::out_of_range, std::clamp(place, 0.0, static_cast<double>(places - 1))};
+}
+
+bool is_place(double place, std::size_t places) {
+  return place >= 0.0 && place < static_cast<double>(places);
+}
+
+}  // namespace
+
+bool Axis::ready() const {
+  return evidence_.position.present && heater_.current().present && heater_.heat_known();
+}
+
+Reply Axis::admits(Mode mode, double& value) const {
+  if (mode == Mode::position) {
+    const double max_m = settings_.supervision.max_travel_m;
+    const double reachable_m = as_float_tells * max_m;
+    const bool reachable = value >= -reachable_m && value <= reachable_m;
+    value = std::clamp(value, -max_m, max_m);
+    if (!reachable) return {Refusal::out_of_range, value};  // a NaN as well
+  } else if (mode == Mode::power) {
+    if (!std::isfinite(value)) return Refusal::out_of_range;
+  } else if (state_.may_heat() && mode != mode_) {
+    return Refusal::busy;
+  }
+  return Refusal::none;
+}
+
+void Axis::follow(Mode mode, double value) {
+  if (mode != mode_ || value != reference_) restart_comparisons();
+  reference_ = value;
+  if (mode != mode_) enter(mode);
+}
+
+/// The channel becomes active in another mode, or changes it while hot.
+void Axis::enter(Mode mode) {
+  const bool was_driven = mode_ == Mode::power || mode_ == Mode::position;
+  if (!was_driven) tracking_.set_power(heater_.acting().power_W);
+  if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
+  mode_ = mode;
+  const double position_m = evidence_.position.value;
+  if (mode == Mode::position) {
+    tracking_.start(position_m, reference_, was_driven, muscle_);
+  } else if (mode == Mode::identify) {
+    identify_.start(position_m);
+    small_signal_.stop();
+    if (cooling_fit_) cooling_fit_->start();
+    result_ = ModeResult::running;
+  } else if (mode == Mode::calibrate) {
+    calibrate_.start();
+    result_ = ModeResult::running;
+  }
+}
+
+Reply Axis::obey(const Command& command) {
+  switch (command.verb) {
+    case Verb::scale:
+      return scale(command.value);
+    case Verb::controller:
+      return choose_controller(command.value);
+    case Verb::estimator:
+      return choose_estimator(command.value);
+    case Verb::store:
+      return store(command.value);
+    case Verb::compare_supply:
+      return compare(board::MeterComparison::supply, command.value);
+    case Verb::compare_current:
+      return compare(board::MeterComparison::current, command.value);
+    case Verb::compare_rise:
+      return compare_rise(command.value);
+    default:
+      return Refusal::out_of_range;
+  }
+}
+
+Reply Axis::choose_controller(double place) {
+  if (!is_place(place, tracking_.controllers()))
+    return no_such_place(place, tracking_.controllers());
+  const auto chosen = static_cast<std::size_t>(place);
+  if (mode_ == Mode::position) {
+    tracking_.take_over(chosen, reference_, muscle_);
+  } else {
+    tracking_.choose(chosen);
+  }
+  return Refusal::none;
+}
+
+Reply Axis::choose_estimator(double place) {
+  if (!is_place(place, estimation_.estimators()))
+    return no_such_place(place, estimation_.estimators());
+  estimation_.choose(static_cast<std::size_t>(place));
+  return Refusal::none;
+}
+
+Reply Axis::scale(double true_m) {
+  const double measured_m = evidence_.position.value;
+  // A controller would jump at the new scale.
+  if (mode_ == Mode::position) return Refusal::wrong_state;
+  if (!evidence_.position.present) return Refusal::not_ready;
+  board::Calibration found = calibration_;
+  found.position_scale *= true_m / measured_m;
+  return true_m > 0.0 ? refusal_of(keep(muscle_, found)) : Refusal::out_of_range;
+}
+
+/// Averages what the senses tell while a power is held, and waits for steady heat.
+void Axis::follow_comparisons() {
+  const board::Measured& current = heater_.current();
+  const bool sensed = current.present && heater_.supply_V() > 0.0;
+  if (!sensed || heater_.allowed().by > LimitedBy::maximum) return restart_comparisons();
+  comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);
+  if (heater_.senses().compared()) {
+    steady_heat_.step(heater_.told_W(), heater_.heat().hottest_K());
+  } else {
+    steady_heat_.restart();
+  }
+}
+
+void Axis::restart_comparisons() {
+  comparison_.restart();
+  steady_heat_.restart();
+}
+
+/// What the meter shows. Of the supply, 0 forgets the comparison.
+Refusal Axis::compare(board::MeterComparison::Sense sense, double meter) {
+  const bool active = state_.may_heat();
+  if (sense == board::MeterComparison::supply && meter == 0.0)
+    return active ? Refusal::wrong_state : go_by({});
+  if (!active || mode_ != Mode::power) return Refusal::wrong_state;
+  // Not the calibrated resistance: the senses that are in question measured that.
+  const Refusal refusal = comparison_.read(sense, meter, heater_.senses(),
+                                           heater_.warm_Ohm(settings_.heater.cold_resistance_Ohm));
+  if (refusal != Refusal::none) return refusal;
+  const auto found = comparison_.found();
+  return found ? go_by(*found) : Refusal::none;
+}
+
+/// How much warmer the muscle is than the air, in steady heat. 0 forgets what was read.
+Refusal Axis::compare_rise(double rise_K) {
+  const bool active = state_.may_heat();
+  board::HeatFacts facts = heater_.facts();
+  if (rise_K == 0.0) {
+    if (active) return Refusal::wrong_state;
+    facts.forget_reading();
+  } else {
+    if (!active || mode_ != Mode::power) return Refusal::wrong_state;
+    const Refusal refusal =
+        steady_heat_.read(rise_K, heater_.power_bounds().true_over_told(), facts);
+    if (refusal != Refusal::none) return refusal;
+  }
+  if (const Refusal refusal = keep_heat(facts); refusal != Refusal::none) return refusal;
+  heater_.know(facts);
+  return Refusal::none;
+}
+
+}  // namespace supercoil

@@ -1,0 +1,95 @@
+// What an axis knows of its muscle, and hands to whoever stores it.
+#include "loop/axis.hpp"
+
+namespace supercoil {
+
+namespace {
+
+/// What the senses tell of a resistance, over what they would tell without gains.
+double resistance_gain(const board::SenseComparison& senses) {
+  return senses.supply_gain / senses.current_gain;
+}
+
+}  // namespace
+
+/// To a command that wants something kept.
+Refusal Axis::refusal_of(ModeResult kept) {
+  if (kept == ModeResult::not_stored) return Refusal::too_many;
+  return kept == ModeResult::found ? Refusal::none : Refusal::out_of_range;
+}
+
+board::Learned Axis::known() const {
+  return {muscle_,       calibration_,    heater_.senses(), 0,
+          knows_muscle_, heater_.facts(), answer_ratio_};
+}
+
+void Axis::calibrate(const board::Calibration& calibration) {
+  calibration_ = calibration;
+  heater_.calibrate(calibration.cold_resistance_Ohm);
+}
+
+/// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.
+ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Calibration& found) {
+  board::Learned learned = known();
+  learned.muscle = muscle;
+  learned.calibration = found;
+  learned.knows_muscle = true;
+  if (board::check(learned)) return ModeResult::implausible;
+  if (found != calibration_) {
+    evidence_.recalibrated = true;
+    proof_.recalibrated();
+  }
+  const double answer_ratio = answer_ratio_ > 0.0 ? answer_ratio_ : 1.0;
+  if (!(muscle == muscle_) || answer_ratio != proof_.settings().answer_ratio)
+    proof_.learn(muscle, answer_ratio);
+  muscle_ = muscle;
+  calibrate(found);
+  knows_muscle_ = true;
+  return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
+}
+
+/// For the next start. What is not kept holds until then.
+Refusal Axis::keep_heat(const board::HeatFacts& facts) {
+  board::Learned learned = known();
+  learned.heat = facts;
+  const bool kept = !board::check(learned) && lessons_.push(learned);
+  return kept ? Refusal::none : Refusal::too_many;
+}
+
+/// From now on, and kept for the next start. What cannot be kept changes nothing.
+Refusal Axis::go_by(const board::SenseComparison& senses) {
+  const double more_Ohm = resistance_gain(senses) / resistance_gain(heater_.senses());
+  board::Learned learned = known();
+  learned.senses = senses;
+  // The thermometer was read in what the senses told then.
+  learned.heat.forget_reading();
+  // A learned resistance was told by the senses as they were; a configured one was not.
+  double& cold_Ohm = learned.calibration.cold_resistance_Ohm;
+  if (cold_Ohm != settings_.heater.cold_resistance_Ohm) cold_Ohm *= more_Ohm;
+  if (board::check(learned)) return Refusal::out_of_range;
+  if (!lessons_.push(learned)) return Refusal::too_many;
+  calibrate(learned.calibration);
+  heater_.go_by(senses, more_Ohm);
+  heater_.know(learned.heat);
+  proof_.plan(heater_.power_bounds().true_over_told().max, muscle_);
+  comparison_.forget();
+  restart_comparisons();
+  return Refusal::none;
+}
+
+/// A running channel goes on with the muscle that it knows: what was cleared is not known at the
+/// next start. What was found of its heat is forgotten at once, as wide bounds are safe.
+Refusal Axis::store(double what) {
+  if (what == 0.0) {
+    if (!lessons_.push(std::nullopt)) return Refusal::too_many;
+    knows_muscle_ = false;
+    heater_.know({});
+    return Refusal::none;
+  }
+  if (what != 1.0) return Refusal::out_of_range;
+  if (!estimation_.trusted()) return Refusal::not_ready;
+  const auto muscle = estimation_.trusted_muscle(muscle_);
+  return muscle ? refusal_of(keep(*muscle, calibration_)) : Refusal::out_of_range;
+}
+
+}  // namespace supercoil

@@ -1,0 +1,59 @@
+#include "loop/estimation.hpp"
+
+#include <cmath>
+
+#include "supercoil/control/actuator/conversions.hpp"
+
+namespace supercoil {
+
+namespace {
+
+/// Infinity is an estimator's word for what it cannot tell.
+double nan_if_infinite(double deviation) {
+  return std::isfinite(deviation) ? deviation : std::nan("");
+}
+
+}  // namespace
+
+Estimation::Estimation(const std::vector<control::EstimatorSettings>& estimators, double step_s) {
+  for (const auto& estimator : estimators)
+    estimators_.emplace_back(estimator, step_s);
+  estimate_ = estimators_[chosen_].estimate();
+}
+
+void Estimation::choose(std::size_t place) {
+  chosen_ = place;
+  restart();
+  estimate_ = estimators_[chosen_].estimate();
+}
+
+void Estimation::step(double position_m, double applied_W) {
+  control::Estimator& estimator = estimators_[chosen_];
+  estimator.step(position_m, applied_W);
+  estimate_ = estimator.estimate();
+}
+
+std::optional<control::PhysicalParameters> Estimation::trusted_muscle(
+    const control::PhysicalParameters& known) const {
+  if (!trusted()) return std::nullopt;
+  return control::physical_from(estimate_->theta,
+                                {known.force_per_kelvin_N_per_K, known.moving_mass_kg});
+}
+
+void Estimation::publish(std::uint32_t turn, Snapshot& s) const {
+  control::Estimate e{.theta = control::Theta::Constant(std::nan("")),
+                      .relative_error_bound = std::nan("")};
+  if (estimate_) e = *estimate_;
+  s.theta = e.theta;
+  s.error_bound = e.relative_error_bound;
+  s.trusted = e.trusted;
+  s.deviation = e.deviation.unaryExpr(&nan_if_infinite);
+  s.bias_deviation_W = nan_if_infinite(e.bias_deviation_W);
+  // No bias without a standard deviation.
+  const bool told = !std::isnan(s.bias_deviation_W);
+  s.bias_W = told ? e.bias_W : s.bias_deviation_W;
+  constexpr std::uint64_t asides = aside_names.size() - 1;
+  s.aside = told ? static_cast<std::uint8_t>(1 + (turn * asides >> 32U)) : std::uint8_t{0};
+}
+
+}  // namespace supercoil

@@ -1,0 +1,67 @@
+#include "loop/tracking.hpp"
+
+#include "supercoil/control/actuator/conversions.hpp"
+
+namespace supercoil {
+
+namespace {
+
+/// Long against the sensor's noise, short against the muscle's motion.
+constexpr double smoothing_s = 0.2;
+
+}  // namespace
+
+Tracking::Tracking(const std::vector<control::ControllerSettings>& controllers,
+                   const control::PhysicalParameters& muscle, double step_s)
+    : power_W_(smoothing_s, step_s), error_m_(smoothing_s, step_s) {
+  for (const auto& controller : controllers)
+    controllers_.emplace_back(controller, step_s).suit(control::theta_from(muscle));
+}
+
+void Tracking::start(double position_m, double reference_m, bool hold,
+                     const control::PhysicalParameters& muscle) {
+  error_m_.set(0.0);
+  control::ControllerStart at = start_here(reference_m);
+  at.motion = {position_m, 0.0, 0.0};
+  at.position_m = position_m;
+  at.hold = hold;
+  start(chosen_, at, muscle);
+}
+
+void Tracking::take_over(std::size_t place, double reference_m,
+                         const control::PhysicalParameters& muscle) {
+  control::ControllerStart at = start_here(reference_m);
+  at.hold = true;
+  start(place, at, muscle);
+  chosen_ = place;
+}
+
+control::ControllerOutput Tracking::step(const control::ControllerInput& input,
+                                         const std::optional<control::Estimate>& estimate) {
+  control::Controller& controller = controllers_[chosen_];
+  if (estimate) controller.learn(*estimate);
+  const control::ControllerOutput output = controller.step(input);
+  power_W_.step(input.applied_power_W);
+  error_m_.step(input.position_m - output.model_m);
+  return output;
+}
+
+/// Where the controller that is at work leaves off. Power and error are smoothed alike: a single
+/// tick's carry the sensor's noise times the controller's gain.
+control::ControllerStart Tracking::start_here(double reference_m) const {
+  control::ControllerStart at;
+  at.reference_m = reference_m;
+  at.motion = controllers_[chosen_].motion();
+  at.position_m = at.motion.position + error_m_.value();
+  at.power_W = power_W_.value();
+  return at;
+}
+
+/// With the gains of the muscle that is known by now: one that runs would jump at others.
+void Tracking::start(std::size_t place, const control::ControllerStart& at,
+                     const control::PhysicalParameters& muscle) {
+  controllers_[place].suit(control::theta_from(muscle));
+  controllers_[place].start(at);
+}
+
+}  // namespace supercoil

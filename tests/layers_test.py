@@ -15,7 +15,7 @@ OS_IN_STD = {"thread", "mutex", "filesystem", "fstream", "iostream", "chrono", "
              "map", "condition_variable"}
 CORE = ["supercoil/control/", "supercoil/hal/", "board/", "loop/", "modes/", "supervisor/", "boost/circular_buffer.hpp",
         "boost/lockfree/"]
-IO = ["can_client/", "config/", "plot/", "recorder/", "storage/", "supercoil.h", "telemetry/", "text/", "boost/crc.hpp", "toml++/",
+IO = ["can/", "can_client/", "config/", "plot/", "recorder/", "storage/", "telemetry/", "text/", "boost/crc.hpp", "toml++/",
       "tl/", "fcntl.h", "sys/", "unistd.h"]
 ALLOWED = {
     "control": ["supercoil/control/", "Eigen/", "unsupported/Eigen/"],

@@ -15,7 +15,7 @@ import cantools
 can.log.setLevel("ERROR")  # it warns of each frame that TCP brings in two parts
 HERE = pathlib.Path(__file__).resolve()
 # Beside this file in the package; `supercoil dbc` prints it too.
-DBC = next(file for file in (HERE.with_name("supercoil.dbc"), HERE.parents[2] / "firmware/io/telemetry/supercoil.dbc")
+DBC = next(file for file in (HERE.with_name("supercoil.dbc"), HERE.parents[2] / "firmware/io/can/supercoil.dbc")
            if file.exists())
 PROTOCOL = cantools.database.load_file(DBC)
 COMMAND = PROTOCOL.get_message_by_name("Command")

@@ -8,7 +8,7 @@ import unittest
 
 import cantools
 
-DBC = pathlib.Path(__file__).resolve().parents[2] / "firmware" / "io" / "telemetry" / "supercoil.dbc"
+DBC = pathlib.Path(__file__).resolve().parents[2] / "firmware" / "io" / "can" / "supercoil.dbc"
 
 
 def dbc(*arguments):

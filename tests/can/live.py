@@ -18,7 +18,7 @@ import cantools
 
 import e2e
 
-PROTOCOL = cantools.database.load_file(pathlib.Path(__file__).resolve().parents[2] / "firmware/io/telemetry/supercoil.dbc")
+PROTOCOL = cantools.database.load_file(pathlib.Path(__file__).resolve().parents[2] / "firmware/io/can/supercoil.dbc")
 COMMAND = PROTOCOL.get_message_by_name("Command")
 SETTING_WRITE = PROTOCOL.get_message_by_name("SettingWrite")
 SETTING_READ = PROTOCOL.get_message_by_name("SettingRead")

@@ -12,7 +12,7 @@ import unittest
 import cantools
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DBC = ROOT / "firmware" / "io" / "telemetry" / "supercoil.dbc"
+DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
 LINE = re.compile(r"\((\d+\.\d+)\) can0 ([0-9A-F]{3})#([0-9A-F]*)")
 SCENARIO = "simulation.duration_s = 4.0\n[[event]]\nat_s = 3.0\ntrouble.heater_open = true\n"
 # Of a float in nine digits.

@@ -11,9 +11,9 @@ import unittest
 import cantools
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DBC = ROOT / "firmware" / "io" / "telemetry" / "supercoil.dbc"
-GENERATED = ["firmware/io/telemetry/generated/supercoil.c", "firmware/io/telemetry/generated/supercoil.h", "docs/can-protocol.md",
-             "firmware/io/can_client/generated/protocol.cpp"]
+DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
+GENERATED = ["tests/can/generated/supercoil.c", "tests/can/generated/supercoil.h", "docs/can-protocol.md",
+             "firmware/io/can/generated/messages.hpp"]
 NOT_AVAILABLE = "not_available"
 
 

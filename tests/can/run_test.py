@@ -16,7 +16,7 @@ import cantools
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DBC = ROOT / "firmware" / "io" / "telemetry" / "supercoil.dbc"
+DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
 LINE = re.compile(r"\((\d{10})\.(\d{6})\) can0 ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8})\n")
 TICK_S = 1e-3
 # Moves, estimates otherwise, is limited, and breaks: the flight recording has every tick of the 10 s before.

@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "can/codec.hpp"
 #include "can_client/candump.hpp"
-#include "can_client/decode.hpp"
 #include "fuzz/fuzz.hpp"
 
 using namespace supercoil;
+using namespace supercoil::can;
 using namespace supercoil::can_client;
 
 namespace {

@@ -104,7 +104,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const Page page;
   const std::string_view input = fuzz::text(data, size);
   if (const auto order = parse_order(std::string(input))) {
-    fuzz::require(order->node >= 1 && order->node <= telemetry::most_nodes, "a node is one of 63");
+    fuzz::require(order->node >= 1 && order->node <= can::most_nodes, "a node is one of 63");
     fuzz::require(order->verb != Verb::none && std::isfinite(order->value), "an order can be sent");
   }
   // A stream has no end.

@@ -18,7 +18,7 @@ CORPUS = pathlib.Path(__file__).parent / "corpus"
 TO_CHANNEL, WITH_SESSION, WITH_COUNTER, SEALED, WHOLE, WITH_NONCE = 1, 2, 4, 8, 16, 32
 HOLDER = TO_CHANNEL | WITH_SESSION | WITH_COUNTER | SEALED | WHOLE
 STRANGER = TO_CHANNEL | SEALED | WHOLE
-DBC = cantools.database.load_file(pathlib.Path(__file__).parents[2] / "firmware/io/telemetry/supercoil.dbc")
+DBC = cantools.database.load_file(pathlib.Path(__file__).parents[2] / "firmware/io/can/supercoil.dbc")
 OPCODE = {str(name): number for number, name in
           DBC.get_message_by_name("Command").get_signal_by_name("opcode").choices.items()}
 

@@ -30,7 +30,7 @@ STEP_MS = 2.0
 
 
 def protocol():
-    return cantools.database.load_file(rig.ROOT / "firmware" / "io" / "telemetry" / "supercoil.dbc")
+    return cantools.database.load_file(rig.ROOT / "firmware" / "io" / "can" / "supercoil.dbc")
 
 
 def disarm_frame(dbc):
@@ -134,7 +134,7 @@ def run_python(architecture):
     build = rig.ARCHITECTURES[architecture].build
     share = build / "python_test"
     shutil.rmtree(share, ignore_errors=True)
-    for name in ("examples/python/move_muscle.py", "firmware/io/telemetry/supercoil.dbc"):
+    for name in ("examples/python/move_muscle.py", "firmware/io/can/supercoil.dbc"):
         (share / "source" / name).parent.mkdir(parents=True)
         shutil.copy(rig.ROOT / name, share / "source" / name)
     shutil.copytree(build / "python", share / "python", copy_function=os.link, symlinks=True)

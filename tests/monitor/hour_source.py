@@ -16,7 +16,7 @@ UPLOT = ROOT / "toolchain" / "page" / "node_modules" / "uplot" / "dist"
 FILES = {"/": PAGE / "index.html", "/uplot.js": UPLOT / "uPlot.iife.min.js", "/uplot.css": UPLOT / "uPlot.min.css"}
 TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 NODES = (1, 2, 3, 4)
-DATABASE = cantools.database.load_file(ROOT / "firmware" / "io" / "telemetry" / "supercoil.dbc")
+DATABASE = cantools.database.load_file(ROOT / "firmware" / "io" / "can" / "supercoil.dbc")
 PROTOCOL = {message.name: {signal.name: {"unit": signal.unit or "", "values": {
     str(number): str(name) for number, name in (signal.choices or {}).items()}} for signal in message.signals}
     for message in DATABASE.messages}

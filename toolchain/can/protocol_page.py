@@ -7,7 +7,7 @@ import cantools
 INTRODUCTION = """\
 # CAN protocol
 
-Generated from `firmware/io/telemetry/supercoil.dbc` by `toolchain/generate-can`; [can.md](can.md) says how to use it.
+Generated from `firmware/io/can/supercoil.dbc` by `toolchain/generate-can`; [can.md](can.md) says how to use it.
 
 Version {version}. An identifier is base + node, node 1 to 63; each channel of a board is a node. The DBC describes
 node 1.

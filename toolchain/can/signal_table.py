@@ -1,17 +1,18 @@
-"""Prints firmware/io/can_client/generated/protocol.cpp, every message and signal as a table, from the DBC that is named on
+"""Prints firmware/io/can/generated/messages.hpp, every message and signal as a table, from the DBC that is named on
 the command line."""
 
+import re
 import sys
 
 import cantools
 
 HEAD = """\
-// Generated from firmware/io/telemetry/supercoil.dbc by toolchain/generate-can. Do not edit.
-#include "can_client/protocol.hpp"
+// Generated from firmware/io/can/supercoil.dbc by toolchain/generate-can. Do not edit.
+#pragma once
 
-namespace supercoil::can_client {
+#include "can/message.hpp"
 
-namespace {
+namespace supercoil::can {
 """
 
 NOT_AVAILABLE = "not_available"
@@ -26,6 +27,11 @@ def reserved_of(signal):
     return next((raw for raw, name in (signal.choices or {}).items() if str(name) == NOT_AVAILABLE), None)
 
 
+def constant(message):
+    """FirstCause -> first_cause"""
+    return re.sub(r"(?<!^)(?=[A-Z])", "_", message.name).lower()
+
+
 def table_name(signal):
     return f"names_of_{signal.name}"
 
@@ -38,7 +44,7 @@ def describe_names(database):
             if names and tables.setdefault(signal.name, names) != names:
                 sys.exit(f"{message.name}.{signal.name}: another signal of this name has other names of values")
     for name, values in sorted(tables.items()):
-        yield f"\nconstexpr std::array<ValueName, {len(values)}> names_of_{name}{{{{"
+        yield f"\ninline constexpr std::array<ValueName, {len(values)}> names_of_{name}{{{{"
         yield from (f'    {{{raw}, "{text}"}},' for raw, text in sorted(values.items()))
         yield "}};"
 
@@ -57,18 +63,20 @@ def describe(database):
     yield HEAD.rstrip("\n")
     yield from describe_names(database)
     for message in database.messages:
-        yield f"\nconstexpr std::array<SignalInfo, {len(message.signals)}> signals_of_{message.name}{{{{"
+        yield f"\ninline constexpr std::array<SignalInfo, {len(message.signals)}> signals_of_{message.name}{{{{"
         yield from map(describe_signal, message.signals)
         yield "}};"
-    yield f"\nconstexpr std::array<MessageInfo, {len(database.messages)}> all{{{{"
+    yield "\nnamespace message {"
     for message in database.messages:
-        yield f'    {{"{message.name}", {message.frame_id - 1:#05x}, {message.length}, signals_of_{message.name}}},'
+        yield (f'inline constexpr MessageInfo {constant(message)}{{"{message.name}", {message.frame_id - 1:#05x}, '
+               f"{message.length}, {message.cycle_time or 0}, signals_of_{message.name}}};")
+    yield "}  // namespace message\n"
+    yield "/// In the order of identifiers."
+    yield f"inline constexpr std::array<MessageInfo, {len(database.messages)}> all_messages{{{{"
+    for message in database.messages:
+        yield f"    message::{constant(message)},"
     yield "}};\n"
-    yield "}  // namespace\n"
-    yield "std::span<const MessageInfo> protocol() {"
-    yield "  return all;"
-    yield "}\n"
-    yield "}  // namespace supercoil::can_client"
+    yield "}  // namespace supercoil::can"
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ configure_file(${package_files}/changelog.in ${CMAKE_BINARY_DIR}/changelog @ONLY
 supercoil_install_compressed(${CMAKE_BINARY_DIR}/changelog ${documents})
 install(FILES ${package_files}/copyright DESTINATION ${documents})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${documents} PATTERN man EXCLUDE)
-install(FILES ${PROJECT_SOURCE_DIR}/examples/python/move_muscle.py ${PROJECT_SOURCE_DIR}/firmware/io/telemetry/supercoil.dbc
+install(FILES ${PROJECT_SOURCE_DIR}/examples/python/move_muscle.py ${PROJECT_SOURCE_DIR}/firmware/io/can/supercoil.dbc
         DESTINATION ${documents}/examples)
 
 # Files that the administrator may change: dpkg keeps what was changed. No board.toml among them: what is wired to a

@@ -9,7 +9,7 @@
 #include "apps/supercoil/bus/bus_name.hpp"
 #include "apps/supercoil/bus/listener.hpp"
 #include "apps/supercoil/bus/terminal.hpp"
-#include "can_client/decode.hpp"
+#include "can/codec.hpp"
 #include "modes/result.hpp"
 #include "telemetry/frames.hpp"
 #include "telemetry/run_settings.hpp"
@@ -54,7 +54,7 @@ CanLink::~CanLink() {
 }
 
 BoardLink::Answer CanLink::ask(const std::string& line) {
-  const auto command = parse_command(line, telemetry::most_nodes);
+  const auto command = parse_command(line, can::most_nodes);
   if (!command) return command.error();
   const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
   if (!node) return tl::unexpected(node.error());
@@ -108,14 +108,14 @@ tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& 
   unsigned friction = 0;  // has no bit left in the estimates
   for (int i = 0; i < 100 && !(result && notes); ++i) {
     for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
-      const auto heard = can_client::decode(frame);
+      const auto heard = can::decode(frame);
       if (!heard) continue;
       const auto value = [&](const char* signal) {
-        return heard->values.at(can_client::signal_index(*heard->message, signal));
+        return heard->values.at(can::signal_index(*heard->message, signal));
       };
       if (frame.id == can_client::status_id(node)) {
-        const std::size_t place = can_client::signal_index(*heard->message, "result");
-        result = can_client::value_name(heard->message->signals[place], value("result"));
+        const std::size_t place = can::signal_index(*heard->message, "result");
+        result = can::value_name(heard->message->signals[place], value("result"));
         friction = value("friction") == 1.0 ? note_friction : 0;
       } else if (frame.id == can_client::estimate_id(node) && result) {
         const auto rest = static_cast<unsigned>(value("identify_notes"));

@@ -7,7 +7,7 @@
 
 namespace supercoil::operating {
 
-/// firmware/io/telemetry/supercoil.dbc, as this program was built with it.
+/// firmware/io/can/supercoil.dbc, as this program was built with it.
 extern const std::string_view node_1_dbc;
 
 /// Every message once for each node, its identifier higher by what the node is above 1, and

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <cstdio>
 
-#include "can_client/decode.hpp"
+#include "can/codec.hpp"
 
 namespace supercoil::operating {
 
 namespace {
 
-using can_client::Decoded;
-using can_client::SignalInfo;
+using can::Decoded;
+using can::SignalInfo;
 
 /// Written in pieces of about this size.
 constexpr std::size_t piece_bytes = 1U << 16U;
@@ -24,7 +24,7 @@ std::string number(double value) {
 
 /// With its name if it has one; empty: not available.
 std::string value_text(const SignalInfo& signal, double value) {
-  const std::string_view name = can_client::value_name(signal, value);
+  const std::string_view name = can::value_name(signal, value);
   if (!name.empty()) return std::string(name);
   return std::isnan(value) ? "" : number(value);
 }
@@ -38,7 +38,7 @@ std::string row_begin(const Decoded& decoded, hal::Time time) {
 std::string header(const CanSelection& selection) {
   if (selection.message.empty()) return "time_s,node,message,signal,value,unit\n";
   std::string text = "time_s,node";
-  for (const SignalInfo& signal : can_client::find_message(selection.message)->signals)
+  for (const SignalInfo& signal : can::find_message(selection.message)->signals)
     text.append(",").append(signal.name);
   return text + '\n';
 }
@@ -82,7 +82,7 @@ tl::expected<std::size_t, std::string> can_to_csv(const std::vector<hal::CanFram
   std::string csv = header(selection);
   std::size_t rows = 0;
   for (const hal::CanFrame& frame : frames) {
-    const auto decoded = can_client::decode(frame);
+    const auto decoded = can::decode(frame);
     if (!decoded || !wanted(selection, *decoded, hal::seconds(frame.received))) continue;
     rows += add(csv, *decoded, frame.received);
     if (csv.size() < piece_bytes) continue;

@@ -8,7 +8,8 @@
 #include "apps/supercoil/can_csv.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/output_file.hpp"
-#include "can_client/protocol.hpp"
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
 #include "storage/posix_files.hpp"
 
 namespace supercoil::operating {
@@ -17,7 +18,7 @@ namespace {
 
 std::string known_messages() {
   std::string all;
-  for (const can_client::MessageInfo& message : can_client::protocol())
+  for (const can::MessageInfo& message : can::all_messages)
     all.append(all.empty() ? "" : ", ").append(message.name);
   return all;
 }
@@ -39,7 +40,7 @@ int can_log_command(const LogOptions& options) {
                                       ": is a CAN log: --summary, --damaged and --channel are for "
                                       "flight recordings");
   }
-  if (!options.message.empty() && can_client::find_message(options.message) == nullptr) {
+  if (!options.message.empty() && can::find_message(options.message) == nullptr) {
     return fail(exit_wrong_input,
                 "--message " + options.message + ": there are " + known_messages());
   }

@@ -37,7 +37,7 @@ void add_log(CLI::App& app, LogOptions& options) {
   CLI::Option* summary =
       log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
   log->add_option("--node", options.node, "Of a CAN log only this node [all]")
-      ->check(CLI::Range(1, telemetry::most_nodes));
+      ->check(CLI::Range(1, can::most_nodes));
   log->add_option("--message", options.message,
                   "Of a CAN log only this message, a column for each signal [a row for each value]")
       ->type_name("NAME");
@@ -89,7 +89,7 @@ void add_setting(CLI::App& app, SettingOptions& options) {
       "power, and how often it sends each message");
   setting->add_option("NODE", options.node, "1 to 63")
       ->required()
-      ->check(CLI::Range(1, telemetry::most_nodes));
+      ->check(CLI::Range(1, can::most_nodes));
   setting->add_option("NAME", options.name, "e.g. most_power_W [all]");
   setting->add_option("VALUE", options.value, "To write [read it]");
   setting->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
@@ -126,7 +126,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
       "Instead compare the senses of a running board with a meter: heats a little, asks for the "
       "meter's volts and amperes at two powers, and makes the bounds of its power narrow");
   doctor->add_option("--channel", options.channel, "To compare: from 1; over CAN its node")
-      ->check(CLI::Range(1, telemetry::most_nodes))
+      ->check(CLI::Range(1, can::most_nodes))
       ->capture_default_str()
       ->needs(compare);
   doctor
@@ -171,7 +171,7 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
   dbc->add_option("--nodes", options.nodes,
                   "The bus's nodes, e.g. 1,2,5: messages' names end with their node's")
       ->delimiter(',')
-      ->check(CLI::Range(1, telemetry::most_nodes));
+      ->check(CLI::Range(1, can::most_nodes));
   dbc->add_option("--out", options.out, "Write it to this file [standard output]");
 }
 

@@ -1,14 +1,13 @@
 #include "can_client/master.hpp"
 
-#include <supercoil.h>
-
-#include "telemetry/e2e.hpp"
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
 #include "telemetry/opcodes.hpp"
-#include "telemetry/pack.hpp"
 
 namespace supercoil::can_client {
 
-namespace e2e = telemetry::e2e;
+namespace e2e = can::e2e;
+namespace message = can::message;
 
 namespace {
 
@@ -16,40 +15,42 @@ bool ends_lease(Refusal refusal) {
   return refusal == Refusal::no_lease || refusal == Refusal::not_yours;
 }
 
+/// Empty: of another version of the protocol.
+std::optional<Refusal> refusal_in(double number) {
+  if (number >= static_cast<double>(refusal_names.size())) return std::nullopt;
+  return static_cast<Refusal>(number);
+}
+
 }  // namespace
 
 std::uint16_t acknowledge_id(std::uint8_t node) {
-  return telemetry::id_of(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, node);
+  return can::id_of(message::acknowledge, node);
 }
 
 std::uint16_t setting_id(std::uint8_t node) {
-  return telemetry::id_of(SUPERCOIL_SETTING_FRAME_ID, node);
+  return can::id_of(message::setting, node);
 }
 
 std::uint16_t refused_value_id(std::uint8_t node) {
-  return telemetry::id_of(SUPERCOIL_REFUSED_VALUE_FRAME_ID, node);
+  return can::id_of(message::refused_value, node);
 }
 
 std::optional<double> hear_nearest(std::uint8_t node, const hal::CanFrame& frame) {
-  if (frame.id != refused_value_id(node) || frame.length != SUPERCOIL_REFUSED_VALUE_LENGTH)
+  if (frame.id != refused_value_id(node) || frame.length != message::refused_value.length)
     return std::nullopt;
-  supercoil_refused_value_t m{};
-  supercoil_refused_value_unpack(&m, frame.data.data(), frame.length);
-  return m.nearest;
+  return can::Reader<message::refused_value>(frame).get("nearest");
 }
 
 std::uint16_t status_id(std::uint8_t node) {
-  return telemetry::id_of(SUPERCOIL_STATUS_FRAME_ID, node);
+  return can::id_of(message::status, node);
 }
 
 std::uint16_t estimate_id(std::uint8_t node) {
-  return telemetry::id_of(SUPERCOIL_ESTIMATE_FRAME_ID, node);
+  return can::id_of(message::estimate, node);
 }
 
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting) {
-  const supercoil_setting_read_t m{setting};
-  return telemetry::packed(SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_SETTING_READ_LENGTH, node, m,
-                           supercoil_setting_read_pack);
+  return can::Encoder<message::setting_read>(node).set("setting", setting).frame();
 }
 
 std::uint8_t Master::next_counter() {
@@ -60,13 +61,12 @@ std::uint8_t Master::next_counter() {
 hal::CanFrame Master::frame(std::uint8_t opcode, double value) {
   asked_as_ = opcode == telemetry::lease && session_ == 0 ? name_ : session_;
   releasing_ = opcode == telemetry::lease && value == telemetry::releases;
-  supercoil_command_t m{};
-  m.counter = next_counter();
-  m.opcode = opcode;
-  m.session = asked_as_;
-  m.value = static_cast<float>(value);
-  return telemetry::sealed(SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, node_, m,
-                           supercoil_command_pack);
+  return can::Encoder<message::command>(node_)
+      .set("counter", next_counter())
+      .set("opcode", opcode)
+      .set("session", asked_as_)
+      .set("value", value)
+      .protected_frame();
 }
 
 hal::CanFrame Master::claim() {
@@ -85,25 +85,24 @@ hal::CanFrame Master::command(Verb verb, double value) {
 
 hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {
   asked_as_ = session_;
-  supercoil_setting_write_t m{};
-  m.counter = next_counter();
-  m.setting = setting;
-  m.session = session_;
-  m.value = static_cast<float>(value);
-  return telemetry::sealed(SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH, node_,
-                           m, supercoil_setting_write_pack);
+  return can::Encoder<message::setting_write>(node_)
+      .set("counter", next_counter())
+      .set("setting", setting)
+      .set("session", session_)
+      .set("value", value)
+      .protected_frame();
 }
 
 std::optional<Master::Setting> Master::hear_setting(const hal::CanFrame& frame, bool of_write) {
-  if (frame.id != setting_id(node_) || !e2e::intact(frame, SUPERCOIL_SETTING_LENGTH))
+  if (frame.id != setting_id(node_) || !e2e::intact(frame, message::setting.length))
     return std::nullopt;
-  supercoil_setting_t m{};
-  supercoil_setting_unpack(&m, frame.data.data(), frame.length);
-  const bool mine = !of_write || (m.counter == counter_ && m.session_low == (asked_as_ & 0xFFU));
-  if (!mine || m.refusal >= refusal_names.size()) return std::nullopt;
-  const auto refusal = static_cast<Refusal>(m.refusal);
-  if (of_write && ends_lease(refusal)) session_ = 0;
-  return Setting{m.setting, refusal, m.value};
+  const can::Reader<message::setting> m(frame);
+  const bool mine = !of_write || (m.get<std::uint8_t>("counter") == counter_ &&
+                                  m.get<std::uint16_t>("session_low") == (asked_as_ & 0xFFU));
+  const auto refusal = refusal_in(m.get("refusal"));
+  if (!mine || !refusal) return std::nullopt;
+  if (of_write && ends_lease(*refusal)) session_ = 0;
+  return Setting{m.get<std::uint8_t>("setting"), *refusal, m.get<float>("value")};
 }
 
 void Master::hear_of_lease(Refusal refusal, std::uint16_t granted) {
@@ -113,16 +112,17 @@ void Master::hear_of_lease(Refusal refusal, std::uint16_t granted) {
 }
 
 std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {
-  if (frame.id != acknowledge_id(node_) || !e2e::intact(frame, SUPERCOIL_ACKNOWLEDGE_LENGTH))
+  if (frame.id != acknowledge_id(node_) || !e2e::intact(frame, message::acknowledge.length))
     return std::nullopt;
-  supercoil_acknowledge_t m{};
-  supercoil_acknowledge_unpack(&m, frame.data.data(), frame.length);
-  if (m.counter != counter_ || m.session != asked_as_ || m.refusal >= refusal_names.size())
-    return std::nullopt;
-  const auto refusal = static_cast<Refusal>(m.refusal);
-  if (m.opcode == telemetry::lease) hear_of_lease(refusal, m.granted);
-  if (ends_lease(refusal)) session_ = 0;
-  return Heard{m.opcode, refusal};
+  const can::Reader<message::acknowledge> m(frame);
+  const bool mine =
+      m.get<std::uint8_t>("counter") == counter_ && m.get<std::uint16_t>("session") == asked_as_;
+  const auto refusal = refusal_in(m.get("refusal"));
+  if (!mine || !refusal) return std::nullopt;
+  const auto opcode = m.get<std::uint8_t>("opcode");
+  if (opcode == telemetry::lease) hear_of_lease(*refusal, m.get<std::uint16_t>("granted"));
+  if (ends_lease(*refusal)) session_ = 0;
+  return Heard{opcode, *refusal};
 }
 
 }  // namespace supercoil::can_client

@@ -86,7 +86,7 @@ void describe_can(std::ostream& out, const BoardConfig& config) {
       << rounded(100.0 * can.most_load, 0.1) << " %)\n  lease   " << 1e3 * can.lease_s
       << " ms unused ends it\n";
   for (std::size_t i = 0; i < telemetry::messages; ++i) {
-    const telemetry::MessageInfo& message = telemetry::all_messages()[i];
+    const telemetry::PeriodicMessage& message = telemetry::periodic_messages()[i];
     out << "  " << message.name << " " << can.rates_Hz[i] << " Hz"
         << (message.of_board ? ", of the board\n" : "\n");
   }

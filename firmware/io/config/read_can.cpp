@@ -16,7 +16,7 @@ constexpr std::size_t longest_interface = 15;
 telemetry::Rates read_rates(Section section, double tick_Hz) {
   telemetry::Rates rates = telemetry::usual_rates();
   for (std::size_t i = 0; i < telemetry::messages; ++i) {
-    const std::string key = std::string(telemetry::all_messages()[i].name) + "_Hz";
+    const std::string key = std::string(telemetry::periodic_messages()[i].name) + "_Hz";
     const auto message = static_cast<telemetry::Message>(i);
     const double least_Hz =
         message == telemetry::Message::status ? telemetry::least_status_Hz : 0.0;
@@ -51,8 +51,8 @@ telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t cha
   }
   can.bit_rate = static_cast<double>(
       section.integer("bit_rate", std::lround(can.bit_rate), 10'000, 1'000'000));
-  const auto last_first = telemetry::most_nodes + 1 - static_cast<std::int64_t>(channels);
-  can.first_node = static_cast<telemetry::Node>(
+  const auto last_first = can::most_nodes + 1 - static_cast<std::int64_t>(channels);
+  can.first_node = static_cast<can::Node>(
       section.integer("first_node", can.first_node, 1, std::max<std::int64_t>(last_first, 1)));
   can.most_load = section.number("most_load", can.most_load, {0.01, 0.9});
   can.lease_s = 1e-3 * section.number("lease_ms", 1e3 * can.lease_s, {100.0, 60e3});

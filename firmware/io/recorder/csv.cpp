@@ -2,7 +2,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "recorder/names.hpp"
+#include "recorder/quantities.hpp"
 #include "recorder/recording.hpp"
 
 namespace supercoil::recorder {
@@ -10,13 +10,6 @@ namespace supercoil::recorder {
 namespace {
 
 constexpr std::size_t part_bytes = 1 << 18;
-constexpr std::string_view columns =
-    "time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,"
-    "model_m,position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,"
-    "resistance_age_s,coldest_C,hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,"
-    "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result,aside_of,aside,"
-    "identify_notes\n";
-
 /// Never in exponents, which some spreadsheets take for text.
 template <class Number>
 void add(std::string& line, Number value) {
@@ -28,44 +21,33 @@ void add(std::string& line, Number value) {
   line += ',';
 }
 
-void add(std::string& line, const std::string& name) {
-  line += name;
-  line += ',';
+std::string columns() {
+  std::string line = "time_s,channel";
+  for (const Quantity& quantity : quantities) {
+    line += ',';
+    line += quantity.name;
+  }
+  return line + '\n';
 }
 
 void add_row(std::string& line, const Row& row, double time_s) {
   add(line, time_s);
-  add(line, std::to_string(row.channel + 1));
-  add(line, state_name(row.state));
-  add(line, mode_name(row.mode));
-  add(line, fault_name(row.fault));
-  add(line, limit_name(row.limited_by));
-  add(line, std::to_string(row.controller));
-  for (const int bit : {1, 2, 4})
-    line += (row.flags & bit) != 0 ? "1," : "0,";
-  for (const float value :
-       {row.reference, row.model_m, row.position_m, row.wanted_W, row.applied_W, row.duty,
-        row.supply_V, row.current_A, row.resistance_Ohm, row.resistance_age_s, row.coldest_C,
-        row.hottest_C, row.theta[0], row.theta[1], row.theta[2], row.theta[3], row.error_bound,
-        row.progress}) {
-    add(line, value);
+  line += std::to_string(row.channel + 1) + ',';
+  for (const Quantity& quantity : quantities) {
+    const double value = quantity.of(row);
+    if (quantity.word != nullptr) {
+      line += quantity.word(static_cast<std::uint8_t>(value)) + ',';
+    } else {
+      add(line, static_cast<float>(value));
+    }
   }
-  add(line, fault_name(row.turn));
-  for (const float value : {row.margin_used, row.margin_measured, row.margin_limit})
-    add(line, value);
-  add(line, gain_name(row.gain_turn));
-  add(line, row.gain);
-  add(line, result_name(row.result));
-  add(line, aside_name(row.aside_turn));
-  add(line, row.aside);
-  add(line, std::to_string(row.identify_notes));
   line.back() = '\n';
 }
 
 }  // namespace
 
 tl::expected<void, std::string> to_csv(const Recording& recording, const Sink& sink) {
-  std::string part(columns);
+  std::string part = columns();
   part.reserve(part_bytes + 4096);
   for (const Row& row : recording.rows) {
     add_row(part, row, recording.time_s(row));

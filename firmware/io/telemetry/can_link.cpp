@@ -2,9 +2,8 @@
 
 #include <utility>
 
-#include <supercoil.h>
-
-#include "telemetry/nodes.hpp"
+#include "can/generated/messages.hpp"
+#include "can/nodes.hpp"
 #include "telemetry/opcodes.hpp"
 
 namespace supercoil::telemetry {
@@ -24,10 +23,10 @@ std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
 std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
   std::vector<std::uint16_t> ids;
   // The heartbeat of a board with the same node: every board sends it.
-  for (const unsigned id : {SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_SETTING_WRITE_FRAME_ID,
-                            SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_STATUS_FRAME_ID}) {
+  for (const can::MessageInfo& message : {can::message::command, can::message::setting_write,
+                                          can::message::setting_read, can::message::status}) {
     for (std::size_t i = 0; i < channels; ++i)
-      ids.push_back(id_of(id, static_cast<Node>(settings.first_node + i)));
+      ids.push_back(can::id_of(message, static_cast<can::Node>(settings.first_node + i)));
   }
   return ids;
 }
@@ -48,7 +47,7 @@ void CanLink::answer(const Answer& answer) {
   publisher_.send(*frame);
   if (answer.refusal != Refusal::out_of_range) return;
   const Command& command = answer.command;
-  publisher_.send(refused_value(static_cast<Node>(first_node_ + command.channel),
+  publisher_.send(refused_value(static_cast<can::Node>(first_node_ + command.channel),
                                 sent(command.verb, command.value).value,
                                 sent(command.verb, answer.nearest).value));
 }
@@ -61,7 +60,7 @@ void CanLink::poll(hal::Time now) {
 }
 
 bool CanLink::is_own(const hal::CanFrame& frame) const {
-  return channel_of(frame, SUPERCOIL_STATUS_FRAME_ID, first_node_, leases_.channels()).has_value();
+  return can::channel_of(frame, can::message::status, first_node_, leases_.channels()).has_value();
 }
 
 void CanLink::receive(hal::Time now) {

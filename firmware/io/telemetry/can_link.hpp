@@ -43,7 +43,7 @@ class CanLink {
   Leases leases_;
   Commands commands_;
   RunSettings settings_;
-  Node first_node_;
+  can::Node first_node_;
   hal::Time conflict_until_{};
 };
 

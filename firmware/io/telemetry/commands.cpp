@@ -1,10 +1,8 @@
 #include "telemetry/commands.hpp"
 
-#include <supercoil.h>
-
-#include "telemetry/e2e.hpp"
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
 #include "telemetry/opcodes.hpp"
-#include "telemetry/pack.hpp"
 
 namespace supercoil::telemetry {
 
@@ -13,35 +11,36 @@ Commands::Commands(const CanSettings& settings, Leases& leases)
 
 Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
   const auto channel =
-      channel_of(frame, SUPERCOIL_COMMAND_FRAME_ID, first_node_, leases_->channels());
+      can::channel_of(frame, can::message::command, first_node_, leases_->channels());
   if (!channel) return {};
   Taken taken;
-  if (!e2e::intact(frame, SUPERCOIL_COMMAND_LENGTH)) {
+  if (!can::e2e::intact(frame, can::message::command.length)) {
     taken.damaged = *channel;
     return taken;
   }
-  supercoil_command_t m{};
-  supercoil_command_unpack(&m, frame.data.data(), frame.length);
-  const Asked asked{*channel, m.opcode, m.counter, m.session};
+  const can::Reader<can::message::command> m(frame);
+  const Asked asked{*channel, m.get<std::uint8_t>("opcode"), m.get<std::uint8_t>("counter"),
+                    m.get<std::uint16_t>("session")};
+  const auto value = m.get<float>("value");
 
   // From everybody, whatever is wrong with lease and counter.
-  const bool stop = m.opcode == static_cast<std::uint8_t>(Verb::disarm) && m.value == 0.0F;
-  const Refusal checked = check(asked, m.value, now);
+  const bool stop = asked.opcode == static_cast<std::uint8_t>(Verb::disarm) && value == 0.0F;
+  const Refusal checked = check(asked, value, now);
   if (checked == Refusal::wrong_counter && !stop) taken.damaged = *channel;
   if (checked == Refusal::claim_again) {
     taken.answer = acknowledge(asked, checked, leases_->nonce(*channel));
   } else if (checked != Refusal::none && !stop) {
     taken.answer = acknowledge(asked, checked);
-  } else if (m.opcode == Opcode::lease && m.value == releases) {
+  } else if (asked.opcode == Opcode::lease && value == releases) {
     leases_->release(*channel);
     taken.answer = acknowledge(asked, Refusal::none);
-  } else if (m.opcode == Opcode::lease) {
+  } else if (asked.opcode == Opcode::lease) {
     taken.answer = acknowledge(asked, Refusal::none, leases_->session(*channel));
   } else if (waiting_.size() == most_waiting) {
     taken.answer = acknowledge(asked, Refusal::too_many);
   } else {
     waiting_.push_back(asked);
-    taken.command = meant(m.opcode, static_cast<double>(m.value));
+    taken.command = meant(asked.opcode, static_cast<double>(value));
     taken.command->channel = *channel;
     taken.command->source = Source::can;
   }
@@ -77,14 +76,14 @@ hal::CanFrame Commands::not_taken() {
 
 hal::CanFrame Commands::acknowledge(const Asked& asked, Refusal refusal,
                                     std::uint16_t granted) const {
-  supercoil_acknowledge_t m{};
-  m.counter = asked.counter;
-  m.opcode = asked.opcode;
-  m.session = asked.session;
-  m.refusal = static_cast<std::uint8_t>(refusal);
-  m.granted = granted;
-  return sealed(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH,
-                static_cast<Node>(first_node_ + asked.channel), m, supercoil_acknowledge_pack);
+  return can::Encoder<can::message::acknowledge>(
+             static_cast<can::Node>(first_node_ + asked.channel))
+      .set("counter", asked.counter)
+      .set("opcode", asked.opcode)
+      .set("session", asked.session)
+      .set("refusal", static_cast<double>(refusal))
+      .set("granted", granted)
+      .protected_frame();
 }
 
 }  // namespace supercoil::telemetry

@@ -50,7 +50,7 @@ class Commands {
   /// What the loop's ring of commands holds.
   static constexpr std::size_t most_waiting = 256;
 
-  Node first_node_;
+  can::Node first_node_;
   Leases* leases_;
   std::deque<Asked> waiting_;
 };

@@ -9,8 +9,8 @@
 #include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/hal/can_bus.hpp"
 
+#include "can/nodes.hpp"
 #include "loop/row.hpp"
-#include "telemetry/nodes.hpp"
 
 namespace supercoil::telemetry {
 
@@ -30,14 +30,15 @@ enum class Message : std::uint8_t {
 };
 inline constexpr std::size_t messages = 11;
 
-struct MessageInfo {
+struct PeriodicMessage {
   std::string_view name;  ///< as in configurations
-  std::uint8_t length;
-  double usual_Hz;        ///< the DBC's cycle time
+  const can::MessageInfo* info;
   bool of_board = false;  ///< sent by the board's first node only
+
+  double usual_Hz() const { return 1000.0 / info->period_ms; }
 };
 /// In the order of Message.
-const std::array<MessageInfo, messages>& all_messages();
+const std::array<PeriodicMessage, messages>& periodic_messages();
 
 /// Times of a whole board's ticks, as Timing has them. NaN: there was no tick.
 struct BoardTiming {
@@ -47,18 +48,16 @@ struct BoardTiming {
   std::uint32_t dropped_frames = 0;
 };
 
-// A quantity outside of its signal's range becomes the range's nearest end; NaN becomes "not
-// available". The generated code would wrap one and is undefined for the other.
-hal::CanFrame emergency(Node node, const Row& row);
+hal::CanFrame emergency(can::Node node, const Row& row);
 /// Of the row that first shows a fault.
-hal::CanFrame first_cause(Node node, const Row& row);
+hal::CanFrame first_cause(can::Node node, const Row& row);
 /// Right after the answer that refuses it as out of range. nearest: as in Answer.
-hal::CanFrame refused_value(Node node, double value, double nearest);
-hal::CanFrame measurement(Node node, const Row& row);
-hal::CanFrame tracking(Node node, const Row& row);
-hal::CanFrame power(Node node, const Row& row);
-hal::CanFrame heater(Node node, const Row& row);
-hal::CanFrame temperature(Node node, const Row& row);
+hal::CanFrame refused_value(can::Node node, double value, double nearest);
+hal::CanFrame measurement(can::Node node, const Row& row);
+hal::CanFrame tracking(can::Node node, const Row& row);
+hal::CanFrame power(can::Node node, const Row& row);
+hal::CanFrame heater(can::Node node, const Row& row);
+hal::CanFrame temperature(can::Node node, const Row& row);
 /// What rows carry in turn: the newest of each.
 class Asides {
  public:
@@ -73,12 +72,12 @@ class Asides {
  private:
   std::array<float, aside_names.size() - 1> newest_{};
 };
-hal::CanFrame estimate(Node node, const Row& row, std::uint8_t parameter,
+hal::CanFrame estimate(can::Node node, const Row& row, std::uint8_t parameter,
                        const control::KnownParameters& known, const Asides& asides = {});
-hal::CanFrame margin(Node node, const Row& row);
-hal::CanFrame limit(Node node, const Row& row);
-hal::CanFrame gain(Node node, const Row& row);
-hal::CanFrame timing(Node node, const BoardTiming& timing);
-hal::CanFrame status(Node node, const Row& row, bool leased, std::uint8_t counter);
+hal::CanFrame margin(can::Node node, const Row& row);
+hal::CanFrame limit(can::Node node, const Row& row);
+hal::CanFrame gain(can::Node node, const Row& row);
+hal::CanFrame timing(can::Node node, const BoardTiming& timing);
+hal::CanFrame status(can::Node node, const Row& row, bool leased, std::uint8_t counter);
 
 }  // namespace supercoil::telemetry

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "telemetry/e2e.hpp"
+#include "can/e2e.hpp"
 
 namespace supercoil::telemetry {
 
@@ -44,7 +44,7 @@ Refusal Leases::check(std::uint8_t channel, std::uint16_t session, std::uint8_t 
   Lease& lease = lease_now(channel, now);
   if (lease.session == 0) return Refusal::no_lease;
   if (session != lease.session) return Refusal::not_yours;
-  const bool next = e2e::follows(counter, lease.counter);
+  const bool next = can::e2e::follows(counter, lease.counter);
   lease.counter = counter;
   if (!next) return Refusal::wrong_counter;
   lease.used = true;

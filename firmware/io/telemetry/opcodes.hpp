@@ -10,7 +10,7 @@
 
 namespace supercoil::telemetry {
 
-/// Of firmware/io/telemetry/supercoil.dbc; a change that an old reader would misunderstand gives a
+/// Of firmware/io/can/supercoil.dbc; a change that an old reader would misunderstand gives a
 /// new number.
 inline constexpr std::uint8_t protocol_version = 4;
 

@@ -35,7 +35,7 @@ void Publisher::offer(const Row& row) {
   channel.asides.take(row);
   channel.known = true;
   if (!changed) return;
-  const auto node = static_cast<Node>(first_node_ + row.channel);
+  const auto node = static_cast<can::Node>(first_node_ + row.channel);
   push(emergencies_, emergency(node, row));
   if (row.fault != 0 && row.turn == row.fault) push(emergencies_, first_cause(node, row));
 }
@@ -54,10 +54,10 @@ void Publisher::publish(std::uint8_t index, Message message, bool leased) {
   std::int64_t& sent_ns = channel.sent_ns[static_cast<std::size_t>(message)];
   if (!channel.known || sent_ns == channel.row.time_ns) return;
   sent_ns = channel.row.time_ns;
-  push(messages_, frame_of(static_cast<Node>(first_node_ + index), channel, message, leased));
+  push(messages_, frame_of(static_cast<can::Node>(first_node_ + index), channel, message, leased));
 }
 
-hal::CanFrame Publisher::frame_of(Node node, Channel& channel, Message message, bool leased) {
+hal::CanFrame Publisher::frame_of(can::Node node, Channel& channel, Message message, bool leased) {
   const Row& row = channel.row;
   switch (message) {
     case Message::measurement:

@@ -62,11 +62,11 @@ class Publisher {
 
   void push(Queue& queue, const hal::CanFrame& frame);
   void publish(std::uint8_t index, Message message, bool leased);
-  hal::CanFrame frame_of(Node node, Channel& channel, Message message, bool leased);
+  hal::CanFrame frame_of(can::Node node, Channel& channel, Message message, bool leased);
   BoardTiming take_timing();
   void flush();
 
-  Node first_node_;
+  can::Node first_node_;
   std::vector<Channel> channels_;
   Schedule schedule_;
   LoopTiming* timing_;

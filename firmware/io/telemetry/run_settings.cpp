@@ -5,14 +5,14 @@
 #include <cmath>
 #include <utility>
 
-#include <supercoil.h>
-
-#include "telemetry/e2e.hpp"
-#include "telemetry/pack.hpp"
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
 
 namespace supercoil::telemetry {
 
 namespace {
+
+namespace message = can::message;
 
 constexpr std::uint8_t most_power = 0;
 
@@ -28,7 +28,7 @@ std::string run_setting_name(std::uint8_t setting) {
     constexpr std::array names{"supply_gain", "current_gain", "sense_error_ratio"};
     return names.at(static_cast<std::size_t>(setting - supply_gain));
   }
-  return std::string(all_messages()[setting - 1U].name) + "_Hz";
+  return std::string(periodic_messages()[setting - 1U].name) + "_Hz";
 }
 
 RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& leases,
@@ -43,32 +43,33 @@ RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& le
 }
 
 RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
-  const auto meant = [&](unsigned id) {
-    return channel_of(frame, id, can_.first_node, most_W_.size());
+  const auto meant = [&](const can::MessageInfo& message) {
+    return can::channel_of(frame, message, can_.first_node, most_W_.size());
   };
-  if (const auto channel = meant(SUPERCOIL_SETTING_WRITE_FRAME_ID))
-    return take_write(*channel, frame, now);
-  const auto channel = meant(SUPERCOIL_SETTING_READ_FRAME_ID);
-  if (!channel || frame.length != SUPERCOIL_SETTING_READ_LENGTH) return {};
-  supercoil_setting_read_t m{};
-  supercoil_setting_read_unpack(&m, frame.data.data(), frame.length);
-  const bool known = !std::isnan(value_of(*channel, m.setting));
-  return {{}, told(*channel, m.setting, known ? Refusal::none : Refusal::out_of_range, 0, 0), {}};
+  if (const auto channel = meant(message::setting_write)) return take_write(*channel, frame, now);
+  const auto channel = meant(message::setting_read);
+  if (!channel || frame.length != message::setting_read.length) return {};
+  const auto setting = can::Reader<message::setting_read>(frame).get<std::uint8_t>("setting");
+  const bool known = !std::isnan(value_of(*channel, setting));
+  return {{}, told(*channel, setting, known ? Refusal::none : Refusal::out_of_range, 0, 0), {}};
 }
 
 RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& frame,
                                            hal::Time now) {
-  if (!e2e::intact(frame, SUPERCOIL_SETTING_WRITE_LENGTH)) return {channel, {}, {}};
-  supercoil_setting_write_t m{};
-  supercoil_setting_write_unpack(&m, frame.data.data(), frame.length);
+  if (!can::e2e::intact(frame, message::setting_write.length)) return {channel, {}, {}};
+  const can::Reader<message::setting_write> m(frame);
+  const auto counter = m.get<std::uint8_t>("counter");
+  const auto session = m.get<std::uint16_t>("session");
+  const auto setting = m.get<std::uint8_t>("setting");
+  const auto value = m.get("value");
   Taken taken;
-  Refusal refusal = leases_->check(channel, m.session, m.counter, now);
+  Refusal refusal = leases_->check(channel, session, counter, now);
   if (refusal == Refusal::wrong_counter) taken.damaged = channel;
-  if (refusal == Refusal::none) refusal = set(channel, m.setting, m.value);
-  taken.answer = told(channel, m.setting, refusal, m.counter, m.session);
+  if (refusal == Refusal::none) refusal = set(channel, setting, value);
+  taken.answer = told(channel, setting, refusal, counter, session);
   if (refusal == Refusal::out_of_range) {
-    const auto node = static_cast<Node>(can_.first_node + channel);
-    taken.refused_value = refused_value(node, m.value, nearest(channel, m.setting, m.value));
+    const auto node = static_cast<can::Node>(can_.first_node + channel);
+    taken.refused_value = refused_value(node, value, nearest(channel, setting, value));
   }
   return taken;
 }
@@ -111,14 +112,13 @@ double RunSettings::value_of(std::uint8_t channel, std::uint8_t setting) const {
 
 hal::CanFrame RunSettings::told(std::uint8_t channel, std::uint8_t setting, Refusal refusal,
                                 std::uint8_t counter, std::uint16_t session) const {
-  supercoil_setting_t m{};
-  m.counter = counter;
-  m.setting = setting;
-  m.refusal = static_cast<std::uint8_t>(refusal);
-  m.session_low = static_cast<std::uint8_t>(session);
-  m.value = static_cast<float>(value_of(channel, setting));
-  return sealed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH,
-                static_cast<Node>(can_.first_node + channel), m, supercoil_setting_pack);
+  return can::Encoder<message::setting>(static_cast<can::Node>(can_.first_node + channel))
+      .set("counter", counter)
+      .set("setting", setting)
+      .set("refusal", static_cast<double>(refusal))
+      .set("session_low", session & 0xFFU)
+      .set("value", value_of(channel, setting))
+      .protected_frame();
 }
 
 }  // namespace supercoil::telemetry

@@ -19,7 +19,7 @@ bool is_sent(const Rates& rates_Hz, std::size_t message, std::size_t channel) {
 Rates usual_rates() {
   Rates rates{};
   for (std::size_t i = 0; i < messages; ++i)
-    rates[i] = all_messages()[i].usual_Hz;
+    rates[i] = periodic_messages()[i].usual_Hz();
   return rates;
 }
 
@@ -36,7 +36,7 @@ double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate) {
     const Rates& rates_Hz = of_channels_Hz[channel];
     for (std::size_t i = 0; i < messages; ++i) {
       if (is_sent(rates_Hz, i, channel))
-        bits_per_s += rates_Hz[i] * most_bits(all_messages()[i].length);
+        bits_per_s += rates_Hz[i] * most_bits(periodic_messages()[i].info->length);
     }
   }
   return bits_per_s / bit_rate;

@@ -25,13 +25,13 @@ constexpr double most_rate(double tick_Hz) {
 bool is_allowed(Message message, double rate_Hz, double tick_Hz);
 /// Whether this channel's node (from 0) sends it; the board's first node sends what is the board's.
 inline bool is_of(std::size_t channel, Message message) {
-  return channel == 0 || !all_messages()[static_cast<std::size_t>(message)].of_board;
+  return channel == 0 || !periodic_messages()[static_cast<std::size_t>(message)].of_board;
 }
 
 struct CanSettings {
   std::string interface = "can0";
-  double bit_rate = 500e3;  ///< bit/s
-  Node first_node = 1;      ///< the first channel's; the others follow
+  double bit_rate = 500e3;   ///< bit/s
+  can::Node first_node = 1;  ///< the first channel's; the others follow
   Rates rates_Hz = usual_rates();
   double most_load = 0.5;  ///< of the bus, by what is sent at a rate: the rest is for commands
   double lease_s = 1.0;    ///< a master that is silent for so long loses its lease

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "can_client/decode.hpp"
+#include "can/codec.hpp"
 #include "telemetry/schedule.hpp"
 
 namespace supercoil::operating {
@@ -27,7 +27,7 @@ void Recent::add(const std::vector<hal::CanFrame>& frames) {
       hal::CanFrame& newest = frames_.back();
       newest.received = std::max(newest.received, frames_[frames_.size() - 2].received);
     }
-    const auto decoded = can_client::decode(frame);
+    const auto decoded = can::decode(frame);
     // A command says that somebody believes in a node, not that there is one.
     if (!decoded) continue;
     if (decoded->message->name != "Command") nodes_ |= std::uint64_t{1} << decoded->node;
@@ -83,7 +83,7 @@ BusFigures Recent::figures() const {
   for (auto frame = frames_.rbegin(); frame != frames_.rend() && frame->received > from; ++frame) {
     figures.load += telemetry::most_bits(frame->length) / bit_rate_;
     figures.frames_per_s += 1.0;
-    if (!can_client::decode(*frame)) figures.foreign_per_s += 1.0;
+    if (!can::decode(*frame)) figures.foreign_per_s += 1.0;
   }
   return figures;
 }

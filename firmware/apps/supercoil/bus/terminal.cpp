@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "apps/common/exit_status.hpp"
-#include "can_client/decode.hpp"
+#include "can/codec.hpp"
 #include "modes/result.hpp"
 #include "telemetry/opcodes.hpp"
 
@@ -18,7 +18,7 @@ namespace supercoil::operating {
 
 namespace {
 
-using can_client::Decoded;
+using can::Decoded;
 
 /// The newest message of each kind of one node.
 using Newest = std::map<std::string_view, Decoded>;
@@ -26,15 +26,15 @@ using Newest = std::map<std::string_view, Decoded>;
 double value(const Newest& node, std::string_view message, std::string_view signal) {
   const auto found = node.find(message);
   if (found == node.end()) return NAN;
-  return found->second.values.at(can_client::signal_index(*found->second.message, signal));
+  return found->second.values.at(can::signal_index(*found->second.message, signal));
 }
 
 std::string named(const Newest& node, std::string_view message, std::string_view signal) {
   const auto found = node.find(message);
   if (found == node.end()) return "-";
   const auto& known = found->second.message->signals;
-  const std::size_t i = can_client::signal_index(*found->second.message, signal);
-  return std::string(can_client::value_name(known[i], found->second.values.at(i)));
+  const std::size_t i = can::signal_index(*found->second.message, signal);
+  return std::string(can::value_name(known[i], found->second.values.at(i)));
 }
 
 /// "position 12.345 mm"; what is not available is "-".
@@ -119,12 +119,12 @@ std::string state_text(const Recent& recent) {
   // Everything is sent within this time.
   for (const hal::CanFrame& frame : recent.between(-std::chrono::seconds(3), hal::Time::max())) {
     newest = frame.received;
-    if (const auto decoded = can_client::decode(frame))
+    if (const auto decoded = can::decode(frame))
       nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
   }
   for (auto& [number, node] : nodes) {
     const auto cause = recent.first_cause(static_cast<std::uint8_t>(number));
-    const auto decoded = cause ? can_client::decode(*cause) : std::nullopt;
+    const auto decoded = cause ? can::decode(*cause) : std::nullopt;
     if (decoded) node.insert_or_assign(decoded->message->name, *decoded);
   }
   const BusFigures bus = recent.figures();

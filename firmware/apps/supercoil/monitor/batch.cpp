@@ -8,7 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "can_client/decode.hpp"
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
 
 namespace supercoil::operating {
 
@@ -18,10 +19,10 @@ namespace {
 /// tree of JSON values.
 struct Columns {
   std::string time_s;
-  std::array<std::string, can_client::most_signals> values;
+  std::array<std::string, can::most_signals> values;
 };
 
-using Key = std::pair<std::uint8_t, const can_client::MessageInfo*>;
+using Key = std::pair<std::uint8_t, const can::MessageInfo*>;
 
 void add_number(std::string& text, double value) {
   if (!std::isfinite(value)) {
@@ -71,7 +72,7 @@ std::string figures_json(const BusFigures& bus) {
 std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures& bus) {
   std::map<Key, Columns> all;
   for (const hal::CanFrame& frame : frames) {
-    const auto decoded = can_client::decode(frame);
+    const auto decoded = can::decode(frame);
     if (!decoded) continue;
     Columns& columns = all[{decoded->node, decoded->message}];
     add_time(columns.time_s, frame.received);
@@ -104,11 +105,11 @@ std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures&
 
 std::string protocol_json() {
   nlohmann::ordered_json all;
-  for (const can_client::MessageInfo& message : can_client::protocol()) {
-    for (const can_client::SignalInfo& signal : message.signals) {
+  for (const can::MessageInfo& message : can::all_messages) {
+    for (const can::SignalInfo& signal : message.signals) {
       auto& told = all[std::string(message.name)][std::string(signal.name)];
       told["unit"] = signal.unit;
-      for (const can_client::ValueName& value : signal.names)
+      for (const can::ValueName& value : signal.names)
         told["values"][std::to_string(value.raw)] = value.name;
     }
   }

@@ -16,8 +16,8 @@ using nlohmann::json;
 tl::expected<std::uint8_t, std::string> node_of(const json& read) {
   const auto node = read.is_object() ? read.find("node") : read.end();
   if (!read.is_object() || node == read.end() || !node->is_number_integer() || *node < 1 ||
-      *node > telemetry::most_nodes) {
-    return tl::unexpected("node must be 1 to " + std::to_string(telemetry::most_nodes));
+      *node > can::most_nodes) {
+    return tl::unexpected("node must be 1 to " + std::to_string(can::most_nodes));
   }
   return node->get<std::uint8_t>();
 }

@@ -5,8 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "support/packed.hpp"
 #include "telemetry/opcodes.hpp"
-#include "telemetry/pack.hpp"
 
 using namespace supercoil;
 using can_client::Master;
@@ -35,8 +35,8 @@ hal::CanFrame answer(const hal::CanFrame& asked, std::uint8_t opcode, std::uint1
   m.session = session;
   m.refusal = static_cast<std::uint8_t>(refusal);
   m.granted = told;
-  return telemetry::sealed(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH, node, m,
-                           supercoil_acknowledge_pack);
+  return test::sealed(SUPERCOIL_ACKNOWLEDGE_FRAME_ID, SUPERCOIL_ACKNOWLEDGE_LENGTH, node, m,
+                      supercoil_acknowledge_pack);
 }
 
 hal::CanFrame setting_answer(std::uint8_t counter, std::uint16_t session, Refusal refusal) {
@@ -46,8 +46,8 @@ hal::CanFrame setting_answer(std::uint8_t counter, std::uint16_t session, Refusa
   m.refusal = static_cast<std::uint8_t>(refusal);
   m.setting = 1;
   m.value = 4.5F;
-  return telemetry::sealed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH, node, m,
-                           supercoil_setting_pack);
+  return test::sealed(SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH, node, m,
+                      supercoil_setting_pack);
 }
 
 }  // namespace

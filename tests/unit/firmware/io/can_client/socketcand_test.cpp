@@ -7,7 +7,7 @@
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
-#include "unit/firmware/io/can_client/support/any_frame.hpp"
+#include "unit/firmware/io/can/support/any_frame.hpp"
 
 using namespace supercoil;
 using namespace supercoil::can_client;

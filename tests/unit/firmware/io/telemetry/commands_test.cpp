@@ -63,7 +63,7 @@ TEST(CanCommands, AMasterClaimsALeaseAndIsObeyed) {
 TEST(CanCommands, AnswersAreProtectedAsCommandsAre) {
   const auto answer = *take(master.frame(Opcode::lease)).answer;
   LONGS_EQUAL(0x241, answer.id);
-  CHECK(e2e::intact(answer, SUPERCOIL_ACKNOWLEDGE_LENGTH));
+  CHECK(can::e2e::intact(answer, SUPERCOIL_ACKNOWLEDGE_LENGTH));
 }
 
 TEST(CanCommands, WithoutALeaseAreRefused) {

@@ -10,7 +10,7 @@
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
-#include "unit/firmware/io/telemetry/support/unpacked.hpp"
+#include "unit/firmware/io/can/support/unpacked.hpp"
 
 using namespace supercoil;
 using namespace supercoil::telemetry;

@@ -3,14 +3,14 @@
 
 #include <supercoil.h>
 
+#include "support/packed.hpp"
 #include "telemetry/commands.hpp"
 #include "telemetry/opcodes.hpp"
-#include "telemetry/pack.hpp"
 
 namespace supercoil::test {
 
 struct Master {
-  telemetry::Node node = 1;
+  can::Node node = 1;
   std::uint16_t session = 0;
   std::uint8_t counter = 0;
   std::uint16_t name = 0x1234;  ///< by which it knows the answer to its claim
@@ -21,8 +21,8 @@ struct Master {
     m.opcode = opcode;
     m.session = session;
     m.value = value;
-    return telemetry::sealed(SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, node, m,
-                             supercoil_command_pack);
+    return test::sealed(SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, node, m,
+                        supercoil_command_pack);
   }
   hal::CanFrame setting(std::uint8_t setting, float value) {
     supercoil_setting_write_t m{};
@@ -30,12 +30,12 @@ struct Master {
     m.setting = setting;
     m.session = session;
     m.value = value;
-    return telemetry::sealed(SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH, node,
-                             m, supercoil_setting_write_pack);
+    return test::sealed(SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH, node, m,
+                        supercoil_setting_write_pack);
   }
   std::uint8_t next_counter() {
     const std::uint8_t now = counter;
-    counter = static_cast<std::uint8_t>((counter + 1) % telemetry::e2e::counters);
+    counter = static_cast<std::uint8_t>((counter + 1) % can::e2e::counters);
     return now;
   }
   hal::CanFrame frame(Verb verb, float value = 0.0F) {

@@ -1,4 +1,4 @@
-#include "can_client/decode.hpp"
+#include "can/codec.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -6,19 +6,24 @@
 #include <stdexcept>
 #include <string>
 
-namespace supercoil::can_client {
+#include "can/generated/messages.hpp"
+
+namespace supercoil::can {
 
 namespace {
 
 /// Bases of identifiers are multiples of this; below it is the node.
 constexpr std::uint16_t nodes = 0x40;
 
+std::uint64_t mask_of(const SignalInfo& signal) {
+  return (std::uint64_t{1} << signal.length) - 1;
+}
+
 std::uint64_t bits(const hal::CanFrame& frame, const SignalInfo& signal) {
   std::uint64_t all = 0;
   for (std::size_t i = frame.data.size(); i-- > 0;)
     all = all << 8U | frame.data[i];
-  const std::uint64_t mask = (std::uint64_t{1} << signal.length) - 1;
-  return all >> signal.start & mask;
+  return all >> signal.start & mask_of(signal);
 }
 
 /// The number that the bits are, before its scale.
@@ -28,7 +33,36 @@ std::int64_t integer(std::uint64_t raw, const SignalInfo& signal) {
   return static_cast<std::int64_t>(raw) - (negative ? static_cast<std::int64_t>(sign << 1U) : 0);
 }
 
-double value_of(const hal::CanFrame& frame, const SignalInfo& signal) {
+/// The nearest one that the signal has.
+std::int64_t quantised(double value, const SignalInfo& signal) {
+  if (std::isnan(value)) return signal.reserved == no_value ? 0 : signal.reserved;
+  const bool is_signed = signal.raw == Raw::signed_integer;
+  const std::int64_t half = std::int64_t{1} << (signal.length - 1U);
+  std::int64_t lowest = is_signed ? -half : 0;
+  std::int64_t highest = is_signed ? half - 1 : 2 * half - 1;
+  if (signal.reserved == lowest) ++lowest;
+  if (signal.reserved == highest) --highest;
+  const double scaled = value / signal.scale;
+  if (scaled <= static_cast<double>(lowest)) return lowest;
+  if (scaled >= static_cast<double>(highest)) return highest;
+  return std::llround(scaled);
+}
+
+}  // namespace
+
+void put(hal::CanFrame& frame, const SignalInfo& signal, double value) {
+  const std::uint64_t raw = signal.raw == Raw::floating
+                                ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
+                                : static_cast<std::uint64_t>(quantised(value, signal));
+  const std::uint64_t mask = mask_of(signal) << signal.start;
+  const std::uint64_t all = raw << signal.start & mask;
+  for (std::size_t i = 0; i < frame.data.size(); ++i) {
+    const auto kept = static_cast<std::uint8_t>(~(mask >> 8U * i));
+    frame.data[i] = static_cast<std::uint8_t>((frame.data[i] & kept) | (all >> 8U * i & 0xFFU));
+  }
+}
+
+double get(const hal::CanFrame& frame, const SignalInfo& signal) {
   const std::uint64_t raw = bits(frame, signal);
   if (signal.raw == Raw::floating)
     return static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(raw)));
@@ -36,10 +70,8 @@ double value_of(const hal::CanFrame& frame, const SignalInfo& signal) {
   return number == signal.reserved ? NAN : static_cast<double>(number) * signal.scale;
 }
 
-}  // namespace
-
 const MessageInfo* find_message(std::string_view name) {
-  const auto all = protocol();
+  const auto& all = all_messages;
   const auto found = std::find_if(all.begin(), all.end(),
                                   [&](const MessageInfo& message) { return message.name == name; });
   return found == all.end() ? nullptr : &*found;
@@ -62,7 +94,7 @@ std::string_view value_name(const SignalInfo& signal, double value) {
 
 std::optional<Decoded> decode(const hal::CanFrame& frame) {
   const auto base = static_cast<std::uint16_t>(frame.id / nodes * nodes);
-  const auto all = protocol();
+  const auto& all = all_messages;
   const auto message = std::find_if(all.begin(), all.end(),
                                     [&](const MessageInfo& known) { return known.base == base; });
   const bool ours = message != all.end() && frame.length == message->length && frame.id != base;
@@ -73,9 +105,9 @@ std::optional<Decoded> decode(const hal::CanFrame& frame) {
     const SignalInfo& signal = message->signals[i];
     // The first signal of a multiplexed message says which others are there.
     if (signal.selected_by != always && decoded.values[0] != signal.selected_by) continue;
-    decoded.values.at(i) = value_of(frame, signal);
+    decoded.values.at(i) = get(frame, signal);
   }
   return decoded;
 }
 
-}  // namespace supercoil::can_client
+}  // namespace supercoil::can

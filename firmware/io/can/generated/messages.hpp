@@ -1,11 +1,11 @@
-// Generated from firmware/io/telemetry/supercoil.dbc by toolchain/generate-can. Do not edit.
-#include "can_client/protocol.hpp"
+// Generated from firmware/io/can/supercoil.dbc by toolchain/generate-can. Do not edit.
+#pragma once
 
-namespace supercoil::can_client {
+#include "can/message.hpp"
 
-namespace {
+namespace supercoil::can {
 
-constexpr std::array<ValueName, 32> names_of_fault{{
+inline constexpr std::array<ValueName, 32> names_of_fault{{
     {0, "none"},
     {10, "sensor_out_of_range"},
     {11, "sensor_stale"},
@@ -40,7 +40,7 @@ constexpr std::array<ValueName, 32> names_of_fault{{
     {82, "self_test_failed"},
 }};
 
-constexpr std::array<ValueName, 16> names_of_gain{{
+inline constexpr std::array<ValueName, 16> names_of_gain{{
     {0, "none"},
     {1, "proportional"},
     {2, "integral"},
@@ -59,7 +59,7 @@ constexpr std::array<ValueName, 16> names_of_gain{{
     {15, "bias"},
 }};
 
-constexpr std::array<ValueName, 8> names_of_limited_by{{
+inline constexpr std::array<ValueName, 8> names_of_limited_by{{
     {0, "nothing"},
     {1, "minimum"},
     {2, "maximum"},
@@ -70,7 +70,7 @@ constexpr std::array<ValueName, 8> names_of_limited_by{{
     {7, "unproven"},
 }};
 
-constexpr std::array<ValueName, 5> names_of_mode{{
+inline constexpr std::array<ValueName, 5> names_of_mode{{
     {0, "rest"},
     {1, "position"},
     {2, "power"},
@@ -78,7 +78,7 @@ constexpr std::array<ValueName, 5> names_of_mode{{
     {4, "calibrate"},
 }};
 
-constexpr std::array<ValueName, 16> names_of_opcode{{
+inline constexpr std::array<ValueName, 16> names_of_opcode{{
     {0, "compare"},
     {1, "arm"},
     {2, "disarm"},
@@ -97,7 +97,7 @@ constexpr std::array<ValueName, 16> names_of_opcode{{
     {15, "lease"},
 }};
 
-constexpr std::array<ValueName, 14> names_of_parameter{{
+inline constexpr std::array<ValueName, 14> names_of_parameter{{
     {0, "theta1"},
     {1, "theta2"},
     {2, "theta3"},
@@ -114,7 +114,7 @@ constexpr std::array<ValueName, 14> names_of_parameter{{
     {13, "bias_deviation"},
 }};
 
-constexpr std::array<ValueName, 14> names_of_refusal{{
+inline constexpr std::array<ValueName, 14> names_of_refusal{{
     {0, "none"},
     {1, "wrong_state"},
     {2, "cause_persists"},
@@ -131,7 +131,7 @@ constexpr std::array<ValueName, 14> names_of_refusal{{
     {13, "other_version"},
 }};
 
-constexpr std::array<ValueName, 11> names_of_result{{
+inline constexpr std::array<ValueName, 11> names_of_result{{
     {0, "none"},
     {1, "running"},
     {2, "found"},
@@ -145,7 +145,7 @@ constexpr std::array<ValueName, 11> names_of_result{{
     {10, "too_still"},
 }};
 
-constexpr std::array<ValueName, 15> names_of_setting{{
+inline constexpr std::array<ValueName, 15> names_of_setting{{
     {0, "most_power_W"},
     {1, "measurement_Hz"},
     {2, "tracking_Hz"},
@@ -163,25 +163,25 @@ constexpr std::array<ValueName, 15> names_of_setting{{
     {14, "sense_error_ratio"},
 }};
 
-constexpr std::array<ValueName, 4> names_of_state{{
+inline constexpr std::array<ValueName, 4> names_of_state{{
     {0, "disarmed"},
     {1, "armed"},
     {2, "active"},
     {3, "fault"},
 }};
 
-constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
+inline constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
     {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
     {"state", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"board_time_s", "s", 16, 48, Raw::unsigned_integer, 1e-06, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 2> signals_of_FirstCause{{
+inline constexpr std::array<SignalInfo, 2> signals_of_FirstCause{{
     {"measured", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
     {"limit", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 5> signals_of_Command{{
+inline constexpr std::array<SignalInfo, 5> signals_of_Command{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"opcode", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_opcode},
@@ -189,7 +189,7 @@ constexpr std::array<SignalInfo, 5> signals_of_Command{{
     {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 6> signals_of_Acknowledge{{
+inline constexpr std::array<SignalInfo, 6> signals_of_Acknowledge{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"opcode", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_opcode},
@@ -198,37 +198,37 @@ constexpr std::array<SignalInfo, 6> signals_of_Acknowledge{{
     {"granted", "", 40, 16, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 3> signals_of_Measurement{{
+inline constexpr std::array<SignalInfo, 3> signals_of_Measurement{{
     {"position_m", "m", 0, 24, Raw::signed_integer, 1e-07, -8388608, always, {}},
     {"resistance_Ohm", "Ohm", 24, 24, Raw::unsigned_integer, 0.001, 16777215, always, {}},
     {"resistance_age_s", "s", 48, 16, Raw::unsigned_integer, 0.01, 65535, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 3> signals_of_Tracking{{
+inline constexpr std::array<SignalInfo, 3> signals_of_Tracking{{
     {"reference_m", "m", 0, 24, Raw::signed_integer, 1e-07, -8388608, always, {}},
     {"model_m", "m", 24, 24, Raw::signed_integer, 1e-07, -8388608, always, {}},
     {"error_m", "m", 48, 16, Raw::signed_integer, 1e-06, -32768, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 4> signals_of_Power{{
+inline constexpr std::array<SignalInfo, 4> signals_of_Power{{
     {"demanded_W", "W", 0, 24, Raw::signed_integer, 0.0002, -8388608, always, {}},
     {"applied_W", "W", 24, 24, Raw::signed_integer, 0.0002, -8388608, always, {}},
     {"limited_by", "", 48, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_limited_by},
     {"limited", "", 52, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 3> signals_of_Heater{{
+inline constexpr std::array<SignalInfo, 3> signals_of_Heater{{
     {"supply_V", "V", 0, 16, Raw::unsigned_integer, 0.001, 65535, always, {}},
     {"current_A", "A", 16, 24, Raw::signed_integer, 1e-05, -8388608, always, {}},
     {"duty", "", 40, 16, Raw::unsigned_integer, 2e-05, 65535, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 2> signals_of_Temperature{{
+inline constexpr std::array<SignalInfo, 2> signals_of_Temperature{{
     {"coldest_C", "degC", 0, 16, Raw::signed_integer, 0.01, -32768, always, {}},
     {"hottest_C", "degC", 16, 16, Raw::signed_integer, 0.01, -32768, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 18> signals_of_Estimate{{
+inline constexpr std::array<SignalInfo, 18> signals_of_Estimate{{
     {"parameter", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_parameter},
     {"trusted", "", 8, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"identify_notes", "", 9, 7, Raw::unsigned_integer, 1.0, no_value, always, {}},
@@ -249,35 +249,35 @@ constexpr std::array<SignalInfo, 18> signals_of_Estimate{{
     {"bias_deviation_W", "W", 32, 32, Raw::floating, 1.0, no_value, 13, {}},
 }};
 
-constexpr std::array<SignalInfo, 3> signals_of_Margin{{
+inline constexpr std::array<SignalInfo, 3> signals_of_Margin{{
     {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
     {"used", "", 8, 16, Raw::unsigned_integer, 0.001, 65535, always, {}},
     {"measured", "", 24, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 2> signals_of_Limit{{
+inline constexpr std::array<SignalInfo, 2> signals_of_Limit{{
     {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
     {"limit", "", 8, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 4> signals_of_Timing{{
+inline constexpr std::array<SignalInfo, 4> signals_of_Timing{{
     {"late_s", "s", 0, 20, Raw::unsigned_integer, 1e-07, 1048575, always, {}},
     {"execution_s", "s", 20, 20, Raw::unsigned_integer, 1e-07, 1048575, always, {}},
     {"overruns", "", 40, 12, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"dropped_frames", "", 52, 12, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 2> signals_of_Gain{{
+inline constexpr std::array<SignalInfo, 2> signals_of_Gain{{
     {"gain", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_gain},
     {"value", "", 8, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 2> signals_of_RefusedValue{{
+inline constexpr std::array<SignalInfo, 2> signals_of_RefusedValue{{
     {"value", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
     {"nearest", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 6> signals_of_Setting{{
+inline constexpr std::array<SignalInfo, 6> signals_of_Setting{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"setting", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
@@ -286,7 +286,7 @@ constexpr std::array<SignalInfo, 6> signals_of_Setting{{
     {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 5> signals_of_SettingWrite{{
+inline constexpr std::array<SignalInfo, 5> signals_of_SettingWrite{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"setting", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
@@ -294,11 +294,11 @@ constexpr std::array<SignalInfo, 5> signals_of_SettingWrite{{
     {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
+inline constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
     {"setting", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
 }};
 
-constexpr std::array<SignalInfo, 16> signals_of_Status{{
+inline constexpr std::array<SignalInfo, 16> signals_of_Status{{
     {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
     {"fault", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
@@ -317,32 +317,49 @@ constexpr std::array<SignalInfo, 16> signals_of_Status{{
     {"friction", "", 62, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
-constexpr std::array<MessageInfo, 19> all{{
-    {"Emergency", 0x080, 8, signals_of_Emergency},
-    {"FirstCause", 0x0c0, 8, signals_of_FirstCause},
-    {"Command", 0x200, 8, signals_of_Command},
-    {"Acknowledge", 0x240, 7, signals_of_Acknowledge},
-    {"Measurement", 0x280, 8, signals_of_Measurement},
-    {"Tracking", 0x2c0, 8, signals_of_Tracking},
-    {"Power", 0x300, 7, signals_of_Power},
-    {"Heater", 0x340, 7, signals_of_Heater},
-    {"Temperature", 0x380, 4, signals_of_Temperature},
-    {"Estimate", 0x3c0, 8, signals_of_Estimate},
-    {"Margin", 0x400, 7, signals_of_Margin},
-    {"Limit", 0x440, 5, signals_of_Limit},
-    {"Timing", 0x480, 8, signals_of_Timing},
-    {"Gain", 0x4c0, 5, signals_of_Gain},
-    {"RefusedValue", 0x500, 8, signals_of_RefusedValue},
-    {"Setting", 0x580, 8, signals_of_Setting},
-    {"SettingWrite", 0x5c0, 8, signals_of_SettingWrite},
-    {"SettingRead", 0x600, 1, signals_of_SettingRead},
-    {"Status", 0x700, 8, signals_of_Status},
+namespace message {
+inline constexpr MessageInfo emergency{"Emergency", 0x080, 8, 0, signals_of_Emergency};
+inline constexpr MessageInfo first_cause{"FirstCause", 0x0c0, 8, 0, signals_of_FirstCause};
+inline constexpr MessageInfo command{"Command", 0x200, 8, 0, signals_of_Command};
+inline constexpr MessageInfo acknowledge{"Acknowledge", 0x240, 7, 0, signals_of_Acknowledge};
+inline constexpr MessageInfo measurement{"Measurement", 0x280, 8, 10, signals_of_Measurement};
+inline constexpr MessageInfo tracking{"Tracking", 0x2c0, 8, 10, signals_of_Tracking};
+inline constexpr MessageInfo power{"Power", 0x300, 7, 20, signals_of_Power};
+inline constexpr MessageInfo heater{"Heater", 0x340, 7, 50, signals_of_Heater};
+inline constexpr MessageInfo temperature{"Temperature", 0x380, 4, 100, signals_of_Temperature};
+inline constexpr MessageInfo estimate{"Estimate", 0x3c0, 8, 100, signals_of_Estimate};
+inline constexpr MessageInfo margin{"Margin", 0x400, 7, 50, signals_of_Margin};
+inline constexpr MessageInfo limit{"Limit", 0x440, 5, 100, signals_of_Limit};
+inline constexpr MessageInfo timing{"Timing", 0x480, 8, 100, signals_of_Timing};
+inline constexpr MessageInfo gain{"Gain", 0x4c0, 5, 200, signals_of_Gain};
+inline constexpr MessageInfo refused_value{"RefusedValue", 0x500, 8, 0, signals_of_RefusedValue};
+inline constexpr MessageInfo setting{"Setting", 0x580, 8, 0, signals_of_Setting};
+inline constexpr MessageInfo setting_write{"SettingWrite", 0x5c0, 8, 0, signals_of_SettingWrite};
+inline constexpr MessageInfo setting_read{"SettingRead", 0x600, 1, 0, signals_of_SettingRead};
+inline constexpr MessageInfo status{"Status", 0x700, 8, 100, signals_of_Status};
+}  // namespace message
+
+/// In the order of identifiers.
+inline constexpr std::array<MessageInfo, 19> all_messages{{
+    message::emergency,
+    message::first_cause,
+    message::command,
+    message::acknowledge,
+    message::measurement,
+    message::tracking,
+    message::power,
+    message::heater,
+    message::temperature,
+    message::estimate,
+    message::margin,
+    message::limit,
+    message::timing,
+    message::gain,
+    message::refused_value,
+    message::setting,
+    message::setting_write,
+    message::setting_read,
+    message::status,
 }};
 
-}  // namespace
-
-std::span<const MessageInfo> protocol() {
-  return all;
-}
-
-}  // namespace supercoil::can_client
+}  // namespace supercoil::can

@@ -7,7 +7,7 @@
 
 #include "supercoil/hal/can_bus.hpp"
 
-namespace supercoil::telemetry::e2e {
+namespace supercoil::can::e2e {
 
 /// Byte 0 of the frame: CRC-8H2F over all other bytes and then the data id. All 16 data ids are the
 /// low byte of the frame's identifier: a frame that reaches another node is damaged.
@@ -43,4 +43,4 @@ constexpr bool follows(std::uint8_t counter, std::uint8_t last) {
   return ahead >= 1 && ahead <= most_lost + 1;
 }
 
-}  // namespace supercoil::telemetry::e2e
+}  // namespace supercoil::can::e2e

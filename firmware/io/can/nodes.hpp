@@ -7,24 +7,26 @@
 
 #include "supercoil/hal/can_bus.hpp"
 
-namespace supercoil::telemetry {
+#include "can/message.hpp"
+
+namespace supercoil::can {
 
 /// Node 1 to 63: one channel of a board; those of a board follow one another.
 using Node = std::uint8_t;
 inline constexpr int most_nodes = 63;
 
-/// The DBC describes node 1; the others' identifiers follow its.
-constexpr std::uint16_t id_of(unsigned id_of_node_1, Node node) {
-  return static_cast<std::uint16_t>(id_of_node_1 - 1U + node);
+constexpr std::uint16_t id_of(const MessageInfo& message, Node node) {
+  return static_cast<std::uint16_t>(message.base + node);
 }
 
 /// The channel whose message a frame is, of a board of so many. Empty: it is somebody else's, or
 /// another message.
-inline std::optional<std::uint8_t> channel_of(const hal::CanFrame& frame, unsigned id_of_node_1,
-                                              Node first_node, std::size_t channels) {
-  const int channel = frame.id - id_of(id_of_node_1, first_node);
+inline std::optional<std::uint8_t> channel_of(const hal::CanFrame& frame,
+                                              const MessageInfo& message, Node first_node,
+                                              std::size_t channels) {
+  const int channel = frame.id - id_of(message, first_node);
   if (channel < 0 || channel >= static_cast<int>(channels)) return std::nullopt;
   return static_cast<std::uint8_t>(channel);
 }
 
-}  // namespace supercoil::telemetry
+}  // namespace supercoil::can

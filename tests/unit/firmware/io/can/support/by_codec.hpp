@@ -9,13 +9,13 @@
 
 #include <supercoil.h>
 
-#include "can_client/decode.hpp"
-#include "unit/firmware/io/telemetry/support/unpacked.hpp"
+#include "can/codec.hpp"
+#include "unit/firmware/io/can/support/unpacked.hpp"
 
 namespace supercoil::test {
 
 /// In the order of a message's signals; NaN: not available, or not in this frame.
-using Values = std::array<double, can_client::most_signals>;
+using Values = std::array<double, can::most_signals>;
 
 inline Values values(std::initializer_list<double> read) {
   Values all;

@@ -1,0 +1,81 @@
+// From values to frames and back, by the protocol's table (supercoil.dbc).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "supercoil/hal/can_bus.hpp"
+
+#include "can/e2e.hpp"
+#include "can/message.hpp"
+#include "can/nodes.hpp"
+
+namespace supercoil::can {
+
+/// Puts a signal's value, in its unit, into a frame. A value outside of the signal's range becomes
+/// the range's nearest end; NaN becomes "not available", or 0 where the signal has no such value.
+void put(hal::CanFrame& frame, const SignalInfo& signal, double value);
+/// NaN: not available.
+double get(const hal::CanFrame& frame, const SignalInfo& signal);
+
+/// A frame of one message; signals that are not set are 0.
+template <const MessageInfo& message>
+class Encoder {
+ public:
+  explicit Encoder(Node node) {
+    frame_.id = id_of(message, node);
+    frame_.length = message.length;
+  }
+  Encoder& set(SignalOf<message> signal, double value) {
+    put(frame_, signal.info(), value);
+    return *this;
+  }
+  const hal::CanFrame& frame() const { return frame_; }
+  hal::CanFrame& frame() { return frame_; }
+  /// With the checksum over all that was set.
+  const hal::CanFrame& protected_frame() {
+    e2e::protect(frame_);
+    return frame_;
+  }
+
+ private:
+  hal::CanFrame frame_;
+};
+
+/// Reads signals of a frame that is of this message.
+template <const MessageInfo& message>
+class Reader {
+ public:
+  explicit Reader(const hal::CanFrame& frame) : frame_(&frame) {}
+  template <class Number = double>
+  Number get(SignalOf<message> signal) const {
+    return static_cast<Number>(can::get(*frame_, signal.info()));
+  }
+
+ private:
+  const hal::CanFrame* frame_;
+};
+
+/// More than any message has; decode() checks it.
+inline constexpr std::size_t most_signals = 20;
+
+struct Decoded {
+  const MessageInfo* message;
+  Node node;
+  /// In the order of the message's signals, in their units. NaN: not available, or not in this
+  /// frame.
+  std::array<double, most_signals> values;
+};
+
+/// Of any message. Empty: no frame of the protocol, for its identifier or its length.
+std::optional<Decoded> decode(const hal::CanFrame& frame);
+
+/// The message of this name; null: there is none.
+const MessageInfo* find_message(std::string_view name);
+/// A signal's place in its message; throws std::out_of_range for a name that the protocol lacks.
+std::size_t signal_index(const MessageInfo& message, std::string_view name);
+/// Name of a value; empty: it has none.
+std::string_view value_name(const SignalInfo& signal, double value);
+
+}  // namespace supercoil::can

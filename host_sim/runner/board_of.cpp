@@ -72,7 +72,7 @@ ChannelSupervision supervision_of(const Scenario& scenario) {
       s.position_noise_rms_m < shown_noise * count_m)
     s.frozen_s = INFINITY;
   s.out_of_range_s = std::max(s.out_of_range_s, 2.0 * scenario.step_s());
-  s.least_resistance_Ohm = 0.5 * c.plant.resistance_Ohm;
+  s.least_resistance_Ohm = default_least_resistance_Ohm(c.plant.resistance_Ohm);
   s.max_measured_W = default_max_measured_W(max_W);
   s.energy_J = default_energy_J(max_W, s.energy_window_s);
   return s;

@@ -122,7 +122,7 @@ bool Soak::nothing_drifted() {
       apart >= hal::Duration{} && apart < hal::duration_from(2.0 * rig_.period_s());
   return told(together, "the loop's time is not the board's") &&
          told(rig_.loop.overruns() == overruns_, "overruns were counted wrongly") &&
-         told(rig_.loop.lost_rows() == 0, "rows were lost") &&
+         told(rig_.loop.timing().lost_rows.load() == 0, "rows were lost") &&
          told(!rig_.interval_missed, "the muscle's temperature left its interval") &&
          told(rig_.last_refusal == Refusal::none, "a command was refused");
 }

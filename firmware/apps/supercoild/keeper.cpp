@@ -102,6 +102,8 @@ void Keeper::poll(Loop& loop, hal::Time now) {
     Keeper* keeper;
   } tee{this};
   recorder::pump(tee, recorder_, now);
+  tell_lost(loop.timing().lost_rows.load(std::memory_order_relaxed), told_lost_by_loop_,
+            "the telemetry thread was kept from running for more than a second");
   tell_notes();
   for (std::size_t i = 0; i < stores_->size(); ++i)
     store_learned(loop, i);
@@ -186,12 +188,14 @@ void Keeper::watch(const Row& row) {
   before = row;
 }
 
+void Keeper::tell_lost(std::size_t lost, std::size_t& told, const char* why) {
+  if (lost == told) return;
+  log(Level::warning, std::to_string(lost - told) + " rows are missing in recordings: " + why);
+  told = lost;
+}
+
 void Keeper::tell_notes() {
-  if (const std::size_t lost = relay_.lost(); lost != told_lost_) {
-    log(Level::warning, std::to_string(lost - told_lost_) +
-                            " rows are missing in recordings: the disk kept the recorder waiting");
-    told_lost_ = lost;
-  }
+  tell_lost(relay_.lost(), told_lost_by_disk_, "the disk kept the recorder waiting");
   for (const recorder::RecorderNote& note : recorder_.take_notes())
     log(note.problem ? Level::problem : Level::info, note.text);
 }

@@ -48,12 +48,14 @@ class Keeper {
   void forget(std::size_t channel, const std::string& who);
   void date(std::size_t channel, const std::string& who, board::SenseComparison& senses);
   void tell_notes();
+  static void tell_lost(std::size_t lost, std::size_t& told, const char* why);
 
   const config::BoardConfig* config_;
   std::vector<storage::LearnedStore>* stores_;
   recorder::FlightRecorder recorder_;
   RowRelay relay_;
-  std::size_t told_lost_ = 0;
+  std::size_t told_lost_by_disk_ = 0;
+  std::size_t told_lost_by_loop_ = 0;
   std::vector<board::SenseComparison> senses_;  ///< that each channel goes by
   std::vector<Row> last_;                       ///< of each channel
   std::uint64_t rows_ = 0;

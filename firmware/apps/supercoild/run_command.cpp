@@ -13,6 +13,7 @@
 #include "supercoil/hal_linux/socket_can.hpp"
 
 #include "apps/common/exit_status.hpp"
+#include "apps/supercoild/bus_watch.hpp"
 #include "apps/supercoild/ending_signals.hpp"
 #include "apps/supercoild/keeper.hpp"
 #include "apps/supercoild/log.hpp"
@@ -100,9 +101,12 @@ bool keep_until_signal(Parts& parts, Service& service) {
   hal_linux::MonotonicClock clock;
   std::uint64_t rows = 0;
   int rounds_without = 0;
+  BusWatch buses;
   while (!ending_signal_within(round)) {
     const hal::Time now = clock.now();
     parts.keeper->poll(*parts.loop, now);
+    for (const std::string& line : buses.news(parts.board->buses(), now))
+      log(Level::warning, line);
     if (parts.keeper->rows() != rows) {
       rows = parts.keeper->rows();
       rounds_without = 0;

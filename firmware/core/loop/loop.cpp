@@ -8,8 +8,6 @@ namespace supercoil {
 
 namespace {
 
-/// A stalled disk or a busy CPU may keep the recorder away for so long without a row being lost.
-constexpr double ring_s = 1.0;
 constexpr int most_commands_per_tick = 64;
 /// Buffered converters need so long to have their first values, and filters to settle.
 constexpr double settling_s = 0.1;
@@ -25,7 +23,7 @@ SelfTest::Settings self_test_settings(const BoardSettings& s) {
 }
 
 std::size_t ring_rows(const BoardSettings& s) {
-  return static_cast<std::size_t>(ring_s * s.rate_Hz) * s.channels.size();
+  return static_cast<std::size_t>(row_ring_s * s.rate_Hz) * s.channels.size();
 }
 
 }  // namespace
@@ -76,7 +74,7 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
 
   // Publish: rows for the recorder and for telemetry; then the light, which may wait.
   for (const auto& channel : channels_) {
-    if (!rows_.push(row_of(channel->publish(now_, supervisor_.verdict())))) ++lost_rows_;
+    if (!rows_.push(row_of(channel->publish(now_, supervisor_.verdict())))) timing_.lost_rows.fetch_add(1, std::memory_order_relaxed);
   }
   shine();
   if (devices_.watchdog != nullptr) devices_.watchdog->feed();

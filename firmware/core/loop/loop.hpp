@@ -36,6 +36,7 @@ struct LoopTiming {
   std::atomic<std::int64_t> late_ns{none};       ///< largest since it was taken
   std::atomic<std::int64_t> execution_ns{none};  ///< likewise, of whole ticks
   std::atomic<std::uint32_t> overruns{0};        ///< periods left out since boot
+  std::atomic<std::uint32_t> lost_rows{0};       ///< that found no room, since boot
 
   /// In the tick.
   void add(const TickTime& tick, std::int64_t skipped) {
@@ -50,6 +51,9 @@ struct LoopTiming {
       largest.store(value, std::memory_order_relaxed);
   }
 };
+
+/// A stalled disk or a busy CPU may keep the recorder away for so long without a row being lost.
+inline constexpr double row_ring_s = 1.0;
 
 class Loop {
  public:
@@ -78,7 +82,6 @@ class Loop {
   const SelfTest& self_test() const { return self_test_; }
   const TickTime& last_tick() const { return last_tick_; }
   std::int64_t overruns() const { return overruns_; }
-  std::int64_t lost_rows() const { return lost_rows_; }
 
  private:
   void obey();
@@ -109,7 +112,6 @@ class Loop {
   std::int64_t blink_ticks_ = 0;
   std::int64_t ticks_ = 0;
   std::int64_t overruns_ = 0;
-  std::int64_t lost_rows_ = 0;
   TickTime last_tick_;
   std::int64_t settling_ticks_;
   Health health_;

@@ -8,6 +8,11 @@ constexpr double default_max_measured_W(double max_W) {
   return 1.25 * max_W + 0.3;
 }
 
+/// Below this resistance the heater is shorted, where nothing else is said.
+constexpr double default_least_resistance_Ohm(double cold_Ohm) {
+  return 0.5 * cold_Ohm;
+}
+
 /// Likewise for energy. Holding max_W for good is no fault: how hot that makes the muscle is for
 /// the interval of its temperature to judge. More than this flows only when more was measured than
 /// was asked for.
@@ -29,7 +34,7 @@ struct ChannelSupervision {
   // Heater
   double open_min_duty = 0.02;
   double open_s = 0.02;
-  double least_resistance_Ohm = 5.0;  ///< below it: a short
+  double least_resistance_Ohm = default_least_resistance_Ohm(10.0);  ///< below it: a short
   double short_s = 0.002;
   double off_current_A = 0.05;    ///< what the sense may show while the channel is off
   double current_noise_A = 0.01;  ///< between the sense and the truth, besides 5 %

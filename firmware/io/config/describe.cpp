@@ -12,9 +12,6 @@ namespace supercoil::config {
 
 namespace {
 
-/// Of the ring between loop and recorder (loop.cpp).
-constexpr double ring_s = 1.0;
-
 /// To a few digits: times and parts are for people.
 double rounded(double value, double to) {
   return std::nearbyint(value / to) * to;
@@ -100,7 +97,7 @@ void describe_memory(std::ostream& out, const BoardSettings& settings) {
       << "  recorder " << kib(memory.recorder)
       << " KiB: " << recorder.before_s + recorder.after_s + recorder.retry_s << " s of ticks, "
       << sizeof(Row) << " bytes a channel and tick\n"
-      << "  ring     " << kib(memory.ring) << " KiB: " << ring_s << " s of them\n"
+      << "  ring     " << kib(memory.ring) << " KiB: " << row_ring_s << " s of them\n"
       << "  loop     " << kib(memory.loop) << " KiB, " << settings.channels.size()
       << (settings.channels.size() == 1 ? " channel" : " channels") << " in it\n"
       << "  together " << kib(memory.total()) << " KiB\n";
@@ -126,7 +123,7 @@ Memory memory_of(const BoardSettings& settings) {
     return static_cast<std::size_t>(time_s * rows_per_s) * sizeof(Row);
   };
   Memory memory;
-  memory.ring = bytes(ring_s);
+  memory.ring = bytes(row_ring_s);
   memory.recorder = bytes(recorder.before_s + recorder.after_s + recorder.retry_s);
   memory.loop = sizeof(Loop);
   for (const ChannelSettings& channel : settings.channels) {

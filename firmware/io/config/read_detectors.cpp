@@ -39,7 +39,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   const double cold_Ohm = c.heater.cold_resistance_Ohm;
   read.number("open_min_duty", s.open_min_duty, {0.001, 0.5});
   read.time("open_ms", s.open_s, 3.0, {1.0, 1000.0});
-  if (std::isfinite(cold_Ohm)) s.least_resistance_Ohm = 0.5 * cold_Ohm;
+  if (std::isfinite(cold_Ohm)) s.least_resistance_Ohm = default_least_resistance_Ohm(cold_Ohm);
   read.number("least_resistance_Ohm", s.least_resistance_Ohm, {0.01, 1e4});
   if (s.least_resistance_Ohm >= cold_Ohm) {
     section.wrong("least_resistance_Ohm", "must be less than heater.cold_resistance_Ohm");

@@ -100,6 +100,17 @@ board::Devices LinuxBoard::devices() {
   return devices;
 }
 
+std::vector<BusReport> LinuxBoard::buses() const {
+  std::vector<BusReport> reports;
+  for (std::size_t i = 0; i < threads_.size(); ++i) {
+    const hal_linux::BusHealth& health = threads_[i]->health();
+    reports.push_back(
+        {buses_[i].name, health.skipped.load(std::memory_order_relaxed),
+         1e-9 * static_cast<double>(health.longest_round_ns.load(std::memory_order_relaxed))});
+  }
+  return reports;
+}
+
 std::vector<hal_linux::SetupStep> LinuxBoard::steps() const {
   std::vector<hal_linux::SetupStep> all;
   for (const auto& thread : threads_)

@@ -1,6 +1,7 @@
 // The devices of a Linux board, as its configuration names them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,13 @@
 #include "config/wiring.hpp"
 
 namespace supercoil::linux_board {
+
+/// How a bus keeps up with the loop.
+struct BusReport {
+  std::string name;
+  std::uint64_t left_out = 0;  ///< rounds since the start, as the ones before took too long
+  double longest_s = 0.0;      ///< of all rounds
+};
 
 /// Opened, everything off: heartbeat still, enable lines low, duties 0. When it ends, it is left
 /// so.
@@ -36,6 +44,7 @@ class LinuxBoard {
 
   /// For as long as this lives.
   board::Devices devices();
+  std::vector<BusReport> buses() const;
   /// How setting up the buses' threads went.
   std::vector<hal_linux::SetupStep> steps() const;
 

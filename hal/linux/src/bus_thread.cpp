@@ -36,13 +36,10 @@ void BusThread::run() {
 void BusThread::serve_all(hal::Time started) {
   for (Served* device : devices_)
     device->serve();
-  const hal::Time finished = MonotonicClock::time();
-  const std::int64_t took_ns = (finished - started).count();
-  health_.last_round_ns.store(took_ns, std::memory_order_relaxed);
+  const std::int64_t took_ns = (MonotonicClock::time() - started).count();
   if (took_ns > health_.longest_round_ns.load(std::memory_order_relaxed)) {
     health_.longest_round_ns.store(took_ns, std::memory_order_relaxed);
   }
-  health_.last_finished_ns.store(finished.count(), std::memory_order_relaxed);
   health_.rounds.fetch_add(1, std::memory_order_release);
 }
 

@@ -15,11 +15,9 @@ namespace supercoil::hal_linux {
 
 /// How a bus's rounds go; written by its thread, read by any.
 struct BusHealth {
-  std::atomic<std::uint64_t> rounds{0};           ///< finished
-  std::atomic<std::uint64_t> skipped{0};          ///< periods left out since a round took too long
-  std::atomic<std::int64_t> last_round_ns{0};     ///< how long it took
-  std::atomic<std::int64_t> longest_round_ns{0};  ///< of all
-  std::atomic<std::int64_t> last_finished_ns{0};  ///< on the clock; how a stalled bus is noticed
+  std::atomic<std::uint64_t> rounds{0};   ///< finished
+  std::atomic<std::uint64_t> skipped{0};  ///< periods left out since a round took too long
+  std::atomic<std::int64_t> longest_round_ns{0};
 };
 
 /// Once a period it serves the devices, one after the other, in their order. One that fails is

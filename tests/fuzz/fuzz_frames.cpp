@@ -1,6 +1,7 @@
 // Frames from the bus: what becomes a command has its E2E intact and is the lease holder's, or it
 // is a stop.
 #include <bit>
+#include <deque>
 #include <random>
 
 #include "fuzz/steps.hpp"
@@ -64,6 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   telemetry::Commands commands(settings, leases);
   LeaseModel model(settings.lease_s);
   hal::Time now{};
+  std::deque<Command> handed_on;
   fuzz::for_each_step(data, size, [&](const fuzz::Step& step) {
     now += std::chrono::milliseconds(8 * step.wait);
     const hal::CanFrame frame = frame_of(step, model);
@@ -71,10 +73,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require_right(taken, frame, model, now);
     model.heard(frame, now);
     if (taken.answer) model.answered(*taken.answer, now);
-    // The loop answers some of them, and has no room for others.
-    if (taken.command && step.wait % 4 == 1) commands.not_taken();
-    if (step.wait % 4 >= 2) {
-      if (const auto answer = commands.answered({{}, Refusal::none})) model.answered(*answer, now);
+    if (taken.command) handed_on.push_back(*taken.command);
+    // The loop answers some of them, loses an answer now and then, and has no room for others.
+    if (taken.command && step.wait % 4 == 1) {
+      commands.not_taken();
+      handed_on.pop_back();
+    }
+    if (step.wait % 8 == 7 && !handed_on.empty()) handed_on.pop_front();
+    if (step.wait % 4 >= 2 && !handed_on.empty()) {
+      const auto answer = commands.answered({handed_on.front(), Refusal::none});
+      require(answer.has_value(), "what was handed on can be answered");
+      model.answered(*answer, now);
+      handed_on.pop_front();
     }
   });
   return 0;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <sstream>
 #include <system_error>
 
@@ -86,8 +87,8 @@ void LocalCommands::serve(Loop& loop, const NewestRows& rows, int most_ms) {
   ::poll(watched.data(), count + 1, most_ms);
   for (std::size_t i = count; i-- > 0;) {
     if (watched[i + 1].revents == 0 || take_packet(clients_[i], loop, rows)) continue;
-    for (int& client : waiting_)
-      client = client == clients_[i].number() ? -1 : client;
+    std::erase_if(waiting_,
+                  [&](const auto& asked) { return asked.second == clients_[i].number(); });
     clients_.erase(clients_.begin() + static_cast<std::ptrdiff_t>(i));
   }
   if (watched[0].revents != 0) accept_one();
@@ -121,21 +122,26 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
     answer(client.number(), senses_text(loop));
     return true;
   }
-  const auto command = parse_command(text, loop.channels());
+  auto command = parse_command(text, loop.channels());
   if (!command) {
     answer(client.number(), "wrong: " + command.error());
-  } else if (!loop.send(*command)) {
-    answer(client.number(), "refused: too many commands");
+    return true;
+  }
+  command->id = ++last_id_;
+  if (loop.send(*command)) {
+    waiting_[command->id] = client.number();
   } else {
-    waiting_.push_back(client.number());
+    answer(client.number(), "refused: too many commands");
   }
   return true;
 }
 
 void LocalCommands::pass(const Answer& given) {
-  if (waiting_.empty()) return;  // of a command that nobody here sent
-  answer(waiting_.front(), answer_text(given.refusal, given.nearest));
-  waiting_.pop_front();
+  const auto asked = waiting_.find(given.command.id);
+  if (asked == waiting_.end()) return;  // of a client that is gone, or of nobody here
+  answer(asked->second, answer_text(given.refusal, given.nearest));
+  // The loop answers in order: what came before has lost its answer.
+  waiting_.erase(waiting_.begin(), std::next(asked));
 }
 
 }  // namespace supercoil::daemon

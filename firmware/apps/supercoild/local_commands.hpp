@@ -1,7 +1,8 @@
 // Commands from programs on the board itself, by a socket in the file system.
 #pragma once
 
-#include <deque>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ class LocalCommands {
 
   /// Waits at most most_ms for something to do, and does it.
   void serve(Loop& loop, const NewestRows& rows, int most_ms);
-  /// The loop's answer to a command with Source::local, in their order.
+  /// The loop's answer to a command with Source::local.
   void pass(const Answer& given);
 
  private:
@@ -35,7 +36,8 @@ class LocalCommands {
 
   hal_linux::Descriptor listener_;
   std::vector<hal_linux::Descriptor> clients_;
-  std::deque<int> waiting_;  ///< whose commands the loop has not answered yet; −1: gone since
+  std::map<std::uint32_t, int> waiting_;  ///< whose commands the loop has not answered yet, by id
+  std::uint32_t last_id_ = 0;
 };
 
 }  // namespace supercoil::daemon

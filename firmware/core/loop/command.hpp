@@ -52,6 +52,7 @@ struct Command {
   Verb verb = Verb::none;
   double value = 0.0;
   Source source = Source::local;
+  std::uint32_t id = 0;  ///< chosen by whoever asks; the answer has it
 };
 
 /// How a channel takes a command.

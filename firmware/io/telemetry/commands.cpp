@@ -1,5 +1,7 @@
 #include "telemetry/commands.hpp"
 
+#include <algorithm>
+
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 #include "telemetry/opcodes.hpp"
@@ -39,10 +41,11 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
   } else if (waiting_.size() == most_waiting) {
     taken.answer = acknowledge(asked, Refusal::too_many);
   } else {
-    waiting_.push_back(asked);
+    waiting_.push_back({++last_id_, asked});
     taken.command = meant(asked.opcode, static_cast<double>(value));
     taken.command->channel = *channel;
     taken.command->source = Source::can;
+    taken.command->id = last_id_;
   }
   return taken;
 }
@@ -62,14 +65,16 @@ Refusal Commands::check(const Asked& asked, float value, hal::Time now) {
 }
 
 std::optional<hal::CanFrame> Commands::answered(const Answer& answer) {
-  if (waiting_.empty()) return std::nullopt;
-  const Asked asked = waiting_.front();
-  waiting_.pop_front();
+  const auto found = std::ranges::find(waiting_, answer.command.id, &Waiting::id);
+  if (found == waiting_.end()) return std::nullopt;
+  const Asked asked = found->asked;
+  // The loop answers in order: what came before has lost its answer.
+  waiting_.erase(waiting_.begin(), found + 1);
   return acknowledge(asked, answer.refusal);
 }
 
 hal::CanFrame Commands::not_taken() {
-  const Asked asked = waiting_.back();
+  const Asked asked = waiting_.back().asked;
   waiting_.pop_back();
   return acknowledge(asked, Refusal::too_many);
 }

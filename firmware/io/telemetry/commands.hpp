@@ -29,7 +29,8 @@ class Commands {
   };
   Taken take(const hal::CanFrame& frame, hal::Time now);
 
-  /// The frame that answers the oldest command that was handed on. Answers come in that order.
+  /// The frame that answers a command that was handed on; empty: it was another's. Those that were
+  /// handed on before it, and not answered, are no longer waited for.
   std::optional<hal::CanFrame> answered(const Answer& answer);
 
   /// The loop did not take the command that was handed on last.
@@ -50,9 +51,15 @@ class Commands {
   /// What the loop's ring of commands holds.
   static constexpr std::size_t most_waiting = 256;
 
+  struct Waiting {
+    std::uint32_t id;
+    Asked asked;
+  };
+
   can::Node first_node_;
   Leases* leases_;
-  std::deque<Asked> waiting_;
+  std::deque<Waiting> waiting_;  ///< in the order of their ids
+  std::uint32_t last_id_ = 0;
 };
 
 }  // namespace supercoil::telemetry

@@ -123,6 +123,19 @@ TEST(LocalCommands, ThatTheLoopCannotTakeAreAnsweredAtOnceAndTheOthersInTheirOrd
   STRCMP_EQUAL("", busy.heard().c_str());
 }
 
+TEST(LocalCommands, AnAnswerThatIsLostMovesNoOther) {
+  const Client one = client();
+  const Client other = client();
+  answer_to(one, "1 disarm");
+  answer_to(other, "1 rest");
+  rig.executive.run_tick();
+  Answer lost;
+  CHECK(rig.loop.answer(lost));
+  pass_answers();
+  STRCMP_EQUAL("", one.heard().c_str());
+  STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
+}
+
 TEST(LocalCommands, ANinthClientIsToldWhyItIsNotHeard) {
   std::vector<Client> clients;
   clients.reserve(8);

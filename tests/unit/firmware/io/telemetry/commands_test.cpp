@@ -170,6 +170,15 @@ TEST(CanCommands, MoreThanTheLoopCanTakeAreAnsweredAtOnce) {
   CHECK(static_cast<Refusal>(read_answer(*taken.answer).refusal) == Refusal::too_many);
 }
 
+TEST(CanCommands, AnAnswerThatIsLostMovesNoOther) {
+  claim(master);
+  const auto lost = take(master.frame(Verb::arm));
+  const auto heard = take(master.frame(Verb::rest));
+  const auto answer = read_answer(*commands.answered({*heard.command, Refusal::wrong_state}));
+  LONGS_EQUAL(static_cast<int>(Verb::rest), answer.opcode);
+  CHECK_FALSE(commands.answered({*lost.command, Refusal::none}).has_value());
+}
+
 TEST(CanCommands, AClaimWhoseAnswerWasLostIsGrantedAgainToTheSameOnly) {
   claim(master);
   CHECK(claim(master) != 0);

@@ -7,44 +7,15 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/exit_status.hpp"
-#include "apps/supercoild/keeper.hpp"
+#include "apps/supercoild/check_command.hpp"
 #include "apps/supercoild/latency/latency_command.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "apps/supercoild/off_command.hpp"
 #include "apps/supercoild/run_command.hpp"
-#include "config/board_config.hpp"
-#include "config/describe.hpp"
-#include "storage/posix_files.hpp"
-#include "storage/store.hpp"
 
 namespace {
 
 using namespace supercoil;
-
-/// Elsewhere than on the board there is no such folder.
-void recall_learned(config::BoardConfig& config) {
-  storage::PosixFiles files;
-  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
-    storage::LearnedStore store(config.storage_folder, static_cast<int>(i + 1), files);
-    const auto loaded = store.load();
-    if (!loaded || !loaded->learned) continue;
-    daemon::recall(config.settings.channels[i], *loaded->learned);
-    std::printf("channel %zu: with what was learned before, version %u in %s\n", i + 1,
-                loaded->learned->version, config.storage_folder.c_str());
-  }
-}
-
-int check_file(const std::string& path) {
-  auto config = config::read_board_config(path);
-  if (!config) {
-    std::fputs(config::to_text(config.error()).c_str(), stderr);
-    return exit_wrong_input;
-  }
-  recall_learned(*config);
-  std::fputs(config::describe(*config).c_str(), stdout);
-  std::fputs(daemon::describe_locked_memory(*config).c_str(), stdout);
-  return exit_done;
-}
 
 /// What only goes with --latency says so when it stands alone.
 void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
@@ -64,9 +35,8 @@ void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
                            ->excludes(seconds);
   CLI::Option* plot =
       app.add_option("--plot", options.plot, "Draw the histograms (gnuplot)")->type_name("SVG");
-  CLI::Option* json = app.add_flag("--json", options.json, "Print JSON instead of text");
   rate->excludes("--config");
-  for (CLI::Option* option : {rate, seconds, ticks, plot, json})
+  for (CLI::Option* option : {rate, seconds, ticks, plot})
     option->needs(latency)->group("With --latency");
   latency->excludes("--check")->excludes("--off");
 }
@@ -101,16 +71,21 @@ int run_program(int count, char** arguments) {
   daemon::LatencyOptions latency;
   bool measures = false;
   add_latency(app, latency, measures);
+  bool as_json = false;
+  app.add_flag("--json", as_json, "With --check or --latency: print JSON instead of text");
   try {
     app.parse(count, arguments);
+    if (as_json && !measures && app.count("--check") == 0)
+      throw CLI::RequiresError("--json", "--check or --latency");
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
   }
-  if (app.count("--check") > 0) return check_file(file);
+  if (app.count("--check") > 0) return daemon::check_command(file, as_json);
   if (off) return daemon::off_command(options.config, options.run_folder);
   if (!measures) return daemon::run_command(options);
   if (app.count("--config") > 0) latency.config = options.config;
+  latency.json = as_json;
   latency.priority = options.priority;
   latency.cpu = options.cpu;
   return daemon::latency_command(latency);

@@ -39,24 +39,25 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
   return s;
 }
 
-std::string check(const BoardSettings& settings) {
-  std::ostringstream wrong;
+std::optional<SettingsProblem> check(const BoardSettings& settings) {
   const BoardSupervision& s = settings.supervision;
+  const std::size_t channels = settings.channels.size();
+  if (channels < 1 || channels > 16)
+    return SettingsProblem{"", "a board has 1 to 16 channels, not " + std::to_string(channels)};
   const double tolerated_s = s.overruns_in_a_row * settings.step_s();
-  if (settings.channels.empty() || settings.channels.size() > 16) {
-    wrong << "a board has 1 to 16 channels, not " << settings.channels.size();
-  } else if (!(s.charge_pump_decay_s > 2.0 * tolerated_s)) {
-    wrong << "charge_pump_decay_ms must exceed twice the tolerated overruns: "
-          << s.overruns_in_a_row << " in a row at " << settings.rate_Hz << " Hz are "
-          << 1e3 * tolerated_s << " ms, so more than " << 2e3 * tolerated_s << " ms, not "
-          << 1e3 * s.charge_pump_decay_s;
+  if (!(s.charge_pump_decay_s > 2.0 * tolerated_s)) {
+    std::ostringstream message;
+    message << "must exceed twice the tolerated overruns: " << s.overruns_in_a_row
+            << " in a row at " << settings.rate_Hz << " Hz are " << 1e3 * tolerated_s
+            << " ms, so more than " << 2e3 * tolerated_s << " ms, not "
+            << 1e3 * s.charge_pump_decay_s;
+    return SettingsProblem{"charge_pump_decay_ms", message.str()};
   }
   for (const ChannelSettings& channel : settings.channels) {
-    if (channel.controllers.empty() || channel.estimators.empty()) {
-      wrong << "a channel needs a controller and an estimator";
-    }
+    if (channel.controllers.empty() || channel.estimators.empty())
+      return SettingsProblem{"", "a channel needs a controller and an estimator"};
   }
-  return wrong.str();
+  return std::nullopt;
 }
 
 }  // namespace supercoil

@@ -1,6 +1,7 @@
 // All that the loop needs to know of a board, in SI units, checked before it starts.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,8 +83,13 @@ std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& 
 /// What the proof that the muscle answers rests on.
 ProofSettings proof_settings(const ChannelSettings& channel, const BoardSettings& board);
 
+struct SettingsProblem {
+  std::string key;  ///< of [board]; empty: of the board as a whole
+  std::string message;
+};
+
 /// What makes settings unusable whoever wrote them; empty when they may run. (Ranges of single
 /// values are the configuration's to check.)
-std::string check(const BoardSettings& settings);
+std::optional<SettingsProblem> check(const BoardSettings& settings);
 
 }  // namespace supercoil

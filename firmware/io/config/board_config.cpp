@@ -46,15 +46,15 @@ bool refuse_number(const std::vector<Section>& channels, Diagnostics& diagnostic
   return true;
 }
 
-/// What check() refuses, said at the key that it begins with.
+/// What check() refuses, said at its key.
 void refuse_settings(Section& board, const BoardSettings& settings, Diagnostics& diagnostics) {
   if (std::isnan(settings.supervision.charge_pump_decay_s)) return;  // said already
-  const std::string message = check(settings);
-  const std::string key = message.substr(0, message.find(' '));
-  if (board.has(key)) {
-    board.wrong(key, message.substr(key.size() + 1));
-  } else if (!message.empty()) {
-    diagnostics.add(board.line(), "board", message);
+  const auto problem = check(settings);
+  if (!problem) return;
+  if (problem->key.empty()) {
+    diagnostics.add(board.line(), "board", problem->message);
+  } else {
+    board.wrong(problem->key, problem->message);
   }
 }
 

@@ -1,6 +1,7 @@
 """supercoild as its owner or a script meets it: exit status and messages."""
 
 import fcntl
+import json
 import os
 import pathlib
 import re
@@ -45,6 +46,26 @@ class Program(unittest.TestCase):
         done = self.run_program("--check", SLOW)
         self.assertIn("  i2c-1: 1.988 ms, 19.9 %, at 400 kHz\n", done.stdout)
         self.assertRegex(done.stdout, r"\n  together \d+ KiB\n")
+
+    def test_check_prints_json_for_programs(self):
+        done = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml", "--json")
+        told = json.loads(done.stdout)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(told["board"], "two muscles")
+        self.assertEqual((told["can"]["interface"], told["can"]["bit_rate"]), ("can0", 500000))
+        self.assertEqual([channel["learned_version"] for channel in told["channels"]], [0, 0])
+
+    def test_check_prints_every_mistake_as_json(self):
+        file, line = self.changed("rate_Hz", "rate_kHz")
+        done = self.run_program("--check", file, "--json")
+        self.assertEqual((done.returncode, done.stderr), (2, ""))
+        problems = json.loads(done.stdout)["problems"]
+        self.assertIn((file, line, "board.rate_kHz"), [(p["file"], p["line"], p["key"]) for p in problems])
+
+    def test_json_goes_with_check_or_latency_only(self):
+        done = self.run_program("--json")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--json requires --check or --latency", done.stderr)
 
     def learned(self, channel, version, **tables):
         body = f"version = {version}\n" + "".join(

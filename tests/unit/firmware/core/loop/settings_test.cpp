@@ -6,13 +6,16 @@ using namespace supercoil;
 
 TEST_GROUP(BoardSettingsCheck) {
   BoardSettings settings;
-  void check_says(const char* what) const {
-    STRCMP_CONTAINS(what, check(settings).c_str());
+  void check_says(const char* what, const char* key = "") const {
+    const auto problem = check(settings);
+    CHECK(problem.has_value());
+    STRCMP_EQUAL(key, problem->key.c_str());
+    STRCMP_CONTAINS(what, problem->message.c_str());
   }
 };
 
 TEST(BoardSettingsCheck, DefaultsMayRun) {
-  STRCMP_EQUAL("", check(settings).c_str());
+  CHECK_FALSE(check(settings).has_value());
 }
 
 TEST(BoardSettingsCheck, RefusesWhatIsNoBoard) {
@@ -21,7 +24,7 @@ TEST(BoardSettingsCheck, RefusesWhatIsNoBoard) {
   settings.channels.resize(17);
   check_says("not 17");
   settings.channels.resize(16);
-  STRCMP_EQUAL("", check(settings).c_str());
+  CHECK_FALSE(check(settings).has_value());
   settings.channels[3].controllers.clear();
   check_says("needs a controller");
   settings.channels[3].controllers.resize(1);
@@ -32,9 +35,10 @@ TEST(BoardSettingsCheck, RefusesWhatIsNoBoard) {
 TEST(BoardSettingsCheck, RefusesAPumpThatALateTickWouldStop) {
   settings.supervision.overruns_in_a_row = 10;
   settings.supervision.charge_pump_decay_s = 0.0201;
-  STRCMP_EQUAL("", check(settings).c_str());
+  CHECK_FALSE(check(settings).has_value());
   settings.supervision.charge_pump_decay_s = 0.0199;
-  check_says("10 in a row at 1000 Hz are 10 ms, so more than 20 ms, not 19.9");
+  check_says("10 in a row at 1000 Hz are 10 ms, so more than 20 ms, not 19.9",
+             "charge_pump_decay_ms");
 }
 
 TEST(BoardSettingsCheck, TheLoopsDelayIsATickAndTheHeaters) {

@@ -1,0 +1,93 @@
+#include "apps/supercoild/check_command.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/common/exit_status.hpp"
+#include "apps/supercoild/keeper.hpp"
+#include "apps/supercoild/locked_memory.hpp"
+#include "config/board_config.hpp"
+#include "config/describe.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
+
+namespace supercoil::daemon {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The version of what each channel has learned; 0: nothing. Elsewhere than on the board there is
+/// no such folder.
+std::vector<std::uint32_t> recall_learned(config::BoardConfig& config) {
+  storage::PosixFiles files;
+  std::vector<std::uint32_t> versions;
+  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
+    storage::LearnedStore store(config.storage_folder, static_cast<int>(i + 1), files);
+    const auto loaded = store.load();
+    const bool known = loaded && loaded->learned;
+    versions.push_back(known ? loaded->learned->version : 0);
+    if (known) recall(config.settings.channels[i], *loaded->learned);
+  }
+  return versions;
+}
+
+Json json_of(const std::vector<config::Problem>& problems) {
+  Json json = Json::array();
+  for (const config::Problem& problem : problems) {
+    json.push_back({{"file", problem.file},
+                    {"line", problem.line},
+                    {"key", problem.key},
+                    {"message", problem.message}});
+  }
+  return json;
+}
+
+Json json_of(const config::BoardConfig& config, const std::vector<std::uint32_t>& versions) {
+  Json channels = Json::array();
+  for (std::size_t i = 0; i < versions.size(); ++i)
+    channels.push_back({{"name", config.labels[i].name}, {"learned_version", versions[i]}});
+  Json can;
+  if (config.can) {
+    can = {{"interface", config.can->interface},
+           {"bit_rate", std::llround(config.can->bit_rate)},
+           {"first_node", config.can->first_node}};
+  }
+  return {{"board", config.name},
+          {"rate_Hz", config.settings.rate_Hz},
+          {"channels", channels},
+          {"can", can},
+          {"weaknesses", config::weaknesses(config)}};
+}
+
+void print(const Json& json) {
+  std::puts(json.dump(2).c_str());
+}
+
+}  // namespace
+
+int check_command(const std::string& file, bool as_json) {
+  auto config = config::read_board_config(file);
+  if (!config) {
+    if (as_json) print({{"problems", json_of(config.error())}});
+    std::fputs(as_json ? "" : config::to_text(config.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  const std::vector<std::uint32_t> versions = recall_learned(*config);
+  if (as_json) {
+    print(json_of(*config, versions));
+    return exit_done;
+  }
+  for (std::size_t i = 0; i < versions.size(); ++i) {
+    if (versions[i] == 0) continue;
+    std::printf("channel %zu: with what was learned before, version %u in %s\n", i + 1, versions[i],
+                config->storage_folder.c_str());
+  }
+  std::fputs(config::describe(*config).c_str(), stdout);
+  std::fputs(describe_locked_memory(*config).c_str(), stdout);
+  return exit_done;
+}
+
+}  // namespace supercoil::daemon

@@ -53,7 +53,7 @@ void add_run(CLI::App& app, RunOptions& options) {
          "socketcand:PORT: serve the board's CAN bus on that port of loopback; 0 takes a free one")
       ->type_name("BUS")
       ->needs(real_time);
-  run->add_flag("--check", options.check, "Only say whether the scenario is in order");
+  run->add_flag("--check", options.check, "Only say whether the scenario is in order, and what the muscle can do");
   run->add_flag("--allow-fault", options.allow_fault,
                 "Exit status 0 although the muscle never armed or the run ended in a fault");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");

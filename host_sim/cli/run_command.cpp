@@ -5,7 +5,9 @@
 
 #include "cli/commands.hpp"
 #include "cli/runs.hpp"
+#include "config/describe.hpp"
 #include "report/output_folder.hpp"
+#include "runner/board_of.hpp"
 #include "runner/summary.hpp"
 #include "scenario/read_scenario.hpp"
 #include "storage/posix_files.hpp"
@@ -35,6 +37,18 @@ std::optional<Window> read_window(const std::string& text, double duration_s, do
   return Window{*from, *to};
 }
 
+/// What the muscle that is believed can do, beforehand; in brief, and what to change.
+void tell_feasibility(const Scenario& scenario, bool in_brief) {
+  const BoardSettings board = firmware_of(scenario);
+  const ChannelSettings& channel = board.channels[0];
+  auto lines = config::describe_feasibility(channel, board);
+  if (in_brief) lines.resize(1);
+  for (const std::string& line : lines)
+    std::printf("muscle: %s\n", line.c_str());
+  for (const std::string& line : config::advice(channel, board))
+    std::printf("advice: %s\n", line.c_str());
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options) {
@@ -62,12 +76,14 @@ int run_command(const RunOptions& options) {
   if (options.check) {
     std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenario.c_str(),
                 scenario->ticks(), scenario->events.size());
+    tell_feasibility(*scenario, false);
     return exit_done;
   }
   auto folder =
       OutputFolder::open(options.out.empty() ? "supercoil-out/" + scenario->name : options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
 
+  if (!options.quiet) tell_feasibility(*scenario, true);
   if (options.real_time) return live_run(options, *scenario, *window, *folder, store);
   return lockstep_run(options, *scenario, *window, *folder, store);
 }

@@ -21,6 +21,11 @@ std::string describe_heat(const ChannelSettings& channel);
 std::string describe_senses(const ChannelSettings& channel, const BoardSettings& board);
 /// How much of a small motion arrives at the sensor, and up to which power that is enough.
 std::string describe_small_motions(const ChannelSettings& channel, const BoardSettings& board);
+/// What the muscle can do with these limits: how far, how fast, from when on. One line each.
+std::vector<std::string> describe_feasibility(const ChannelSettings& channel,
+                                              const BoardSettings& board);
+/// What to change so that a channel can do more, or does not fail; one line each, or none.
+std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
 /// One line for each detector that this configuration leaves blind, whose it is, and why.
 std::vector<std::string> weaknesses(const BoardConfig& config);
 

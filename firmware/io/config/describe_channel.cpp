@@ -164,6 +164,11 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   describe_wiring(out, config.wiring.channels[index], c);
   describe_limits(out, c, config.settings, label);
   describe_control(out, c, config.settings.step_s());
+  const char* title_of_line = "  can do      ";
+  for (const std::string& line : describe_feasibility(c, config.settings)) {
+    out << title_of_line << line << "\n";
+    title_of_line = "              ";
+  }
   return out.str();
 }
 

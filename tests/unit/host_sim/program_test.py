@@ -308,10 +308,18 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         json.loads((self.path / "out/summary.json").read_text())
 
+    def test_says_beforehand_that_a_slow_muscle_cannot_follow_its_reference_model(self):
+        slow = SHORT + "[plant]\nthermal_mass_J_per_K = 2.0\n"
+        told = self.run_program("run", self.scenario(slow), "--check").stdout
+        self.assertRegex(told, r"\nadvice: controller 0: .* shape_reference = true")
+        shaped = slow + "[controller]\nshape_reference = true\n"
+        self.assertNotIn("advice", self.run_program("run", self.scenario(shaped), "--check").stdout)
+
     def test_check_and_list_write_nothing(self):
         checked = self.run_program("run", self.scenario(SHORT), "--check")
         self.assertEqual(checked.returncode, 0)
         self.assertIn("in order", checked.stdout)
+        self.assertRegex(checked.stdout, r"\nmuscle: holds [\d.]+ mm for good, at [\d.]+ W")
         listed = self.run_program("list")
         self.assertIn("sine", listed.stdout)
         self.assertIn("printed", listed.stdout)

@@ -1,0 +1,112 @@
+#include "loop/feasibility.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/control/tracking/reference_shaper.hpp"
+
+#include "board/known_heat.hpp"
+
+namespace supercoil {
+
+namespace {
+
+/// The steady power at which derating leaves just that power: the hottest that the muscle may be
+/// rises with it, and the limiter falls from max_W at derate_from_C to none at derate_to_C.
+double derated_W(const ChannelSettings& c, const BoardSettings& board, double max_W) {
+  const LimiterSettings& l = c.limiter;
+  const double ratio = power_bounds(c, board).true_over_told().max;
+  const double eta = board::known_heat(c.thermal, c.heat).bounds.lowest_transfer_W_per_K;
+  const double warmest_C = c.thermal.air.warmest_C;
+  if (warmest_C + max_W * ratio / eta <= l.derate_from_C) return max_W;
+  const double crossing_W = l.max_W * (l.derate_to_C - warmest_C) /
+                            (l.derate_to_C - l.derate_from_C + l.max_W * ratio / eta);
+  return std::clamp(crossing_W, 0.0, max_W);
+}
+
+void find_power(const ChannelSettings& c, const BoardSettings& board, Feasibility& f) {
+  const double supply_V = board.supervision.lowest_supply_V;
+  f.max_W = std::min(c.limiter.max_W, supply_V * supply_V / c.heater.cold_resistance_Ohm);
+  f.held_W = f.max_W;
+  const auto bound = [&](double power_W, LimitedBy by) {
+    if (power_W >= f.held_W) return;
+    f.held_W = power_W;
+    f.held_by = by;
+  };
+  bound(derated_W(c, board, f.max_W), LimitedBy::temperature);
+  if (c.supervision.proof_of_response) {
+    bound(plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz).provable_W,
+          LimitedBy::unproven);
+  }
+}
+
+/// Rise and fall are the heat's: the spring and the load follow it.
+void find_motion(const ChannelSettings& c, Feasibility& f) {
+  const double tau_s = -1.0 / c.muscle.thermal_pole_rad_per_s();
+  const double gain_m_per_W = c.muscle.dc_gain_m_per_W();
+  f.travel_m = std::min(c.supervision.max_travel_m, gain_m_per_W * f.held_W);
+  const double part = f.travel_m / (gain_m_per_W * f.max_W);  // of where max_W would lead
+  f.rise_s = tau_s * std::log((1.0 - 0.1 * part) / (1.0 - 0.9 * part));
+  f.fall_s = tau_s * std::log(9.0);
+  // P = (x + τẋ)/gain must not fall below 0, or rise above max_W.
+  const double amplitude_m = 0.25 * f.travel_m;
+  const double room_m =
+      std::min(0.5 * f.travel_m, gain_m_per_W * f.max_W - 0.5 * f.travel_m) / amplitude_m;
+  f.half_travel_period_s =
+      2.0 * std::numbers::pi * tau_s / std::sqrt(std::max(0.0, room_m * room_m - 1.0));
+}
+
+void find_rest(const ChannelSettings& c, Feasibility& f) {
+  const board::ThermalSettings& t = c.thermal;
+  const double metres_per_K = c.muscle.force_per_kelvin_N_per_K / c.muscle.stiffness_N_per_m;
+  f.air_shift_m = metres_per_K * (t.air.warmest_C - t.air.coldest_C);
+  f.rest_seen = -f.air_shift_m >= c.supervision.lowest_position_m;
+  const control::ThermalBounds b = board::known_heat(t, c.heat).bounds;
+  const double allowed_K = c.limiter.derate_from_C - t.air.warmest_C;
+  f.armable_s = allowed_K <= 0.0
+                    ? INFINITY
+                    : std::max(0.0, b.highest_mass_J_per_K / b.lowest_transfer_W_per_K *
+                                        std::log(t.boot_rise_K / allowed_K));
+}
+
+/// A step asks for a peak of power at its beginning: of a step of 1 m through the model from rest.
+double peak_W_per_m(const control::ControllerSettings& controller,
+                    const control::PhysicalParameters& muscle) {
+  // The peak comes within the first time constants of the model's fastest pole.
+  constexpr int steps = 2000;
+  const double step_s = 20.0 / (steps * std::cbrt(controller.model.denominator[0]));
+  const control::RegressionScale scale{control::theta_from(muscle), {}, muscle.moving_mass_kg};
+  const control::ReferenceShaper inverse(controller.model, scale);
+  control::ReferenceModel<double> model(controller.model, step_s);
+  double peak_W = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    peak_W = std::max(peak_W, inverse.power_W(1.0, model.motion()));
+    model.step(1.0);
+  }
+  return peak_W;
+}
+
+std::optional<FeasibleSteps> feasible_steps(const control::ControllerSettings& controller,
+                                            const ChannelSettings& c, const Feasibility& f) {
+  if (controller.kind == control::ControllerKind::power) return std::nullopt;
+  const double peak = peak_W_per_m(controller, c.muscle);
+  return FeasibleSteps{std::min(f.travel_m, f.max_W / peak),
+                       std::min(f.travel_m, f.travel_m / c.muscle.dc_gain_m_per_W() / peak),
+                       controller.shaped_for.has_value()};
+}
+
+}  // namespace
+
+Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board) {
+  Feasibility f;
+  find_power(channel, board, f);
+  find_motion(channel, f);
+  find_rest(channel, f);
+  for (const control::ControllerSettings& controller : channel.controllers)
+    f.steps.push_back(feasible_steps(controller, channel, f));
+  return f;
+}
+
+}  // namespace supercoil

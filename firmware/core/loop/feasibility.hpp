@@ -1,0 +1,37 @@
+// What a channel's muscle can do, told before it is heated.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "loop/settings.hpp"
+
+namespace supercoil {
+
+/// How far steps through a controller's reference model may go. More than that, the muscle would
+/// have to be cooled, or to get more than the greatest power.
+struct FeasibleSteps {
+  double up_m = 0.0;    ///< from rest
+  double down_m = 0.0;  ///< from the top of the travel
+  bool shaped = false;  ///< larger ones are shaped, so that the muscle follows them as it can
+};
+
+/// By the linear model of the muscle as it is configured, or was identified.
+struct Feasibility {
+  double max_W = 0.0;   ///< for seconds: the limiter, or the lowest supply over the cold resistance
+  double held_W = 0.0;  ///< for good
+  LimitedBy held_by = LimitedBy::maximum;  ///< what bounds held_W
+  double travel_m = 0.0;                   ///< what held_W holds, up to max_travel_m
+  double rise_s = 0.0;                     ///< 10 to 90 % of the travel at max_W
+  double fall_s = 0.0;                     ///< 90 to 10 % of it without power
+  double half_travel_period_s = 0.0;       ///< the fastest sine over the middle half of the travel
+  double air_shift_m =
+      0.0;                 ///< how far the coldest air draws the rest position below the warmest's
+  bool rest_seen = true;   ///< the sensor reads so far below its zero
+  double armable_s = 0.0;  ///< after boot, at the latest; infinite: never
+  std::vector<std::optional<FeasibleSteps>> steps;  ///< of each controller; empty: in open loop
+};
+
+Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
+
+}  // namespace supercoil

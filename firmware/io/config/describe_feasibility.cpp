@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "config/describe.hpp"
+#include "loop/feasibility.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+/// To three digits: these are predictions.
+std::string in_digits(double value) {
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
+std::string in_mm(double metres) {
+  return in_digits(1e3 * metres) + " mm";
+}
+
+std::string motion_line(const Feasibility& f) {
+  std::string line = "holds " + in_mm(f.travel_m) + " for good, at " + in_digits(f.held_W) + " W";
+  if (f.held_by != LimitedBy::maximum) line += " (limited_by " + std::string(name(f.held_by)) + ")";
+  line += "; 10 to 90 % of it in " + in_digits(f.rise_s) + " s at " + in_digits(f.max_W) +
+          " W, back in " + in_digits(f.fall_s) + " s";
+  return line + "; a sine over its middle half takes " + in_digits(f.half_travel_period_s) +
+         " s at least";
+}
+
+std::string start_line(const Feasibility& f, const ChannelSettings& c) {
+  std::string line = std::isfinite(f.armable_s)
+                         ? "may be armed " + in_digits(f.armable_s) + " s after boot, at the latest"
+                         : "can never be armed";
+  if (f.air_shift_m > 0.0) {
+    line += "; rests up to " + in_mm(f.air_shift_m) + " lower in the coldest air";
+    if (!f.rest_seen)
+      line += ", where the sensor reads no less than " + in_mm(c.supervision.lowest_position_m);
+  }
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> describe_feasibility(const ChannelSettings& c,
+                                              const BoardSettings& board) {
+  const Feasibility f = feasibility(c, board);
+  std::vector<std::string> lines{motion_line(f), start_line(f, c)};
+  for (std::size_t i = 0; i < f.steps.size(); ++i) {
+    if (!f.steps[i]) continue;
+    lines.push_back("controller " + std::to_string(i) + " can follow steps of " +
+                    in_mm(f.steps[i]->up_m) + " up from rest and " + in_mm(f.steps[i]->down_m) +
+                    " down from there; larger ones " +
+                    (f.steps[i]->shaped ? "are shaped" : "ask for more than the muscle can do"));
+  }
+  return lines;
+}
+
+std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& board) {
+  const Feasibility f = feasibility(c, board);
+  std::vector<std::string> lines;
+  if (!f.rest_seen) {
+    lines.push_back("in the coldest air it rests " + in_mm(f.air_shift_m) +
+                    " below its zero, and the sensor reads no less than " +
+                    in_mm(c.supervision.lowest_position_m) + ": a colder start looks like a fault");
+  }
+  for (std::size_t i = 0; i < f.steps.size(); ++i) {
+    const auto& steps = f.steps[i];
+    const bool small = steps && std::min(steps->up_m, steps->down_m) < 0.5 * f.travel_m;
+    if (small && !steps->shaped) {
+      lines.push_back("controller " + std::to_string(i) +
+                      ": a step over half of the travel asks for more than the muscle can do; "
+                      "shape_reference = true makes it feasible");
+    }
+  }
+  return lines;
+}
+
+}  // namespace supercoil::config

@@ -1,0 +1,147 @@
+// What is predicted of a muscle is what its model does.
+#include "loop/feasibility.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/control/tracking/reference_shaper.hpp"
+
+using namespace supercoil;
+
+TEST_GROUP(Feasibility) {
+  BoardSettings board;
+  ChannelSettings& channel = board.channels[0];
+
+  Feasibility found() const {
+    return feasibility(channel, board);
+  }
+  double gain_m_per_W() const {
+    return channel.muscle.dc_gain_m_per_W();
+  }
+  /// Seconds until the muscle's rise in temperature moves it to a position, from where it is.
+  double time_to(double target_m, double& position_m, double power_W) const {
+    constexpr double step_s = 1e-5;
+    const double tau_s = channel.muscle.thermal_mass_J_per_K / channel.muscle.heat_transfer_W_per_K;
+    const bool rises = target_m > position_m;
+    double time_s = 0.0;
+    for (; rises == (target_m > position_m); time_s += step_s)
+      position_m += (gain_m_per_W() * power_W - position_m) * step_s / tau_s;
+    return time_s;
+  }
+  /// Whether a step through the controller's model stays within the power that there is.
+  bool is_feasible(double from_m, double to_m, double max_W) const {
+    constexpr double step_s = 1e-4;
+    const control::ControllerSettings& controller = channel.controllers[0];
+    const control::ReferenceShaper shaper(
+        controller.model,
+        {control::theta_from(channel.muscle), gain_m_per_W(), channel.muscle.moving_mass_kg});
+    control::ReferenceModel<double> model(controller.model, step_s);
+    model.set({from_m, 0.0, 0.0});
+    for (int i = 0; i < 200000; ++i) {
+      if (shaper.step(to_m, model.motion(), {0.0, max_W}).what != control::Infeasible::nothing)
+        return false;
+      model.step(to_m);
+    }
+    return true;
+  }
+};
+
+TEST(Feasibility, TheHeldPowerIsTheOneThatDeratingLeaves) {
+  channel.supervision.proof_of_response = false;
+  const Feasibility f = found();
+  CHECK(f.held_by == LimitedBy::temperature);
+  const double eta = channel.thermal.bounds.lowest_transfer_W_per_K;
+  const double hottest_C = channel.thermal.air.warmest_C +
+                           f.held_W * power_bounds(channel, board).true_over_told().max / eta;
+  DOUBLES_EQUAL(f.held_W, Limiter(channel.limiter, 0.001).max_W(hottest_C), 1e-9);
+  DOUBLES_EQUAL(gain_m_per_W() * f.held_W, f.travel_m, 1e-12);
+}
+
+TEST(Feasibility, ALimitThatHeatDoesNotReachIsTheMaximum) {
+  channel.supervision.proof_of_response = false;
+  channel.limiter.max_W = 0.5;
+  const Feasibility f = found();
+  CHECK(f.held_by == LimitedBy::maximum);
+  DOUBLES_EQUAL(0.5, f.held_W, 1e-12);
+}
+
+TEST(Feasibility, ALowSupplyGivesNoMoreThanItCan) {
+  channel.heater.cold_resistance_Ohm = 50.0;
+  DOUBLES_EQUAL(10.8 * 10.8 / 50.0, found().max_W, 1e-12);
+}
+
+TEST(Feasibility, WhatIsNotProvenToAnswerHoldsLess) {
+  const Feasibility f = found();
+  CHECK(f.held_by == LimitedBy::unproven);
+  CHECK(f.held_W < found().max_W);
+}
+
+TEST(Feasibility, RiseAndFallAreTheModels) {
+  const Feasibility f = found();
+  double position_m = 0.1 * f.travel_m;
+  DOUBLES_EQUAL(time_to(0.9 * f.travel_m, position_m, f.max_W), f.rise_s, 1e-3);
+  DOUBLES_EQUAL(time_to(0.1 * f.travel_m, position_m, 0.0), f.fall_s, 1e-3);
+}
+
+TEST(Feasibility, TheFastestSineNeedsAllThePowerOrNone) {
+  const Feasibility f = found();
+  const double tau_s = channel.muscle.thermal_mass_J_per_K / channel.muscle.heat_transfer_W_per_K;
+  const double omega = 2.0 * std::numbers::pi / f.half_travel_period_s;
+  double min_W = INFINITY;
+  double max_W = -INFINITY;
+  for (int i = 0; i < 100000; ++i) {
+    const double phase = 2e-5 * std::numbers::pi * i;
+    const double position_m = f.travel_m * (0.5 + 0.25 * std::sin(phase));
+    const double velocity = f.travel_m * 0.25 * omega * std::cos(phase);
+    const double power_W = (position_m + tau_s * velocity) / gain_m_per_W();
+    min_W = std::fmin(min_W, power_W);
+    max_W = std::fmax(max_W, power_W);
+  }
+  CHECK(min_W > -1e-6);
+  CHECK(max_W < f.max_W + 1e-6);
+  CHECK(min_W < 1e-6 || max_W > f.max_W - 1e-6);
+}
+
+TEST(Feasibility, ThroughASlowModelAStepOverAllOfTheTravelIsFeasible) {
+  const Feasibility f = found();
+  DOUBLES_EQUAL(f.travel_m, f.steps[0]->up_m, 0.0);
+  CHECK(is_feasible(0.0, f.travel_m, f.max_W));
+}
+
+TEST(Feasibility, LargerStepsThanToldAskForMoreThanThereIs) {
+  channel.controllers[0].model = control::poles_model({9.0, 9.0, 9.0});
+  const Feasibility f = found();
+  const FeasibleSteps steps = f.steps[0].value();
+  CHECK(is_feasible(0.0, 0.99 * steps.up_m, f.max_W));
+  CHECK_FALSE(is_feasible(0.0, 1.02 * steps.up_m, f.max_W));
+  CHECK(is_feasible(f.travel_m, f.travel_m - 0.99 * steps.down_m, f.max_W));
+  CHECK_FALSE(is_feasible(f.travel_m, f.travel_m - 1.02 * steps.down_m, f.max_W));
+}
+
+TEST(Feasibility, OpenLoopFollowsNoSteps) {
+  channel.controllers[0].kind = control::ControllerKind::power;
+  CHECK_FALSE(found().steps[0].has_value());
+}
+
+TEST(Feasibility, ItMayBeArmedWhenTheSlowestCoolingIsOver) {
+  const board::ThermalSettings& t = channel.thermal;
+  control::RiseIntervalObserver interval(t.bounds, 0.001);
+  interval.reset(t.boot_rise_K);
+  double time_s = 0.0;
+  for (; t.air.warmest_C + interval.highest_K() >= channel.limiter.derate_from_C; time_s += 0.001)
+    interval.step(0.0, 0.0);
+  DOUBLES_EQUAL(time_s, found().armable_s, 0.002);
+}
+
+TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
+  channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 15.0};
+  channel.supervision.lowest_position_m = -0.0081;
+  const Feasibility f = found();
+  DOUBLES_EQUAL(15.0 * 0.0086 / 16.0, f.air_shift_m, 1e-9);
+  CHECK(f.rest_seen);
+  channel.supervision.lowest_position_m = -0.0080;
+  CHECK_FALSE(found().rest_seen);
+}

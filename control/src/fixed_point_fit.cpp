@@ -12,7 +12,7 @@ namespace {
 constexpr double signal = 127.0;
 constexpr double state = 32767.0;
 /// A gain of fewer steps than this is lost in rounding.
-constexpr double least_gain = 16.0 / (1 << 24);
+constexpr double min_gain = 16.0 / (1 << 24);
 
 /// Remembers the first quantity that is out of its range.
 class Fit {
@@ -20,7 +20,7 @@ class Fit {
   void at_most(const char* quantity, double value, double highest) {
     check({quantity, value, -highest, highest});
   }
-  void gain(const char* quantity, double value) { check({quantity, value, least_gain, signal}); }
+  void gain(const char* quantity, double value) { check({quantity, value, min_gain, signal}); }
   const std::optional<Violation>& violation() const { return violation_; }
 
  private:
@@ -30,13 +30,13 @@ class Fit {
   std::optional<Violation> violation_;
 };
 
-void check_mrac(Fit& fit, const MracSettings& m, double step_s, double largest_W) {
+void check_mrac(Fit& fit, const MracSettings& m, double step_s, double peak_W) {
   fit.at_most("lambda", std::max(std::abs(m.lambda[0]), std::abs(m.lambda[1])), state);
   fit.at_most("alpha", std::max(m.alpha[0], m.alpha[1]), state);
-  // The largest that ω1 and ω2 become for a signal of largest_W: at rest, and at the filter's
+  // The largest that ω1 and ω2 become for a signal of peak_W: at rest, and at the filter's
   // middle.
-  fit.at_most("alpha", largest_W * std::abs(m.alpha[1] / m.lambda[0]), signal);
-  fit.at_most("alpha", largest_W * std::abs(m.alpha[0] / m.lambda[1]), signal);
+  fit.at_most("alpha", peak_W * std::abs(m.alpha[1] / m.lambda[0]), signal);
+  fit.at_most("alpha", peak_W * std::abs(m.alpha[0] / m.lambda[1]), signal);
   for (const double gain : m.gain)
     fit.gain("gain", gain * step_s);
   for (const double value : m.initial)
@@ -55,11 +55,11 @@ void check_mrac(Fit& fit, const MracSettings& m, double step_s, double largest_W
 }  // namespace
 
 std::optional<Violation> check_fit(const ControllerSettings& settings, double step_s,
-                                   double largest_reference_m, double max_W) {
+                                   double max_reference_m, double max_W) {
   if (settings.arithmetic != Arithmetic::q8_24 || settings.kind == ControllerKind::power)
     return std::nullopt;
   Fit fit;
-  const double reference_W = largest_reference_m / settings.dc_gain_m_per_W;
+  const double reference_W = max_reference_m / settings.dc_gain_m_per_W;
   fit.at_most("arithmetic", reference_W, signal);
   fit.at_most("arithmetic", max_W, signal);
   for (const double coefficient : settings.model.denominator)

@@ -29,7 +29,7 @@ struct RunOptions {
   std::optional<std::uint16_t> socketcand_port;  ///< in real time; 0: a free one
   bool check = false;                            ///< only read the scenario
   bool quiet = false;
-  bool allow_fault = false;  ///< a run that ends in a fault is no failure
+  bool allow_fault = false;  ///< a run that ends in a fault is not a failure
   std::string learned;       ///< folder; empty: nothing is remembered
 };
 int run_command(const RunOptions& options);

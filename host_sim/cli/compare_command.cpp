@@ -8,8 +8,8 @@
 #include "cli/compare_results.hpp"
 #include "cli/progress.hpp"
 #include "cli/run_results.hpp"
-#include "compare/carry_out.hpp"
 #include "compare/in_parallel.hpp"
+#include "compare/run_plan.hpp"
 #include "report/output_folder.hpp"
 
 namespace supercoil::host_sim {
@@ -53,21 +53,21 @@ bool run_all(const compare::Plan& plan, const std::vector<compare::Run>& todo, R
              std::ofstream& file, const CompareOptions& options) {
   Progress progress("comparing", options.quiet);
   std::size_t ended = 0;
-  carry_out(plan.cases, todo, compare::threads_for(options.jobs),
-            {[&](const compare::Run& run, const compare::Result& result) {
-               const compare::Key key = key_of(plan, run);
-               file << compare::to_line(key, result) << std::flush;
-               results.emplace(key, result);
-               ++ended;
-             },
-             [&] {
-               const double part = static_cast<double>(ended) / static_cast<double>(todo.size());
-               const double left_s = progress.elapsed_s() * (1.0 - part) / part;
-               progress.show(part, std::to_string(ended) + " of " + std::to_string(todo.size()) +
-                                       " runs" +
-                                       (ended > 0 ? ", " + duration(left_s) + " left" : ""));
-               return interrupted() || !file;
-             }});
+  run_plan(plan.cases, todo, compare::threads_for(options.jobs),
+           {[&](const compare::Run& run, const compare::Result& result) {
+              const compare::Key key = key_of(plan, run);
+              file << compare::to_line(key, result) << std::flush;
+              results.emplace(key, result);
+              ++ended;
+            },
+            [&] {
+              const double part = static_cast<double>(ended) / static_cast<double>(todo.size());
+              const double left_s = progress.elapsed_s() * (1.0 - part) / part;
+              progress.show(part, std::to_string(ended) + " of " + std::to_string(todo.size()) +
+                                      " runs" +
+                                      (ended > 0 ? ", " + duration(left_s) + " left" : ""));
+              return interrupted() || !file;
+            }});
   return ended == todo.size();
 }
 

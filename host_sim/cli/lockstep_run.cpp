@@ -69,7 +69,7 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   progress.end();
   if (summary.not_finite_ticks() > 0) {
     std::fprintf(stderr,
-                 "supercoil-sim: warning: the controller's power was no number in %" PRId64
+                 "supercoil-sim: warning: the controller's power was NaN in %" PRId64
                  " ticks, first at %g s; "
                  "none was applied then\n",
                  summary.not_finite_ticks(), summary.first_not_finite_s());

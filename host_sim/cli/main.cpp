@@ -35,25 +35,26 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option("SCENARIO", options.scenario, "A TOML file, or a name from supercoil-sim list")
       ->required();
   run->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
-  run->add_option("--window", options.window,
-                  "FROM:TO in seconds, for the tracking error [the whole run]");
-  run->add_option("--every", options.every, "One row of trace.csv for so many ticks [1]")
+  run->add_option(
+      "--window", options.window,
+      "Time span FROM:TO in seconds over which the tracking error is computed [the whole run]");
+  run->add_option("--every", options.every, "Ticks per row of trace.csv [1]")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
   run->add_option("--learned", options.learned,
                   "Folder of what the board learned: used at its start, and renewed");
   run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
   run->add_flag("!--no-can", options.can, "Write no can.log, what the board sends on its CAN bus");
-  CLI::Option* real_time =
-      run->add_flag("--real-time", options.real_time,
-                    "As fast as the clock on the wall, without trace, plot and CAN log; until "
-                    "Ctrl-C or its end");
+  CLI::Option* real_time = run->add_flag("--real-time", options.real_time,
+                                         "In real time, without trace, plot and CAN log; until "
+                                         "Ctrl-C or its end");
   run->add_option_function<std::string>(
          "--can", [&](const std::string& where) { options.socketcand_port = port_of(where); },
          "socketcand:PORT: serve the board's CAN bus on that port of loopback; 0 takes a free one")
       ->type_name("BUS")
       ->needs(real_time);
-  run->add_flag("--check", options.check, "Only say whether the scenario is in order, and what the muscle can do");
+  run->add_flag("--check", options.check,
+                "Check the scenario and exit, and what the muscle can do");
   run->add_flag("--allow-fault", options.allow_fault,
                 "Exit status 0 although the muscle never armed or the run ended in a fault");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
@@ -113,9 +114,9 @@ void add_compare(CLI::App& app, CompareOptions& options) {
 void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   CLI::App* estimators = app.add_subcommand(
       "estimators", "Compare estimators on the same data over many seeds, beside what is possible");
-  constexpr std::int64_t most_seeds = 1000000;
+  constexpr std::int64_t max_seeds = 1000000;
   estimators->add_option("--seeds", options.seeds, "Seeds, from 1 on [20]")
-      ->check(CLI::Range(std::int64_t{1}, most_seeds));
+      ->check(CLI::Range(std::int64_t{1}, max_seeds));
   estimators->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
       ->check(CLI::Range(1, 1024));
   estimators->add_option("--out", options.out, "Folder for the results [supercoil-out/estimators]");

@@ -40,8 +40,8 @@ void print_limits(const Summary& summary) {
     std::printf("at a limit in %s of the ticks: %s\n", percent(all).c_str(), limits.c_str());
 }
 
-bool asks_to_arm(const Conditions& conditions) {
-  return conditions.wish != Wish::none && conditions.wish != Wish::disarm;
+bool arms(const Conditions& conditions) {
+  return conditions.action != OperatorAction::none && conditions.action != OperatorAction::disarm;
 }
 
 void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
@@ -113,10 +113,9 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
           const RunOptions& options) {
   const Fault fault = summary.ended_in();
   if (summary.armed() && fault == Fault::none) return exit_done;
-  const bool asked = asks_to_arm(scenario.start);
-  const bool asked_later =
-      std::any_of(scenario.events.begin(), scenario.events.end(),
-                  [](const Event& event) { return asks_to_arm(event.conditions); });
+  const bool asked = arms(scenario.start);
+  const bool asked_later = std::any_of(scenario.events.begin(), scenario.events.end(),
+                                       [](const Event& event) { return arms(event.conditions); });
   std::string told = summary.armed() ? "the run ended in " : "never armed: ";
   if (fault != Fault::none) {
     told += "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
@@ -126,7 +125,7 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
                 ? "with these [thermal] bounds the muscle may still be hot from before the start"
                 : "the self-test did not end";
   } else {
-    told += "[operator] wish asks for nothing at the start, and it arms only there";
+    told += "[operator] action is none or disarm at the start, and it arms only there";
   }
   const bool meant = fault == Fault::none && !asked && !asked_later;
   if (!options.allow_fault && !meant)

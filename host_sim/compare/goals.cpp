@@ -65,7 +65,7 @@ constexpr std::array<Goal, 46> goals{{
 
 }  // namespace
 
-std::optional<double> goal_of(const Row& row, std::string_view measure) {
+std::optional<double> goal_of(const TableRow& row, std::string_view measure) {
   for (const Goal& goal : goals) {
     if (goal.controller == row.controller && goal.disturbance == row.disturbance &&
         goal.measure == measure) {

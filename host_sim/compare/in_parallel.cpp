@@ -70,8 +70,8 @@ class Work {
 
 }  // namespace
 
-unsigned threads_for(int wished) {
-  if (wished > 0) return static_cast<unsigned>(wished);
+unsigned threads_for(int requested) {
+  if (requested > 0) return static_cast<unsigned>(requested);
   return std::max(1U, std::thread::hardware_concurrency());
 }
 

@@ -7,8 +7,8 @@
 
 namespace supercoil::host_sim::compare {
 
-/// As many as are wished; of 0, as there are processors.
-unsigned threads_for(int wished);
+/// As many as requested; for 0, one per processor.
+unsigned threads_for(int requested);
 
 /// What to do with a task's result, on the calling thread; empty when it was given up.
 using Handover = std::function<void()>;

@@ -10,9 +10,10 @@ namespace {
 
 constexpr double um_per_m = 1e6;
 
-std::vector<std::string> distinct(const std::vector<Row>& table, std::string (*name)(const Row&)) {
+std::vector<std::string> distinct(const std::vector<TableRow>& table,
+                                  std::string (*name)(const TableRow&)) {
   std::vector<std::string> names;
-  for (const Row& row : table) {
+  for (const TableRow& row : table) {
     if (std::find(names.begin(), names.end(), name(row)) == names.end()) names.push_back(name(row));
   }
   return names;
@@ -27,7 +28,7 @@ std::string shown(double value) {
   return text.data();
 }
 
-std::string cell(const Row& row, std::size_t measure) {
+std::string cell(const TableRow& row, std::size_t measure) {
   const auto& statistics = row.statistics[measure];
   if (!statistics) return "";
   const double unit = measures[measure].how == How::settling ? 1.0 : um_per_m;
@@ -40,20 +41,20 @@ std::string cell(const Row& row, std::size_t measure) {
          (statistics->worst <= *goal ? "" : "**");
 }
 
-bool has(const Row& row, std::size_t measure) {
+bool has(const TableRow& row, std::size_t measure) {
   return row.statistics[measure].has_value();
 }
 
 }  // namespace
 
-std::string to_markdown(const std::vector<Row>& table) {
-  const auto contenders = distinct(table, [](const Row& row) { return row.contender(); });
+std::string to_markdown(const std::vector<TableRow>& table) {
+  const auto contenders = distinct(table, [](const TableRow& row) { return row.contender(); });
   std::string text =
       "Mean over the seeds ± half of its 95 % confidence interval (worst seed) ≤ goal, which the "
       "worst seed must keep; ∞: no longer followed, or never settled.\n";
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const bool none =
-        std::none_of(table.begin(), table.end(), [&](const Row& row) { return has(row, i); });
+        std::none_of(table.begin(), table.end(), [&](const TableRow& row) { return has(row, i); });
     if (none) continue;
     const bool time = measures[i].how == How::settling;
     text += "\n### `" + std::string(measures[i].name) + "`\n\n" + std::string(time ? "s" : "µm") +
@@ -65,11 +66,11 @@ std::string to_markdown(const std::vector<Row>& table) {
       text += "---|";
     text += "\n";
     for (const std::string& disturbance :
-         distinct(table, [](const Row& row) { return row.disturbance; })) {
+         distinct(table, [](const TableRow& row) { return row.disturbance; })) {
       std::string line = "| `" + disturbance + "` |";
       bool any = false;
       for (const std::string& contender : contenders) {
-        const auto row = std::find_if(table.begin(), table.end(), [&](const Row& candidate) {
+        const auto row = std::find_if(table.begin(), table.end(), [&](const TableRow& candidate) {
           return candidate.disturbance == disturbance && candidate.contender() == contender;
         });
         any = any || (row != table.end() && has(*row, i));

@@ -33,12 +33,13 @@ std::uint32_t checksum(const Document& controller, const Document& disturbance,
 
 /// Where least squares cannot be in fixed point, it is in float.
 void set_arithmetic(toml::table& document, const std::string& arithmetic) {
-  lay_over(document, toml::table{{"controller", toml::table{{"arithmetic", arithmetic}}}});
+  apply_changes(document, toml::table{{"controller", toml::table{{"arithmetic", arithmetic}}}});
   const auto kind = document["estimator"]["kind"].value_or<std::string>("gradient");
   if (kind == "none") return;
   const bool narrow = kind == "least_squares" && arithmetic == "q8.24";
-  lay_over(document,
-           toml::table{{"estimator", toml::table{{"arithmetic", narrow ? "float" : arithmetic}}}});
+  apply_changes(
+      document,
+      toml::table{{"estimator", toml::table{{"arithmetic", narrow ? "float" : arithmetic}}}});
 }
 
 /// Four levels over the range of the disturbance's sine, each held for 5/ω: the paper's sine
@@ -54,13 +55,14 @@ void ask_for_steps(toml::table& document) {
   document.insert_or_assign(
       "reference", toml::table{{"kind", "steps"}, {"levels_m", levels_m}, {"hold_s", hold_s}});
   if (!document.contains("event"))
-    lay_over(document, toml::table{{"simulation", toml::table{{"duration_s", 12.0 * hold_s}}}});
+    apply_changes(document,
+                  toml::table{{"simulation", toml::table{{"duration_s", 12.0 * hold_s}}}});
 }
 
 /// A controller that is tuned by hand to each muscle: the disturbance has its keys.
 void tune(toml::table& chosen, toml::table& disturbance, const std::string& controller) {
   if (const toml::table* tuned = disturbance["tuned"][controller].as_table())
-    lay_over(chosen, toml::table{{"controller", *tuned}});
+    apply_changes(chosen, toml::table{{"controller", *tuned}});
   disturbance.erase("tuned");
 }
 
@@ -83,7 +85,7 @@ tl::expected<Case, std::string> combine(const Document& controller, const Docume
     document.erase(table);
   tune(chosen, document, controller.name);
   if (disturbance.steps) ask_for_steps(document);
-  lay_over(document, std::move(chosen));
+  apply_changes(document, std::move(chosen));
   set_arithmetic(document, arithmetic);
   auto scenario = scenario_from(std::move(document), name);
   if (!scenario) return tl::unexpected(config::to_text(scenario.error()));
@@ -117,8 +119,8 @@ tl::expected<void, std::string> add_cases(Plan& plan, const std::vector<Document
 
 std::string check(const Selection& s) {
   std::string problems;
-  constexpr std::int64_t most_seeds = 100'000;
-  if (s.seeds < 1 || s.seeds > most_seeds)
+  constexpr std::int64_t max_seeds = 100'000;
+  if (s.seeds < 1 || s.seeds > max_seeds)
     problems += "--seeds " + std::to_string(s.seeds) + ": must be 1 to 100000\n";
   if (s.shard.of < 1 || s.shard.number < 1 || s.shard.number > s.shard.of) {
     problems += "--shard " + std::to_string(s.shard.number) + "/" + std::to_string(s.shard.of) +

@@ -18,7 +18,7 @@ std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
   return names.size() - 1;
 }
 
-Panel panel_of(const std::vector<Row>& table, const std::vector<std::string>& contenders,
+Panel panel_of(const std::vector<TableRow>& table, const std::vector<std::string>& contenders,
                std::size_t measure) {
   const bool time = measures[measure].how == How::settling;
   Panel panel;
@@ -30,7 +30,7 @@ Panel panel_of(const std::vector<Row>& table, const std::vector<std::string>& co
     Curve curve{contenders[i], {}, {}, false, static_cast<int>(i), {}};
     const double beside =
         spread * ((static_cast<double>(i) + 0.5) / static_cast<double>(contenders.size()) - 0.5);
-    for (const Row& row : table) {
+    for (const TableRow& row : table) {
       const auto& s = row.statistics[measure];
       if (!s || row.contender() != contenders[i]) continue;
       const auto at = static_cast<double>(place_of(panel.x_names, row.disturbance));
@@ -46,9 +46,9 @@ Panel panel_of(const std::vector<Row>& table, const std::vector<std::string>& co
 
 }  // namespace
 
-Figure figure_of(const std::vector<Row>& table) {
+Figure figure_of(const std::vector<TableRow>& table) {
   std::vector<std::string> contenders;
-  for (const Row& row : table)
+  for (const TableRow& row : table)
     place_of(contenders, row.contender());
   Figure figure;
   figure.width_px = 1100;

@@ -28,10 +28,10 @@ std::string csv_number(double value) {
 
 }  // namespace
 
-std::vector<Row> table_of(const Results& results) {
-  std::vector<Row> rows;
+std::vector<TableRow> table_of(const Results& results) {
+  std::vector<TableRow> rows;
   for (auto first = results.begin(); first != results.end();) {
-    Row row{first->first.controller, first->first.disturbance, first->first.arithmetic, {}, 0};
+    TableRow row{first->first.controller, first->first.disturbance, first->first.arithmetic, {}, 0};
     std::array<std::vector<double>, measures.size()> values;
     auto next = first;
     for (; next != results.end() &&
@@ -51,8 +51,8 @@ std::vector<Row> table_of(const Results& results) {
   }
   const auto controllers = default_controllers();
   const auto disturbances = default_disturbances();
-  std::stable_sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
-    const auto rank = [&](const Row& row) {
+  std::stable_sort(rows.begin(), rows.end(), [&](const TableRow& a, const TableRow& b) {
+    const auto rank = [&](const TableRow& row) {
       return std::pair(place(disturbances, row.disturbance), place(controllers, row.controller));
     };
     return rank(a) < rank(b);
@@ -60,12 +60,12 @@ std::vector<Row> table_of(const Results& results) {
   return rows;
 }
 
-std::string to_csv(const std::vector<Row>& table) {
+std::string to_csv(const std::vector<TableRow>& table) {
   std::string csv =
       "# ci95: confidence interval of the mean over the seeds, 95 %, Student's t\n"
       "controller,disturbance,arithmetic,measure,runs,mean,ci95_low,ci95_high,worst,faults,goal,"
       "met\n";
-  for (const Row& row : table) {
+  for (const TableRow& row : table) {
     for (std::size_t i = 0; i < measures.size(); ++i) {
       if (!row.statistics[i]) continue;
       const Statistics& s = *row.statistics[i];

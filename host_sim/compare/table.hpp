@@ -13,7 +13,7 @@
 namespace supercoil::host_sim::compare {
 
 /// A controller in an arithmetic, against one disturbance.
-struct Row {
+struct TableRow {
   std::string controller;
   std::string disturbance;
   std::string arithmetic;
@@ -27,14 +27,14 @@ struct Row {
 };
 
 /// In the order of the built-in controllers and disturbances, others after them.
-std::vector<Row> table_of(const Results& results);
+std::vector<TableRow> table_of(const Results& results);
 
 /// controller,disturbance,arithmetic,measure,runs,mean,ci95_low,ci95_high,worst,goal,met.
-std::string to_csv(const std::vector<Row>& table);
+std::string to_csv(const std::vector<TableRow>& table);
 /// Markdown: a table a measure, mean ± half of the 95 % interval (worst), in µm and s.
-std::string to_markdown(const std::vector<Row>& table);
+std::string to_markdown(const std::vector<TableRow>& table);
 
 /// What a controller is built to reach, in the measure's unit; empty where nothing was set.
-std::optional<double> goal_of(const Row& row, std::string_view measure);
+std::optional<double> goal_of(const TableRow& row, std::string_view measure);
 
 }  // namespace supercoil::host_sim::compare

@@ -79,8 +79,7 @@ std::unique_ptr<Contender> make_normalised(const Theta& initial, double step_s) 
   // The bounds that the others have.
   const control::LeastSquaresSettings bounds;
   const Theta& nominal = settings.scale.nominal;
-  settings.bounds =
-      control::Box<double, 4>{nominal * bounds.lowest_part, nominal * bounds.highest_part};
+  settings.bounds = control::Box<double, 4>{nominal * bounds.min_ratio, nominal * bounds.max_ratio};
   return std::make_unique<Gradient>(settings, step_s);
 }
 
@@ -103,7 +102,7 @@ std::unique_ptr<Contender> make_unscented(const Theta& initial, double step_s) {
   settings.initial = initial;
   settings.forgetting_s = forgetting_s;
   // With the extended filter's it became sure of θ1 while that was 3 % off.
-  settings.remainder_part = 0.2;
+  settings.remainder_ratio = 0.2;
   settings.changed_logarithm = 0.2;
   settings.changed_bias_W = 0.2;
   settings.changed_acceleration_m_per_s2 = 0.5;

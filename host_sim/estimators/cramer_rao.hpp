@@ -1,4 +1,4 @@
-// How exactly anybody could know the muscle's parameters from what the sensor saw.
+// The best possible accuracy of the muscle's parameters from the sensor's data.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,7 @@ std::string to_csv(const Outcomes& outcomes, const AllBounds& bounds) {
                              std::to_string(key.seed);
     for (const Measure& measure : measures)
       csv += csv_line(head, measure.name, outcome.*measure.value * measure.shown_unit);
-    csv += csv_line(head, "told_rms_percent", outcome.told_rms * 100.0);
+    csv += csv_line(head, "reported_rms_percent", outcome.reported_rms * 100.0);
   }
   return csv;
 }

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t drawn_trial = 0;
 /// Errors below this would only stretch the axis, %.
-constexpr double least_percent = 1e-4;
+constexpr double min_percent = 1e-4;
 
 using Squares = std::vector<Theta> Outcome::*;
 
@@ -27,7 +27,7 @@ Curve curve_of(const Outcomes& outcomes, std::size_t contender, Squares squares,
   }
   for (std::size_t i = 0; i < sums.size(); ++i) {
     curve.x.push_back(plotted_s()[i]);
-    curve.y.push_back(std::max(least_percent, 100.0 * std::sqrt(sums[i] / seeds)));
+    curve.y.push_back(std::max(min_percent, 100.0 * std::sqrt(sums[i] / seeds)));
   }
   return curve;
 }
@@ -36,8 +36,8 @@ Curve bound_curve(const std::vector<Theta>& bound, int parameter) {
   Curve curve{"bound", {}, {}, true, static_cast<int>(contender_count)};
   for (std::size_t i = 0; i < bound.size(); ++i) {
     const double percent = 100.0 * bound[i][parameter];
-    constexpr double most_percent = 100.0;
-    if (!(percent < most_percent)) continue;  // nobody could know anything yet
+    constexpr double max_percent = 100.0;
+    if (!(percent < max_percent)) continue;  // no information yet
     curve.x.push_back(plotted_s()[i]);
     curve.y.push_back(percent);
   }

@@ -73,16 +73,16 @@ std::string table_of(const Measure& measure, const Outcomes& outcomes, const All
 /// What they say of their errors over what these are, all seeds together.
 std::string honesty_table(const Outcomes& outcomes) {
   std::string text =
-      "\n### Standard deviations that they tell, over their errors\n\nrms over the last 40 s "
+      "\n### Reported standard deviations over actual errors\n\nrms over the last 40 s "
       "before "
-      "the change. Below 1: more sure than right.\n\n"
+      "the change. Below 1: overconfident.\n\n"
       "| trial | | θ1 | θ2 | θ3 | θ4 |\n|---|---|---|---|---|---|\n";
   for (std::size_t trial = 0; trial < trials.size(); ++trial) {
     for (std::size_t contender = 0; contender < contenders.size(); ++contender) {
       Theta told = Theta::Zero();
       Theta seen = Theta::Zero();
       for (const Outcome& outcome : of_cell(outcomes, trial, contender)) {
-        told += outcome.told_rms.cwiseAbs2();
+        told += outcome.reported_rms.cwiseAbs2();
         seen += outcome.steady_rms.cwiseAbs2();
       }
       const Theta ratio = told.cwiseQuotient(seen).cwiseSqrt();

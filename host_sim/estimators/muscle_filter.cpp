@@ -16,14 +16,14 @@ MuscleFilter::MuscleFilter(Predict predict, const FilterSettings& settings, doub
       settings_(settings),
       step_s_(step_s),
       belief_{state_of(settings.initial), Covariance::Zero()},
-      lowest_(State::Constant(-std::numeric_limits<double>::infinity())),
-      highest_(State::Constant(INFINITY)) {
+      min_(State::Constant(-std::numeric_limits<double>::infinity())),
+      max_(State::Constant(INFINITY)) {
   const State nominal = state_of(settings.scale.nominal);
   for (int i = at_ln_theta_1; i < at_bias; ++i) {
-    lowest_[i] = nominal[i] + std::log(settings.lowest_part);
-    highest_[i] = nominal[i] + std::log(settings.highest_part);
+    min_[i] = nominal[i] + std::log(settings.min_ratio);
+    max_[i] = nominal[i] + std::log(settings.max_ratio);
   }
-  belief_.mean = belief_.mean.cwiseMax(lowest_).cwiseMin(highest_);
+  belief_.mean = belief_.mean.cwiseMax(min_).cwiseMin(max_);
   belief_.covariance = prior();
 }
 
@@ -58,7 +58,7 @@ void MuscleFilter::step(double position_m, double power_W) {
 
 void MuscleFilter::correct(double position_m) {
   Covariance& p = belief_.covariance;
-  const double remainder_m = settings_.remainder_part * 0.5 *
+  const double remainder_m = settings_.remainder_ratio * 0.5 *
                              p.diagonal().segment<parameter_size>(at_ln_theta_1).sum() *
                              std::abs(belief_.mean[at_position]);
   const double noise =
@@ -67,7 +67,7 @@ void MuscleFilter::correct(double position_m) {
   const double variance = p(at_position, at_position) + noise;
   const State gain = p.col(at_position) / variance;
   belief_.mean += gain * innovation;
-  belief_.mean = belief_.mean.cwiseMax(lowest_).cwiseMin(highest_);
+  belief_.mean = belief_.mean.cwiseMax(min_).cwiseMin(max_);
   // Joseph's form, for a measurement of one state: it stays symmetric and positive.
   Covariance left = Covariance::Identity();
   left.col(at_position) -= gain;

@@ -28,13 +28,13 @@ bool predict_unscented(Belief& belief, double moving_mass_kg, double power_W, do
 struct FilterSettings {
   control::RegressionScale scale;
   control::Theta initial = scale.nominal;  ///< θ(0)
-  double lowest_part = 0.2;                ///< θ is kept between these parts of its nominal
-  double highest_part = 5.0;
+  double min_ratio = 0.2;                  ///< θ is kept between these parts of its nominal
+  double max_ratio = 5.0;
   double position_noise_m = 10e-6;  ///< rms, white
   /// What the linearisation leaves out counts as noise too: this part of position · half the
   /// variance of the logarithms. Without it the filter becomes sure of what it saw while it was
   /// wrong.
-  double remainder_part = 0.1;
+  double remainder_ratio = 0.1;
   /// Time in which an observation's weight falls to 1/e; infinity: never. After the start and after
   /// a change it is the time since then, but at least first_forgetting_s: what was seen while the
   /// filter was wrong is forgotten.
@@ -84,8 +84,8 @@ class MuscleFilter {
   FilterSettings settings_;
   double step_s_;
   Belief belief_;
-  State lowest_;
-  State highest_;
+  State min_;
+  State max_;
   double power_W_ = 0.0;
   bool begun_ = false;
   double since_s_ = 0.0;      ///< the start or the last change

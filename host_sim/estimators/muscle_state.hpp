@@ -13,7 +13,7 @@ enum Index : int {
   at_velocity,
   at_acceleration,
   at_ln_theta_1,  ///< natural logarithm of θ1 in its SI unit; θ2, θ3 and θ4 follow
-  at_bias = at_ln_theta_1 + 4,  ///< constant: of the power that is told, so much does not heat
+  at_bias = at_ln_theta_1 + 4,  ///< constant: part of the reported power that does not heat
 };
 inline constexpr int motion_size = 3;
 inline constexpr int parameter_size = 4;

@@ -23,7 +23,7 @@ class LastExit {
     // At the end itself the muscle is another one already.
     if (time_s <= from_s_ || time_s > to_s_ - tick_s / 2.0) return;
     for (int i = 0; i < 4; ++i) {
-      // Also what is no number is outside.
+      // Also what is NaN is outside.
       if (!(std::abs(error[i]) <= band_)) last_s_[i] = time_s - from_s_;
     }
   }

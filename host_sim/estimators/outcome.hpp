@@ -16,7 +16,7 @@ struct Outcome {
   control::Theta to_1_percent_s;
   control::Theta back_to_5_percent_s;  ///< from the change to the last exit before the end
   control::Theta steady_rms;           ///< the last 40 s before the change
-  control::Theta told_rms;             ///< of the standard deviations told then; NaN without
+  control::Theta reported_rms;         ///< of the standard deviations told then; NaN without
   /// Errors at plotted_s after the start, and after the change, squared.
   std::vector<control::Theta> squares_from_rest;
   std::vector<control::Theta> squares_after_change;

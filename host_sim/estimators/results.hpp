@@ -1,4 +1,4 @@
-// All outcomes of a comparison of estimators, and what is told of them.
+// All outcomes of a comparison of estimators, and how they are reported.
 #pragma once
 
 #include <array>

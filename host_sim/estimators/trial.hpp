@@ -57,7 +57,7 @@ class Bench {
 
   struct Tick {
     double time_s;
-    double position_m;  ///< as the sensor tells it
+    double position_m;  ///< as measured
     double power_W;     ///< that acted since the last tick
   };
   Tick next();

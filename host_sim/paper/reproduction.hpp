@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "paper/row.hpp"
+#include "paper/reproduction_row.hpp"
 #include "plot/figure.hpp"
 
 namespace supercoil::host_sim::paper {
@@ -20,7 +20,7 @@ struct NamedFigure {
 struct Part {
   std::string title;
   std::string introduction;
-  std::vector<Row> rows;
+  std::vector<ReproductionRow> rows;
   std::vector<NamedFigure> figures;
 };
 

@@ -22,7 +22,7 @@ constexpr control::PowerRange unlimited{-infinity, infinity};
 struct Outcome {
   MeanInWindow before;
   MeanInWindow after;
-  double largest_by_130s = 0.0;
+  double max_by_130s = 0.0;
   /// First time after 45 s when the error is less than the paper's figure for it.
   double reaches_paper_s = infinity;
 };
@@ -49,7 +49,7 @@ Outcome follow(Law law, Target target, const control::ReferenceModelSettings& mo
     const double error = std::abs(m.target - m.position);
     outcome.before.add(m.time_s, error);
     outcome.after.add(m.time_s, error);
-    if (m.time_s <= 130.0) outcome.largest_by_130s = std::fmax(outcome.largest_by_130s, error);
+    if (m.time_s <= 130.0) outcome.max_by_130s = std::fmax(outcome.max_by_130s, error);
     if (m.time_s > 45.0 && error < 5.8e-4) {
       outcome.reaches_paper_s = std::fmin(outcome.reaches_paper_s, m.time_s);
     }
@@ -62,8 +62,9 @@ const char* name(Signal signal) {
   return signal == Signal::sine ? "sine" : "step";
 }
 
-Row row(const char* figure, Signal signal, const char* controller, const std::string& case_name,
-        const char* paper, const std::string& measured, const std::string& remark) {
+ReproductionRow row(const char* figure, Signal signal, const char* controller,
+                    const std::string& case_name, const char* paper, const std::string& measured,
+                    const std::string& remark) {
   return {std::string(figure) + "." + name(signal) + "." + controller,
           case_name,
           std::string("mean error ") + (std::string(figure) == "fig3" ? "before" : "after") +
@@ -84,10 +85,10 @@ void add_pi(Part& part, Signal signal, LoopCurves* curves) {
           sine ? "30-80 s"
                : "45-80 s; no window gives the paper's: the error passes 5.8e-4 at " +
                      shown(o.reaches_paper_s) + " s"));
-  const bool diverges = o.largest_by_130s > 10.0;
+  const bool diverges = o.max_by_130s > 10.0;
   part.rows.push_back(row("fig4", signal, "pi", "unsaturated", "unstable",
                           diverges ? "diverges" : shown(o.after.mean()),
-                          "largest |r - y| by 130 s: " + shown(o.largest_by_130s)));
+                          "largest |r - y| by 130 s: " + shown(o.max_by_130s)));
 }
 
 void add_pdff(Part& part, Signal signal, LoopCurves* curves) {

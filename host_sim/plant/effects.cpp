@@ -18,9 +18,9 @@ std::optional<control::Violation> check(const PlantEffects& effects) {
   const double left = 1.0 - effects.convection_ratio;
   if (effects.radiation_ratio > left)
     return control::Violation{"radiation_ratio", effects.radiation_ratio, 0.0, left};
-  const double least_K = effects.softening_from_K + 1.0;
-  if (effects.softening_to_K < least_K)
-    return control::Violation{"softening_to_K", effects.softening_to_K, least_K, 400.0};
+  const double min_K = effects.softening_from_K + 1.0;
+  if (effects.softening_to_K < min_K)
+    return control::Violation{"softening_to_K", effects.softening_to_K, min_K, 400.0};
   return {};
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 /// A part of a step in which a bristle may relax by this much of itself: the fourth-order rule is
 /// stable below 2.8.
-constexpr double largest_relaxation = 0.5;
-constexpr int most_parts = 200;
+constexpr double max_relaxation = 0.5;
+constexpr int max_parts = 200;
 
 }  // namespace
 
@@ -54,9 +54,9 @@ Motion GuideFriction::coarse_step(const Motion& from, const Drive& drive,
   rubbed.force_end_N -= rubs_N;
   const Motion to = mechanics.step(from, rubbed);
   const double path_m = to.position_m - from.position_m;
-  const double longest_m = coulomb_N_ / stiffness_N_per_m_;
-  const double steady_m = std::copysign(longest_m, path_m);
-  bristle_m_ = steady_m + (bristle_m_ - steady_m) * std::exp(-std::abs(path_m) / longest_m);
+  const double max_m = coulomb_N_ / stiffness_N_per_m_;
+  const double steady_m = std::copysign(max_m, path_m);
+  bristle_m_ = steady_m + (bristle_m_ - steady_m) * std::exp(-std::abs(path_m) / max_m);
   return to;
 }
 
@@ -65,8 +65,8 @@ Motion GuideFriction::step(const Motion& from, const Drive& drive, const Mechani
   const double relaxation = std::abs(from.velocity_m_per_s) * stiffness_N_per_m_ / coulomb_N_;
   const double springs = std::sqrt((stiffness_N_per_m_ + drive.stiffness_N_per_m) * per_mass_) +
                          (viscous_Ns_per_m_ + damping_Ns_per_m_) * per_mass_;
-  const double needed = std::ceil(step_s * (relaxation + springs) / largest_relaxation);
-  if (!(needed <= most_parts)) return coarse_step(from, drive, mechanics);
+  const double needed = std::ceil(step_s * (relaxation + springs) / max_relaxation);
+  if (!(needed <= max_parts)) return coarse_step(from, drive, mechanics);
   const int parts = std::max(1, static_cast<int>(needed));
   const double h = step_s / parts;
   State s{from.position_m, from.velocity_m_per_s, bristle_m_};
@@ -98,8 +98,8 @@ Motion GuideFriction::step(const Motion& from, const Drive& drive, const Mechani
   // It became too fast on the way.
   const double end_relaxation = h * std::abs(s.velocity_m_per_s) * stiffness_N_per_m_ / coulomb_N_;
   if (!(end_relaxation <= 2.0)) return coarse_step(from, drive, mechanics);
-  const double longest_m = static_N_ / stiffness_N_per_m_;
-  bristle_m_ = std::clamp(s.bristle_m, -longest_m, longest_m);
+  const double max_m = static_N_ / stiffness_N_per_m_;
+  bristle_m_ = std::clamp(s.bristle_m, -max_m, max_m);
   return {s.position_m, s.velocity_m_per_s};
 }
 

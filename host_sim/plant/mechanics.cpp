@@ -7,8 +7,8 @@ namespace supercoil::host_sim {
 namespace {
 
 /// Where three terms of the series in K leave 1e-10 of a step, and eleven in time less.
-constexpr double largest_damping = 0.2;
-constexpr double largest_stiffness = 0.02;
+constexpr double max_damping = 0.2;
+constexpr double max_stiffness = 0.02;
 
 /// (eᶻ − 1)/z
 double once_of(double z) {
@@ -29,8 +29,8 @@ void Mechanics::set(const control::PhysicalParameters& parameters, double max_st
   per_mass_ = 1.0 / parameters.moving_mass_kg;
   per_mass_step_ = per_mass_ / step_s;
   damping_ = parameters.damping_Ns_per_m * per_mass_;
-  smooth_ = damping_ * step_s < largest_damping &&
-            max_stiffness_N_per_m * per_mass_ * step_s * step_s < largest_stiffness;
+  smooth_ = damping_ * step_s < max_damping &&
+            max_stiffness_N_per_m * per_mass_ * step_s * step_s < max_stiffness;
   // s(t), with s'' + d s' + K s = 0, s(0) = 0, s'(0) = 1, is a power series in t whose
   // coefficients are polynomials in K: a[n+2] = −d a[n+1] − K a[n], s = Σ a[n] tⁿ/n!.
   once_ = {};

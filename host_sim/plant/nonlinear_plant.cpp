@@ -8,14 +8,14 @@ namespace supercoil::host_sim {
 namespace {
 
 /// A muscle's fastest cooling and heating bend little over it.
-constexpr double longest_slow_step_s = 1e-3;
+constexpr double max_slow_step_s = 1e-3;
 
 }  // namespace
 
 NonlinearPlant::NonlinearPlant(const control::PhysicalParameters& parameters,
                                const PlantEffects& effects, double step_s)
     : slow_step_s_(step_s),
-      slow_steps_(std::max(1, static_cast<int>(std::ceil(step_s / longest_slow_step_s - 1e-6)))) {
+      slow_steps_(std::max(1, static_cast<int>(std::ceil(step_s / max_slow_step_s - 1e-6)))) {
   slow_step_s_ = step_s / slow_steps_;
   set(parameters, effects);
 }

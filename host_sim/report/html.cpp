@@ -80,7 +80,7 @@ std::string table(const paper::Part& part) {
   std::string html =
       "<div class=\"wide\"><table>\n<thead><tr><th>id</th><th>case</th><th>quantity</th>"
       "<th>paper</th><th>ours</th><th>unit</th><th>remark</th></tr></thead>\n<tbody>\n";
-  for (const paper::Row& r : part.rows) {
+  for (const paper::ReproductionRow& r : part.rows) {
     html += "<tr><td class=\"id\">" + escaped(r.id) + "</td><td>" + escaped(r.case_name) +
             "</td><td>" + escaped(r.quantity) + "</td><td class=\"n\">" + escaped(r.paper) +
             "</td><td class=\"n\">" + escaped(r.measured) + "</td><td>" + escaped(r.unit) +

@@ -31,7 +31,7 @@ std::string padded(const std::string& text, std::size_t columns) {
 std::string to_csv(const std::vector<paper::Part>& parts) {
   std::string csv = "id,case,quantity,unit,paper,measured,remark\n";
   for (const paper::Part& part : parts) {
-    for (const paper::Row& r : part.rows) {
+    for (const paper::ReproductionRow& r : part.rows) {
       for (const std::string* field :
            {&r.id, &r.case_name, &r.quantity, &r.unit, &r.paper, &r.measured}) {
         csv += csv_field(*field) + ",";
@@ -48,7 +48,7 @@ std::string to_terminal(const std::vector<paper::Part>& parts) {
     text += "\n" + part.title + "\n";
     text += padded("  id", 36) + padded("case", 22) + padded("paper", 17) + padded("ours", 22) +
             "unit\n";
-    for (const paper::Row& r : part.rows) {
+    for (const paper::ReproductionRow& r : part.rows) {
       text += padded("  " + r.id, 36) + padded(r.case_name, 22) + padded(r.paper, 17) +
               padded(r.measured, 22) + r.unit + "\n";
     }

@@ -49,7 +49,7 @@ void TraceWriter::add(const TickRecord& record, const std::optional<control::Est
   }
   buffer_ += !estimate ? "," : estimate->trusted ? ",1" : ",0";
   buffer_ += ',';
-  if (record.asks_power) number(record.reference);
+  if (record.commands_power) number(record.reference);
   for (const double value : {record.coldest_K, record.hottest_K}) {
     buffer_ += ',';
     number(value);

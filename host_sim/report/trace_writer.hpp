@@ -15,7 +15,7 @@ namespace supercoil::host_sim {
 /// Numbers are written with as many digits as it takes to read the same double back.
 class TraceWriter {
  public:
-  /// every: one row for so many ticks, from the first on.
+  /// every: one row per this many ticks, from the first on.
   TraceWriter(const std::filesystem::path& path, std::int64_t every);
 
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);

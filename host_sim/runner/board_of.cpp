@@ -42,37 +42,37 @@ double pump_decay_s(const Scenario& scenario) {
   return std::max(0.02, 12.0 * scenario.step_s());
 }
 
-double largest_max_W(const Scenario& scenario) {
-  double largest_W = scenario.start.power.max_W;
+double max_power_W(const Scenario& scenario) {
+  double peak_W = scenario.start.power.max_W;
   for (const Event& event : scenario.events)
-    largest_W = std::max(largest_W, event.conditions.power.max_W);
-  return largest_W;
+    peak_W = std::max(peak_W, event.conditions.power.max_W);
+  return peak_W;
 }
 
-double largest_noise_m(const Scenario& scenario) {
-  double largest_m = scenario.start.position_sensor.noise_rms_m;
+double max_noise_m(const Scenario& scenario) {
+  double max_m = scenario.start.position_sensor.noise_rms_m;
   for (const Event& event : scenario.events)
-    largest_m = std::max(largest_m, event.conditions.position_sensor.noise_rms_m);
-  return largest_m;
+    max_m = std::max(max_m, event.conditions.position_sensor.noise_rms_m);
+  return max_m;
 }
 
 ChannelSupervision supervision_of(const Scenario& scenario) {
   const Conditions& c = scenario.start;
   const double range_m = c.position_sensor.range_m;
   const double min_m = c.position_sensor.min_m;
-  const double max_W = largest_max_W(scenario);
+  const double max_W = max_power_W(scenario);
   ChannelSupervision s;
-  s.lowest_position_m = min_m - 0.1 * (range_m - min_m);
-  s.highest_position_m = 1.1 * range_m - 0.1 * min_m;
-  s.max_travel_m = Conditions::travel_part * range_m;
-  s.position_noise_rms_m = largest_noise_m(scenario);
+  s.min_position_m = min_m - 0.1 * (range_m - min_m);
+  s.max_position_m = 1.1 * range_m - 0.1 * min_m;
+  s.max_travel_m = Conditions::travel_ratio * range_m;
+  s.position_noise_rms_m = max_noise_m(scenario);
   // A sensor without noise that does not show its steps either looks frozen at rest.
   const double count_m = converter_of(c.position_sensor).per_count();
   if (c.position_sensor.noise_rms_m < s.position_noise_rms_m ||
       s.position_noise_rms_m < shown_noise * count_m)
     s.frozen_s = INFINITY;
   s.out_of_range_s = std::max(s.out_of_range_s, 2.0 * scenario.step_s());
-  s.least_resistance_Ohm = default_least_resistance_Ohm(c.plant.resistance_Ohm);
+  s.min_resistance_Ohm = default_least_resistance_Ohm(c.plant.resistance_Ohm);
   s.max_measured_W = default_max_measured_W(max_W);
   s.energy_J = default_energy_J(max_W, s.energy_window_s);
   return s;
@@ -82,12 +82,12 @@ board::ThermalSettings thermal_of(const Conditions& c) {
   const ThermalSpans& spans = c.thermal;
   const control::PhysicalParameters& m = c.muscle;
   board::ThermalSettings t;
-  t.bounds = {m.thermal_mass_J_per_K * spans.mass_part[0],
-              m.thermal_mass_J_per_K * spans.mass_part[1],
-              m.heat_transfer_W_per_K * spans.transfer_part[0],
-              m.heat_transfer_W_per_K * spans.transfer_part[1]};
-  t.min_power_ratio = spans.power_part[0];
-  t.max_power_ratio = spans.power_part[1];
+  t.bounds = {m.thermal_mass_J_per_K * spans.mass_ratio[0],
+              m.thermal_mass_J_per_K * spans.mass_ratio[1],
+              m.heat_transfer_W_per_K * spans.transfer_ratio[0],
+              m.heat_transfer_W_per_K * spans.transfer_ratio[1]};
+  t.min_power_ratio = spans.power_ratio[0];
+  t.max_power_ratio = spans.power_ratio[1];
   t.thermal_mass_J_per_K = m.thermal_mass_J_per_K;
   t.air = {c.ambient.warmest_C, c.ambient.coldest_C, c.ambient.sensor_error_K};
   return t;
@@ -139,15 +139,15 @@ BoardSettings firmware_of(const Scenario& scenario) {
   board.rate_Hz = scenario.rate_Hz;
   board.supply.scaling = scaling_of(simulated.supply);
   if (simulated.air) board.air.scaling = scaling_of(*simulated.air);
-  board.supervision.lowest_supply_V = 0.6 * c.power.supply_V;
-  board.supervision.highest_supply_V = 1.25 * c.power.supply_V;
+  board.supervision.min_supply_V = 0.6 * c.power.supply_V;
+  board.supervision.max_supply_V = 1.25 * c.power.supply_V;
   board.supervision.late_s = 0.5 * scenario.step_s();
   board.supervision.charge_pump_decay_s = simulated.charge_pump_decay_s;
 
   ChannelSettings& channel = board.channels[0];
   channel.muscle = c.muscle;
   channel.muscle_identified = scenario.muscle_identified;
-  channel.answer_ratio = scenario.answer_ratio;
+  channel.response_ratio = scenario.response_ratio;
   channel.position.scaling = scaling_of(simulated.channels[0].position);
   channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
   channel.position.max_age_s = max_age_s(scenario, simulated.channels[0].position);

@@ -1,4 +1,4 @@
-// The board that a scenario describes: the simulated one, and what its firmware is told of it.
+// The board that a scenario describes: the simulated one, and its firmware's configuration.
 #pragma once
 
 #include "loop/settings.hpp"

@@ -32,7 +32,8 @@ Simulation::Simulation(const Scenario& scenario)
 }
 
 void Simulation::boot() {
-  const bool wants = conditions_->wish != Wish::disarm && conditions_->wish != Wish::none;
+  const bool wants =
+      conditions_->action != OperatorAction::disarm && conditions_->action != OperatorAction::none;
   boot_for(boot_s);
   const auto waits = [this] {
     return loop_.self_test().passed() && loop_.channel(0).state().state() == State::disarmed;
@@ -42,7 +43,7 @@ void Simulation::boot() {
       boot_for(1.0);
     boot_for(boot_s);
   }
-  break_things(conditions_->trouble);
+  inject_faults(conditions_->injected_faults);
   start_ = executive_.next_wake();
 }
 
@@ -52,7 +53,8 @@ void Simulation::boot_for(double time_s) {
     // Asked for at the first tick after the self-test.
     const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
-    const bool wants = conditions_->wish != Wish::disarm && conditions_->wish != Wish::none;
+    const bool wants = conditions_->action != OperatorAction::disarm &&
+                       conditions_->action != OperatorAction::none;
     if (ready && disarmed && wants) send(Verb::arm);
     executive_.run_tick();
     housekeep();
@@ -69,14 +71,14 @@ void Simulation::join_bus(const telemetry::CanSettings& settings,
 
 /// What other threads do on a board.
 void Simulation::housekeep() {
-  loop_.health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
+  loop_.health().telemetry_heartbeats.store(++beats_, std::memory_order_relaxed);
   if (link_ || beats_ % rows_every == 0) pass_rows();
   Answer answer;
   while (loop_.answer(answer)) {
     if (link_ && answer.command.source == Source::can) link_->answer(answer);
   }
   if (link_) link_->poll(board_.now());
-  while (loop_.channel(0).take_lesson(learned_)) {
+  while (loop_.channel(0).take_learned_update(learned_)) {
   }
 }
 
@@ -88,7 +90,7 @@ void Simulation::pass_rows() {
   if (recorder_ != nullptr && beats_ % rows_every == 0) recorder_->poll(board_.true_time());
 }
 
-void Simulation::happen(const Event& event) {
+void Simulation::apply_event(const Event& event) {
   conditions_ = &event.conditions;
   MuscleChannel& muscle = board_.channel(0);
   const MuscleChannelSettings settings = muscle_channel_of(*scenario_, *conditions_);
@@ -96,7 +98,7 @@ void Simulation::happen(const Event& event) {
   muscle.position.set(settings.position);
   board_.set_supply_V(conditions_->power.supply_V);
   set_air();
-  break_things(conditions_->trouble);
+  inject_faults(conditions_->injected_faults);
   loop_.channel(0).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
   if (event.new_controller) send(Verb::controller, static_cast<double>(++controllers_used_));
   if (event.new_estimator) send(Verb::estimator, static_cast<double>(++estimators_used_));
@@ -108,13 +110,13 @@ void Simulation::set_air() {
   board_.set_air_C(conditions_->ambient.air_C + conditions_->ambient.sensor_offset_K);
 }
 
-void Simulation::break_things(const Trouble& t) {
+void Simulation::inject_faults(const InjectedFaults& t) {
   MuscleChannel& muscle = board_.channel(0);
-  muscle.trouble = {t.heater_open,  t.heater_short ? 0.5 : 0.0, t.switch_stuck_on, false,
-                    t.muscle_slack, t.switch_leak_ratio};
-  muscle.position.set(ConverterTrouble{t.position_silent, t.position_frozen, t.position_loose});
-  muscle.current.set(ConverterTrouble{.gain = t.current_gain});
-  board_.supply.set(ConverterTrouble{.gain = t.supply_gain});
+  muscle.faults = {t.heater_open,  t.heater_short ? 0.5 : 0.0, t.switch_stuck_on, false,
+                   t.muscle_slack, t.switch_leak_ratio};
+  muscle.position.set(ConverterFaults{t.position_silent, t.position_frozen, t.position_loose});
+  muscle.current.set(ConverterFaults{.gain = t.current_gain});
+  board_.supply.set(ConverterFaults{.gain = t.supply_gain});
   muscle.pwm.refuses = t.pwm_refuses ? hal::Status::io_error : hal::Status::ok;
   board_.stop_circuit.level.high = !t.stop_pressed;
 }
@@ -123,46 +125,48 @@ void Simulation::send(Verb verb, double value) {
   loop_.send({0, verb, value});
 }
 
-/// As whoever holds the command does: renews it every tick.
+/// As a master does: renews the command every tick.
 void Simulation::ask(double reference) {
-  if (conditions_->trouble.commands_stop || conditions_->wish == Wish::none) return;
+  if (conditions_->injected_faults.commands_stop || conditions_->action == OperatorAction::none)
+    return;
   const State state = loop_.channel(0).state().state();
   if (resetting_ && state == State::disarmed) send(Verb::arm);
   if (state == State::armed) resetting_ = false;
   if (state != State::armed && state != State::active) return;
-  switch (conditions_->wish) {
-    case Wish::track:
+  switch (conditions_->action) {
+    case OperatorAction::track:
       send(conditions_->controller.kind == control::ControllerKind::power ? Verb::power
                                                                           : Verb::position,
            reference);
       break;
-    case Wish::identify:
-    case Wish::calibrate: {
+    case OperatorAction::identify:
+    case OperatorAction::calibrate: {
       // Once: the mode ends by itself, and is then not asked for again.
-      const bool asked = fulfilled_ == conditions_->wish;
-      const Verb verb = conditions_->wish == Wish::identify ? Verb::identify : Verb::calibrate;
+      const bool asked = last_action_ == conditions_->action;
+      const Verb verb =
+          conditions_->action == OperatorAction::identify ? Verb::identify : Verb::calibrate;
       if (!asked) send(Verb::rest);
       if (!asked) send(verb);
       if (asked && state == State::active) send(Verb::renew);
       break;
     }
-    case Wish::rest:
+    case OperatorAction::rest:
       if (state == State::active) send(Verb::rest);
       break;
-    case Wish::disarm:
+    case OperatorAction::disarm:
       send(Verb::disarm);
       break;
-    case Wish::none:
+    case OperatorAction::none:
       break;
   }
-  fulfilled_ = conditions_->wish;
+  last_action_ = conditions_->action;
 }
 
 TickRecord Simulation::step() {
   const double time_s = static_cast<double>(tick_) * step_s_;
   board_.advance_to(executive_.next_wake());
   while (next_event_ < scenario_->events.size() && scenario_->events[next_event_].at_s <= time_s) {
-    happen(scenario_->events[next_event_++]);
+    apply_event(scenario_->events[next_event_++]);
   }
   const double reference = conditions_->reference.at(time_s);
   ask(reference);
@@ -181,7 +185,7 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.model_m = s.model_m;
   r.position_m = plant().position_m();
   r.measured_m = s.position_m;
-  r.power_W = s.wanted_W;
+  r.power_W = s.demanded_W;
   r.applied_power_W = s.applied_W;
   r.temperature_rise_K =
       plant().temperature_rise_K() + (board_.channel(0).rise_from_C() - ambient_C);
@@ -192,7 +196,7 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.oscillated = s.oscillated;
   r.open_loop = s.mode != Mode::position;
   r.state = s.state;
-  r.asks_power = conditions_->controller.kind == control::ControllerKind::power;
+  r.commands_power = conditions_->controller.kind == control::ControllerKind::power;
   r.fault = s.fault;
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;

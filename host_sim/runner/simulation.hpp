@@ -11,7 +11,7 @@
 #include "scenario/scenario.hpp"
 #include "simulated_board/simulated_board.hpp"
 #include "simulated_board/simulated_can_bus.hpp"
-#include "telemetry/can_link.hpp"
+#include "telemetry/can_endpoint.hpp"
 
 namespace supercoil::host_sim {
 
@@ -26,13 +26,13 @@ struct TickRecord {
   double power_W = 0.0;          ///< as the controller wanted it
   double applied_power_W = 0.0;  ///< after limits, PWM and delay
   double temperature_rise_K = 0.0;
-  double thermometer_C = NAN;  ///< NaN: there is none
+  double thermometer_C = NAN;  ///< NaN: no thermometer
   double coldest_K = 0.0;      ///< above the air: the firmware's bounds for it
   double hottest_K = 0.0;
   bool limited = false;
-  bool oscillated = false;  ///< the controller saw its loop oscillate
-  bool open_loop = false;   ///< no reference model is followed
-  bool asks_power = false;  ///< the reference is a power
+  bool oscillated = false;      ///< the controller saw its loop oscillate
+  bool open_loop = false;       ///< no reference model is followed
+  bool commands_power = false;  ///< the reference is a power
   State state = State::disarmed;
   Fault fault = Fault::none;        ///< the channel's first cause
   Fault board_fault = Fault::none;  ///< the board's, which may come after it
@@ -76,9 +76,9 @@ class Simulation {
  private:
   void boot();
   void boot_for(double time_s);
-  void happen(const Event& event);
+  void apply_event(const Event& event);
   void set_air();
-  void break_things(const Trouble& trouble);
+  void inject_faults(const InjectedFaults& injected_faults);
   void ask(double reference);
   void send(Verb verb, double value = 0.0);
   void housekeep();
@@ -93,7 +93,7 @@ class Simulation {
   std::size_t next_event_ = 0;
   std::size_t controllers_used_ = 0;
   std::size_t estimators_used_ = 0;
-  Wish fulfilled_ = Wish::rest;
+  OperatorAction last_action_ = OperatorAction::rest;
   bool resetting_ = false;
   std::uint32_t beats_ = 0;
   recorder::FlightRecorder* recorder_ = nullptr;
@@ -102,7 +102,7 @@ class Simulation {
   Executive executive_;
   hal::Time start_{};
   std::optional<SimulatedCanBus> bus_;
-  std::optional<telemetry::CanLink> link_;
+  std::optional<telemetry::CanEndpoint> link_;
   std::optional<board::Learned> learned_;
 };
 

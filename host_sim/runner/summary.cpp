@@ -27,7 +27,7 @@ ordered_json learned_json(const board::Learned& learned) {
   json["position_offset_m"] = learned.calibration.position_offset_m;
   json["position_scale"] = learned.calibration.position_scale;
   json["cold_resistance_Ohm"] = learned.calibration.cold_resistance_Ohm;
-  json["answer_ratio"] = learned.answer_ratio;
+  json["response_ratio"] = learned.response_ratio;
   return json;
 }
 

@@ -24,16 +24,16 @@ class ErrorMeter {
  public:
   void add(double error) {
     square_sum_ += error * error;
-    largest_ = std::fmax(largest_, std::abs(error));
+    max_ = std::fmax(max_, std::abs(error));
     ++count_;
   }
   double rms() const { return std::sqrt(square_sum_ / static_cast<double>(count_)); }
-  double largest() const { return largest_; }
+  double largest() const { return max_; }
   std::int64_t count() const { return count_; }
 
  private:
   double square_sum_ = 0.0;
-  double largest_ = 0.0;
+  double max_ = 0.0;
   std::int64_t count_ = 0;
 };
 

@@ -7,8 +7,8 @@
 #include "supercoil/control/tracking/controller.hpp"
 
 #include "plant/effects.hpp"
+#include "scenario/injected_faults.hpp"
 #include "scenario/reference.hpp"
-#include "scenario/trouble.hpp"
 
 namespace supercoil::host_sim {
 
@@ -53,17 +53,17 @@ struct PowerSettings {
   double supply_V = 12.0;
   bool error_feedback = true;  ///< what rounding took from one duty is added to the next
   double delay_s = 0.0;        ///< actuation delay, rounded to whole ticks
-  double gain = 1.0;           ///< heat in the muscle over electrical power, what nobody measures
+  double gain = 1.0;           ///< heat in the muscle over electrical power, unmeasured
 
   friend bool operator==(const PowerSettings&, const PowerSettings&) = default;
 };
 
-/// What the firmware knows of the muscle's heat: each quantity lies within these parts of what the
+/// What the firmware knows of the muscle's heat: each quantity lies within these ratios of what the
 /// board believes.
 struct ThermalSpans {
-  std::array<double, 2> mass_part{0.75, 1.35};
-  std::array<double, 2> transfer_part{0.45, 2.2};
-  std::array<double, 2> power_part{1.0, 1.0};  ///< besides what the senses are wrong by
+  std::array<double, 2> mass_ratio{0.75, 1.35};
+  std::array<double, 2> transfer_ratio{0.45, 2.2};
+  std::array<double, 2> power_ratio{1.0, 1.0};  ///< besides what the senses are wrong by
 
   friend bool operator==(const ThermalSpans&, const ThermalSpans&) = default;
 };
@@ -79,18 +79,19 @@ struct Ambient {
   friend bool operator==(const Ambient&, const Ambient&) = default;
 };
 
-/// What whoever commands the board wants of it.
-enum class Wish { track, rest, disarm, identify, calibrate, none };
-inline constexpr control::Names<Wish, 6> wish_names{{{"track", Wish::track},
-                                                     {"rest", Wish::rest},
-                                                     {"disarm", Wish::disarm},
-                                                     {"identify", Wish::identify},
-                                                     {"calibrate", Wish::calibrate},
-                                                     {"none", Wish::none}}};
+/// The operator's action, applied at every tick.
+enum class OperatorAction { track, rest, disarm, identify, calibrate, none };
+inline constexpr control::Names<OperatorAction, 6> operator_action_names{
+    {{"track", OperatorAction::track},
+     {"rest", OperatorAction::rest},
+     {"disarm", OperatorAction::disarm},
+     {"identify", OperatorAction::identify},
+     {"calibrate", OperatorAction::calibrate},
+     {"none", OperatorAction::none}}};
 
 struct Conditions {
   /// Of a sensor's range: the travel limit.
-  static constexpr double travel_part = 0.999;
+  static constexpr double travel_ratio = 0.999;
 
   PlantSettings plant;
   control::PhysicalParameters muscle;  ///< what the board believes the muscle to be
@@ -100,8 +101,8 @@ struct Conditions {
   ThermalSpans thermal;
   Ambient ambient;
   double sense_error_ratio = 0.02;  ///< that a comparison with a meter left; 0: never compared
-  Trouble trouble;
-  Wish wish = Wish::track;
+  InjectedFaults injected_faults;
+  OperatorAction action = OperatorAction::track;
   Reference reference;
   control::ControllerSettings controller;
   control::EstimatorSettings estimator;

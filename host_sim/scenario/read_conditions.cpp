@@ -21,7 +21,7 @@ using config::refuse_misfit;
 using config::Section;
 
 /// A muscle that is not the paper's may become longer than it was: its sensor sees some of that.
-constexpr double default_min_part = -0.25;
+constexpr double default_min_ratio = -0.25;
 constexpr double slowest_position_Hz = 20.0;
 
 PositionSensorSettings read_position_sensor(Section section, bool paper_muscle) {
@@ -36,7 +36,7 @@ PositionSensorSettings read_position_sensor(Section section, bool paper_muscle) 
   sensor.rate_Hz = section.number("rate_Hz", sensor.rate_Hz, {0.0, 10e3});
   if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < slowest_position_Hz)
     section.wrong("rate_Hz", "must be 0 (whenever the board asks) or 20 to 10000");
-  const double min_m = paper_muscle ? 0.0 : default_min_part * sensor.range_m;
+  const double min_m = paper_muscle ? 0.0 : default_min_ratio * sensor.range_m;
   sensor.min_m = section.number("min_m", min_m, {-10.0, 0.0});
   section.finish();
   return sensor;
@@ -76,8 +76,8 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
     }
   }
   power.error_feedback = section.flag("error_feedback", power.error_feedback);
-  const double longest_s = static_cast<double>(board::OutputDelay::longest_ticks) * step_s;
-  power.delay_s = section.number("delay_s", power.delay_s, {0.0, longest_s});
+  const double max_s = static_cast<double>(board::OutputDelay::max_ticks) * step_s;
+  power.delay_s = section.number("delay_s", power.delay_s, {0.0, max_s});
   power.gain = section.number("gain", power.gain, {0.0, 10.0});
   section.finish();
   return power;
@@ -92,9 +92,9 @@ std::array<double, 2> read_span(Section& section, const char* key,
 
 ThermalSpans read_thermal(Section section) {
   ThermalSpans t;
-  t.mass_part = read_span(section, "mass_part", t.mass_part);
-  t.transfer_part = read_span(section, "transfer_part", t.transfer_part);
-  t.power_part = read_span(section, "power_part", t.power_part);
+  t.mass_ratio = read_span(section, "mass_ratio", t.mass_ratio);
+  t.transfer_ratio = read_span(section, "transfer_ratio", t.transfer_ratio);
+  t.power_ratio = read_span(section, "power_ratio", t.power_ratio);
   section.finish();
   return t;
 }
@@ -112,7 +112,7 @@ Ambient read_ambient(Section section) {
   return a;
 }
 
-/// What the board was told of its senses by a comparison with a meter.
+/// The result of a comparison of the senses with a meter.
 double read_senses(Section section) {
   const double error_ratio =
       section.number("error_ratio", Conditions{}.sense_error_ratio, {0.0, 0.2});
@@ -120,22 +120,23 @@ double read_senses(Section section) {
   return error_ratio;
 }
 
-Trouble read_trouble(Section section) {
-  Trouble trouble;
-  for (const TroubleName& known : trouble_names)
-    trouble.*known.member = section.flag(known.name, false);
-  for (const TroubleNumber& known : trouble_numbers) {
-    trouble.*known.member =
-        section.number(known.name, Trouble{}.*known.member, {known.min, known.max});
+InjectedFaults read_injected_faults(Section section) {
+  InjectedFaults injected_faults;
+  for (const InjectedFaultName& known : injected_fault_names)
+    injected_faults.*known.member = section.flag(known.name, false);
+  for (const InjectedFaultNumber& known : injected_fault_numbers) {
+    injected_faults.*known.member =
+        section.number(known.name, InjectedFaults{}.*known.member, {known.min, known.max});
   }
   section.finish();
-  return trouble;
+  return injected_faults;
 }
 
-Wish read_wish(Section section) {
-  const Wish wish = section.choice("wish", Wish::track, wish_names);
+OperatorAction read_operator(Section section) {
+  const OperatorAction action =
+      section.choice("action", OperatorAction::track, operator_action_names);
   section.finish();
-  return wish;
+  return action;
 }
 
 /// A reference that the muscle cannot reach is refused before it is run, not found out afterwards.
@@ -145,7 +146,7 @@ void check_reach(Section& section, const Conditions& c) {
   if (c.reference.lowest() < 0.0) {
     message << "the reference goes down to " << c.reference.lowest() * 1e3
             << " mm, and the muscle only contracts from 0";
-  } else if (c.reference.highest() > Conditions::travel_part * c.position_sensor.range_m) {
+  } else if (c.reference.highest() > Conditions::travel_ratio * c.position_sensor.range_m) {
     message << "the reference goes up to " << c.reference.highest() * 1e3
             << " mm, and sensor.position.range_m is " << c.position_sensor.range_m * 1e3 << " mm";
   } else {
@@ -181,8 +182,8 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   c.thermal = read_thermal(root.section("thermal"));
   c.ambient = read_ambient(root.section("ambient"));
   c.sense_error_ratio = read_senses(root.section("senses"));
-  c.trouble = read_trouble(root.section("trouble"));
-  c.wish = read_wish(root.section("operator"));
+  c.injected_faults = read_injected_faults(root.section("injected_fault"));
+  c.action = read_operator(root.section("operator"));
   Section reference = root.section("reference");
   c.reference = read_reference(reference);
   Section estimator = root.section("estimator");

@@ -11,7 +11,7 @@ constexpr Range allowed_position_m{-10.0, 10.0};
 constexpr Range amplitude_m{0.0, 10.0};
 constexpr Range allowed_power_W{-1e3, 1e3};
 constexpr Range frequency_rad_per_s{1e-4, 1e3};
-constexpr std::size_t most_terms = 32;
+constexpr std::size_t max_terms = 32;
 
 std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, Range amplitudes,
                                  const std::vector<Sinusoid>& fallback) {
@@ -21,9 +21,9 @@ std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, R
     sizes.push_back(term.amplitude);
     frequencies.push_back(term.angular_frequency_rad_per_s);
   }
-  sizes = section.numbers(amplitudes_key, sizes, amplitudes, 1, most_terms);
+  sizes = section.numbers(amplitudes_key, sizes, amplitudes, 1, max_terms);
   frequencies = section.numbers("angular_frequencies_rad_per_s", frequencies, frequency_rad_per_s,
-                                1, most_terms);
+                                1, max_terms);
   if (sizes.size() != frequencies.size()) {
     section.wrong("angular_frequencies_rad_per_s", "must be as many as " +
                                                        std::string(amplitudes_key) +
@@ -54,7 +54,7 @@ Reference read_reference(Section& section) {
       break;
     case ReferenceKind::steps:
       r.levels = section.numbers("levels_m", {0.005, 0.015, 0.008, 0.020}, allowed_position_m, 1,
-                                 most_terms);
+                                 max_terms);
       r.hold_s = section.number("hold_s", 20.0, {1e-3, 1e6});
       break;
     case ReferenceKind::multisine:

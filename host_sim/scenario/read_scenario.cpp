@@ -28,7 +28,7 @@ void read_simulation(const toml::table& document, Scenario& scenario,
   }
 }
 
-/// What is soldered, or told to the firmware when it starts, holds for the whole run.
+/// What is soldered, or given to the firmware at its start, holds for the whole run.
 constexpr std::array fixed_keys{"simulation",
                                 "muscle",
                                 "reference_model",
@@ -98,12 +98,12 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
 }  // namespace
 
 // Moving (not copying) keeps each node's line.
-void lay_over(toml::table& document, toml::table&& changes) {
+void apply_changes(toml::table& document, toml::table&& changes) {
   for (auto&& [key, node] : changes) {
     toml::table* inner = document.get_as<toml::table>(key.str());
     toml::table* given = node.as_table();
     if (inner != nullptr && given != nullptr && !given->contains("kind")) {
-      lay_over(*inner, std::move(*given));
+      apply_changes(*inner, std::move(*given));
     } else {
       node.visit([&, name = key.str()](auto& value) {
         document.insert_or_assign(name, std::move(value));
@@ -134,7 +134,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   if (learned) {
     scenario.calibration = learned->calibration;
     scenario.muscle_identified = !(learned->muscle == configured);
-    scenario.answer_ratio = learned->answer_ratio;
+    scenario.response_ratio = learned->response_ratio;
   }
   // Each event is laid over all before it, and the whole is read and checked again. Events at one
   // time are one change: what the first alone would make impossible, the second may put right.
@@ -146,7 +146,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
     moment.reset |= event->reset;
     moment.new_controller |= event->changes.contains("controller");
     moment.new_estimator |= event->changes.contains("estimator");
-    lay_over(document, std::move(event->changes));
+    apply_changes(document, std::move(event->changes));
     const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
     if (last_of_its_time) {
       moment.conditions = read_conditions(document, believed, scenario.step_s(), diagnostics);
@@ -171,7 +171,8 @@ ScenarioOrProblems read_scenario(const std::string& path,
       for (const BuiltinScenario& scenario : builtin_scenarios())
         names.emplace_back(scenario.name);
       diagnostics.add(
-          0, "", "and no built-in scenario is called so; " + meant_or_all(path, names, "they are"));
+          0, "",
+          "and no built-in scenario has that name; " + meant_or_all(path, names, "they are"));
     }
     return tl::unexpected(diagnostics.problems());
   }

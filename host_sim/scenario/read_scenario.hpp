@@ -27,7 +27,7 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
 
 /// Lays one document over another, as an event is laid over what was before it: a table that names
 /// its kind replaces the old one, other keys come beside those that are there.
-void lay_over(toml::table& document, toml::table&& changes);
+void apply_changes(toml::table& document, toml::table&& changes);
 
 /// The same from a document.
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,

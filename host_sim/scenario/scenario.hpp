@@ -27,7 +27,7 @@ struct Scenario {
   std::uint64_t seed = 1;
   int substeps = 1;
   bool muscle_identified = false;  ///< identified before: not only believed
-  double answer_ratio = 0.0;       ///< of small motions, learned before
+  double response_ratio = 0.0;     ///< of small motions, learned before
   board::Calibration calibration;  ///< learned before; its resistance is [plant]'s otherwise
   Conditions start;
   std::vector<Event> events;  ///< in the order of their times

@@ -17,9 +17,9 @@ std::int32_t nearest(double value) {
 
 std::int32_t SimulatedConverter::convert(double value) {
   // Pulled to a rail below everything that the sensor gives.
-  if (trouble_.loose) return static_cast<std::int32_t>(-0.2 * full_scale_);
-  if (trouble_.frozen && last_.status == hal::Status::ok) return last_.counts;
-  double reading = trouble_.gain * value + trouble_.offset;
+  if (faults_.loose) return static_cast<std::int32_t>(-0.2 * full_scale_);
+  if (faults_.frozen && last_.status == hal::Status::ok) return last_.counts;
+  double reading = faults_.gain * value + faults_.offset;
   if (settings_.noise_rms > 0.0) reading += settings_.noise_rms * normal_(generator_);
   return nearest(std::clamp((reading - settings_.low) * counts_per_unit_, 0.0, full_scale_));
 }
@@ -28,14 +28,14 @@ void SimulatedConverter::offer(double value, hal::Time now) {
   value_ = value;
   now_ = now;
   converted_ = false;
-  if (period_ <= hal::Duration{} || now < next_ || trouble_.silent) return;
+  if (period_ <= hal::Duration{} || now < next_ || faults_.silent) return;
   next_ = now + period_;
   on_the_way_.push_back({convert(value), now, hal::Status::ok});
 }
 
 hal::Sample SimulatedConverter::latest() {
-  if (trouble_.status != hal::Status::ok) return {0, now_, trouble_.status};
-  if (period_ <= hal::Duration{} && !converted_ && !trouble_.silent) {
+  if (faults_.status != hal::Status::ok) return {0, now_, faults_.status};
+  if (period_ <= hal::Duration{} && !converted_ && !faults_.silent) {
     last_.counts = convert(value_);
     last_.taken = now_;
     last_.status = hal::Status::ok;

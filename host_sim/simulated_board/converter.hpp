@@ -29,8 +29,8 @@ struct ConverterSettings {
   double per_count() const { return (high - low) / static_cast<double>(full_scale()); }
 };
 
-/// What can go wrong with it.
-struct ConverterTrouble {
+/// Faults that can be injected.
+struct ConverterFaults {
   bool silent = false;  ///< no new conversions: the last one grows old
   bool frozen = false;  ///< new conversions of the old value, without its noise
   bool loose = false;   ///< the wire is off: far outside of the range
@@ -38,7 +38,7 @@ struct ConverterTrouble {
   hal::Status status = hal::Status::ok;
   double gain = 1.0;  ///< reading over truth
 
-  friend bool operator==(const ConverterTrouble&, const ConverterTrouble&) = default;
+  friend bool operator==(const ConverterFaults&, const ConverterFaults&) = default;
 };
 
 class SimulatedConverter final : public hal::AdcChannel {
@@ -59,7 +59,7 @@ class SimulatedConverter final : public hal::AdcChannel {
     period_ = hal::duration_from(settings.period_s);
     latency_ = hal::duration_from(settings.latency_s);
   }
-  void set(const ConverterTrouble& trouble) { trouble_ = trouble; }
+  void set(const ConverterFaults& faults) { faults_ = faults; }
   const ConverterSettings& settings() const { return settings_; }
 
  private:
@@ -70,7 +70,7 @@ class SimulatedConverter final : public hal::AdcChannel {
   double counts_per_unit_ = 1.0;
   hal::Duration period_{};
   hal::Duration latency_{};
-  ConverterTrouble trouble_;
+  ConverterFaults faults_;
   boost::random::mt19937_64 generator_;
   boost::random::normal_distribution<double> normal_;
   double value_ = 0.0;

@@ -13,7 +13,7 @@ MuscleChannel::MuscleChannel(const MuscleChannelSettings& settings, hal::Duratio
       step_(step),
       plant_(settings.plant, settings.effects, hal::seconds(step)),
       thermometer_(settings.thermometer, settings.rise_from_C, seed + 3000017),
-      sense_part_(settings.sense_filter_s > 0.0
+      sense_gain_(settings.sense_filter_s > 0.0
                       ? -std::expm1(-hal::seconds(step) / settings.sense_filter_s)
                       : 1.0) {}
 
@@ -25,22 +25,22 @@ void MuscleChannel::set(const MuscleChannelSettings& settings) {
 }
 
 void MuscleChannel::advance(hal::Time from, double supply_V) {
-  const bool enabled = enable.high() || trouble.enable_stuck_on;
+  const bool enabled = enable.high() || faults.enable_stuck_on;
   const double driven = enabled ? pwm.duty(from) : 0.0;
-  const double leaked = trouble.switch_stuck_on ? 1.0 : trouble.switch_leak_ratio;
+  const double leaked = faults.switch_stuck_on ? 1.0 : faults.switch_leak_ratio;
   const double duty = driven + (1.0 - driven) * leaked;
   const double warm = 1.0 + settings_.temperature_coefficient_per_K * plant_.temperature_rise_K();
   const double resistance_Ohm = settings_.resistance_Ohm * warm;
-  const double through_A = trouble.wire_open ? 0.0 : duty * supply_V / resistance_Ohm;
-  const double beside_A = trouble.short_Ohm > 0.0 ? duty * supply_V / trouble.short_Ohm : 0.0;
+  const double through_A = faults.wire_open ? 0.0 : duty * supply_V / resistance_Ohm;
+  const double beside_A = faults.short_Ohm > 0.0 ? duty * supply_V / faults.short_Ohm : 0.0;
   power_W_ = supply_V * through_A * settings_.power_gain;
   current_A_ = through_A + beside_A;
-  sense_A_ += sense_part_ * (current_A_ - sense_A_);
+  sense_A_ += sense_gain_ * (current_A_ - sense_A_);
   plant_.step(power_W_, settings_.load_N);
   if (settings_.thermometer)
     thermometer_.step(settings_.rise_from_C + plant_.temperature_rise_K(), hal::seconds(step_));
-  if (!trouble.slack) slack_at_m_ = plant_.position_m();
-  position.offer(trouble.slack ? slack_at_m_ : plant_.position_m(), from + step_);
+  if (!faults.slack) slack_at_m_ = plant_.position_m();
+  position.offer(faults.slack ? slack_at_m_ : plant_.position_m(), from + step_);
   current.offer(sense_A_, from + step_);
 }
 

@@ -16,7 +16,7 @@ struct MuscleChannelSettings {
   double resistance_Ohm = 10.0;                ///< of the cold heater
   double temperature_coefficient_per_K = 0.0;  ///< of that resistance
   double load_N = 0.0;
-  double power_gain = 1.0;  ///< heat in the muscle over electrical power, what nobody measures
+  double power_gain = 1.0;  ///< heat in the muscle over electrical power, unmeasured
   double sense_filter_s = 0.0;
   int pwm_steps = (1 << 30);
   double pwm_delay_s = 0.0;
@@ -26,8 +26,8 @@ struct MuscleChannelSettings {
   double rise_from_C = 25.0;  ///< the air's temperature that the muscle's rise counts from
 };
 
-/// What can go wrong with it, besides its converters.
-struct MuscleTrouble {
+/// Faults that can be injected, besides its converters'.
+struct MuscleFaults {
   bool wire_open = false;
   double short_Ohm = 0.0;  ///< across the muscle; 0: none
   bool switch_stuck_on = false;
@@ -46,7 +46,7 @@ class MuscleChannel {
   /// Everything that may change under way; converters and PWM stay as they are.
   void set(const MuscleChannelSettings& settings);
 
-  /// What the thermometer tells; NaN without one.
+  /// The thermometer's reading; NaN without one.
   double thermometer_C() const { return thermometer_.reading_C(); }
   /// The air's temperature that the plant's rise counts from.
   double rise_from_C() const { return settings_.rise_from_C; }
@@ -58,14 +58,14 @@ class MuscleChannel {
   SimulatedOutput enable;
   SimulatedConverter position;
   SimulatedConverter current;
-  MuscleTrouble trouble;
+  MuscleFaults faults;
 
  private:
   MuscleChannelSettings settings_;
   hal::Duration step_;
   Plant plant_;
   Thermometer thermometer_;
-  double sense_part_;
+  double sense_gain_;
   double sense_A_ = 0.0;
   double power_W_ = 0.0;
   double current_A_ = 0.0;

@@ -38,7 +38,7 @@ class SimulatedBoard final : public hal::Clock {
 
   /// The next wake-up comes so much too late.
   void oversleep(double late_s) { late_ = hal::duration_from(late_s); }
-  /// The next tick takes so much time, as now() tells.
+  /// The next tick takes this much time by now().
   void lose_in_tick(double time_s) { to_lose_ = hal::duration_from(time_s); }
 
   MuscleChannel& channel(std::size_t i) { return *channels_[i]; }

@@ -1,4 +1,4 @@
-// A CAN bus with nobody on it but the board, and whoever a test or a log is.
+// A CAN bus with only the board on it, and a test or a log.
 #pragma once
 
 #include <deque>
@@ -25,7 +25,7 @@ class SimulatedCanBus final : public hal::CanBus {
       ends_.pop_front();
     if (refuses || ends_.size() >= queue) return hal::Status::busy;
     const hal::Time begins = ends_.empty() ? now : ends_.back();
-    const double frame_s = telemetry::most_bits(frame.length) / bit_rate_;
+    const double frame_s = telemetry::max_bits(frame.length) / bit_rate_;
     ends_.push_back(begins + hal::duration_from(frame_s));
     hal::CanFrame heard = frame;
     heard.received = ends_.back();
@@ -42,7 +42,7 @@ class SimulatedCanBus final : public hal::CanBus {
   }
   hal::CanState state() const override { return link; }
 
-  /// A frame from somebody else on the bus; lost when as many wait as in the kernel's buffer.
+  /// A frame from another node on the bus; lost when as many wait as in the kernel's buffer.
   void deliver(const hal::CanFrame& frame) {
     if (inbox_.size() < inbox) inbox_.push_back(frame);
   }
@@ -53,7 +53,7 @@ class SimulatedCanBus final : public hal::CanBus {
   bool refuses = false;  ///< others keep the bus busy
 
  private:
-  /// txqueuelen of a Linux CAN interface, unless somebody raised it.
+  /// Default txqueuelen of a Linux CAN interface.
   static constexpr std::size_t queue = 10;
   static constexpr std::size_t inbox = 1024;
 

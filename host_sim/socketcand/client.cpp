@@ -13,7 +13,7 @@ namespace supercoil::host_sim {
 
 namespace {
 
-constexpr std::size_t most_waiting = 1U << 20U;
+constexpr std::size_t max_waiting = 1U << 20U;
 /// Clients expect < ok > alone in what they read next.
 constexpr auto pause_after_ok = std::chrono::milliseconds(200);
 
@@ -48,7 +48,7 @@ void SocketcandClient::read() {
 void SocketcandClient::hear(std::string_view frame) {
   if (!raw_) return;
   if (!paused_) return send(frame);
-  if (held_.size() + frame.size() > most_waiting) return close();
+  if (held_.size() + frame.size() > max_waiting) return close();
   held_ += frame;
 }
 
@@ -67,7 +67,7 @@ void SocketcandClient::resume() {
 }
 
 void SocketcandClient::send(std::string_view text) {
-  if (in_flight_.size() + waiting_.size() + text.size() > most_waiting) return close();
+  if (in_flight_.size() + waiting_.size() + text.size() > max_waiting) return close();
   waiting_ += text;
   if (in_flight_.empty()) write();
 }
@@ -104,7 +104,8 @@ void SocketcandClient::obey(std::string_view element) {
     return pause();
   }
   const auto frame = can_client::parse_send(element);
-  if (!frame) return answer("error unknown command, or no classical frame with 11 bits");
+  if (!frame)
+    return answer("error unknown command, or not a classical frame with an 11-bit identifier");
   server_->take(*frame, *this);
 }
 

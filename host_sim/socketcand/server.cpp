@@ -43,7 +43,7 @@ SocketcandServer::~SocketcandServer() {
 void SocketcandServer::accept() {
   acceptor_.async_accept([this](boost::system::error_code error, tcp::socket socket) {
     if (error) return accept_later();
-    if (clients_.size() < most_clients) {
+    if (clients_.size() < max_clients) {
       clients_.push_back(std::make_shared<SocketcandClient>(std::move(socket), *this));
       clients_.back()->start();
     }

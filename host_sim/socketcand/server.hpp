@@ -54,7 +54,7 @@ class SocketcandServer {
   void take(const hal::CanFrame& frame, const SocketcandClient& from);
   void send(const hal::CanFrame& frame, hal::Time at, const SocketcandClient* but);
 
-  static constexpr std::size_t most_clients = 32;
+  static constexpr std::size_t max_clients = 32;
 
   boost::asio::io_context io_;
   boost::asio::ip::tcp::acceptor acceptor_;

@@ -9,7 +9,8 @@ namespace supercoil::identification {
 namespace {
 
 constexpr std::size_t min_rows = 50;
-/// Longer than so many ordinary intervals is a gap; a gap of so many, and of so long, is refused.
+/// Longer than this many ordinary intervals is a gap; one of this many intervals and this long is
+/// refused.
 constexpr double gap_intervals = 3.0;
 constexpr double refused_intervals = 10.0;
 constexpr double refused_gap_s = 0.1;
@@ -66,26 +67,25 @@ Checked check_times(Recording& r, Gaps gaps) {
   }
   std::size_t count = 0;
   std::size_t longest = 0;
-  double longest_s = 0.0;
+  double max_s = 0.0;
   for (std::size_t i = 1; i < r.size(); ++i) {
     const double interval_s = r.time_s[i] - r.time_s[i - 1];
     if (interval_s <= gap_intervals * usual_s) continue;
     ++count;
-    if (interval_s > longest_s) {
-      longest_s = interval_s;
+    if (interval_s > max_s) {
+      max_s = interval_s;
       longest = i;
     }
   }
   if (count == 0) return {};
-  if (gaps == Gaps::refuse && longest_s > refused_intervals * usual_s &&
-      longest_s > refused_gap_s) {
-    return refuse(r.line[longest], "rows are missing: ", longest_s, " s since the row before, ",
+  if (gaps == Gaps::refuse && max_s > refused_intervals * usual_s && max_s > refused_gap_s) {
+    return refuse(r.line[longest], "rows are missing: ", max_s, " s since the row before, ",
                   usual_s,
                   " s elsewhere. What the power was is not known: use a part without the gap "
                   "(--from, --to), or say --bridge-gaps if power stayed as it was");
   }
   r.warnings.push_back(problem(r.line[longest], "rows are missing in ", count,
-                               " places, here for the longest time: ", longest_s,
+                               " places, here for the longest time: ", max_s,
                                " s; power is taken as held"));
   return {};
 }
@@ -130,7 +130,7 @@ Checked check_power(const Recording& r) {
   const std::size_t line = r.line[static_cast<std::size_t>(highest - r.power_W.begin())];
   if (*highest - *lowest <= 1e-3 * *highest) {
     return refuse(line, "power never changes from ", *highest,
-                  " W: what it moves cannot be told; is it the right column (--power-column)?");
+                  " W: what it moves cannot be found; is it the right column (--power-column)?");
   }
   if (*highest > 1000.0 || *highest < 1e-3) {
     return refuse(line, "power is up to ", *highest,

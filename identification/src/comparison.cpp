@@ -101,9 +101,9 @@ std::vector<Judged>::iterator best_of(std::vector<Judged>& models) {
 /// noise.
 bool worth_more(const Judged& larger, const Judged& smaller, double stroke_m) {
   const double error_m = unseen_error(smaller);
-  const double least_m = worth_stroke_ratio * stroke_m;
-  const bool unseen = error_m - unseen_error(larger) > std::max(worth_ratio * error_m, least_m);
-  const bool all = both_rms(smaller) > least_m &&
+  const double min_m = worth_stroke_ratio * stroke_m;
+  const bool unseen = error_m - unseen_error(larger) > std::max(worth_ratio * error_m, min_m);
+  const bool all = both_rms(smaller) > min_m &&
                    both_rms(larger) < (1.0 - worth_of_all_ratio) * both_rms(smaller);
   return unseen && all;
 }
@@ -150,7 +150,7 @@ std::size_t take_effects_from(std::vector<Judged>& models, std::size_t best, con
   }
 }
 
-std::string why_no_muscle(const Comparison& c) {
+std::string muscle_rejection(const Comparison& c) {
   double best_m = std::numeric_limits<double>::infinity();
   for (const Judged& model : c.models)
     best_m = std::min(best_m, both_rms(model));
@@ -180,7 +180,7 @@ std::string why_no_muscle(const Comparison& c) {
 
 }  // namespace
 
-Parts usual_parts(const Samples& samples) {
+Parts default_parts(const Samples& samples) {
   const double full_W = sizes_of(samples).full_W;
   const double end_s = samples.end_s();
   const double duration_s = end_s - samples.start_s;
@@ -217,18 +217,18 @@ Comparison compare(const Samples& samples, const Parts& parts) {
   result.chosen = take_effects_from(result.models, added, samples, parts, stroke_m);
   result.transformation =
       judged(fit_model({Effect::transformation}, samples, parts.fitted), samples, parts);
-  result.not_a_muscle = why_no_muscle(result);
+  result.not_a_muscle = muscle_rejection(result);
   return result;
 }
 
-Effects linear_part(const Effects& effects) {
+Effects linear_effects(const Effects& effects) {
   Effects result;
   for (const Effect effect : {Effect::drift, Effect::lonely_stroke})
     if (effects.has(effect)) result = result.with(effect);
   return result;
 }
 
-Change largest_change(const Fit& first, const Fit& second) {
+Change max_change(const Fit& first, const Fit& second) {
   Change result{0, 1.0, 0.0};
   for (std::size_t i = 0; i < first.parameters.size(); ++i) {
     const auto member = first.parameters[i].member;

@@ -15,7 +15,7 @@ constexpr int blocks = 5;
 /// has a part of them).
 constexpr double jackknife_factor = 2.0;
 /// Where a model explains a simulation to the last digit.
-constexpr double smallest_variance = 1e-12;
+constexpr double min_variance = 1e-12;
 
 }  // namespace
 
@@ -37,8 +37,7 @@ double correlated_samples(const Eigen::VectorXd& residual) {
 
 double counted_variance(const Eigen::VectorXd& residual, Eigen::Index parameters) {
   const double freedom = std::max<double>(1.0, static_cast<double>(residual.size() - parameters));
-  return std::max(smallest_variance,
-                  residual.squaredNorm() / freedom * correlated_samples(residual));
+  return std::max(min_variance, residual.squaredNorm() / freedom * correlated_samples(residual));
 }
 
 Accuracy accuracy_of(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& residual,

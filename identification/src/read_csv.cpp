@@ -41,7 +41,7 @@ void split(std::string_view line, char separator, Fields& fields) {
   }
 }
 
-/// NaN for an empty field and for "nan"; empty for what is no number.
+/// NaN for an empty field and for "nan"; empty for what is NaN.
 std::optional<double> number_in(std::string_view field, char separator) {
   if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (field.front() == '+') field.remove_prefix(1);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double step_wanted_s = 0.02;
 constexpr double max_samples = 10000.0;
-/// Further apart than so many steps, two positions say nothing of what is between.
+/// Positions further apart than this many steps are not interpolated.
 constexpr double bridged_steps = 3.0;
 
 /// The mean power from one time to another; `row` is the last row at or before from_s, and moves.

@@ -100,7 +100,7 @@ def unprotected(runs):
             yield f"- {attack}: up to {outside:.1f} K outside of the published interval. {sentence(missed[0].blindness)}"
 
 
-def with_part(text, name, lines):
+def with_section(text, name, lines):
     """The text with what is between <!-- name --> and <!-- end of name --> replaced."""
     begin, end = f"<!-- {name}: made by tests/attack -->\n", f"<!-- end of {name} -->"
     if text.count(begin) != 1 or text.count(end) != 1:
@@ -111,11 +111,11 @@ def with_part(text, name, lines):
 
 def pages(runs):
     attacks, safety = ROOT / "docs/attacks.md", ROOT / "docs/safety.md"
-    text = with_part(attacks.read_text(), "summary", summary(runs))
+    text = with_section(attacks.read_text(), "summary", summary(runs))
     for muscle in ("soft", "stiff"):
-        text = with_part(text, muscle, table(runs, muscle))
+        text = with_section(text, muscle, table(runs, muscle))
     yield attacks, text
-    yield safety, with_part(safety.read_text(), "unprotected attacks", unprotected(runs))
+    yield safety, with_section(safety.read_text(), "unprotected attacks", unprotected(runs))
 
 
 def main():

@@ -56,15 +56,15 @@ BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSetti
   const auto state = [&text](const std::string& key, const std::string& before, double value) {
     text.replace(text.find(key + before), (key + before).size(), key + std::to_string(value));
   };
-  state("lowest_V = ", "10.8", muscle.min_supply_V);
-  state("highest_V = ", "13.2", muscle.max_supply_V);
+  state("min_V = ", "10.8", muscle.min_supply_V);
+  state("max_V = ", "13.2", muscle.max_supply_V);
   state("max_W = ", "4.5", muscle.max_W);
   if (simulated.air) {
     text += "[ambient.sensor]\ndevice = 'adc'\ninput = 'temp'\nC_per_count = " +
             std::to_string(simulated.air->per_count()) + "\n";
   }
   // Where nothing limits the travel, nothing but heat ends a run.
-  state("highest_m = ", "0.041", 0.081);
+  state("max_m = ", "0.041", 0.081);
   state("max_travel_m = ", "0.025", 0.08);
   text += "[channel.muscle]\nstiffness_N_per_m = " + std::to_string(muscle.stiffness_N_per_m) +
           "\n[channel.controller]\nkind = 'pi'\n";
@@ -84,7 +84,7 @@ BoardSettings firmware(const Muscle& muscle, const host_sim::SimulatedBoardSetti
   settings.channels[0].heater.current.scaling = scaling(soldered.current);
   if (identified) {
     settings.channels[0].muscle = soldered.plant;
-    settings.channels[0].knows_muscle = settings.channels[0].muscle_identified = true;
+    settings.channels[0].has_muscle = settings.channels[0].muscle_identified = true;
     settings.channels[0].senses.error_ratio = 0.02;
   }
   return settings;
@@ -108,10 +108,10 @@ void AttackedBoard::begin_attack() {
   host_sim::MuscleChannelSettings changed = simulated_.channels.front();
   changed.plant.heat_transfer_W_per_K *= attack_.cooling_ratio / worst_configured_cooling;
   channel.set(changed);
-  channel.trouble.slack = attack_.blocked;
-  channel.trouble.switch_leak_ratio = attack_.switch_leak_ratio;
-  channel.current.set(host_sim::ConverterTrouble{.gain = attack_.current_gain});
-  board_.supply.set(host_sim::ConverterTrouble{.gain = attack_.supply_gain});
+  channel.faults.slack = attack_.blocked;
+  channel.faults.switch_leak_ratio = attack_.switch_leak_ratio;
+  channel.current.set(host_sim::ConverterFaults{.gain = attack_.current_gain});
+  board_.supply.set(host_sim::ConverterFaults{.gain = attack_.supply_gain});
 }
 
 void AttackedBoard::command_active() {
@@ -162,7 +162,7 @@ void AttackedBoard::watch() {
 void AttackedBoard::tick() {
   if (ticks_++ % command_every == 0 && time_s() > boot_s) command();
   executive_.run_tick();
-  loop_.health().telemetry_beats.store(ticks_);
+  loop_.health().telemetry_heartbeats.store(ticks_);
   for (Row row; loop_.take(row);) {
   }
   for (Answer answer; loop_.answer(answer);) {

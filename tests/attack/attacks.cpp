@@ -6,8 +6,7 @@ namespace supercoil::test {
 
 namespace {
 
-constexpr std::string_view worse_cooling =
-    "the cooling is worse than `lowest_transfer_W_per_K` says";
+constexpr std::string_view worse_cooling = "the cooling is worse than `min_transfer_W_per_K` says";
 
 std::string text_of(double value) {
   std::array<char, 32> text{};

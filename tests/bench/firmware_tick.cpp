@@ -51,10 +51,10 @@ class Bench {
       channel.controllers = {controller};
       channel.estimators = {estimator};
       channel.supervision.frozen_s = INFINITY;
-      channel.supervision.responding_part = 0.0;
+      channel.supervision.responding_ratio = 0.0;
       // It is asked to prove that it answers, but what it expects is never enough for a fault.
       channel.muscle_identified = true;
-      channel.supervision.responding_least_m = INFINITY;
+      channel.supervision.responding_min_m = INFINITY;
       channel.supervision.stuck_on_s = INFINITY;
       channel.supervision.open_s = INFINITY;
       channel.supervision.saturated_s = INFINITY;
@@ -84,7 +84,7 @@ class Bench {
       inputs_[2 * i + 1].counts = powered_ ? static_cast<int>(1.2e6 * pwms_[i].last / 4095) : 0;
       if (verb != Verb::none) loop_->send({static_cast<std::uint8_t>(i), verb, 0.005});
     }
-    loop_->health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
+    loop_->health().telemetry_heartbeats.store(++beats_, std::memory_order_relaxed);
     loop_->tick(clock_.time, clock_.time, 0);
     Row row;
     while (loop_->take(row)) {

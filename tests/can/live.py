@@ -121,7 +121,7 @@ class Master:
         mine = {"opcode": opcode, "counter": self.counter, "session": self.session}
         return self.hear_until(lambda heard: heard.message == "Acknowledge" and mine.items() <= heard.signals.items())
 
-    def hear_setting(self, counter, name):
+    def receive_setting(self, counter, name):
         mine = {"counter": counter, "setting": name, "session_low": counter and self.session & 0xFF}
         return self.hear_until(lambda heard: heard.message == "Setting" and mine.items() <= heard.signals.items()).signals
 
@@ -130,12 +130,12 @@ class Master:
         self.bus.send(can.Message(arbitration_id=SETTING_WRITE.frame_id, is_extended_id=False, data=e2e.protected(
             SETTING_WRITE.frame_id, SETTING_WRITE.encode({"crc": 0, "counter": self.counter, "setting": name,
                                                           "session": self.session, "value": value}))))
-        return self.hear_setting(self.counter, name)
+        return self.receive_setting(self.counter, name)
 
     def read_setting(self, name):
         self.bus.send(can.Message(arbitration_id=SETTING_READ.frame_id, is_extended_id=False,
                                   data=SETTING_READ.encode({"setting": name})))
-        return self.hear_setting(0, name)
+        return self.receive_setting(0, name)
 
     def refusal(self, opcode, value=0.0):
         return self.ask(opcode, value).signals["refusal"]

@@ -30,10 +30,10 @@ at_s = 7.0
 power.max_W = 1.0
 [[event]]
 at_s = 12.0
-trouble.heater_open = true
+injected_fault.heater_open = true
 """
 # Told by least squares only, one a tick in turn: what is sent of them is at most so many ticks old.
-ASIDES = {"bias_W": "bias", "theta1_deviation": "theta1_deviation", "theta2_deviation": "theta2_deviation",
+MULTIPLEXED = {"bias_W": "bias", "theta1_deviation": "theta1_deviation", "theta2_deviation": "theta2_deviation",
           "theta3_deviation": "theta3_deviation", "theta4_deviation": "theta4_deviation", "bias_deviation_W": "bias_deviation"}
 MOST_TICKS = 13
 # Signals by message, and the recording's columns that they show.
@@ -41,7 +41,7 @@ COLUMNS = {
     "Measurement": {"position_m": "position_m", "resistance_Ohm": "resistance_Ohm",
                     "resistance_age_s": "resistance_age_s"},
     "Tracking": {"reference_m": "reference", "model_m": "model_m"},
-    "Power": {"demanded_W": "wanted_W", "applied_W": "applied_W", "limited_by": "limited_by", "limited": "limited"},
+    "Power": {"demanded_W": "demanded_W", "applied_W": "applied_W", "limited_by": "limited_by", "limited": "limited"},
     "Heater": {"supply_V": "supply_V", "current_A": "current_A", "duty": "duty"},
     "Temperature": {"coldest_C": "coldest_C", "hottest_C": "hottest_C"},
     "Estimate": {"trusted": "trusted", "identify_notes": "identify_notes", "error_bound": "error_bound", "theta1": "theta1", "theta2": "theta2",
@@ -56,7 +56,7 @@ COLUMNS = {
 }
 # Not in the recording's row of the same tick: tested by what they mean.
 OTHERWISE = {"Tracking": {"error_m"},
-             "Estimate": {*ASIDES, "parameter", "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m",
+             "Estimate": {*MULTIPLEXED, "parameter", "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m",
                           "damping_Ns_per_m"},
              "Timing": {"late_s", "execution_s", "overruns", "dropped_frames"},
              "Status": {"leased", "counter", "protocol_version", "proof_off", "oscillated", "friction"},
@@ -198,17 +198,17 @@ class Run(unittest.TestCase):
     def test_what_is_told_beside_theta_is_the_newest_of_its_kind(self):
         recorded, traced = set(), set()
         for tick, message, values, _ in self.frames:
-            for name in values.keys() & ASIDES.keys() if message == "Estimate" else ():
+            for name in values.keys() & MULTIPLEXED.keys() if message == "Estimate" else ():
                 ticks = range(tick, tick - MOST_TICKS, -1)
-                truth = next((t for t in ticks if self.recorded.get(t, {}).get("aside_of") == ASIDES[name]), None)
+                truth = next((t for t in ticks if self.recorded.get(t, {}).get("multiplexed_selector") == MULTIPLEXED[name]), None)
                 if truth is not None:
-                    self.assert_shows("Estimate", name, values[name], self.recorded[truth]["aside"], f"tick {tick}")
+                    self.assert_shows("Estimate", name, values[name], self.recorded[truth]["multiplexed_value"], f"tick {tick}")
                     self.assert_shows("Estimate", name, values[name], self.trace[truth][name], f"tick {tick}")
                     recorded.add(name)
                 self.assertIn(values[name], [single(float(self.trace[t][name])) for t in ticks], f"tick {tick}: {name}")
                 traced.add(name)
-        self.assertEqual(recorded, ASIDES.keys())
-        self.assertEqual(traced, ASIDES.keys())
+        self.assertEqual(recorded, MULTIPLEXED.keys())
+        self.assertEqual(traced, MULTIPLEXED.keys())
 
     def test_the_muscle_is_that_of_theta(self):
         seen = set()

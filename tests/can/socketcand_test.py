@@ -73,9 +73,9 @@ class Commanded(OnTheBus):
 
     def test_a_second_master_is_refused_and_may_stop(self):
         other = self.new_master(0x4321)
-        self.assertEqual(self.while_leased(lambda: other.refusal("lease")), "not_yours")
+        self.assertEqual(self.while_leased(lambda: other.refusal("lease")), "not_lease_holder")
         other.session = 0x5555
-        self.assertEqual(self.while_leased(lambda: other.refusal("arm")), "not_yours")
+        self.assertEqual(self.while_leased(lambda: other.refusal("arm")), "not_lease_holder")
         self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
         self.assertEqual(self.while_leased(lambda: self.master.refusal("arm")), "none")
         self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "armed")
@@ -83,13 +83,13 @@ class Commanded(OnTheBus):
         self.assertEqual(self.master.hear_next("Status", 2).signals["state"], "disarmed")
 
     def test_settings_are_read_by_everybody_and_written_under_the_lease(self):
-        self.assertEqual(self.new_master(0x4321).read_setting("most_power_W")["value"], 4.5)
-        self.assertEqual(self.master.write_setting("most_power_W", 2.0)["refusal"], "no_lease")
-        told = self.while_leased(lambda: self.master.write_setting("most_power_W", 2.0))
+        self.assertEqual(self.new_master(0x4321).read_setting("max_power_W")["value"], 4.5)
+        self.assertEqual(self.master.write_setting("max_power_W", 2.0)["refusal"], "no_lease")
+        told = self.while_leased(lambda: self.master.write_setting("max_power_W", 2.0))
         self.assertEqual((told["refusal"], told["value"]), ("none", 2.0))
         told = self.while_leased(lambda: self.master.write_setting("status_Hz", 0.0))
         self.assertEqual((told["refusal"], told["value"]), ("out_of_range", 10.0))
-        self.assertEqual(self.master.read_setting("most_power_W")["value"], 2.0)
+        self.assertEqual(self.master.read_setting("max_power_W")["value"], 2.0)
 
     def test_a_frame_of_an_earlier_session_is_refused(self):
         self.assertEqual(self.master.claim(), "none")
@@ -102,7 +102,7 @@ class Commanded(OnTheBus):
             return self.master.hear_until(lambda heard: heard.signals.get("opcode") == "arm").signals["refusal"]
         self.assertEqual(replayed(), "no_lease")
         self.master.session = self.master.name
-        self.assertEqual(self.while_leased(replayed), "not_yours")
+        self.assertEqual(self.while_leased(replayed), "not_lease_holder")
         self.assertNotEqual(self.master.session, old)
         self.assertEqual(self.master.hear_next("Status").signals["state"], "disarmed")
 

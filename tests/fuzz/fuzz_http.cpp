@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "apps/supercoil/monitor/api.hpp"
-#include "apps/supercoil/monitor/order.hpp"
+#include "apps/supercoil/monitor/command_request.hpp"
 #include "apps/supercoil/monitor/server_thread.hpp"
 #include "fuzz/fuzz.hpp"
 #include "telemetry/frames.hpp"
@@ -27,15 +27,15 @@ namespace {
 class Page {
  public:
   Page()
-      : recent_(60.0, 500e3),
-        hands_([this](std::uint8_t) { return bus(); }),
+      : frame_history_(60.0, 500e3),
+        controls_([this](std::uint8_t) { return bus(); }),
         access_{"127.0.0.1", 0, std::string(32, 'a'), true, false} {
-    take_port_alone(server_);
+    bind_exclusively(server_);
     server_.set_read_timeout(1);
     server_.set_keep_alive_max_count(1);
     server_.set_payload_max_length(4096);
     access_.port = server_.bind_to_any_port(access_.host);
-    api_ = std::make_unique<Api>(access_, recent_, hands_, Api::About{"can0", false, 1});
+    api_ = std::make_unique<Api>(access_, frame_history_, controls_, Api::About{"can0", false, 1});
     api_->serve_with(server_);
     thread_ = std::make_unique<ServerThread>(server_);
   }
@@ -82,7 +82,7 @@ class Page {
     fuzz::require(false, "the page can be reached");
     return -1;
   }
-  Hand::OpenBus bus() {
+  ManualControl::OpenBus bus() {
     return [this]() -> tl::expected<std::unique_ptr<hal::CanBus>, std::string> {
       asked_ = true;
       return tl::unexpected(std::string("there is none"));
@@ -90,8 +90,8 @@ class Page {
   }
 
   std::atomic<bool> asked_{false};
-  Recent recent_;
-  Hands hands_;
+  FrameHistory frame_history_;
+  ManualControls controls_;
   Access access_;
   httplib::Server server_;
   std::unique_ptr<Api> api_;
@@ -103,8 +103,8 @@ class Page {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const Page page;
   const std::string_view input = fuzz::text(data, size);
-  if (const auto order = parse_order(std::string(input))) {
-    fuzz::require(order->node >= 1 && order->node <= can::most_nodes, "a node is one of 63");
+  if (const auto order = parse_command_request(std::string(input))) {
+    fuzz::require(order->node >= 1 && order->node <= can::max_nodes, "a node is one of 63");
     fuzz::require(order->verb != Verb::none && std::isfinite(order->value), "an order can be sent");
   }
   // A stream has no end.

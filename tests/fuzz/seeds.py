@@ -3,7 +3,7 @@
 --check: only says whether the seeds in the tree are those that it would write.
 
 Boards and scenarios are the project's own examples, by links in corpus/; commands are there as they are. The whole
-firmware (fuzz_can_link) has the seeds of fuzz_frames.
+firmware (fuzz_can_endpoint) has the seeds of fuzz_frames.
 """
 
 import pathlib

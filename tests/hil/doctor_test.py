@@ -16,26 +16,26 @@ import rig
 import witness
 from table import Table
 
-# Of every board here: the plant comes before the firmware, as its physics must; gpio-sim does not tell what pulls.
+# Of every board here: the plant comes before the firmware, as its physics must; gpio-sim does not say what pulls.
 EXPECTED_WARNINGS = {"other programs": r"supercoil-rig-p \(90\) above priority 80",
-                     "channel 1, enable released": "low while nobody drives it; what pulls it is not told",
-                     "channel 2, enable released": "low while nobody drives it; what pulls it is not told"}
+                     "channel 1, enable released": "low while nobody drives it; its pull is unknown",
+                     "channel 2, enable released": "low while nobody drives it; its pull is unknown"}
 
 # Fault: what must be a problem, and how it is told; and what follows from the fault by itself.
 FAULTS = {
     "good": (None, "", {}),
     "no_line": ("stop_circuit",
                 r"^no line 'ESTOP' on gpiochip\d 'supercoil-rig': there are 'HEARTBEAT', 'STOP', 'LIGHT', 'ENABLE0'", {}),
-    "no_pwm": ("channel 2, pwm", r"^no PWM chip whose path ends with 'i2c-0/0-0040' in /sys/class/pwm: there is none at all",
+    "no_pwm": ("channel 2, pwm", r"^no PWM chip whose path ends with 'i2c-0/0-0040' in /sys/class/pwm: there is none",
                {"channel 1, pwm": "no PWM chip"}),
     "no_converter": ("channel 1, current",
                      r"^no converter whose path ends with 'i2c-0/0-004a' in /sys/bus/iio/devices: there are iio:device0 "
                      r"'ads1015' at /sys/devices/\S*/0-0048, ", {}),
     "rail": ("channel 2, position", r"all of them 32767 counts: stuck at the converter's highest rail$", {}),
-    "no_watchdog": ("watchdog", r"^/dev/watchdog: No such file or directory; in /sys/class/watchdog there is none at all",
+    "no_watchdog": ("watchdog", r"^/dev/watchdog: No such file or directory; in /sys/class/watchdog there is none",
                     {}),
     "can_default": (None, "", {}),
-    "enable_up": ("channel 2, enable released", r"^high while nobody drives it; what pulls it is not told$", {}),
+    "enable_up": ("channel 2, enable released", r"^high while nobody drives it; its pull is unknown$", {}),
 }
 # And what is told as a warning because of the fault.
 FOLLOWS = {
@@ -49,7 +49,7 @@ FOLLOWS = {
 
 def told(table, label, findings, verdict, expected):
     """Exactly these findings have this verdict."""
-    found = {f["what"]: f for f in findings if f["verdict"] == verdict}
+    found = {f["what"]: f for f in findings if f["severity"] == verdict}
     for finding in found.values():
         print(f"         {verdict}: {finding['what']}: {finding['found']}\n{'':17} {finding['remedy']}")
     for what, how in expected.items():
@@ -83,20 +83,20 @@ def examined(table, fault, run):
         seen(table, fault, witness.looks(run.witness))
     if fault == "good":
         for finding in report["findings"]:
-            print(f"         {finding['verdict']:8} {finding['what']:26} {finding['found']}")
+            print(f"         {finding['severity']:8} {finding['what']:26} {finding['found']}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", choices=FAULTS, help="one of the boards")
     rig.add_architecture(parser)
-    wish = parser.parse_args()
+    args = parser.parse_args()
     table = Table()
     for fault in FAULTS:
-        if wish.only not in (None, fault):
+        if args.only not in (None, fault):
             continue
         # A direct call has 20 us on a real processor; the usual shift is one a fifth as fast.
-        settings = rig.Settings(wish.architecture, "doctor_test", watchdog=True, can=2 if fault == "can_default" else 0,
+        settings = rig.Settings(args.architecture, "doctor_test", watchdog=True, can=2 if fault == "can_default" else 0,
                                 time_out_s=600.0, instruction_shift=1)
         run = rig.run(rig.HERE / "scripts" / "doctor", (fault,), settings)
         table.judge(fault, lambda t, r: examined(t, fault, r), run)

@@ -67,12 +67,12 @@ def drivers(table, run):
     table.row("converter without driver: a value", reads["gone_current"] is not None, 0, 0, "")
     table.row("with its driver again: read", reads["back_current"] * A_PER_COUNT * 1e3, 295, 305, "mA")
     told = [line for line in run.witness if line.startswith("T ")]
-    table.row("troubles that the plant tells", len(told), 5, 5, "")
+    table.row("injected faults that the plant reports", len(told), 5, 5, "")
     table.row("           of them refused", sum("refused" in line for line in told), 1, 1, "")
 
     steps = witness.steps(run.witness)[1:]
     table.row("the plant's step: mean", sum(s.mean_us for s in steps) / len(steps), 1, 250, "us")
-    table.row("           longest", max(s.most_us for s in steps), 1, 900, "us")
+    table.row("           longest", max(s.max_us for s in steps), 1, 900, "us")
     table.row("           latest wake-up", max(s.late_us for s in steps), 0, 500, "us")
     table.row("           left out", sum(s.missed for s in steps), 0, 0, "")
 

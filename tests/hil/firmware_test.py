@@ -92,7 +92,7 @@ def means(look):
 def deaths(table, run):
     marks, _ = witness.said(run.console)
     looks = witness.looks(run.witness)
-    for mark, what, most_ms, by in DEATHS:
+    for mark, what, max_ms, by in DEATHS:
         before = witness.at(looks, marks[mark] - 0.05)
         table.row(f"{what}: power before", before.channels[0].power_W, 1.5, 2.5, "W")
         # From the mark's own uncertainty on.
@@ -100,7 +100,7 @@ def deaths(table, run):
         since_s = off.edge_s if off is not None and by == "supply" else marks[mark]
         after_ms = None if off is None else (off.time_s - since_s) * 1e3
         table.row(f"    off {'after the last edge' if by == 'supply' else 'after'}, by {' and '.join(means(off)) if off else 'nothing'}", after_ms, -MARK_MS,
-                  most_ms + STEP_MS, "ms")
+                  max_ms + STEP_MS, "ms")
         table.row(f"    among them {by}", off is not None and by in means(off), 1, 1, "")
     last = looks[-1]
     table.row("kernel panic: heat was on", last.channels[0].power_W, 1.5, 2.5, "W")
@@ -113,17 +113,17 @@ def main():
     parser.add_argument("--track", metavar="SECONDS", type=int, default=60, help="of the board's time (default: 60)")
     parser.add_argument("--only", choices=("track", "captured", "calls", "deaths"), help="one of the boards")
     rig.add_architecture(parser)
-    wish = parser.parse_args()
-    seconds = wish.track
+    args = parser.parse_args()
+    seconds = args.track
     table = Table()
     for name, script, part, arguments, options in (
             ("track", "track", lambda t, r: track(t, r, seconds), (seconds,), {}),
             ("captured", "track", lambda t, r: track(t, r, CAPTURED_S), (CAPTURED_S, "captured"), {}),
             ("calls", "calls", calls, (100 * CALLS_S,), {}),
             ("deaths", "deaths", deaths, (), {"kernel_options": "panic=0"})):
-        if wish.only not in (None, name):
+        if args.only not in (None, name):
             continue
-        settings = rig.Settings(wish.architecture, f"{name}_test", watchdog=True, time_out_s=600.0 + 4.0 * seconds, **options)
+        settings = rig.Settings(args.architecture, f"{name}_test", watchdog=True, time_out_s=600.0 + 4.0 * seconds, **options)
         run = rig.run(rig.HERE / "scripts" / script, arguments, settings)
         table.judge(name, part, run)
     table.end()

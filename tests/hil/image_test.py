@@ -122,12 +122,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--track", metavar="SECONDS", type=int, default=30, help="of the board's time (default: 30)")
     parser.add_argument("--only", choices=PARTS, help="one of the boards")
-    wish = parser.parse_args()
-    more = {"start": (wish.track,), "no_file": (None, r"there is no board\.toml on the boot partition"),
+    args = parser.parse_args()
+    more = {"start": (args.track,), "no_file": (None, r"there is no board\.toml on the boot partition"),
             "wrong_key": (board_toml().replace("bit_rate", "bitrate"), r"board\.toml:\d+: can\.bitrate = 250000: .* bit_rate\?")}
     table = Table()
     for name, part in PARTS.items():
-        if wish.only not in (None, name):
+        if args.only not in (None, name):
             continue
         try:
             card = image.prepared(f"image_{name}_test")

@@ -57,10 +57,10 @@ def whole(text):
 def learned(disk):
     """(current, previous) versions after the check that a start makes, and what that check could not mend."""
     checked = subprocess.run(["/sbin/e2fsck", "-p", disk], capture_output=True, text=True)
-    trouble = "" if checked.returncode <= 1 else f"e2fsck ended with {checked.returncode}: {checked.stdout.strip()}"
+    damage = "" if checked.returncode <= 1 else f"e2fsck ended with {checked.returncode}: {checked.stdout.strip()}"
     current, previous = (whole(subprocess.run(["/sbin/debugfs", "-R", f"cat /learned-1.toml{suffix}", disk],
                                               capture_output=True, check=True).stdout) for suffix in ("", ".previous"))
-    return current, previous, trouble
+    return current, previous, damage
 
 
 def told(write):
@@ -79,10 +79,10 @@ def cut_power(writes, cut, chance):
     return lost
 
 
-def judge(known, current, previous, trouble):
+def judge(known, current, previous, damage):
     """What is wrong, or nothing. One store at a time is under way, and two versions are kept at every moment."""
-    if trouble:
-        return trouble
+    if damage:
+        return damage
     if current is None or previous is None:
         return "damaged or not there"
     if not known <= current <= known + 1:
@@ -96,24 +96,24 @@ def main():
     parser.add_argument("--cuts", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--replay", action="store_true", help="cuts the last record again")
-    wish = parser.parse_args()
-    if not wish.replay:
-        record(wish.stores)
+    args = parser.parse_args()
+    if not args.replay:
+        record(args.stores)
     writes = write_log.read(LOG)
     marks = [(place, told(write)) for place, write in enumerate(writes) if told(write) is not None]
     flushes = sum(bool(write.flags & write_log.FLUSH) for write in writes)
     print(f"      record: {len(writes) - flushes} writes, {flushes} flushes; versions {marks[0][1]} to {marks[-1][1]}")
-    chance, count = random.Random(wish.seed), collections.Counter()
-    for number in range(1, wish.cuts + 1):
+    chance, count = random.Random(args.seed), collections.Counter()
+    for number in range(1, args.cuts + 1):
         cut = chance.randrange(marks[0][0] + 1, len(writes))
         known = max(version for place, version in marks if place < cut)
         lost = cut_power(writes, cut, chance)
-        current, previous, trouble = learned(DISK)
-        wrong = judge(known, current, previous, trouble)
+        current, previous, damage = learned(DISK)
+        wrong = judge(known, current, previous, damage)
         count.update(wrong=bool(wrong), newer=current == known + 1, unsafe=lost > 0, lost=lost)
         print(f"{'WRONG' if wrong else 'ok   '} cut {number:4} at {cut:6}: {lost:3} writes lost; version {known} was stored; "
               f"found {current}, and {previous} before it {wrong}", flush=True)
-    print(f"{wish.cuts} power cuts: {count['wrong']} lost something; {count['newer']} found the version that was being stored; "
+    print(f"{args.cuts} power cuts: {count['wrong']} lost something; {count['newer']} found the version that was being stored; "
           f"{count['unsafe']} lost writes that the disk had not confirmed, {count['lost']} in all")
     sys.exit(1 if count["wrong"] else 0)
 

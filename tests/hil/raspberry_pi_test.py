@@ -73,7 +73,7 @@ def judge_missing(table, console):
     table.row("    and starts nothing", "nothing was started" in journal, 1, 1, "")
     findings = {finding["what"]: finding for finding in json.loads(console.ask("supercoil doctor --json 2>/dev/null"))["findings"]}
     for what in ("kernel", "priority", "frequency", "processors", "watchdog"):
-        table.row(f"doctor: {what} in order", findings[what]["verdict"] == "ok", 1, 1, "")
+        table.row(f"doctor: {what} in order", findings[what]["severity"] == "ok", 1, 1, "")
     table.row("    clocks at their highest", "governor 'performance'" in findings["frequency"]["found"], 1, 1, "")
     # How long a call takes is QEMU's affair.
     for what, line in (("heartbeat", "GPIO17"), ("light", "GPIO22"), ("channel 1, enable", "GPIO23"), ("channel 2, enable", "GPIO24")):
@@ -81,7 +81,7 @@ def judge_missing(table, console):
     table.row("doctor: outputs of the PWM that took period and duty",
               sum("took its period of 1000000 ns" in findings[f"channel {n}, pwm"]["found"] for n in (1, 2)), 2, 2, "")
     table.row("doctor: what is missing is a problem", sum(
-        findings[what]["verdict"] == "problem" for what in ("CAN can0", "supply", *(
+        findings[what]["severity"] == "problem" for what in ("CAN can0", "supply", *(
             f"channel {n}, {part}" for n in (1, 2) for part in ("position", "current")))), 6, 6, "")
 
 

@@ -26,14 +26,14 @@ def said(console, pattern):
     return found and found[1]
 
 
-def cold_after(table, run, mark, what, most_ms, zeroed_s, since_edge=False):
+def cold_after(table, run, mark, what, max_ms, zeroed_s, since_edge=False):
     marks, _ = witness.said(run.console)
     looks = witness.looks(run.witness)
     table.row(f"{what}: power before", witness.at(looks, marks[mark] - 0.05).channels[0].power_W, 1.5, 2.5, "W")
     off = witness.first(looks, marks[mark] - MARK_MS / 1e3, lambda look: look.channels[0].power_W == 0)
     since_s = off.edge_s if off is not None and since_edge else marks[mark]
     table.row(f"    off {'after the last edge' if since_edge else 'after'}", None if off is None else (off.time_s - since_s) * 1e3, -MARK_MS,
-              most_ms + STEP_MS, "ms")
+              max_ms + STEP_MS, "ms")
     zeroed = witness.first(looks, marks[mark] - MARK_MS / 1e3, lambda look: look.channels[0].duty == 0)
     table.row("    the duty of the kernel's PWM is 0 after", None if zeroed is None else zeroed.time_s - marks[mark], 0, zeroed_s, "s")
 

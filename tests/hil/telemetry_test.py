@@ -121,8 +121,8 @@ def judge_crowded(table, run, marks, frames):
 def judge_python(table, run):
     marks, _ = witness.said(run.console)
     table.row("the Python example ended with", int(re.search(r"^example ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
-    told_m = [float(m) for m in re.findall(r"^example: ([\d.e-]+) m,", run.console, re.M)]
-    table.row("    where it saw the muscle at its end", told_m[-1] * 1e3, 4.5, 5.5, "mm")
+    reported_m = [float(m) for m in re.findall(r"^example: ([\d.e-]+) m,", run.console, re.M)]
+    table.row("    where it saw the muscle at its end", reported_m[-1] * 1e3, 4.5, 5.5, "mm")
     looks = [look for look in witness.looks(run.witness) if marks["begins"] <= look.time_s <= marks["ended"]]
     table.row("    where the muscle was at most", max(look.channels[0].position_m for look in looks) * 1e3, 4.5, 6.5, "mm")
     table.row("    power at its end", witness.at(looks, marks["ended"]).channels[0].power_W, 0, 0, "W")

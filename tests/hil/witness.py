@@ -34,7 +34,7 @@ class Steps:
     steps: int
     missed: int
     mean_us: int
-    most_us: int
+    max_us: int
     late_us: int
 
 

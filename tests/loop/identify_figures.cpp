@@ -35,20 +35,20 @@ struct Worst {
   int found = 0;
   int kept_theta1 = 0;
   std::array<double, 3> error{};  ///< largest, of θ2 to θ4
-  double longest_s = 0.0;
+  double max_s = 0.0;
   double hottest_C = 0.0;
   double hottest_told_C = 0.0;
-  double highest_m = 0.0;
-  double lowest_m = 0.0;
+  double max_m = 0.0;
+  double min_m = 0.0;
   double tracking_m = 0.0;
 };
 
 void add(Worst& row, const MuscleKind& kind, const Identified& run, bool track, int seed) {
-  row.longest_s = std::max(row.longest_s, run.took_s);
+  row.max_s = std::max(row.max_s, run.took_s);
   row.hottest_C = std::max(row.hottest_C, run.hottest_C);
   row.hottest_told_C = std::max(row.hottest_told_C, run.hottest_told_C);
-  row.highest_m = std::max(row.highest_m, run.highest_m);
-  row.lowest_m = std::min(row.lowest_m, run.lowest_m);
+  row.max_m = std::max(row.max_m, run.max_m);
+  row.min_m = std::min(row.min_m, run.min_m);
   if (run.result != ModeResult::found) {
     std::printf("  %s, seed %d: %s (%s), fault %s\n", kind.name.data(), seed,
                 std::string(mode_result_names.at(static_cast<std::size_t>(run.result))).c_str(),
@@ -71,8 +71,8 @@ void add(Worst& row, const MuscleKind& kind, const Identified& run, bool track, 
 void print(const MuscleKind& kind, const Worst& r, int seeds, bool track) {
   std::printf("| %s | %d/%d | %d | %.2g / %.2g / %.2g | %.0f | %.0f (%.0f) | %.1f to %.1f |",
               kind.name.data(), r.found, seeds, r.kept_theta1, 100.0 * r.error[0],
-              100.0 * r.error[1], 100.0 * r.error[2], r.longest_s, r.hottest_C, r.hottest_told_C,
-              1e3 * r.lowest_m, 1e3 * r.highest_m);
+              100.0 * r.error[1], 100.0 * r.error[2], r.max_s, r.hottest_C, r.hottest_told_C,
+              1e3 * r.min_m, 1e3 * r.max_m);
   if (track) std::printf(" %.1f |", 1e6 * r.tracking_m);
   std::printf("\n");
   std::fflush(stdout);

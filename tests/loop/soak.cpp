@@ -16,21 +16,21 @@ namespace {
 constexpr long suite_ticks = 600'000;
 constexpr int warm_up_cycles = 8;
 
-struct Trouble {
+struct InjectedFault {
   Fault fault;
   void (*inject)(Rig&);
   void (*remove)(Rig&);
 };
 
-constexpr std::array<Trouble, 6> troubles{{
+constexpr std::array<InjectedFault, 6> injected_faults{{
     {Fault::emergency_stop, [](Rig& r) { r.board.stop_circuit.level.high = false; },
      [](Rig& r) { r.board.stop_circuit.level.high = true; }},
     {Fault::sensor_stale, [](Rig& r) { r.muscle().position.set({.silent = true}); },
      [](Rig& r) { r.muscle().position.set({.silent = false}); }},
     {Fault::command_timeout, [](Rig& r) { r.commands_flow = false; },
      [](Rig& r) { r.commands_flow = true; }},
-    {Fault::heater_open, [](Rig& r) { r.muscle().trouble.wire_open = true; },
-     [](Rig& r) { r.muscle().trouble.wire_open = false; }},
+    {Fault::heater_open, [](Rig& r) { r.muscle().injected.wire_open = true; },
+     [](Rig& r) { r.muscle().injected.wire_open = false; }},
     {Fault::sensor_out_of_range, [](Rig& r) { r.muscle().position.set({.loose = true}); },
      [](Rig& r) { r.muscle().position.set({.loose = false}); }},
     {Fault::overrun, [](Rig& r) { r.board.lose_in_tick(10.5 * r.period_s()); }, [](Rig&) {}},
@@ -56,7 +56,7 @@ class Soak {
  private:
   bool cycle();
   void follow();
-  bool fail_and_recover(const Trouble& trouble);
+  bool fail_and_recover(const InjectedFault& injected);
   bool told(bool holds, const char* what) {
     if (!holds) {
       std::printf("cycle %ld, tick %ld: %s; state %d, fault %d\n", cycles_, ticks(), what,
@@ -102,12 +102,12 @@ void Soak::follow() {
   now_.error_m = std::sqrt(sum_m2 / measured_ticks);
 }
 
-bool Soak::fail_and_recover(const Trouble& trouble) {
-  trouble.inject(rig_);
+bool Soak::fail_and_recover(const InjectedFault& injected) {
+  injected.inject(rig_);
   rig_.run(0.5);
-  if (!told(rig_.fault() == trouble.fault, "another fault than was injected")) return false;
+  if (!told(rig_.fault() == injected.fault, "another fault than was injected")) return false;
   if (!told(rig_.muscle().true_power_W() == 0.0, "a fault, and it heats")) return false;
-  trouble.remove(rig_);
+  injected.remove(rig_);
   rig_.task = Task::nothing;
   rig_.run(1.0);
   rig_.send(Verb::reset);
@@ -133,9 +133,10 @@ bool Soak::cycle() {
   if (!told(rig_.state() == State::armed, "it cannot be armed")) return false;
   follow();
   if (!told(rig_.state() == State::active, "it does not heat any more")) return false;
-  const Trouble& trouble = troubles[static_cast<std::size_t>(cycles_) % troubles.size()];
-  if (trouble.fault == Fault::overrun) overruns_ += 10;
-  if (!fail_and_recover(trouble)) return false;
+  const InjectedFault& injected =
+      injected_faults[static_cast<std::size_t>(cycles_) % injected_faults.size()];
+  if (injected.fault == Fault::overrun) overruns_ += 10;
+  if (!fail_and_recover(injected)) return false;
   rig_.run(5.0);
   ++cycles_;
   now_.resident_MB = resident_MB();

@@ -90,9 +90,9 @@ void live(Seen& seen) {
   run(rig, 1.0, seen);
   rig.send(Verb::arm);
   run(rig, 0.2, seen);
-  board::Lesson lesson;
+  board::LearnedUpdate update;
   int results = 0;
-  while (rig.loop.channel(Rig::tested).take_lesson(lesson))
+  while (rig.loop.channel(Rig::tested).take_learned_update(update))
     ++results;
   // Of calibrate, identify and scale.
   seen.whole_life = rig.state() == State::armed && results == 3;

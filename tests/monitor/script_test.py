@@ -77,17 +77,17 @@ class Scripts(OnSimulatedBoard):
                                   timeout=60)
 
         known = dict(line.split(" = ") for line in setting("1").stdout.splitlines())
-        self.assertEqual((len(known), known["most_power_W"], known["measurement_Hz"]), (15, "4.5", "100"))
+        self.assertEqual((len(known), known["max_power_W"], known["measurement_Hz"]), (15, "4.5", "100"))
         written = setting("1", "measurement_Hz", "50", "--json")
         self.assertEqual((written.returncode, json.loads(written.stdout)),
                          (0, {"setting": "measurement_Hz", "value": 50.0, "refusal": "none"}))
         self.assertEqual(setting("1", "measurement_Hz").stdout, "measurement_Hz = 50\n")
-        refused = setting("1", "most_power_W", "5")
-        self.assertEqual((refused.returncode, refused.stdout), (1, "most_power_W = 4.5\n"))
-        self.assertIn("most_power_W: refused: out_of_range", refused.stderr)
+        refused = setting("1", "max_power_W", "5")
+        self.assertEqual((refused.returncode, refused.stdout), (1, "max_power_W = 4.5\n"))
+        self.assertIn("max_power_W: refused: out_of_range", refused.stderr)
         unknown = setting("1", "mesurement_Hz")
         self.assertEqual(unknown.returncode, 2)
-        self.assertIn("'mesurement_Hz' is not a setting; there are most_power_W, measurement_Hz,", unknown.stderr)
+        self.assertIn("'mesurement_Hz' is not a setting; there are max_power_W, measurement_Hz,", unknown.stderr)
         self.assertIn("no answer from node 9", setting("9", "status_Hz").stderr)
         self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
 

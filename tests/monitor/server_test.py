@@ -226,7 +226,7 @@ class Live(OnSimulatedBoard):
         self.assertEqual(served.command("rest")[0], 200)
         refused = command(self.source, "1", "position", "0.002", "--json")
         self.assertEqual((refused.returncode, json.loads(refused.stdout)),
-                         (1, {"command": "1 position 0.002", "answer": "refused: not_yours"}))
+                         (1, {"command": "1 position 0.002", "answer": "refused: not_lease_holder"}))
         until(lambda: command(self.source, "1", "power", "0.1").returncode == 0)
         until(lambda: served.state()[0] == "fault")
         self.assertEqual(command(self.source, "1", "reset").returncode, 0)

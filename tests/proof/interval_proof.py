@@ -166,13 +166,13 @@ def bound_rounding(paths, runs):
         ends = (lowest, highest)
         largest = start
         for numbers in run["steps"]:
-            min_W, max_W, told_lowest, told_highest = decimals_of(numbers)
+            min_W, max_W, min_published, max_published = decimals_of(numbers)
             largest = max(largest, max_W / bounds["transfer_l"])
             allowed = (6 + 6 * x_max) * ROUNDOFF * largest
             values = {**bounds, "min_W": min_W, "max_W": max_W}
             once = step_exactly(paths, {**values, "lowest": lowest, "highest": highest})
             ends = step_exactly(paths, {**values, "lowest": ends[0], "highest": ends[1]})
-            lowest, highest = told_lowest, told_highest
+            lowest, highest = min_published, max_published
             all_steps = allowed / (1 - (-x_min).exp())
             worst_step = max(worst_step, *(abs(a - b) / allowed for a, b in zip(once, (lowest, highest))))
             worst_sum = max(worst_sum, *(abs(a - b) / all_steps for a, b in zip(ends, (lowest, highest))))

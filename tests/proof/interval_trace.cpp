@@ -25,8 +25,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 void print_path(SymbolicObserver observer, bool hot_heats, bool cold_heats, bool last) {
-  const std::string highest = observer.highest_K().text();
-  const std::string lowest = observer.lowest_K().text();
+  const std::string highest = observer.max_K().text();
+  const std::string lowest = observer.min_K().text();
   Symbol::path = {{hot_heats, cold_heats}, {}};
   observer.step(Symbol("min_W"), Symbol("max_W"));
   const auto named = [&](const std::string& text) {
@@ -36,7 +36,7 @@ void print_path(SymbolicObserver observer, bool hot_heats, bool cold_heats, bool
   for (std::size_t i = 0; i < Symbol::path.conditions.size(); ++i)
     std::printf("%s\"%s\"", i == 0 ? "" : ", ", named(Symbol::path.conditions[i]).c_str());
   std::printf("],\n   \"highest\": \"%s\",\n   \"lowest\": \"%s\"}%s\n",
-              named(observer.highest_K().text()).c_str(), named(observer.lowest_K().text()).c_str(),
+              named(observer.max_K().text()).c_str(), named(observer.min_K().text()).c_str(),
               last ? "" : ",");
 }
 
@@ -71,8 +71,8 @@ void print_numbers() {
     const double boot_K = uniform(0.0, 150.0);
     observer.reset(boot_K);
     std::printf("%s{\"bounds\": [\"%a\", \"%a\", \"%a\", \"%a\", \"%a\"],\n", run == 0 ? " " : ",",
-                b.lowest_mass_J_per_K, b.highest_mass_J_per_K, b.lowest_transfer_W_per_K,
-                b.highest_transfer_W_per_K, step_s);
+                b.min_mass_J_per_K, b.max_mass_J_per_K, b.min_transfer_W_per_K,
+                b.max_transfer_W_per_K, step_s);
     std::printf("  \"start\": \"%a\", \"steps\": [", boot_K);
     double max_W = 0.0;
     constexpr int steps = 200;
@@ -81,7 +81,7 @@ void print_numbers() {
       const double min_W = max_W * uniform(0.5, 1.0);
       observer.step(min_W, max_W);
       std::printf("%s[\"%a\", \"%a\", \"%a\", \"%a\"]", i == 0 ? "" : ", ", min_W, max_W,
-                  observer.lowest_K(), observer.highest_K());
+                  observer.min_K(), observer.max_K());
     }
     std::printf("]}\n");
   }

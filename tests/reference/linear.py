@@ -79,7 +79,7 @@ def realness_cases(rng):
             continue
         result.append({
             "numerator": numerator[::-1].tolist(), "denominator": d[::-1].tolist(),
-            "lowest_real_part": float(np.min(value)) if limit > 0 else None,
+            "min_real_part": float(np.min(value)) if limit > 0 else None,
             "strict": bool(limit > 0 and np.min(value) > 0),
         })
     return result

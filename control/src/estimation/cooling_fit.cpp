@@ -37,17 +37,17 @@ void CoolingFit::step(double position_m, double power_W) {
 }
 
 std::optional<CoolingFit::Found> CoolingFit::found() const {
-  if (used_s() < least_used_s) return std::nullopt;
+  if (used_s() < min_used_s) return std::nullopt;
   std::array<double, candidates> left{};
   for (std::size_t i = 0; i < candidates; ++i)
     left[i] = unexplained(fits_[i]);
   const auto best =
       static_cast<std::size_t>(std::min_element(left.begin(), left.end()) - left.begin());
-  if (best < aside || best + aside >= candidates || !(left[best] <= most_unexplained))
+  if (best < aside || best + aside >= candidates || !(left[best] <= max_unexplained))
     return std::nullopt;
   for (std::size_t i = 0; i < candidates; ++i) {
     const bool near = i + aside > best && i < best + aside;
-    if (!near && !(left[i] >= least_sharpness * left[best])) return std::nullopt;
+    if (!near && !(left[i] >= min_sharpness * left[best])) return std::nullopt;
   }
   // The lowest point of a parabola through the best and its neighbours.
   const double before = left[best - 1] - left[best];

@@ -9,7 +9,7 @@ namespace supercoil::control {
 namespace {
 
 /// A residual of more standard deviations shows a change of the muscle, and not noise.
-constexpr double most_deviations = 3.0;
+constexpr double max_deviations = 3.0;
 
 /// Of the impulse responses of [1, s, s², s³]/Λ', which have ended after 30 s.
 Matrix<double, 4> gram_of_impulses() {
@@ -102,10 +102,10 @@ void EstimateAccuracy::step(const Seen& seen) {
       settings_.unexcited.cwiseInverse() * ((1.0 - kept) * counted * counted);
 
   // It begins at what is expected: while θ is found, residuals are smaller than the noise.
-  const double most_W2 = most_deviations * most_deviations * mean_square_W2_;
+  const double max_W2 = max_deviations * max_deviations * mean_square_W2_;
   const double share = settings_.update_s / settings_.averaging_s;
   mean_square_W2_ +=
-      (std::min(seen.residual_W * seen.residual_W, most_W2) - mean_square_W2_) * share;
+      (std::min(seen.residual_W * seen.residual_W, max_W2) - mean_square_W2_) * share;
 }
 
 EstimateAccuracy::Parts EstimateAccuracy::parts(const Square& covariance,

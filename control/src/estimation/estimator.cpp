@@ -73,17 +73,17 @@ void Estimator::restart() {
 }
 
 template <class Scalar>
-Estimate Estimator::told(const GradientEstimator<Scalar>& estimator) const {
+Estimate Estimator::estimate_of(const GradientEstimator<Scalar>& estimator) const {
   return {.theta = estimator.theta(),
           .prediction_error_W = estimator.error(),
-          .excitation_W2s = excitation_.smallest_eigenvalue(),
+          .excitation_W2s = excitation_.min_eigenvalue(),
           .relative_error_bound = excitation_.error_bound(),
           .trusted = excitation_.trusted(),
           .settled = excitation_.trusted()};
 }
 
 template <class Scalar>
-Estimate Estimator::told(const LeastSquaresEstimator<Scalar>& estimator) const {
+Estimate Estimator::estimate_of(const LeastSquaresEstimator<Scalar>& estimator) const {
   const auto& parameters = estimator.parameters();
   const auto& deviations = estimator.standard_deviations();
   const double bound = relative_error_bound(deviations);
@@ -103,7 +103,7 @@ std::optional<Estimate> Estimator::estimate() const {
         if constexpr (is_none<decltype(estimator)>) {
           return std::nullopt;
         } else {
-          return told(estimator);
+          return estimate_of(estimator);
         }
       },
       any_);

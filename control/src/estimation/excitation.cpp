@@ -30,12 +30,11 @@ void ExcitationMonitor::close_block(const Vector<double, 4>& theta) {
   const Matrix<double, 4> information = sum.information.selfadjointView<Eigen::Lower>();
   const Eigen::SelfAdjointEigenSolver<Matrix<double, 4>> solver(information * step_s_,
                                                                 Eigen::EigenvaluesOnly);
-  smallest_eigenvalue_ = std::max(0.0, solver.eigenvalues()[0]);
+  min_eigenvalue_ = std::max(0.0, solver.eigenvalues()[0]);
   const double left =
       sum.energy - 2.0 * theta.dot(sum.correlation) + theta.dot(information * theta);
-  error_bound_ = smallest_eigenvalue_ > 0.0
-                     ? std::sqrt(std::max(0.0, left) * step_s_ / smallest_eigenvalue_)
-                     : std::numeric_limits<double>::infinity();
+  error_bound_ = min_eigenvalue_ > 0.0 ? std::sqrt(std::max(0.0, left) * step_s_ / min_eigenvalue_)
+                                       : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace supercoil::control

@@ -39,22 +39,22 @@ std::optional<SimplestChange::Parameters> SimplestChange::explained(
 
   Vector<double, kinds + 1> log_likelihood;
   log_likelihood[kinds] = -0.5 * (moved.dot(any.solve(moved)) + log_determinant(any));
-  Matrix<double, 5, kinds + 1> told;
-  told.col(kinds) = theta;
+  Matrix<double, 5, kinds + 1> candidates;
+  candidates.col(kinds) = theta;
   for (int i = 0; i < kinds; ++i) {
     const Parameters along = along_.col(i);
     const Parameters weighed_along = factor.solve(along);
     const double spread = 1.0 + along.dot(weighed_along);
     const Parameters rest = weighed - weighed_along * (along.dot(weighed) / spread);
     log_likelihood[i] = -0.5 * (moved.dot(rest) + log_unchanged + std::log(spread));
-    told.col(i) = theta - covariance * rest;
+    candidates.col(i) = theta - covariance * rest;
   }
   int best = 0;
   const double most = log_likelihood.maxCoeff(&best);
   const double share = 1.0 / (log_likelihood.array() - most).exp().sum();
   // Not a number is not decided either.
   if (!(share > sure)) return std::nullopt;
-  return told.col(best);
+  return candidates.col(best);
 }
 
 }  // namespace supercoil::control

@@ -14,12 +14,12 @@ PositiveRealness positive_realness(const Polynomial<2>& n, const Polynomial<3>& 
   result.hurwitz = is_hurwitz<3>(d);
   result.high_frequency = square > 0.0;
   if (square < 0.0) {
-    result.lowest_real_part = -std::numeric_limits<double>::infinity();
+    result.min_real_part = -std::numeric_limits<double>::infinity();
     result.worst_rad_per_s = std::numeric_limits<double>::infinity();
     return result;
   }
   const double at = square > 0.0 ? std::fmax(0.0, -linear / (2.0 * square)) : 0.0;
-  result.lowest_real_part = constant + at * (linear + at * square);
+  result.min_real_part = constant + at * (linear + at * square);
   result.worst_rad_per_s = std::sqrt(at);
   return result;
 }

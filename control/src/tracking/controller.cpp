@@ -64,8 +64,8 @@ void Controller::start(const ControllerStart& at) {
   std::visit([&](auto& controller) { controller.start(at); }, any_);
 }
 
-void Controller::suit(const Theta& theta) {
-  std::visit([&](auto& controller) { controller.suit(theta); }, any_);
+void Controller::retune(const Theta& theta) {
+  std::visit([&](auto& controller) { controller.retune(theta); }, any_);
 }
 
 void Controller::learn(const Estimate& estimate) {
@@ -76,8 +76,8 @@ ModelMotion<double> Controller::motion() const {
   return std::visit([](const auto& controller) { return controller.motion(); }, any_);
 }
 
-GainValue Controller::gain(std::uint32_t turn) const {
-  return std::visit([&](const auto& controller) { return controller.gain(turn); }, any_);
+GainValue Controller::gain(std::uint32_t selector) const {
+  return std::visit([&](const auto& controller) { return controller.gain(selector); }, any_);
 }
 
 }  // namespace supercoil::control

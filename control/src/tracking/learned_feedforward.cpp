@@ -11,7 +11,7 @@ constexpr double constant_ratio = 0.67;  ///< of max_W
 /// The least standard deviation of an observation, over max_W.
 constexpr double residual_ratio = 0.0022;
 /// Of the residual's mean square over so long, an observation's variance.
-constexpr double variance_part = 0.15;
+constexpr double variance_ratio = 0.15;
 constexpr double variance_s = 4.0;
 /// What a change must leave, over max_W.
 constexpr double floor_ratio = 0.004;
@@ -44,7 +44,7 @@ LearnedFeedforward<Scalar>::LearnedFeedforward(const LearnedFeedforwardSettings&
       period_finder_(step_s),
       share_(share()),
       follow_step_(step_s / s.follow_s) {
-  suit(theta_);
+  retune(theta_);
 }
 
 template <class Scalar>
@@ -76,16 +76,16 @@ IterativeLearning::Settings LearnedFeedforward<Scalar>::repetition() const {
 
 template <class Scalar>
 LearnedShare LearnedFeedforward<Scalar>::share() const {
-  return {{.period_s = period_s(), .least_W = residual_ratio * settings_.max_W}, slowness(theta_)};
+  return {{.period_s = period_s(), .min_W = residual_ratio * settings_.max_W}, slowness(theta_)};
 }
 
 template <class Scalar>
-void LearnedFeedforward<Scalar>::suit(const Theta& theta) {
+void LearnedFeedforward<Scalar>::retune(const Theta& theta) {
   theta_ = theta;
   pid_.set_bandwidth(
       feedback_bandwidth(settings_.bandwidth_rad_per_s, theta, settings_.scale.moving_mass_kg));
-  pid_.suit(theta);
-  regressors_.suit(theta);
+  pid_.retune(theta);
+  regressors_.retune(theta);
   least_squares_.reset(linear_muscle());
   followed_ = goal_ = judged_ = judged_next_ = linear_muscle();
   judged_updates_ = 0;
@@ -147,22 +147,23 @@ Scalar LearnedFeedforward<Scalar>::step(const LawInput<Scalar>& in) {
     while (next_unit_ < std::min(due, units))
       learn(next_unit_++);
   }
-  pid_.see(in.position);
+  pid_.update_derivative(in.position);
   regressors_.step(motion_of(in), static_cast<double>(in.model_jerk));
   const Weights& psi = regressors_.values();
   if (settings_.learn) {
     const Weights change = (goal_ - followed_) * follow_step_;
     followed_ += change;
     // What the feedforward takes over, the integral has held until now.
-    pid_.give_up(change.dot(psi));
+    pid_.hand_over_to_feedforward(change.dot(psi));
     pid_.schedule(
         to<Scalar>(std::clamp(regressors_.velocity_slope(followed_), min_slope, max_slope)));
   }
   if (settings_.find_period) follow_period(static_cast<double>(in.reference));
   feedforward_W_ = followed_.dot(psi) + iterative_.power_W() + repeated_W_;
-  const Scalar wanted = pid_.step(in, to<Scalar>(feedforward_W_));
-  iterative_.step(static_cast<double>(wanted) - feedforward_W_, !in.limited && upset_updates_ == 0);
-  return wanted;
+  const Scalar demanded = pid_.step(in, to<Scalar>(feedforward_W_));
+  iterative_.step(static_cast<double>(demanded) - feedforward_W_,
+                  !in.limited && upset_updates_ == 0);
+  return demanded;
 }
 
 /// What was given for a period that has ended, or is found again, is taken away slowly.
@@ -177,12 +178,12 @@ void LearnedFeedforward<Scalar>::follow_period(double reference_W) {
 }
 
 /// Nothing is learned from a limited tick. When the feedforward alone asked for more than the limit
-/// allows, the muscle cannot make the model's motion: what follows is no knowledge of it either.
+/// allows, the muscle cannot make the model's motion: what follows teaches nothing about it.
 template <class Scalar>
 void LearnedFeedforward<Scalar>::note_limit(const LawInput<Scalar>& in) {
   skip_ = true;
   const auto applied_W = static_cast<double>(in.applied);
-  const bool more = pid_.wanted() > in.applied;
+  const bool more = pid_.demanded() > in.applied;
   if (more ? feedforward_W_ > applied_W : feedforward_W_ < applied_W)
     settle_updates_ = std::max(settle_updates_, updates_of(infeasible_s));
 }
@@ -214,13 +215,13 @@ void LearnedFeedforward<Scalar>::observe() {
   upset_updates_ = std::max<std::int64_t>(0, upset_updates_ - 1);
   if (skip || settle_updates_ > 0) return;
   const double power_W = twice_.power_W + error_.power_W(regressors_.units());
-  const double foretold_W = least_squares_.weights().dot(twice_.regressors);
+  const double predicted_W = least_squares_.weights().dot(twice_.regressors);
   if (pending_ < 0) {
-    least_squares_.add(twice_.regressors, power_W, variance_W2(power_W - foretold_W));
+    least_squares_.add(twice_.regressors, power_W, variance_W2(power_W - predicted_W));
     recovery_updates_ = std::max<std::int64_t>(0, recovery_updates_ - 1);
   }
   judge(power_W);
-  watch_for_change(twice_.power_W - foretold_W);
+  watch_for_change(twice_.power_W - predicted_W);
 }
 
 /// What was learned, by what it says of the power some seconds later.
@@ -237,14 +238,14 @@ void LearnedFeedforward<Scalar>::judge(double power_W) {
 /// one wander of a sticking muscle after the other. After a change all is to be learned anew.
 template <class Scalar>
 double LearnedFeedforward<Scalar>::variance_W2(double residual_W) {
-  const double least_W = residual_ratio * settings_.max_W;
+  const double min_W = residual_ratio * settings_.max_W;
   if (recovery_updates_ > 0) {
     mean_square_W2_ = 0.0;
   } else {
     const double share = -std::expm1(-period_s() / (variance_s * slowness(theta_)));
     mean_square_W2_ += share * (residual_W * residual_W - mean_square_W2_);
   }
-  return std::max(least_W * least_W, variance_part * mean_square_W2_);
+  return std::max(min_W * min_W, variance_ratio * mean_square_W2_);
 }
 
 template <class Scalar>

@@ -14,14 +14,14 @@ namespace {
 double modulus(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                double delay_s) {
   using namespace std::complex_literals;
-  constexpr double lowest_rad_per_s = 0.01;
+  constexpr double min_rad_per_s = 0.01;
   constexpr double finer = 1.01;
   const Theta theta = theta_from(muscle);
-  const double span = std::log(std::numbers::pi / step_s / lowest_rad_per_s);
+  const double span = std::log(std::numbers::pi / step_s / min_rad_per_s);
   const auto points = static_cast<int>(span / std::log(finer));
   double least = 1.0;
   for (int i = 0; i <= points; ++i) {
-    const std::complex<double> p = 1i * lowest_rad_per_s * std::pow(finer, i);
+    const std::complex<double> p = 1i * min_rad_per_s * std::pow(finer, i);
     const auto lag = p / law.derivative_filter_rad_per_s + 1.0;
     const auto acts = law.proportional_W_per_m + law.integral_W_per_m_s / p +
                       law.derivative_Ws_per_m * p / (lag * lag);

@@ -105,9 +105,9 @@ class SampledLoop {
 /// eigenvalue: positions in metres beside powers in watts cost five digits of them (Parlett and
 /// Reinsch 1969).
 void balance(DynamicMatrix& a) {
-  constexpr int most_rounds = 100;
+  constexpr int max_rounds = 100;
   bool goes_on = true;
-  for (int round = 0; goes_on && round < most_rounds; ++round) {
+  for (int round = 0; goes_on && round < max_rounds; ++round) {
     goes_on = false;
     for (Eigen::Index i = 0; i < a.rows(); ++i) {
       const double diagonal = std::abs(a(i, i));
@@ -131,10 +131,10 @@ struct Sampling {
 /// A delay of many ticks is taken in longer ones: each tick of it is a state, and eigenvalues cost
 /// their cube. Delay and hold together stay what they are.
 Sampling affordable(double step_s, double delay_s) {
-  constexpr int most_ticks = 16;
-  if (delay_s <= most_ticks * step_s) return {step_s, delay_s};
-  const double longer_s = (delay_s + 0.5 * step_s) / (most_ticks + 0.5);
-  return {longer_s, most_ticks * longer_s};
+  constexpr int max_ticks = 16;
+  if (delay_s <= max_ticks * step_s) return {step_s, delay_s};
+  const double longer_s = (delay_s + 0.5 * step_s) / (max_ticks + 0.5);
+  return {longer_s, max_ticks * longer_s};
 }
 
 }  // namespace

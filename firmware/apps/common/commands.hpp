@@ -21,7 +21,7 @@ inline std::string wrong_command(const CLI::App& app, int count, char** argument
   if (written.empty() || written.front() == '-' ||
       std::find(names.begin(), names.end(), written) != names.end())
     return {};
-  return "'" + written + "' is no command; " + meant_or_all(written, names, "the commands are");
+  return "'" + written + "' is not a command; " + meant_or_all(written, names, "the commands are");
 }
 
 }  // namespace supercoil

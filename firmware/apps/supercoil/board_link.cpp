@@ -17,7 +17,7 @@
 
 namespace supercoil::operating {
 
-BoardLink::Answer LocalLink::line_of(const std::string& request, const std::string& channel) {
+BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std::string& channel) {
   const auto lines = socket_.ask(request);
   if (!lines) return tl::unexpected(lines.error());
   std::istringstream text(*lines);
@@ -28,7 +28,7 @@ BoardLink::Answer LocalLink::line_of(const std::string& request, const std::stri
 }
 
 /// The last two words of the channel's line.
-tl::expected<BoardLink::Ending, std::string> LocalLink::ending(const std::string& channel) {
+tl::expected<BoardLink::Ending, std::string> LocalBoardLink::ending(const std::string& channel) {
   const auto line = line_of("state", channel);
   if (!line) return tl::unexpected(line.error());
   Ending ending;
@@ -39,7 +39,8 @@ tl::expected<BoardLink::Ending, std::string> LocalLink::ending(const std::string
   return ending;
 }
 
-tl::expected<board::SenseComparison, std::string> LocalLink::senses(const std::string& channel) {
+tl::expected<board::SenseComparison, std::string> LocalBoardLink::senses(
+    const std::string& channel) {
   const auto line = line_of("senses", channel);
   if (!line) return tl::unexpected(line.error());
   board::SenseComparison senses;
@@ -48,13 +49,13 @@ tl::expected<board::SenseComparison, std::string> LocalLink::senses(const std::s
   return tl::unexpected("senses: " + *line);
 }
 
-CanLink::~CanLink() {
+CanBoardLink::~CanBoardLink() {
   for (const auto& [node, commander] : nodes_)
     commander->release();
 }
 
-BoardLink::Answer CanLink::ask(const std::string& line) {
-  const auto command = parse_command(line, can::most_nodes);
+BoardLink::Answer CanBoardLink::ask(const std::string& line) {
+  const auto command = parse_command(line, can::max_nodes);
   if (!command) return command.error();
   const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
   if (!node) return tl::unexpected(node.error());
@@ -63,7 +64,7 @@ BoardLink::Answer CanLink::ask(const std::string& line) {
   return answer_text(*answer, *answer == Refusal::out_of_range ? (*node)->nearest() : NAN);
 }
 
-tl::expected<Commander*, std::string> CanLink::commander(std::uint8_t node) {
+tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node) {
   if (!nodes_.contains(node)) {
     auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
                                can_client::refused_value_id(node)});
@@ -73,7 +74,7 @@ tl::expected<Commander*, std::string> CanLink::commander(std::uint8_t node) {
   return nodes_.at(node).get();
 }
 
-tl::expected<board::SenseComparison, std::string> CanLink::senses(const std::string& channel) {
+tl::expected<board::SenseComparison, std::string> CanBoardLink::senses(const std::string& channel) {
   const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
   if (!node) return tl::unexpected(node.error());
   board::SenseComparison senses;
@@ -88,18 +89,18 @@ tl::expected<board::SenseComparison, std::string> CanLink::senses(const std::str
   return senses;
 }
 
-BoardLink::Answer CanLink::state() {
+BoardLink::Answer CanBoardLink::state() {
   auto bus = open_bus(bus_);
   if (!bus) return tl::unexpected(bus.error());
   constexpr double keep_s = 10.0;
-  constexpr double usual_bit_rate = 500e3;
-  Recent recent(keep_s, usual_bit_rate);
-  const Listener listener(std::move(*bus), recent);
+  constexpr double default_bit_rate = 500e3;
+  FrameHistory frame_history(keep_s, default_bit_rate);
+  const Listener listener(std::move(*bus), frame_history);
   std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  return state_text(recent);
+  return state_text(frame_history);
 }
 
-tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& channel) {
+tl::expected<BoardLink::Ending, std::string> CanBoardLink::ending(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
   auto bus = open_bus(bus_, {can_client::status_id(node), can_client::estimate_id(node)});
   if (!bus) return tl::unexpected(bus.error());
@@ -130,10 +131,10 @@ tl::expected<BoardLink::Ending, std::string> CanLink::ending(const std::string& 
 
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
                                                                 const std::string& socket) {
-  if (!can.empty()) return std::make_unique<CanLink>(can);
+  if (!can.empty()) return std::make_unique<CanBoardLink>(can);
   auto opened = BoardSocket::open(socket);
   if (!opened) return tl::unexpected(opened.error());
-  return std::make_unique<LocalLink>(std::move(*opened));
+  return std::make_unique<LocalBoardLink>(std::move(*opened));
 }
 
 }  // namespace supercoil::operating

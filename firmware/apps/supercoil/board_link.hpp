@@ -1,4 +1,4 @@
-// Whoever obeys commands: the supercoild of this board, or nodes on a CAN bus.
+// What commands are sent to: the supercoild of this board, or nodes on a CAN bus.
 #pragma once
 
 #include <map>
@@ -22,41 +22,41 @@ class BoardLink {
   BoardLink& operator=(const BoardLink&) = delete;
   virtual ~BoardLink() = default;
 
-  /// "1 arm": "ok", "refused: why", or what is wrong with the line. The error: nobody answered.
+  /// "1 arm": "ok", "refused: why", or what is wrong with the line. The error: no answer.
   virtual Answer ask(const std::string& line) = 0;
   /// What is known of the board, in lines.
   virtual Answer state() = 0;
   /// How identify or calibrate ended: a ModeResult by its name, and IdentifyNotes by theirs.
   struct Ending {
     std::string result;
-    std::string notes;  ///< "theta2_uncertain,not_explained"; empty: none
+    std::string notes;  ///< "theta2_uncertain,poor_fit"; empty: none
   };
   /// channel: as in a line.
   virtual tl::expected<Ending, std::string> ending(const std::string& channel) = 0;
-  /// What a comparison with a meter found; the date is not told. channel: as in a line.
+  /// What a comparison with a meter found; without its date. channel: as in a line.
   virtual tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) = 0;
 };
 
-class LocalLink final : public BoardLink {
+class LocalBoardLink final : public BoardLink {
  public:
-  explicit LocalLink(BoardSocket socket) : socket_(std::move(socket)) {}
+  explicit LocalBoardLink(BoardSocket socket) : socket_(std::move(socket)) {}
   Answer ask(const std::string& line) override { return socket_.ask(line); }
   Answer state() override { return socket_.ask("state"); }
   tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
 
  private:
-  /// The line of a channel in what is told of all.
+  /// The line of a channel in the answer for all.
   Answer line_of(const std::string& request, const std::string& channel);
 
   BoardSocket socket_;
 };
 
 /// The first number of a line is a node. Leases are given back at the end.
-class CanLink final : public BoardLink {
+class CanBoardLink final : public BoardLink {
  public:
-  explicit CanLink(std::string bus) : bus_(std::move(bus)) {}
-  ~CanLink() override;
+  explicit CanBoardLink(std::string bus) : bus_(std::move(bus)) {}
+  ~CanBoardLink() override;
   Answer ask(const std::string& line) override;
   /// Listens for a second and a half.
   Answer state() override;

@@ -14,8 +14,8 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr time_t most_s = 2;
-constexpr std::size_t longest_answer = 8192;
+constexpr time_t max_s = 2;
+constexpr std::size_t max_answer = 8192;
 
 std::string reason() {
   return std::generic_category().message(errno);
@@ -32,7 +32,7 @@ tl::expected<BoardSocket, std::string> BoardSocket::open(const std::string& path
   std::memcpy(address.sun_path, path.data(), path.size());
   BoardSocket socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   if (socket.file_ < 0) return tl::unexpected("no socket: " + reason());
-  const timeval patience{most_s, 0};
+  const timeval patience{max_s, 0};
   ::setsockopt(socket.file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
   if (::connect(socket.file_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     const bool nobody = errno == ENOENT || errno == ECONNREFUSED;
@@ -49,7 +49,7 @@ tl::expected<std::string, std::string> BoardSocket::ask(const std::string& line)
   if (::send(file_, line.data(), line.size(), MSG_NOSIGNAL) < 0) {
     return tl::unexpected("supercoild does not listen: " + reason());
   }
-  std::array<char, longest_answer> answer{};
+  std::array<char, max_answer> answer{};
   const ssize_t size = ::recv(file_, answer.data(), answer.size(), 0);
   if (size == 0) return tl::unexpected(std::string("supercoild has ended"));
   if (size < 0) return tl::unexpected("supercoild does not answer: " + reason());

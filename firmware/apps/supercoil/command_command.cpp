@@ -75,7 +75,7 @@ int ended(BoardLink& board, const CommandOptions& options) {
   if (!has_result(options)) return exit_done;
   const std::string line = joined(options.words);
   auto ending = board.ending(options.words[0]);
-  // What is told of the board's state may be a moment older than its refusal.
+  // What is known of the board's state may be a moment older than its refusal.
   for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ending = board.ending(options.words[0]);

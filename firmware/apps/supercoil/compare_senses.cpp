@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/supercoil/answers.hpp"
+#include "apps/supercoil/answer_lines.hpp"
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
@@ -33,7 +33,7 @@ constexpr std::chrono::milliseconds renewal{100};
 constexpr std::chrono::milliseconds probing{300};
 /// The board asks for a second at a steady power; a meter needs some time as well.
 constexpr std::chrono::milliseconds settling{2500};
-constexpr std::chrono::minutes longest_question{5};
+constexpr std::chrono::minutes max_question{5};
 constexpr int max_tries = 3;
 
 struct Plan {
@@ -91,11 +91,11 @@ class Guide {
     const auto meter_V = ask("volts at the supply terminals", plan_.supply_V);
     if (!meter_V) return tl::unexpected(meter_V.error());
     if (auto taken = tell("compare_supply", *meter_V); !taken) return taken;
-    // The told power is the product of both senses, and each may be off by its gain.
-    const double told_A = power_W_ / *meter_V;
+    // The measured power is the product of both senses, and each may be off by its gain.
+    const double reported_A = power_W_ / *meter_V;
     const auto meter_A = ask("amperes in the line of channel " + plan_.channel,
-                             {told_A * MeterComparison::min_gain * MeterComparison::min_gain,
-                              told_A * MeterComparison::max_gain * MeterComparison::max_gain});
+                             {reported_A * MeterComparison::min_gain * MeterComparison::min_gain,
+                              reported_A * MeterComparison::max_gain * MeterComparison::max_gain});
     if (!meter_A) return tl::unexpected(meter_A.error());
     return tell("compare_current", *meter_A);
   }
@@ -130,7 +130,7 @@ class Guide {
   OrEnded<std::string> answer_to(const std::string& question) {
     std::fprintf(out_, "%s: ", question.c_str());
     std::fflush(out_);
-    const auto deadline = Clock::now() + longest_question;
+    const auto deadline = Clock::now() + max_question;
     while (Clock::now() < deadline) {
       if (auto heated = heated_->heat(power_W_); !heated) return tl::unexpected(heated.error());
       if (auto line = answers_.wait(renewal)) return *line;
@@ -145,16 +145,16 @@ class Guide {
   Heated* heated_;
   std::FILE* out_;
   double power_W_ = 0.0;
-  Answers answers_{STDIN_FILENO};
+  AnswerLines answers_{STDIN_FILENO};
 };
 
 /// The steady power that leaves full power allowed in the warmest air, were the muscle cooled by a
 /// quarter of the least that is configured and the senses as wrong as nobody would notice.
 double safe_power_W(ChannelSettings channel, const BoardSettings& board) {
   channel.senses = {};
-  const double unseen = power_bounds(channel, board).true_over_told().max;
+  const double unseen = power_bounds(channel, board).true_over_measured().max;
   const double rise_K = channel.limiter.derate_from_C - channel.thermal.air.warmest_C;
-  const double true_W = rise_K * 0.25 * channel.thermal.bounds.lowest_transfer_W_per_K;
+  const double true_W = rise_K * 0.25 * channel.thermal.bounds.min_transfer_W_per_K;
   return std::min(channel.limiter.max_W, std::max(0.0, true_W) / unseen);
 }
 
@@ -178,7 +178,7 @@ OrEnded<board::SenseComparison> compare(BoardLink& board, const Plan& plan, std:
   }
   auto found = board.senses(plan.channel);
   if (found && !found->compared())
-    return tl::unexpected<std::string>("the board goes by no comparison");
+    return tl::unexpected<std::string>("the board has no comparison");
   return found;
 }
 
@@ -221,7 +221,7 @@ int compare_senses(const DoctorOptions& options) {
   Plan plan{std::to_string(options.channel), options.power_W};
   if (config) {
     const BoardSettings& board = config->settings;
-    plan.supply_V = {board.supervision.lowest_supply_V, board.supervision.highest_supply_V};
+    plan.supply_V = {board.supervision.min_supply_V, board.supervision.max_supply_V};
     if (plan.power_W <= 0.0) plan.power_W = safe_power_W(board.channels[place - 1], board);
   }
   std::FILE* out = options.json ? stderr : stdout;
@@ -240,9 +240,9 @@ int compare_senses(const DoctorOptions& options) {
   if (found && config) {
     ChannelSettings channel = config->settings.channels[place - 1];
     channel.senses = *found;
-    const auto ratio = power_bounds(channel, config->settings).true_over_told();
+    const auto ratio = power_bounds(channel, config->settings).true_over_measured();
     bounds = "the true power is " + shown(ratio.min) + " to " + shown(ratio.max) +
-             " times the told one; calibrate and identify this channel again";
+             " times the measured power; calibrate and identify this channel again";
   }
   return concluded(found, plan, options.json, bounds);
 }

@@ -1,4 +1,4 @@
-// supercoil doctor: looks at a board before anybody heats anything.
+// supercoil doctor: checks a board before anything is heated.
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -19,7 +19,7 @@ bool unconfigured(const DoctorOptions& options) {
 }
 
 /// Each finding is printed as it comes: a device that hangs is the one after the last line.
-hal::Tell teller(doctor::Report& report, bool json) {
+hal::FindingSink sink_of(doctor::Report& report, bool json) {
   return [&report, json](const hal::Finding& finding) {
     report.findings.push_back(finding);
     if (json) return;
@@ -37,7 +37,7 @@ int conclude(const doctor::Report& report, bool json) {
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
     return fail(exit_failed, "cannot write to standard output");
   }
-  return report.count(hal::Verdict::problem) == 0 ? exit_done : exit_failed;
+  return report.count(hal::Severity::problem) == 0 ? exit_done : exit_failed;
 }
 
 }  // namespace
@@ -48,9 +48,9 @@ int doctor_command(const DoctorOptions& options) {
       {}, {options.priority, options.cpu}, options.run_folder, options.can};
   if (unconfigured(options)) {
     doctor::Report report{"this machine", options.config, {}};
-    const hal::Tell tell = teller(report, options.json);
-    doctor::check_machine(check, tell);
-    tell({"configuration", hal::Verdict::problem,
+    const hal::FindingSink sink = sink_of(report, options.json);
+    doctor::check_machine(check, sink);
+    sink({"configuration", hal::Severity::problem,
           "none: " + options.config + ": there is no such file",
           "copy the nearest of the examples in /etc/supercoil/boards (in the sources "
           "firmware/io/config/examples) there and correct it, docs/configuration.md has every key; "
@@ -63,7 +63,7 @@ int doctor_command(const DoctorOptions& options) {
     return exit_wrong_input;
   }
   doctor::Report report{config->name, options.config, {}};
-  doctor::check_board(*config, check, teller(report, options.json));
+  doctor::check_board(*config, check, sink_of(report, options.json));
   return conclude(report, options.json);
 }
 

@@ -83,7 +83,7 @@ int log_command(const LogOptions& options) {
   if (is_can_log(options.file)) return can_log_command(options);
   if (options.node != 0 || !options.message.empty()) {
     return fail(exit_wrong_input,
-                options.file + ": is no CAN log, which --node and --message are for");
+                options.file + ": is not a CAN log; --node and --message apply only to CAN logs");
   }
   storage::PosixFiles files;
   const auto content = read(options.file, files);

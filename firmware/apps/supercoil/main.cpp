@@ -37,7 +37,7 @@ void add_log(CLI::App& app, LogOptions& options) {
   CLI::Option* summary =
       log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
   log->add_option("--node", options.node, "Of a CAN log only this node [all]")
-      ->check(CLI::Range(1, can::most_nodes));
+      ->check(CLI::Range(1, can::max_nodes));
   log->add_option("--message", options.message,
                   "Of a CAN log only this message, a column for each signal [a row for each value]")
       ->type_name("NAME");
@@ -58,7 +58,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
       ->expected(1, 3);
   CLI::Option* hold = command->add_option(
       "--for", options.hold_s,
-      "Renew it for so many seconds or until Ctrl-C; then the muscle rests [once: it expires]");
+      "Renew it for this many seconds or until Ctrl-C; then the muscle rests [once: it expires]");
   hold->check(CLI::PositiveNumber);
   command
       ->add_flag_callback(
@@ -89,8 +89,8 @@ void add_setting(CLI::App& app, SettingOptions& options) {
       "power, and how often it sends each message");
   setting->add_option("NODE", options.node, "1 to 63")
       ->required()
-      ->check(CLI::Range(1, can::most_nodes));
-  setting->add_option("NAME", options.name, "e.g. most_power_W [all]");
+      ->check(CLI::Range(1, can::max_nodes));
+  setting->add_option("NAME", options.name, "e.g. max_power_W [all]");
   setting->add_option("VALUE", options.value, "To write [read it]");
   setting->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
@@ -101,7 +101,7 @@ void add_setting(CLI::App& app, SettingOptions& options) {
 void add_doctor(CLI::App& app, DoctorOptions& options) {
   CLI::App* doctor = app.add_subcommand(
       "doctor",
-      "Look at the board on which this runs before anybody heats anything: kernel, rights, lines, "
+      "Check the board on which this runs before anything is heated: kernel, rights, lines, "
       "PWM, converters, watchdog. Heats nothing, but with --compare-senses; opens devices only "
       "while no supercoild runs");
   doctor->add_option("--config", options.config, "The board's configuration")
@@ -110,10 +110,10 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   doctor->add_option("--run-folder", options.run_folder, "Where supercoild's lock is")
       ->type_name("DIR")
       ->capture_default_str();
-  doctor->add_option("--priority", options.priority, "That supercoild is given")
+  doctor->add_option("--priority", options.priority, "As given to supercoild")
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
-  doctor->add_option("--cpu", options.cpu, "That supercoild is given [any]")
+  doctor->add_option("--cpu", options.cpu, "As given to supercoild [any]")
       ->check(CLI::Range(0, 1023));
   doctor
       ->add_option("--can", options.can,
@@ -126,12 +126,12 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
       "Instead compare the senses of a running board with a meter: heats a little, asks for the "
       "meter's volts and amperes at two powers, and makes the bounds of its power narrow");
   doctor->add_option("--channel", options.channel, "To compare: from 1; over CAN its node")
-      ->check(CLI::Range(1, can::most_nodes))
+      ->check(CLI::Range(1, can::max_nodes))
       ->capture_default_str()
       ->needs(compare);
   doctor
       ->add_option("--power", options.power_W,
-                   "The greater of the two powers in W [what cannot burn by the configuration]")
+                   "The greater of the two powers in W [safe by the configuration]")
       ->check(CLI::Range(0.01, 1e3))
       ->needs(compare);
   doctor->add_option("--socket", options.socket, "Where supercoild listens, to compare")
@@ -152,7 +152,7 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
       ->capture_default_str();
   monitor
       ->add_option("--listen", options.listen,
-                   "Address that others may reach, e.g. 0.0.0.0: looking needs the token then too")
+                   "Address to listen on, e.g. 0.0.0.0 for all: viewing then needs the token too")
       ->type_name("ADDRESS")
       ->capture_default_str();
   monitor->add_flag("--read-only", options.read_only, "Nobody may command");
@@ -171,7 +171,7 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
   dbc->add_option("--nodes", options.nodes,
                   "The bus's nodes, e.g. 1,2,5: messages' names end with their node's")
       ->delimiter(',')
-      ->check(CLI::Range(1, can::most_nodes));
+      ->check(CLI::Range(1, can::max_nodes));
   dbc->add_option("--out", options.out, "Write it to this file [standard output]");
 }
 

@@ -23,7 +23,7 @@ constexpr int page_threads = 40;
 
 /// What is watched: a log that was read, or a listener on a bus.
 struct Source {
-  std::unique_ptr<Recent> recent;
+  std::unique_ptr<FrameHistory> frame_history;
   std::unique_ptr<Listener> listener;
   bool log = false;
 };
@@ -33,7 +33,8 @@ tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
   std::error_code ignored;
   source.log =
       !names_socketcand(options.source) && std::filesystem::exists(options.source, ignored);
-  source.recent = std::make_unique<Recent>(source.log ? 0.0 : options.keep_s, options.bit_rate);
+  source.frame_history =
+      std::make_unique<FrameHistory>(source.log ? 0.0 : options.keep_s, options.bit_rate);
   if (source.log) {
     auto log = read_can_log(options.source);
     if (!log) return tl::unexpected(log.error());
@@ -41,7 +42,7 @@ tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
       std::fprintf(stderr, "supercoil: %s; %zu such lines are left out\n", log->damage.c_str(),
                    log->damaged_lines);
     }
-    source.recent->add(log->frames);
+    source.frame_history->add(log->frames);
     return source;
   }
   auto bus = open_bus(options.source);
@@ -52,11 +53,11 @@ tl::expected<Source, std::string> open_source(const MonitorOptions& options) {
                                : bus.error() + "; nor is there a log of that name");
   }
   if (!bus) return tl::unexpected(bus.error());
-  source.listener = std::make_unique<Listener>(std::move(*bus), *source.recent);
+  source.listener = std::make_unique<Listener>(std::move(*bus), *source.frame_history);
   return source;
 }
 
-/// Connections to the page are not counted: whoever opens a thousand must not take the descriptors
+/// Connections to the page are not counted: a thousand of them must not take the descriptors
 /// that STOP's own port needs.
 void allow_many_connections() {
   rlimit files{};
@@ -71,7 +72,7 @@ int serve_page(const MonitorOptions& options, Source& source) {
                 options.read_only};
   httplib::Server server;
   server.new_task_queue = [] { return new httplib::ThreadPool(page_threads); };
-  take_port_alone(server);
+  bind_exclusively(server);
   server.set_payload_max_length(4096);
   server.set_read_timeout(5);
   server.set_write_timeout(5);
@@ -83,23 +84,27 @@ int serve_page(const MonitorOptions& options, Source& source) {
     access.port = -1;
   }
   if (access.port <= 0) {
-    return fail(exit_failed, "port " + std::to_string(options.port) + " of " + access.host +
-                                 " cannot be had: another program has it, or the address is not "
-                                 "this machine's; --port takes another");
+    return fail(exit_failed,
+                "port " + std::to_string(options.port) + " of " + access.host +
+                    " is not available: another program uses it, or the address is not "
+                    "this machine's; --port takes another");
   }
 
-  const auto open_for = [&](const std::vector<std::uint16_t>& listen) -> Hand::OpenBus {
+  const auto open_for = [&](const std::vector<std::uint16_t>& listen) -> ManualControl::OpenBus {
     return [name = options.source, listen] { return open_bus(name, listen); };
   };
-  Hands hands([&](std::uint8_t node) { return open_for({can_client::acknowledge_id(node)}); });
+  ManualControls controls(
+      [&](std::uint8_t node) { return open_for({can_client::acknowledge_id(node)}); });
   std::unique_ptr<StopServer> stop;
   if (!source.log && !access.read_only) {
-    auto started = StopServer::start(access, open_for({can_client::acknowledge_id(1)}),
-                                     *source.recent, [&] { hands.let_go("stopped"); });
+    auto started =
+        StopServer::start(access, open_for({can_client::acknowledge_id(1)}), *source.frame_history,
+                          [&] { controls.release_hold("stopped"); });
     if (!started) return fail(exit_failed, started.error());
     stop = std::move(*started);
   }
-  Api api(access, *source.recent, hands, {options.source, source.log, stop ? stop->port() : 0});
+  Api api(access, *source.frame_history, controls,
+          {options.source, source.log, stop ? stop->port() : 0});
   api.serve_with(server);
   const bool token = !source.log && !access.read_only;
   std::printf("http://%s:%d/%s%s\n", access.host.c_str(), access.port,
@@ -120,7 +125,7 @@ int monitor_command(const MonitorOptions& options) {
   if (!source) return fail(exit_wrong_input, source.error());
   watch_for_interrupts();
   if (!options.text) return serve_page(options, *source);
-  return show_on_terminal(*source->recent, source->log, [] { return interrupted != 0; });
+  return show_on_terminal(*source->frame_history, source->log, [] { return interrupted != 0; });
 }
 
 }  // namespace supercoil::operating

@@ -35,7 +35,7 @@ class Lines {
   std::string all_;
 };
 
-void tell_fault(Lines& lines, const Recording& recording) {
+void print_fault(Lines& lines, const Recording& recording) {
   const recorder::Header& h = recording.header;
   if (h.fault == 0) {
     lines.add("No fault is in what could be read; times are relative to the last row.");
@@ -51,7 +51,7 @@ void tell_fault(Lines& lines, const Recording& recording) {
 }
 
 /// Ticks that are further apart than one and a half periods have lost rows, or were left out.
-void tell_extent(Lines& lines, const Recording& recording) {
+void print_extent(Lines& lines, const Recording& recording) {
   const auto& rows = recording.rows;
   lines.add("  recorded: %.3f s to %.3f s, %zu rows", recording.time_s(rows.front()),
             recording.time_s(rows.back()), rows.size());
@@ -59,22 +59,22 @@ void tell_extent(Lines& lines, const Recording& recording) {
   if (rate_Hz <= 0.0) return;
   lines.add("  %d channels at %g Hz", recording.header.channels, rate_Hz);
   std::int64_t gaps = 0;
-  double longest_s = 0.0, longest_at_s = 0.0;
+  double max_s = 0.0, max_at_s = 0.0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double before_s = recording.time_s(rows[i - 1]);
     const double gap_s = recording.time_s(rows[i]) - before_s;
     if (gap_s * rate_Hz <= 1.5) continue;
     ++gaps;
-    if (gap_s > longest_s) longest_at_s = before_s;
-    longest_s = std::max(longest_s, gap_s);
+    if (gap_s > max_s) max_at_s = before_s;
+    max_s = std::max(max_s, gap_s);
   }
   if (gaps > 0) {
     lines.add("  ticks are missing: %" PRId64 " gap%s, the longest of %.3f s from %.3f s on", gaps,
-              gaps == 1 ? "" : "s", longest_s, longest_at_s);
+              gaps == 1 ? "" : "s", max_s, max_at_s);
   }
 }
 
-void tell_other_faults(Lines& lines, const Recording& recording) {
+void print_other_faults(Lines& lines, const Recording& recording) {
   std::array<std::uint8_t, 256> last{};
   constexpr int most = 20;
   int told = 0;
@@ -96,13 +96,13 @@ struct Channel {
   const Row* hottest = nullptr;
   double sum_W = 0.0;
   std::int64_t powers = 0;
-  float most_W = 0.0F;
+  float max_W = 0.0F;
   std::map<int, const Row*> margins;  ///< the last of each detector, up to the fault
 
   void add(const Row& row, double time_s) {
     if (!std::isnan(row.hottest_C) && (hottest == nullptr || row.hottest_C > hottest->hottest_C))
       hottest = &row;
-    most_W = std::fmax(most_W, row.applied_W);
+    max_W = std::fmax(max_W, row.applied_W);
     if (time_s < 0.0) {
       last_before = &row;
       if (!std::isnan(row.applied_W)) {
@@ -110,7 +110,7 @@ struct Channel {
         ++powers;
       }
     }
-    if (time_s <= 0.0 && row.turn != 0) margins[row.turn] = &row;
+    if (time_s <= 0.0 && row.margin_selector != 0) margins[row.margin_selector] = &row;
   }
 };
 
@@ -126,7 +126,7 @@ std::string number(float value) {
   return text.data();
 }
 
-void tell_last(Lines& lines, const Row& r) {
+void print_last(Lines& lines, const Row& r) {
   lines.add("  just before: %s, %s, limited by %s; position %s m, reference %s %s",
             recorder::state_name(r.state).c_str(), recorder::mode_name(r.mode).c_str(),
             recorder::limit_name(r.limited_by).c_str(), number(r.position_m).c_str(),
@@ -136,12 +136,12 @@ void tell_last(Lines& lines, const Row& r) {
             number(r.resistance_Ohm).c_str(), number(r.resistance_age_s).c_str());
 }
 
-void tell_channel(Lines& lines, const Recording& recording, int number_, const Channel& c) {
+void print_channel(Lines& lines, const Recording& recording, int number_, const Channel& c) {
   lines.add("channel %d", number_ + 1);
-  if (c.last_before != nullptr) tell_last(lines, *c.last_before);
+  if (c.last_before != nullptr) print_last(lines, *c.last_before);
   if (c.powers > 0) {
     lines.add("  power: %.4g W on average before the fault, %.4g W at most",
-              c.sum_W / static_cast<double>(c.powers), of(c.most_W));
+              c.sum_W / static_cast<double>(c.powers), of(c.max_W));
   }
   if (c.hottest != nullptr) {
     lines.add("  hottest: at most %.1f C, at %.3f s", of(c.hottest->hottest_C),
@@ -149,17 +149,17 @@ void tell_channel(Lines& lines, const Recording& recording, int number_, const C
   }
 }
 
-void tell_margins(Lines& lines, const Channel& c, const Recording& recording) {
+void print_margins(Lines& lines, const Channel& c, const Recording& recording) {
   if (c.margins.empty()) return;
   std::vector<const Row*> rows;
-  for (const auto& [turn, row] : c.margins)
+  for (const auto& [margin_selector, row] : c.margins)
     rows.push_back(row);
   std::stable_sort(rows.begin(), rows.end(),
                    [](const Row* a, const Row* b) { return a->margin_used > b->margin_used; });
   lines.add("  last margins up to the fault, the fullest first:");
   for (const Row* row : rows) {
     lines.add("    %-24s %6.0f %% used: %.5g of %.5g, at %.3f s",
-              recorder::fault_name(row->turn).c_str(), 100.0 * of(row->margin_used),
+              recorder::fault_name(row->margin_selector).c_str(), 100.0 * of(row->margin_used),
               of(row->margin_measured), of(row->margin_limit), recording.time_s(*row));
   }
 }
@@ -168,15 +168,15 @@ void tell_margins(Lines& lines, const Channel& c, const Recording& recording) {
 
 std::string summary(const Recording& recording) {
   Lines lines;
-  tell_fault(lines, recording);
-  tell_extent(lines, recording);
-  tell_other_faults(lines, recording);
+  print_fault(lines, recording);
+  print_extent(lines, recording);
+  print_other_faults(lines, recording);
   std::map<int, Channel> channels;
   for (const Row& row : recording.rows)
     channels[row.channel].add(row, recording.time_s(row));
   for (const auto& [number, channel] : channels) {
-    tell_channel(lines, recording, number, channel);
-    if (number == recording.header.fault_channel) tell_margins(lines, channel, recording);
+    print_channel(lines, recording, number, channel);
+    if (number == recording.header.fault_channel) print_margins(lines, channel, recording);
   }
   return lines.take();
 }

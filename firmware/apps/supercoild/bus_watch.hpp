@@ -25,7 +25,7 @@ class BusWatch {
     std::uint64_t left_out = 0;
     std::optional<hal::Time> at;
   };
-  std::vector<Told> told_;
+  std::vector<Told> reported_;
 };
 
 }  // namespace supercoil::daemon

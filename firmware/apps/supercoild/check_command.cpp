@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/exit_status.hpp"
-#include "apps/supercoild/keeper.hpp"
 #include "apps/supercoild/locked_memory.hpp"
+#include "apps/supercoild/storage_worker.hpp"
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
 #include "storage/posix_files.hpp"
@@ -29,7 +29,7 @@ std::vector<std::uint32_t> recall_learned(config::BoardConfig& config) {
     const auto loaded = store.load();
     const bool known = loaded && loaded->learned;
     versions.push_back(known ? loaded->learned->version : 0);
-    if (known) recall(config.settings.channels[i], *loaded->learned);
+    if (known) apply_learned(config.settings.channels[i], *loaded->learned);
   }
   return versions;
 }
@@ -59,7 +59,7 @@ Json json_of(const config::BoardConfig& config, const std::vector<std::uint32_t>
           {"rate_Hz", config.settings.rate_Hz},
           {"channels", channels},
           {"can", can},
-          {"weaknesses", config::weaknesses(config)}};
+          {"weaknesses", config::warnings(config)}};
 }
 
 void print(const Json& json) {

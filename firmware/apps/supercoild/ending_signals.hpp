@@ -27,7 +27,7 @@ inline void block_ending_signals() {
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 }
 
-/// One of them has come, and nobody has taken it yet.
+/// One of them is pending.
 inline bool ending_signal_is_pending() {
   const sigset_t ending = ending_signals();
   sigset_t pending;

@@ -19,10 +19,10 @@ namespace supercoil::daemon {
 
 namespace {
 
-constexpr std::size_t most_clients = 8;
+constexpr std::size_t max_clients = 8;
 constexpr int backlog = 4;
 /// Longer lines are cut, and are then no command.
-constexpr std::size_t longest_line = 200;
+constexpr std::size_t max_line = 200;
 
 void answer(int client, const std::string& text) {
   // A client that does not read its answers loses them.
@@ -78,13 +78,13 @@ tl::expected<LocalCommands, std::string> LocalCommands::open(const std::string& 
   return LocalCommands(std::move(listener));
 }
 
-void LocalCommands::serve(Loop& loop, const NewestRows& rows, int most_ms) {
-  std::array<pollfd, most_clients + 1> watched{};
+void LocalCommands::serve(Loop& loop, const NewestRows& rows, int max_ms) {
+  std::array<pollfd, max_clients + 1> watched{};
   watched[0] = {listener_.number(), POLLIN, 0};
   const std::size_t count = clients_.size();
   for (std::size_t i = 0; i < count; ++i)
     watched[i + 1] = {clients_[i].number(), POLLIN, 0};
-  ::poll(watched.data(), count + 1, most_ms);
+  ::poll(watched.data(), count + 1, max_ms);
   for (std::size_t i = count; i-- > 0;) {
     if (watched[i + 1].revents == 0 || take_packet(clients_[i], loop, rows)) continue;
     std::erase_if(waiting_,
@@ -98,7 +98,7 @@ void LocalCommands::accept_one() {
   hal_linux::Descriptor client(
       ::accept4(listener_.number(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
   if (!client.is_open()) return;
-  if (clients_.size() == most_clients) {
+  if (clients_.size() == max_clients) {
     answer(client.number(), "refused: too many clients");
     return;
   }
@@ -108,7 +108,7 @@ void LocalCommands::accept_one() {
 /// False when the client is gone.
 bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
                                 const NewestRows& rows) {
-  std::array<char, longest_line> line{};
+  std::array<char, max_line> line{};
   const ssize_t size = ::recv(client.number(), line.data(), line.size(), MSG_DONTWAIT);
   if (size <= 0) return size < 0 && (errno == EAGAIN || errno == EINTR);
   std::string_view text(line.data(), static_cast<std::size_t>(size));

@@ -16,16 +16,16 @@
 namespace supercoil::daemon {
 
 /// A socket of packets (SOCK_SEQPACKET): each is one line of command_text.hpp, or "state", and is
-/// answered by one packet, in order. Who may open the file may command: the folder's permissions
-/// decide. A command to heat expires as everywhere, so a client that dies lets the muscle cool.
-/// Used by one thread.
+/// answered by one packet, in order. Users who may open the file may command: the folder's
+/// permissions decide. A command to heat expires as everywhere, so a client that dies lets the
+/// muscle cool. Used by one thread.
 class LocalCommands {
  public:
   /// A file that an earlier life left is replaced: the lock is held already.
   static tl::expected<LocalCommands, std::string> open(const std::string& path);
 
-  /// Waits at most most_ms for something to do, and does it.
-  void serve(Loop& loop, const NewestRows& rows, int most_ms);
+  /// Waits at most max_ms for something to do, and does it.
+  void serve(Loop& loop, const NewestRows& rows, int max_ms);
   /// The loop's answer to a command with Source::local.
   void pass(const Answer& given);
 

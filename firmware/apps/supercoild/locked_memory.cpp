@@ -30,7 +30,7 @@ double mebibytes(double bytes) {
 
 }  // namespace
 
-void keep_heap_small() {
+void limit_heap() {
   mallopt(M_ARENA_MAX, 1);        // not one for each thread
   mallopt(M_TOP_PAD, 16 * 1024);  // instead of 128 KiB in advance
 }
@@ -38,9 +38,9 @@ void keep_heap_small() {
 std::string describe_locked_memory(const config::BoardConfig& config) {
   // Loop, telemetry, and one for each bus; the main thread's is in the program's.
   const std::size_t threads = 2 + config.wiring.buses.size();
-  const auto stacks = static_cast<double>(threads * hal_linux::ThreadWish().stack_bytes);
+  const auto stacks = static_cast<double>(threads * hal_linux::ThreadSettings().stack_bytes);
   const config::Memory memory = config::memory_of(config.settings);
-  // The relay (keeper.cpp) is as large as the loop's ring.
+  // The relay (storage_worker.cpp) is as large as the loop's ring.
   const auto data = static_cast<double>(memory.total() + memory.ring);
   const double program = mapped_bytes();
   std::ostringstream out;

@@ -17,7 +17,7 @@ class LoopThread {
  public:
   /// Both outlive it. Starts at once.
   static tl::expected<std::unique_ptr<LoopThread>, std::string> start(
-      Loop& loop, hal::Clock& clock, double rate_Hz, const hal_linux::ThreadWish& wish);
+      Loop& loop, hal::Clock& clock, double rate_Hz, const hal_linux::ThreadSettings& settings);
 
   /// After the tick that is under way; the destructor waits for that.
   void stop() { ending_.store(true, std::memory_order_relaxed); }

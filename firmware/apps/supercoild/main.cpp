@@ -94,8 +94,8 @@ int run_program(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  supercoil::daemon::keep_heap_small();
-  // A log or a result that nobody reads any more is no reason to drop the muscles.
+  supercoil::daemon::limit_heap();
+  // A closed log or pipe must not drop the muscles.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     const int status = run_program(count, arguments);

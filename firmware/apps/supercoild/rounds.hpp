@@ -15,14 +15,14 @@ class Rounds {
 
   /// How long to wait from now on; asked again before the wait is over, for what is left of it.
   hal::Duration wait(hal::Time now) {
-    if (next_ <= now) next_ = std::max(next_ + usual, now + least_pause);
+    if (next_ <= now) next_ = std::max(next_ + usual, now + min_pause);
     return next_ - now;
   }
 
  private:
   static constexpr std::chrono::milliseconds usual{5};
   /// Left to others when a round's work takes longer than a round.
-  static constexpr std::chrono::milliseconds least_pause{1};
+  static constexpr std::chrono::milliseconds min_pause{1};
 
   hal::Time next_;
 };

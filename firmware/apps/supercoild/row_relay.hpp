@@ -10,9 +10,9 @@
 
 namespace supercoil::daemon {
 
-/// The telemetry thread takes the loop's rows, looks at them, and puts them here for the keeper,
-/// which may be waiting for a disk: so what the bus and local programs are told is never older than
-/// a round of telemetry. Neither side waits; all memory is taken when it is made.
+/// The telemetry thread takes the loop's rows, looks at them, and puts them here for the storage
+/// worker, which may be waiting for a disk: so what the bus and local programs are told is never
+/// older than a round of telemetry. Neither side waits; all memory is taken when it is made.
 class RowRelay {
  public:
   /// rows: that it holds; what does not fit is lost to the recorder, and counted.
@@ -22,7 +22,7 @@ class RowRelay {
   void put(const Row& row) {
     if (!rows_.push(row)) lost_.fetch_add(1, std::memory_order_relaxed);
   }
-  /// The keeper's.
+  /// The storage worker's.
   bool take(Row& row) { return rows_.pop(row); }
   std::size_t lost() const { return lost_.load(std::memory_order_relaxed); }
 

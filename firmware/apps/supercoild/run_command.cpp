@@ -15,10 +15,10 @@
 #include "apps/common/exit_status.hpp"
 #include "apps/supercoild/bus_watch.hpp"
 #include "apps/supercoild/ending_signals.hpp"
-#include "apps/supercoild/keeper.hpp"
 #include "apps/supercoild/log.hpp"
 #include "apps/supercoild/loop_thread.hpp"
 #include "apps/supercoild/service.hpp"
+#include "apps/supercoild/storage_worker.hpp"
 #include "apps/supercoild/telemetry.hpp"
 #include "linux_board/linux_board.hpp"
 #include "linux_board/lock_file.hpp"
@@ -28,8 +28,8 @@ namespace supercoil::daemon {
 namespace {
 
 constexpr hal::Duration round = std::chrono::milliseconds(20);
-/// A loop that made no row in so many rounds hangs: a second. Rounds are counted, not time, because
-/// this thread may itself be kept from running, and wakes before those that bring the rows.
+/// A loop that made no row in this many rounds hangs: a second. Rounds are counted, not time,
+/// because this thread may itself be kept from running, and wakes before those that bring the rows.
 constexpr int hangs_after_rounds = 50;
 /// Duties and enable lines are off a tick after the command; so long is far more than that.
 constexpr hal::Duration cool_within = std::chrono::seconds(2);
@@ -42,11 +42,11 @@ struct Parts {
   std::vector<storage::LearnedStore> stores;
   std::optional<linux_board::LockFile> lock;
   std::unique_ptr<linux_board::LinuxBoard> board;
-  hal_linux::WakefulCpus wakeful;
+  hal_linux::CpuLatencyRequest wakeful;
   std::unique_ptr<Loop> loop;
-  std::unique_ptr<Keeper> keeper;
+  std::unique_ptr<StorageWorker> storage_worker;
   std::unique_ptr<hal_linux::SocketCan> can_bus;
-  std::unique_ptr<telemetry::CanLink> can;
+  std::unique_ptr<telemetry::CanEndpoint> can;
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
 };
@@ -63,9 +63,9 @@ tl::expected<void, std::string> join_can(Parts& parts, const config::BoardConfig
   auto bus = hal_linux::SocketCan::open({config.can->interface, ids});
   if (!bus) return tl::unexpected("can: " + bus.error().text);
   parts.can_bus = std::move(*bus);
-  parts.can =
-      std::make_unique<telemetry::CanLink>(*config.can, config.settings, *parts.loop,
-                                           *parts.can_bus, [] { return std::random_device()(); });
+  parts.can = std::make_unique<telemetry::CanEndpoint>(*config.can, config.settings, *parts.loop,
+                                                       *parts.can_bus,
+                                                       [] { return std::random_device()(); });
   return {};
 }
 
@@ -82,7 +82,7 @@ tl::expected<void, std::string> start(Parts& parts, const config::BoardConfig& c
   const board::Devices devices = parts.board->devices();
   parts.loop = std::make_unique<Loop>(config.settings, devices);
   if (auto joined = join_can(parts, config); !joined) return joined;
-  parts.telemetry = std::make_unique<Telemetry>(*parts.loop, parts.keeper->relay(),
+  parts.telemetry = std::make_unique<Telemetry>(*parts.loop, parts.storage_worker->relay(),
                                                 std::move(commands), parts.can.get());
   if (auto started = parts.telemetry->start(); !started) return started;
   auto thread = LoopThread::start(*parts.loop, *devices.clock, rate_Hz,
@@ -104,11 +104,11 @@ bool keep_until_signal(Parts& parts, Service& service) {
   BusWatch buses;
   while (!ending_signal_within(round)) {
     const hal::Time now = clock.now();
-    parts.keeper->poll(*parts.loop, now);
+    parts.storage_worker->poll(*parts.loop, now);
     for (const std::string& line : buses.news(parts.board->buses(), now))
       log(Level::warning, line);
-    if (parts.keeper->rows() != rows) {
-      rows = parts.keeper->rows();
+    if (parts.storage_worker->rows() != rows) {
+      rows = parts.storage_worker->rows();
       rounds_without = 0;
       service.alive(now);
     } else if (++rounds_without > hangs_after_rounds) {
@@ -126,15 +126,15 @@ bool cool(Parts& parts) {
   const timespec a_round{0, static_cast<decltype(timespec::tv_nsec)>(round.count())};
   do {
     nanosleep(&a_round, nullptr);
-    parts.keeper->poll(*parts.loop, clock.now());
+    parts.storage_worker->poll(*parts.loop, clock.now());
     if (clock.now() - asked > cool_within) return false;
-  } while (!parts.keeper->all_off());
+  } while (!parts.storage_worker->all_off());
   parts.thread->stop();
   parts.thread.reset();
   // The last rows come through the telemetry thread.
   nanosleep(&a_round, nullptr);
-  parts.keeper->poll(*parts.loop, clock.now());
-  parts.keeper->finish();
+  parts.storage_worker->poll(*parts.loop, clock.now());
+  parts.storage_worker->finish();
   return true;
 }
 
@@ -154,7 +154,7 @@ int run_command(const RunOptions& options) {
   parts.lock.emplace(std::move(*lock));
   for (std::size_t i = 0; i < config->settings.channels.size(); ++i)
     parts.stores.emplace_back(config->storage_folder, static_cast<int>(i + 1), parts.files);
-  if (const auto known = remember(*config, parts.stores); !known) {
+  if (const auto known = load_learned(*config, parts.stores); !known) {
     return fail(options.config + ": board.storage_folder: " + known.error());
   }
   auto board = linux_board::LinuxBoard::open(config->wiring);
@@ -166,7 +166,7 @@ int run_command(const RunOptions& options) {
   parts.board = std::move(*board);
   auto commands = LocalCommands::open(options.run_folder + "/commands");
   if (!commands) return fail(commands.error());
-  parts.keeper = std::make_unique<Keeper>(*config, parts.stores, parts.files);
+  parts.storage_worker = std::make_unique<StorageWorker>(*config, parts.stores, parts.files);
 
   if (const auto started = start(parts, *config, options, std::move(*commands)); !started) {
     // No loop runs that would feed it, and nothing was ever on.
@@ -177,9 +177,9 @@ int run_command(const RunOptions& options) {
                        " channels, disarmed");
 
   Service service;
-  service.tell("READY=1\nSTATUS=disarmed at start");
+  service.notify("READY=1\nSTATUS=disarmed at start");
   const bool alive = keep_until_signal(parts, service);
-  service.tell("STOPPING=1");
+  service.notify("STOPPING=1");
   if (alive && cool(parts)) {
     warn(parts.board->release());
     log(Level::info, "everything is off; ended");

@@ -29,7 +29,7 @@ Service::Service() : socket_(variable("NOTIFY_SOCKET")) {
   alive_every_ = std::chrono::microseconds(interval_us / 2);
 }
 
-void Service::tell(std::string_view state) const {
+void Service::notify(std::string_view state) const {
   sockaddr_un address{};
   if (socket_.empty() || socket_.size() >= sizeof(address.sun_path)) return;
   address.sun_family = AF_UNIX;
@@ -45,7 +45,7 @@ void Service::tell(std::string_view state) const {
 void Service::alive(hal::Time now) {
   if (alive_every_ == hal::Duration{} || now < next_) return;
   next_ = now + alive_every_;
-  tell("WATCHDOG=1");
+  notify("WATCHDOG=1");
 }
 
 }  // namespace supercoil::daemon

@@ -1,4 +1,4 @@
-// What systemd is told (sd_notify(3)).
+// Notifications to systemd (sd_notify(3)).
 #pragma once
 
 #include <string_view>
@@ -14,7 +14,7 @@ class Service {
   Service();
 
   /// "READY=1", "STATUS=…", "STOPPING=1".
-  void tell(std::string_view state) const;
+  void notify(std::string_view state) const;
   /// Once every half of WatchdogSec: only while the caller knows that the loop is alive.
   void alive(hal::Time now);
 

@@ -22,7 +22,7 @@ void Telemetry::run() {
   hal_linux::MonotonicClock clock;
   Rounds rounds(clock.now());
   while (!ending_.load(std::memory_order_relaxed)) {
-    loop_->health().telemetry_beats.store(++beats_, std::memory_order_relaxed);
+    loop_->health().telemetry_heartbeats.store(++beats_, std::memory_order_relaxed);
     // Although the main thread has not noticed: it may be waiting for the disk.
     if (ending_signal_is_pending()) cool();
     const bool cooling = cooling_.load(std::memory_order_relaxed);

@@ -1,4 +1,4 @@
-// The thread between the loop and whoever commands.
+// The thread between the loop and those that command.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@
 
 #include "apps/supercoild/local_commands.hpp"
 #include "apps/supercoild/row_relay.hpp"
-#include "telemetry/can_link.hpp"
+#include "telemetry/can_endpoint.hpp"
 
 namespace supercoil::daemon {
 
@@ -25,7 +25,7 @@ class Telemetry {
  public:
   /// relay: where rows go on to. can: null for a board without a bus. All outlive it.
   Telemetry(Loop& loop, RowRelay& relay, std::optional<LocalCommands> commands,
-            telemetry::CanLink* can = nullptr)
+            telemetry::CanEndpoint* can = nullptr)
       : loop_(&loop),
         relay_(&relay),
         commands_(std::move(commands)),
@@ -34,7 +34,7 @@ class Telemetry {
   ~Telemetry() { ending_ = true; }
 
   tl::expected<void, std::string> start();
-  /// From now on every channel is told to disarm, again and again, and nobody else is heard or
+  /// From now on every channel is told to disarm, again and again, and no other command is heard or
   /// spoken to.
   void cool() { cooling_.store(true, std::memory_order_relaxed); }
 
@@ -47,7 +47,7 @@ class Telemetry {
   Loop* loop_;
   RowRelay* relay_;
   std::optional<LocalCommands> commands_;
-  telemetry::CanLink* can_;
+  telemetry::CanEndpoint* can_;
   NewestRows rows_;
   std::uint32_t beats_ = 0;
   std::atomic<bool> cooling_{false};

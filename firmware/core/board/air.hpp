@@ -14,7 +14,7 @@ namespace supercoil::board {
 struct AirSettings {
   double warmest_C = 25.0;
   double coldest_C = 15.0;
-  double error_K = 0.0;  ///< > 0, of a sensor; 0: there is none
+  double error_K = 0.0;  ///< > 0, of a sensor; 0: no sensor
 };
 
 /// A muscle's temperature is its rise, which its power makes, and the air, low-pass filtered with
@@ -24,7 +24,7 @@ class Air {
  public:
   Air(const AirSettings& settings, const control::ThermalBounds& bounds, double step_s)
       : settings_(settings),
-        stays_(std::exp(-step_s * bounds.lowest_transfer_W_per_K / bounds.highest_mass_J_per_K)),
+        stays_(std::exp(-step_s * bounds.min_transfer_W_per_K / bounds.max_mass_J_per_K)),
         warmest_C_(settings.warmest_C),
         coldest_C_(settings.coldest_C) {}
 

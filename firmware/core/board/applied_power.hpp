@@ -16,9 +16,9 @@ struct AppliedPower {
 /// A delay line of whole ticks, up to 255. No longer than it must be: it stays in the cache.
 class OutputDelay {
  public:
-  static constexpr std::size_t longest_ticks = 255;
+  static constexpr std::size_t max_ticks = 255;
 
-  explicit OutputDelay(std::size_t ticks) : ticks_(ticks < longest_ticks ? ticks : longest_ticks) {}
+  explicit OutputDelay(std::size_t ticks) : ticks_(ticks < max_ticks ? ticks : max_ticks) {}
 
   /// What was set at this tick in, what acts from now on out.
   const AppliedPower& step(const AppliedPower& set) {
@@ -30,7 +30,7 @@ class OutputDelay {
  private:
   std::size_t ticks_;
   std::size_t head_ = 0;
-  std::array<AppliedPower, longest_ticks + 1> line_{};
+  std::array<AppliedPower, max_ticks + 1> line_{};
 };
 
 }  // namespace supercoil::board

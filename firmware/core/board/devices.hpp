@@ -24,7 +24,7 @@ struct Devices {
   hal::Clock* clock;
   hal::AdcChannel* supply;
   hal::DigitalOutput* heartbeat;
-  hal::DigitalInput* stop_circuit;  ///< high: closed, all is well
+  hal::DigitalInput* stop_circuit;  ///< high: closed
   hal::DigitalOutput* light;        ///< may be null: no status light
   hal::Watchdog* watchdog;          ///< may be null: none
   std::vector<ChannelDevices> channels;

@@ -26,38 +26,40 @@ class Heat {
         by_reading_(settings.bounds, step_s),
         learned_(settings.thermal_mass_J_per_K, step_s),
         expected_{control::ThermalObserver(muscle.thermal_mass_J_per_K, step_s),
-                  control::ThermalObserver(settings.bounds.lowest_mass_J_per_K, step_s),
-                  control::ThermalObserver(settings.bounds.highest_mass_J_per_K, step_s)},
+                  control::ThermalObserver(settings.bounds.min_mass_J_per_K, step_s),
+                  control::ThermalObserver(settings.bounds.max_mass_J_per_K, step_s)},
         metres_per_K_(muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m) {
     interval_.reset(settings.boot_rise_K);
     by_reading_.reset(settings.boot_rise_K);
     const control::ThermalBounds& b = settings.bounds;
     expected_[0].learn(muscle.thermal_pole_rad_per_s());
-    expected_[1].learn(-b.highest_transfer_W_per_K / b.lowest_mass_J_per_K);
-    expected_[2].learn(-b.lowest_transfer_W_per_K / b.highest_mass_J_per_K);
+    expected_[1].learn(-b.max_transfer_W_per_K / b.min_mass_J_per_K);
+    expected_[2].learn(-b.min_transfer_W_per_K / b.max_mass_J_per_K);
   }
 
-  /// What was found out of the muscle, from now on. true_over_told: power, by the senses.
-  void know(const board::HeatFacts& facts, const PowerBounds::Interval& true_over_told) {
-    const KnownHeat known = known_heat(settings_, facts);
+  /// What was found out of the muscle, from now on. true_over_measured: power, by the senses.
+  void set_thermal_facts(const board::ThermalFacts& facts,
+                         const PowerBounds::Interval& true_over_measured) {
+    const KnownThermalBounds known = known_thermal_bounds(settings_, facts);
     interval_.set(known.bounds, known.known());
-    if (facts.was_read()) {
-      const KnownHeat by_reading = known_heat_by_reading(settings_, facts, true_over_told);
+    if (facts.has_reading()) {
+      const KnownThermalBounds by_reading =
+          known_thermal_bounds_by_reading(settings_, facts, true_over_measured);
       by_reading_.set(by_reading.bounds, by_reading.known());
       // What the other one rules out is ruled out.
-      if (!was_read_) by_reading_.start_from(interval_);
-      true_over_told_ = true_over_told;
+      if (!has_reading_) by_reading_.start_from(interval_);
+      true_over_measured_ = true_over_measured;
     }
-    was_read_ = facts.was_read();
+    has_reading_ = facts.has_reading();
   }
 
   /// What acted since the last tick lies between min_W and max_W, and was probably_W.
-  /// sensed: the bounds are what the senses tell, and what these may be wrong by.
+  /// sensed: the bounds are those of the measurement and its error.
   void step(double min_W, double max_W, double probably_W, bool sensed = true) {
     interval_.step(min_W, max_W);
-    if (was_read_) {
-      by_reading_.step(min_W / true_over_told_.min,
-                       max_W / (sensed ? true_over_told_.max : true_over_told_.min));
+    if (has_reading_) {
+      by_reading_.step(min_W / true_over_measured_.min,
+                       max_W / (sensed ? true_over_measured_.max : true_over_measured_.min));
     }
     learned_.step(max_W);
     for (control::ThermalObserver& expected : expected_)
@@ -70,18 +72,17 @@ class Heat {
   void learn(double pole_rad_per_s) {
     const control::ThermalBounds& b = settings_.bounds;
     learned_.learn(
-        std::fmax(-b.highest_transfer_W_per_K / b.lowest_mass_J_per_K,
-                  std::fmin(-b.lowest_transfer_W_per_K / b.highest_mass_J_per_K, pole_rad_per_s)));
+        std::fmax(-b.max_transfer_W_per_K / b.min_mass_J_per_K,
+                  std::fmin(-b.min_transfer_W_per_K / b.max_mass_J_per_K, pole_rad_per_s)));
   }
 
   double coldest_K() const {
-    return was_read_ ? std::max(interval_.lowest_K(), by_reading_.lowest_K())
-                     : interval_.lowest_K();
+    return has_reading_ ? std::max(interval_.min_K(), by_reading_.min_K()) : interval_.min_K();
   }
   double hottest_K() const {
-    const double highest_K = was_read_ ? std::min(interval_.highest_K(), by_reading_.highest_K())
-                                       : interval_.highest_K();
-    return std::max(highest_K, learned_.rise_K());
+    const double max_K =
+        has_reading_ ? std::min(interval_.max_K(), by_reading_.max_K()) : interval_.max_K();
+    return std::max(max_K, learned_.rise_K());
   }
   double coldest_C() const { return air_.coldest_C() + coldest_K(); }
   double hottest_C() const { return air_.warmest_C() + hottest_K(); }
@@ -100,9 +101,9 @@ class Heat {
   ThermalSettings settings_;
   Air air_;
   control::RiseIntervalObserver interval_;
-  control::RiseIntervalObserver by_reading_;  ///< in power as the senses tell it
-  PowerBounds::Interval true_over_told_{1.0, 1.0};
-  bool was_read_ = false;
+  control::RiseIntervalObserver by_reading_;  ///< in measured power
+  PowerBounds::Interval true_over_measured_{1.0, 1.0};
+  bool has_reading_ = false;
   control::ThermalObserver learned_;
   std::array<control::ThermalObserver, 3> expected_;
   double metres_per_K_;

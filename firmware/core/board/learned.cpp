@@ -6,7 +6,7 @@ namespace supercoil::board {
 
 bool same_content(const Learned& a, const Learned& b) {
   return a.muscle == b.muscle && a.calibration == b.calibration && a.senses == b.senses &&
-         a.knows_muscle == b.knows_muscle && a.heat == b.heat && a.answer_ratio == b.answer_ratio;
+         a.has_muscle == b.has_muscle && a.heat == b.heat && a.response_ratio == b.response_ratio;
 }
 
 std::optional<control::Violation> check(const Learned& learned) {
@@ -14,7 +14,7 @@ std::optional<control::Violation> check(const Learned& learned) {
   const Calibration& c = learned.calibration;
   const SenseComparison& s = learned.senses;
   constexpr double year_9999_s = 253'402'300'799.0;
-  const HeatFacts& h = learned.heat;
+  const ThermalFacts& h = learned.heat;
   const std::array<control::Violation, 14> rules{{
       {"position_offset_m", c.position_offset_m, -1.0, 1.0},
       {"position_scale", c.position_scale, 0.1, 10.0},
@@ -29,7 +29,7 @@ std::optional<control::Violation> check(const Learned& learned) {
       {"steady_error_K", h.steady_error_K, 0.0, 100.0},
       {"steady_min_W", h.steady_min_W, 0.0, 1e3},
       {"steady_max_W", h.steady_max_W, 0.0, 1e3},
-      {"answer_ratio", learned.answer_ratio, 0.0, 10.0},
+      {"response_ratio", learned.response_ratio, 0.0, 10.0},
   }};
   for (const control::Violation& rule : rules) {
     // Written so that a NaN fails.

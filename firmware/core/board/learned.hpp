@@ -29,19 +29,19 @@ struct SenseComparison {
 };
 
 /// What was found out of the muscle's heat, where it hangs.
-struct HeatFacts {
+struct ThermalFacts {
   double time_constant_s = 0.0;     ///< thermal mass over heat transfer, up to 10000; 0: not known
   double time_constant_at_W = 0.0;  ///< mean power at which it was found, up to 1000
   /// Above the air, read from a thermometer in steady heat, up to 300; 0: not read.
   double steady_rise_K = 0.0;
   double steady_error_K = 0.0;  ///< of that, up to 100
-  double steady_min_W = 0.0;    ///< between these the power was, as the compared senses tell it
+  double steady_min_W = 0.0;    ///< bounds of the power then, by the compared senses
   double steady_max_W = 0.0;
 
-  bool knows_time_constant() const { return time_constant_s > 0.0; }
-  bool was_read() const { return steady_rise_K > 0.0; }
-  void forget_reading() { steady_rise_K = steady_error_K = steady_min_W = steady_max_W = 0.0; }
-  friend bool operator==(const HeatFacts&, const HeatFacts&) = default;
+  bool has_time_constant() const { return time_constant_s > 0.0; }
+  bool has_reading() const { return steady_rise_K > 0.0; }
+  void clear_reading() { steady_rise_K = steady_error_K = steady_min_W = steady_max_W = 0.0; }
+  friend bool operator==(const ThermalFacts&, const ThermalFacts&) = default;
 };
 
 /// One whole set: parameters and calibration belong together, as one was found under the other.
@@ -51,16 +51,16 @@ struct Learned {
   SenseComparison senses;
   std::uint32_t version = 0;  ///< counts the saves of a channel, from 1; LearnedStore sets it
   /// False: only the senses are known, which are the board's; muscle and calibration mean nothing.
-  bool knows_muscle = true;
-  HeatFacts heat;
+  bool has_muscle = true;
+  ThermalFacts heat;
   /// Of the model's small motions, what arrives at the sensor, up to 10; 0: not measured.
-  double answer_ratio = 0.0;
+  double response_ratio = 0.0;
 
   friend bool operator==(const Learned&, const Learned&) = default;
 };
 
-/// What a channel hands to whoever stores it; empty: the muscle is to be forgotten.
-using Lesson = std::optional<Learned>;
+/// From a channel to the storage worker; empty: forget the muscle.
+using LearnedUpdate = std::optional<Learned>;
 
 /// The same muscle, calibration and senses, whichever version they are.
 bool same_content(const Learned& a, const Learned& b);

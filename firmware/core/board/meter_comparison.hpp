@@ -14,10 +14,10 @@
 
 namespace supercoil::board {
 
-/// A person reads a meter at two powers; a reading alone changes nothing. What the senses tell is
-/// averaged while the power is steady, as the meter's display is. The gains are found when four
+/// A person reads a meter at two powers; a reading alone changes nothing. What the senses measure
+/// is averaged while the power is steady, as the meter's display is. The gains are found when four
 /// readings agree with each other and with the configured resistance. One that does not is refused,
-/// and all are forgotten: nobody knows which of them was wrong.
+/// and all are discarded: which of them was wrong is unknown.
 class MeterComparison {
  public:
   struct Settings {
@@ -41,20 +41,20 @@ class MeterComparison {
   MeterComparison(const Settings& settings, double step_s)
       : settings_(settings),
         steady_ticks_(static_cast<int>(std::lround(steady_s / step_s))),
-        smallest_weight_(step_s / smoothing_s) {}
+        min_weight_(step_s / smoothing_s) {}
 
-  /// A tick at unchanged power, with what the senses tell.
+  /// A tick at unchanged power, with what the senses measure.
   void step(double duty, double supply_V, double current_A) {
     if (ticks_ < steady_ticks_) ++ticks_;
     // In the first half the power still settles.
     if (2 * ticks_ <= steady_ticks_) return;
     duty_ += weight_ * (duty - duty_);
-    told_[supply] += weight_ * (supply_V - told_[supply]);
-    told_[current] += weight_ * (current_A - told_[current]);
+    reported_[supply] += weight_ * (supply_V - reported_[supply]);
+    reported_[current] += weight_ * (current_A - reported_[current]);
     // A mean, until it is as long as the low-pass.
-    if (weight_ > smallest_weight_) weight_ = std::max(smallest_weight_, weight_ / (1.0 + weight_));
+    if (weight_ > min_weight_) weight_ = std::max(min_weight_, weight_ / (1.0 + weight_));
   }
-  /// The power is another one from now on, or a sense tells nothing.
+  /// The power changes, or a sense has no value.
   void restart() {
     ticks_ = 0;
     weight_ = 1.0;
@@ -68,7 +68,7 @@ class MeterComparison {
                const PowerBounds::Interval& resistance_Ohm) {
     if (ticks_ < steady_ticks_) return Refusal::not_ready;
     const double corrected_by = sense == supply ? present.supply_gain : present.current_gain;
-    const Reading reading{meter, told_[sense] / corrected_by};
+    const Reading reading{meter, reported_[sense] / corrected_by};
     if (!is_plausible(sense, reading)) return refuse();
     const auto level = level_here();
     if (!level) return Refusal::not_ready;
@@ -157,11 +157,11 @@ class MeterComparison {
 
   Settings settings_;
   int steady_ticks_;
-  double smallest_weight_;
+  double min_weight_;
   int ticks_ = 0;
   double weight_ = 1.0;
   double duty_ = 0.0;
-  std::array<double, 2> told_{};  ///< smoothed, by Sense
+  std::array<double, 2> reported_{};  ///< smoothed, by Sense
   std::array<Level, 2> levels_;
 };
 

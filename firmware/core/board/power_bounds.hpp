@@ -8,7 +8,7 @@
 
 namespace supercoil::board {
 
-/// Two readings tell the current: the duty, with the supply and the calibrated resistance, and the
+/// Two readings give the current: the duty, with the supply and the calibrated resistance, and the
 /// current sense. A sense that lies changes them in different ways, so the worse of both counts,
 /// each with what its senses may be wrong by. Until the senses were compared with a meter, that is
 /// as much as no detector would notice.
@@ -46,7 +46,7 @@ class PowerBounds {
       const double set_W = duty * s.max_supply_V * s.max_supply_V / resistance_Ohm.min;
       return {0.0, std::max(s.max_W, set_W) * s.max_power_ratio};
     }
-    // Compared senses tell small currents too; what flows without a duty may still be noise.
+    // Compared senses measure small currents too; what flows without a duty may still be noise.
     const bool counts_all = compared_ && duty > 0.0;
     const double measured_A = std::max(0.0, current.value - (counts_all ? 0.0 : s.current_noise_A));
     const Interval supply = true_over_measured_supply(supply_V);
@@ -55,20 +55,21 @@ class PowerBounds {
     const double max_A = std::max(duty * max_V / resistance_Ohm.min, measured_A * sense.max);
     const double min_V = supply_V * supply.min;
     const double min_A =
-        std::min(least_set_A(duty, supply_V, resistance_Ohm), measured_A * sense.min);
+        std::min(min_set_A(duty, supply_V, resistance_Ohm), measured_A * sense.min);
     return {min_V * min_A * s.min_power_ratio, max_V * max_A * s.max_power_ratio};
   }
 
-  /// True over told power, at this supply and on a muscle that is as it was calibrated.
-  Interval true_over_told(double supply_V) const {
+  /// True over measured power, at this supply and on a muscle that is as it was calibrated.
+  Interval true_over_measured(double supply_V) const {
     const Interval supply = true_over_measured_supply(supply_V);
     const Interval sense = true_over_measured_current(supply);
     return {supply.min * sense.min * settings_.min_power_ratio,
             supply.max * sense.max * settings_.max_power_ratio};
   }
-  /// At any supply that is no fault.
-  Interval true_over_told() const {
-    return {true_over_told(settings_.max_supply_V).min, true_over_told(settings_.min_supply_V).max};
+  /// At any supply without a fault.
+  Interval true_over_measured() const {
+    return {true_over_measured(settings_.max_supply_V).min,
+            true_over_measured(settings_.min_supply_V).max};
   }
 
  private:
@@ -80,12 +81,12 @@ class PowerBounds {
   /// What the duty alone leaves of the current's lower bound. Senses that were not compared may
   /// hide a worn heater. Of those that were the current's lags where the duty falls, and tells more
   /// then than the least resistance can take.
-  double least_set_A(double duty, double supply_V, const Interval& resistance_Ohm) const {
+  double min_set_A(double duty, double supply_V, const Interval& resistance_Ohm) const {
     const Interval supply = true_over_measured_supply(supply_V);
     const double part = settings_.resistance_tolerance_ratio;
     if (!compared_) return duty * supply_V * supply.min / (resistance_Ohm.max * (1.0 + part));
-    const double least_Ohm = resistance_Ohm.min * std::max(0.1, 1.0 - part);
-    return duty * supply_V * supply.min / least_Ohm;
+    const double min_warm_Ohm = resistance_Ohm.min * std::max(0.1, 1.0 - part);
+    return duty * supply_V * supply.min / min_warm_Ohm;
   }
   /// What is seen of two senses that were never compared is the resistance, their ratio.
   Interval true_over_measured_current(const Interval& supply) const {

@@ -18,26 +18,26 @@ class PowerStage {
   struct Output {
     int step = 0;
     double duty = 0.0;
-    double applied_W = 0.0;  ///< what controller and estimator are told
+    double applied_W = 0.0;  ///< given to controller and estimator
     bool clipped = false;    ///< the supply cannot give what was wanted
   };
 
   explicit PowerStage(const Settings& settings) : settings_(settings) {}
 
-  /// wanted_W ≥ 0, resistance_Ohm and supply_V as measured; what is given never exceeds most_W,
+  /// demanded_W ≥ 0, resistance_Ohm and supply_V as measured; what is given never exceeds max_W,
   /// error feedback or not. Anything that is not a positive number where one is needed gives 0.
-  Output step(double wanted_W, double resistance_Ohm, double supply_V, double most_W) {
+  Output step(double demanded_W, double resistance_Ohm, double supply_V, double max_W) {
     const double full_W = supply_V * supply_V / resistance_Ohm;
     const bool usable =
         std::isfinite(full_W) && full_W > 0.0 && resistance_Ohm > 0.0 && supply_V > 0.0;
-    if (!usable || !(wanted_W > 0.0)) return off(wanted_W > 0.0 || std::isnan(wanted_W));
+    if (!usable || !(demanded_W > 0.0)) return off(demanded_W > 0.0 || std::isnan(demanded_W));
     const double steps_per_W = settings_.steps / full_W;
-    const double exact = wanted_W * steps_per_W + rest_;
-    const int most = whole(most_W * steps_per_W);
+    const double exact = demanded_W * steps_per_W + rest_;
+    const int most = whole(max_W * steps_per_W);
     const int step = std::min(whole(exact + 0.5), most);
     rest_ = settings_.error_feedback ? std::clamp(exact - step, -1.0, 1.0) : 0.0;
     const double duty = static_cast<double>(step) / settings_.steps;
-    return {step, duty, duty * full_W, wanted_W > full_W};
+    return {step, duty, duty * full_W, demanded_W > full_W};
   }
 
   void reset() { rest_ = 0.0; }

@@ -15,31 +15,31 @@ class Resistance {
     double smoothing_s = 0.2;
     double probe_duty = 0.02;   ///< below this the last value is held
     double initial_Ohm = 10.0;  ///< until it is measured
-    double lowest_Ohm = 0.1;    ///< outside these a value is not taken over
-    double highest_Ohm = 1e5;
+    double min_Ohm = 0.1;       ///< outside these a value is not taken over
+    double max_Ohm = 1e5;
   };
   Resistance(const Settings& settings, double step_s)
       : settings_(settings),
         step_s_(step_s),
-        sense_part_(part(settings.sense_filter_s, step_s)),
-        smooth_part_(part(settings.smoothing_s, step_s)),
+        sense_gain_(filter_gain(settings.sense_filter_s, step_s)),
+        smoothing_gain_(filter_gain(settings.smoothing_s, step_s)),
         value_Ohm_(settings.initial_Ohm) {}
 
   /// One tick: the duty that acted since the last one, the supply, and the averaged current.
   /// Returns whether it measured.
   bool step(double duty, double supply_V, double current_A) {
     age_s_ += step_s_;
-    duty_ += sense_part_ * (duty - duty_);
+    duty_ += sense_gain_ * (duty - duty_);
     const bool measurable =
         duty_ >= 0.99 * settings_.probe_duty && current_A > 0.0 && supply_V > 0.0;
     if (!measurable) return false;
     const double drive_V = duty_ * supply_V;
-    const double weight = started_ ? smooth_part_ : 1.0;
+    const double weight = started_ ? smoothing_gain_ : 1.0;
     drive_V_ += weight * (drive_V - drive_V_);
     current_A_ += weight * (current_A - current_A_);
     started_ = true;
     const double measured_Ohm = drive_V_ / current_A_;
-    if (!(measured_Ohm >= settings_.lowest_Ohm && measured_Ohm <= settings_.highest_Ohm)) {
+    if (!(measured_Ohm >= settings_.min_Ohm && measured_Ohm <= settings_.max_Ohm)) {
       return false;
     }
     value_Ohm_ = measured_Ohm;
@@ -61,14 +61,14 @@ class Resistance {
 
  private:
   /// What a first-order low-pass takes of its input in a step.
-  static double part(double time_constant_s, double step_s) {
+  static double filter_gain(double time_constant_s, double step_s) {
     return time_constant_s > 0.0 ? -std::expm1(-step_s / time_constant_s) : 1.0;
   }
 
   Settings settings_;
   double step_s_;
-  double sense_part_;
-  double smooth_part_;
+  double sense_gain_;
+  double smoothing_gain_;
   double duty_ = 0.0;
   double drive_V_ = 0.0;
   double current_A_ = 0.0;

@@ -9,16 +9,16 @@ namespace {
 
 board::MeterComparison::Settings comparison_settings(const ChannelSettings& channel,
                                                      const BoardSettings& board) {
-  return {board.supervision.lowest_supply_V, board.supervision.highest_supply_V,
-          channel.supervision.resistance_part, board.supply.scaling.per_count,
+  return {board.supervision.min_supply_V, board.supervision.max_supply_V,
+          channel.supervision.resistance_ratio, board.supply.scaling.per_count,
           channel.heater.current.scaling.per_count};
 }
 
 /// Every time constant that the configured bounds allow.
 control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
   const control::ThermalBounds b = board::with_weighed_mass(channel.thermal);
-  return {b.lowest_mass_J_per_K / b.highest_transfer_W_per_K,
-          b.highest_mass_J_per_K / b.lowest_transfer_W_per_K, channel.limiter.max_W};
+  return {b.min_mass_J_per_K / b.max_transfer_W_per_K, b.max_mass_J_per_K / b.min_transfer_W_per_K,
+          channel.limiter.max_W};
 }
 
 }  // namespace
@@ -36,12 +36,12 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
       proof_(proof_settings(settings, board), settings.muscle, settings.muscle_identified,
              board.rate_Hz),
       muscle_(settings.muscle),
-      knows_muscle_(settings.knows_muscle),
+      has_muscle_(settings.has_muscle),
       calibration_(settings.calibration),
-      answer_ratio_(settings.answer_ratio),
+      response_ratio_(settings.response_ratio),
       identify_({}, settings.muscle, settings.supervision.max_travel_m, step_s_),
       comparison_(comparison_settings(settings, board), step_s_),
-      steady_heat_(settings.thermal, step_s_) {
+      steady_state_(settings.thermal, step_s_) {
   if (settings.thermal.weighed())
     cooling_fit_ = std::make_unique<control::CoolingFit>(cooling_settings(settings), step_s_);
 }
@@ -49,12 +49,12 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
 void Axis::sample(hal::Time now) {
   const hal::Sample sample = sensor_->latest();
   const InputSettings& input = settings_.position;
-  board::Measured& position = evidence_.position;
+  board::Measured& position = inputs_.position;
   board::measure(sample, input.scaling, now, input.max_age_s, position);
-  evidence_.sensor_m = position.value;
+  inputs_.sensor_m = position.value;
   position.value = (position.value - calibration_.position_offset_m) * calibration_.position_scale;
   const bool fresh = position.present && sample.taken != position_taken_;
-  evidence_.position_elapsed_s = fresh ? hal::seconds(sample.taken - position_taken_) : 0.0;
+  inputs_.position_elapsed_s = fresh ? hal::seconds(sample.taken - position_taken_) : 0.0;
   if (fresh) position_taken_ = sample.taken;
   heater_.sample(now);
 }
@@ -62,25 +62,26 @@ void Axis::sample(hal::Time now) {
 void Axis::observe(double supply_V, const board::Measured* air, std::int64_t periods) {
   heater_.observe(supply_V, air, periods);
   prove(periods);
-  evidence_.from_position_K =
-      heater_.tells_temperature() ? evidence_.position.value / heater_.heat().metres_per_K() : 0.0;
-  evidence_.wanted_W = wanted_.wanted_power_W;
+  inputs_.from_position_K = heater_.indicates_temperature()
+                                ? inputs_.position.value / heater_.heat().metres_per_K()
+                                : 0.0;
+  inputs_.demanded_W = demanded_.demanded_power_W;
 }
 
 void Axis::prove(std::int64_t periods) {
   const bool heats = state_.may_heat() && (mode_ == Mode::position || mode_ == Mode::power);
-  const board::Measured& position = evidence_.position;
+  const board::Measured& position = inputs_.position;
   const board::AppliedPower& acting = heater_.acting();
   const board::Heat& heat = heater_.heat();
   proof_.step({acting.power_W, acting.dither_W, periods, position.present, position.value,
                heat.hottest_K(), heats, heat.air().above_configured_K()});
-  evidence_.unanswered = proof_.unanswered();
-  if (evidence_.unanswered) evidence_.answer = proof_.margin();
+  inputs_.unanswered = proof_.unanswered();
+  if (inputs_.unanswered) inputs_.answer = proof_.margin();
 }
 
 void Axis::estimate() {
-  if (!state_.may_heat() || !evidence_.position.present) return;
-  estimation_.step(evidence_.position.value, heater_.acting().power_W);
+  if (!state_.may_heat() || !inputs_.position.present) return;
+  estimation_.step(inputs_.position.value, heater_.acting().power_W);
   // Once a second: what the estimator knows of cooling, when it may be trusted.
   if (++estimated_ticks_ < ticks_per_s_) return;
   estimated_ticks_ = 0;
@@ -93,21 +94,21 @@ void Axis::learn_heat() {
 }
 
 bool Axis::control() {
-  wanted_ = {};
-  if (!state_.may_heat() || !evidence_.position.present) return false;
+  demanded_ = {};
+  if (!state_.may_heat() || !inputs_.position.present) return false;
   switch (mode_) {
     case Mode::position: {
       control::ControllerInput input;
       input.reference_m = reference_;
-      input.position_m = evidence_.position.value;
+      input.position_m = inputs_.position.value;
       input.applied_power_W = heater_.acting().power_W;
       input.limited = heater_.acting().limited;
       input.range = heater_.power_range();
-      wanted_ = tracking_.step(input, estimation_.estimate());
+      demanded_ = tracking_.step(input, estimation_.estimate());
       return false;
     }
     case Mode::power:
-      wanted_.wanted_power_W = reference_;
+      demanded_.demanded_power_W = reference_;
       tracking_.set_power(heater_.acting().power_W);
       follow_comparisons();
       return false;
@@ -126,8 +127,8 @@ LimitedBy Axis::limited_by() const {
   using control::Infeasible;
   const LimitedBy by = heater_.allowed().by;
   const bool at_an_end = by <= LimitedBy::maximum;
-  if (!at_an_end || wanted_.infeasible == Infeasible::nothing) return by;
-  return wanted_.infeasible == Infeasible::cooling ? LimitedBy::cooling : LimitedBy::maximum;
+  if (!at_an_end || demanded_.infeasible == Infeasible::nothing) return by;
+  return demanded_.infeasible == Infeasible::cooling ? LimitedBy::cooling : LimitedBy::maximum;
 }
 
 void Axis::rest() {
@@ -143,25 +144,25 @@ void Axis::disarm() {
   heater_.cut();
 }
 
-void Axis::publish(std::uint32_t turn, Snapshot& s) const {
+void Axis::publish(std::uint32_t margin_selector, Snapshot& s) const {
   s.mode = mode_;
   s.limited_by = limited_by();
   s.controller = static_cast<std::uint8_t>(tracking_.chosen());
   s.reference = reference_;
-  s.model_m = wanted_.model_m;
-  s.position_m = evidence_.position.present ? evidence_.position.value : std::nan("");
-  s.wanted_W = wanted_.wanted_power_W;
+  s.model_m = demanded_.model_m;
+  s.position_m = inputs_.position.present ? inputs_.position.value : std::nan("");
+  s.demanded_W = demanded_.demanded_power_W;
   s.proof_off = !settings_.supervision.proof_of_response;
-  s.oscillated = wanted_.oscillated;
+  s.oscillated = demanded_.oscillated;
   s.progress = mode_ == Mode::identify    ? identify_.progress()
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;
   s.result = result_;
   const bool friction =
-      answer_ratio_ > 0.0 && answer_ratio_ < detectors::Answer::least_answer_ratio;
+      response_ratio_ > 0.0 && response_ratio_ < detectors::Response::min_response_ratio;
   s.identify_notes = static_cast<std::uint8_t>(identify_.notes() | (friction ? note_friction : 0));
-  s.gain = tracking_.gain(turn);
-  estimation_.publish(turn, s);
+  s.gain = tracking_.gain(margin_selector);
+  estimation_.publish(margin_selector, s);
   heater_.publish(s);
 }
 

@@ -9,7 +9,7 @@
 #include "supercoil/control/estimation/cooling_fit.hpp"
 
 #include "board/meter_comparison.hpp"
-#include "board/steady_heat.hpp"
+#include "board/steady_state.hpp"
 #include "loop/command.hpp"
 #include "loop/estimation.hpp"
 #include "loop/heater.hpp"
@@ -36,24 +36,26 @@ class Axis {
   void sample(hal::Time now);
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
-  const AxisEvidence& evidence() const { return evidence_; }
+  const AxisEvidence& evidence() const { return inputs_; }
   /// The supervisor has judged what happened since the last tick.
   void judged() {
-    evidence_.position_elapsed_s = 0.0;
-    evidence_.recalibrated = false;
+    inputs_.position_elapsed_s = 0.0;
+    inputs_.recalibrated = false;
   }
   /// A sensor that is well cannot give this position.
-  void reject_position() { evidence_.position.present = false; }
+  void reject_position() { inputs_.position.present = false; }
   /// A probe may have ended calibrate; true when it did.
   bool end_probe();
   void estimate();
   /// True when a mode ended: the axis rests.
   bool control();
-  void limit() { heater_.limit(state_, proof_.added_to(wanted_.wanted_power_W), proof_.max_W()); }
+  void limit() {
+    heater_.limit(state_, proof_.added_to(demanded_.demanded_power_W), proof_.max_W());
+  }
   /// Calibrate probes when it has found the zero, and not before.
   void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
   /// Its part of what is published, with the heater's. turn: of a full turn, what is told in turn.
-  void publish(std::uint32_t turn, Snapshot& s) const;
+  void publish(std::uint32_t margin_selector, Snapshot& s) const;
 
   /// Whether it may be armed: everything is measured, and how hot the muscle is is known.
   bool ready() const;
@@ -70,12 +72,12 @@ class Axis {
   Reply obey(const Command& command);
 
   Mode mode() const { return mode_; }
-  const board::Measured& position() const { return evidence_.position; }
+  const board::Measured& position() const { return inputs_.position; }
   const Estimation& estimation() const { return estimation_; }
   Heater& heater() { return heater_; }
   const Heater& heater() const { return heater_; }
-  /// As Channel::take_lesson.
-  bool take_lesson(board::Lesson& lesson) { return lessons_.pop(lesson); }
+  /// As Channel::take_learned_update.
+  bool take_learned_update(board::LearnedUpdate& update) { return learned_updates_.pop(update); }
 
  private:
   void prove(std::int64_t periods);
@@ -87,7 +89,7 @@ class Axis {
   bool step_small_signal();
   bool step_calibrate();
   bool end_mode(ModeResult result);
-  void follow_cooling();
+  void update_cooling_fit();
   bool learn_cooling();
 
   Reply scale(double true_m);
@@ -96,14 +98,14 @@ class Axis {
   Refusal store(double what);
   Refusal compare(board::MeterComparison::Sense sense, double meter);
   Refusal compare_rise(double rise_K);
-  Refusal go_by(const board::SenseComparison& senses);
+  Refusal apply_comparison(const board::SenseComparison& senses);
   void follow_comparisons();
   void restart_comparisons();
 
   board::Learned known() const;
   static Refusal refusal_of(ModeResult kept);
   ModeResult keep(const control::PhysicalParameters& muscle, const board::Calibration& found);
-  Refusal keep_heat(const board::HeatFacts& facts);
+  Refusal store_thermal_facts(const board::ThermalFacts& facts);
   void calibrate(const board::Calibration& calibration);
 
   ChannelSettings settings_;
@@ -111,7 +113,7 @@ class Axis {
   double step_s_;
   hal::AdcChannel* sensor_;
   hal::Time position_taken_{-1};
-  AxisEvidence evidence_;
+  AxisEvidence inputs_;
   Heater heater_;
   Tracking tracking_;
   Estimation estimation_;
@@ -121,21 +123,21 @@ class Axis {
 
   // Known of the muscle; of its heat and of the senses the heater knows.
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
-  bool knows_muscle_;                   ///< learned before or since: what is stored has it
+  bool has_muscle_;                     ///< learned before or since: what is stored has it
   board::Calibration calibration_;
-  double answer_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
-  boost::lockfree::spsc_queue<board::Lesson, boost::lockfree::capacity<4>> lessons_;
+  double response_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
+  boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;
 
   Mode mode_ = Mode::rest;
   double reference_ = 0.0;  ///< m, or W in open loop
-  control::ControllerOutput wanted_;
+  control::ControllerOutput demanded_;
   modes::Identify identify_;
   std::unique_ptr<control::CoolingFit> cooling_fit_;  ///< of a weighed muscle; 36 kB
   SmallSignal small_signal_;                          ///< the end of identify
   modes::Calibrate calibrate_{{}};
   ModeResult result_ = ModeResult::none;  ///< of either
   board::MeterComparison comparison_;
-  board::SteadyHeat steady_heat_;
+  board::SteadyState steady_state_;
 };
 
 }  // namespace supercoil

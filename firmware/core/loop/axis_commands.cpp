@@ -19,13 +19,13 @@ bool is_place(double place, std::size_t places) {
 }  // namespace
 
 bool Axis::ready() const {
-  return evidence_.position.present && heater_.current().present && heater_.heat_known();
+  return inputs_.position.present && heater_.current().present && heater_.heat_known();
 }
 
 Reply Axis::admits(Mode mode, double& value) const {
   if (mode == Mode::position) {
     const double max_m = settings_.supervision.max_travel_m;
-    const double reachable_m = as_float_tells * max_m;
+    const double reachable_m = float_rounding * max_m;
     const bool reachable = value >= -reachable_m && value <= reachable_m;
     value = std::clamp(value, -max_m, max_m);
     if (!reachable) return {Refusal::out_of_range, value};  // a NaN as well
@@ -49,7 +49,7 @@ void Axis::enter(Mode mode) {
   if (!was_driven) tracking_.set_power(heater_.acting().power_W);
   if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = mode;
-  const double position_m = evidence_.position.value;
+  const double position_m = inputs_.position.value;
   if (mode == Mode::position) {
     tracking_.start(position_m, reference_, was_driven, muscle_);
   } else if (mode == Mode::identify) {
@@ -104,10 +104,10 @@ Reply Axis::choose_estimator(double place) {
 }
 
 Reply Axis::scale(double true_m) {
-  const double measured_m = evidence_.position.value;
+  const double measured_m = inputs_.position.value;
   // A controller would jump at the new scale.
   if (mode_ == Mode::position) return Refusal::wrong_state;
-  if (!evidence_.position.present) return Refusal::not_ready;
+  if (!inputs_.position.present) return Refusal::not_ready;
   board::Calibration found = calibration_;
   found.position_scale *= true_m / measured_m;
   return true_m > 0.0 ? refusal_of(keep(muscle_, found)) : Refusal::out_of_range;
@@ -120,46 +120,46 @@ void Axis::follow_comparisons() {
   if (!sensed || heater_.allowed().by > LimitedBy::maximum) return restart_comparisons();
   comparison_.step(heater_.acting().duty, heater_.supply_V(), current.value);
   if (heater_.senses().compared()) {
-    steady_heat_.step(heater_.told_W(), heater_.heat().hottest_K());
+    steady_state_.step(heater_.measured_power_W(), heater_.heat().hottest_K());
   } else {
-    steady_heat_.restart();
+    steady_state_.restart();
   }
 }
 
 void Axis::restart_comparisons() {
   comparison_.restart();
-  steady_heat_.restart();
+  steady_state_.restart();
 }
 
 /// What the meter shows. Of the supply, 0 forgets the comparison.
 Refusal Axis::compare(board::MeterComparison::Sense sense, double meter) {
   const bool active = state_.may_heat();
   if (sense == board::MeterComparison::supply && meter == 0.0)
-    return active ? Refusal::wrong_state : go_by({});
+    return active ? Refusal::wrong_state : apply_comparison({});
   if (!active || mode_ != Mode::power) return Refusal::wrong_state;
   // Not the calibrated resistance: the senses that are in question measured that.
   const Refusal refusal = comparison_.read(sense, meter, heater_.senses(),
                                            heater_.warm_Ohm(settings_.heater.cold_resistance_Ohm));
   if (refusal != Refusal::none) return refusal;
   const auto found = comparison_.found();
-  return found ? go_by(*found) : Refusal::none;
+  return found ? apply_comparison(*found) : Refusal::none;
 }
 
 /// How much warmer the muscle is than the air, in steady heat. 0 forgets what was read.
 Refusal Axis::compare_rise(double rise_K) {
   const bool active = state_.may_heat();
-  board::HeatFacts facts = heater_.facts();
+  board::ThermalFacts facts = heater_.facts();
   if (rise_K == 0.0) {
     if (active) return Refusal::wrong_state;
-    facts.forget_reading();
+    facts.clear_reading();
   } else {
     if (!active || mode_ != Mode::power) return Refusal::wrong_state;
     const Refusal refusal =
-        steady_heat_.read(rise_K, heater_.power_bounds().true_over_told(), facts);
+        steady_state_.read(rise_K, heater_.power_bounds().true_over_measured(), facts);
     if (refusal != Refusal::none) return refusal;
   }
-  if (const Refusal refusal = keep_heat(facts); refusal != Refusal::none) return refusal;
-  heater_.know(facts);
+  if (const Refusal refusal = store_thermal_facts(facts); refusal != Refusal::none) return refusal;
+  heater_.set_thermal_facts(facts);
   return Refusal::none;
 }
 

@@ -14,13 +14,13 @@ double resistance_gain(const board::SenseComparison& senses) {
 
 /// To a command that wants something kept.
 Refusal Axis::refusal_of(ModeResult kept) {
-  if (kept == ModeResult::not_stored) return Refusal::too_many;
+  if (kept == ModeResult::not_stored) return Refusal::queue_full;
   return kept == ModeResult::found ? Refusal::none : Refusal::out_of_range;
 }
 
 board::Learned Axis::known() const {
-  return {muscle_,       calibration_,    heater_.senses(), 0,
-          knows_muscle_, heater_.facts(), answer_ratio_};
+  return {muscle_,     calibration_,    heater_.senses(), 0,
+          has_muscle_, heater_.facts(), response_ratio_};
 }
 
 void Axis::calibrate(const board::Calibration& calibration) {
@@ -33,45 +33,45 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   board::Learned learned = known();
   learned.muscle = muscle;
   learned.calibration = found;
-  learned.knows_muscle = true;
+  learned.has_muscle = true;
   if (board::check(learned)) return ModeResult::implausible;
   if (found != calibration_) {
-    evidence_.recalibrated = true;
+    inputs_.recalibrated = true;
     proof_.recalibrated();
   }
-  const double answer_ratio = answer_ratio_ > 0.0 ? answer_ratio_ : 1.0;
-  if (!(muscle == muscle_) || answer_ratio != proof_.settings().answer_ratio)
-    proof_.learn(muscle, answer_ratio);
+  const double response_ratio = response_ratio_ > 0.0 ? response_ratio_ : 1.0;
+  if (!(muscle == muscle_) || response_ratio != proof_.settings().response_ratio)
+    proof_.learn(muscle, response_ratio);
   muscle_ = muscle;
   calibrate(found);
-  knows_muscle_ = true;
-  return lessons_.push(learned) ? ModeResult::found : ModeResult::not_stored;
+  has_muscle_ = true;
+  return learned_updates_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }
 
 /// For the next start. What is not kept holds until then.
-Refusal Axis::keep_heat(const board::HeatFacts& facts) {
+Refusal Axis::store_thermal_facts(const board::ThermalFacts& facts) {
   board::Learned learned = known();
   learned.heat = facts;
-  const bool kept = !board::check(learned) && lessons_.push(learned);
-  return kept ? Refusal::none : Refusal::too_many;
+  const bool kept = !board::check(learned) && learned_updates_.push(learned);
+  return kept ? Refusal::none : Refusal::queue_full;
 }
 
 /// From now on, and kept for the next start. What cannot be kept changes nothing.
-Refusal Axis::go_by(const board::SenseComparison& senses) {
-  const double more_Ohm = resistance_gain(senses) / resistance_gain(heater_.senses());
+Refusal Axis::apply_comparison(const board::SenseComparison& senses) {
+  const double resistance_scale = resistance_gain(senses) / resistance_gain(heater_.senses());
   board::Learned learned = known();
   learned.senses = senses;
   // The thermometer was read in what the senses told then.
-  learned.heat.forget_reading();
+  learned.heat.clear_reading();
   // A learned resistance was told by the senses as they were; a configured one was not.
   double& cold_Ohm = learned.calibration.cold_resistance_Ohm;
-  if (cold_Ohm != settings_.heater.cold_resistance_Ohm) cold_Ohm *= more_Ohm;
+  if (cold_Ohm != settings_.heater.cold_resistance_Ohm) cold_Ohm *= resistance_scale;
   if (board::check(learned)) return Refusal::out_of_range;
-  if (!lessons_.push(learned)) return Refusal::too_many;
+  if (!learned_updates_.push(learned)) return Refusal::queue_full;
   calibrate(learned.calibration);
-  heater_.go_by(senses, more_Ohm);
-  heater_.know(learned.heat);
-  proof_.plan(heater_.power_bounds().true_over_told().max, muscle_);
+  heater_.apply_comparison(senses, resistance_scale);
+  heater_.set_thermal_facts(learned.heat);
+  proof_.plan(heater_.power_bounds().true_over_measured().max, muscle_);
   comparison_.forget();
   restart_comparisons();
   return Refusal::none;
@@ -81,9 +81,9 @@ Refusal Axis::go_by(const board::SenseComparison& senses) {
 /// next start. What was found of its heat is forgotten at once, as wide bounds are safe.
 Refusal Axis::store(double what) {
   if (what == 0.0) {
-    if (!lessons_.push(std::nullopt)) return Refusal::too_many;
-    knows_muscle_ = false;
-    heater_.know({});
+    if (!learned_updates_.push(std::nullopt)) return Refusal::queue_full;
+    has_muscle_ = false;
+    heater_.set_thermal_facts({});
     return Refusal::none;
   }
   if (what != 1.0) return Refusal::out_of_range;

@@ -9,23 +9,23 @@ namespace supercoil {
 bool Axis::step_identify() {
   if (small_signal_.running()) return step_small_signal();
   const ModeResult now =
-      identify_.step(evidence_.position.value, heater_.acting().power_W, heater_.limiter().max_W());
+      identify_.step(inputs_.position.value, heater_.acting().power_W, heater_.limiter().max_W());
   // It asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and a power
   // that is cut for so long is a controller's fault.
-  wanted_.wanted_power_W =
+  demanded_.demanded_power_W =
       std::min(identify_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
-  follow_cooling();
+  update_cooling_fit();
   if (now == ModeResult::running) return false;
-  wanted_ = {};
+  demanded_ = {};
   const bool cooling_found = learn_cooling();
-  if (now != ModeResult::found && cooling_found) keep_heat(heater_.facts());
+  if (now != ModeResult::found && cooling_found) store_thermal_facts(heater_.facts());
   if (now != ModeResult::found) return end_mode(now);
   const control::PhysicalParameters& muscle = identify_.found();
   const SmallSignal::Settings plan = plan_small_signal(
       proof_.settings(), muscle, identify_.risen_m() / muscle.dc_gain_m_per_W(), 1.0 / step_s_);
   if (!std::isfinite(plan.dither.decided_s)) {
     // What an earlier muscle's small motions were says nothing of this one.
-    answer_ratio_ = 0.0;
+    response_ratio_ = 0.0;
     return end_mode(keep(muscle, calibration_));
   }
   small_signal_.start(plan, ExpectedMotion(muscle, plan.step_s));
@@ -34,43 +34,43 @@ bool Axis::step_identify() {
 
 /// What a small motion of the muscle that was found leaves at the sensor.
 bool Axis::step_small_signal() {
-  if (small_signal_.step(evidence_.position.value, heater_.acting().power_W)) {
-    wanted_.wanted_power_W =
+  if (small_signal_.step(inputs_.position.value, heater_.acting().power_W)) {
+    demanded_.demanded_power_W =
         std::min(small_signal_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
     return false;
   }
-  wanted_ = {};
-  answer_ratio_ = small_signal_.answer_ratio();
+  demanded_ = {};
+  response_ratio_ = small_signal_.response_ratio();
   return end_mode(keep(identify_.found(), calibration_));
 }
 
 /// Whether its motion is linear does not matter here.
-void Axis::follow_cooling() {
-  if (cooling_fit_) cooling_fit_->step(evidence_.position.value, heater_.acting().power_W);
+void Axis::update_cooling_fit() {
+  if (cooling_fit_) cooling_fit_->step(inputs_.position.value, heater_.acting().power_W);
 }
 
-/// Position and power alone tell the muscle's time constant only; a weighed mass makes its heat
+/// Position and power alone give the muscle's time constant only; a weighed mass makes its heat
 /// transfer of that. At the end of identify; whether anything was found.
 bool Axis::learn_cooling() {
   if (!cooling_fit_) return false;
   const auto found = cooling_fit_->found();
   if (!found) return false;
-  board::HeatFacts facts = heater_.facts();
+  board::ThermalFacts facts = heater_.facts();
   facts.time_constant_s = found->time_constant_s;
   facts.time_constant_at_W = found->mean_W;
   // The thermometer may have been read of another muscle.
-  const board::KnownHeat known = board::known_heat(settings_.thermal, facts);
-  if (facts.was_read() &&
-      !board::is_possible(known, facts, heater_.power_bounds().true_over_told()))
-    facts.forget_reading();
-  heater_.know(facts);
+  const board::KnownThermalBounds known = board::known_thermal_bounds(settings_.thermal, facts);
+  if (facts.has_reading() &&
+      !board::is_possible(known, facts, heater_.power_bounds().true_over_measured()))
+    facts.clear_reading();
+  heater_.set_thermal_facts(facts);
   return true;
 }
 
 bool Axis::step_calibrate() {
   if (heater_.probing()) return false;
   const ModeResult now =
-      calibrate_.step(heater_.heat().hottest_K(), evidence_.position.value, step_s_);
+      calibrate_.step(heater_.heat().hottest_K(), inputs_.position.value, step_s_);
   if (now != ModeResult::running) return end_mode(now);
   if (calibrate_.knows_zero()) heater_.start_probe();
   return false;

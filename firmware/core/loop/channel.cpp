@@ -9,11 +9,11 @@ namespace {
 
 /// Longer than every hold time at 1 kHz but the slowest; so many overruns are a fault by
 /// themselves.
-constexpr std::int64_t most_repeats = 1000;
+constexpr std::int64_t max_repeats = 1000;
 
 /// 2³²/φ: steps of the golden ratio go round evenly also for who sees every n-th of them only, as
 /// telemetry does; counting up, every fifth would show a fifth of the detectors.
-constexpr std::uint32_t golden_turn = 2654435769U;
+constexpr std::uint32_t golden_ratio = 2654435769U;
 
 }  // namespace
 
@@ -22,14 +22,14 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
     : index_(index),
       axis_(settings, board, devices, state_),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
-                  board.supervision.lowest_supply_V, board.step_s()) {}
+                  board.supervision.min_supply_V, board.step_s()) {}
 
 void Channel::sample(hal::Time now) {
-  reset_asked_ = false;
+  reset_requested_ = false;
   axis_.sample(now);
 }
 
-void Channel::supervise(const BoardNow& board) {
+void Channel::supervise(const BoardTick& board) {
   axis_.observe(board.supply_V, board.air, board.periods);
   const AxisEvidence& axis = axis_.evidence();
   const HeaterEvidence& heater = axis_.heater().evidence(state_);
@@ -38,7 +38,7 @@ void Channel::supervise(const BoardNow& board) {
   // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.
   axis_.judged();
   commands_ = {.heating = commands_.heating};
-  const std::int64_t more = std::min(board.periods, most_repeats);
+  const std::int64_t more = std::min(board.periods, max_repeats);
   for (std::int64_t i = 1; i < more && present_fault_ == Fault::none; ++i)
     present_fault_ = supervisor_.step(axis, heater, commands_);
   if (!supervisor_.inside(axis.sensor_m)) axis_.reject_position();
@@ -47,7 +47,7 @@ void Channel::supervise(const BoardNow& board) {
   if (cause != Fault::none && !board.testing) {
     disarm(cause, board.fault != Fault::none ? board.margin : supervisor_.verdict().margin(cause));
   }
-  if (!reset_asked_) state_.reset(false, true);
+  if (!reset_requested_) state_.reset(false, true);
   // A probe whose value is judged to be no muscle's has made the channel safe by now.
   if (axis_.end_probe()) state_.rest();
 }
@@ -65,27 +65,28 @@ void Channel::disarm(Fault cause, const detectors::Margin& margin) {
   axis_.disarm();
 }
 
-const Snapshot& Channel::publish(const BoardNow& board, const Verdict& board_verdict) {
+const Snapshot& Channel::publish(const BoardTick& board, const Verdict& board_verdict) {
   Snapshot& s = snapshot_;
   s.time = board.time;
   s.channel = index_;
   s.state = state_.state();
   s.fault = state_.first_cause();
-  turn_ += golden_turn;
-  axis_.publish(turn_, s);
+  selector_ += golden_ratio;
+  axis_.publish(selector_, s);
   const auto& faults = all_faults();
-  s.turn = faults[(std::uint64_t{turn_} * faults.size()) >> 32U].fault;
-  const Verdict& judge = board_verdict.judges(s.turn) ? board_verdict : supervisor_.verdict();
-  s.margin = judge.margin(s.turn);
+  s.margin_selector = faults[(std::uint64_t{selector_} * faults.size()) >> 32U].fault;
+  const Verdict& judge =
+      board_verdict.judges(s.margin_selector) ? board_verdict : supervisor_.verdict();
+  s.margin = judge.margin(s.margin_selector);
   // The first cause is told by the row that first shows the fault, whosever turn it is.
   if (std::exchange(cause_is_new_, false)) {
-    s.turn = s.fault;
+    s.margin_selector = s.fault;
     s.margin = first_margin_;
   }
   return s;
 }
 
-Answer Channel::answer(const Command& command, const BoardNow& board) {
+Answer Channel::answer(const Command& command, const BoardTick& board) {
   const Reply reply = obey(command, board);
   // Only an obeyed command ends a row of damaged or refused ones.
   if (reply.refusal == Refusal::wrong_state) commands_.refused = true;
@@ -93,7 +94,7 @@ Answer Channel::answer(const Command& command, const BoardNow& board) {
   return {command, reply.refusal, reply.nearest};
 }
 
-Reply Channel::obey(const Command& command, const BoardNow& board) {
+Reply Channel::obey(const Command& command, const BoardTick& board) {
   switch (command.verb) {
     case Verb::arm:
       return arm(board);
@@ -101,7 +102,7 @@ Reply Channel::obey(const Command& command, const BoardNow& board) {
       disarm(Fault::none);
       return Refusal::none;
     case Verb::reset:
-      reset_asked_ = true;
+      reset_requested_ = true;
       return state_.reset(true, present_fault_ != Fault::none || board.fault != Fault::none);
     case Verb::position:
       return heat(Mode::position, command.value, board);
@@ -120,7 +121,7 @@ Reply Channel::obey(const Command& command, const BoardNow& board) {
   }
 }
 
-Refusal Channel::arm(const BoardNow& board) {
+Refusal Channel::arm(const BoardTick& board) {
   if (state_.state() != State::disarmed) return Refusal::wrong_state;
   const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
   if (!board.proven || !quiet || !axis_.ready()) return Refusal::not_ready;
@@ -130,7 +131,7 @@ Refusal Channel::arm(const BoardNow& board) {
   return Refusal::none;
 }
 
-Reply Channel::heat(Mode mode, double value, const BoardNow& board) {
+Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
   const State state = state_.state();
   if (state != State::armed && state != State::active) return Refusal::wrong_state;
   if (!board.proven) return Refusal::not_ready;

@@ -13,7 +13,7 @@
 namespace supercoil {
 
 /// What the whole board tells its channels at a tick.
-struct BoardNow {
+struct BoardTick {
   hal::Time time{};
   double supply_V = 0.0;
   Fault fault = Fault::none;  ///< of the board, latched or present: every channel is made safe
@@ -34,13 +34,13 @@ class Channel {
 
   // The stages of a tick, in this order.
   void sample(hal::Time now);
-  Answer answer(const Command& command, const BoardNow& board);
-  void supervise(const BoardNow& board);
+  Answer answer(const Command& command, const BoardTick& board);
+  void supervise(const BoardTick& board);
   void estimate() { axis_.estimate(); }
   void control();
   void limit() { axis_.limit(); }
   void drive() { axis_.drive(); }
-  const Snapshot& publish(const BoardNow& board, const Verdict& board_verdict);
+  const Snapshot& publish(const BoardTick& board, const Verdict& board_verdict);
 
   /// The one way of making the channel safe: duty 0 and enable low, at once. Fault::none is an
   /// ordinary stop.
@@ -73,18 +73,20 @@ class Channel {
     allow_power(max_W);
   }
   /// From one other thread, and from the next tick on: no more power than this, nor than the
-  /// configured maximum. most_W: at least 0.
-  void allow_power(double most_W) { axis_.heater().allow_power(most_W); }
-  double most_power_W() const { return axis_.heater().max_power_W(); }
+  /// configured maximum. max_W: at least 0.
+  void allow_power(double max_W) { axis_.heater().allow_power(max_W); }
+  double max_power_W() const { return axis_.heater().max_power_W(); }
   /// By which the readings are corrected, without its date; from any thread.
-  board::SenseComparison senses() const { return axis_.heater().told_senses(); }
+  board::SenseComparison senses() const { return axis_.heater().published_senses(); }
   /// What identify or calibrate found, or was asked to store or clear; from one other thread.
-  bool take_lesson(board::Lesson& lesson) { return axis_.take_lesson(lesson); }
+  bool take_learned_update(board::LearnedUpdate& update) {
+    return axis_.take_learned_update(update);
+  }
 
  private:
-  Reply obey(const Command& command, const BoardNow& board);
-  Refusal arm(const BoardNow& board);
-  Reply heat(Mode mode, double value, const BoardNow& board);
+  Reply obey(const Command& command, const BoardTick& board);
+  Refusal arm(const BoardTick& board);
+  Reply heat(Mode mode, double value, const BoardTick& board);
   Refusal renew();
   Refusal rest();
 
@@ -96,8 +98,8 @@ class Channel {
   Fault present_fault_ = Fault::none;
   detectors::Margin first_margin_;
   bool cause_is_new_ = false;  ///< no row has told it yet
-  bool reset_asked_ = false;
-  std::uint32_t turn_ = 0;  ///< of a full turn
+  bool reset_requested_ = false;
+  std::uint32_t selector_ = 0;  ///< of a full turn
   Snapshot snapshot_;
 };
 

@@ -45,7 +45,7 @@ constexpr std::string_view name(Verb verb) {
 enum class Source : std::uint8_t { local, can };
 
 /// Over CAN a value is a float: a limit itself, too, may come as a little more than it is.
-inline constexpr double as_float_tells = 1.0 + std::numeric_limits<float>::epsilon();
+inline constexpr double float_rounding = 1.0 + std::numeric_limits<float>::epsilon();
 
 struct Command {
   std::uint8_t channel = 0;  ///< from 0

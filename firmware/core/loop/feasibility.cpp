@@ -17,8 +17,8 @@ namespace {
 /// rises with it, and the limiter falls from max_W at derate_from_C to none at derate_to_C.
 double derated_W(const ChannelSettings& c, const BoardSettings& board, double max_W) {
   const LimiterSettings& l = c.limiter;
-  const double ratio = power_bounds(c, board).true_over_told().max;
-  const double eta = board::known_heat(c.thermal, c.heat).bounds.lowest_transfer_W_per_K;
+  const double ratio = power_bounds(c, board).true_over_measured().max;
+  const double eta = board::known_thermal_bounds(c.thermal, c.heat).bounds.min_transfer_W_per_K;
   const double warmest_C = c.thermal.air.warmest_C;
   if (warmest_C + max_W * ratio / eta <= l.derate_from_C) return max_W;
   const double crossing_W = l.max_W * (l.derate_to_C - warmest_C) /
@@ -27,7 +27,7 @@ double derated_W(const ChannelSettings& c, const BoardSettings& board, double ma
 }
 
 void find_power(const ChannelSettings& c, const BoardSettings& board, Feasibility& f) {
-  const double supply_V = board.supervision.lowest_supply_V;
+  const double supply_V = board.supervision.min_supply_V;
   f.max_W = std::min(c.limiter.max_W, supply_V * supply_V / c.heater.cold_resistance_Ohm);
   f.held_W = f.max_W;
   const auto bound = [&](double power_W, LimitedBy by) {
@@ -62,13 +62,12 @@ void find_rest(const ChannelSettings& c, Feasibility& f) {
   const board::ThermalSettings& t = c.thermal;
   const double metres_per_K = c.muscle.force_per_kelvin_N_per_K / c.muscle.stiffness_N_per_m;
   f.air_shift_m = metres_per_K * (t.air.warmest_C - t.air.coldest_C);
-  f.rest_seen = -f.air_shift_m >= c.supervision.lowest_position_m;
-  const control::ThermalBounds b = board::known_heat(t, c.heat).bounds;
+  f.rest_seen = -f.air_shift_m >= c.supervision.min_position_m;
+  const control::ThermalBounds b = board::known_thermal_bounds(t, c.heat).bounds;
   const double allowed_K = c.limiter.derate_from_C - t.air.warmest_C;
-  f.armable_s = allowed_K <= 0.0
-                    ? INFINITY
-                    : std::max(0.0, b.highest_mass_J_per_K / b.lowest_transfer_W_per_K *
-                                        std::log(t.boot_rise_K / allowed_K));
+  f.armable_s = allowed_K <= 0.0 ? INFINITY
+                                 : std::max(0.0, b.max_mass_J_per_K / b.min_transfer_W_per_K *
+                                                     std::log(t.boot_rise_K / allowed_K));
 }
 
 /// A step asks for a peak of power at its beginning: of a step of 1 m through the model from rest.

@@ -8,7 +8,7 @@ namespace supercoil {
 namespace {
 
 /// A resistance of so many times the cold one is a broken wire and the sense's own offset.
-constexpr double as_good_as_open = 4.0;
+constexpr double open_circuit_ratio = 4.0;
 
 board::Resistance::Settings resistance_settings(const HeaterSettings& h) {
   return {h.sense_filter_s, h.resistance_filter_s, h.probe_duty, h.cold_resistance_Ohm};
@@ -36,8 +36,8 @@ Heater::Heater(const ChannelSettings& settings, const BoardSettings& board,
       limiter_(settings.limiter, board.step_s()),
       power_stage_({devices.pwm->steps(), settings.heater.error_feedback}),
       delay_(ticks_of(settings.heater.delay_s, board.step_s())) {
-  told_senses_.set(senses_);
-  know(settings.heat);
+  published_senses_.set(senses_);
+  set_thermal_facts(settings.heat);
 }
 
 void Heater::sample(hal::Time now) {
@@ -73,8 +73,8 @@ void Heater::observe_power(std::int64_t periods) {
       acting_.duty, supply_V_, current_,
       {min_Ohm * std::min(1.0, as_configured), max_Ohm * std::max(1.0, as_configured)});
   heat_.step(power_W.min, power_W.max, acting_.power_W, sensed);
-  const auto ratio = power_bounds_.true_over_told();
-  told_W_ = {power_W.min / ratio.min, power_W.max / ratio.max};
+  const auto ratio = power_bounds_.true_over_measured();
+  measured_power_W_ = {power_W.min / ratio.min, power_W.max / ratio.max};
   const double measured_W =
       current_.present ? supply_V_ * (current_.value - current_noise_A_) : limiter_.max_W();
   measured_W_ = std::max(acting_.power_W, measured_W);
@@ -83,9 +83,9 @@ void Heater::observe_power(std::int64_t periods) {
     heat_.step(0.0, power_W.max, acting_.power_W, sensed);
 
   const double per_K = settings_.temperature_coefficient_per_K;
-  tells_temperature_ = per_K > 0.0 && resistance_.age_s() < 1.0;
+  indicates_temperature_ = per_K > 0.0 && resistance_.age_s() < 1.0;
   from_resistance_K_ =
-      tells_temperature_ ? (resistance_.value_Ohm() / cold_Ohm_ - 1.0) / per_K : 0.0;
+      indicates_temperature_ ? (resistance_.value_Ohm() / cold_Ohm_ - 1.0) / per_K : 0.0;
 }
 
 void Heater::follow_probe() {
@@ -93,14 +93,14 @@ void Heater::follow_probe() {
   const auto probed =
       probe_.step(resistance_.duty(), supply_V_, current_.present ? current_.value : 0.0);
   if (!probed.ended) return;
-  const double max_Ohm = as_good_as_open * cold_Ohm_;
+  const double max_Ohm = open_circuit_ratio * cold_Ohm_;
   probe_failed_ = !(probed.resistance_Ohm > 0.0 && probed.resistance_Ohm < max_Ohm);
   probed_ = !probe_failed_;
   if (probed_) resistance_.set(probed.resistance_Ohm);
 }
 
 const HeaterEvidence& Heater::evidence(const ChannelState& state) {
-  HeaterEvidence& e = evidence_;
+  HeaterEvidence& e = inputs_;
   e.current = current_;
   e.supply_V = supply_V_;
   e.hot = heat_.hottest_K() > hot_K;
@@ -138,10 +138,10 @@ void Heater::publish(Snapshot& s) const {
   s.hottest_C = heat_.hottest_C();
 }
 
-void Heater::limit(const ChannelState& state, double wanted_W, double proven_W) {
-  limiter_.set_most(max_power_W());
+void Heater::limit(const ChannelState& state, double demanded_W, double proven_W) {
+  limiter_.set_cap(max_power_W());
   limiter_.set_unproven(proven_W);
-  allowed_ = state.may_heat() ? limiter_.step(wanted_W, heat_.hottest_C()) : Limiter::Result{};
+  allowed_ = state.may_heat() ? limiter_.step(demanded_W, heat_.hottest_C()) : Limiter::Result{};
 }
 
 void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
@@ -201,20 +201,20 @@ void Heater::write_enable(bool high) {
   written_enable_ = static_cast<int>(high);
 }
 
-void Heater::go_by(const board::SenseComparison& senses, double more_Ohm) {
-  resistance_.set(resistance_.value_Ohm() * more_Ohm);
+void Heater::apply_comparison(const board::SenseComparison& senses, double resistance_scale) {
+  resistance_.set(resistance_.value_Ohm() * resistance_scale);
   current_.value *= senses.current_gain / senses_.current_gain;
   senses_ = senses;
-  told_senses_.set(senses_);
+  published_senses_.set(senses_);
   power_bounds_.set(senses_);
 }
 
-void Heater::know(const board::HeatFacts& facts) {
+void Heater::set_thermal_facts(const board::ThermalFacts& facts) {
   facts_ = facts;
-  board::HeatFacts used = facts;
+  board::ThermalFacts used = facts;
   // A reading was taken in the power that compared senses told.
-  if (!senses_.compared()) used.forget_reading();
-  heat_.know(used, power_bounds_.true_over_told());
+  if (!senses_.compared()) used.clear_reading();
+  heat_.set_thermal_facts(used, power_bounds_.true_over_measured());
 }
 
 }  // namespace supercoil

@@ -21,7 +21,7 @@
 namespace supercoil {
 
 /// The gains and the error that remains, from the loop to other threads.
-class ToldSenses {
+class PublishedSenses {
  public:
   void set(const board::SenseComparison& senses) {
     supply_.store(senses.supply_gain, std::memory_order_relaxed);
@@ -55,7 +55,7 @@ class Heater {
   /// Its part of what is published.
   void publish(Snapshot& s) const;
   /// proven_W: what a muscle may have by what it has proven.
-  void limit(const ChannelState& state, double wanted_W, double proven_W);
+  void limit(const ChannelState& state, double demanded_W, double proven_W);
   /// may_probe: a resistance that is old may be measured again. dither_W: of the power.
   void drive(const ChannelState& state, bool may_probe, double dither_W);
 
@@ -67,11 +67,11 @@ class Heater {
   void test_drive(double duty, bool enable);
   void start_probe() { probe_.start(); }
 
-  /// By a comparison with a meter, from now on. more_Ohm: what the senses tell of a resistance,
-  /// over what they told.
-  void go_by(const board::SenseComparison& senses, double more_Ohm);
+  /// By a comparison with a meter, from now on. resistance_scale: what the senses tell of a
+  /// resistance, over what they told.
+  void apply_comparison(const board::SenseComparison& senses, double resistance_scale);
   /// What was found out of the muscle's heat, from now on.
-  void know(const board::HeatFacts& facts);
+  void set_thermal_facts(const board::ThermalFacts& facts);
   void calibrate(double cold_Ohm) { cold_Ohm_ = cold_Ohm; }
   /// Thermal pole of the muscle, as estimated and trusted.
   void learn(double pole_rad_per_s) { heat_.learn(pole_rad_per_s); }
@@ -80,7 +80,7 @@ class Heater {
   void allow_power(double max_W) { max_power_W_.store(max_W, std::memory_order_relaxed); }
   double max_power_W() const { return max_power_W_.load(std::memory_order_relaxed); }
   /// From any thread.
-  board::SenseComparison told_senses() const { return told_senses_.get(); }
+  board::SenseComparison published_senses() const { return published_senses_.get(); }
 
   const board::Measured& current() const { return current_; }
   double supply_V() const { return supply_V_; }
@@ -91,15 +91,15 @@ class Heater {
   bool probe_ended() const { return probed_ || probe_failed_; }
   double probed_Ohm() const { return probed_ ? resistance_.value_Ohm() : 0.0; }
   /// Whether the resistance tells the muscle's temperature now.
-  bool tells_temperature() const { return tells_temperature_; }
+  bool indicates_temperature() const { return indicates_temperature_; }
   const board::Heat& heat() const { return heat_; }
   /// The muscle has been cool since boot, whatever was before.
   bool heat_known() const { return heat_known_; }
   const board::SenseComparison& senses() const { return senses_; }
-  const board::HeatFacts& facts() const { return facts_; }
+  const board::ThermalFacts& facts() const { return facts_; }
   const board::PowerBounds& power_bounds() const { return power_bounds_; }
   /// Of this tick, as compared senses tell it.
-  const board::PowerBounds::Interval& told_W() const { return told_W_; }
+  const board::PowerBounds::Interval& measured_power_W() const { return measured_power_W_; }
   /// What a controller may count on.
   control::PowerRange power_range() const;
   const Limiter& limiter() const { return limiter_; }
@@ -123,18 +123,18 @@ class Heater {
   double cold_Ohm_;  ///< as calibrated
 
   board::SenseComparison senses_;
-  ToldSenses told_senses_;
-  board::HeatFacts facts_;
+  PublishedSenses published_senses_;
+  board::ThermalFacts facts_;
   board::Measured current_;
   double supply_V_ = 0.0;
-  HeaterEvidence evidence_;
+  HeaterEvidence inputs_;
   board::Resistance resistance_;
   board::PowerBounds power_bounds_;
-  board::PowerBounds::Interval told_W_{0.0, 0.0};
+  board::PowerBounds::Interval measured_power_W_{0.0, 0.0};
   board::Heat heat_;
   bool heat_known_ = false;
   double measured_W_ = 0.0;
-  bool tells_temperature_ = false;
+  bool indicates_temperature_ = false;
   double from_resistance_K_ = 0.0;
   board::Probe probe_;
   bool probed_ = false;

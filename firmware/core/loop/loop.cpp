@@ -8,11 +8,11 @@ namespace supercoil {
 
 namespace {
 
-constexpr int most_commands_per_tick = 64;
+constexpr int max_commands_per_tick = 64;
 /// Buffered converters need so long to have their first values, and filters to settle.
 constexpr double settling_s = 0.1;
 /// After a longer stall the muscles are cold.
-constexpr std::int64_t most_periods = 200'000;
+constexpr std::int64_t max_periods = 200'000;
 
 SelfTest::Settings self_test_settings(const BoardSettings& s) {
   double filter_s = 0.0;
@@ -70,13 +70,14 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
     for (const auto& channel : channels_)
       channel->drive();
   }
-  beat();
+  toggle_heartbeat();
 
   // Publish: rows for the recorder and for telemetry; then the light, which may wait.
   for (const auto& channel : channels_) {
-    if (!rows_.push(row_of(channel->publish(now_, supervisor_.verdict())))) timing_.lost_rows.fetch_add(1, std::memory_order_relaxed);
+    if (!rows_.push(row_of(channel->publish(now_, supervisor_.verdict()))))
+      timing_.lost_rows.fetch_add(1, std::memory_order_relaxed);
   }
-  shine();
+  update_light();
   if (devices_.watchdog != nullptr) devices_.watchdog->feed();
   last_tick_ = {woke - due, devices_.clock->now() - woke};
   timing_.add(last_tick_, skipped);
@@ -84,14 +85,14 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
 }
 
 void Loop::obey() {
-  reset_asked_before_ = reset_asked_;
-  reset_asked_ = false;
+  reset_requested_before_ = reset_requested_;
+  reset_requested_ = false;
   std::uint8_t damaged = 0;
   while (damaged_.pop(damaged)) {
     if (damaged < channels_.size()) channels_[damaged]->note_damaged();
   }
   Command command;
-  for (int i = 0; i < most_commands_per_tick && commands_.pop(command); ++i) {
+  for (int i = 0; i < max_commands_per_tick && commands_.pop(command); ++i) {
     Answer answer{command, Refusal::no_such_channel};
     if (command.channel < channels_.size()) {
       if (command.verb == Verb::reset) reset_board();
@@ -106,8 +107,8 @@ void Loop::obey() {
 /// heartbeat may beat again, both ways of cutting have to be proven again: a switch that is stuck
 /// shows no current while the supply is open.
 void Loop::reset_board() {
-  const bool edge = !reset_asked_ && !reset_asked_before_;
-  reset_asked_ = true;
+  const bool edge = !reset_requested_ && !reset_requested_before_;
+  reset_requested_ = true;
   if (!edge || board_fault_ == Fault::none || supervisor_.verdict().fault() != Fault::none) return;
   board_fault_ = Fault::none;
   now_.fault = Fault::none;
@@ -117,7 +118,7 @@ void Loop::reset_board() {
 
 void Loop::judge_board(hal::Time now, double late_s, std::int64_t skipped) {
   overruns_ += skipped;
-  BoardEvidence& e = evidence_;
+  BoardInputs& e = inputs_;
   board::measure(devices_.supply->latest(), settings_.supply.scaling, now,
                  settings_.supply.max_age_s, e.supply);
   e.stop_circuit = devices_.stop_circuit->read();
@@ -126,7 +127,7 @@ void Loop::judge_board(hal::Time now, double late_s, std::int64_t skipped) {
   e.lines_ok = lines_ok_;
   for (const auto& channel : channels_)
     e.lines_ok = e.lines_ok && channel->lines_ok();
-  e.telemetry_beats = health_.telemetry_beats.load(std::memory_order_relaxed);
+  e.telemetry_heartbeats = health_.telemetry_heartbeats.load(std::memory_order_relaxed);
   e.bus = health_.bus.load(std::memory_order_relaxed);
   e.node_conflict = health_.node_conflict.load(std::memory_order_relaxed);
   e.configuration_changed = health_.configuration_changed.load(std::memory_order_relaxed);
@@ -140,7 +141,7 @@ void Loop::judge_board(hal::Time now, double late_s, std::int64_t skipped) {
   now_.testing = self_test_.under_way() || (settling && !self_test_.failed());
   now_.proven = self_test_.passed();
   if (devices_.air != nullptr) measure_air(now);
-  now_.periods = 1 + std::min(skipped, most_periods);
+  now_.periods = 1 + std::min(skipped, max_periods);
   if (verdict.board_fault() != Fault::none)
     latch(verdict.board_fault(), verdict.margin(verdict.board_fault()));
   now_.fault = board_fault_ != Fault::none ? board_fault_ : present;
@@ -167,23 +168,23 @@ void Loop::latch(Fault cause, const detectors::Margin& margin) {
 /// closed stop circuit, a good supply, and a board without a fault.
 bool Loop::may_test() const {
   bool quiet = board_fault_ == Fault::none && supervisor_.verdict().fault() == Fault::none &&
-               evidence_.supply.present;
+               inputs_.supply.present;
   for (const auto& channel : channels_)
     quiet = quiet && std::isfinite(channel->measured_current_A());
   return quiet;
 }
 
 void Loop::run_self_test() {
-  double most_A = 0.0;
+  double max_A = 0.0;
   double idle_A = 1e9;
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     const ChannelSettings& channel = settings_.channels[i];
-    const double probe_A = channel.heater.probe_duty * settings_.supervision.lowest_supply_V /
+    const double probe_A = channel.heater.probe_duty * settings_.supervision.min_supply_V /
                            channel.heater.cold_resistance_Ohm;
-    most_A = std::fmax(most_A, channels_[i]->measured_current_A());
+    max_A = std::fmax(max_A, channels_[i]->measured_current_A());
     idle_A = std::fmin(idle_A, std::fmin(channel.supervision.off_current_A, 0.5 * probe_A));
   }
-  self_test_.step(may_test(), most_A, idle_A);
+  self_test_.step(may_test(), max_A, idle_A);
   const SelfTest::Lines lines = self_test_.lines();
   for (std::size_t i = 0; i < channels_.size(); ++i) {
     channels_[i]->test_drive(lines.pulse ? settings_.channels[i].heater.probe_duty : 0.0,
@@ -192,15 +193,15 @@ void Loop::run_self_test() {
 }
 
 /// The line's edges keep the supply's switch closed; when they stop, the charge pump opens it.
-void Loop::beat() {
+void Loop::toggle_heartbeat() {
   const bool cut = board_fault_ != Fault::none || !(now_.proven || self_test_.lines().heartbeat);
   // Without an edge the pump does not pump, but the line still shows whether it can be set.
-  if (!cut) beat_ = !beat_;
-  lines_ok_ = devices_.heartbeat->set(beat_) == hal::Status::ok;
+  if (!cut) heartbeat_ = !heartbeat_;
+  lines_ok_ = devices_.heartbeat->set(heartbeat_) == hal::Status::ok;
 }
 
 /// Off: disarmed. On: something is armed. Slow blinking: something is hot. Fast: a fault.
-void Loop::shine() {
+void Loop::update_light() {
   if (devices_.light == nullptr) return;
   bool fault = board_fault_ != Fault::none;
   bool active = false;

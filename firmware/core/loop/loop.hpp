@@ -17,7 +17,7 @@ namespace supercoil {
 
 /// What other threads tell the loop; written by them, read in a tick.
 struct Health {
-  std::atomic<std::uint32_t> telemetry_beats{0};
+  std::atomic<std::uint32_t> telemetry_heartbeats{0};
   std::atomic<hal::CanState> bus{hal::CanState::active};
   std::atomic<bool> node_conflict{false};
   std::atomic<bool> configuration_changed{false};
@@ -91,21 +91,21 @@ class Loop {
   void reset_board();
   bool may_test() const;
   void run_self_test();
-  void beat();
-  void shine();
+  void toggle_heartbeat();
+  void update_light();
 
   BoardSettings settings_;
   board::Devices devices_;
   std::vector<std::unique_ptr<Channel>> channels_;  ///< they cannot move
   BoardSupervisor supervisor_;
-  BoardEvidence evidence_;
+  BoardInputs inputs_;
   board::Measured air_;  ///< in °C
   SelfTest self_test_;
   Fault board_fault_ = Fault::none;  ///< latched
-  BoardNow now_;
-  bool reset_asked_ = false;
-  bool reset_asked_before_ = true;
-  bool beat_ = false;
+  BoardTick now_;
+  bool reset_requested_ = false;
+  bool reset_requested_before_ = true;
+  bool heartbeat_ = false;
   bool lines_ok_ = true;
   int light_ = -1;
   bool blink_ = false;

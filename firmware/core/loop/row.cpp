@@ -10,11 +10,11 @@ float narrow(double value) {
   return static_cast<float>(value);
 }
 
-double aside_of(const Snapshot& s) {
-  if (s.aside == 0) return std::nan("");
-  const std::array<double, aside_names.size() - 1> all{
+double multiplexed_value_of(const Snapshot& s) {
+  if (s.multiplexed_selector == 0) return std::nan("");
+  const std::array<double, multiplexed_names.size() - 1> all{
       s.bias_W, s.deviation[0], s.deviation[1], s.deviation[2], s.deviation[3], s.bias_deviation_W};
-  return all.at(s.aside - 1U);
+  return all.at(s.multiplexed_selector - 1U);
 }
 
 }  // namespace
@@ -32,11 +32,11 @@ Row row_of(const Snapshot& s) {
       static_cast<std::uint8_t>((s.probing ? row_probing : 0) | (s.trusted ? row_trusted : 0) |
                                 (s.limited ? row_limited : 0) | (s.proof_off ? row_proof_off : 0) |
                                 (s.oscillated ? row_oscillated : 0));
-  row.turn = static_cast<std::uint8_t>(s.turn);
+  row.margin_selector = static_cast<std::uint8_t>(s.margin_selector);
   row.reference = narrow(s.reference);
   row.model_m = narrow(s.model_m);
   row.position_m = narrow(s.position_m);
-  row.wanted_W = narrow(s.wanted_W);
+  row.demanded_W = narrow(s.demanded_W);
   row.applied_W = narrow(s.applied_W);
   row.duty = narrow(s.duty);
   row.supply_V = narrow(s.supply_V);
@@ -54,10 +54,10 @@ Row row_of(const Snapshot& s) {
   row.margin_limit = narrow(s.margin.limit);
   row.gain = narrow(s.gain.value);
   row.result = static_cast<std::uint8_t>(s.result);
-  row.aside = narrow(aside_of(s));
-  row.aside_turn = s.aside;
+  row.multiplexed_value = narrow(multiplexed_value_of(s));
+  row.multiplexed_selector = s.multiplexed_selector;
   row.identify_notes = s.identify_notes;
-  row.gain_turn = static_cast<std::uint8_t>(s.gain.gain);
+  row.gain_selector = static_cast<std::uint8_t>(s.gain.gain);
   return row;
 }
 

@@ -28,12 +28,12 @@ struct Row {
   std::uint8_t fault;
   std::uint8_t limited_by;
   std::uint8_t controller;
-  std::uint8_t flags;  ///< of RowFlag
-  std::uint8_t turn;   ///< whose margin this row carries
-  float reference;     ///< m, or W in open loop
+  std::uint8_t flags;            ///< of RowFlag
+  std::uint8_t margin_selector;  ///< whose margin this row carries
+  float reference;               ///< m, or W in open loop
   float model_m;
   float position_m;
-  float wanted_W;
+  float demanded_W;
   float applied_W;
   float duty;
   float supply_V;
@@ -49,12 +49,12 @@ struct Row {
   float margin_measured;
   float margin_limit;
   float gain;
-  std::uint8_t gain_turn;  ///< which of the controller's gains this row carries
-  std::uint8_t result;     ///< of ModeResult
+  std::uint8_t gain_selector;  ///< which of the controller's gains this row carries
+  std::uint8_t result;         ///< of ModeResult
   /// What the estimator tells beside theta is in one of these in each row, in turn.
-  std::uint8_t aside_turn;      ///< place in aside_names
-  std::uint8_t identify_notes;  ///< bits of IdentifyNote
-  float aside;
+  std::uint8_t multiplexed_selector;  ///< place in multiplexed_names
+  std::uint8_t identify_notes;        ///< bits of IdentifyNote
+  float multiplexed_value;
 };
 static_assert(sizeof(Row) == 112 && std::is_trivially_copyable_v<Row>);
 

@@ -4,7 +4,7 @@
 namespace supercoil {
 
 /// A probe's duty is set twice: once while the charge pump stands still and the enable line is
-/// high, once while the pump runs and the line is low. A board that is well never carries any
+/// high, once while the pump runs and the line is low. A healthy board never carries any
 /// current while it is tested: current at any time is a failure.
 class SelfTest {
  public:
@@ -18,13 +18,13 @@ class SelfTest {
     bool enable = false;
     bool pulse = false;  ///< the probe's duty is on
   };
-  enum class Verdict { waiting, running, passed, pump_does_not_open, enable_does_not_cut };
+  enum class Outcome { waiting, running, passed, pump_does_not_open, enable_does_not_cut };
 
   SelfTest(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
 
   /// Of this tick; all low when it neither runs nor has passed.
   Lines lines() const {
-    if (verdict_ != Verdict::running) return {passed(), false, false};
+    if (outcome_ != Outcome::running) return {passed(), false, false};
     const double pump_at_s = settings_.pump_decay_s + settings_.settle_s;
     const double enable_at_s = pump_at_s + settings_.pulse_s + settings_.settle_s;
     const bool pump = within(pump_at_s);
@@ -43,7 +43,7 @@ class SelfTest {
       return;
     }
     const Lines before = lines();  // in force while that current flowed
-    verdict_ = Verdict::running;
+    outcome_ = Outcome::running;
     elapsed_s_ += step_s_;
     // The sense may show the last life's current until the pump has decayed.
     if (elapsed_s_ <= settings_.pump_decay_s + settings_.settle_s) return;
@@ -58,9 +58,9 @@ class SelfTest {
     const bool pulse_ends = before.pulse && !lines().pulse;
     const bool mean_over = pulse_ends && !(count_ > 0 && sum_A_ <= idle_A * count_);
     if (mean_over || over_s_ > 0.3 * settings_.pulse_s) {
-      verdict_ = before.heartbeat ? Verdict::enable_does_not_cut : Verdict::pump_does_not_open;
+      outcome_ = before.heartbeat ? Outcome::enable_does_not_cut : Outcome::pump_does_not_open;
     } else if (elapsed_s_ >= duration_s()) {
-      verdict_ = Verdict::passed;
+      outcome_ = Outcome::passed;
     }
     if (pulse_ends) {
       sum_A_ = 0.0;
@@ -69,16 +69,16 @@ class SelfTest {
   }
   /// Nothing is proven any more.
   void restart() {
-    verdict_ = Verdict::waiting;
+    outcome_ = Outcome::waiting;
     elapsed_s_ = pulse_elapsed_s_ = over_s_ = sum_A_ = 0.0;
     count_ = 0;
   }
 
-  Verdict verdict() const { return verdict_; }
-  bool under_way() const { return verdict_ == Verdict::running; }
-  bool passed() const { return verdict_ == Verdict::passed; }
+  Outcome outcome() const { return outcome_; }
+  bool under_way() const { return outcome_ == Outcome::running; }
+  bool passed() const { return outcome_ == Outcome::passed; }
   bool failed() const {
-    return verdict_ == Verdict::pump_does_not_open || verdict_ == Verdict::enable_does_not_cut;
+    return outcome_ == Outcome::pump_does_not_open || outcome_ == Outcome::enable_does_not_cut;
   }
 
  private:
@@ -95,7 +95,7 @@ class SelfTest {
   double pulse_elapsed_s_ = 0.0;
   double sum_A_ = 0.0;
   int count_ = 0;
-  Verdict verdict_ = Verdict::waiting;
+  Outcome outcome_ = Outcome::waiting;
 };
 
 }  // namespace supercoil

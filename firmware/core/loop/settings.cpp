@@ -13,9 +13,9 @@ std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& 
 }
 
 board::PowerBounds power_bounds(const ChannelSettings& channel, const BoardSettings& board) {
-  board::PowerBounds bounds({.min_supply_V = board.supervision.lowest_supply_V,
-                             .max_supply_V = board.supervision.highest_supply_V,
-                             .resistance_tolerance_ratio = channel.supervision.resistance_part,
+  board::PowerBounds bounds({.min_supply_V = board.supervision.min_supply_V,
+                             .max_supply_V = board.supervision.max_supply_V,
+                             .resistance_tolerance_ratio = channel.supervision.resistance_ratio,
                              .current_noise_A = channel.supervision.current_noise_A,
                              .max_W = channel.limiter.max_W,
                              .min_power_ratio = channel.thermal.min_power_ratio,
@@ -28,14 +28,14 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
   ProofSettings s;
   s.wanted = c.supervision.proof_of_response;
   s.thermal = c.thermal;
-  s.max_power_ratio = power_bounds(c, board).true_over_told().max;
+  s.max_power_ratio = power_bounds(c, board).true_over_measured().max;
   s.max_W = c.limiter.max_W;
   s.derate_from_C = c.limiter.derate_from_C;
   s.trip_C = c.supervision.trip_C;
   s.position_noise_rms_m = c.supervision.position_noise_rms_m;
   s.count_m = std::abs(c.position.scaling.per_count);
-  s.obvious_m = c.supervision.responding_least_m;
-  if (c.answer_ratio > 0.0) s.answer_ratio = c.answer_ratio;
+  s.obvious_m = c.supervision.responding_min_m;
+  if (c.response_ratio > 0.0) s.response_ratio = c.response_ratio;
   return s;
 }
 

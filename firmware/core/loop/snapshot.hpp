@@ -23,7 +23,7 @@ inline constexpr std::array<std::string_view, 5> mode_names{"rest", "position", 
                                                             "calibrate"};
 
 /// What an estimator may tell beside theta: a bias of the power, and standard deviations.
-inline constexpr std::array<std::string_view, 7> aside_names{
+inline constexpr std::array<std::string_view, 7> multiplexed_names{
     "none",
     "bias",
     "theta1_deviation",
@@ -50,7 +50,7 @@ struct Snapshot {
   double reference = 0.0;   ///< in m, or in W in open loop
   double model_m = 0.0;     ///< of the reference model: what tracking is measured against
   double position_m = 0.0;
-  double wanted_W = 0.0;
+  double demanded_W = 0.0;
   double applied_W = 0.0;  ///< after limits and quantisation
   double duty = 0.0;
   double supply_V = 0.0;
@@ -64,12 +64,13 @@ struct Snapshot {
   double bias_W = 0.0;                                ///< as what follows, NaN while none is told
   control::Theta deviation = control::Theta::Zero();  ///< standard, of theta
   double bias_deviation_W = 0.0;
-  std::uint8_t aside = 0;  ///< whose turn it is: place in aside_names, each within 13 ticks
-  float progress = 0.0F;   ///< of identify and calibrate, 0 to 1
+  std::uint8_t multiplexed_selector =
+      0;                  ///< whose turn it is: place in multiplexed_names, each within 13 ticks
+  float progress = 0.0F;  ///< of identify and calibrate, 0 to 1
   ModeResult result = ModeResult::none;
   std::uint8_t identify_notes = 0;  ///< bits of IdentifyNote, of the last identify that ended
   /// One detector's margin in turn; each comes round within 55 ticks.
-  Fault turn = Fault::none;
+  Fault margin_selector = Fault::none;
   detectors::Margin margin;
   /// One gain of the controller in turn.
   control::GainValue gain;

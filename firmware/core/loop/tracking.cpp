@@ -15,7 +15,7 @@ Tracking::Tracking(const std::vector<control::ControllerSettings>& controllers,
                    const control::PhysicalParameters& muscle, double step_s)
     : power_W_(smoothing_s, step_s), error_m_(smoothing_s, step_s) {
   for (const auto& controller : controllers)
-    controllers_.emplace_back(controller, step_s).suit(control::theta_from(muscle));
+    controllers_.emplace_back(controller, step_s).retune(control::theta_from(muscle));
 }
 
 void Tracking::start(double position_m, double reference_m, bool hold,
@@ -60,7 +60,7 @@ control::ControllerStart Tracking::start_here(double reference_m) const {
 /// With the gains of the muscle that is known by now: one that runs would jump at others.
 void Tracking::start(std::size_t place, const control::ControllerStart& at,
                      const control::PhysicalParameters& muscle) {
-  controllers_[place].suit(control::theta_from(muscle));
+  controllers_[place].retune(control::theta_from(muscle));
   controllers_[place].start(at);
 }
 

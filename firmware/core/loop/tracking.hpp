@@ -35,7 +35,9 @@ class Tracking {
   control::ControllerOutput step(const control::ControllerInput& input,
                                  const std::optional<control::Estimate>& estimate);
   /// One gain of the controller that is chosen, in turn.
-  control::GainValue gain(std::uint32_t turn) const { return controllers_[chosen_].gain(turn); }
+  control::GainValue gain(std::uint32_t margin_selector) const {
+    return controllers_[chosen_].gain(margin_selector);
+  }
 
  private:
   control::ControllerStart start_here(double reference_m) const;

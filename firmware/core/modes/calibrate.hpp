@@ -9,16 +9,16 @@
 namespace supercoil::modes {
 
 /// Waits until the muscle must be cold, takes the mean position over a second as its zero, and asks
-/// for a probe. A zero that moves while it is taken, or a resistance out of range, is no result.
+/// for a probe. A zero that moves while it is taken, or a resistance out of range, is refused.
 class Calibrate {
  public:
   struct Settings {
     double cold_K = 1.0;
-    double longest_wait_s = 120.0;
+    double max_wait_s = 120.0;
     double mean_s = 1.0;
-    double most_motion_m = 100e-6;  ///< between the two halves of the mean
-    double lowest_Ohm = 0.1;
-    double highest_Ohm = 1e4;
+    double max_motion_m = 100e-6;  ///< between the two halves of the mean
+    double min_Ohm = 0.1;
+    double max_Ohm = 1e4;
   };
   explicit Calibrate(const Settings& settings) : settings_(settings) {}
 
@@ -34,8 +34,8 @@ class Calibrate {
   ModeResult step(double hottest_K, double position_m, double step_s) {
     elapsed_s_ += step_s;
     if (count_ == 0 && hottest_K > settings_.cold_K) {
-      progress_ = 0.5F * static_cast<float>(elapsed_s_ / settings_.longest_wait_s);
-      return elapsed_s_ > settings_.longest_wait_s ? ModeResult::not_cold : ModeResult::running;
+      progress_ = 0.5F * static_cast<float>(elapsed_s_ / settings_.max_wait_s);
+      return elapsed_s_ > settings_.max_wait_s ? ModeResult::not_cold : ModeResult::running;
     }
     const auto ticks = static_cast<std::int64_t>(settings_.mean_s / step_s);
     const std::int64_t half = ticks / 2;
@@ -45,7 +45,7 @@ class Calibrate {
     progress_ = 0.5F + 0.4F * static_cast<float>(count_) / static_cast<float>(ticks);
     if (count_ < ticks) return ModeResult::running;
     const double first_m = first_half_m_ / static_cast<double>(half);
-    knows_zero_ = std::abs(first_m - zero_m()) <= settings_.most_motion_m;
+    knows_zero_ = std::abs(first_m - zero_m()) <= settings_.max_motion_m;
     return knows_zero_ ? ModeResult::running : ModeResult::moved;
   }
 
@@ -54,7 +54,7 @@ class Calibrate {
     resistance_Ohm_ = resistance_Ohm;
     progress_ = 1.0F;
     const bool plausible =
-        resistance_Ohm >= settings_.lowest_Ohm && resistance_Ohm <= settings_.highest_Ohm;
+        resistance_Ohm >= settings_.min_Ohm && resistance_Ohm <= settings_.max_Ohm;
     return knows_zero_ && plausible ? ModeResult::found : ModeResult::implausible;
   }
 

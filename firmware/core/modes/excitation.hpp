@@ -37,7 +37,7 @@ class Excitation {
 
   bool done() const { return cycle_ >= cycles || too_still_; }
   /// The muscle has moved by less than is needed, and no more power is allowed.
-  bool too_still() const { return too_still_; }
+  bool too_little_motion() const { return too_still_; }
   /// From 0; the first one searches for the power, and teaches little.
   std::size_t cycle() const { return cycle_; }
   double risen_m() const { return position_m_ - cold_m_; }

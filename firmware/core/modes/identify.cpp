@@ -42,7 +42,7 @@ double Identify::theta1(const Fit& fit) {
 /// Everything that speaks against the fit.
 std::uint8_t Identify::reasons_against(const Fit& fit) const {
   const control::Theta believed = control::theta_from(believed_);
-  unsigned notes = fit.unexplained_ratio <= settings_.max_unexplained ? 0 : note_not_explained;
+  unsigned notes = fit.unexplained_ratio <= settings_.max_unexplained ? 0 : note_poor_fit;
   for (int i = 1; i < 4; ++i) {
     if (!knows(fit, i)) {
       notes |= uncertain_notes.at(static_cast<std::size_t>(i - 1));
@@ -54,13 +54,13 @@ std::uint8_t Identify::reasons_against(const Fit& fit) const {
 }
 
 ModeResult Identify::judge() {
-  if (excitation_.too_still()) {
-    notes_ = note_too_still;
-    return ModeResult::too_still;
+  if (excitation_.too_little_motion()) {
+    notes_ = note_too_little_motion;
+    return ModeResult::too_little_motion;
   }
   const auto fit = fit_.fit();
   notes_ = fit ? reasons_against(*fit) : uncertain;
-  if ((notes_ & note_not_explained) != 0) return ModeResult::not_explained;
+  if ((notes_ & note_poor_fit) != 0) return ModeResult::poor_fit;
   if ((notes_ & uncertain) != 0) return ModeResult::uncertain;
   if ((notes_ & note_implausible) != 0) return ModeResult::implausible;
 

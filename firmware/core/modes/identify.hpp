@@ -11,9 +11,9 @@
 namespace supercoil::modes {
 
 /// Excites the muscle at its own pace, fits it, and judges each parameter by itself. A muscle is
-/// found when θ2 to θ4, which controllers go by, are known, explain the last third of the
+/// found when θ2 to θ4, which controllers use, are known, explain the last third of the
 /// experiment, and lie within a span of what is believed. What is not known of θ1 stays as
-/// believed; position and power never tell γ and m̂, so they do too.
+/// believed; position and power never give γ and m̂, so they do too.
 class Identify {
  public:
   struct Settings {

@@ -10,22 +10,22 @@ namespace supercoil {
 
 /// Of the last time that either was asked for. All but found and not_stored changes nothing.
 enum class ModeResult : std::uint8_t {
-  none = 0,           ///< never, since the start
-  running = 1,        ///< it has not ended yet
-  found = 2,          ///< used from now on, and handed to whoever stores it
-  interrupted = 3,    ///< by a command or a fault
-  not_cold = 4,       ///< calibrate: the muscle did not cool in time
-  moved = 5,          ///< calibrate: the position changed while its zero was taken
-  not_explained = 6,  ///< identify: the muscle did not do what the fit foretold
-  uncertain = 7,      ///< identify: the fit leaves a parameter open that a controller needs
-  implausible = 8,    ///< out of range; of identify also: far from what was believed
-  not_stored = 9,     ///< used, but the last ones still wait to be stored
-  too_still = 10,     ///< identify: the muscle hardly moved
+  none = 0,                ///< never, since the start
+  running = 1,             ///< it has not ended yet
+  found = 2,               ///< used from now on, and handed to the storage worker
+  interrupted = 3,         ///< by a command or a fault
+  not_cold = 4,            ///< calibrate: the muscle did not cool in time
+  moved = 5,               ///< calibrate: the position changed while its zero was taken
+  poor_fit = 6,            ///< identify: the muscle did not do what the fit predicted
+  uncertain = 7,           ///< identify: the fit leaves a parameter open that a controller needs
+  implausible = 8,         ///< out of range; of identify also: far from what was believed
+  not_stored = 9,          ///< used, but the last ones still wait to be stored
+  too_little_motion = 10,  ///< identify: the muscle hardly moved
 };
 
 inline constexpr std::array<std::string_view, 11> mode_result_names{
-    "none",          "running",   "found",       "interrupted", "not_cold", "moved",
-    "not_explained", "uncertain", "implausible", "not_stored",  "too_still"};
+    "none",     "running",   "found",       "interrupted", "not_cold",         "moved",
+    "poor_fit", "uncertain", "implausible", "not_stored",  "too_little_motion"};
 
 /// Bits: everything that identify has to say of its last fit. Each is a reason for a refusal, but
 /// for theta1_kept and friction: they come with found.
@@ -34,16 +34,16 @@ enum IdentifyNote : std::uint8_t {
   note_theta2_uncertain = 2,  ///< its deviation is too large, or the unseen third says another
   note_theta3_uncertain = 4,
   note_theta4_uncertain = 8,
-  note_not_explained = 16,
+  note_poor_fit = 16,
   note_implausible = 32,
-  note_too_still = 64,
+  note_too_little_motion = 64,
   note_friction = 128,  ///< less than half of a small motion arrives at the sensor
 };
 inline constexpr std::array<std::string_view, 8> identify_note_names{
-    "theta1_kept",   "theta2_uncertain", "theta3_uncertain", "theta4_uncertain",
-    "not_explained", "implausible",      "too_still",        "friction"};
+    "theta1_kept", "theta2_uncertain", "theta3_uncertain",  "theta4_uncertain",
+    "poor_fit",    "implausible",      "too_little_motion", "friction"};
 
-/// "theta2_uncertain, not_explained"; empty when there is none. A bit without a name is left out.
+/// "theta2_uncertain, poor_fit"; empty when there is none. A bit without a name is left out.
 inline std::string describe_notes(std::uint8_t notes, const std::string& separator = ", ") {
   std::string text;
   for (std::size_t i = 0; i < identify_note_names.size(); ++i) {

@@ -5,16 +5,16 @@
 namespace supercoil {
 
 BoardSupervisor::BoardSupervisor(const BoardSupervision& s, double step_s)
-    : under_({s.lowest_supply_V, s.supply_s}, step_s),
-      over_({s.highest_supply_V, s.supply_s}, step_s),
+    : under_({s.min_supply_V, s.supply_s}, step_s),
+      over_({s.max_supply_V, s.supply_s}, step_s),
       late_in_a_row_(s.late_in_a_row),
       overruns_(s.overruns_in_a_row),
-      telemetry_(s.telemetry_silence_s, step_s),
+      telemetry_(s.telemetry_timeout_s, step_s),
       bus_off_(s.bus_off_s, step_s),
-      bus_passive_(s.bus_passive_s, step_s),
+      bus_passive_(s.bus_error_passive_s, step_s),
       late_s_(s.late_s) {}
 
-Fault BoardSupervisor::step(const BoardEvidence& e) {
+Fault BoardSupervisor::step(const BoardInputs& e) {
   using enum Fault;
   verdict_.begin();
   const bool closed = e.stop_circuit.status == hal::Status::ok && e.stop_circuit.high;
@@ -25,7 +25,7 @@ Fault BoardSupervisor::step(const BoardEvidence& e) {
   verdict_.note(over_voltage, over_.step(e.supply.present ? supply_V : 0.0), over_);
   verdict_.note(overrun, overruns_.step(e.skipped), overruns_);
   verdict_.note(tick_late, late_in_a_row_.step(e.late_s > late_s_), late_in_a_row_);
-  verdict_.note(telemetry_dead, telemetry_.step(e.telemetry_beats), telemetry_);
+  verdict_.note(telemetry_dead, telemetry_.step(e.telemetry_heartbeats), telemetry_);
   const bool off = e.bus == hal::CanState::bus_off || e.bus == hal::CanState::down;
   const bool passive = off || e.bus == hal::CanState::error_passive;
   verdict_.note(bus_off, bus_off_.step(off), bus_off_);

@@ -14,14 +14,14 @@
 
 namespace supercoil {
 
-/// What a board knows at this tick.
-struct BoardEvidence {
+/// The board's inputs of this tick.
+struct BoardInputs {
   board::Measured supply;  ///< in V
   hal::Level stop_circuit;
   double late_s = 0.0;       ///< how much after its time this tick woke
   std::int64_t skipped = 0;  ///< periods that the last tick overran
   bool lines_ok = true;      ///< every line of the last tick was set
-  std::uint32_t telemetry_beats = 0;
+  std::uint32_t telemetry_heartbeats = 0;
   hal::CanState bus = hal::CanState::active;
   bool node_conflict = false;  ///< another board speaks as a node of this one
   bool configuration_changed = false;
@@ -35,7 +35,7 @@ class BoardSupervisor {
   BoardSupervisor(const BoardSupervision& settings, double step_s);
 
   /// One tick: the fault of this tick, or none.
-  Fault step(const BoardEvidence& e);
+  Fault step(const BoardInputs& e);
   const Verdict& verdict() const { return verdict_; }
 
  private:
@@ -46,11 +46,11 @@ class BoardSupervisor {
   detectors::Flag self_test_;
   detectors::Below under_;
   detectors::Above over_;
-  detectors::InARow late_in_a_row_;
-  detectors::InARow overruns_;
-  detectors::Silent telemetry_;
-  detectors::Lasting bus_off_;
-  detectors::Lasting bus_passive_;
+  detectors::ConsecutiveCount late_in_a_row_;
+  detectors::ConsecutiveCount overruns_;
+  detectors::StalledCounter telemetry_;
+  detectors::TimedFlag bus_off_;
+  detectors::TimedFlag bus_passive_;
   detectors::Flag node_conflict_;
   double late_s_;
 };

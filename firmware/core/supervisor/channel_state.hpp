@@ -34,18 +34,18 @@ enum class Refusal : std::uint8_t {
   busy = 5,            ///< a probe, identification or calibration is under way
   out_of_range = 6,    ///< its value
   no_such_channel = 7,
-  not_yours = 8,       ///< over CAN: another master holds the lease
-  no_lease = 9,        ///< over CAN: nobody holds it; claim it first
-  wrong_counter = 10,  ///< over CAN: repeated, or too many were lost before it
-  too_many = 11,       ///< more commands than a tick can take
-  claim_again = 12,    ///< over CAN: the lease is free, for who claims it with the number told
-  other_version = 13,  ///< over CAN: of another version of the protocol
+  not_lease_holder = 8,    ///< over CAN: another master holds the lease
+  no_lease = 9,            ///< over CAN: not held by any master; claim it first
+  wrong_counter = 10,      ///< over CAN: repeated, or too many were lost before it
+  queue_full = 11,         ///< more commands than a tick can take
+  claim_again = 12,        ///< over CAN: the lease is free; claim it with the number in the answer
+  protocol_mismatch = 13,  ///< over CAN: of another version of the protocol
 };
 
 inline constexpr std::array<std::string_view, 14> refusal_names{
-    "none",          "wrong_state",  "cause_persists",  "no_edge",      "not_ready",
-    "busy",          "out_of_range", "no_such_channel", "not_yours",    "no_lease",
-    "wrong_counter", "too_many",     "claim_again",     "other_version"};
+    "none",          "wrong_state",  "cause_persists",  "no_edge",          "not_ready",
+    "busy",          "out_of_range", "no_such_channel", "not_lease_holder", "no_lease",
+    "wrong_counter", "queue_full",   "claim_again",     "protocol_mismatch"};
 constexpr std::string_view name(Refusal refusal) {
   return refusal_names[static_cast<std::size_t>(refusal)];
 }

@@ -7,37 +7,38 @@ namespace supercoil {
 namespace {
 
 /// A muscle at a quarter of its cold conductance is as good as broken.
-constexpr double open_part = 0.25;
+constexpr double open_load_ratio = 0.25;
 /// Frozen: a live sensor's readings spread over more than this part of its own noise.
-constexpr double frozen_part = 0.5;
+constexpr double frozen_noise_ratio = 0.5;
 /// Jump: two readings of a resting muscle differ by less than this many times the noise.
 constexpr double jump_noises = 12.0;
-/// The resistance is smoothed; outside its span for so long it is no noise.
+/// The resistance is smoothed; outside its span for this long it is not noise.
 constexpr double drifting_s = 0.5;
 constexpr double quiet_sensor_m = 50e-6;  ///< a jump is more than this, however quiet the sensor
 
 double frozen_band_m(const ChannelSupervision& s) {
-  return s.position_noise_rms_m > 0.0 ? frozen_part * s.position_noise_rms_m : -1.0;
+  return s.position_noise_rms_m > 0.0 ? frozen_noise_ratio * s.position_noise_rms_m : -1.0;
 }
 
 }  // namespace
 
 ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_resistance_Ohm,
-                                     double lowest_supply_V, double step_s)
+                                     double min_supply_V, double step_s)
     : settings_(s),
-      out_of_range_({s.lowest_position_m, s.highest_position_m, s.out_of_range_s}, step_s),
+      out_of_range_({s.min_position_m, s.max_position_m, s.out_of_range_s}, step_s),
       frozen_({frozen_band_m(s), s.frozen_s}, step_s),
-      jump_({s.fastest_m_per_s, quiet_sensor_m + jump_noises * s.position_noise_rms_m}),
+      jump_({s.max_speed_m_per_s, quiet_sensor_m + jump_noises * s.position_noise_rms_m}),
       disagree_({s.disagree_K, s.disagree_s}, step_s),
-      open_({s.open_min_duty, open_part * lowest_supply_V / cold_resistance_Ohm, s.open_s}, step_s),
+      open_({s.open_min_duty, open_load_ratio * min_supply_V / cold_resistance_Ohm, s.open_s},
+            step_s),
       short_({s.off_current_A, s.short_s}, step_s),
       stuck_on_({s.off_current_A, s.stuck_on_s}, step_s),
-      not_responding_({s.responding_window_s, s.responding_part, s.responding_least_m}, step_s),
+      not_responding_({s.responding_window_s, s.responding_ratio, s.responding_min_m}, step_s),
       wrong_duty_(s.wrong_duty_s, step_s),
       temperature_(s.trip_C),
       travel_(s.max_travel_m),
       energy_({s.energy_J, s.energy_window_s}, step_s),
-      drift_({s.resistance_part, drifting_s}, step_s),
+      drift_({s.resistance_ratio, drifting_s}, step_s),
       power_({s.max_measured_W, s.over_power_s}, step_s),
       expired_(s.command_timeout_s, step_s),
       damaged_(s.damaged_in_a_row),
@@ -83,9 +84,9 @@ void ChannelSupervisor::judge_heater(const HeaterEvidence& e) {
   verdict_.note(heater_open, open_.step(e.off ? 0.0 : e.duty, current_A), open_);
   // What is above the current of the least resistance that the muscle may have. Without a supply
   // that is known there is none; that the supply is not is under_voltage's to say.
-  const double most_A = e.duty * e.supply_V / settings_.least_resistance_Ohm;
+  const double max_A = e.duty * e.supply_V / settings_.min_resistance_Ohm;
   const bool judged = !e.off && e.supply_V > 0.0;
-  verdict_.note(heater_short, short_.step(judged ? current_A - most_A : 0.0), short_);
+  verdict_.note(heater_short, short_.step(judged ? current_A - max_A : 0.0), short_);
   const double measured_W = e.supply_V * current_A;
   verdict_.note(power_limit_exceeded, power_.step(measured_W), power_);
 }
@@ -110,7 +111,7 @@ void ChannelSupervisor::judge_muscle(const AxisEvidence& axis, const HeaterEvide
     verdict_.note(over_travel, travel_.step(axis.position.value), travel_);
   }
   verdict_.note(energy_budget_exceeded, energy_.step(heater.measured_W), energy_);
-  // While heating as well: a sense that tells too little current makes the power stage give more.
+  // While heating as well: a sense that reads too little current makes the power stage give more.
   if (heater.resistance_fresh) {
     verdict_.note(resistance_drift,
                   drift_.step(heater.resistance_Ohm, heater.min_Ohm, heater.max_Ohm, heater.probed),
@@ -125,8 +126,9 @@ void ChannelSupervisor::judge_commands(const CommandEvidence& commands, const Ax
                                        const HeaterEvidence& heater) {
   using enum Fault;
   // Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
-  const bool wants_more = commands.heating && heater.limited && axis.wanted_W > heater.applied_W;
-  verdict_.note(controller_invalid, lost_.step(axis.wanted_W, wants_more), lost_);
+  const bool unmet_demand =
+      commands.heating && heater.limited && axis.demanded_W > heater.applied_W;
+  verdict_.note(controller_invalid, lost_.step(axis.demanded_W, unmet_demand), lost_);
   verdict_.note(command_timeout, expired_.step(commands.renewed, commands.heating), expired_);
   // Only an obeyed command ends a row: damaged and refused ones may alternate.
   if (commands.damaged || commands.obeyed) {

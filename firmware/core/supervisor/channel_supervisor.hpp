@@ -1,10 +1,10 @@
 // May this channel be hot? All of a channel's detectors, and nothing but they.
 #pragma once
 
-#include "supervisor/detectors/answer.hpp"
 #include "supervisor/detectors/heater.hpp"
 #include "supervisor/detectors/liveness.hpp"
 #include "supervisor/detectors/muscle.hpp"
+#include "supervisor/detectors/response.hpp"
 #include "supervisor/detectors/sensor.hpp"
 #include "supervisor/evidence.hpp"
 #include "supervisor/supervision.hpp"
@@ -16,18 +16,18 @@ class ChannelSupervisor {
  public:
   ChannelSupervisor(const ChannelSupervisor&) = delete;
   ChannelSupervisor& operator=(const ChannelSupervisor&) = delete;
-  /// cold_resistance_Ohm and lowest_supply_V say what current is too little.
+  /// cold_resistance_Ohm and min_supply_V say what current is too little.
   ChannelSupervisor(const ChannelSupervision& settings, double cold_resistance_Ohm,
-                    double lowest_supply_V, double step_s);
+                    double min_supply_V, double step_s);
 
   /// One tick: the fault of this tick, or none.
   /// After an overrun it is called once for each period that passed.
   Fault step(const AxisEvidence& axis, const HeaterEvidence& heater,
              const CommandEvidence& commands);
   const Verdict& verdict() const { return verdict_; }
-  /// Whether a sensor that is well can give this.
+  /// Whether a working sensor can give this.
   bool inside(double sensor_m) const {
-    return sensor_m >= settings_.lowest_position_m && sensor_m <= settings_.highest_position_m;
+    return sensor_m >= settings_.min_position_m && sensor_m <= settings_.max_position_m;
   }
   /// The channel was armed anew. What watches the muscle goes on: re-arming proves nothing of it.
   void rearmed() { lost_.reset(); }
@@ -46,22 +46,22 @@ class ChannelSupervisor {
   detectors::OutOfRange out_of_range_;
   detectors::Frozen frozen_;
   detectors::Jump jump_;
-  detectors::Disagree disagree_;
+  detectors::SensorsDisagree disagree_;
   detectors::OpenLoad open_;
   detectors::Short short_;
   detectors::StuckOn stuck_on_;
   detectors::NotResponding not_responding_;
-  detectors::Reported unanswered_;
+  detectors::ReportedMargin unanswered_;
   detectors::WrongDuty wrong_duty_;
   detectors::Limit temperature_;
   detectors::Limit travel_;
   detectors::EnergyBudget energy_;
   detectors::ResistanceDrift drift_;
   detectors::Above power_;
-  detectors::Expired expired_;
-  detectors::InARow damaged_;
-  detectors::InARow refused_;
-  detectors::ControllerLost lost_;
+  detectors::CommandTimeout expired_;
+  detectors::ConsecutiveCount damaged_;
+  detectors::ConsecutiveCount refused_;
+  detectors::ControllerSaturated lost_;
 };
 
 }  // namespace supercoil

@@ -10,30 +10,30 @@ namespace supercoil {
 
 namespace {
 
-constexpr double max_answer_m = 20e-6;
+constexpr double max_response_m = 20e-6;
 constexpr double max_counts = 2.0;
 /// Of the channel's greatest power.
 constexpr double max_amplitude_ratio = 0.1;
 /// What takes longer is no dither.
-constexpr double longest_s = 3.0;
+constexpr double max_s = 3.0;
 /// 0.2 s is the mechanical answer of the paper's muscle; slower ones need longer halves.
 constexpr std::array halves_s{0.2, 0.3, 0.5, 0.8, 1.2};
 
-double greatest_answer_m(ExpectedMotion motion, const Dither& dither, int steps) {
-  double greatest_m = 0.0;
+double peak_response_m(ExpectedMotion motion, const Dither& dither, int steps) {
+  double peak_m = 0.0;
   for (int i = 0; i < steps; ++i)
-    greatest_m = std::max(greatest_m, std::abs(motion.step(dither.sign(i))));
-  return greatest_m;
+    peak_m = std::max(peak_m, std::abs(motion.step(dither.sign(i))));
+  return peak_m;
 }
 
 double decided_s(ExpectedMotion motion, const Dither& dither, const SensorStep& sensor, int steps,
                  double step_s) {
-  detectors::SlowPartRemoved fast(dither_corner_rad_per_s, step_s);
-  const double needed_m = detectors::Answer::needed_deviations * sensor.noise_m;
+  detectors::HighPass fast(dither_corner_rad_per_s, step_s);
+  const double needed_m = detectors::Response::needed_deviations * sensor.noise_m;
   double sum_m2 = 0.0;
   for (int i = 0; i < steps; ++i) {
-    const double answer_m = fast.step(motion.step(dither.amplitude_W * dither.sign(i)));
-    sum_m2 += answer_m * answer_m;
+    const double response_m = fast.step(motion.step(dither.amplitude_W * dither.sign(i)));
+    sum_m2 += response_m * response_m;
     if (sum_m2 >= needed_m * needed_m) return (i + 1) * step_s;
   }
   return INFINITY;
@@ -42,21 +42,21 @@ double decided_s(ExpectedMotion motion, const Dither& dither, const SensorStep& 
 }  // namespace
 
 ExpectedMotion::ExpectedMotion(const control::PhysicalParameters& muscle, double step_s,
-                               double answer_ratio)
-    : answer_ratio_(answer_ratio) {
+                               double response_ratio)
+    : response_ratio_(response_ratio) {
   const control::ActuatorStateSpace system = control::state_space(muscle);
   discrete_ = control::zero_order_hold<3, 2>(system.a, system.b, step_s);
 }
 
 Dither dither_for(const ExpectedMotion& motion, const SensorStep& sensor, double max_W,
                   double in_time_s, double step_s) {
-  const double max_m = std::max(max_answer_m, max_counts * sensor.count_m);
-  const int steps = static_cast<int>(longest_s / step_s);
+  const double max_m = std::max(max_response_m, max_counts * sensor.count_m);
+  const int steps = static_cast<int>(max_s / step_s);
   Dither best;
   for (const double half_s : halves_s) {
     Dither dither;
     dither.half_steps = std::max(2, static_cast<int>(std::lround(half_s / step_s)));
-    const double per_W_m = greatest_answer_m(motion, dither, steps);
+    const double per_W_m = peak_response_m(motion, dither, steps);
     dither.amplitude_W = std::min(max_m / per_W_m, max_amplitude_ratio * max_W);
     dither.decided_s = decided_s(motion, dither, sensor, steps, step_s);
     if (dither.decided_s < best.decided_s || dither.decided_s <= in_time_s) best = dither;

@@ -1,4 +1,4 @@
-// A small, short change of power whose answer can be told from the sensor's noise.
+// A small, short change of power whose response stands out of the sensor's noise.
 #pragma once
 
 #include <cmath>
@@ -6,29 +6,29 @@
 #include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/linear/discretize.hpp"
 
-#include "supervisor/detectors/answer.hpp"
+#include "supervisor/detectors/response.hpp"
 
 namespace supercoil {
 
 /// The position that a muscle's model has, step by step of some 10 ms.
 class ExpectedMotion {
  public:
-  /// answer_ratio: how much of it arrives at the sensor.
+  /// response_ratio: how much of it arrives at the sensor.
   ExpectedMotion(const control::PhysicalParameters& muscle, double step_s,
-                 double answer_ratio = 1.0);
+                 double response_ratio = 1.0);
 
   /// power_W acted during this step: the mean position in it.
   double step(double power_W) {
     const double before_m = state_[1];
     state_ = discrete_.transition * state_ + discrete_.held.col(0) * power_W;
-    return 0.5 * answer_ratio_ * (before_m + state_[1]);
+    return 0.5 * response_ratio_ * (before_m + state_[1]);
   }
   /// Where another model of the same muscle is.
   void take_over(const ExpectedMotion& other) { state_ = other.state_; }
 
  private:
   control::ZeroOrderHold<3, 2> discrete_;
-  double answer_ratio_;
+  double response_ratio_;
   control::Vector<double, 3> state_ = control::Vector<double, 3>::Zero();
 };
 

@@ -12,7 +12,7 @@ struct AxisEvidence {
   board::Measured position;         ///< in m, calibrated
   double sensor_m = 0.0;            ///< the same as the sensor gives it
   double position_elapsed_s = 0.0;  ///< since the last fresh position; 0: this one is not fresh
-  double wanted_W = 0.0;            ///< by the controller, at the last tick
+  double demanded_W = 0.0;          ///< by the controller, at the last tick
   double from_position_K = 0.0;  ///< temperature that the position tells, beside the resistance's
   bool unanswered = false;       ///< the muscle was asked to prove that it answers, and did not,
   detectors::Margin answer;      ///< and by how much
@@ -32,7 +32,7 @@ struct HeaterEvidence {
   detectors::NotResponding::Expected expected_m{};  ///< where the models of the muscle are
   double hottest_C = 0.0;
   double applied_W = 0.0;          ///< as it was set
-  double measured_W = 0.0;         ///< the larger of that and what the senses tell
+  double measured_W = 0.0;         ///< the larger of that and the measured one
   bool limited = false;            ///< what was set is less than what was wanted
   double from_resistance_K = 0.0;  ///< the temperature that it tells; 0: none
   bool probed = false;             ///< a probe ended at this tick with the next value

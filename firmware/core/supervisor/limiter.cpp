@@ -11,15 +11,15 @@ double Limiter::max_W(double temperature_C) const {
   return max_W() * std::max(0.0, (settings_.derate_to_C - temperature_C) / span_C);
 }
 
-Limiter::Result Limiter::step(double wanted_W, double temperature_C) {
-  Result result{wanted_W, LimitedBy::nothing};
-  const auto cap = [&](double most_W, LimitedBy by) {
-    if (result.power_W > most_W) result = {most_W, by};
+Limiter::Result Limiter::step(double demanded_W, double temperature_C) {
+  Result result{demanded_W, LimitedBy::nothing};
+  const auto cap = [&](double cap_W, LimitedBy by) {
+    if (result.power_W > cap_W) result = {cap_W, by};
   };
-  if (!std::isfinite(wanted_W) || std::isnan(temperature_C)) {
+  if (!std::isfinite(demanded_W) || std::isnan(temperature_C)) {
     result = {0.0, LimitedBy::invalid};
   } else {
-    if (wanted_W < settings_.min_W) result = {settings_.min_W, LimitedBy::minimum};
+    if (demanded_W < settings_.min_W) result = {settings_.min_W, LimitedBy::minimum};
     cap(max_W(), LimitedBy::maximum);
     cap(max_W(temperature_C), LimitedBy::temperature);
     cap(unproven_W_, LimitedBy::unproven);

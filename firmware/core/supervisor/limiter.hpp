@@ -44,19 +44,19 @@ class Limiter {
   Limiter(const LimiterSettings& settings, double step_s)
       : settings_(settings), rise_W_(settings.slew_W_per_s * step_s) {}
 
-  /// temperature_C: the hottest that the muscle may be. A temperature that is no number gives no
+  /// temperature_C: the hottest that the muscle may be. A temperature that is NaN gives no
   /// power.
-  Result step(double wanted_W, double temperature_C);
+  Result step(double demanded_W, double temperature_C);
   void set_range(double min_W, double max_W) {
     settings_.min_W = min_W;
     settings_.max_W = max_W;
   }
-  /// From whoever commands: a lower maximum than the one that is set.
-  void set_most(double most_W) { most_W_ = most_W; }
+  /// From an operator: a lower maximum than the configured one.
+  void set_cap(double cap_W) { cap_W_ = cap_W; }
   /// What a muscle may have by what it has proven.
   void set_unproven(double max_W) { unproven_W_ = max_W; }
   double min_W() const { return settings_.min_W; }
-  double max_W() const { return most_W_ < settings_.max_W ? most_W_ : settings_.max_W; }
+  double max_W() const { return cap_W_ < settings_.max_W ? cap_W_ : settings_.max_W; }
   /// The same for a muscle that may be so hot.
   double max_W(double temperature_C) const;
   /// The channel was made safe: the next rise starts from nothing.
@@ -65,7 +65,7 @@ class Limiter {
  private:
   LimiterSettings settings_;
   double rise_W_;
-  double most_W_ = std::numeric_limits<double>::infinity();
+  double cap_W_ = std::numeric_limits<double>::infinity();
   double unproven_W_ = std::numeric_limits<double>::infinity();
   double last_W_ = 0.0;
 };

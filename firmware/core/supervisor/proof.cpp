@@ -20,10 +20,10 @@ constexpr double overdue_ratio = 0.75;
 constexpr double provable_ratio = loop_ratio / overdue_ratio;
 /// A motion has this long to prove itself before a dither is added to it.
 constexpr double patience_s = 0.2;
-constexpr double longest_block_s = 2.0;
-/// Of obvious_m, rms: a position that moves so much by itself is no dead sensor's.
+constexpr double max_block_s = 2.0;
+/// Of obvious_m, rms: a position that moves this much by itself is not a dead sensor's.
 constexpr double loud_ratio = 0.1;
-constexpr double longest_release_s = 3.0;
+constexpr double max_release_s = 3.0;
 /// Powers are rounded to steps of the PWM.
 constexpr double above_safe_ratio = 1.05;
 /// Of obvious_m: friction of 2 % of the paper's load holds 1.1 mm.
@@ -40,12 +40,12 @@ SensorStep sensor_of(const ProofSettings& s, double rate_Hz) {
   return {std::sqrt(mean_m2 + s.count_m * s.count_m / 12.0), s.count_m};
 }
 
-double least_transfer_W_per_K(const ProofSettings& s) {
-  return worst_cooling_ratio * s.thermal.bounds.lowest_transfer_W_per_K;
+double min_transfer_W_per_K(const ProofSettings& s) {
+  return worst_cooling_ratio * s.thermal.bounds.min_transfer_W_per_K;
 }
 
 double rest_K(const ProofSettings& s, double power_W) {
-  return power_W * s.max_power_ratio / least_transfer_W_per_K(s);
+  return power_W * s.max_power_ratio / min_transfer_W_per_K(s);
 }
 
 /// What the interval's hot end comes to.
@@ -54,7 +54,7 @@ double hot_end_K(const ProofSettings& s, double power_W) {
 }
 
 double slowest_s(const ProofSettings& s) {
-  return s.thermal.bounds.lowest_mass_J_per_K / least_transfer_W_per_K(s);
+  return s.thermal.bounds.min_mass_J_per_K / min_transfer_W_per_K(s);
 }
 
 /// With all the power that there is, from the hottest that it may be, with the least mass.
@@ -99,7 +99,7 @@ ProofPlan plan_proof(const ProofSettings& s, const control::PhysicalParameters& 
   ProofPlan plan;
   const double in_time_s =
       decided_ratio / loop_ratio * time_to_limit_s(s, s.max_W, hot_end_K(s, s.max_W));
-  const ExpectedMotion motion(muscle, steps_s(rate_Hz), s.answer_ratio);
+  const ExpectedMotion motion(muscle, steps_s(rate_Hz), s.response_ratio);
   plan.dither = dither_for(motion, sensor_of(s, rate_Hz), s.max_W, in_time_s, steps_s(rate_Hz));
   plan.for_air(s, 0.0);
   return plan;
@@ -109,14 +109,14 @@ SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
                                         const control::PhysicalParameters& muscle, double hold_W,
                                         double rate_Hz) {
   constexpr double time_constants = 5.0;
-  constexpr double longest_s = 60.0;
+  constexpr double max_s = 60.0;
   ProofSettings all_arrives = settings;
-  all_arrives.answer_ratio = 1.0;
+  all_arrives.response_ratio = 1.0;
   SmallSignal::Settings s;
   s.dither = plan_proof(all_arrives, muscle, rate_Hz).dither;
   // Both halves of the dither need room.
   s.hold_W = std::clamp(hold_W, 2.0 * s.dither.amplitude_W, 0.5 * settings.max_W);
-  s.settle_s = std::min(longest_s, -time_constants / muscle.thermal_pole_rad_per_s());
+  s.settle_s = std::min(max_s, -time_constants / muscle.thermal_pole_rad_per_s());
   s.rate_Hz = rate_Hz;
   s.step_s = steps_s(rate_Hz);
   s.noise_m = sensor_of(settings, rate_Hz).noise_m;
@@ -132,25 +132,25 @@ Proof::Proof(const ProofSettings& settings, const control::PhysicalParameters& m
       step_ticks_(ticks_of_step(rate_Hz)),
       plan_(plan_proof(settings, muscle, rate_Hz)),
       all_(match_for(muscle, motion_corner_rad_per_s)),
-      dither_(match_for(muscle, dither_corner_rad_per_s, settings.answer_ratio)) {
+      dither_(match_for(muscle, dither_corner_rad_per_s, settings.response_ratio)) {
   enter(Stage::watching);
 }
 
 Proof::Match Proof::match_for(const control::PhysicalParameters& muscle, double corner_rad_per_s,
-                              double answer_ratio) const {
-  const detectors::SlowPartRemoved fast(corner_rad_per_s, step_s_);
-  return {ExpectedMotion(muscle, step_s_, answer_ratio), fast, fast,
-          detectors::Answer(sensor_of(settings_, rate_Hz_).noise_m)};
+                              double response_ratio) const {
+  const detectors::HighPass fast(corner_rad_per_s, step_s_);
+  return {ExpectedMotion(muscle, step_s_, response_ratio), fast, fast,
+          detectors::Response(sensor_of(settings_, rate_Hz_).noise_m)};
 }
 
-void Proof::learn(const control::PhysicalParameters& muscle, double answer_ratio) {
+void Proof::learn(const control::PhysicalParameters& muscle, double response_ratio) {
   known_ = true;
-  settings_.answer_ratio = answer_ratio;
+  settings_.response_ratio = response_ratio;
   plan_ = plan_proof(settings_, muscle, rate_Hz_);
   plan_.for_air(settings_, warmer_air_K_);
   const ExpectedMotion before = all_.motion;
   all_ = match_for(muscle, motion_corner_rad_per_s);
-  dither_ = match_for(muscle, dither_corner_rad_per_s, answer_ratio);
+  dither_ = match_for(muscle, dither_corner_rad_per_s, response_ratio);
   all_.motion.take_over(before);
   settled_ = false;
   enter(Stage::watching);
@@ -241,13 +241,13 @@ void Proof::judge(double power_W, double hottest_K) {
   } else if (unproven_s_ > overdue_ratio * time_to_limit_s(hottest_K)) {
     if (stage_ == Stage::watching) enter(Stage::overdue);
   }
-  if (block_s_ > longest_block_s) begin_block();
+  if (block_s_ > max_block_s) begin_block();
   drive_dither(hottest_K);
 }
 
 void Proof::judge_release() {
   const bool moved = high_m_ - low_m_ >= release_ratio * settings_.obvious_m;
-  const bool ends = stage_s_ >= longest_release_s;
+  const bool ends = stage_s_ >= max_release_s;
   unanswered_ = all_.silent() && (moved || ends);
   if (!unanswered_ && ((all_.answered() && moved) || ends)) enter(Stage::swallowed);
 }
@@ -301,7 +301,7 @@ void Proof::drive_dither(double hottest_K) {
 
 detectors::Margin Proof::margin() const {
   const double expected_m = high_m_ - low_m_;
-  return {all_.answer.ratio() * expected_m, detectors::Answer::silent_ratio * expected_m, true,
+  return {all_.answer.ratio() * expected_m, detectors::Response::silent_ratio * expected_m, true,
           true};
 }
 

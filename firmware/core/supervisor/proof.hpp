@@ -1,4 +1,4 @@
-// Who holds a hot muscle where its motion tells nothing must prove now and then that it answers.
+// A hot muscle at rest must prove from time to time that it still responds.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ namespace supercoil {
 struct ProofSettings {
   bool wanted = true;  ///< proof_of_response
   board::ThermalSettings thermal;
-  double max_power_ratio = 1.0;  ///< true power over what is told of it
+  double max_power_ratio = 1.0;  ///< true over measured power
   double max_W = 0.0;
   double derate_from_C = 0.0;
   double trip_C = 0.0;
   double position_noise_rms_m = 0.0;
   double count_m = 0.0;
-  double obvious_m = 0.001;  ///< responding_least_m
+  double obvious_m = 0.001;  ///< responding_min_m
   /// Of the model's small motions, what arrives at the sensor, as identify measured it.
-  double answer_ratio = 1.0;
+  double response_ratio = 1.0;
 };
 
 /// What a proof can do for one muscle: for --check as well.
@@ -66,10 +66,10 @@ class Proof {
         double rate_Hz);
 
   void step(const Input& in);
-  /// Another muscle is known from now on. answer_ratio: as in ProofSettings.
-  void learn(const control::PhysicalParameters& muscle, double answer_ratio);
+  /// Another muscle is known from now on. response_ratio: as in ProofSettings.
+  void learn(const control::PhysicalParameters& muscle, double response_ratio);
   const ProofSettings& settings() const { return settings_; }
-  /// True power over what is told of it may be this much from now on, of the same muscle.
+  /// True over measured power may be this much from now on, of the same muscle.
   void plan(double max_power_ratio, const control::PhysicalParameters& muscle);
   /// Every position moved, by a new calibration.
   void recalibrated() { settled_ = false; }
@@ -79,10 +79,10 @@ class Proof {
   /// The dither at this tick; 0: none.
   double dither_W() const { return dither_W_; }
   /// Both together; at the greatest power too there is room for both halves of a dither.
-  double added_to(double wanted_W) const {
-    if (dither_W_ == 0.0) return wanted_W;
+  double added_to(double demanded_W) const {
+    if (dither_W_ == 0.0) return demanded_W;
     const double room_W = std::fmin(settings_.max_W, max_W_) - plan_.dither.amplitude_W;
-    return (wanted_W > room_W ? room_W : wanted_W) + dither_W_;
+    return (demanded_W > room_W ? room_W : demanded_W) + dither_W_;
   }
   /// No more power than this.
   double max_W() const { return max_W_; }
@@ -104,10 +104,10 @@ class Proof {
   /// A model's motion, and how well the position follows it, both without their slow part.
   struct Match {
     ExpectedMotion motion;
-    detectors::SlowPartRemoved expected;
-    detectors::SlowPartRemoved measured;
-    detectors::Answer answer;
-    detectors::Answer::Result result = detectors::Answer::Result::open;
+    detectors::HighPass expected;
+    detectors::HighPass measured;
+    detectors::Response answer;
+    detectors::Response::Result result = detectors::Response::Result::open;
     double expected_m = 0.0;  ///< with its slow part, as what follows
     double smooth_expected_m = 0.0;
     double smooth_position_m = 0.0;
@@ -123,7 +123,7 @@ class Proof {
       expected.settle(smooth_expected_m);
       measured.settle(smooth_position_m);
       answer.restart();
-      result = detectors::Answer::Result::open;
+      result = detectors::Response::Result::open;
     }
     /// The position is somewhere else.
     void settle(double position_m) {
@@ -131,11 +131,11 @@ class Proof {
       smooth_position_m = position_m;
       restart();
     }
-    bool answered() const { return result == detectors::Answer::Result::answered; }
-    bool silent() const { return result == detectors::Answer::Result::silent; }
+    bool answered() const { return result == detectors::Response::Result::answered; }
+    bool silent() const { return result == detectors::Response::Result::silent; }
   };
   Match match_for(const control::PhysicalParameters& muscle, double corner_rad_per_s,
-                  double answer_ratio = 1.0) const;
+                  double response_ratio = 1.0) const;
 
   void end_step(const Input& in);
   void compare(double position_m);

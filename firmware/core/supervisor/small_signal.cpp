@@ -46,10 +46,10 @@ double SmallSignal::power_W() const {
   return settings_.hold_W + (place < 0 ? 0.0 : settings_.dither.step_W(place));
 }
 
-double SmallSignal::answer_ratio() const {
+double SmallSignal::response_ratio() const {
   constexpr double min_ratio = 0.001;
   constexpr double max_ratio = 10.0;
-  const double needed_m = detectors::Answer::needed_deviations * settings_.noise_m;
+  const double needed_m = detectors::Response::needed_deviations * settings_.noise_m;
   if (expected_m2_ <= needed_m * needed_m) return 0.0;
   return std::clamp(shared_m2_ / expected_m2_, min_ratio, max_ratio);
 }

@@ -31,7 +31,7 @@ class SmallSignal {
 
   /// Of the last run that came to its end: motion in phase with the model's, over the model's,
   /// 0.001 to 10. 0: noise hides it.
-  double answer_ratio() const;
+  double response_ratio() const;
 
  private:
   void end_step(double position_m, double power_W);
@@ -42,8 +42,8 @@ class SmallSignal {
 
   Settings settings_;
   ExpectedMotion motion_{{}, 0.01};
-  detectors::SlowPartRemoved expected_{dither_corner_rad_per_s, 0.01};
-  detectors::SlowPartRemoved measured_{dither_corner_rad_per_s, 0.01};
+  detectors::HighPass expected_{dither_corner_rad_per_s, 0.01};
+  detectors::HighPass measured_{dither_corner_rad_per_s, 0.01};
   std::int64_t step_ticks_ = 10;
   std::int64_t ticks_ = 0;
   double position_sum_m_ = 0.0;

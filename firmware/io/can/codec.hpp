@@ -58,14 +58,14 @@ class Reader {
 };
 
 /// More than any message has; decode() checks it.
-inline constexpr std::size_t most_signals = 20;
+inline constexpr std::size_t max_signals = 20;
 
 struct Decoded {
   const MessageInfo* message;
   Node node;
   /// In the order of the message's signals, in their units. NaN: not available, or not in this
   /// frame.
-  std::array<double, most_signals> values;
+  std::array<double, max_signals> values;
 };
 
 /// Of any message. Empty: no frame of the protocol, for its identifier or its length.

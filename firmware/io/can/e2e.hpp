@@ -32,7 +32,7 @@ inline bool intact(const hal::CanFrame& frame, std::uint8_t length) {
 /// Counters run from 0 to 15.
 inline constexpr std::uint8_t counters = 16;
 /// Frames that may be lost in a row without the sequence being broken.
-inline constexpr std::uint8_t most_lost = 3;
+inline constexpr std::uint8_t max_lost = 3;
 
 /// Whether a frame is the next one, or the next but the few that may be lost. Seen is a frame that
 /// comes again while fewer than 12 came after it. Not seen is one that comes 12 to 15 frames later,
@@ -40,7 +40,7 @@ inline constexpr std::uint8_t most_lost = 3;
 /// long these can pass (Leases), and a recorded claim brings neither back.
 constexpr bool follows(std::uint8_t counter, std::uint8_t last) {
   const int ahead = (counter - last + counters) % counters;
-  return ahead >= 1 && ahead <= most_lost + 1;
+  return ahead >= 1 && ahead <= max_lost + 1;
 }
 
 }  // namespace supercoil::can::e2e

@@ -13,7 +13,7 @@ namespace supercoil::can {
 
 /// Node 1 to 63: one channel of a board; those of a board follow one another.
 using Node = std::uint8_t;
-inline constexpr int most_nodes = 63;
+inline constexpr int max_nodes = 63;
 
 constexpr std::uint16_t id_of(const MessageInfo& message, Node node) {
   return static_cast<std::uint16_t>(message.base + node);

@@ -12,7 +12,7 @@ namespace message = can::message;
 namespace {
 
 bool ends_lease(Refusal refusal) {
-  return refusal == Refusal::no_lease || refusal == Refusal::not_yours;
+  return refusal == Refusal::no_lease || refusal == Refusal::not_lease_holder;
 }
 
 /// Empty: of another version of the protocol.
@@ -35,7 +35,7 @@ std::uint16_t refused_value_id(std::uint8_t node) {
   return can::id_of(message::refused_value, node);
 }
 
-std::optional<double> hear_nearest(std::uint8_t node, const hal::CanFrame& frame) {
+std::optional<double> receive_nearest(std::uint8_t node, const hal::CanFrame& frame) {
   if (frame.id != refused_value_id(node) || frame.length != message::refused_value.length)
     return std::nullopt;
   return can::Reader<message::refused_value>(frame).get("nearest");
@@ -93,7 +93,7 @@ hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {
       .protected_frame();
 }
 
-std::optional<Master::Setting> Master::hear_setting(const hal::CanFrame& frame, bool of_write) {
+std::optional<Master::Setting> Master::receive_setting(const hal::CanFrame& frame, bool of_write) {
   if (frame.id != setting_id(node_) || !e2e::intact(frame, message::setting.length))
     return std::nullopt;
   const can::Reader<message::setting> m(frame);
@@ -105,7 +105,7 @@ std::optional<Master::Setting> Master::hear_setting(const hal::CanFrame& frame, 
   return Setting{m.get<std::uint8_t>("setting"), *refusal, m.get<float>("value")};
 }
 
-void Master::hear_of_lease(Refusal refusal, std::uint16_t granted) {
+void Master::receive_lease(Refusal refusal, std::uint16_t granted) {
   nonce_ = refusal == Refusal::claim_again ? granted : 0;
   if (refusal == Refusal::claim_again) session_ = 0;
   if (refusal == Refusal::none) session_ = releasing_ ? 0 : granted;
@@ -120,7 +120,7 @@ std::optional<Master::Heard> Master::hear(const hal::CanFrame& frame) {
   const auto refusal = refusal_in(m.get("refusal"));
   if (!mine || !refusal) return std::nullopt;
   const auto opcode = m.get<std::uint8_t>("opcode");
-  if (opcode == telemetry::lease) hear_of_lease(*refusal, m.get<std::uint16_t>("granted"));
+  if (opcode == telemetry::lease) receive_lease(*refusal, m.get<std::uint16_t>("granted"));
   if (ends_lease(*refusal)) session_ = 0;
   return Heard{opcode, *refusal};
 }

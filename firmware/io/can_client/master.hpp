@@ -1,4 +1,4 @@
-// The frames of whoever commands one node, and what the node's answers mean (docs/can.md).
+// The frames of a master that commands one node, and what the node's answers mean (docs/can.md).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace supercoil::can_client {
 /// Of the frames by which a node answers its masters.
 std::uint16_t acknowledge_id(std::uint8_t node);
 std::uint16_t setting_id(std::uint8_t node);
-/// Of what a node tells after an answer that refuses a value.
+/// What a node sends after an answer that refuses a value.
 std::uint16_t refused_value_id(std::uint8_t node);
 /// Of its heartbeat.
 std::uint16_t status_id(std::uint8_t node);
@@ -21,8 +21,8 @@ std::uint16_t status_id(std::uint8_t node);
 std::uint16_t estimate_id(std::uint8_t node);
 
 /// Of the values that the node would have obeyed the nearest to the refused one, NaN where there is
-/// none. Empty: the frame tells of no refused value.
-std::optional<double> hear_nearest(std::uint8_t node, const hal::CanFrame& frame);
+/// none. Empty: the frame is not about a refused value.
+std::optional<double> receive_nearest(std::uint8_t node, const hal::CanFrame& frame);
 
 /// Asks for one setting of a node; needs no lease.
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);
@@ -49,10 +49,10 @@ class Master {
   struct Setting {
     std::uint8_t setting;
     Refusal refusal;
-    double value;  ///< that holds now; NaN: there is none
+    double value;  ///< that holds now; NaN: none
   };
   /// Empty: no intact answer to this master's last write, or to anybody's read.
-  std::optional<Setting> hear_setting(const hal::CanFrame& frame, bool of_write);
+  std::optional<Setting> receive_setting(const hal::CanFrame& frame, bool of_write);
 
   struct Heard {
     std::uint8_t opcode;  ///< of what was answered
@@ -65,11 +65,11 @@ class Master {
  private:
   hal::CanFrame frame(std::uint8_t opcode, double value);
   std::uint8_t next_counter();
-  void hear_of_lease(Refusal refusal, std::uint16_t granted);
+  void receive_lease(Refusal refusal, std::uint16_t granted);
 
   std::uint8_t node_;
   std::uint16_t name_;
-  std::uint16_t nonce_ = 0;  ///< that the next claim must repeat; 0: none was told
+  std::uint16_t nonce_ = 0;  ///< that the next claim must repeat; 0: none was received
   bool releasing_ = false;   ///< the last frame gave the lease back
   std::uint16_t session_ = 0;
   std::uint16_t asked_as_ = 0;  ///< what the last frame carried as its session

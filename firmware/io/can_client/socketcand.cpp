@@ -7,7 +7,7 @@ namespace supercoil::can_client {
 namespace {
 
 /// Longer than any element of the protocol.
-constexpr std::size_t most_bytes = 256;
+constexpr std::size_t max_bytes = 256;
 
 std::optional<std::uint16_t> standard_id(std::string_view word) {
   const auto id = number<std::uint32_t>(word, 16);
@@ -30,7 +30,7 @@ std::optional<std::string> ElementReader::take() {
       inside_ = true;
     }
     const std::size_t end = text_.find('>');
-    if (std::min(end, text_.size()) > most_bytes) {
+    if (std::min(end, text_.size()) > max_bytes) {
       inside_ = false;
       continue;
     }

@@ -11,10 +11,10 @@ std::optional<hal::Time> parse_time(std::string_view text) {
   constexpr std::size_t digits_of_nanoseconds = 9;
   fraction.resize(digits_of_nanoseconds, '0');
   // Nanoseconds in 64 bits count twice as many.
-  constexpr std::uint64_t most_s = std::numeric_limits<std::uint32_t>::max();
+  constexpr std::uint64_t max_s = std::numeric_limits<std::uint32_t>::max();
   const auto seconds = number<std::uint64_t>(text.substr(0, point), 10);
   const auto rest = number<std::uint32_t>(fraction, 10);
-  if (!seconds || !rest || *seconds > most_s) return std::nullopt;
+  if (!seconds || !rest || *seconds > max_s) return std::nullopt;
   return hal::Time(std::chrono::seconds(*seconds) + std::chrono::nanoseconds(*rest));
 }
 

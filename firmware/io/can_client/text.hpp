@@ -17,7 +17,7 @@ namespace supercoil::can_client {
 inline constexpr std::size_t digits_of_standard_id = 3;
 inline constexpr std::uint32_t standard_ids = 0x800;
 
-/// All of the text as a whole number; empty: it is none, or too large.
+/// All of the text as a whole number; empty: it is not one, or too large.
 template <class Number>
 std::optional<Number> number(std::string_view text, int base) {
   Number value{};

@@ -12,9 +12,9 @@ namespace supercoil::config {
 
 namespace {
 
-constexpr std::size_t most_channels = 16;
+constexpr std::size_t max_channels = 16;
 
-/// In the order of the file; what [every_channel] has wrong is told once, not for each channel.
+/// In the order of the file; what [every_channel] has wrong is reported once, not for each channel.
 std::vector<Problem> in_order(std::vector<Problem> problems) {
   std::stable_sort(problems.begin(), problems.end(),
                    [](const Problem& a, const Problem& b) { return a.line < b.line; });
@@ -28,7 +28,7 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
 
 void read_channels(std::vector<Section> sections, Section& every, const BoardContext& context,
                    BoardConfig& config) {
-  for (std::size_t i = 0; i < std::min(sections.size(), most_channels); ++i) {
+  for (std::size_t i = 0; i < std::min(sections.size(), max_channels); ++i) {
     ReadChannel channel = read_channel(sections[i].over(every.table(), "every_channel"),
                                        static_cast<int>(i + 1), context);
     config.settings.channels.push_back(std::move(channel.settings));
@@ -39,8 +39,8 @@ void read_channels(std::vector<Section> sections, Section& every, const BoardCon
 
 /// 0, or more than a board can have.
 bool refuse_number(const std::vector<Section>& channels, Diagnostics& diagnostics) {
-  if (!channels.empty() && channels.size() <= most_channels) return false;
-  const int line = channels.empty() ? 0 : channels[most_channels].line();
+  if (!channels.empty() && channels.size() <= max_channels) return false;
+  const int line = channels.empty() ? 0 : channels[max_channels].line();
   diagnostics.add(line, "channel",
                   "a board has 1 to 16 [[channel]], not " + std::to_string(channels.size()));
   return true;

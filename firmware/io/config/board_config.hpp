@@ -20,7 +20,8 @@ enum class Preset { nylon, skin };
 struct ChannelLabel {
   std::string name;
   Preset preset = Preset::nylon;
-  std::optional<double> thermal_fuse_C;  ///< at which it opens; 0: there is none; empty: not said
+  std::optional<double>
+      thermal_fuse_C;  ///< at which it opens; 0: not fitted; empty: not configured
 };
 
 struct BoardConfig {

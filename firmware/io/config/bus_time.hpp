@@ -9,7 +9,7 @@
 namespace supercoil::config {
 
 /// Of a tick; more is refused: the rest is for retries and for a kernel that is busy.
-inline constexpr double most_bus_part = 0.7;
+inline constexpr double max_bus_load = 0.7;
 
 struct BusUser {
   std::string what;  ///< e.g. "channel 1 position"
@@ -21,7 +21,7 @@ struct BusTime {
   double total_s = 0.0;  ///< every device served once
 };
 
-/// One transaction of so many bytes, in s.
+/// One transaction of that many bytes, in s.
 double transaction_s(const BusAddress& bus, int bytes);
 
 BusTime bus_time(const BoardWiring& wiring, const BusAddress& bus);

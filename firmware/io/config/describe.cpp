@@ -23,7 +23,7 @@ std::string shown(const board::AirSettings& air, const BoardWiring& wiring) {
   if (wiring.air) {
     out << "measured to " << air.error_K << " K at " << shown(*wiring.air);
   } else {
-    out << "not measured: what is warmer makes the muscle hotter than the board says";
+    out << "not measured: warmer air makes the muscle hotter than the board assumes";
   }
   return out.str();
 }
@@ -43,8 +43,8 @@ void describe_board(std::ostream& out, const BoardConfig& config) {
   } else {
     out << "none\n";
   }
-  out << "supply         " << shown(w.supply) << "\n               " << v.lowest_supply_V << " to "
-      << v.highest_supply_V << " V; outside for " << 1e3 * v.supply_s << " ms is a fault\n"
+  out << "supply         " << shown(w.supply) << "\n               " << v.min_supply_V << " to "
+      << v.max_supply_V << " V; outside for " << 1e3 * v.supply_s << " ms is a fault\n"
       << "air            " << shown(air, w) << "\n"
       << "commands       to heat expire after "
       << 1e3 * s.channels.front().supervision.command_timeout_s << " ms\n"
@@ -55,7 +55,7 @@ void describe_board(std::ostream& out, const BoardConfig& config) {
 
 void describe_buses(std::ostream& out, const BoardConfig& config) {
   const double tick_s = config.settings.step_s();
-  out << "\nbus time, of a tick of " << 1e3 * tick_s << " ms (at most " << 100.0 * most_bus_part
+  out << "\nbus time, of a tick of " << 1e3 * tick_s << " ms (at most " << 100.0 * max_bus_load
       << " %)\n";
   if (config.wiring.buses.empty()) out << "  no bus: every device is direct\n";
   for (const BusAddress& bus : config.wiring.buses) {
@@ -80,7 +80,7 @@ void describe_can(std::ostream& out, const BoardConfig& config) {
   out << " on " << can.interface << " at " << 1e-3 * can.bit_rate << " kbit/s, nodes "
       << int{can.first_node} << " to " << can.first_node + channels - 1 << "\n  load    "
       << rounded(100.0 * load, 0.1) << " % at worst, beside commands (at most "
-      << rounded(100.0 * can.most_load, 0.1) << " %)\n  lease   " << 1e3 * can.lease_s
+      << rounded(100.0 * can.max_load, 0.1) << " %)\n  lease   " << 1e3 * can.lease_s
       << " ms unused ends it\n";
   for (std::size_t i = 0; i < telemetry::messages; ++i) {
     const telemetry::PeriodicMessage& message = telemetry::periodic_messages()[i];
@@ -145,7 +145,7 @@ std::string describe(const BoardConfig& config) {
     out << "\n" << describe_channel(config, i);
   describe_buses(out, config);
   describe_can(out, config);
-  const auto weak = weaknesses(config);
+  const auto weak = warnings(config);
   out << "\ndetectors that cannot work, or not well" << (weak.empty() ? ": none\n" : "\n");
   for (const std::string& line : weak)
     out << "  " << line << "\n";

@@ -17,7 +17,7 @@ std::string describe(const BoardConfig& config);
 std::string describe_channel(const BoardConfig& config, std::size_t index);
 /// What narrows the bounds of the muscle's heat, and what would.
 std::string describe_heat(const ChannelSettings& channel);
-/// How far the true power may be from the told one, and since which comparison with a meter.
+/// How far the true power may be from the measured one, and since which comparison with a meter.
 std::string describe_senses(const ChannelSettings& channel, const BoardSettings& board);
 /// How much of a small motion arrives at the sensor, and up to which power that is enough.
 std::string describe_small_motions(const ChannelSettings& channel, const BoardSettings& board);
@@ -27,7 +27,7 @@ std::vector<std::string> describe_feasibility(const ChannelSettings& channel,
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
 /// One line for each detector that this configuration leaves blind, whose it is, and why.
-std::vector<std::string> weaknesses(const BoardConfig& config);
+std::vector<std::string> warnings(const BoardConfig& config);
 
 /// Bytes that are locked for a board's data: programs, libraries and stacks come on top.
 struct Memory {

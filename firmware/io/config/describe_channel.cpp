@@ -22,11 +22,11 @@ void describe_wiring(std::ostream& out, const ChannelWiring& w, const ChannelSet
   out << "\n  position    " << shown(w.position) << "; "
       << 1e6 * std::abs(c.position.scaling.per_count) << " um a count, noise "
       << 1e6 * c.supervision.position_noise_rms_m << " um rms\n"
-      << "              reads " << mm(c.supervision.lowest_position_m) << " to "
-      << mm(c.supervision.highest_position_m) << " mm; older than " << 1e3 * c.position.max_age_s
+      << "              reads " << mm(c.supervision.min_position_m) << " to "
+      << mm(c.supervision.max_position_m) << " mm; older than " << 1e3 * c.position.max_age_s
       << " ms is stale\n"
       << "  current     " << shown(w.current) << "; " << 1e3 * c.heater.current.scaling.per_count
-      << " mA a count; up to " << 1e3 * c.supervision.off_current_A << " mA counts as none\n";
+      << " mA a count; up to " << 1e3 * c.supervision.off_current_A << " mA counts as zero\n";
 }
 
 void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSettings& board,
@@ -48,11 +48,11 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
       << " °C on, where it trips\n";
   const control::ThermalBounds b = board::with_weighed_mass(c.thermal);
   const double rest_K =
-      c.limiter.max_W * power_bounds(c, board).true_over_told().max / b.lowest_transfer_W_per_K;
-  out << "              from " << b.lowest_mass_J_per_K << " to " << b.highest_mass_J_per_K
-      << " J/K and " << b.lowest_transfer_W_per_K << " to " << b.highest_transfer_W_per_K
-      << " W/K; " << c.limiter.max_W << " W for good may heat it to "
-      << std::nearbyint(c.thermal.air.warmest_C + rest_K) << " °C\n"
+      c.limiter.max_W * power_bounds(c, board).true_over_measured().max / b.min_transfer_W_per_K;
+  out << "              from " << b.min_mass_J_per_K << " to " << b.max_mass_J_per_K << " J/K and "
+      << b.min_transfer_W_per_K << " to " << b.max_transfer_W_per_K << " W/K; " << c.limiter.max_W
+      << " W for good may heat it to " << std::nearbyint(c.thermal.air.warmest_C + rest_K)
+      << " °C\n"
       << "              " << describe_heat(c) << "\n"
       << "              taken to be at up to "
       << std::nearbyint(c.thermal.air.warmest_C + c.thermal.boot_rise_K) << " °C at boot\n";
@@ -103,18 +103,19 @@ std::string describe_heat(const ChannelSettings& c) {
   } else {
     out << "not weighed (thermal.weighed_mass_error_ratio)";
   }
-  const board::KnownHeat known = board::known_heat(t, c.heat);
+  const board::KnownThermalBounds known = board::known_thermal_bounds(t, c.heat);
   if (known.count > 0) {
     const control::TransferSpan& span = known.spans[0];
     out << "; time constant " << c.heat.time_constant_s
-        << " s: " << known.lowest_W_per_K(span.from_K) << " to " << known.highest_W_per_K(span.to_K)
-        << " W/K from " << span.from_K << " to " << span.to_K << " K above the air";
+        << " s: " << known.min_heat_transfer_W_per_K(span.from_K) << " to "
+        << known.max_heat_transfer_W_per_K(span.to_K) << " W/K from " << span.from_K << " to "
+        << span.to_K << " K above the air";
   } else if (t.weighed()) {
-    out << "; identify tells the time constant, and with it the heat transfer";
+    out << "; identify finds the time constant, and with it the heat transfer";
   } else {
-    out << ": position and power tell the time constant only";
+    out << ": position and power give the time constant only";
   }
-  if (c.heat.was_read()) {
+  if (c.heat.has_reading()) {
     out << "; " << c.heat.steady_rise_K << " K above the air read at "
         << 0.5 * (c.heat.steady_min_W + c.heat.steady_max_W) << " W";
   } else {
@@ -124,13 +125,13 @@ std::string describe_heat(const ChannelSettings& c) {
 }
 
 std::string describe_small_motions(const ChannelSettings& c, const BoardSettings& board) {
-  if (!c.supervision.proof_of_response)
-    return "nobody asks for an answer: detectors.proof_of_response is false";
+  if (!c.supervision.proof_of_response) return "not checked: detectors.proof_of_response is false";
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
   std::ostringstream out;
-  if (c.answer_ratio > 0.0) {
-    out << std::nearbyint(1e2 * c.answer_ratio) << " % arrive at the sensor, as identify saw";
-    if (c.answer_ratio < detectors::Answer::least_answer_ratio) out << ": friction takes the rest";
+  if (c.response_ratio > 0.0) {
+    out << std::nearbyint(1e2 * c.response_ratio) << " % arrive at the sensor, as identify saw";
+    if (c.response_ratio < detectors::Response::min_response_ratio)
+      out << ": friction takes the rest";
   } else {
     out << "not measured: identify does that";
   }
@@ -140,7 +141,7 @@ std::string describe_small_motions(const ChannelSettings& c, const BoardSettings
 }
 
 std::string describe_senses(const ChannelSettings& c, const BoardSettings& board) {
-  const auto [min_ratio, max_ratio] = power_bounds(c, board).true_over_told();
+  const auto [min_ratio, max_ratio] = power_bounds(c, board).true_over_measured();
   std::ostringstream out;
   out.precision(3);
   if (c.senses.compared()) {
@@ -151,7 +152,7 @@ std::string describe_senses(const ChannelSettings& c, const BoardSettings& board
   } else {
     out << "until they are compared with a meter (supercoil doctor --compare-senses), ";
   }
-  out << "the true power is " << min_ratio << " to " << max_ratio << " times the told one";
+  out << "the true power is " << min_ratio << " to " << max_ratio << " times the measured power";
   return out.str();
 }
 

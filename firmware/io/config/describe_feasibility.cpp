@@ -37,7 +37,7 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
   if (f.air_shift_m > 0.0) {
     line += "; rests up to " + in_mm(f.air_shift_m) + " lower in the coldest air";
     if (!f.rest_seen)
-      line += ", where the sensor reads no less than " + in_mm(c.supervision.lowest_position_m);
+      line += ", where the sensor reads no less than " + in_mm(c.supervision.min_position_m);
   }
   return line;
 }
@@ -64,7 +64,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
   if (!f.rest_seen) {
     lines.push_back("in the coldest air it rests " + in_mm(f.air_shift_m) +
                     " below its zero, and the sensor reads no less than " +
-                    in_mm(c.supervision.lowest_position_m) + ": a colder start looks like a fault");
+                    in_mm(c.supervision.min_position_m) + ": a colder start looks like a fault");
   }
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     const auto& steps = f.steps[i];

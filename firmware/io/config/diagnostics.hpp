@@ -1,4 +1,4 @@
-// What is wrong with a configuration, said so that its author can mend it.
+// What is wrong with a configuration, so that its author can correct it.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ struct Problem {
   std::string text() const;
 };
 
-/// Collects every mistake of a file, so that they can be mended in one go.
+/// Collects every mistake of a file, so that they can be corrected at once.
 class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}

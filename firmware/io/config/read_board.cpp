@@ -24,10 +24,11 @@ void read_board(Section& section, BoardConfig& config) {
   BoardSupervision& s = config.settings.supervision;
   config.name = section.text("name", config.name);
   read_time(section, config.settings);
-  s.telemetry_silence_s =
-      1e-3 * section.number("telemetry_silence_ms", 1e3 * s.telemetry_silence_s, {10.0, 60e3});
-  s.bus_off_s = 1e-3 * section.number("can_off_ms", 1e3 * s.bus_off_s, {0.0, 60e3});
-  s.bus_passive_s = 1e-3 * section.number("can_passive_ms", 1e3 * s.bus_passive_s, {0.0, 60e3});
+  s.telemetry_timeout_s =
+      1e-3 * section.number("telemetry_timeout_ms", 1e3 * s.telemetry_timeout_s, {10.0, 60e3});
+  s.bus_off_s = 1e-3 * section.number("can_bus_off_ms", 1e3 * s.bus_off_s, {0.0, 60e3});
+  s.bus_error_passive_s =
+      1e-3 * section.number("can_error_passive_ms", 1e3 * s.bus_error_passive_s, {0.0, 60e3});
   config.storage_folder = section.text("storage_folder", "/var/lib/supercoil");
   if (config.storage_folder.empty() || config.storage_folder.front() != '/') {
     section.wrong("storage_folder", "must be an absolute path");
@@ -58,10 +59,10 @@ void read_supply(Section section, WiringReader& reader, BoardConfig& config) {
   settings.supply.scaling.per_count = section.required_number("V_per_count", {1e-9, 10.0});
   settings.supply.scaling.offset = section.number("offset_V", 0.0, {-100.0, 100.0});
   settings.supply.max_age_s = reader.max_age_s(section, config.wiring.supply);
-  s.lowest_supply_V = section.required_number("lowest_V", {0.5, 60.0});
-  s.highest_supply_V = section.required_number("highest_V", {0.5, 60.0});
-  if (s.lowest_supply_V >= s.highest_supply_V) {
-    section.wrong("lowest_V", "must be less than highest_V");
+  s.min_supply_V = section.required_number("min_V", {0.5, 60.0});
+  s.max_supply_V = section.required_number("max_V", {0.5, 60.0});
+  if (s.min_supply_V >= s.max_supply_V) {
+    section.wrong("min_V", "must be less than max_V");
   }
   const double hold_s = std::max(s.supply_s, 3.0 * settings.step_s());
   s.supply_s = 1e-3 * section.number("hold_ms", 1e3 * hold_s, {1.0, 1000.0});
@@ -89,15 +90,15 @@ board::AirSettings read_ambient(Section section, WiringReader& reader, BoardConf
 }
 
 CommandRules read_command(Section section, double step_s) {
-  const ChannelSupervision usual;
+  const ChannelSupervision defaults;
   CommandRules rules{};
-  const double least_ms = std::max(10.0, 2e3 * step_s);
+  const double min_ms = std::max(10.0, 2e3 * step_s);
   rules.timeout_s =
-      1e-3 * section.number("timeout_ms", 1e3 * usual.command_timeout_s, {least_ms, 5000.0});
+      1e-3 * section.number("timeout_ms", 1e3 * defaults.command_timeout_s, {min_ms, 5000.0});
   rules.damaged_in_a_row =
-      static_cast<int>(section.integer("damaged_in_a_row", usual.damaged_in_a_row, 1, 1000));
+      static_cast<int>(section.integer("damaged_in_a_row", defaults.damaged_in_a_row, 1, 1000));
   rules.refused_in_a_row =
-      static_cast<int>(section.integer("refused_in_a_row", usual.refused_in_a_row, 1, 1000));
+      static_cast<int>(section.integer("refused_in_a_row", defaults.refused_in_a_row, 1, 1000));
   section.finish();
   return rules;
 }

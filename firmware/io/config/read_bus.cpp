@@ -41,11 +41,11 @@ std::vector<BusAddress> read_buses(std::vector<Section> sections) {
 void refuse_slow_buses(std::vector<Section> sections, const BoardWiring& wiring, double step_s) {
   for (std::size_t i = 0; i < wiring.buses.size(); ++i) {
     const BusTime time = bus_time(wiring, wiring.buses[i]);
-    if (!(time.total_s > most_bus_part * step_s)) continue;
+    if (!(time.total_s > max_bus_load * step_s)) continue;
     std::ostringstream message;
     message << "the bus would be busy for " << std::round(1e5 * time.total_s) / 100.0 << " ms of a "
             << "tick of " << 1e3 * step_s << " ms (" << std::lround(100.0 * time.total_s / step_s)
-            << " %), and " << 100.0 * most_bus_part << " % is the most";
+            << " %), and " << 100.0 * max_bus_load << " % is the most";
     sections[i].wrong("name", message.str());
   }
 }

@@ -11,19 +11,18 @@ namespace supercoil::config {
 namespace {
 
 /// The kernel's IFNAMSIZ, less the zero at the end.
-constexpr std::size_t longest_interface = 15;
+constexpr std::size_t max_interface = 15;
 
 telemetry::Rates read_rates(Section section, double tick_Hz) {
-  telemetry::Rates rates = telemetry::usual_rates();
+  telemetry::Rates rates = telemetry::default_rates();
   for (std::size_t i = 0; i < telemetry::messages; ++i) {
     const std::string key = std::string(telemetry::periodic_messages()[i].name) + "_Hz";
     const auto message = static_cast<telemetry::Message>(i);
-    const double least_Hz =
-        message == telemetry::Message::status ? telemetry::least_status_Hz : 0.0;
-    rates[i] = section.number(key, rates[i], {least_Hz, telemetry::most_rate(tick_Hz)});
+    const double min_Hz = message == telemetry::Message::status ? telemetry::min_status_Hz : 0.0;
+    rates[i] = section.number(key, rates[i], {min_Hz, telemetry::max_rate(tick_Hz)});
     if (!telemetry::is_allowed(message, rates[i], tick_Hz)) {
       std::ostringstream range;
-      range << "must be 0, for never, or at least " << telemetry::least_rate_Hz;
+      range << "must be 0, for never, or at least " << telemetry::min_rate_Hz;
       section.wrong(key, range.str());
     }
   }
@@ -33,11 +32,11 @@ telemetry::Rates read_rates(Section section, double tick_Hz) {
 
 void refuse_load(Section& section, const telemetry::CanSettings& can, std::size_t channels) {
   const double load = telemetry::bus_load(can, channels);
-  if (!(load > can.most_load)) return;
+  if (!(load > can.max_load)) return;
   std::ostringstream message;
   message << "the bus would be busy for " << std::lround(100.0 * load)
-          << " % with what is sent at a rate, and " << std::lround(100.0 * can.most_load)
-          << " % is the most (most_load): choose lower rates";
+          << " % with what is sent at a rate, and " << std::lround(100.0 * can.max_load)
+          << " % is the most (max_load): choose lower rates";
   section.wrong("bit_rate", message.str());
 }
 
@@ -46,15 +45,15 @@ void refuse_load(Section& section, const telemetry::CanSettings& can, std::size_
 telemetry::CanSettings read_can(Section section, double tick_Hz, std::size_t channels) {
   telemetry::CanSettings can;
   can.interface = section.text("interface", can.interface);
-  if (can.interface.empty() || can.interface.size() > longest_interface) {
+  if (can.interface.empty() || can.interface.size() > max_interface) {
     section.wrong("interface", "must be a name of 1 to 15 characters");
   }
   can.bit_rate = static_cast<double>(
       section.integer("bit_rate", std::lround(can.bit_rate), 10'000, 1'000'000));
-  const auto last_first = can::most_nodes + 1 - static_cast<std::int64_t>(channels);
+  const auto last_first = can::max_nodes + 1 - static_cast<std::int64_t>(channels);
   can.first_node = static_cast<can::Node>(
       section.integer("first_node", can.first_node, 1, std::max<std::int64_t>(last_first, 1)));
-  can.most_load = section.number("most_load", can.most_load, {0.01, 0.9});
+  can.max_load = section.number("max_load", can.max_load, {0.01, 0.9});
   can.lease_s = 1e-3 * section.number("lease_ms", 1e3 * can.lease_s, {100.0, 60e3});
   can.rates_Hz = read_rates(section.section("rates"), tick_Hz);
   refuse_load(section, can, channels);

@@ -18,10 +18,10 @@ void read_position(Section section, const std::string& owner, const BoardContext
   if (input.scaling.per_count == 0.0) section.wrong("m_per_count", "must not be 0");
   input.scaling.offset = section.number("offset_m", 0.0, {-10.0, 10.0});
   input.max_age_s = context.wiring.max_age_s(section, channel.wiring.position);
-  s.lowest_position_m = section.required_number("lowest_m", {-10.0, 10.0});
-  s.highest_position_m = section.required_number("highest_m", {-10.0, 10.0});
-  if (s.lowest_position_m >= s.highest_position_m) {
-    section.wrong("lowest_m", "must be less than highest_m");
+  s.min_position_m = section.required_number("min_m", {-10.0, 10.0});
+  s.max_position_m = section.required_number("max_m", {-10.0, 10.0});
+  if (s.min_position_m >= s.max_position_m) {
+    section.wrong("min_m", "must be less than max_m");
   }
   s.position_noise_rms_m = section.number("noise_rms_m", s.position_noise_rms_m, {0.0, 0.01});
   section.finish();
@@ -48,15 +48,15 @@ const char* what_to_change(control::ControllerKind kind) {
   return "lower its gains";
 }
 
-/// What would not even hold the muscle that is configured, be it adapted to it.
+/// Rejects controllers that are unstable on the configured muscle, even when adapted.
 void refuse_unstable(Section& table, const control::ControllerSettings& controller,
                      const ChannelSettings& channel, double step_s) {
   const auto margin = margin_of(controller, channel, step_s);
   if (!margin || margin->stable()) return;
   std::ostringstream message;
   message << "is unstable on this muscle"
-          << (control::adapts(controller.kind) ? ", even when it has adapted to it," : "")
-          << " with " << 1e3 * loop_delay_s(channel, step_s)
+          << (control::adapts(controller.kind) ? ", even when adapted," : "") << " with "
+          << 1e3 * loop_delay_s(channel, step_s)
           << " ms of delay: " << what_to_change(controller.kind) << ", or shorten the delay";
   table.wrong("kind", message.str());
 }

@@ -39,15 +39,15 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   const double cold_Ohm = c.heater.cold_resistance_Ohm;
   read.number("open_min_duty", s.open_min_duty, {0.001, 0.5});
   read.time("open_ms", s.open_s, 3.0, {1.0, 1000.0});
-  if (std::isfinite(cold_Ohm)) s.least_resistance_Ohm = default_least_resistance_Ohm(cold_Ohm);
-  read.number("least_resistance_Ohm", s.least_resistance_Ohm, {0.01, 1e4});
-  if (s.least_resistance_Ohm >= cold_Ohm) {
-    section.wrong("least_resistance_Ohm", "must be less than heater.cold_resistance_Ohm");
+  if (std::isfinite(cold_Ohm)) s.min_resistance_Ohm = default_least_resistance_Ohm(cold_Ohm);
+  read.number("min_resistance_Ohm", s.min_resistance_Ohm, {0.01, 1e4});
+  if (s.min_resistance_Ohm >= cold_Ohm) {
+    section.wrong("min_resistance_Ohm", "must be less than heater.cold_resistance_Ohm");
   }
   read.time("short_ms", s.short_s, 1.0, {0.1, 100.0});
   // 50 ms is what the way to the charge pump is promised within.
   read.time("stuck_on_ms", s.stuck_on_s, 2.0, {5.0, 50.0});
-  const double full_A = context.board.supervision.lowest_supply_V / cold_Ohm;
+  const double full_A = context.board.supervision.min_supply_V / cold_Ohm;
   if (s.off_current_A > 0.5 * full_A) {
     std::ostringstream message;
     message << "the current's off_A = " << s.off_current_A
@@ -55,13 +55,13 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
     section.wrong("stuck_on_ms", message.str());
   }
   read.number("responding_window_s", s.responding_window_s, {1.0, 600.0});
-  read.number("responding_part", s.responding_part, {0.01, 0.9});
-  read.number("responding_least_m", s.responding_least_m, {1e-6, 1.0});
+  read.number("responding_ratio", s.responding_ratio, {0.01, 0.9});
+  read.number("responding_min_m", s.responding_min_m, {1e-6, 1.0});
   s.proof_of_response = section.flag("proof_of_response", s.proof_of_response);
   // A buffered duty reads back as what it was until the bus's thread has written it.
   const double lag_ticks = pwm.access.buffered() ? 5.0 : 2.0;
   read.time("wrong_duty_ms", s.wrong_duty_s, lag_ticks, {1.0, 1000.0});
-  read.number("resistance_part", s.resistance_part, {0.01, 2.0});
+  read.number("resistance_ratio", s.resistance_ratio, {0.01, 2.0});
   read.time("over_power_ms", s.over_power_s, 2.0, {1.0, 1000.0});
 }
 
@@ -73,7 +73,7 @@ void read_detectors(Section section, const BoardContext& context, const PwmAddre
   Thresholds read(section, context.board.step_s());
   read.time("out_of_range_ms", s.out_of_range_s, 2.0, {1.0, 1000.0});
   read.number("frozen_s", s.frozen_s, {0.1, 600.0});
-  read.number("fastest_m_per_s", s.fastest_m_per_s, {1e-3, 100.0});
+  read.number("max_speed_m_per_s", s.max_speed_m_per_s, {1e-3, 100.0});
   read.number("disagree_K", s.disagree_K, {1.0, 200.0});
   read.number("disagree_s", s.disagree_s, {0.1, 60.0});
   read_heater_detectors(section, read, context, pwm, c);

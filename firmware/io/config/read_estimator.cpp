@@ -35,9 +35,9 @@ void read_gradient(Section& section, control::GradientSettings& g) {
 void read_least_squares(Section& section, control::LeastSquaresSettings& s) {
   s.initial = read_four(section, "initial", s.scale.nominal, {0.0, 1e9});
   s.forgetting_s = section.number("forgetting_s", s.forgetting_s, {1.0, 3600.0});
-  s.lowest_part = section.number("lowest_part", s.lowest_part, {1e-3, 1.0});
-  s.highest_part = section.number("highest_part", s.highest_part, {1.0, 1e3});
-  s.largest_bias_W = section.number("largest_bias_W", s.largest_bias_W, {0.0, 1e3});
+  s.min_ratio = section.number("min_ratio", s.min_ratio, {1e-3, 1.0});
+  s.max_ratio = section.number("max_ratio", s.max_ratio, {1.0, 1e3});
+  s.max_bias_W = section.number("max_bias_W", s.max_bias_W, {0.0, 1e3});
   s.position_noise_m = section.number("position_noise_m", s.position_noise_m, {1e-9, 1e-2});
 }
 

@@ -8,19 +8,19 @@ namespace supercoil::config {
 namespace {
 
 /// A probe's second half is what is measured: one tick at least.
-constexpr double least_probe_ticks = 2.0;
+constexpr double min_probe_ticks = 2.0;
 
 void read_probe(Section& section, double step_s, const PwmAddress& pwm, HeaterSettings& h) {
   h.probe_duty = section.number("probe_duty", h.probe_duty, {1e-4, 0.02});
   if (h.probe_duty * pwm.steps < 1.0) {
     std::ostringstream message;
-    message << "is less than one of the PWM's " << pwm.steps << " steps: a probe would be nothing";
+    message << "is less than one of the PWM's " << pwm.steps << " steps: a probe would be 0";
     section.wrong("probe_duty", message.str());
   }
   h.probe_s = 1e-3 * section.number("probe_ms", 1e3 * h.probe_s, {1.0, 50.0});
-  if (h.probe_s < least_probe_ticks * step_s) {
+  if (h.probe_s < min_probe_ticks * step_s) {
     std::ostringstream message;
-    message << "must be two ticks at least: " << 1e3 * least_probe_ticks * step_s << " ms";
+    message << "must be two ticks at least: " << 1e3 * min_probe_ticks * step_s << " ms";
     section.wrong("probe_ms", message.str());
   }
   h.probe_every_s = section.number("probe_every_s", h.probe_every_s, {0.5, 600.0});
@@ -55,10 +55,10 @@ void read_heater(Section section, const BoardContext& context, const PwmAddress&
   read_probe(section, step_s, pwm, h);
   read_thermal_fuse(section, label);
   h.error_feedback = section.flag("error_feedback", h.error_feedback);
-  const double longest_ms = 1e3 * step_s * static_cast<double>(board::OutputDelay::longest_ticks);
+  const double max_ms = 1e3 * step_s * static_cast<double>(board::OutputDelay::max_ticks);
   // The thread of a PWM's bus sets a duty within the tick in which it was asked to.
-  const double usual_ms = pwm.access.buffered() ? 1e3 * step_s : 0.0;
-  h.delay_s = 1e-3 * section.number("delay_ms", usual_ms, {0.0, longest_ms});
+  const double default_ms = pwm.access.buffered() ? 1e3 * step_s : 0.0;
+  h.delay_s = 1e-3 * section.number("delay_ms", default_ms, {0.0, max_ms});
   section.finish();
 }
 

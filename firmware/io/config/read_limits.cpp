@@ -14,7 +14,7 @@ constexpr control::Names<Preset, 2> preset_names{
 struct Temperatures {
   double derate_C;
   double trip_C;
-  double highest_C;  ///< that the trip may be set to
+  double max_C;  ///< that the trip may be set to
 };
 
 Temperatures temperatures_of(Preset preset) {
@@ -34,12 +34,12 @@ void read_power(Section& section, const BoardContext& context, ChannelSettings& 
   l.min_W = section.number("min_W", l.min_W, {0.0, 1e3});
   if (l.min_W >= l.max_W) section.wrong("min_W", "must be less than max_W");
   l.slew_W_per_s = section.number("slew_W_per_s", l.slew_W_per_s, {1e-3, 1e6});
-  const double supply_V = context.board.supervision.lowest_supply_V;
+  const double supply_V = context.board.supervision.min_supply_V;
   const double full_W = supply_V * supply_V / c.heater.cold_resistance_Ohm;
   if (l.max_W > full_W) {
     std::ostringstream message;
     message << "must not exceed what the supply gives at a duty of 1: "
-               "lowest_V²/cold_resistance_Ohm = "
+               "min_V²/cold_resistance_Ohm = "
             << full_W << " W";
     section.wrong("max_W", message.str());
   }
@@ -57,8 +57,8 @@ void read_temperatures(Section& section, const BoardContext& context, ChannelSet
                        Preset preset) {
   const Temperatures t = temperatures_of(preset);
   LimiterSettings& l = c.limiter;
-  l.derate_from_C = section.number("derate_from_C", t.derate_C, {0.0, t.highest_C});
-  l.derate_to_C = c.supervision.trip_C = section.number("trip_C", t.trip_C, {0.0, t.highest_C});
+  l.derate_from_C = section.number("derate_from_C", t.derate_C, {0.0, t.max_C});
+  l.derate_to_C = c.supervision.trip_C = section.number("trip_C", t.trip_C, {0.0, t.max_C});
   if (l.derate_from_C >= l.derate_to_C) {
     section.wrong("derate_from_C", "must be less than trip_C");
   }
@@ -77,10 +77,9 @@ void read_limits(Section section, const BoardContext& context, ChannelSettings& 
   read_temperatures(section, context, c, label.preset);
   ChannelSupervision& s = c.supervision;
   s.max_travel_m = section.required_number("max_travel_m", {1e-5, 10.0});
-  if (s.max_travel_m > s.highest_position_m) {
+  if (s.max_travel_m > s.max_position_m) {
     std::ostringstream message;
-    message << "must be within what the sensor can read: position.highest_m = "
-            << s.highest_position_m;
+    message << "must be within what the sensor can read: position.max_m = " << s.max_position_m;
     section.wrong("max_travel_m", message.str());
   }
   section.finish();

@@ -11,8 +11,8 @@ namespace supercoil::config {
 namespace {
 
 struct Bound {
-  const char* lowest_key;
-  const char* highest_key;
+  const char* min_key;
+  const char* max_key;
   double control::ThermalBounds::*lowest;
   double control::ThermalBounds::*highest;
   double control::PhysicalParameters::*believed;
@@ -20,32 +20,31 @@ struct Bound {
 };
 
 constexpr std::array<Bound, 2> thermal_bounds{{
-    {"lowest_mass_J_per_K", "highest_mass_J_per_K", &control::ThermalBounds::lowest_mass_J_per_K,
-     &control::ThermalBounds::highest_mass_J_per_K,
-     &control::PhysicalParameters::thermal_mass_J_per_K, "muscle.thermal_mass_J_per_K"},
-    {"lowest_transfer_W_per_K", "highest_transfer_W_per_K",
-     &control::ThermalBounds::lowest_transfer_W_per_K,
-     &control::ThermalBounds::highest_transfer_W_per_K,
+    {"min_mass_J_per_K", "max_mass_J_per_K", &control::ThermalBounds::min_mass_J_per_K,
+     &control::ThermalBounds::max_mass_J_per_K, &control::PhysicalParameters::thermal_mass_J_per_K,
+     "muscle.thermal_mass_J_per_K"},
+    {"min_transfer_W_per_K", "max_transfer_W_per_K", &control::ThermalBounds::min_transfer_W_per_K,
+     &control::ThermalBounds::max_transfer_W_per_K,
      &control::PhysicalParameters::heat_transfer_W_per_K, "muscle.heat_transfer_W_per_K"},
 }};
 
 void read_bound(Section& section, const Bound& bound, const control::PhysicalParameters& muscle,
                 control::ThermalBounds& b) {
-  const double lowest = b.*bound.lowest = section.required_number(bound.lowest_key, {1e-5, 1e3});
-  const double highest = b.*bound.highest = section.required_number(bound.highest_key, {1e-5, 1e3});
+  const double lowest = b.*bound.lowest = section.required_number(bound.min_key, {1e-5, 1e3});
+  const double highest = b.*bound.highest = section.required_number(bound.max_key, {1e-5, 1e3});
   const double believed = muscle.*bound.believed;
   const auto wrong = [&](const char* key, const char* side) {
     std::ostringstream message;
-    message << "must not " << side << " what is believed: " << bound.believed_key << " = "
+    message << "must not " << side << " the believed value: " << bound.believed_key << " = "
             << believed;
     section.wrong(key, message.str());
   };
   if (lowest >= highest) {
-    section.wrong(bound.lowest_key, std::string("must be less than ") + bound.highest_key);
+    section.wrong(bound.min_key, std::string("must be less than ") + bound.max_key);
   } else if (lowest > believed) {
-    wrong(bound.lowest_key, "exceed");
+    wrong(bound.min_key, "exceed");
   } else if (highest < believed) {
-    wrong(bound.highest_key, "be less than");
+    wrong(bound.max_key, "be less than");
   }
 }
 
@@ -54,7 +53,7 @@ void read_heat_errors(Section& section, bool weighed, board::ThermalSettings& t)
   t.mass_error_ratio = section.number("weighed_mass_error_ratio", 0.0, {0.0, 0.5});
   if (section.has("weighed_mass_error_ratio") && !weighed) {
     section.wrong("weighed_mass_error_ratio",
-                  "needs weighed_mass_J_per_K: what is only believed narrows nothing");
+                  "needs weighed_mass_J_per_K: an assumed mass narrows nothing");
   }
   t.time_constant_error_ratio =
       section.number("time_constant_error_ratio", t.time_constant_error_ratio, {0.05, 5.0});
@@ -73,17 +72,16 @@ void read_muscle(Section muscle, Section thermal, const BoardContext& context, C
   if (thermal.has("power_part")) {
     thermal.wrong(
         "power_part",
-        "contradicts detectors.resistance_part, below which no error of the senses is "
+        "contradicts detectors.resistance_ratio, below which no error of the senses is "
         "noticed; leave it out: the bounds of power follow from that until the senses are "
         "compared with a meter (supercoil doctor --compare-senses)");
   }
   t.thermal_mass_J_per_K =
       thermal.number("weighed_mass_J_per_K", c.muscle.thermal_mass_J_per_K, {1e-4, 1e3});
   const bool weighed = thermal.has("weighed_mass_J_per_K");  // else said above
-  if (weighed && (t.thermal_mass_J_per_K < t.bounds.lowest_mass_J_per_K ||
-                  t.thermal_mass_J_per_K > t.bounds.highest_mass_J_per_K)) {
-    thermal.wrong("weighed_mass_J_per_K",
-                  "must lie between lowest_mass_J_per_K and highest_mass_J_per_K");
+  if (weighed && (t.thermal_mass_J_per_K < t.bounds.min_mass_J_per_K ||
+                  t.thermal_mass_J_per_K > t.bounds.max_mass_J_per_K)) {
+    thermal.wrong("weighed_mass_J_per_K", "must lie between min_mass_J_per_K and max_mass_J_per_K");
   }
   read_heat_errors(thermal, weighed, t);
   t.air = context.air;

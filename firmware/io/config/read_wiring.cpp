@@ -15,7 +15,7 @@ constexpr int converter_transactions = 1;
 constexpr int converter_bytes = 5;
 /// A converter is read once a tick, and its value may be missed twice.
 constexpr double age_ticks = 3.0;
-constexpr double least_max_age_s = 0.01;
+constexpr double min_max_age_s = 0.01;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ Access WiringReader::access(Section& section, int transactions, int bytes) {
   access.bus = section.text("bus", "");
   const bool buffered = section.flag("buffered", access.buffered());
   if (access.buffered() && !buffered) {
-    section.wrong("buffered", "must be true: what hangs on a bus is served by the bus's thread");
+    section.wrong("buffered", "must be true: devices on a bus are served by its thread");
   }
   if (buffered && !access.buffered()) section.wrong("buffered", "needs bus = \"…\"");
   if (access.buffered()) {
@@ -134,7 +134,7 @@ ConverterAddress WiringReader::converter(Section& section, const std::string& ow
 }
 
 double WiringReader::max_age_s(Section& section, const ConverterAddress& converter) const {
-  const double fallback_s = std::max(least_max_age_s, age_ticks * step_s_);
+  const double fallback_s = std::max(min_max_age_s, age_ticks * step_s_);
   const double age_s = 1e-3 * section.number("max_age_ms", 1e3 * fallback_s, {0.1, 1000.0});
   if (converter.access.buffered() && age_s < step_s_) {
     section.wrong("max_age_ms",

@@ -45,7 +45,7 @@ class WiringReader {
 /// [[bus]], and names that are given twice.
 std::vector<BusAddress> read_buses(std::vector<Section> sections);
 
-/// Notes each bus that would be busy for more than most_bus_part of a tick.
+/// Notes each bus that would be busy for more than max_bus_load of a tick.
 void refuse_slow_buses(std::vector<Section> sections, const BoardWiring& wiring, double step_s);
 
 }  // namespace supercoil::config

@@ -15,7 +15,7 @@
 
 namespace supercoil::config {
 
-/// Lowest and highest allowed value, ends included.
+/// Minimum and maximum allowed value, inclusive.
 struct Range {
   double lowest;
   double highest;
@@ -23,7 +23,7 @@ struct Range {
 
 /// Reads keys by name. A key that is absent gives its default. A wrong type, a value out of range
 /// or a NaN is noted in the diagnostics, and the default is returned so that reading can go on.
-/// When all keys have been asked for, finish() notes each key that nobody asked for, and each
+/// When all keys have been asked for, finish() notes each key that was not read, and each
 /// required one that is absent.
 class Section {
  public:
@@ -68,7 +68,7 @@ class Section {
   std::int64_t required_integer(std::string_view key, std::int64_t lowest, std::int64_t highest);
   std::string required_text(std::string_view key);
 
-  /// Keys that somebody else reads.
+  /// Keys that are read elsewhere.
   void allow(std::initializer_list<std::string_view> keys) {
     known_.insert(known_.end(), keys.begin(), keys.end());
   }

@@ -11,16 +11,16 @@ namespace supercoil::config {
 
 namespace {
 
-constexpr std::uintmax_t largest_bytes = 1 << 20;
+constexpr std::uintmax_t max_bytes = 1 << 20;
 /// A key of tens of thousands of parts would overflow the parser's stack.
-constexpr std::size_t longest_line = 4096;
+constexpr std::size_t max_line = 4096;
 
 /// The number of the first line that is too long, or 0.
 int overlong_line(const std::string& text) {
   int line = 1;
   for (std::size_t start = 0; start < text.size(); ++line) {
     const std::size_t end = std::min(text.find('\n', start), text.size());
-    if (end - start > longest_line) return line;
+    if (end - start > max_line) return line;
     start = end + 1;
   }
   return 0;
@@ -43,7 +43,7 @@ std::string read_text(const std::string& path, Diagnostics& diagnostics) {
     diagnostics.add(0, "", "is not a file");
     return {};
   }
-  if (std::filesystem::file_size(path, error) > largest_bytes) {
+  if (std::filesystem::file_size(path, error) > max_bytes) {
     diagnostics.add(0, "", "is larger than 1 MiB, which no configuration is");
     return {};
   }
@@ -59,7 +59,7 @@ std::string read_text(const std::string& path, Diagnostics& diagnostics) {
 
 toml::table parse(const std::string& text, Diagnostics& diagnostics) {
   if (const int line = overlong_line(text)) {
-    diagnostics.add(line, "", "is longer than " + std::to_string(longest_line) + " characters");
+    diagnostics.add(line, "", "is longer than " + std::to_string(max_line) + " characters");
     return {};
   }
   try {

@@ -33,7 +33,7 @@ Captures::Captures(const config::BoardWiring& wiring, hal_linux::Machine machine
 
 void Captures::want(const config::ConverterAddress& input) {
   if (!input.capture) return;
-  hal_linux::ScanPlace& place = wanted_[input.device];
+  hal_linux::ScanLocation& place = demanded_[input.device];
   place.device = input.device;
   place.inputs.push_back(input.input);
   place.trigger = input.capture->trigger;
@@ -45,7 +45,7 @@ void Captures::want(const config::ConverterAddress& input) {
 Captures::Scan& Captures::scan_of(const std::string& device) {
   const auto found = opened_.find(device);
   if (found != opened_.end()) return found->second;
-  auto scan = hal_linux::IioScan::open(wanted_.at(device));
+  auto scan = hal_linux::IioScan::open(demanded_.at(device));
   return opened_
       .emplace(device, scan ? Scan(std::shared_ptr<hal_linux::IioScan>(std::move(*scan)))
                             : Scan(tl::unexpected(scan.error())))
@@ -56,7 +56,7 @@ hal_linux::Result<std::unique_ptr<hal::AdcChannel>> Captures::open(
     const config::ConverterAddress& input) {
   const Scan& scan = scan_of(input.device);
   if (!scan) return tl::unexpected(scan.error());
-  const std::vector<std::string>& inputs = wanted_.at(input.device).inputs;
+  const std::vector<std::string>& inputs = demanded_.at(input.device).inputs;
   const auto place = std::find(inputs.begin(), inputs.end(), input.input);
   return std::make_unique<CapturedInput>(*scan, static_cast<std::size_t>(place - inputs.begin()));
 }

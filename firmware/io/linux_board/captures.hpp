@@ -28,7 +28,7 @@ class Captures {
   void want(const config::ConverterAddress& input);
   Scan& scan_of(const std::string& device);
 
-  std::map<std::string, hal_linux::ScanPlace> wanted_;  ///< by device
+  std::map<std::string, hal_linux::ScanLocation> demanded_;  ///< by device
   std::map<std::string, Scan> opened_;
   hal_linux::Machine machine_;
 };

@@ -64,7 +64,7 @@ tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> LinuxBoard::
 
 tl::expected<std::string, std::string> LinuxBoard::start(double rate_Hz, int priority) {
   for (const Bus& bus : buses_) {
-    std::vector<hal_linux::Served*> devices = bus.duties;
+    std::vector<hal_linux::BusDevice*> devices = bus.duties;
     devices.insert(devices.end(), bus.conversions.begin(), bus.conversions.end());
     auto thread = hal_linux::BusThread::start({"bus " + bus.name, priority},
                                               hal::duration_from(1.0 / rate_Hz), devices);
@@ -106,7 +106,7 @@ std::vector<BusReport> LinuxBoard::buses() const {
     const hal_linux::BusHealth& health = threads_[i]->health();
     reports.push_back(
         {buses_[i].name, health.skipped.load(std::memory_order_relaxed),
-         1e-9 * static_cast<double>(health.longest_round_ns.load(std::memory_order_relaxed))});
+         1e-9 * static_cast<double>(health.max_round_ns.load(std::memory_order_relaxed))});
   }
   return reports;
 }

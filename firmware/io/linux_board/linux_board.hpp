@@ -23,7 +23,7 @@ namespace supercoil::linux_board {
 struct BusReport {
   std::string name;
   std::uint64_t left_out = 0;  ///< rounds since the start, as the ones before took too long
-  double longest_s = 0.0;      ///< of all rounds
+  double max_s = 0.0;          ///< of all rounds
 };
 
 /// Opened, everything off: heartbeat still, enable lines low, duties 0. When it ends, it is left
@@ -52,8 +52,8 @@ class LinuxBoard {
   /// One bus's devices in the order in which they are served: duties before conversions.
   struct Bus {
     std::string name;
-    std::vector<hal_linux::Served*> duties;
-    std::vector<hal_linux::Served*> conversions;
+    std::vector<hal_linux::BusDevice*> duties;
+    std::vector<hal_linux::BusDevice*> conversions;
   };
   class Taking;
 

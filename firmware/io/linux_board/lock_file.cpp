@@ -18,7 +18,7 @@ std::string reason(int error) {
 }
 
 /// What is wrong with what was opened. Empty: nothing. Its folder may belong to the service's user,
-/// who could put anything in the lock's place: root must not write into a file of somebody else's.
+/// who could put anything in the lock's place: root must not write into another user's file.
 std::string objection(const hal_linux::Descriptor& file, const std::string& path) {
   struct stat found {};
   if (::fstat(file.number(), &found) != 0) return "cannot be looked at: " + reason(errno);
@@ -35,7 +35,7 @@ std::string objection(const hal_linux::Descriptor& file, const std::string& path
 }
 
 /// Of open() on what is there instead of a file.
-std::string why_not_opened(int error) {
+std::string open_failure(int error) {
   if (error == ELOOP) return "the lock file is a symbolic link, which is not followed";
   return "the lock file cannot be made: " + reason(error);
 }
@@ -55,7 +55,7 @@ tl::expected<LockFile, std::string> LockFile::take(const std::string& path) {
   // Without O_NONBLOCK a device in the file's place could hold up the start for ever.
   constexpr int flags = O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   hal_linux::Descriptor file(::open(path.c_str(), flags, 0644));
-  if (!file.is_open()) return tl::unexpected(path + ": " + why_not_opened(errno));
+  if (!file.is_open()) return tl::unexpected(path + ": " + open_failure(errno));
   if (const std::string wrong = objection(file, path); !wrong.empty())
     return tl::unexpected(path + ": the lock file " + wrong);
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0) {

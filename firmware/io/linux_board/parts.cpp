@@ -92,8 +92,8 @@ hal_linux::LineName line_name(const config::LineAddress& address) {
   return {address.chip, address.line};
 }
 
-hal_linux::ConverterPlace converter_place(const config::ConverterAddress& address,
-                                          const hal_linux::Machine& machine) {
+hal_linux::ConverterLocation converter_place(const config::ConverterAddress& address,
+                                             const hal_linux::Machine& machine) {
   return {address.device, address.input, machine.converters()};
 }
 

@@ -53,7 +53,7 @@ Parts open_parts(const config::BoardWiring& wiring, const hal_linux::Machine& ma
 /// "channel 2, pwm"; index from 0.
 std::string part_name(std::size_t index, const std::string& what);
 hal_linux::LineName line_name(const config::LineAddress& address);
-hal_linux::ConverterPlace converter_place(const config::ConverterAddress& address,
-                                          const hal_linux::Machine& machine);
+hal_linux::ConverterLocation converter_place(const config::ConverterAddress& address,
+                                             const hal_linux::Machine& machine);
 
 }  // namespace supercoil::linux_board

@@ -12,7 +12,7 @@ namespace supercoil::recorder {
 
 namespace {
 
-constexpr std::size_t most_notes = 32;
+constexpr std::size_t max_notes = 32;
 /// How much later poll() writes than add() would: rows may be on their way.
 constexpr std::int64_t on_their_way_ns = 1'000'000'000;
 
@@ -144,7 +144,7 @@ FlightRecorder::Window FlightRecorder::window(std::int64_t from_ns, std::int64_t
 
 void FlightRecorder::note(bool problem, std::string text) {
   // Nobody takes them: the latest matter.
-  if (notes_.size() == most_notes) notes_.erase(notes_.begin());
+  if (notes_.size() == max_notes) notes_.erase(notes_.begin());
   notes_.push_back({problem, std::move(text)});
 }
 

@@ -13,7 +13,7 @@ namespace supercoil::recorder {
 namespace {
 
 constexpr std::string_view magic = "supercoil flight recording, format ";
-constexpr std::uint64_t most_rows = std::uint64_t{1} << 32;
+constexpr std::uint64_t max_rows = std::uint64_t{1} << 32;
 
 std::string hexadecimal(std::uint32_t value) {
   std::array<char, 16> text{};
@@ -136,7 +136,7 @@ tl::expected<Header, HeaderError> decode_header(std::string_view start) {
   Reader reader(start);
   const auto row_bytes = reader.number<std::uint64_t>("row_bytes", 1, 1 << 20);
   Header h;
-  h.rows = reader.number<std::uint64_t>("rows", 1, most_rows);
+  h.rows = reader.number<std::uint64_t>("rows", 1, max_rows);
   h.channels = reader.number<int>("channels", 1, 16);
   h.rate_Hz = reader.number<double>("rate_Hz", 1e-3, 1e6);
   h.fault = reader.number<std::uint8_t>("fault", 1, 255);

@@ -31,8 +31,8 @@ inline std::string limit_name(std::uint8_t number) {
 inline std::string gain_name(std::uint8_t number) {
   return named(control::gain_names, number);
 }
-inline std::string aside_name(std::uint8_t number) {
-  return named(aside_names, number);
+inline std::string multiplexed_name(std::uint8_t number) {
+  return named(multiplexed_names, number);
 }
 inline std::string fault_name(std::uint8_t number) {
   if (number == 0) return "none";

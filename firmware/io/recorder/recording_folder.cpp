@@ -14,7 +14,7 @@ constexpr std::string_view prefix = "flight-";
 constexpr std::string_view suffix = ".scfr";
 constexpr std::string_view unfinished = ".new";
 /// Longer numbers are not ours: one more must still fit into 64 bits.
-constexpr std::size_t most_digits = 18;
+constexpr std::size_t max_digits = 18;
 
 }  // namespace
 
@@ -36,7 +36,7 @@ std::uint64_t number_of(std::string_view name) {
   if (name.size() <= prefix.size() + suffix.size()) return 0;
   const std::string_view digits =
       name.substr(prefix.size(), name.size() - prefix.size() - suffix.size());
-  if (digits.size() > most_digits || digits.front() == '0') return 0;
+  if (digits.size() > max_digits || digits.front() == '0') return 0;
   std::uint64_t number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   return error == std::errc() && end == digits.data() + digits.size() ? number : 0;
@@ -101,7 +101,7 @@ std::vector<std::string> RecordingFolder::make_room(const std::vector<std::uint6
   std::vector<std::string> problems;
   std::size_t there = numbers.size();
   for (const std::uint64_t oldest : numbers) {
-    if (there < most_) break;
+    if (there < max_files_) break;
     const auto removed = files_->unlink(path_of(oldest));
     // One that stays must not use up the place of a new one: the next older goes instead.
     if (removed || removed.error().code == ENOENT) {

@@ -27,7 +27,7 @@ class RecordingFolder {
  public:
   /// most: recordings that may be there after one was written, 1 or more.
   RecordingFolder(std::string folder, std::size_t most, ListFolder list, storage::Files& files)
-      : folder_(std::move(folder)), most_(most), list_(std::move(list)), files_(&files) {}
+      : folder_(std::move(folder)), max_files_(most), list_(std::move(list)), files_(&files) {}
 
   struct Written {
     std::string path;
@@ -48,7 +48,7 @@ class RecordingFolder {
   std::string path_of(std::uint64_t number) const;
 
   std::string folder_;
-  std::size_t most_;
+  std::size_t max_files_;
   ListFolder list_;
   storage::Files* files_;
   std::uint64_t last_ = 0;

@@ -84,10 +84,10 @@ tl::expected<board::Learned, std::string> read(const toml::table& file) {
   if (const auto wrong = read_version(file.get("version"), learned.version)) {
     return tl::unexpected("version " + *wrong);
   }
-  learned.knows_muscle = file.contains("muscle") || file.contains("calibration");
+  learned.has_muscle = file.contains("muscle") || file.contains("calibration");
   for (const Field& field : fields) {
     const toml::table* table = file[field.table].as_table();
-    const bool left_out = may_lack(field.table) ? table == nullptr : !learned.knows_muscle;
+    const bool left_out = may_lack(field.table) ? table == nullptr : !learned.has_muscle;
     if (left_out) continue;
     const toml::node* node = table == nullptr ? nullptr : table->get(field.key);
     if (const auto wrong = read_number(node, field.of(learned))) {

@@ -75,7 +75,7 @@ std::string seal(std::string_view body) {
 
 tl::expected<std::string_view, std::string> unseal(std::string_view text) {
   if (text.empty()) return tl::unexpected<std::string>("is empty");
-  if (text.size() > largest_file_bytes) {
+  if (text.size() > max_file_bytes) {
     return tl::unexpected<std::string>("is larger than 64 KiB, which no stored set is");
   }
   // A file whose data never reached the disk is often zeros of the right length.

@@ -1,4 +1,4 @@
-// The first line of a stored file, which tells whether the rest is whole.
+// The first line of a stored file, which shows whether the rest is whole.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 namespace supercoil::storage {
 
 /// A stored set is about 600 bytes; what is larger was not written by this program.
-inline constexpr std::size_t largest_file_bytes = 65'536;
+inline constexpr std::size_t max_file_bytes = 65'536;
 
 /// The number that the first line gives; it grows when the keys or their meaning change.
 inline constexpr unsigned file_format = 1;

@@ -9,7 +9,7 @@ namespace supercoil::storage {
 
 Examined examine(Files& files, const std::string& path) {
   // One byte more than is allowed, so that decode() sees that it is too large.
-  const auto text = files.read(path, largest_file_bytes + 1);
+  const auto text = files.read(path, max_file_bytes + 1);
   if (!text) {
     if (text.error().code == ENOENT) return {false, std::nullopt, path + ": is not there"};
     return {true, std::nullopt, text.error().text};

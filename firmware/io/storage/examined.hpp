@@ -11,7 +11,7 @@ namespace supercoil::storage {
 
 struct Examined {
   bool exists = false;
-  std::optional<board::Learned> learned;  ///< empty: there is none, or it is damaged
+  std::optional<board::Learned> learned;  ///< empty: absent or damaged
   std::string problem;                    ///< "path: what is wrong"; empty when it is good
 
   bool damaged() const { return exists && !learned; }

@@ -46,7 +46,8 @@ inline constexpr std::array<Field, 20> fields{{
     {"heat", "steady_error_K", [](board::Learned& l) -> double& { return l.heat.steady_error_K; }},
     {"heat", "steady_min_W", [](board::Learned& l) -> double& { return l.heat.steady_min_W; }},
     {"heat", "steady_max_W", [](board::Learned& l) -> double& { return l.heat.steady_max_W; }},
-    {"small_motions", "answer_ratio", [](board::Learned& l) -> double& { return l.answer_ratio; }},
+    {"small_motions", "response_ratio",
+     [](board::Learned& l) -> double& { return l.response_ratio; }},
 }};
 
 /// Tables that a file may lack, where nothing is known of what they hold: files of earlier versions
@@ -57,9 +58,9 @@ inline constexpr bool may_lack(std::string_view table) {
 /// A set without a muscle has no other table.
 inline bool is_stored(const Field& field, const board::Learned& learned) {
   if (field.table == "senses") return learned.senses != board::SenseComparison{};
-  if (field.table == "heat") return learned.heat != board::HeatFacts{};
-  if (field.table == "small_motions") return learned.knows_muscle && learned.answer_ratio != 0.0;
-  return learned.knows_muscle;
+  if (field.table == "heat") return learned.heat != board::ThermalFacts{};
+  if (field.table == "small_motions") return learned.has_muscle && learned.response_ratio != 0.0;
+  return learned.has_muscle;
 }
 
 }  // namespace supercoil::storage

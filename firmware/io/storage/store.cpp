@@ -14,7 +14,7 @@ namespace {
 
 /// The first eight damaged files of a channel are kept, and the latest: a disk that damages every
 /// file must not be filled with them.
-constexpr int most_damaged = 9;
+constexpr int max_damaged = 9;
 
 std::uint32_t version_after(const Examined& current, const Examined& previous) {
   const std::uint32_t last = std::max(current.learned.value_or(board::Learned{}).version,
@@ -82,22 +82,22 @@ tl::expected<std::uint32_t, std::string> LearnedStore::save(const board::Learned
 
 tl::expected<void, std::string> LearnedStore::forget() {
   const auto before = load();
-  if (before && before->learned && !knows_muscle()) return {};
+  if (before && before->learned && !has_muscle()) return {};
   if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text);
   if (!before || !before->learned || !before->learned->senses.compared()) return {};
   board::Learned senses_only;
   senses_only.senses = before->learned->senses;
-  senses_only.knows_muscle = false;
+  senses_only.has_muscle = false;
   if (const auto saved = save(senses_only); !saved) return tl::unexpected(saved.error());
   return {};
 }
 
 /// Of either file that is whole; a damaged one may.
-bool LearnedStore::knows_muscle() const {
+bool LearnedStore::has_muscle() const {
   const auto may_know = [&](const std::string& path) {
     const Examined file = examine(*files_, path);
-    return file.damaged() || (file.learned && (file.learned->knows_muscle ||
-                                               file.learned->heat != board::HeatFacts{}));
+    return file.damaged() || (file.learned && (file.learned->has_muscle ||
+                                               file.learned->heat != board::ThermalFacts{}));
   };
   return may_know(path_) || may_know(previous_path_);
 }
@@ -152,12 +152,12 @@ Result<void> LearnedStore::write_new(const std::string& content) {
 Result<void> LearnedStore::set_aside(const std::string& path) {
   const std::string name = path_ + ".damaged-";
   Result<void> linked;
-  for (int i = 1; i < most_damaged; ++i) {
+  for (int i = 1; i < max_damaged; ++i) {
     linked = files_->link(path, name + std::to_string(i));
     if (linked || linked.error().code != EEXIST) break;
   }
   if (!linked && linked.error().code == EEXIST) {
-    linked = link_fresh(path, name + std::to_string(most_damaged));
+    linked = link_fresh(path, name + std::to_string(max_damaged));
   }
   if (!linked) return linked;
   // Or a power cut might keep the file that takes its name and undo this link.

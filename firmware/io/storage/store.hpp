@@ -64,7 +64,7 @@ class LearnedStore {
   /// Makes the current file a file of this content, and a good current file the previous one.
   Result<void> replace(const Examined& current, const Examined& previous,
                        const std::string& content);
-  bool knows_muscle() const;
+  bool has_muscle() const;
   Result<void> clear();
   Result<void> write_new(const std::string& content);
   /// Gives a damaged file another name by which it stays when its own is taken.

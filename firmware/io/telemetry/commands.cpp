@@ -21,28 +21,28 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
     return taken;
   }
   const can::Reader<can::message::command> m(frame);
-  const Asked asked{*channel, m.get<std::uint8_t>("opcode"), m.get<std::uint8_t>("counter"),
-                    m.get<std::uint16_t>("session")};
+  const CommandHeader header{*channel, m.get<std::uint8_t>("opcode"),
+                             m.get<std::uint8_t>("counter"), m.get<std::uint16_t>("session")};
   const auto value = m.get<float>("value");
 
   // From everybody, whatever is wrong with lease and counter.
-  const bool stop = asked.opcode == static_cast<std::uint8_t>(Verb::disarm) && value == 0.0F;
-  const Refusal checked = check(asked, value, now);
+  const bool stop = header.opcode == static_cast<std::uint8_t>(Verb::disarm) && value == 0.0F;
+  const Refusal checked = check(header, value, now);
   if (checked == Refusal::wrong_counter && !stop) taken.damaged = *channel;
   if (checked == Refusal::claim_again) {
-    taken.answer = acknowledge(asked, checked, leases_->nonce(*channel));
+    taken.answer = acknowledge(header, checked, leases_->nonce(*channel));
   } else if (checked != Refusal::none && !stop) {
-    taken.answer = acknowledge(asked, checked);
-  } else if (asked.opcode == Opcode::lease && value == releases) {
+    taken.answer = acknowledge(header, checked);
+  } else if (header.opcode == Opcode::lease && value == releases) {
     leases_->release(*channel);
-    taken.answer = acknowledge(asked, Refusal::none);
-  } else if (asked.opcode == Opcode::lease) {
-    taken.answer = acknowledge(asked, Refusal::none, leases_->session(*channel));
-  } else if (waiting_.size() == most_waiting) {
-    taken.answer = acknowledge(asked, Refusal::too_many);
+    taken.answer = acknowledge(header, Refusal::none);
+  } else if (header.opcode == Opcode::lease) {
+    taken.answer = acknowledge(header, Refusal::none, leases_->session(*channel));
+  } else if (waiting_.size() == max_waiting) {
+    taken.answer = acknowledge(header, Refusal::queue_full);
   } else {
-    waiting_.push_back({++last_id_, asked});
-    taken.command = meant(asked.opcode, static_cast<double>(value));
+    waiting_.push_back({++last_id_, header});
+    taken.command = meant(header.opcode, static_cast<double>(value));
     taken.command->channel = *channel;
     taken.command->source = Source::can;
     taken.command->id = last_id_;
@@ -50,42 +50,42 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
   return taken;
 }
 
-Refusal Commands::check(const Asked& asked, float value, hal::Time now) {
-  const bool known = asked.opcode != Opcode::claim_of_version_3;
+Refusal Commands::check(const CommandHeader& header, float value, hal::Time now) {
+  const bool known = header.opcode != Opcode::claim_of_version_3;
   const bool holder =
-      leases_->held(asked.channel, now) && asked.session == leases_->session(asked.channel);
-  if (known && asked.opcode == Opcode::lease && value != releases && !holder)
-    return leases_->claim(asked.channel, asked.session, value, asked.counter, now);
-  const Refusal checked = leases_->check(asked.channel, asked.session, asked.counter, now);
+      leases_->held(header.channel, now) && header.session == leases_->session(header.channel);
+  if (known && header.opcode == Opcode::lease && value != releases && !holder)
+    return leases_->claim(header.channel, header.session, value, header.counter, now);
+  const Refusal checked = leases_->check(header.channel, header.session, header.counter, now);
   // Also of a frame that means nothing, the holder's counter goes on: else a frame that was heard
   // before it would be obeyed once more.
-  if (!known && checked != Refusal::wrong_counter) return Refusal::other_version;
-  const bool meant = asked.opcode != Opcode::lease || value == claims || value == releases;
+  if (!known && checked != Refusal::wrong_counter) return Refusal::protocol_mismatch;
+  const bool meant = header.opcode != Opcode::lease || value == claims || value == releases;
   return meant || checked != Refusal::none ? checked : Refusal::out_of_range;
 }
 
 std::optional<hal::CanFrame> Commands::answered(const Answer& answer) {
   const auto found = std::ranges::find(waiting_, answer.command.id, &Waiting::id);
   if (found == waiting_.end()) return std::nullopt;
-  const Asked asked = found->asked;
+  const CommandHeader header = found->header;
   // The loop answers in order: what came before has lost its answer.
   waiting_.erase(waiting_.begin(), found + 1);
-  return acknowledge(asked, answer.refusal);
+  return acknowledge(header, answer.refusal);
 }
 
 hal::CanFrame Commands::not_taken() {
-  const Asked asked = waiting_.back().asked;
+  const CommandHeader header = waiting_.back().header;
   waiting_.pop_back();
-  return acknowledge(asked, Refusal::too_many);
+  return acknowledge(header, Refusal::queue_full);
 }
 
-hal::CanFrame Commands::acknowledge(const Asked& asked, Refusal refusal,
+hal::CanFrame Commands::acknowledge(const CommandHeader& header, Refusal refusal,
                                     std::uint16_t granted) const {
   return can::Encoder<can::message::acknowledge>(
-             static_cast<can::Node>(first_node_ + asked.channel))
-      .set("counter", asked.counter)
-      .set("opcode", asked.opcode)
-      .set("session", asked.session)
+             static_cast<can::Node>(first_node_ + header.channel))
+      .set("counter", header.counter)
+      .set("opcode", header.opcode)
+      .set("session", header.session)
       .set("refusal", static_cast<double>(refusal))
       .set("granted", granted)
       .protected_frame();

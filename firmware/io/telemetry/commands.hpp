@@ -38,22 +38,23 @@ class Commands {
 
  private:
   /// As much of a command as its answer repeats.
-  struct Asked {
+  struct CommandHeader {
     std::uint8_t channel;
     std::uint8_t opcode;
     std::uint8_t counter;
     std::uint16_t session;
   };
 
-  Refusal check(const Asked& asked, float value, hal::Time now);
-  hal::CanFrame acknowledge(const Asked& asked, Refusal refusal, std::uint16_t granted = 0) const;
+  Refusal check(const CommandHeader& header, float value, hal::Time now);
+  hal::CanFrame acknowledge(const CommandHeader& header, Refusal refusal,
+                            std::uint16_t granted = 0) const;
 
   /// What the loop's ring of commands holds.
-  static constexpr std::size_t most_waiting = 256;
+  static constexpr std::size_t max_waiting = 256;
 
   struct Waiting {
     std::uint32_t id;
-    Asked asked;
+    CommandHeader header;
   };
 
   can::Node first_node_;

@@ -84,7 +84,7 @@ hal::CanFrame tracking(can::Node node, const Row& row) {
 }
 
 hal::CanFrame power(can::Node node, const Row& row) {
-  return encoder<message::power>(node, row).set("demanded_W", row.wanted_W).frame();
+  return encoder<message::power>(node, row).set("demanded_W", row.demanded_W).frame();
 }
 
 hal::CanFrame heater(can::Node node, const Row& row) {
@@ -97,7 +97,7 @@ hal::CanFrame temperature(can::Node node, const Row& row) {
 
 hal::CanFrame margin(can::Node node, const Row& row) {
   return can::Encoder<message::margin>(node)
-      .set("fault", row.turn)
+      .set("fault", row.margin_selector)
       .set("used", row.margin_used)
       .set("measured", row.margin_measured)
       .frame();
@@ -105,14 +105,14 @@ hal::CanFrame margin(can::Node node, const Row& row) {
 
 hal::CanFrame limit(can::Node node, const Row& row) {
   return can::Encoder<message::limit>(node)
-      .set("fault", row.turn)
+      .set("fault", row.margin_selector)
       .set("limit", row.margin_limit)
       .frame();
 }
 
 hal::CanFrame gain(can::Node node, const Row& row) {
   return can::Encoder<message::gain>(node)
-      .set("gain", row.gain_turn)
+      .set("gain", row.gain_selector)
       .set("value", row.gain)
       .frame();
 }
@@ -136,22 +136,23 @@ hal::CanFrame status(can::Node node, const Row& row, bool leased, std::uint8_t c
       .frame();
 }
 
-void Asides::take(const Row& row) {
-  if (row.aside_turn == 0) {
+void MultiplexedValues::take(const Row& row) {
+  if (row.multiplexed_selector == 0) {
     *this = {};
-  } else if (row.aside_turn <= newest_.size()) {
-    newest_.at(row.aside_turn - 1U) = row.aside;
+  } else if (row.multiplexed_selector <= newest_.size()) {
+    newest_.at(row.multiplexed_selector - 1U) = row.multiplexed_value;
   }
 }
 
-std::uint8_t Asides::parameters() const {
+std::uint8_t MultiplexedValues::parameters() const {
   const bool some_lack =
       std::ranges::any_of(newest_, [](float value) { return std::isnan(value); });
   return some_lack ? first_aside : static_cast<std::uint8_t>(first_aside + newest_.size());
 }
 
 hal::CanFrame estimate(can::Node node, const Row& row, std::uint8_t parameter,
-                       const control::KnownParameters& known, const Asides& asides) {
+                       const control::KnownParameters& known,
+                       const MultiplexedValues& multiplexed) {
   const control::Theta theta(row.theta[0], row.theta[1], row.theta[2], row.theta[3]);
   const auto muscle = control::physical_from(theta, known);
   const auto of_muscle = [&](double control::PhysicalParameters::*member) {
@@ -167,12 +168,12 @@ hal::CanFrame estimate(can::Node node, const Row& row, std::uint8_t parameter,
       of_muscle(&control::PhysicalParameters::heat_transfer_W_per_K),
       of_muscle(&control::PhysicalParameters::stiffness_N_per_m),
       of_muscle(&control::PhysicalParameters::damping_Ns_per_m),
-      asides.of(1),
-      asides.of(2),
-      asides.of(3),
-      asides.of(4),
-      asides.of(5),
-      asides.of(6)};
+      multiplexed.of(1),
+      multiplexed.of(2),
+      multiplexed.of(3),
+      multiplexed.of(4),
+      multiplexed.of(5),
+      multiplexed.of(6)};
   auto frame = encoder<message::estimate>(node, row);
   for (const can::SignalInfo& signal : message::estimate.signals) {
     if (signal.selected_by == parameter) can::put(frame.frame(), signal, values.at(parameter));

@@ -35,7 +35,7 @@ struct PeriodicMessage {
   const can::MessageInfo* info;
   bool of_board = false;  ///< sent by the board's first node only
 
-  double usual_Hz() const { return 1000.0 / info->period_ms; }
+  double default_Hz() const { return 1000.0 / info->period_ms; }
 };
 /// In the order of Message.
 const std::array<PeriodicMessage, messages>& periodic_messages();
@@ -59,21 +59,22 @@ hal::CanFrame power(can::Node node, const Row& row);
 hal::CanFrame heater(can::Node node, const Row& row);
 hal::CanFrame temperature(can::Node node, const Row& row);
 /// What rows carry in turn: the newest of each.
-class Asides {
+class MultiplexedValues {
  public:
-  Asides() { newest_.fill(NAN); }
+  MultiplexedValues() { newest_.fill(NAN); }
   void take(const Row& row);
-  /// place: in aside_names, from 1. NaN: not told.
+  /// place: in multiplexed_names, from 1. NaN: not told.
   float of(std::size_t place) const { return newest_.at(place - 1); }
-  /// How many parameters, from 0 on as the DBC counts them, there is something to say of: asides
+  /// How many parameters, from 0 on as the DBC counts them, there is a value for: multiplexed ones
   /// are the last ones, once all are told.
   std::uint8_t parameters() const;
 
  private:
-  std::array<float, aside_names.size() - 1> newest_{};
+  std::array<float, multiplexed_names.size() - 1> newest_{};
 };
 hal::CanFrame estimate(can::Node node, const Row& row, std::uint8_t parameter,
-                       const control::KnownParameters& known, const Asides& asides = {});
+                       const control::KnownParameters& known,
+                       const MultiplexedValues& multiplexed = {});
 hal::CanFrame margin(can::Node node, const Row& row);
 hal::CanFrame limit(can::Node node, const Row& row);
 hal::CanFrame gain(can::Node node, const Row& row);

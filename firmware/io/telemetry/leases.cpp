@@ -21,16 +21,16 @@ Refusal Leases::claim(std::uint8_t channel, std::uint16_t claimed_as, double non
                       std::uint8_t counter, hal::Time now) {
   Lease& lease = lease_now(channel, now);
   const bool again = !lease.used && lease.claimed_as == claimed_as;
-  if (lease.session != 0 && !again) return Refusal::not_yours;
+  if (lease.session != 0 && !again) return Refusal::not_lease_holder;
   if (lease.nonce == 0 || now - lease.nonce_from > lasts_) {
-    lease.nonce = random_but(lease.last_nonce);
+    lease.nonce = random_except(lease.last_nonce);
     lease.last_nonce = lease.nonce;
     lease.nonce_from = now;
     return Refusal::claim_again;
   }
   if (nonce != lease.nonce) return Refusal::claim_again;
   lease.nonce = 0;
-  lease.session = lease.last_session = random_but(lease.last_session);
+  lease.session = lease.last_session = random_except(lease.last_session);
   lease.claimed_as = claimed_as;
   lease.used = false;
   lease.counter = counter;
@@ -43,7 +43,7 @@ Refusal Leases::check(std::uint8_t channel, std::uint16_t session, std::uint8_t 
                       hal::Time now) {
   Lease& lease = lease_now(channel, now);
   if (lease.session == 0) return Refusal::no_lease;
-  if (session != lease.session) return Refusal::not_yours;
+  if (session != lease.session) return Refusal::not_lease_holder;
   const bool next = can::e2e::follows(counter, lease.counter);
   lease.counter = counter;
   if (!next) return Refusal::wrong_counter;
@@ -52,7 +52,7 @@ Refusal Leases::check(std::uint8_t channel, std::uint16_t session, std::uint8_t 
   return Refusal::none;
 }
 
-std::uint16_t Leases::random_but(std::uint16_t last) {
+std::uint16_t Leases::random_except(std::uint16_t last) {
   std::uint16_t number = 0;
   while (number == 0 || number == last)
     number = static_cast<std::uint16_t>(random_());

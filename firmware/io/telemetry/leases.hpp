@@ -1,4 +1,4 @@
-// Who may command a channel over CAN.
+// Which master may command a channel over CAN.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace supercoil::telemetry {
 /// whoever can send can also claim.
 class Leases {
  public:
-  /// 32 bits that nobody can foretell: on a board from a source of true randomness.
+  /// 32 bits that nobody can predict: on a board from a source of true randomness.
   using Random = std::function<std::uint32_t()>;
   Leases(double lease_s, std::size_t channels, Random random);
 
@@ -58,7 +58,7 @@ class Leases {
   }
   Lease& lease_now(std::uint8_t channel, hal::Time now);
   /// Neither 0 nor this one.
-  std::uint16_t random_but(std::uint16_t last);
+  std::uint16_t random_except(std::uint16_t last);
 
   hal::Duration lasts_;
   std::vector<Lease> leases_;

@@ -6,7 +6,7 @@ namespace {
 
 /// That wait for the bus, with the values that they refuse. Each master waits for one before it
 /// asks again.
-constexpr std::size_t most_answers = 32;
+constexpr std::size_t max_answers = 32;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ Publisher::Publisher(const CanSettings& settings,
       timing_(&timing),
       bus_(&bus),
       emergencies_(8 * muscles.size()),
-      answers_(most_answers),
+      answers_(max_answers),
       messages_(settings.queue) {
   for (std::size_t i = 0; i < muscles.size(); ++i) {
     channels_[i].muscle = muscles[i];
@@ -32,12 +32,13 @@ void Publisher::offer(const Row& row) {
   Channel& channel = channels_[row.channel];
   const bool changed = row.fault != (channel.known ? channel.row.fault : 0);
   channel.row = row;
-  channel.asides.take(row);
+  channel.multiplexed.take(row);
   channel.known = true;
   if (!changed) return;
   const auto node = static_cast<can::Node>(first_node_ + row.channel);
   push(emergencies_, emergency(node, row));
-  if (row.fault != 0 && row.turn == row.fault) push(emergencies_, first_cause(node, row));
+  if (row.fault != 0 && row.margin_selector == row.fault)
+    push(emergencies_, first_cause(node, row));
 }
 
 void Publisher::push(Queue& queue, const hal::CanFrame& frame) {
@@ -72,8 +73,8 @@ hal::CanFrame Publisher::frame_of(can::Node node, Channel& channel, Message mess
       return temperature(node, row);
     case Message::estimate:
       channel.parameter =
-          static_cast<std::uint8_t>((channel.parameter + 1) % channel.asides.parameters());
-      return estimate(node, row, channel.parameter, channel.muscle, channel.asides);
+          static_cast<std::uint8_t>((channel.parameter + 1) % channel.multiplexed.parameters());
+      return estimate(node, row, channel.parameter, channel.muscle, channel.multiplexed);
     case Message::margin:
       return margin(node, row);
     case Message::limit:
@@ -89,8 +90,8 @@ hal::CanFrame Publisher::frame_of(can::Node node, Channel& channel, Message mess
 }
 
 BoardTiming Publisher::take_timing() {
-  const auto seconds_of = [](std::atomic<std::int64_t>& largest_ns) {
-    const std::int64_t taken = largest_ns.exchange(LoopTiming::none, std::memory_order_relaxed);
+  const auto seconds_of = [](std::atomic<std::int64_t>& max_ns) {
+    const std::int64_t taken = max_ns.exchange(LoopTiming::none, std::memory_order_relaxed);
     return taken == LoopTiming::none ? NAN : 1e-9 * static_cast<double>(taken);
   };
   return {seconds_of(timing_->late_ns), seconds_of(timing_->execution_ns),

@@ -52,7 +52,7 @@ class Publisher {
     Row row{};
     bool known = false;                            ///< there was a row
     std::array<std::int64_t, messages> sent_ns{};  ///< time of the row that each was made from
-    Asides asides;
+    MultiplexedValues multiplexed;
     std::uint8_t parameter = 0;  ///< the next one of Estimate
     std::uint8_t counter = 0;    ///< of Status
     control::KnownParameters muscle{};

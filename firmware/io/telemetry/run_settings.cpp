@@ -14,7 +14,7 @@ namespace {
 
 namespace message = can::message;
 
-constexpr std::uint8_t most_power = 0;
+constexpr std::uint8_t max_power = 0;
 
 Message message_of(std::uint8_t setting) {
   return static_cast<Message>(setting - 1);
@@ -23,7 +23,7 @@ Message message_of(std::uint8_t setting) {
 }  // namespace
 
 std::string run_setting_name(std::uint8_t setting) {
-  if (setting == most_power) return "most_power_W";
+  if (setting == max_power) return "max_power_W";
   if (setting >= supply_gain) {
     constexpr std::array names{"supply_gain", "current_gain", "sense_error_ratio"};
     return names.at(static_cast<std::size_t>(setting - supply_gain));
@@ -39,12 +39,12 @@ RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& le
       publisher_(&publisher),
       loop_(&loop) {
   for (const ChannelSettings& channel : board.channels)
-    most_W_.push_back(channel.limiter.max_W);
+    max_W_.push_back(channel.limiter.max_W);
 }
 
 RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
   const auto meant = [&](const can::MessageInfo& message) {
-    return can::channel_of(frame, message, can_.first_node, most_W_.size());
+    return can::channel_of(frame, message, can_.first_node, max_W_.size());
   };
   if (const auto channel = meant(message::setting_write)) return take_write(*channel, frame, now);
   const auto channel = meant(message::setting_read);
@@ -77,10 +77,10 @@ RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanF
 Refusal RunSettings::set(std::uint8_t channel, std::uint8_t setting, double value) {
   const bool only_read = setting >= supply_gain;
   if (only_read || std::isnan(value_of(channel, setting))) return Refusal::out_of_range;
-  if (setting != most_power) return set_rate(channel, message_of(setting), value);
-  const double most_W = most_W_[channel];
-  if (!(value >= 0.0 && value <= as_float_tells * most_W)) return Refusal::out_of_range;
-  loop_->channel(channel).allow_power(std::fmin(value, most_W));
+  if (setting != max_power) return set_rate(channel, message_of(setting), value);
+  const double max_W = max_W_[channel];
+  if (!(value >= 0.0 && value <= float_rounding * max_W)) return Refusal::out_of_range;
+  loop_->channel(channel).allow_power(std::fmin(value, max_W));
   return Refusal::none;
 }
 
@@ -90,18 +90,18 @@ Refusal RunSettings::set_rate(std::uint8_t channel, Message message, double rate
   rates[channel][static_cast<std::size_t>(message)] = rate_Hz;
   const double load = bus_load(rates, can_.bit_rate);
   // Less is always allowed.
-  if (load > can_.most_load && load > bus_load(publisher_->rates_Hz(), can_.bit_rate))
+  if (load > can_.max_load && load > bus_load(publisher_->rates_Hz(), can_.bit_rate))
     return Refusal::out_of_range;
   publisher_->set_rates(rates);
   return Refusal::none;
 }
 
 double RunSettings::nearest(std::uint8_t channel, std::uint8_t setting, double value) const {
-  return setting == most_power ? std::clamp(value, 0.0, most_W_[channel]) : NAN;
+  return setting == max_power ? std::clamp(value, 0.0, max_W_[channel]) : NAN;
 }
 
 double RunSettings::value_of(std::uint8_t channel, std::uint8_t setting) const {
-  if (setting == most_power) return loop_->channel(channel).most_power_W();
+  if (setting == max_power) return loop_->channel(channel).max_power_W();
   const board::SenseComparison senses = loop_->channel(channel).senses();
   if (setting == supply_gain) return senses.supply_gain;
   if (setting == current_gain) return senses.current_gain;

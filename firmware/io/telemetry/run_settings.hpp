@@ -50,7 +50,7 @@ class RunSettings {
 
   CanSettings can_;
   double tick_Hz_;
-  std::vector<double> most_W_;  ///< configured, of each channel
+  std::vector<double> max_W_;  ///< configured, of each channel
   Leases* leases_;
   Publisher* publisher_;
   Loop* loop_;

@@ -16,18 +16,18 @@ bool is_sent(const Rates& rates_Hz, std::size_t message, std::size_t channel) {
 
 }  // namespace
 
-Rates usual_rates() {
+Rates default_rates() {
   Rates rates{};
   for (std::size_t i = 0; i < messages; ++i)
-    rates[i] = periodic_messages()[i].usual_Hz();
+    rates[i] = periodic_messages()[i].default_Hz();
   return rates;
 }
 
 bool is_allowed(Message message, double rate_Hz, double tick_Hz) {
   const bool heartbeat = message == Message::status;
   if (rate_Hz == 0.0) return !heartbeat;
-  const double least_Hz = heartbeat ? least_status_Hz : least_rate_Hz;
-  return rate_Hz >= least_Hz && rate_Hz <= most_rate(tick_Hz);
+  const double min_Hz = heartbeat ? min_status_Hz : min_rate_Hz;
+  return rate_Hz >= min_Hz && rate_Hz <= max_rate(tick_Hz);
 }
 
 double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate) {
@@ -36,7 +36,7 @@ double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate) {
     const Rates& rates_Hz = of_channels_Hz[channel];
     for (std::size_t i = 0; i < messages; ++i) {
       if (is_sent(rates_Hz, i, channel))
-        bits_per_s += rates_Hz[i] * most_bits(periodic_messages()[i].info->length);
+        bits_per_s += rates_Hz[i] * max_bits(periodic_messages()[i].info->length);
     }
   }
   return bits_per_s / bit_rate;

@@ -13,7 +13,7 @@ namespace supercoil::telemetry {
 /// Bits on the wire of a frame with an 11-bit identifier and so many bytes, with the most bits that
 /// stuffing can add and the pause to the next frame (Davis, Burns, Bril, Lukkien: Controller Area
 /// Network schedulability analysis, 2007, equation 1, with 3 bits of pause).
-constexpr int most_bits(int bytes) {
+constexpr int max_bits(int bytes) {
   constexpr int exposed = 34;  // of the frame without data, what may need stuffing
   const int stuffed = (exposed + 8 * bytes - 1) / 4;
   return exposed + 8 * bytes + 13 + stuffed;

@@ -12,13 +12,13 @@ namespace supercoil::telemetry {
 
 /// Of each message for each channel, in Hz, in the order of Message; 0: never.
 using Rates = std::array<double, messages>;
-Rates usual_rates();
+Rates default_rates();
 
 /// A heartbeat that is rarer is none; what is rarer than the other is meant to be never.
-inline constexpr double least_status_Hz = 1.0;
-inline constexpr double least_rate_Hz = 0.01;
+inline constexpr double min_status_Hz = 1.0;
+inline constexpr double min_rate_Hz = 0.01;
 /// No message more often than there is news.
-constexpr double most_rate(double tick_Hz) {
+constexpr double max_rate(double tick_Hz) {
   return tick_Hz < 1000.0 ? tick_Hz : 1000.0;
 }
 /// Between the least and the most, or 0 for never, which a heartbeat may not be.
@@ -32,8 +32,8 @@ struct CanSettings {
   std::string interface = "can0";
   double bit_rate = 500e3;   ///< bit/s
   can::Node first_node = 1;  ///< the first channel's; the others follow
-  Rates rates_Hz = usual_rates();
-  double most_load = 0.5;  ///< of the bus, by what is sent at a rate: the rest is for commands
+  Rates rates_Hz = default_rates();
+  double max_load = 0.5;   ///< of the bus, by what is sent at a rate: the rest is for commands
   double lease_s = 1.0;    ///< a master that is silent for so long loses its lease
   std::size_t queue = 64;  ///< frames that wait for the bus at most
 };

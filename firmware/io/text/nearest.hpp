@@ -1,4 +1,4 @@
-// What somebody who wrote an unknown name probably meant.
+// The known name that an unknown one was probably meant to be.
 #pragma once
 
 #include <string>

@@ -12,10 +12,10 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// -9223372036854775808 and a newline are 21 bytes; what fills this is no number.
-constexpr std::size_t longest_number = 32;
+/// -9223372036854775808 and a newline are 21 bytes; what fills this is NaN.
+constexpr std::size_t max_number = 32;
 /// sysfs gives one page.
-constexpr std::size_t longest_text = 4096;
+constexpr std::size_t max_text = 4096;
 
 int flags(Attribute::Use use) {
   // Without O_NONBLOCK a pipe in the attribute's place would hold up the opening for ever.
@@ -60,7 +60,7 @@ Result<Attribute> Attribute::open(const std::string& path, Use use) {
 }
 
 Number Attribute::number() const noexcept {
-  std::array<char, longest_number> buffer{};
+  std::array<char, max_number> buffer{};
   const Transfer got = read_start(file_, buffer.data(), buffer.size());
   if (got.status != hal::Status::ok) return {0, got.status};
   if (got.bytes == buffer.size()) return {0, hal::Status::io_error};
@@ -68,7 +68,7 @@ Number Attribute::number() const noexcept {
 }
 
 hal::Status Attribute::write(std::int64_t value) const noexcept {
-  std::array<char, longest_number> buffer{};
+  std::array<char, max_number> buffer{};
   const auto written = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return write(
       std::string_view(buffer.data(), static_cast<std::size_t>(written.ptr - buffer.data())));
@@ -79,14 +79,14 @@ hal::Status Attribute::write(std::string_view text) const noexcept {
 }
 
 Result<std::string> Attribute::text() const {
-  std::string content(longest_text + 1, '\0');
+  std::string content(max_text + 1, '\0');
   errno = 0;
   const Transfer got = read_start(file_, content.data(), content.size());
   if (got.status != hal::Status::ok) {
     return errno == 0 ? problem(path_ + " is empty") : problem("cannot read " + path_, errno);
   }
   content.resize(got.bytes);
-  if (content.size() > longest_text) return problem(path_ + " is longer than a page");
+  if (content.size() > max_text) return problem(path_ + " is longer than a page");
   if (!std::all_of(content.begin(), content.end(), is_text)) return problem(path_ + " is not text");
   while (!content.empty() && content.back() == '\n')
     content.pop_back();

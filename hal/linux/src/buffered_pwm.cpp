@@ -14,7 +14,7 @@ hal::Status BufferedPwm::set(int step) {
   seen_ = last.number;
   asked_ = {step, asked_.number + 1};
   requests_.put(asked_);
-  return unserved_ >= most_unserved ? hal::Status::busy : last.status;
+  return unserved_ >= max_unserved ? hal::Status::busy : last.status;
 }
 
 int BufferedPwm::read_back() const {

@@ -7,11 +7,12 @@
 
 namespace supercoil::hal_linux {
 
-Result<std::unique_ptr<BusThread>> BusThread::start(const ThreadWish& wish, hal::Duration period,
-                                                    std::vector<Served*> devices) {
+Result<std::unique_ptr<BusThread>> BusThread::start(const ThreadSettings& settings,
+                                                    hal::Duration period,
+                                                    std::vector<BusDevice*> devices) {
   if (period <= hal::Duration::zero()) return problem("a bus's period must be above 0");
   std::unique_ptr<BusThread> bus(new BusThread(period, std::move(devices)));
-  auto thread = Thread::start(wish, [bus = bus.get()] { bus->run(); });
+  auto thread = Thread::start(settings, [bus = bus.get()] { bus->run(); });
   if (!thread) return tl::unexpected(thread.error());
   bus->thread_ = std::make_unique<Thread>(std::move(*thread));
   return bus;
@@ -34,11 +35,11 @@ void BusThread::run() {
 }
 
 void BusThread::serve_all(hal::Time started) {
-  for (Served* device : devices_)
+  for (BusDevice* device : devices_)
     device->serve();
   const std::int64_t took_ns = (MonotonicClock::time() - started).count();
-  if (took_ns > health_.longest_round_ns.load(std::memory_order_relaxed)) {
-    health_.longest_round_ns.store(took_ns, std::memory_order_relaxed);
+  if (took_ns > health_.max_round_ns.load(std::memory_order_relaxed)) {
+    health_.max_round_ns.store(took_ns, std::memory_order_relaxed);
   }
   health_.rounds.fetch_add(1, std::memory_order_release);
 }

@@ -11,7 +11,7 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-/// What the driver makes of the wish, or why it cannot be had.
+/// The time-out that the driver took, or why it took none.
 Result<int> set_timeout(const Descriptor& device, int wanted_s, const std::string& path) {
   int taken_s = wanted_s;
   if (::ioctl(device.number(), WDIOC_SETTIMEOUT, &taken_s) == 0) return taken_s;
@@ -26,8 +26,8 @@ Result<int> set_timeout(const Descriptor& device, int wanted_s, const std::strin
 }  // namespace
 
 Result<std::unique_ptr<DevWatchdog>> DevWatchdog::open(const std::string& path, double timeout_s) {
-  constexpr double longest_s = 86400.0;
-  if (!(timeout_s > 0.0 && timeout_s <= longest_s)) {
+  constexpr double max_s = 86400.0;
+  if (!(timeout_s > 0.0 && timeout_s <= max_s)) {
     return problem("a watchdog's time-out must be above 0 and at most a day");
   }
   auto device = open_file(path, O_WRONLY | O_NONBLOCK);
@@ -39,7 +39,7 @@ Result<std::unique_ptr<DevWatchdog>> DevWatchdog::open(const std::string& path, 
   auto watchdog =
       std::make_unique<DevWatchdog>(std::move(*device), taken_s.value_or(0), outlives_program);
   if (!taken_s) {
-    // It runs since it was opened, and nobody would feed it.
+    // It has been running since it was opened, and would not be fed.
     static_cast<void>(watchdog->release());
     return tl::unexpected(taken_s.error());
   }

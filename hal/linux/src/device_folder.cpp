@@ -34,7 +34,7 @@ std::string described(const std::vector<DeviceFolder>& devices) {
 }  // namespace
 
 std::string DeviceFolder::describe() const {
-  return last_part(folder) + (names.empty() ? " without a name" : " '" + names.front() + "'") +
+  return base_name(folder) + (names.empty() ? " without a name" : " '" + names.front() + "'") +
          " at " + device_path;
 }
 
@@ -70,7 +70,7 @@ Result<DeviceFolder> choose(const std::vector<DeviceFolder>& all, std::string_vi
     return problem("more than one " + what + ": " + described(meant) +
                    "; say which by the end of its path");
   }
-  if (all.empty()) return problem("no " + what + ": there is none at all");
+  if (all.empty()) return problem("no " + what + ": there is none");
   return problem("no " + what + ": there are " + described(all));
 }
 
@@ -80,7 +80,7 @@ std::string real_path(const std::string& path) {
   return error ? std::string{} : real.string();
 }
 
-std::string last_part(const std::string& path) {
+std::string base_name(const std::string& path) {
   return path.substr(path.rfind('/') + 1);
 }
 

@@ -27,7 +27,7 @@ Result<Chips> open_chips(const std::string& dev) {
   Chips chips;
   for (const DeviceFolder& node : *folders) {
     // Some systems keep a chip's former number as a link to it.
-    if (real_path(node.folder) != real_path(dev) + "/" + last_part(node.folder)) continue;
+    if (real_path(node.folder) != real_path(dev) + "/" + base_name(node.folder)) continue;
     auto chip = GpioChip::open(node.folder);
     chips.described.push_back(chip ? described(*chip) : chip.error().text);
     if (chip) chips.open.push_back(std::move(*chip));
@@ -72,7 +72,7 @@ Result<unsigned> find_line(const GpioChip& chip, const std::string& name) {
 struct FoundLine {
   GpioChip chip;
   unsigned offset;
-  LineAbout about;
+  LineDescription about;
 };
 
 Result<FoundLine> find(const LineName& name, const std::string& dev) {
@@ -80,7 +80,7 @@ Result<FoundLine> find(const LineName& name, const std::string& dev) {
   if (!chip) return tl::unexpected(chip.error());
   const auto offset = find_line(*chip, name.line);
   if (!offset) return tl::unexpected(offset.error());
-  LineAbout about = chip->about(*offset);
+  LineDescription about = chip->about(*offset);
   return FoundLine{std::move(*chip), *offset, std::move(about)};
 }
 
@@ -101,11 +101,11 @@ Result<HeldLine> hold_line(const LineName& name, Direction direction, const std:
       [&](FoundLine&& found) { return hold(std::move(found), direction); });
 }
 
-Result<LineAtRest> look_at_rest(const LineName& name, const std::string& dev) {
+Result<UndrivenLine> read_undriven(const LineName& name, const std::string& dev) {
   return find(name, dev).and_then([](FoundLine&& found) {
     const Bias bias = found.about.bias;
     return hold(std::move(found), Direction::input).map([&](HeldLine&& line) {
-      return LineAtRest{line.get(), bias};
+      return UndrivenLine{line.get(), bias};
     });
   });
 }

@@ -27,7 +27,7 @@ std::string inputs_of(const std::string& folder) {
 
 }  // namespace
 
-Result<std::unique_ptr<IioAdc>> IioAdc::open(const ConverterPlace& place) {
+Result<std::unique_ptr<IioAdc>> IioAdc::open(const ConverterLocation& place) {
   if (!is_input_name(place.input)) return problem("'" + place.input + "' is not an input's name");
   const auto device = find_iio_device(place.device, place.root);
   if (!device) return tl::unexpected(device.error());

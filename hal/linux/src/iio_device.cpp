@@ -26,14 +26,14 @@ Result<DeviceFolder> find_iio_device(const std::string& device, const std::strin
       [&](const auto& all) { return choose(all, device, "converter", root); });
 }
 
-std::optional<CountRange> count_range(const ConverterPlace& place) {
-  constexpr int most_bits = 32;  // more are no converter's
+std::optional<CountRange> count_range(const ConverterLocation& place) {
+  constexpr int max_bits = 32;  // more are no converter's
   if (!is_input_name(place.input)) return {};
   const auto device = find_iio_device(place.device, place.root);
   if (!device) return {};
   const auto type = read_text(device->folder + "/scan_elements/in_" + place.input + "_type")
                         .and_then(parse_scan_type);
-  if (!type || type->bits > most_bits) return {};
+  if (!type || type->bits > max_bits) return {};
   const std::int64_t codes = std::int64_t{1} << static_cast<unsigned>(type->bits);
   if (type->is_signed) return CountRange{-codes / 2, codes / 2 - 1};
   return CountRange{0, codes - 1};

@@ -19,7 +19,7 @@ class IioScan::Input final : public hal::AdcChannel {
   std::size_t index_;
 };
 
-Result<std::unique_ptr<IioScan>> IioScan::open(const ScanPlace& place) {
+Result<std::unique_ptr<IioScan>> IioScan::open(const ScanLocation& place) {
   auto ready = set_up_scan(place);
   if (!ready) return tl::unexpected(ready.error());
   auto scan = std::make_unique<IioScan>(std::move(*ready), place.length);

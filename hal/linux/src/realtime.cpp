@@ -110,7 +110,7 @@ SetupStep pin_to_cpu(pthread_t thread, int cpu) {
   return outcome(step, taken ? "" : "accepted, but the thread may run elsewhere", remedy);
 }
 
-SetupStep WakefulCpus::hold(const std::string& path) {
+SetupStep CpuLatencyRequest::hold(const std::string& path) {
   const std::string step = "CPUs kept from deep sleep";
   const std::string remedy = "run as root, or allow writing to " + path;
   auto opened = open_file(path, O_WRONLY | O_NONBLOCK);

@@ -11,10 +11,10 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-constexpr int most_scans = 4096;
+constexpr int max_scans = 4096;
 
-Result<void> check(const ScanPlace& place) {
-  if (place.length < 2 || place.length > most_scans) {
+Result<void> check(const ScanLocation& place) {
+  if (place.length < 2 || place.length > max_scans) {
     return problem("a buffer of " + std::to_string(place.length) + " scans: must be 2 to 4096");
   }
   if (place.inputs.empty()) return problem("a scan of no inputs");
@@ -27,7 +27,7 @@ Result<void> check(const ScanPlace& place) {
   return {};
 }
 
-/// Turns off what somebody else may have left on: its bytes would shift ours.
+/// Turns off what may have been left on: its bytes would shift ours.
 Result<void> disable_all(const std::string& elements) {
   const auto names = names_in(elements);
   if (!names) return tl::unexpected(names.error());
@@ -53,7 +53,7 @@ Result<ScanElement> enable_element(const std::string& elements, const std::strin
       });
 }
 
-Result<void> set_trigger(const DeviceFolder& device, const ScanPlace& place) {
+Result<void> set_trigger(const DeviceFolder& device, const ScanLocation& place) {
   const std::string path = device.folder + "/trigger/current_trigger";
   if (place.trigger.empty()) {
     const auto current = read_text(path);
@@ -98,7 +98,7 @@ Result<void> place_elements(ReadyScan& ready) {
   return {};
 }
 
-Result<ReadyScan> enable_elements(const DeviceFolder& device, const ScanPlace& place) {
+Result<ReadyScan> enable_elements(const DeviceFolder& device, const ScanLocation& place) {
   const std::string elements = device.folder + "/scan_elements";
   auto enable = Attribute::open(device.folder + "/buffer/enable", Attribute::Use::write);
   if (!enable) return tl::unexpected(enable.error());
@@ -120,7 +120,7 @@ Result<ReadyScan> enable_elements(const DeviceFolder& device, const ScanPlace& p
 
 }  // namespace
 
-Result<ReadyScan> set_up_scan(const ScanPlace& place) {
+Result<ReadyScan> set_up_scan(const ScanLocation& place) {
   if (auto good = check(place); !good) return tl::unexpected(good.error());
   const auto device = find_iio_device(place.device, place.root);
   if (!device) return tl::unexpected(device.error());
@@ -133,7 +133,7 @@ Result<ReadyScan> set_up_scan(const ScanPlace& place) {
             return write_text(device->folder + "/buffer/length", std::to_string(place.length));
           });
   if (!settled) return tl::unexpected(settled.error());
-  const std::string node = place.dev + "/" + last_part(device->folder);
+  const std::string node = place.dev + "/" + base_name(device->folder);
   auto opened = open_file(node, O_RDONLY | O_NONBLOCK);
   if (!opened) return tl::unexpected(opened.error());
   ready->device = std::move(*opened);

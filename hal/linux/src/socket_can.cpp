@@ -19,7 +19,7 @@ namespace {
 
 constexpr hal::Duration look_every = std::chrono::milliseconds(100);
 /// A bus full of error frames must not hold up a caller who waits for a command.
-constexpr int most_passed_over = 64;
+constexpr int max_passed_over = 64;
 
 /// A packet of the socket, whatever it is.
 struct Packet {
@@ -74,7 +74,7 @@ Packet next_packet(const Descriptor& socket) {
   return packet;
 }
 
-/// What an error frame tells of the controller; most tell nothing of its state.
+/// The controller's state from an error frame; most have none.
 hal::CanState state_after(const can_frame& error, hal::CanState before) {
   if ((error.can_id & CAN_ERR_BUSOFF) != 0) return hal::CanState::bus_off;
   if ((error.can_id & CAN_ERR_RESTARTED) != 0) return hal::CanState::active;
@@ -94,13 +94,13 @@ bool is_classical_data(const can_frame& frame) {
 
 }  // namespace
 
-Result<std::unique_ptr<SocketCan>> SocketCan::open(const CanPlace& place) {
-  auto link = open_can_link(place);
+Result<std::unique_ptr<SocketCan>> SocketCan::open(const CanLocation& place) {
+  auto link = open_can_interface(place);
   if (link) return std::make_unique<SocketCan>(place, std::move(*link));
   if (link.error().code != ENODEV) return tl::unexpected(link.error());
   const std::vector<std::string> there = can_interfaces(place.net);
   return problem("no CAN interface '" + place.interface +
-                 "': " + (there.empty() ? "there is none at all" : "there are " + listed(there)));
+                 "': " + (there.empty() ? "there is none" : "there are " + listed(there)));
 }
 
 hal::Status SocketCan::send(const hal::CanFrame& frame) {
@@ -118,7 +118,7 @@ hal::Status SocketCan::send(const hal::CanFrame& frame) {
 
 hal::Status SocketCan::receive(hal::CanFrame& frame) {
   if (!is_there()) return hal::Status::gone;
-  for (int i = 0; i < most_passed_over; ++i) {
+  for (int i = 0; i < max_passed_over; ++i) {
     const Packet packet = next_packet(link_.socket);
     if (packet.status != hal::Status::ok) return lost_if_gone(packet.status);
     if (packet.bytes != sizeof(packet.frame)) continue;
@@ -146,7 +146,7 @@ bool SocketCan::is_there() {
   const hal::Time now = MonotonicClock::time();
   if (now < next_look_) return false;
   next_look_ = now + look_every;
-  if (auto link = open_can_link(place_)) link_ = std::move(*link);
+  if (auto link = open_can_interface(place_)) link_ = std::move(*link);
   return link_.socket.is_open();
 }
 

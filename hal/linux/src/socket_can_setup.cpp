@@ -17,17 +17,17 @@ namespace supercoil::hal_linux {
 namespace {
 
 /// The errors that say something of the controller's state.
-constexpr can_err_mask_t told_errors = CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
+constexpr can_err_mask_t reported_errors = CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED;
 
-/// A value that the kernel tells of an interface.
+/// A value of an interface from the kernel.
 Result<std::int64_t> told(const std::string& net, const std::string& interface, const char* what) {
   return read_whole(net + "/" + interface + "/" + what);
 }
 
-Result<void> check(const CanPlace& place) {
+Result<void> check(const CanLocation& place) {
   const std::string& name = place.interface;
   if (name.empty() || name.size() >= IFNAMSIZ || name.find('/') != std::string::npos) {
-    return problem("'" + name + "' is no name of a network interface");
+    return problem("'" + name + "' is not a network interface name");
   }
   if (place.listen.size() > CAN_RAW_FILTER_MAX) {
     return problem(name + ": listens to " + std::to_string(place.listen.size()) +
@@ -35,7 +35,7 @@ Result<void> check(const CanPlace& place) {
   }
   for (const std::uint16_t id : place.listen) {
     if (id > CAN_SFF_MASK) {
-      return problem(name + ": " + std::to_string(id) + " is no identifier of 11 bits (0 to 2047)");
+      return problem(name + ": " + std::to_string(id) + " is not an 11-bit identifier (0 to 2047)");
     }
   }
   return {};
@@ -49,7 +49,7 @@ Result<void> set_option(const Descriptor& socket, int level, int option, const v
 }
 
 /// Only what is listened to comes in, from the first moment on: set before the socket is bound.
-Result<void> set_filters(const Descriptor& socket, const CanPlace& place) {
+Result<void> set_filters(const Descriptor& socket, const CanLocation& place) {
   std::vector<can_filter> filters;
   filters.reserve(place.listen.size() + 1);
   if (place.listen_to_all) filters.push_back({0, CAN_EFF_FLAG | CAN_RTR_FLAG});
@@ -59,19 +59,19 @@ Result<void> set_filters(const Descriptor& socket, const CanPlace& place) {
                     filters.size() * sizeof(can_filter), "receive filters");
 }
 
-Result<void> set_options(const Descriptor& socket, const CanPlace& place) {
+Result<void> set_options(const Descriptor& socket, const CanLocation& place) {
   const int on = 1;
   return set_filters(socket, place)
       .and_then([&] {
-        return set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &told_errors,
-                          sizeof(told_errors), "error frames");
+        return set_option(socket, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &reported_errors,
+                          sizeof(reported_errors), "error frames");
       })
       .and_then([&] {
         return set_option(socket, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof(on), "timestamps");
       });
 }
 
-Result<Descriptor> open_socket(const CanPlace& place, int index) {
+Result<Descriptor> open_socket(const CanLocation& place, int index) {
   Descriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
   if (!socket.is_open()) {
     return problem("no CAN sockets (kernel modules can, can-raw)", errno);
@@ -88,7 +88,7 @@ Result<Descriptor> open_socket(const CanPlace& place, int index) {
 
 }  // namespace
 
-Result<CanLink> open_can_link(const CanPlace& place) {
+Result<CanInterface> open_can_interface(const CanLocation& place) {
   if (auto checked = check(place); !checked) return tl::unexpected(checked.error());
   const auto type = told(place.net, place.interface, "type");
   const auto index = told(place.net, place.interface, "ifindex");
@@ -97,11 +97,11 @@ Result<CanLink> open_can_link(const CanPlace& place) {
   }
   // Cannot be read of an interface that is down. A controller loses its carrier by bus-off alone.
   const auto carrier = told(place.net, place.interface, "carrier");
-  if (!carrier) return CanLink{};
+  if (!carrier) return CanInterface{};
   auto socket = open_socket(place, static_cast<int>(*index));
   if (!socket) return tl::unexpected(socket.error());
-  return CanLink{std::move(*socket),
-                 *carrier == 0 ? hal::CanState::bus_off : hal::CanState::active};
+  return CanInterface{std::move(*socket),
+                      *carrier == 0 ? hal::CanState::bus_off : hal::CanState::active};
 }
 
 std::vector<std::string> can_interfaces(const std::string& net) {

@@ -13,16 +13,16 @@ std::int64_t scaled(std::int64_t numerator, std::int64_t factor, std::int64_t de
 }
 
 /// Within these, step * period_ns fits into 64 bits many times over.
-constexpr std::int64_t longest_period_ns = 1'000'000'000;
-constexpr int most_steps = 1 << 24;
+constexpr std::int64_t max_period_ns = 1'000'000'000;
+constexpr int max_steps = 1 << 24;
 
 }  // namespace
 
-Result<std::unique_ptr<SysfsPwm>> SysfsPwm::open(const PwmPlace& place) {
-  if (place.steps < 1 || place.steps > most_steps) {
+Result<std::unique_ptr<SysfsPwm>> SysfsPwm::open(const PwmLocation& place) {
+  if (place.steps < 1 || place.steps > max_steps) {
     return problem("a PWM of " + std::to_string(place.steps) + " steps: must be 1 to 16777216");
   }
-  if (place.period_ns < place.steps || place.period_ns > longest_period_ns) {
+  if (place.period_ns < place.steps || place.period_ns > max_period_ns) {
     return problem("a PWM period of " + std::to_string(place.period_ns) +
                    " ns: must be 1 ns a step (" + std::to_string(place.steps) + ") to 1 s");
   }
@@ -47,7 +47,7 @@ hal::Status SysfsPwm::set(int step) {
   return files_.duty.write(scaled(step, period_ns_, steps_));
 }
 
-hal::Status SysfsPwm::wink() const {
+hal::Status SysfsPwm::pulse_enable() const {
   const hal::Status disabled = files_.enable.write(0);
   const hal::Status enabled = files_.enable.write(1);
   return disabled == hal::Status::ok ? enabled : disabled;

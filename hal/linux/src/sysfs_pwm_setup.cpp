@@ -19,12 +19,12 @@ constexpr std::array<const char*, 4> files_of_output{"period", "duty_cycle", "en
 /// udev gives a new output's files to their group a moment after they came. Who may not write by
 /// then is told so when the files are opened.
 void wait_for_rights(const std::string& folder) {
-  constexpr int most_rounds = 100;
+  constexpr int max_rounds = 100;
   constexpr auto round = std::chrono::milliseconds(10);
   const auto may_write = [&](const char* name) {
     return ::access((folder + "/" + name).c_str(), W_OK) == 0 || errno != EACCES;
   };
-  for (int i = 0; i < most_rounds && !std::ranges::all_of(files_of_output, may_write); ++i)
+  for (int i = 0; i < max_rounds && !std::ranges::all_of(files_of_output, may_write); ++i)
     std::this_thread::sleep_for(round);
 }
 
@@ -109,12 +109,12 @@ Result<std::vector<DeviceFolder>> pwm_chips(const std::string& root) {
     if (const auto name = read_text(chip.folder + "/device/name"); name && !name->empty()) {
       chip.names.push_back(*name);
     }
-    if (!chip.device_path.empty()) chip.names.push_back(last_part(chip.device_path));
+    if (!chip.device_path.empty()) chip.names.push_back(base_name(chip.device_path));
   }
   return chips;
 }
 
-Result<PwmFiles> open_pwm_files(const PwmPlace& place) {
+Result<PwmFiles> open_pwm_files(const PwmLocation& place) {
   return pwm_chips(place.root)
       .and_then(
           [&](const auto& chips) { return choose(chips, place.device, "PWM chip", place.root); })

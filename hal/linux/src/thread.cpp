@@ -4,11 +4,11 @@
 
 namespace supercoil::hal_linux {
 
-Result<Thread> Thread::start(const ThreadWish& wish, std::function<void()> body) {
+Result<Thread> Thread::start(const ThreadSettings& settings, std::function<void()> body) {
   auto running = std::make_unique<Running>(Running{std::move(body), {}});
   pthread_attr_t attributes{};
   ::pthread_attr_init(&attributes);
-  int error = ::pthread_attr_setstacksize(&attributes, wish.stack_bytes);
+  int error = ::pthread_attr_setstacksize(&attributes, settings.stack_bytes);
   if (error == 0) {
     error = ::pthread_create(
         &running->id, &attributes,
@@ -20,16 +20,16 @@ Result<Thread> Thread::start(const ThreadWish& wish, std::function<void()> body)
   }
   ::pthread_attr_destroy(&attributes);
   if (error != 0) {
-    return problem("cannot start the thread '" + wish.name + "' with " +
-                       std::to_string(wish.stack_bytes) + " bytes of stack",
+    return problem("cannot start the thread '" + settings.name + "' with " +
+                       std::to_string(settings.stack_bytes) + " bytes of stack",
                    error);
   }
-  constexpr std::size_t longest_name = 15;
+  constexpr std::size_t max_name = 15;
   Thread thread(std::move(running));
   const pthread_t id = thread.running_->id;
-  ::pthread_setname_np(id, wish.name.substr(0, longest_name).c_str());
-  if (wish.priority > 0) thread.steps_.push_back(set_fifo_priority(id, wish.priority));
-  if (wish.cpu >= 0) thread.steps_.push_back(pin_to_cpu(id, wish.cpu));
+  ::pthread_setname_np(id, settings.name.substr(0, max_name).c_str());
+  if (settings.priority > 0) thread.steps_.push_back(set_fifo_priority(id, settings.priority));
+  if (settings.cpu >= 0) thread.steps_.push_back(pin_to_cpu(id, settings.cpu));
   return thread;
 }
 

@@ -201,12 +201,12 @@ extern "C" {
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_BUSY_CHOICE (5u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_OUT_OF_RANGE_CHOICE (6u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_NO_SUCH_CHANNEL_CHOICE (7u)
-#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_NOT_YOURS_CHOICE (8u)
+#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_NOT_LEASE_HOLDER_CHOICE (8u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_NO_LEASE_CHOICE (9u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_WRONG_COUNTER_CHOICE (10u)
-#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_TOO_MANY_CHOICE (11u)
+#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_QUEUE_FULL_CHOICE (11u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
-#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_OTHER_VERSION_CHOICE (13u)
+#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
 
 #define SUPERCOIL_MEASUREMENT_POSITION_M_NOT_AVAILABLE_CHOICE (-8388608)
 
@@ -349,7 +349,7 @@ extern "C" {
 #define SUPERCOIL_GAIN_GAIN_FEEDFORWARD_JERK_CHOICE (14u)
 #define SUPERCOIL_GAIN_GAIN_BIAS_CHOICE (15u)
 
-#define SUPERCOIL_SETTING_SETTING_MOST_POWER_W_CHOICE (0u)
+#define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
 #define SUPERCOIL_SETTING_SETTING_TRACKING_HZ_CHOICE (2u)
 #define SUPERCOIL_SETTING_SETTING_POWER_HZ_CHOICE (3u)
@@ -373,14 +373,14 @@ extern "C" {
 #define SUPERCOIL_SETTING_REFUSAL_BUSY_CHOICE (5u)
 #define SUPERCOIL_SETTING_REFUSAL_OUT_OF_RANGE_CHOICE (6u)
 #define SUPERCOIL_SETTING_REFUSAL_NO_SUCH_CHANNEL_CHOICE (7u)
-#define SUPERCOIL_SETTING_REFUSAL_NOT_YOURS_CHOICE (8u)
+#define SUPERCOIL_SETTING_REFUSAL_NOT_LEASE_HOLDER_CHOICE (8u)
 #define SUPERCOIL_SETTING_REFUSAL_NO_LEASE_CHOICE (9u)
 #define SUPERCOIL_SETTING_REFUSAL_WRONG_COUNTER_CHOICE (10u)
-#define SUPERCOIL_SETTING_REFUSAL_TOO_MANY_CHOICE (11u)
+#define SUPERCOIL_SETTING_REFUSAL_QUEUE_FULL_CHOICE (11u)
 #define SUPERCOIL_SETTING_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
-#define SUPERCOIL_SETTING_REFUSAL_OTHER_VERSION_CHOICE (13u)
+#define SUPERCOIL_SETTING_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
 
-#define SUPERCOIL_SETTING_WRITE_SETTING_MOST_POWER_W_CHOICE (0u)
+#define SUPERCOIL_SETTING_WRITE_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_MEASUREMENT_HZ_CHOICE (1u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_TRACKING_HZ_CHOICE (2u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_POWER_HZ_CHOICE (3u)
@@ -396,7 +396,7 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_SETTING_CURRENT_GAIN_CHOICE (13u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_SENSE_ERROR_RATIO_CHOICE (14u)
 
-#define SUPERCOIL_SETTING_READ_SETTING_MOST_POWER_W_CHOICE (0u)
+#define SUPERCOIL_SETTING_READ_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_READ_SETTING_MEASUREMENT_HZ_CHOICE (1u)
 #define SUPERCOIL_SETTING_READ_SETTING_TRACKING_HZ_CHOICE (2u)
 #define SUPERCOIL_SETTING_READ_SETTING_POWER_HZ_CHOICE (3u)
@@ -473,11 +473,11 @@ extern "C" {
 #define SUPERCOIL_STATUS_RESULT_INTERRUPTED_CHOICE (3u)
 #define SUPERCOIL_STATUS_RESULT_NOT_COLD_CHOICE (4u)
 #define SUPERCOIL_STATUS_RESULT_MOVED_CHOICE (5u)
-#define SUPERCOIL_STATUS_RESULT_NOT_EXPLAINED_CHOICE (6u)
+#define SUPERCOIL_STATUS_RESULT_POOR_FIT_CHOICE (6u)
 #define SUPERCOIL_STATUS_RESULT_UNCERTAIN_CHOICE (7u)
 #define SUPERCOIL_STATUS_RESULT_IMPLAUSIBLE_CHOICE (8u)
 #define SUPERCOIL_STATUS_RESULT_NOT_STORED_CHOICE (9u)
-#define SUPERCOIL_STATUS_RESULT_TOO_STILL_CHOICE (10u)
+#define SUPERCOIL_STATUS_RESULT_TOO_LITTLE_MOTION_CHOICE (10u)
 
 /* Frame Names. */
 #define SUPERCOIL_EMERGENCY_NAME "Emergency"
@@ -754,7 +754,7 @@ struct supercoil_acknowledge_t {
     uint16_t session;
 
     /**
-     * none: it was obeyed. Else why not. out_of_range: RefusedValue tells the value. claim_again: claim with the number in granted as value. other_version: the frame is of another version of this protocol; disarm alone is the same in all.
+     * none: it was obeyed. Else why not. out_of_range: RefusedValue tells the value. claim_again: claim with the number in granted as value. protocol_mismatch: the frame is of another version of this protocol; disarm alone is the same in all.
      *
      * Range: 0..13 (0..13 -)
      * Scale: 1
@@ -1339,7 +1339,7 @@ struct supercoil_setting_t {
     uint8_t session_low;
 
     /**
-     * most_power_W: W. Rates: Hz. supply_gain, current_gain: true over measured, of a comparison with a meter; sense_error_ratio: what it left, 0: not compared. NaN: no such setting.
+     * max_power_W: W. Rates: Hz. supply_gain, current_gain: true over measured, of a comparison with a meter; sense_error_ratio: what it left, 0: not compared. NaN: no such setting.
      *
      * Range: -
      * Scale: 1
@@ -1393,7 +1393,7 @@ struct supercoil_setting_write_t {
     uint16_t session;
 
     /**
-     * most_power_W: W, 0 to the configured maximum. Rates: Hz; 0: never. Those of the senses are only read: compare changes them.
+     * max_power_W: W, 0 to the configured maximum. Rates: Hz; 0: never. Those of the senses are only read: compare changes them.
      *
      * Range: -
      * Scale: 1

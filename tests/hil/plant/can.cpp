@@ -71,7 +71,7 @@ int main(int count, char** arguments) {
     std::fputs("supercoil-rig-can INTERFACE SEND_EVERY_MS SEND_ID LISTEN_ID...\n", stderr);
     return 2;
   }
-  hal_linux::CanPlace place{arguments[1], {}};
+  hal_linux::CanLocation place{arguments[1], {}};
   for (int i = 4; i < count; ++i)
     place.listen.push_back(identifier(arguments[i]));
   auto can = hal_linux::SocketCan::open(place);

@@ -15,8 +15,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "injected_faults.hpp"
 #include "plant.hpp"
-#include "troubles.hpp"
 #include "witness.hpp"
 
 namespace {
@@ -26,7 +26,7 @@ using namespace supercoil;
 struct Options {
   rig::PlantSettings plant;
   std::string witness;
-  std::string troubles;
+  std::string injected_faults;
   int priority = 90;
 };
 
@@ -64,7 +64,7 @@ std::string started(const rig::PlantSettings& settings) {
   rig::Plant plant(options.plant);
   rig::Witness witness(options.witness);
   std::optional<rig::Orders> orders;
-  if (!options.troubles.empty()) orders.emplace(options.troubles);
+  if (!options.injected_faults.empty()) orders.emplace(options.injected_faults);
   become_real_time(options.priority);
   witness.note(started(options.plant));
 
@@ -86,7 +86,7 @@ std::string started(const rig::PlantSettings& settings) {
       witness.note("T " + std::to_string(latched.count() / 1000) + " " + order +
                    (wrong.empty() ? "" : ": refused, it " + wrong));
     }
-    if (last == 0 && orders) std::ofstream(options.troubles + ".ready");
+    if (last == 0 && orders) std::ofstream(options.injected_faults + ".ready");
     witness.step_took(latched, now() - woken, woken - wake, static_cast<int>(step - last - 1));
   }
 }
@@ -108,7 +108,7 @@ int run_program(int count, char** arguments) {
   app.add_option("--first-converter", plant.first_converter)->capture_default_str();
   app.add_option("--lines", plant.lines, "A folder of each line")->capture_default_str();
   app.add_option("--witness", options.witness, "Where lines are written; else standard output");
-  app.add_option("--troubles", options.troubles, "FIFO from which troubles are ordered");
+  app.add_option("--faults", options.injected_faults, "FIFO of faults to inject");
   CLI11_PARSE(app, count, arguments);
   run(options);
 }

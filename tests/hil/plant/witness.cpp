@@ -101,18 +101,18 @@ void Witness::look(const Plant& plant, hal::Time now) {
 
 void Witness::step_took(hal::Time now, hal::Duration took, hal::Duration late, int missed) {
   sum_ += took;
-  most_ = std::max(most_, took);
+  max_ = std::max(max_, took);
   latest_ = std::max(latest_, late);
   missed_ += missed;
   ++steps_;
   if (now - counted_since_ < std::chrono::seconds(1)) return;
   Line line('S');
   line.add(microseconds(now)).add(steps_).add(missed_).add(microseconds(sum_ / steps_));
-  line.add(microseconds(most_)).add(microseconds(latest_));
+  line.add(microseconds(max_)).add(microseconds(latest_));
   const char* text = line.end_line();
   write_line(text, line.size());
   counted_since_ = now;
-  sum_ = most_ = latest_ = {};
+  sum_ = max_ = latest_ = {};
   steps_ = missed_ = 0;
 }
 

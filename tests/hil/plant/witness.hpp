@@ -3,8 +3,8 @@
 // line is.
 //
 //   # text                                what was started, with its settings
-//   T time_us text                        a trouble that was obeyed; or refused, then with the
-//   reason S time_us steps missed mean_us most_us late_us
+//   T time_us text                        an injected fault; or refused, then with the
+//   reason S time_us steps missed mean_us max_us late_us
 //       of the plant itself, once a second: steps since the last line, steps that were left out,
 //       how long a step took, and how late the latest woke
 //   W time_us edges edge_us stop light closed  then for each channel
@@ -50,7 +50,7 @@ class Witness {
 
   hal::Time counted_since_{};
   hal::Duration sum_{};
-  hal::Duration most_{};
+  hal::Duration max_{};
   hal::Duration latest_{};
   long steps_ = 0;
   long missed_ = 0;

@@ -51,7 +51,7 @@ void empty(Loop& loop) {
 
 void run(Loop& loop, Executive& executive, long ticks, Seen& seen) {
   for (seen.ticks = 0; seen.ticks < ticks; ++seen.ticks) {
-    loop.health().telemetry_beats.store(static_cast<std::uint32_t>(seen.ticks));
+    loop.health().telemetry_heartbeats.store(static_cast<std::uint32_t>(seen.ticks));
     command(loop, seen.ticks);
     seen.calls += test::counted([&] { executive.run_tick(); });
     empty(loop);
@@ -77,7 +77,7 @@ int main(int count, char** arguments) {
   if (const auto started = (*board)->start(rate_Hz, bus_priority); !started) {
     return fail(started.error());
   }
-  hal_linux::WakefulCpus cpus;
+  hal_linux::CpuLatencyRequest cpus;
   for (const auto& step :
        {hal_linux::lock_memory(), hal_linux::prefault_stack(std::size_t{128} * 1024),
         hal_linux::set_fifo_priority(::pthread_self(), priority), cpus.hold()})

@@ -20,9 +20,9 @@ constexpr double mass_error_ratio = 0.03;
 constexpr double thermometer_error_K = 1.0;
 /// Far more than any of the muscles needs for 160 °C: nothing but the hot end limits it.
 constexpr double ample_ratio = 6.0;
-constexpr double most_W = 25.0;
+constexpr double peak_W = 25.0;
 constexpr double heater_Ohm = 5.0;
-constexpr int longest_identify_s = 2000;
+constexpr int max_identify_s = 2000;
 
 /// What is true, of what the board knows with an error.
 struct Truth {
@@ -66,7 +66,7 @@ control::ControllerSettings pi() {
 class Life {
  public:
   Life(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth, double max_W,
-       const board::HeatFacts& facts, std::uint64_t seed, Findings& findings)
+       const board::ThermalFacts& facts, std::uint64_t seed, Findings& findings)
       : muscle_(muscle),
         truth_(truth),
         findings_(findings),
@@ -105,10 +105,10 @@ class Life {
   void command(Verb verb, double value) { loop_.send({0, verb, value}); }
   void note_widths(std::vector<double>* widths_K) { widths_K_ = widths_K; }
   /// The last that the channel handed over.
-  std::optional<board::Learned> lesson() {
+  std::optional<board::Learned> update() {
     std::optional<board::Learned> last;
-    for (board::Lesson lesson; loop_.channel(0).take_lesson(lesson);)
-      last = lesson;
+    for (board::LearnedUpdate update; loop_.channel(0).take_learned_update(update);)
+      last = update;
     return last;
   }
   bool active() const { return state() == State::active; }
@@ -120,7 +120,7 @@ class Life {
   }
   double slowest_s() const {
     const control::ThermalBounds& b = settings_.channels[0].thermal.bounds;
-    return b.highest_mass_J_per_K / b.lowest_transfer_W_per_K;
+    return b.max_mass_J_per_K / b.min_transfer_W_per_K;
   }
 
  private:
@@ -142,7 +142,7 @@ class Life {
     return s;
   }
   BoardSettings firmware(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth,
-                         double max_W, const board::HeatFacts& facts) const {
+                         double max_W, const board::ThermalFacts& facts) const {
     BoardSettings s;
     s.supply.scaling = scaling(simulated_.supply);
     ChannelSettings& c = s.channels[0];
@@ -152,9 +152,9 @@ class Life {
     c.position.scaling = scaling(simulated_.channels[0].position);
     c.heater.current.scaling = scaling(simulated_.channels[0].current);
     c.heater.cold_resistance_Ohm = c.calibration.cold_resistance_Ohm = heater_Ohm;
-    c.supervision.least_resistance_Ohm = 0.5 * heater_Ohm;
-    c.supervision.lowest_position_m = -0.05;
-    c.supervision.highest_position_m = 0.75;
+    c.supervision.min_resistance_Ohm = 0.5 * heater_Ohm;
+    c.supervision.min_position_m = -0.05;
+    c.supervision.max_position_m = 0.75;
     c.supervision.max_travel_m = muscle.preset == host_sim::MusclePreset::b ? 0.1 : 0.7;
     c.supervision.max_measured_W = default_max_measured_W(max_W);
     c.supervision.energy_J = default_energy_J(max_W, c.supervision.energy_window_s);
@@ -186,7 +186,7 @@ class Life {
   State state() const { return loop_.channel(0).state().state(); }
   void tick() {
     executive_.run_tick();
-    loop_.health().telemetry_beats.store(++beats_);
+    loop_.health().telemetry_heartbeats.store(++beats_);
     for (Row row; loop_.take(row);) {
     }
     for (Answer answer; loop_.answer(answer);) {
@@ -218,24 +218,24 @@ class Life {
 };
 
 /// identify, and a thermometer read in steady heat.
-board::HeatFacts found_out(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth,
-                           std::uint64_t seed, Findings& findings) {
-  board::HeatFacts facts;
+board::ThermalFacts found_out(const MuscleCase& muscle, Knowledge knowledge, const Truth& truth,
+                              std::uint64_t seed, Findings& findings) {
+  board::ThermalFacts facts;
   if (knowledge == Knowledge::defaults || knowledge == Knowledge::air_and_senses) return facts;
   Life life(muscle, knowledge, truth, muscle.max_W, facts, seed, findings);
   if (knowledge != Knowledge::thermometer_alone) {
     life.run(Verb::identify, 0.0, 0.1);
-    for (int i = 0; i < longest_identify_s && life.active(); ++i)
+    for (int i = 0; i < max_identify_s && life.active(); ++i)
       life.run(Verb::renew, 0.0, 1.0);
-    if (const auto lesson = life.lesson()) facts = lesson->heat;
-    findings.cooling_found = facts.knows_time_constant();
+    if (const auto update = life.update()) facts = update->heat;
+    findings.cooling_found = facts.has_time_constant();
   }
   if (knowledge == Knowledge::weighed) return facts;
   life.run(Verb::power, 0.29 * muscle.max_W, 5.2 * life.slowest_s());
   life.command(Verb::compare_rise, life.rise_K() + truth.read_error_K);
   life.run(Verb::power, 0.29 * muscle.max_W, 0.1);
-  if (const auto lesson = life.lesson()) facts = lesson->heat;
-  findings.read = facts.was_read();
+  if (const auto update = life.update()) facts = update->heat;
+  findings.read = facts.has_reading();
   return facts;
 }
 
@@ -250,8 +250,8 @@ double level_W(double time_s, double max_W) {
 Findings measure(const MuscleCase& muscle, Knowledge knowledge, std::uint64_t seed) {
   Findings findings;
   const Truth truth(seed);
-  const board::HeatFacts facts = found_out(muscle, knowledge, truth, seed, findings);
-  const double ample_W = std::min(most_W, ample_ratio * muscle.max_W);
+  const board::ThermalFacts facts = found_out(muscle, knowledge, truth, seed, findings);
+  const double ample_W = std::min(peak_W, ample_ratio * muscle.max_W);
   Life life(muscle, knowledge, truth, ample_W, facts, seed, findings);
   std::vector<double> widths_K;
   const bool as_the_paper = muscle.max_W == 4.5 * std::min(1.0, muscle.cooling_ratio);

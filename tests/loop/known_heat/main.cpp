@@ -28,8 +28,8 @@ struct Case {
 struct Goal {
   MusclePreset preset;
   Knowledge knowledge;
-  double most_width_K;  ///< infinite: not judged
-  double least_reach_ratio;
+  double max_width_K;  ///< infinite: not judged
+  double min_reach_ratio;
 };
 constexpr std::array<Goal, 6> goals{{
     {MusclePreset::real, Knowledge::weighed, 18.0, 0.0},
@@ -118,8 +118,7 @@ bool judge(const std::vector<Case>& seeds) {
     const bool meant = goal.preset == first.muscle.preset && goal.knowledge == first.knowledge &&
                        first.muscle.cooling_ratio == 1.0;
     if (!meant) continue;
-    good =
-        good && median(widths_K) <= goal.most_width_K && median(reaches) >= goal.least_reach_ratio;
+    good = good && median(widths_K) <= goal.max_width_K && median(reaches) >= goal.min_reach_ratio;
   }
   if (!good) std::printf("^ not as it must be\n");
   return good;

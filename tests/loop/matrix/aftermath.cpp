@@ -15,14 +15,14 @@ bool quiet(const Rig& rig) {
 /// Held from before the cause goes until a while after it.
 std::string hold_reset(Rig& rig) {
   const Fault board = rig.loop.board_fault();
-  const double most_s = rig.time_s() + 3.0;
-  double end_s = most_s;
+  const double max_s = rig.time_s() + 3.0;
+  double end_s = max_s;
   while (rig.time_s() < end_s) {
     rig.send(Verb::reset);
     rig.tick();
     if (rig.state() != State::fault) return "it was reset by a held command";
     if (rig.loop.board_fault() != board) return "the board was reset by a held command";
-    if (end_s == most_s && quiet(rig)) end_s = rig.time_s() + 0.05;
+    if (end_s == max_s && quiet(rig)) end_s = rig.time_s() + 0.05;
   }
   return "";
 }

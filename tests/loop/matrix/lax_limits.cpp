@@ -47,15 +47,15 @@ std::vector<LaxLimit> of_sensors() {
   using C = ChannelSupervision;
   const std::string wire_off = "a wire that is off reads 12 mm below zero, beyond any such limit";
   return {
-      {"lowest_position", Fault::sensor_out_of_range, channel(&C::lowest_position_m), wire_off},
-      {"highest_position", Fault::sensor_out_of_range, channel(&C::highest_position_m), wire_off},
+      {"min_position", Fault::sensor_out_of_range, channel(&C::min_position_m), wire_off},
+      {"max_position", Fault::sensor_out_of_range, channel(&C::max_position_m), wire_off},
       {"out_of_range_s", Fault::sensor_out_of_range, channel(&C::out_of_range_s)},
       {"position max_age_s", Fault::sensor_stale, older_positions},
       {"position_noise, frozen", Fault::sensor_frozen, channel(&C::position_noise_rms_m, lax_below),
        "a frozen reading does not move at all, and any noise is more"},
       {"frozen_s", Fault::sensor_frozen, channel(&C::frozen_s)},
       {"position_noise, jump", Fault::sensor_jump, channel(&C::position_noise_rms_m)},
-      {"fastest_m_per_s", Fault::sensor_jump, channel(&C::fastest_m_per_s)},
+      {"max_speed_m_per_s", Fault::sensor_jump, channel(&C::max_speed_m_per_s)},
       {"disagree_K", Fault::sensors_disagree, channel(&C::disagree_K)},
       {"disagree_s", Fault::sensors_disagree, channel(&C::disagree_s)},
   };
@@ -66,7 +66,7 @@ std::vector<LaxLimit> of_heater() {
   return {
       {"open_min_duty", Fault::heater_open, channel(&C::open_min_duty)},
       {"open_s", Fault::heater_open, channel(&C::open_s)},
-      {"least_resistance", Fault::heater_short, channel(&C::least_resistance_Ohm, lax_below)},
+      {"min_resistance", Fault::heater_short, channel(&C::min_resistance_Ohm, lax_below)},
       {"short_s", Fault::heater_short, channel(&C::short_s)},
       {"off_current, short", Fault::heater_short, channel(&C::off_current_A)},
       {"off_current, stuck on", Fault::heater_stuck_on, channel(&C::off_current_A),
@@ -74,9 +74,9 @@ std::vector<LaxLimit> of_heater() {
       {"stuck_on_s", Fault::heater_stuck_on, channel(&C::stuck_on_s)},
       {"current max_age_s", Fault::heater_stuck_on, older_currents},
       {"responding_window_s", Fault::heater_not_responding, channel(&C::responding_window_s)},
-      {"responding_part", Fault::heater_not_responding, channel(&C::responding_part, lax_below),
+      {"responding_ratio", Fault::heater_not_responding, channel(&C::responding_ratio, lax_below),
        "a muscle off its anchor moves its sensor by nothing but noise"},
-      {"responding_least_m", Fault::heater_not_responding, channel(&C::responding_least_m),
+      {"responding_min_m", Fault::heater_not_responding, channel(&C::responding_min_m),
        "every active situation expects more motion than 3 mm"},
       {"wrong_duty_s", Fault::duty_wrong, channel(&C::wrong_duty_s)},
   };
@@ -90,7 +90,7 @@ std::vector<LaxLimit> of_muscle() {
       {"energy_J", Fault::energy_budget_exceeded, channel(&C::energy_J)},
       // What is on the account leaves it sooner.
       {"energy_window_s", Fault::energy_budget_exceeded, channel(&C::energy_window_s, lax_below)},
-      {"resistance_part", Fault::resistance_drift, channel(&C::resistance_part)},
+      {"resistance_ratio", Fault::resistance_drift, channel(&C::resistance_ratio)},
       {"max_measured_W", Fault::power_limit_exceeded, channel(&C::max_measured_W)},
       {"over_power_s", Fault::power_limit_exceeded, channel(&C::over_power_s)},
       {"command_timeout_s", Fault::command_timeout, channel(&C::command_timeout_s)},
@@ -103,17 +103,17 @@ std::vector<LaxLimit> of_muscle() {
 std::vector<LaxLimit> of_board() {
   using B = BoardSupervision;
   return {
-      {"lowest_supply", Fault::under_voltage, board(&B::lowest_supply_V, lax_below)},
-      {"highest_supply", Fault::over_voltage, board(&B::highest_supply_V)},
+      {"min_supply", Fault::under_voltage, board(&B::min_supply_V, lax_below)},
+      {"max_supply", Fault::over_voltage, board(&B::max_supply_V)},
       {"supply_s, under", Fault::under_voltage, board(&B::supply_s)},
       {"supply_s, over", Fault::over_voltage, board(&B::supply_s)},
       {"supply max_age_s", Fault::under_voltage, older_supplies},
       {"late_s", Fault::tick_late, board(&B::late_s)},
       {"late_in_a_row", Fault::tick_late, board(&B::late_in_a_row)},
       {"overruns_in_a_row", Fault::overrun, board(&B::overruns_in_a_row)},
-      {"telemetry_silence_s", Fault::telemetry_dead, board(&B::telemetry_silence_s)},
+      {"telemetry_timeout_s", Fault::telemetry_dead, board(&B::telemetry_timeout_s)},
       {"bus_off_s, from 0", Fault::bus_off, bus_off_later},
-      {"bus_passive_s", Fault::bus_error_passive, board(&B::bus_passive_s)},
+      {"bus_error_passive_s", Fault::bus_error_passive, board(&B::bus_error_passive_s)},
       {"the pump's decay", Fault::emergency_stop, slower_pump},
   };
 }

@@ -106,7 +106,7 @@ std::string try_self_test(const RigSettings& settings, double* seen_after_s) {
   for (const bool pump : {true, false}) {
     Rig rig(settings);
     rig.board.pump.stuck_closed = pump;
-    rig.muscle().trouble.enable_stuck_on = !pump;
+    rig.muscle().faults.enable_stuck_on = !pump;
     rig.boot();
     rig.run(0.2);
     *seen_after_s = rig.time_s();

@@ -8,7 +8,7 @@
 
 #include "loop/support/rig.hpp"
 #include "simulated_board/simulated_can_bus.hpp"
-#include "telemetry/can_link.hpp"
+#include "telemetry/can_endpoint.hpp"
 #include "unit/firmware/io/telemetry/support/master.hpp"
 
 namespace supercoil::test {
@@ -30,7 +30,7 @@ class CanRig {
   /// One tick, with what other threads do.
   void tick() {
     executive.run_tick();
-    loop.health().telemetry_beats.store(++beats_);
+    loop.health().telemetry_heartbeats.store(++beats_);
     for (Row row; loop.take(row);)
       link.offer(row);
     for (Answer answer; loop.answer(answer);)
@@ -88,7 +88,7 @@ class CanRig {
   Loop loop;
   Executive executive;
   host_sim::SimulatedCanBus bus;
-  telemetry::CanLink link;
+  telemetry::CanEndpoint link;
   std::vector<supercoil_acknowledge_t> answers;
   std::vector<supercoil_setting_t> settings_told;
   std::vector<supercoil_refused_value_t> refused_values;

@@ -15,7 +15,7 @@ using namespace host_sim;
 namespace {
 
 /// Longer than identify ever takes.
-constexpr double longest_s = 1300.0;
+constexpr double max_s = 1300.0;
 
 Scenario parsed(const std::string& text) {
   auto scenario = parse_scenario(text, "identify.toml");
@@ -40,7 +40,7 @@ std::string scenario_of(const MuscleKind& kind, int seed, double duration_s, Hea
   std::uniform_real_distribution<double> factor(0.5, 1.5);
   std::string text = "simulation.seed = " + std::to_string(seed) +
                      "\nsimulation.duration_s = " + std::to_string(duration_s) +
-                     "\noperator.wish = 'rest'\n[plant]\n" + std::string(kind.plant) +
+                     "\noperator.action = 'rest'\n[plant]\n" + std::string(kind.plant) +
                      "\n[power]\nmax_W = " + std::to_string(kind.max_W) +
                      "\npwm_bits = 16\nsupply_V = " + (kind.max_W > 14.0 ? "24.0" : "12.0") +
                      "\n[muscle]\n";
@@ -51,21 +51,22 @@ std::string scenario_of(const MuscleKind& kind, int seed, double duration_s, Hea
   }
   if (heat == Heat::known) {
     const control::PhysicalParameters& b = belief;
-    text +=
-        "[thermal]\nmass_part = " +
-        span(b.thermal_mass_J_per_K / truth.thermal_mass_J_per_K, 0.75, 1.35) +
-        "transfer_part = " + span(b.heat_transfer_W_per_K / truth.heat_transfer_W_per_K, 0.45, 2.2);
+    text += "[thermal]\nmass_ratio = " +
+            span(b.thermal_mass_J_per_K / truth.thermal_mass_J_per_K, 0.75, 1.35) +
+            "transfer_ratio = " +
+            span(b.heat_transfer_W_per_K / truth.heat_transfer_W_per_K, 0.45, 2.2);
   }
   // The windows in which heater_not_responding judges go on from boot.
   std::uniform_real_distribution<double> start_s(0.1, 20.1);
-  text += "[[event]]\nat_s = " + std::to_string(start_s(random)) + "\noperator.wish = 'identify'\n";
+  text +=
+      "[[event]]\nat_s = " + std::to_string(start_s(random)) + "\noperator.action = 'identify'\n";
   return text;
 }
 
 }  // namespace
 
 Identified run_identify(const MuscleKind& kind, int seed, Heat heat) {
-  const Scenario scenario = parsed(scenario_of(kind, seed, longest_s, heat));
+  const Scenario scenario = parsed(scenario_of(kind, seed, max_s, heat));
   Simulation simulation(scenario);
   const Snapshot& snapshot = simulation.loop().channel(0).snapshot();
   Identified done;
@@ -83,9 +84,9 @@ Identified run_identify(const MuscleKind& kind, int seed, Heat heat) {
     done.fault = r.fault;
     done.hottest_C = std::max(done.hottest_C, air_C + r.temperature_rise_K);
     done.hottest_told_C = std::max(done.hottest_told_C, air_C + r.hottest_K);
-    done.highest_m = std::max(done.highest_m, r.position_m);
+    done.max_m = std::max(done.max_m, r.position_m);
     moved = moved || r.position_m > 0.001;
-    if (moved) done.lowest_m = std::min(done.lowest_m, r.position_m);
+    if (moved) done.min_m = std::min(done.min_m, r.position_m);
     if (simulation.tick() % 10 == 0) {
       done.position_m.push_back(r.measured_m);
       done.power_W.push_back(r.applied_power_W);
@@ -109,7 +110,7 @@ double tracking_after(const MuscleKind& kind, int seed) {
       "[controller]\nkind = 'learned_ff'\n[reference]\nkind = 'sine'\noffset_m = " +
       std::to_string(middle_m) + "\namplitude_m = " + std::to_string(kind.sine_top_m - middle_m) +
       "\nangular_frequency_rad_per_s = " + std::to_string(kind.sine_rad_per_s) +
-      "\n[[event]]\nat_s = " + std::to_string(start_s) + "\noperator.wish = 'track'\n";
+      "\n[[event]]\nat_s = " + std::to_string(start_s) + "\noperator.action = 'track'\n";
   const Scenario scenario = parsed(text);
   Simulation simulation(scenario);
   Summary summary({start_s + 3.0 * period_s});

@@ -49,8 +49,8 @@ struct Identified {
   double took_s = 0.0;                ///< after it was asked for
   double hottest_C = 0.0;             ///< truly
   double hottest_told_C = 0.0;        ///< the hot end of the board's interval
-  double highest_m = 0.0;
-  double lowest_m = 0.0;  ///< at most 0: how far below where it began, once it had moved
+  double max_m = 0.0;
+  double min_m = 0.0;  ///< at most 0: how far below where it began, once it had moved
   /// What it did, 100 times a second.
   std::vector<double> position_m;
   std::vector<double> power_W;

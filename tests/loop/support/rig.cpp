@@ -112,7 +112,7 @@ void Rig::tick() {
   if (state() == State::active) ask();
   ask_neighbour();
   executive.run_tick();
-  if (telemetry_lives) loop.health().telemetry_beats.store(++beats_);
+  if (telemetry_lives) loop.health().telemetry_heartbeats.store(++beats_);
   Row row;
   while (loop.take(row)) {
   }
@@ -144,8 +144,8 @@ void Rig::run_ticks(int ticks) {
     tick();
 }
 
-bool Rig::run_until(const std::function<bool()>& holds, double most_s) {
-  const double end_s = time_s() + most_s;
+bool Rig::run_until(const std::function<bool()>& holds, double max_s) {
+  const double end_s = time_s() + max_s;
   while (!holds()) {
     if (time_s() + 0.25 * period_s_ > end_s) return false;
     tick();

@@ -36,8 +36,8 @@ class Rig {
   void tick();
   void run(double time_s);
   void run_ticks(int ticks);
-  /// Until it holds; false when it does not within most_s.
-  bool run_until(const std::function<bool()>& holds, double most_s);
+  /// Until it holds; false when it does not within max_s.
+  bool run_until(const std::function<bool()>& holds, double max_s);
 
   /// Boots and passes the self-test; then arms (which probes); then heats.
   void boot();
@@ -65,7 +65,7 @@ class Rig {
   double scale = 1.0;         ///< of everything that the tested muscle is asked for
   bool commands_flow = true;  ///< to the tested channel
   bool telemetry_lives = true;
-  std::function<void()> before_tick = [] {};  ///< troubles that go on
+  std::function<void()> before_tick = [] {};  ///< persistent faults
   bool interval_missed = false;               ///< a muscle's temperature left the firmware's bounds
 
  private:

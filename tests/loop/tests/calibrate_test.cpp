@@ -18,7 +18,7 @@ RigSettings other_heater() {
 
 TEST_GROUP(Calibrate) {
   Rig rig{other_heater()};
-  board::Lesson lesson;
+  board::LearnedUpdate update;
 };
 
 TEST(Calibrate, FindsTheResistanceThatIsThereAndKeepsIt) {
@@ -26,15 +26,15 @@ TEST(Calibrate, FindsTheResistanceThatIsThereAndKeepsIt) {
   rig.arm();
   rig.run(0.5);
   rig.heat(Task::calibrate);
-  CHECK(rig.run_until([&] { return rig.loop.channel(0).take_lesson(lesson); }, 60.0));
+  CHECK(rig.run_until([&] { return rig.loop.channel(0).take_learned_update(update); }, 60.0));
   CHECK(rig.snapshot().result == ModeResult::found);
-  DOUBLES_EQUAL(11.0, lesson->calibration.cold_resistance_Ohm, 0.5);
-  CHECK(lesson->knows_muscle);
+  DOUBLES_EQUAL(11.0, update->calibration.cold_resistance_Ohm, 0.5);
+  CHECK(update->has_muscle);
   // Also by what is stored later: nothing has forgotten the muscle since.
   rig.send(Verb::disarm);
   rig.run(0.1);
   rig.send(Verb::compare_supply, 0.0);
-  CHECK(rig.run_until([&] { return rig.loop.channel(0).take_lesson(lesson); }, 1.0));
-  CHECK(lesson->knows_muscle);
-  DOUBLES_EQUAL(11.0, lesson->calibration.cold_resistance_Ohm, 0.5);
+  CHECK(rig.run_until([&] { return rig.loop.channel(0).take_learned_update(update); }, 1.0));
+  CHECK(update->has_muscle);
+  DOUBLES_EQUAL(11.0, update->calibration.cold_resistance_Ohm, 0.5);
 }

@@ -52,9 +52,9 @@ TEST(OverCan, AMasterArmsMovesAndLetsGo) {
 
 TEST(OverCan, ASecondMasterIsRefusedAndMayStop) {
   rig.start(master);
-  CHECK(rig.claim(other) == Refusal::not_yours);
+  CHECK(rig.claim(other) == Refusal::not_lease_holder);
   other.session = 0x5555;
-  CHECK(rig.command(other, Verb::position, 0.02F) == Refusal::not_yours);
+  CHECK(rig.command(other, Verb::position, 0.02F) == Refusal::not_lease_holder);
   hold(0.2);
   CHECK(rig.command(other, Verb::disarm) == Refusal::none);
   CHECK(rig.state() == State::disarmed);
@@ -62,14 +62,14 @@ TEST(OverCan, ASecondMasterIsRefusedAndMayStop) {
   DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
 }
 
-TEST(OverCan, ARefusalOfTheLoopIsToldToTheMaster) {
+TEST(OverCan, TheMasterGetsTheLoopsRefusal) {
   rig.start(master);
   CHECK(rig.command(master, Verb::position, 0.5F) == Refusal::out_of_range);
   CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
   LONGS_EQUAL(static_cast<int>(Verb::arm), rig.answers.back().opcode);
 }
 
-TEST(OverCan, ARefusedValueIsToldWithTheNearestThatIsObeyed) {
+TEST(OverCan, ARefusedValueComesWithTheNearestAcceptedOne) {
   rig.start(master);
   const auto max_m = static_cast<float>(rig.settings.firmware.channels[0].supervision.max_travel_m);
   struct Refused {
@@ -117,7 +117,7 @@ TEST(OverCan, ACommandThatTheLoopCannotTakeIsAnsweredAllTheSame) {
   rig.run(0.05);
   LONGS_EQUAL(5, rig.answers.size());
   for (const auto& answer : rig.answers)
-    CHECK(static_cast<Refusal>(answer.refusal) == Refusal::too_many);
+    CHECK(static_cast<Refusal>(answer.refusal) == Refusal::queue_full);
   LONGS_EQUAL(0, rig.refused_values.size());
   // What comes later is answered for itself.
   CHECK(rig.command(master, Verb::renew) == Refusal::wrong_state);
@@ -215,17 +215,17 @@ TEST(OverCan, AMillionRandomFramesDisturbNothing) {
 }
 
 /// What a program that knows version 3 of the protocol sends and hears.
-TEST(OverCan, AClientOfVersion3IsToldSoAndCanStillDisarm) {
+TEST(OverCan, AClientOfVersion3IsRefusedAndCanStillDisarm) {
   rig.start(master);
   constexpr std::uint8_t claim_of_3 = 14;
   other.session = other.name;
-  CHECK(rig.command(other, claim_of_3) == Refusal::other_version);
+  CHECK(rig.command(other, claim_of_3) == Refusal::protocol_mismatch);
   // It takes this for its answer, and for no lease.
   const supercoil_acknowledge_t told = rig.answers.back();
   LONGS_EQUAL(other.name, told.session);
   LONGS_EQUAL(claim_of_3, told.opcode);
   LONGS_EQUAL(0, told.granted);
-  CHECK(rig.command(other, Verb::position, 0.02F) == Refusal::not_yours);
+  CHECK(rig.command(other, Verb::position, 0.02F) == Refusal::not_lease_holder);
   // The heartbeat names the version where version 3 had it.
   hold(0.3);
   LONGS_EQUAL(4, rig.last_of.at(SUPERCOIL_STATUS_FRAME_ID).data[6]);
@@ -320,7 +320,7 @@ TEST(OverCan, ABoardDoesNotStartWhereItsNodeSpeaksAlready) {
   CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
 }
 
-TEST(OverCan, OfAnotherNodeTheHeartbeatIsNoConflict) {
+TEST(OverCan, TheHeartbeatOfAnotherNodeIsNotAConflict) {
   rig.start(master);
   hal::CanFrame heartbeat;
   heartbeat.id = SUPERCOIL_STATUS_FRAME_ID + 2;

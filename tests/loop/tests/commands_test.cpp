@@ -147,7 +147,7 @@ TEST(Commands, DisarmIsObeyedFromEverywhere) {
   CHECK_FALSE(rig.muscle().enable.high());
 }
 
-TEST(Commands, AResetOnAnEdgeTellsWhyItDidNot) {
+TEST(Commands, ARefusedResetSaysWhy) {
   rig.boot();
   rig.board.stop_circuit.level.high = false;
   rig.run(0.01);

@@ -22,8 +22,8 @@ TEST_GROUP(Comparison) {
   }
   static test::RigSettings lying_board() {
     test::RigSettings lying = test::rough_board();
-    lying.firmware.supervision.lowest_supply_V = 9.0;
-    lying.firmware.supervision.highest_supply_V = 15.0;
+    lying.firmware.supervision.min_supply_V = 9.0;
+    lying.firmware.supervision.max_supply_V = 15.0;
     lie(lying.board.supply, supply_gain);
     lie(lying.board.channels[0].current, current_gain);
     // With a resistance that tells its temperature, sensors_disagree would notice such a lie.
@@ -81,14 +81,14 @@ TEST_GROUP(Comparison) {
     check(Refusal::none, ask(Verb::compare_supply, supply_V));
     check(Refusal::none, ask(Verb::compare_current, line_A()));
   }
-  std::optional<board::Learned> lesson() {
-    board::Lesson lesson;
-    channel().take_lesson(lesson);
-    return lesson;
+  std::optional<board::Learned> update() {
+    board::LearnedUpdate update;
+    channel().take_learned_update(update);
+    return update;
   }
   /// As wide as before: nothing is stored, and the readings are those of lying senses.
   void check_nothing_changed() {
-    CHECK_FALSE(lesson().has_value());
+    CHECK_FALSE(update().has_value());
     DOUBLES_EQUAL(supply_gain * supply_V, rig.snapshot().supply_V, 0.02);
     CHECK(rig.fault() == Fault::none);
     CHECK_FALSE(rig.interval_missed);
@@ -107,13 +107,13 @@ TEST(Comparison, FindsTheGainsAndNarrowsTheBounds) {
   check_nothing_changed();
   hold(1.0);
   read_both();
-  const auto found = lesson();
+  const auto found = update();
   CHECK(found.has_value());
   DOUBLES_EQUAL(1.0 / supply_gain, found->senses.supply_gain, 0.005);
   DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.01);
   CHECK(found->senses.error_ratio >= 0.02);
   CHECK(found->senses.error_ratio <= 0.05);
-  CHECK_FALSE(found->knows_muscle);  // it was never learned: the configured one is not stored
+  CHECK_FALSE(found->has_muscle);  // it was never learned: the configured one is not stored
 
   const double narrow_K = width_K(0.5);
   printf("%.1f K wide, compared %.1f K\n", wide_K, narrow_K);
@@ -191,11 +191,11 @@ TEST(Comparison, IsForgottenWhenAskedTo) {
     hold(power_W);
     read_both();
   }
-  CHECK(lesson()->senses.compared());
+  CHECK(update()->senses.compared());
   check(Refusal::wrong_state, ask(Verb::compare_supply, 0.0));
   rig.send(Verb::rest);
   check(Refusal::none, ask(Verb::compare_supply, 0.0));
-  const auto forgotten = lesson();
+  const auto forgotten = update();
   CHECK(forgotten.has_value());
   CHECK(forgotten->senses == board::SenseComparison{});
   rig.run(0.1);
@@ -238,14 +238,14 @@ TEST(Comparison, TellsTheProofAtOnceHowFarThePowerIsKnown) {
 
 TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {
   // As calibrate found it through senses of which the one tells 0.9 and the other 0.8.
-  const double told_Ohm = 10.0 * supply_gain / current_gain;
-  settings.firmware.channels[0].calibration.cold_resistance_Ohm = told_Ohm;
-  settings.firmware.channels[0].knows_muscle = true;
+  const double reported_Ohm = 10.0 * supply_gain / current_gain;
+  settings.firmware.channels[0].calibration.cold_resistance_Ohm = reported_Ohm;
+  settings.firmware.channels[0].has_muscle = true;
   test::Rig calibrated(settings);
   calibrated.boot();
   calibrated.arm();
   calibrated.run(0.1);
-  board::Lesson found;
+  board::LearnedUpdate found;
   for (const double power_W : {0.5, 1.0}) {
     for (int i = 0; i < 50; ++i) {
       calibrated.send(Verb::power, power_W);
@@ -255,8 +255,8 @@ TEST(Comparison, CorrectsTheResistanceThatTheSensesHadCalibrated) {
     calibrated.send(Verb::compare_current, calibrated.muscle().true_power_W() / supply_V);
     calibrated.run_ticks(1);
   }
-  CHECK(calibrated.loop.channel(0).take_lesson(found));
-  CHECK(found->knows_muscle);
+  CHECK(calibrated.loop.channel(0).take_learned_update(found));
+  CHECK(found->has_muscle);
   DOUBLES_EQUAL(10.0, found->calibration.cold_resistance_Ohm, 0.2);
   for (int i = 0; i < 100; ++i) {
     calibrated.send(Verb::power, 1.0);
@@ -282,8 +282,8 @@ TEST(Comparison, IsMadeOverCanToo) {
     CHECK(can.command(master, telemetry::compare, 12.0F) == Refusal::none);
     CHECK(can.command(master, telemetry::compare, -line_A) == Refusal::none);
   }
-  board::Lesson found;
-  CHECK(can.loop.channel(0).take_lesson(found));
+  board::LearnedUpdate found;
+  CHECK(can.loop.channel(0).take_learned_update(found));
   DOUBLES_EQUAL(1.0 / supply_gain, found->senses.supply_gain, 0.005);
   DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.02);
 }

@@ -85,7 +85,7 @@ TEST(Heat, IsContainedWhenTheMuscleChangesUnderway) {
   check_contained("eta x 0.5", read(sine + event + "plant.heat_transfer_W_per_K = 0.0445\n"));
   check_contained("psi x 1.3", read(sine + event + "plant.thermal_mass_J_per_K = 0.21\n"));
   check_contained("psi x 0.8", read(sine + event + "plant.thermal_mass_J_per_K = 0.13\n"));
-  check_contained("power + 5 %", read(sine + ("thermal.power_part = [1.0, 1.05]\n" + event) +
+  check_contained("power + 5 %", read(sine + ("thermal.power_ratio = [1.0, 1.05]\n" + event) +
                                       "power.gain = 1.05\n"));
   check_contained("load -0.05 N", read(sine + event + "plant.load_N = 0.05\n"));
   check_contained("stiffness 16 -> 12", read(sine + event + "plant.stiffness_N_per_m = 12.0\n"));
@@ -102,18 +102,18 @@ TEST(Heat, StaysBelowTheLimitWhenFarTooMuchIsAskedFor) {
                                 "heat_transfer_W_per_K = 0.089\n"));
 }
 
-TEST(Heat, OfTheGreatestPowerHeldForGoodIsNoFaultUnlessABudgetSaysSo) {
+TEST(Heat, OfMaxPowerHeldIndefinitelyIsNotAFaultWithoutABudget) {
   // docs/safety.md states both times.
   const std::string held =
       "simulation.duration_s = 300.0\ncontroller.kind = 'power'\n"
-      "thermal.transfer_part = [0.7, 2.2]\n"  // else it is derated, and controller_invalid
+      "thermal.transfer_ratio = [0.7, 2.2]\n"  // else it is derated, and controller_invalid
       "reference = {kind = 'power', offset_W = 4.5, amplitudes_W = [0.0], "
       "angular_frequencies_rad_per_s = [1.0]}\n";
   const Heat heat = heat_of(read(held));
   CHECK(heat.fault == Fault::none);
   test::RigSettings settings = test::rough_board();
   settings.firmware.channels[0].supervision.energy_J = 240.0;
-  settings.firmware.channels[0].thermal.bounds.lowest_transfer_W_per_K = 0.08;  // not derated
+  settings.firmware.channels[0].thermal.bounds.min_transfer_W_per_K = 0.08;  // not derated
   settings.firmware.channels[0].senses.error_ratio = 0.02;
   settings.firmware.channels[0].supervision.max_travel_m = 0.042;
   test::Rig rig(settings);
@@ -128,7 +128,7 @@ TEST(Heat, OfTheGreatestPowerHeldForGoodIsNoFaultUnlessABudgetSaysSo) {
   DOUBLES_EQUAL(132.0, rig.time_s() - start_s, 3.0);
 }
 
-TEST(Heat, OfASenseThatTellsTooLittleCurrentIsCutBeforeItGrows) {
+TEST(Heat, OfASenseThatReadsTooLittleCurrentIsCutBeforeItGrows) {
   // The sense's gain falls to a third: unnoticed, the power stage would give three times as much.
   test::RigSettings settings = test::rough_board();
   settings.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
@@ -144,9 +144,9 @@ TEST(Heat, OfASenseThatTellsTooLittleCurrentIsCutBeforeItGrows) {
 }
 
 TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {
-  for (const char* trouble : {"switch_stuck_on", "heater_open", "heater_short", "pwm_refuses"}) {
-    check_contained(trouble, read(sine + std::string("[[event]]\nat_s = 60.0\ntrouble.") + trouble +
-                                  " = true\n"));
+  for (const char* faults : {"switch_stuck_on", "heater_open", "heater_short", "pwm_refuses"}) {
+    check_contained(faults, read(sine + std::string("[[event]]\nat_s = 60.0\ntrouble.") + faults +
+                                 " = true\n"));
   }
 }
 
@@ -168,8 +168,8 @@ void scale(ConverterSettings& converter, double gain) {
 Heat heat_of_power(const LyingSenses& senses, double power_W) {
   test::RigSettings settings = test::rough_board();
   // So wide a range that 0.83 times 12 V is no fault.
-  settings.firmware.supervision.lowest_supply_V = 9.0;
-  settings.firmware.supervision.highest_supply_V = 15.0;
+  settings.firmware.supervision.min_supply_V = 9.0;
+  settings.firmware.supervision.max_supply_V = 15.0;
   for (std::size_t i = 0; i < 2; ++i) {
     MuscleChannelSettings& muscle = settings.board.channels[i];
     muscle.plant.stiffness_N_per_m = 64.0;
@@ -177,8 +177,8 @@ Heat heat_of_power(const LyingSenses& senses, double power_W) {
     ChannelSettings& channel = settings.firmware.channels[i];
     channel.muscle = muscle.plant;
     // As badly cooled and as light as the board's bounds allow.
-    muscle.plant.heat_transfer_W_per_K = channel.thermal.bounds.lowest_transfer_W_per_K;
-    muscle.plant.thermal_mass_J_per_K = channel.thermal.bounds.lowest_mass_J_per_K;
+    muscle.plant.heat_transfer_W_per_K = channel.thermal.bounds.min_transfer_W_per_K;
+    muscle.plant.thermal_mass_J_per_K = channel.thermal.bounds.min_mass_J_per_K;
     channel.heater.temperature_coefficient_per_K = 0.0;
     channel.limiter.max_W = 11.0;
     channel.supervision.max_measured_W = 14.0;

@@ -38,8 +38,8 @@ TEST(Identify, FindsEveryMuscleWithinItsTravelAndItsTemperature) {
       const std::string text = described(kind, seed, run);
       LONGS_EQUAL_TEXT(static_cast<int>(ModeResult::found), static_cast<int>(run.result),
                        text.c_str());
-      CHECK_TEXT(run.highest_m < 0.6 * sensor_travel_m, text.c_str());
-      CHECK_TEXT(run.lowest_m >= 0.0, text.c_str());
+      CHECK_TEXT(run.max_m < 0.6 * sensor_travel_m, text.c_str());
+      CHECK_TEXT(run.min_m >= 0.0, text.c_str());
       CHECK_TEXT(run.hottest_told_C < hottest_allowed_C, text.c_str());
       const control::Theta truth = control::theta_from(run.truth);
       const control::Theta found = control::theta_from(run.learned->muscle);

@@ -50,7 +50,7 @@ class LostContact {
   }
   void lose_contact() {
     cool(0.25);
-    rig.muscle().trouble.slack = true;
+    rig.muscle().faults.slack = true;
   }
   /// Until a fault, for at most so long.
   void run(double time_s) {
@@ -62,9 +62,9 @@ class LostContact {
       const Snapshot& s = rig.snapshot();
       limited = limited || s.limited_by == LimitedBy::unproven;
       const bool under_way = s.state == State::active && rig.time_s() - start_s_ > 1.0;
-      if (under_way) lowest_W = std::min(lowest_W, s.applied_W);
+      if (under_way) min_W = std::min(min_W, s.applied_W);
       // A dither: other power than was wanted, and nothing limits it.
-      const double added_W = std::abs(s.applied_W - s.wanted_W);
+      const double added_W = std::abs(s.applied_W - s.demanded_W);
       dithers += !s.limited && s.state == State::active && added_W > 0.03 ? 1 : 0;
     }
   }
@@ -79,14 +79,14 @@ class LostContact {
   Rig rig;
   double hottest_C = 0.0;
   bool limited = false;
-  double lowest_W = 1e3;  ///< from 1 s after the start on
+  double min_W = 1e3;  ///< from 1 s after the start on
   long dithers = 0;
 };
 
-test::RigSettings rubbing_board(double friction_ratio, double answer_ratio) {
+test::RigSettings rubbing_board(double friction_ratio, double response_ratio) {
   test::RigSettings s = deaf_board(true);
   s.board.channels[Rig::tested].effects.friction_ratio = friction_ratio;
-  s.firmware.channels[Rig::tested].answer_ratio = answer_ratio;
+  s.firmware.channels[Rig::tested].response_ratio = response_ratio;
   return s;
 }
 
@@ -173,7 +173,7 @@ TEST(LostContact, IsNoneWhereFrictionLeavesWhatIdentifyMeasured) {
   unmeasured.start(Verb::power, always(1.5));
   unmeasured.run(60.0);
   CHECK(unmeasured.limited);
-  DOUBLES_EQUAL(0.0, unmeasured.lowest_W, 1e-9);
+  DOUBLES_EQUAL(0.0, unmeasured.min_W, 1e-9);
 
   LostContact measured(rubbing_board(0.002, 0.17));
   measured.start(Verb::power, always(1.5));
@@ -193,7 +193,7 @@ TEST(LostContact, WhereFrictionSwallowsADitherIsNotAskedForAtTheSafePower) {
   CHECK(muscle.rig.fault() == Fault::none);
   CHECK(muscle.limited);
   // 1.1 W from the start, and never taken away.
-  CHECK_COMPARE(muscle.lowest_W, >, 1.0);
+  CHECK_COMPARE(muscle.min_W, >, 1.0);
   CHECK_COMPARE(muscle.rig.snapshot().applied_W, <, 1.2);
   LONGS_EQUAL(0, muscle.dithers);
 }
@@ -202,12 +202,12 @@ TEST(LostContact, IsAlsoThatOfABlockedMuscle) {
   LostContact muscle(deaf_board(true));
   muscle.start(Verb::position, always(0.015));
   muscle.run(15.0);
-  muscle.rig.muscle().trouble.slack = true;
+  muscle.rig.muscle().faults.slack = true;
   muscle.run(10.0);
   check_found(muscle, 120.0);
 }
 
-TEST(LostContact, IsToldToBeLookedForByNobodyWhereTheProofIsOff) {
+TEST(LostContact, RowsSayThatTheProofIsOff) {
   for (const bool wanted : {true, false}) {
     test::RigSettings settings = deaf_board(true);
     settings.firmware.channels[Rig::tested].supervision.proof_of_response = wanted;

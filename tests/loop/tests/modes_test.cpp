@@ -46,9 +46,9 @@ Ending check_nothing(const char* why, const std::string& text) {
 }
 
 const std::string identify =
-    "simulation.duration_s = 85.0\noperator.wish = 'identify'\n"
+    "simulation.duration_s = 85.0\noperator.action = 'identify'\n"
     "[muscle]\nstiffness_N_per_m = 22.0\ndamping_Ns_per_m = 3.0\nthermal_mass_J_per_K = 0.2\n";
-const std::string calibrate = "simulation.duration_s = 30.0\noperator.wish = 'calibrate'\n";
+const std::string calibrate = "simulation.duration_s = 30.0\noperator.action = 'calibrate'\n";
 
 }  // namespace
 
@@ -69,7 +69,7 @@ TEST(Modes, IdentifyFindsTheMuscleWithinAMinute) {
 TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
   const Ending ended = ending(
       identify +
-      "[controller]\nkind = 'adaptive_ff'\n[[event]]\nat_s = 83.0\noperator.wish = 'track'\n");
+      "[controller]\nkind = 'adaptive_ff'\n[[event]]\nat_s = 83.0\noperator.action = 'track'\n");
   CHECK(ended.learned.has_value());
   const control::AdaptiveFeedforwardSettings settings;
   const double theta3 = control::theta_from(ended.learned->muscle)[2];
@@ -81,7 +81,7 @@ TEST(Modes, GainsThatFollowFromTheMuscleAreThoseOfTheOneThatWasFound) {
 TEST(Modes, IdentifyMeasuresHowMuchOfASmallMotionArrives) {
   const Ending smooth = ending(identify);
   CHECK(smooth.learned.has_value());
-  DOUBLES_EQUAL(1.0, smooth.learned->answer_ratio, 0.06);
+  DOUBLES_EQUAL(1.0, smooth.learned->response_ratio, 0.06);
   STRCMP_EQUAL("", smooth.notes.c_str());
   struct Rubbing {
     double friction_ratio;
@@ -93,23 +93,23 @@ TEST(Modes, IdentifyMeasuresHowMuchOfASmallMotionArrives) {
     const Ending rough =
         ending(identify + "[plant]\nfriction_ratio = " + std::to_string(friction) + "\n");
     CHECK(rough.learned.has_value());
-    printf("friction %g: %.3f of a small motion\n", friction, rough.learned->answer_ratio);
-    CHECK_COMPARE(rough.learned->answer_ratio, >=, min_ratio);
-    CHECK_COMPARE(rough.learned->answer_ratio, <=, max_ratio);
+    printf("friction %g: %.3f of a small motion\n", friction, rough.learned->response_ratio);
+    CHECK_COMPARE(rough.learned->response_ratio, >=, min_ratio);
+    CHECK_COMPARE(rough.learned->response_ratio, <=, max_ratio);
     STRCMP_CONTAINS("friction", rough.notes.c_str());
   }
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesUnderway) {
   for (const int at_s : {20, 28, 36, 44}) {
-    check_nothing("not_explained", identify + "[[event]]\nat_s = " + std::to_string(at_s) +
-                                       "\nplant.stiffness_N_per_m = 11.0\n");
+    check_nothing("poor_fit", identify + "[[event]]\nat_s = " + std::to_string(at_s) +
+                                  "\nplant.stiffness_N_per_m = 11.0\n");
   }
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsNotTheOneThatWasConfigured) {
   const Ending ended = check_nothing("implausible",
-                                     "simulation.duration_s = 85.0\noperator.wish = 'identify'\n"
+                                     "simulation.duration_s = 85.0\noperator.action = 'identify'\n"
                                      "[muscle]\nstiffness_N_per_m = 200.0\n");
   STRCMP_EQUAL("implausible", ended.notes.c_str());
 }
@@ -138,18 +138,18 @@ TEST(Modes, WhatIsNotKnownOfTheThermalMassStaysAsBelieved) {
   DOUBLES_EQUAL(expected[0] / expected[2], found[0] / found[2], 1e-6);
 }
 
-TEST(Modes, IdentifyTellsEveryReasonWhenTheSensorIsTooNoisy) {
+TEST(Modes, IdentifyReportsEveryReasonWhenTheSensorIsTooNoisy) {
   const Ending ended = check_nothing(
-      "not_explained",
+      "poor_fit",
       identify +
           "[power]\nmax_W = 0.5\n[sensor.position]\nnoise_rms_m = 2e-3\nresolution_bits = 10\n");
-  STRCMP_EQUAL("theta2_uncertain, theta3_uncertain, theta4_uncertain, not_explained",
+  STRCMP_EQUAL("theta2_uncertain, theta3_uncertain, theta4_uncertain, poor_fit",
                ended.notes.c_str());
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleHardlyMoves) {
-  const Ending ended = check_nothing("too_still", identify + "[power]\nmax_W = 0.05\n");
-  STRCMP_EQUAL("too_still", ended.notes.c_str());
+  const Ending ended = check_nothing("too_little_motion", identify + "[power]\nmax_W = 0.05\n");
+  STRCMP_EQUAL("too_little_motion", ended.notes.c_str());
 }
 
 TEST(Modes, IdentifyStoresNothingWhenCommandsStop) {

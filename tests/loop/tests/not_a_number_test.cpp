@@ -12,7 +12,7 @@ using namespace supercoil::test;
 
 namespace {
 
-const double most_W = LimiterSettings{}.max_W;
+const double cap_W = LimiterSettings{}.max_W;
 
 void check_cools(Rig& rig, Fault expected) {
   CHECK(rig.run_until([&] { return rig.state() == State::fault; }, 5.0));
@@ -41,7 +41,7 @@ TEST(NotANumber, FromAController) {
     // Before any detector has seen it, the limiter has.
     if (std::isnan(gain)) CHECK(rig.snapshot().limited_by == LimitedBy::invalid);
     CHECK(std::isfinite(rig.snapshot().applied_W));
-    CHECK_COMPARE(rig.snapshot().applied_W, <=, most_W);
+    CHECK_COMPARE(rig.snapshot().applied_W, <=, cap_W);
     check_cools(rig, Fault::controller_invalid);
   }
 }

@@ -11,11 +11,11 @@ using namespace supercoil::test;
 
 namespace {
 
-constexpr double most_boot_s = 2.0;
+constexpr double max_boot_s = 2.0;
 
 bool tested_at_last(Rig& rig) {
   return rig.run_until(
-      [&] { return rig.loop.self_test().passed() || rig.loop.self_test().failed(); }, most_boot_s);
+      [&] { return rig.loop.self_test().passed() || rig.loop.self_test().failed(); }, max_boot_s);
 }
 
 }  // namespace
@@ -27,9 +27,9 @@ TEST_GROUP(Senses) {
 TEST(Senses, TheSelfTestLooksAtTheCurrentOfEveryChannel) {
   for (const std::size_t broken : {0U, 1U}) {
     Rig each(rough_board());
-    each.board.channel(broken).trouble.switch_stuck_on = true;
+    each.board.channel(broken).faults.switch_stuck_on = true;
     CHECK(tested_at_last(each));
-    CHECK(each.loop.self_test().verdict() == SelfTest::Verdict::enable_does_not_cut);
+    CHECK(each.loop.self_test().outcome() == SelfTest::Outcome::enable_does_not_cut);
     each.run_ticks(2);
     CHECK(each.loop.board_fault() == Fault::self_test_failed);
   }
@@ -42,10 +42,10 @@ TEST(Senses, TheSelfTestWaitsForTheFirstCurrentOfEveryChannel) {
     // Within the time in which converters may be without a value.
     for (int i = 0; i < 95; ++i) {
       each.tick();
-      CHECK(each.loop.self_test().verdict() == SelfTest::Verdict::waiting);
+      CHECK(each.loop.self_test().outcome() == SelfTest::Outcome::waiting);
       CHECK_FALSE(each.board.supply_closed());
     }
-    each.board.channel(late).current.set(host_sim::ConverterTrouble{});
+    each.board.channel(late).current.set(host_sim::ConverterFaults{});
     CHECK(tested_at_last(each));
     CHECK(each.loop.self_test().passed());
     CHECK(each.fault() == Fault::none);
@@ -64,7 +64,7 @@ TEST(Senses, AProbeFindsABrokenWireFromFourTimesTheColdResistanceOn) {
   }
 }
 
-TEST(Senses, APositionFromOutsideIsNoPosition) {
+TEST(Senses, APositionOutOfRangeIsNotUsed) {
   rig.boot();
   rig.arm();
   rig.run(0.2);
@@ -78,11 +78,11 @@ TEST(Senses, APositionFromOutsideIsNoPosition) {
   CHECK(rig.state() == State::active);
   CHECK(std::isnan(rig.snapshot().position_m));
   CHECK(rig.snapshot().theta == before);
-  DOUBLES_EQUAL(0.0, rig.snapshot().wanted_W, 0.0);
+  DOUBLES_EQUAL(0.0, rig.snapshot().demanded_W, 0.0);
   CHECK(rig.last_refusal == Refusal::none);
 }
 
-TEST(Senses, PowerIsToldWhenItActsAndNotWhenItIsSet) {
+TEST(Senses, PowerIsReportedWhenItActsAndNotWhenItIsSet) {
   constexpr int delay_ticks = 7;
   RigSettings settings = rough_board();
   settings.firmware.channels[0].heater.delay_s = delay_ticks * settings.firmware.step_s();

@@ -10,7 +10,7 @@ using namespace supercoil::test;
 
 namespace {
 
-constexpr std::uint8_t most_power = 0;
+constexpr std::uint8_t max_power = 0;
 constexpr auto rate_of(telemetry::Message message) {
   return static_cast<std::uint8_t>(1 + static_cast<int>(message));
 }
@@ -52,7 +52,7 @@ TEST_GROUP(Settings) {
 
 TEST(Settings, AreReadByEverybody) {
   rig.run(0.1);
-  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(most_power), 1e-6);
+  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(max_power), 1e-6);
   DOUBLES_EQUAL(100.0, read(position_rate), 0.0);
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
     const auto told = rig.ask_setting(read_frame(i));
@@ -64,26 +64,26 @@ TEST(Settings, AreReadByEverybody) {
 
 TEST(Settings, AreWrittenUnderTheLeaseOnly) {
   rig.run(0.1);
-  CHECK(write(most_power, 1.0F) == Refusal::no_lease);
+  CHECK(write(max_power, 1.0F) == Refusal::no_lease);
   CHECK(rig.claim(master) == Refusal::none);
   Master other;
   other.session = static_cast<std::uint16_t>(master.session + 1);
-  CHECK(refusal_in(rig.ask_setting(other.setting(most_power, 1.0F))) == Refusal::not_yours);
-  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(most_power), 1e-6);
-  const auto told = rig.ask_setting(master.setting(most_power, 1.0F));
+  CHECK(refusal_in(rig.ask_setting(other.setting(max_power, 1.0F))) == Refusal::not_lease_holder);
+  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(max_power), 1e-6);
+  const auto told = rig.ask_setting(master.setting(max_power, 1.0F));
   CHECK(refusal_in(told) == Refusal::none);
   LONGS_EQUAL(master.session & 0xFF, told.session_low);
-  DOUBLES_EQUAL(1.0, read(most_power), 0.0);
+  DOUBLES_EQUAL(1.0, read(max_power), 0.0);
 }
 
 TEST(Settings, ShareTheSequenceOfCommands) {
   rig.run(0.1);
   rig.claim(master);
-  const hal::CanFrame once = master.setting(most_power, 1.0F);
+  const hal::CanFrame once = master.setting(max_power, 1.0F);
   CHECK(refusal_in(rig.ask_setting(once)) == Refusal::none);
   CHECK(refusal_in(rig.ask_setting(once)) == Refusal::wrong_counter);
   CHECK(rig.command(master, Verb::disarm) == Refusal::none);
-  CHECK(write(most_power, 2.0F) == Refusal::none);
+  CHECK(write(max_power, 2.0F) == Refusal::none);
 }
 
 TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
@@ -91,23 +91,23 @@ TEST(Settings, LessPowerIsObeyedAtOnceAndMoreThanConfiguredIsNot) {
   CHECK(rig.command(master, Verb::power, 2.0F) == Refusal::none);
   rig.run(0.1);
   CHECK(rig.true_power_W() > 1.0);
-  CHECK(write(most_power, 0.5F) == Refusal::none);
+  CHECK(write(max_power, 0.5F) == Refusal::none);
   CHECK(rig.command(master, Verb::renew) == Refusal::none);
   rig.run(0.05);
   CHECK(rig.true_power_W() < 0.55);
   CHECK(rig.loop.channel(0).snapshot().limited_by == LimitedBy::maximum);
   const auto configured_W = static_cast<float>(rig.settings.firmware.channels[0].limiter.max_W);
   for (const float wrong : {-0.1F, 1.001F * configured_W, 1e6F, NAN, INFINITY})
-    CHECK(write(most_power, wrong) == Refusal::out_of_range);
+    CHECK(write(max_power, wrong) == Refusal::out_of_range);
   rig.run(0.01);
   LONGS_EQUAL(5, rig.refused_values.size());
   DOUBLES_EQUAL(0.0, rig.refused_values[0].nearest, 0.0);
   DOUBLES_EQUAL(1e6F, rig.refused_values[2].value, 0.0);
   DOUBLES_EQUAL(configured_W, rig.refused_values[2].nearest, 0.0);
   CHECK(std::isnan(rig.refused_values[3].nearest));
-  DOUBLES_EQUAL(0.5, read(most_power), 0.0);
-  CHECK(write(most_power, configured_W) == Refusal::none);
-  DOUBLES_EQUAL(configured_W, read(most_power), 0.0);
+  DOUBLES_EQUAL(0.5, read(max_power), 0.0);
+  CHECK(write(max_power, configured_W) == Refusal::none);
+  DOUBLES_EQUAL(configured_W, read(max_power), 0.0);
 }
 
 TEST(Settings, TheConfiguredPowerIsObeyedThoughAsAFloatItIsALittleMore) {
@@ -116,8 +116,8 @@ TEST(Settings, TheConfiguredPowerIsObeyedThoughAsAFloatItIsALittleMore) {
   CanRig small(settings);
   small.run(0.1);
   small.claim(master);
-  CHECK(refusal_in(small.ask_setting(master.setting(most_power, 2.15F))) == Refusal::none);
-  DOUBLES_EQUAL(2.15, small.loop.channel(0).most_power_W(), 0.0);
+  CHECK(refusal_in(small.ask_setting(master.setting(max_power, 2.15F))) == Refusal::none);
+  DOUBLES_EQUAL(2.15, small.loop.channel(0).max_power_W(), 0.0);
 }
 
 TEST(Settings, AMessageComesAsOftenAsItIsWritten) {
@@ -148,20 +148,19 @@ TEST(Settings, NeitherTheHeartbeatNorTheBusMayBeLost) {
   for (std::uint8_t i = 1; i < telemetry::run_settings; ++i)
     refused += write(i, 700.0F) == Refusal::out_of_range ? 1 : 0;
   CHECK(refused > 5);
-  CHECK(telemetry::bus_load(rig.link.publisher().rates_Hz(), rig.can.bit_rate) <=
-        rig.can.most_load);
+  CHECK(telemetry::bus_load(rig.link.publisher().rates_Hz(), rig.can.bit_rate) <= rig.can.max_load);
 }
 
 TEST(Settings, DamagedWritesAreNotObeyedAndCount) {
   rig.run(16.0);
   rig.claim(master);
   for (int bit = 0; bit < 64; ++bit) {
-    hal::CanFrame frame = master.setting(most_power, 1.0F);
+    hal::CanFrame frame = master.setting(max_power, 1.0F);
     frame.data[static_cast<std::size_t>(bit / 8)] ^= static_cast<std::uint8_t>(1U << (bit % 8));
     LONGS_EQUAL(0, rig.ask_setting(frame).counter);
     CHECK(rig.settings_told.empty());
   }
-  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(most_power), 1e-6);
+  DOUBLES_EQUAL(rig.settings.firmware.channels[0].limiter.max_W, read(max_power), 1e-6);
   CHECK(rig.fault() == Fault::command_damaged);
 }
 
@@ -170,11 +169,11 @@ TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
   CHECK(rig.command(master, Verb::store, 1.0F) == Refusal::not_ready);
   CHECK(rig.command(master, Verb::store, 0.5F) == Refusal::out_of_range);
   CHECK(rig.command(master, Verb::store, NAN) == Refusal::out_of_range);
-  board::Lesson lesson;
-  CHECK_FALSE(rig.loop.channel(0).take_lesson(lesson));
+  board::LearnedUpdate update;
+  CHECK_FALSE(rig.loop.channel(0).take_learned_update(update));
   CHECK(rig.command(master, Verb::store, 0.0F) == Refusal::none);
-  CHECK(rig.loop.channel(0).take_lesson(lesson));
-  CHECK_FALSE(lesson.has_value());
+  CHECK(rig.loop.channel(0).take_learned_update(update));
+  CHECK_FALSE(update.has_value());
   // Moved until its estimates may be trusted.
   Refusal stored = Refusal::not_ready;
   for (int i = 0; i < 4000 && stored == Refusal::not_ready; ++i) {
@@ -186,10 +185,10 @@ TEST(Settings, WhatIsLearnedIsStoredWhenItIsTrustedAndClearedAtAnyTime) {
     if (i % 20 == 0) stored = rig.command(master, Verb::store, 1.0F);
   }
   CHECK(stored == Refusal::none);
-  CHECK(rig.loop.channel(0).take_lesson(lesson));
-  DOUBLES_EQUAL(16.0, lesson->muscle.stiffness_N_per_m, 3.0);
+  CHECK(rig.loop.channel(0).take_learned_update(update));
+  DOUBLES_EQUAL(16.0, update->muscle.stiffness_N_per_m, 3.0);
   // What motion cannot tell stays as it was believed.
   const control::PhysicalParameters& believed = rig.settings.firmware.channels[0].muscle;
-  DOUBLES_EQUAL(believed.force_per_kelvin_N_per_K, lesson->muscle.force_per_kelvin_N_per_K, 0.0);
-  DOUBLES_EQUAL(believed.moving_mass_kg, lesson->muscle.moving_mass_kg, 0.0);
+  DOUBLES_EQUAL(believed.force_per_kelvin_N_per_K, update->muscle.force_per_kelvin_N_per_K, 0.0);
+  DOUBLES_EQUAL(believed.moving_mass_kg, update->muscle.moving_mass_kg, 0.0);
 }

@@ -89,7 +89,7 @@ TEST(SelfTestPower, IsNoMoreThanAProbesOnABoardThatDoesNotCut) {
                            heater.cold_resistance_Ohm;
     Rig rig(settings);
     rig.board.pump.stuck_closed = pump_stuck;
-    rig.muscle().trouble.enable_stuck_on = !pump_stuck;
+    rig.muscle().faults.enable_stuck_on = !pump_stuck;
     double max_W = 0.0;
     rig.run_until(
         [&] {

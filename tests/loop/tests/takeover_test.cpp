@@ -148,9 +148,9 @@ TEST(Takeover, StoringWhatWasLearnedMovesNothingUntilTheNextStart) {
 
   twins.switches.send(Verb::store, 1.0);
   DOUBLES_EQUAL(0.0, twins.apart_m(2000, hold), 0.0);
-  board::Lesson lesson;
-  CHECK_TRUE(twins.switches.loop.channel(Rig::tested).take_lesson(lesson));
-  DOUBLES_EQUAL(14.0, lesson->muscle.stiffness_N_per_m, 0.5);
+  board::LearnedUpdate update;
+  CHECK_TRUE(twins.switches.loop.channel(Rig::tested).take_learned_update(update));
+  DOUBLES_EQUAL(14.0, update->muscle.stiffness_N_per_m, 0.5);
   DOUBLES_EQUAL(before, proportional_W_per_m(twins.switches), 0.0);
   proportional_W_per_m(twins.stays);
 

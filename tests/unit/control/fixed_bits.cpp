@@ -61,13 +61,13 @@ void print(const char* name, Law law) {
                                       .position_m = position_m,
                                       .applied_power_W = applied_W,
                                       .limited = limited});
-    hash.add(out.wanted_power_W);
+    hash.add(out.demanded_power_W);
     hash.add(out.model_m);
     for (const double theta : estimator.theta())
       hash.add(theta);
     hash.add(static_cast<double>(estimator.error()));
-    applied_W = PowerRange{}.clip(out.wanted_power_W);
-    limited = applied_W != out.wanted_power_W;
+    applied_W = PowerRange{}.clip(out.demanded_power_W);
+    limited = applied_W != out.demanded_power_W;
     muscle.step(applied_W);
   }
   // The values show at a glance that the loop did something.

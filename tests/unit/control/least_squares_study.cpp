@@ -43,7 +43,7 @@ void from_rest() {
                  2.0);
 }
 
-void after_a_change(double at_s, double most_s) {
+void after_a_change(double at_s, double max_s) {
   const std::string at = std::to_string(std::lround(at_s));
   expect_at_most("s to 5 % after 16 -> 12 N/m at " + at + " s", in_95_percent([&](unsigned seed) {
                    Learning<double> learning(seed);
@@ -51,13 +51,13 @@ void after_a_change(double at_s, double most_s) {
                    learning.run_until(at_s);
                    return learning.outside_until(0.05, at_s + 30.0) - at_s;
                  }),
-                 most_s);
+                 max_s);
 }
 
 /// Scatter at a time over 200 seeds, how near that is to the Cramér–Rao bound of a steady window of
 /// twice the forgetting time (the same unknowns: θ, bias, motion), and the published deviations
 /// (rms) over it.
-void scatter(double at_s, const std::array<double, 4>& most_percent) {
+void scatter(double at_s, const std::array<double, 4>& max_percent) {
   constexpr int seeds = 200;
   Vector<double, 5> squares = Vector<double, 5>::Zero();
   Vector<double, 5> published = Vector<double, 5>::Zero();
@@ -72,7 +72,7 @@ void scatter(double at_s, const std::array<double, 4>& most_percent) {
   for (int i = 0; i < 4; ++i) {
     const std::string what = "% rms of theta" + std::to_string(i + 1) + " at " +
                              std::to_string(std::lround(at_s)) + " s";
-    expect_at_most(what, 100.0 * std::sqrt(squares[i]), most_percent[static_cast<std::size_t>(i)]);
+    expect_at_most(what, 100.0 * std::sqrt(squares[i]), max_percent[static_cast<std::size_t>(i)]);
     expect_at_most("  over its Cramer-Rao bound", std::sqrt(squares[i]) / bound[i], 1.5);
     // So many seeds tell a deviation to 5 %.
     const double ratio = std::sqrt(published[i] / squares[i]);

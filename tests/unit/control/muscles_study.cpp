@@ -78,15 +78,15 @@ void false_changes() {
 /// the change where that is more.
 double settled_s(const FollowedMuscle& muscle) {
   constexpr double stays_s = 5.0;
-  double most_m = 200e-6;
+  double max_m = 200e-6;
   double outside_s = 0.0;
   muscle.run(muscle.change_at_s + 40.0, [&](const FollowedMuscle::Tick& tick) {
     const double since_s = tick.time_s - muscle.change_at_s;
     const double error_m = std::abs(tick.error_m);
     if (since_s < -80.0) return true;
     if (since_s < 0.0) {
-      most_m = std::fmax(most_m, error_m);
-    } else if (error_m > most_m) {
+      max_m = std::fmax(max_m, error_m);
+    } else if (error_m > max_m) {
       outside_s = since_s;
     }
     return since_s < outside_s + stays_s;
@@ -107,7 +107,7 @@ void settling(const char* what, host_sim::MusclePreset preset, double most) {
         muscle.change_at_s = 140.0 + (motion == Course::sine ? 25.132741 : 80.0) * i / phases;
         if (loaded) {
           muscle.load_N = 0.1;
-          if (motion != Course::sine) muscle.highest_m = 0.015;  // 4.5 W hold 19 mm then
+          if (motion != Course::sine) muscle.max_m = 0.015;  // 4.5 W hold 19 mm then
         } else {
           muscle.stiffness_ratio = 0.75;
         }
@@ -143,8 +143,8 @@ FollowedMuscle random_muscle(unsigned seed) {
   p.moving_mass_kg *= ratio(0.5, 2.0);
   m.max_W = 50.0 * p.heat_transfer_W_per_K;
   const double reach_m = m.max_W * p.dc_gain_m_per_W();
-  m.lowest_m = 0.08 * reach_m;
-  m.highest_m = 0.5 * reach_m;
+  m.min_m = 0.08 * reach_m;
+  m.max_m = 0.5 * reach_m;
   for (int i = 0; i < 4; ++i)
     m.believed[i] = between(0.7, 1.4);
   if (seed % 2 == 1) return m;

@@ -121,7 +121,7 @@ TEST(BufferedPwm, TellsAFailureAtTheNextSetAndTriesAgain) {
 
 TEST(BufferedPwm, DoesNotCallAStallASuccess) {
   pwm.serve();
-  for (int i = 0; i < hal_linux::BufferedPwm::most_unserved; ++i) {
+  for (int i = 0; i < hal_linux::BufferedPwm::max_unserved; ++i) {
     check_status(hal::Status::ok, pwm.set(1));
   }
   check_status(hal::Status::busy, pwm.set(1));

@@ -19,7 +19,7 @@ TEST_GROUP(DevWatchdog) {
   TemporaryFolder dev;
   // What the driver is like.
   unsigned options = WDIOF_MAGICCLOSE | WDIOF_SETTIMEOUT;
-  int longest_s = 60;
+  int max_s = 60;
   int has_s = 30;
   bool nowayout = false;
 
@@ -37,7 +37,7 @@ TEST_GROUP(DevWatchdog) {
       static_cast<watchdog_info*>(argument)->options = options;
     } else if (request == WDIOC_SETTIMEOUT) {
       int& wanted_s = *static_cast<int*>(argument);
-      if (wanted_s > longest_s) return -EINVAL;
+      if (wanted_s > max_s) return -EINVAL;
       has_s = wanted_s;
     } else if (request == WDIOC_GETTIMEOUT) {
       *static_cast<int*>(argument) = has_s;
@@ -73,13 +73,13 @@ TEST(DevWatchdog, RefusesTimesThatCannotBe) {
 }
 
 TEST(DevWatchdog, IsContentWithAShorterTimeThatTheDriverHas) {
-  longest_s = 0;
+  max_s = 0;
   has_s = 3;
   LONGS_EQUAL(3, (*open(5.0))->timeout_s());
 }
 
 TEST(DevWatchdog, IsStoppedAgainWhenItsTimeIsTooLong) {
-  longest_s = 0;
+  max_s = 0;
   has_s = 30;
   STRCMP_EQUAL(
       (dev / "watchdog" + " does not take a time-out of 5 s, and has 30 s: Invalid argument")

@@ -147,7 +147,7 @@ TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {
       line.value = value;
       line.output = true;
       line.history.clear();
-      const auto found = look_at_rest({"pinctrl-bcm2711", "GPIO5"}, dev.path());
+      const auto found = read_undriven({"pinctrl-bcm2711", "GPIO5"}, dev.path());
       CHECK(found->bias == bias);
       CHECK(found->level.high == (value == 1));
       const std::vector<std::string> expected = {"input", "release"};
@@ -155,6 +155,6 @@ TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {
     }
   }
   line.consumer = "fan";
-  const auto held = look_at_rest({"pinctrl-bcm2711", "GPIO5"}, dev.path());
+  const auto held = read_undriven({"pinctrl-bcm2711", "GPIO5"}, dev.path());
   STRCMP_CONTAINS("which 'fan' holds", held.error().text.c_str());
 }

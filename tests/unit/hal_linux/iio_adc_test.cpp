@@ -34,10 +34,10 @@ TEST_GROUP(IioAdc) {
     reset_calls();
   }
 
-  ConverterPlace place(const std::string& input = "voltage0") const {
+  ConverterLocation place(const std::string& input = "voltage0") const {
     return {"i2c-1/1-0048", input, tree / "bus"};
   }
-  std::string answer(const ConverterPlace& where) const {
+  std::string answer(const ConverterLocation& where) const {
     const auto adc = hal_linux::IioAdc::open(where);
     return adc ? "open" : adc.error().text;
   }
@@ -74,7 +74,7 @@ TEST(IioAdc, SeesEachNewValue) {
 }
 
 TEST(IioAdc, IsNotAmbiguous) {
-  ConverterPlace where = place();
+  ConverterLocation where = place();
   where.device = "ads1115";
   STRCMP_EQUAL(("more than one converter with the name 'ads1115' in " + tree / "bus" +
                 ": iio:device0 'ads1115' at " + tree / "devices/i2c-1/1-0048" +

@@ -12,7 +12,7 @@ using namespace supercoil::test;
 TEST_GROUP(IioWrongScan) {
   ScanTree board;
 
-  static std::string answer(const ScanPlace& place) {
+  static std::string answer(const ScanLocation& place) {
     const auto scan = supercoil::hal_linux::IioScan::open(place);
     return scan ? "open" : scan.error().text;
   }
@@ -30,7 +30,7 @@ TEST(IioWrongScan, IsOneOfNoOrDoubleOrUnknownInputs) {
 
 TEST(IioWrongScan, IsOneOfALengthThatNobodyNeeds) {
   for (const int length : {-1, 0, 1, 4097}) {
-    ScanPlace place = board.place();
+    ScanLocation place = board.place();
     place.length = length;
     STRCMP_CONTAINS("must be 2 to 4096", answer(place).c_str());
   }
@@ -47,7 +47,7 @@ TEST(IioWrongScan, NamesTheTriggersThatThereAre) {
 }
 
 TEST(IioWrongScan, NeedsATriggerThatIsNamedOrSet) {
-  ScanPlace place = board.place();
+  ScanLocation place = board.place();
   place.trigger.clear();
   STRCMP_CONTAINS("no trigger is named and none is set in ", answer(place).c_str());
   board.tree.write(board.device + "/trigger/current_trigger", "spi0.0-dev0\n");

@@ -58,7 +58,7 @@ TEST(PwmLeftOver, NeverHeatsMoreThanBefore) {
     const auto pwm = SysfsPwm::open({"pca9685", 5, 100'000, 4095, kernel.root()});
     RC_ASSERT(pwm.has_value());
     // A period that changes leaves the duty at 0; an inversed output is disabled first.
-    RC_ASSERT(kernel.most_on <= left.on());
+    RC_ASSERT(kernel.max_on <= left.on());
   }));
 }
 

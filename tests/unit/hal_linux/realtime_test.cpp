@@ -112,13 +112,13 @@ TEST(Realtime, PinsToACpuThatThereIs) {
 
 TEST(Realtime, HoldsTheCpusWakefulWithABinaryZero) {
   dev.write("cpu_dma_latency", "");
-  WakefulCpus cpus;
+  CpuLatencyRequest cpus;
   check_worked(cpus.hold(dev / "cpu_dma_latency"));
   CHECK(dev.read("cpu_dma_latency") == std::string(4, '\0'));
 }
 
 TEST(Realtime, SaysWhyTheCpusMaySleep) {
-  WakefulCpus cpus;
+  CpuLatencyRequest cpus;
   check_failed(cpus.hold(dev / "cpu_dma_latency"), "cpu_dma_latency: No such file or directory");
   dev.write("cpu_dma_latency", "");
   next(Call::write, "/cpu_dma_latency", [] { return 2; });

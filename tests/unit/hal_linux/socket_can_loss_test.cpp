@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 TEST_GROUP(SocketCanLoss) {
   CanKernel kernel;
-  CanPlace place{"can0", {0x201}, kernel.net.path()};
+  CanLocation place{"can0", {0x201}, kernel.net.path()};
   hal::CanFrame frame;
   std::unique_ptr<SocketCan> can;
 
@@ -96,9 +96,9 @@ TEST(SocketCanLoss, LooksForItSeldom) {
     check(hal::Status::gone, can->receive(frame));
     ++calls;
   }
-  const auto most_looks = (MonotonicClock::time() - begin) / 100ms + 1;
-  CHECK(calls > 10 * most_looks);
-  CHECK(kernel.sockets - before <= most_looks);
+  const auto max_looks = (MonotonicClock::time() - begin) / 100ms + 1;
+  CHECK(calls > 10 * max_looks);
+  CHECK(kernel.sockets - before <= max_looks);
   CHECK(kernel.sockets - before >= 1);
 }
 

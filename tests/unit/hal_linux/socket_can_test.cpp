@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 TEST_GROUP(SocketCan) {
   CanKernel kernel;
-  CanPlace place{"can0", {0x201, 0x202}, kernel.net.path()};
+  CanLocation place{"can0", {0x201, 0x202}, kernel.net.path()};
   hal::CanFrame frame;
 
   void setup() override {
@@ -49,7 +49,7 @@ TEST(SocketCan, HearsOnlyWhatItListensToAndTheControllersErrors) {
   LONGS_EQUAL(2, kernel.filters.size());
   LONGS_EQUAL(0x202, kernel.filters[1].can_id);
   UNSIGNED_LONGS_EQUAL(CAN_EFF_FLAG | CAN_RTR_FLAG | 0x7FF, kernel.filters[1].can_mask);
-  UNSIGNED_LONGS_EQUAL(CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED, kernel.told_errors);
+  UNSIGNED_LONGS_EQUAL(CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_RESTARTED, kernel.reported_errors);
   LONGS_EQUAL(3, kernel.bound_to);
   CHECK(can->state() == hal::CanState::active);
 }
@@ -190,7 +190,7 @@ TEST(SocketCan, NamesTheInterfacesThatThereAre) {
   STRCMP_EQUAL("no CAN interface 'eth0': there are can0, can1", problem_of_opening().c_str());
   kernel.unplug("can0");
   kernel.unplug("can1");
-  STRCMP_EQUAL("no CAN interface 'eth0': there is none at all", problem_of_opening().c_str());
+  STRCMP_EQUAL("no CAN interface 'eth0': there is none", problem_of_opening().c_str());
 }
 
 TEST(SocketCan, SaysWhatCannotBeSetUp) {
@@ -204,7 +204,7 @@ TEST(SocketCan, SaysWhatCannotBeSetUp) {
 
 TEST(SocketCan, RefusesPlacesThatCannotBe) {
   place.listen = {0x800};
-  STRCMP_EQUAL("can0: 2048 is no identifier of 11 bits (0 to 2047)", problem_of_opening().c_str());
+  STRCMP_EQUAL("can0: 2048 is not an 11-bit identifier (0 to 2047)", problem_of_opening().c_str());
   place.listen.assign(513, 1);
   STRCMP_EQUAL("can0: listens to 513 identifiers, and 512 are the most",
                problem_of_opening().c_str());

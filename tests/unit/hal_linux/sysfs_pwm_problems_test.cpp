@@ -16,11 +16,11 @@ namespace {
 
 constexpr const char* output = "class/pwm/pwmchip3/pwm5";
 
-PwmPlace place(const PwmKernel& kernel) {
+PwmLocation place(const PwmKernel& kernel) {
   return {"pca9685", 5, 1'000'000, 4000, kernel.root()};
 }
 
-std::string answer(const PwmPlace& where) {
+std::string answer(const PwmLocation& where) {
   const auto pwm = SysfsPwm::open(where);
   return pwm ? "open" : pwm.error().text;
 }
@@ -31,7 +31,7 @@ TEST_GROUP(SysfsPwmProblems){};
 
 TEST(SysfsPwmProblems, AreSaidOfNumbersThatCannotBe) {
   PwmKernel kernel;
-  PwmPlace where = place(kernel);
+  PwmLocation where = place(kernel);
   where.steps = 0;
   STRCMP_EQUAL("a PWM of 0 steps: must be 1 to 16777216", answer(where).c_str());
   where = place(kernel);
@@ -49,7 +49,7 @@ TEST(SysfsPwmProblems, AreSaidOfNumbersThatCannotBe) {
 
 TEST(SysfsPwmProblems, NameTheChipsThatThereAre) {
   PwmKernel kernel;
-  PwmPlace where = place(kernel);
+  PwmLocation where = place(kernel);
   where.device = "platform/soc/fe20c000.pwm";
   STRCMP_EQUAL(("no PWM chip whose path ends with 'platform/soc/fe20c000.pwm' in " + kernel.root() +
                 ": there are pwmchip3 'pca9685' at " + kernel.tree / "devices/soc/i2c-1/1-0040")

@@ -122,14 +122,14 @@ TEST(SysfsPwm, WinksWithoutEverBeingOn) {
   PwmKernel kernel;
   const auto pwm = opened(kernel);
   kernel.writes.clear();
-  check_status(hal::Status::ok, pwm->wink());
+  check_status(hal::Status::ok, pwm->pulse_enable());
   const std::vector<std::string> expected = {"enable 0", "enable 1"};
   CHECK(kernel.writes == expected);
   CHECK(kernel.state.enabled);
-  DOUBLES_EQUAL(0.0, kernel.most_on, 0.0);
+  DOUBLES_EQUAL(0.0, kernel.max_on, 0.0);
   for (const int first : {EIO, 0}) {
     next(Call::pwrite, "/enable", [first] { return first == 0 ? 1 : -first; });
     next(Call::pwrite, "/enable", [first] { return first == 0 ? -EIO : 1; });
-    check_status(hal::Status::io_error, pwm->wink());
+    check_status(hal::Status::io_error, pwm->pulse_enable());
   }
 }

@@ -54,13 +54,13 @@ class Program(unittest.TestCase):
         mended = broken + "[[event]]\nat_s = 2.0\nreset = true\ntrouble.heater_open = false\n"
         for text, allowed, status, told in (
                 (broken, False, 1, "ended in fault 20 heater_open"), (broken, True, 0, "ended in fault 20 heater_open"),
-                (mended, False, 0, ""), (SHORT + "trouble.stop_pressed = true\n", False, 1, "never armed: fault 63 emergency_stop"),
-                (SHORT + "simulation.rate_Hz = 100.0\ncontroller.kind = 'pi'\nthermal.transfer_part = [0.01, 2.2]\n"
-                 "thermal.mass_part = [0.75, 100.0]\n", False, 1,
+                (mended, False, 0, ""), (SHORT + "injected_fault.stop_pressed = true\n", False, 1, "never armed: fault 63 emergency_stop"),
+                (SHORT + "simulation.rate_Hz = 100.0\ncontroller.kind = 'pi'\nthermal.transfer_ratio = [0.01, 2.2]\n"
+                 "thermal.mass_ratio = [0.75, 100.0]\n", False, 1,
                  "never armed: with these [thermal] bounds the muscle may still be hot"),
-                (SHORT + "operator.wish = 'none'\n", False, 0, "never armed: [operator] wish asks for nothing"),
-                (SHORT + "operator.wish = 'none'\n[[event]]\nat_s = 1.0\noperator.wish = 'track'\n", False, 1,
-                 "never armed: [operator] wish asks for nothing at the start, and it arms only there")):
+                (SHORT + "operator.action = 'none'\n", False, 0, "never armed: [operator] action is none or disarm"),
+                (SHORT + "operator.action = 'none'\n[[event]]\nat_s = 1.0\noperator.action = 'track'\n", False, 1,
+                 "never armed: [operator] action is none or disarm at the start, and it arms only there")):
             done = self.run_program("run", self.scenario(text), *options, *["--allow-fault"] * allowed)
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertIn(told, done.stderr if status else done.stdout)
@@ -78,7 +78,7 @@ class Program(unittest.TestCase):
 
     def test_what_is_learned_is_kept_and_used_by_the_next_run(self):
         (self.path / "memory").mkdir()
-        text = ("simulation.duration_s = 82.0\noperator.wish = 'identify'\n"
+        text = ("simulation.duration_s = 82.0\noperator.action = 'identify'\n"
                 "muscle.stiffness_N_per_m = 22.0\n")
         options = ["--learned", "memory", "--no-plot", "--no-trace", "--quiet"]
         for out in ("first", "second"):
@@ -114,7 +114,7 @@ class Program(unittest.TestCase):
     def test_the_plot_has_one_time_axis_and_names_of_states(self):
         # The muscle follows a reference model from 15 to 20 s only.
         self.run_program("run", self.scenario(
-            "simulation.duration_s = 40.0\noperator.wish = 'calibrate'\n[[event]]\nat_s = 15.0\noperator.wish = 'track'\n"
+            "simulation.duration_s = 40.0\noperator.action = 'calibrate'\n[[event]]\nat_s = 15.0\noperator.action = 'track'\n"
             "[[event]]\nat_s = 20.0\ntrouble.heater_open = true\n"), "--out", "out", "--no-trace", "--no-can")
         drawing = (self.path / "out/plot.svg").read_text()
         self.assertLessEqual({"disarmed", "armed", "active", "fault"}, set(re.findall("<text>(.*)</text>", drawing)))
@@ -173,8 +173,8 @@ class Program(unittest.TestCase):
         self.assertEqual(self.run_program("run", "sine", "--evry", "3").returncode, 2)
 
     def test_a_misspelt_name_is_told_with_the_one_that_was_meant(self):
-        self.check_refused("supercoil-sim: 'rum' is no command; did you mean run?", "rum", "sine")
-        self.check_refused("'fly' is no command; the commands are: run, reproduce, ", "fly")
+        self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
+        self.check_refused("'fly' is not a command; the commands are: run, reproduce, ", "fly")
         self.check_refused("no built-in scenario is called so; did you mean sine?", "run", "sin", "--out", "out")
         self.check_refused("no built-in scenario is called so; they are: b, bench, ", "run", "zzz", "--out", "out")
 

@@ -56,7 +56,7 @@ TEST(Sensors, ThermometerIsInTheRecordOnlyWhereThereIsOne) {
 TEST(Sensors, ALonelyStrokeIsSeen) {
   const Scenario s = read(
       "simulation.duration_s = 40.0\nplant.lonely_stroke_m = 0.005\n"
-      "[[event]]\nat_s = 20.0\noperator.wish = 'rest'\n");
+      "[[event]]\nat_s = 20.0\noperator.action = 'rest'\n");
   Simulation simulation(s);
   TickRecord record;
   while (!simulation.done())

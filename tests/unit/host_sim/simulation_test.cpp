@@ -140,7 +140,7 @@ controller.kind = "power"
 TEST(Simulation, FixedPointFollowsDoubleAtEveryRateThatItAccepts) {
   struct Case {
     const char* rate;
-    double most_m;
+    double max_m;
   };
   // At 100 Hz preset a, made for 1 kHz, sits at the power limits half of the time, and each
   // crossing of a limit that falls into another tick sets the two tens of µm apart for a while.
@@ -150,10 +150,10 @@ TEST(Simulation, FixedPointFollowsDoubleAtEveryRateThatItAccepts) {
     const auto in_double = records_of(read(start + "controller.preset = 'a'"));
     const auto in_fixed =
         records_of(read(start + "controller = {preset = 'a', arithmetic = 'q8.24'}"));
-    double largest_m = 0.0;
+    double max_m = 0.0;
     for (std::size_t i = 0; i < in_double.size(); ++i) {
-      largest_m = std::max(largest_m, std::abs(in_double[i].position_m - in_fixed[i].position_m));
+      max_m = std::max(max_m, std::abs(in_double[i].position_m - in_fixed[i].position_m));
     }
-    CHECK_COMPARE(largest_m, <, c.most_m);
+    CHECK_COMPARE(max_m, <, c.max_m);
   }
 }

@@ -65,11 +65,11 @@ TEST(Comparison, TellsAChangeAndNoChange) {
   Samples samples = random_steps(120.0, full_W, 25);
   record(other_muscle(), noise_m, 26, samples);
   const Fit part = fit_model({}, samples, {0.0, 60.0});
-  CHECK(largest_change(part, fit_model({}, samples, {0.0, 120.0})).deviations < 3.0);
+  CHECK(max_change(part, fit_model({}, samples, {0.0, 120.0})).deviations < 3.0);
   // From 60 s on everything moves a quarter further.
   for (std::size_t k = 3000; k < samples.size(); ++k)
     samples.position_m[k] *= 1.25;
-  const Change change = largest_change(part, fit_model({}, samples, {0.0, 120.0}));
+  const Change change = max_change(part, fit_model({}, samples, {0.0, 120.0}));
   CHECK(change.deviations > 3.0);
 }
 
@@ -83,7 +83,7 @@ TEST(Parts, JudgesByTheLastHeatingFromRest) {
   for (const std::size_t from : {500U, 2500U})
     for (std::size_t k = from; k < from + 200; ++k)
       samples.power_W[k] = 1.0;
-  const Parts parts = usual_parts(samples);
+  const Parts parts = default_parts(samples);
   DOUBLES_EQUAL(0.0, parts.fitted.from_s, 1e-9);
   DOUBLES_EQUAL(49.99, parts.fitted.to_s, 1e-9);
   DOUBLES_EQUAL(49.99, parts.unseen.from_s, 1e-9);
@@ -91,7 +91,7 @@ TEST(Parts, JudgesByTheLastHeatingFromRest) {
 }
 
 TEST(Parts, JudgesByTheLastThirdWithoutRests) {
-  const Parts parts = usual_parts([] {
+  const Parts parts = default_parts([] {
     Samples samples;
     samples.step_s = 0.02;
     samples.power_W.assign(6001, 1.0);

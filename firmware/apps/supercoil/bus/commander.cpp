@@ -11,7 +11,7 @@ namespace {
 constexpr auto answer_within = std::chrono::milliseconds(500);
 /// A lease lasts a second by default; what may have run out is claimed again.
 constexpr auto lease_lasts = std::chrono::milliseconds(400);
-/// It follows the answer at once, where the board tells it.
+/// It follows the answer at once, where the board sends it.
 constexpr auto nearest_within = std::chrono::milliseconds(50);
 constexpr int claims_in_a_row = 3;
 constexpr auto nap = std::chrono::milliseconds(1);
@@ -66,11 +66,11 @@ Commander::Answer Commander::claim() {
   if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts) return Refusal::none;
   const bool anew = !master_.holds_lease();
   Answer answer = exchange(master_.claim());
-  // A nonce may be taken by somebody else first.
+  // Another master may use a nonce first.
   for (int i = 0; i < claims_in_a_row && answer && *answer == Refusal::claim_again; ++i)
     answer = exchange(master_.claim());
   // To a board of an older version the claim was a command without a lease.
-  if (anew && answer && *answer == Refusal::no_lease) return Refusal::other_version;
+  if (anew && answer && *answer == Refusal::no_lease) return Refusal::protocol_mismatch;
   return answer;
 }
 
@@ -101,7 +101,7 @@ double Commander::nearest() {
   const auto deadline = Clock::now() + nearest_within;
   do {
     for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
-      if (const auto nearest = can_client::hear_nearest(master_.node(), heard)) return *nearest;
+      if (const auto nearest = can_client::receive_nearest(master_.node(), heard)) return *nearest;
     }
     std::this_thread::sleep_for(nap);
   } while (Clock::now() < deadline);
@@ -112,7 +112,7 @@ Commander::Setting Commander::read(std::uint8_t setting) {
   drain();
   return exchange<can_client::Master::Setting>(can_client::setting_read(master_.node(), setting),
                                                [&](const hal::CanFrame& frame) {
-                                                 auto heard = master_.hear_setting(frame, false);
+                                                 auto heard = master_.receive_setting(frame, false);
                                                  if (heard && heard->setting != setting)
                                                    heard.reset();
                                                  return heard;
@@ -126,7 +126,7 @@ Commander::Setting Commander::write(std::uint8_t setting, double value) {
     if (*claimed != Refusal::none) return can_client::Master::Setting{setting, *claimed, NAN};
     return exchange<can_client::Master::Setting>(
         master_.setting_write(setting, value),
-        [&](const hal::CanFrame& frame) { return master_.hear_setting(frame, true); });
+        [&](const hal::CanFrame& frame) { return master_.receive_setting(frame, true); });
   });
 }
 

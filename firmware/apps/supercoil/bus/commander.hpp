@@ -19,10 +19,10 @@ class Commander {
   Commander(std::unique_ptr<hal::CanBus> bus, std::uint8_t node);
 
   /// Waits at most half a second for the answer. Claims the lease when it has run out. The error
-  /// says that nobody answered, or that the bus is gone.
+  /// says that there was no answer, or that the bus is gone.
   tl::expected<Refusal, std::string> ask(Verb verb, double value);
   /// After an answer out_of_range: the nearest value that would have been obeyed. NaN: there is
-  /// none, or the board does not tell.
+  /// none, or the board does not say.
   double nearest();
   using Setting = tl::expected<can_client::Master::Setting, std::string>;
   /// Likewise; reading needs no lease.

@@ -7,10 +7,10 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr std::size_t most_at_once = 1024;
+constexpr std::size_t max_batch = 1024;
 constexpr auto pause = std::chrono::milliseconds(5);
 
-std::string why_lost(hal::CanState state) {
+std::string loss_reason(hal::CanState state) {
   switch (state) {
     case hal::CanState::bus_off:
       return "the bus is off";
@@ -23,8 +23,8 @@ std::string why_lost(hal::CanState state) {
 
 }  // namespace
 
-Listener::Listener(std::unique_ptr<hal::CanBus> bus, Recent& recent)
-    : bus_(std::move(bus)), recent_(&recent), thread_([this] { run(); }) {}
+Listener::Listener(std::unique_ptr<hal::CanBus> bus, FrameHistory& frame_history)
+    : bus_(std::move(bus)), frame_history_(&frame_history), thread_([this] { run(); }) {}
 
 Listener::~Listener() {
   ending_ = true;
@@ -36,11 +36,11 @@ void Listener::run() {
   while (!ending_) {
     frames.clear();
     hal::CanFrame frame;
-    while (frames.size() < most_at_once && bus_->receive(frame) == hal::Status::ok)
+    while (frames.size() < max_batch && bus_->receive(frame) == hal::Status::ok)
       frames.push_back(frame);
-    recent_->add(frames);
-    recent_->set_lost(why_lost(bus_->state()));
-    if (frames.size() < most_at_once) std::this_thread::sleep_for(pause);
+    frame_history_->add(frames);
+    frame_history_->set_lost(loss_reason(bus_->state()));
+    if (frames.size() < max_batch) std::this_thread::sleep_for(pause);
   }
 }
 

@@ -11,10 +11,10 @@
 
 namespace supercoil::operating {
 
-/// A thread that puts what it hears into `recent`, until it is destroyed.
+/// A thread that puts what it hears into `frame_history`, until it is destroyed.
 class Listener {
  public:
-  Listener(std::unique_ptr<hal::CanBus> bus, Recent& recent);
+  Listener(std::unique_ptr<hal::CanBus> bus, FrameHistory& frame_history);
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
   ~Listener();
@@ -23,7 +23,7 @@ class Listener {
   void run();
 
   std::unique_ptr<hal::CanBus> bus_;
-  Recent* recent_;
+  FrameHistory* frame_history_;
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

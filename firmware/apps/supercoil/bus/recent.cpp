@@ -10,7 +10,7 @@ namespace supercoil::operating {
 namespace {
 
 /// A day of one board; whatever keep_s says.
-constexpr std::size_t most_frames = 40'000'000;
+constexpr std::size_t max_frames = 40'000'000;
 
 bool earlier(const hal::CanFrame& frame, hal::Time time) {
   return frame.received < time;
@@ -18,7 +18,7 @@ bool earlier(const hal::CanFrame& frame, hal::Time time) {
 
 }  // namespace
 
-void Recent::add(const std::vector<hal::CanFrame>& frames) {
+void FrameHistory::add(const std::vector<hal::CanFrame>& frames) {
   const std::lock_guard lock(mutex_);
   for (const hal::CanFrame& frame : frames) {
     frames_.push_back(frame);
@@ -37,7 +37,7 @@ void Recent::add(const std::vector<hal::CanFrame>& frames) {
   const auto old = [&] {
     const bool out =
         keep_.count() > 0 && frames_.back().received - frames_.front().received > keep_;
-    return out || frames_.size() > most_frames;
+    return out || frames_.size() > max_frames;
   };
   while (!frames_.empty() && old()) {
     frames_.pop_front();
@@ -45,13 +45,13 @@ void Recent::add(const std::vector<hal::CanFrame>& frames) {
   }
 }
 
-std::optional<hal::CanFrame> Recent::first_cause(std::uint8_t node) const {
+std::optional<hal::CanFrame> FrameHistory::first_cause(std::uint8_t node) const {
   const std::lock_guard lock(mutex_);
   const auto found = first_causes_.find(node);
   return found == first_causes_.end() ? std::nullopt : std::optional(found->second);
 }
 
-Recent::Part Recent::since(std::uint64_t from) const {
+FrameHistory::Part FrameHistory::since(std::uint64_t from) const {
   const std::lock_guard lock(mutex_);
   Part part;
   part.next = forgotten_ + frames_.size();
@@ -60,12 +60,12 @@ Recent::Part Recent::since(std::uint64_t from) const {
   return part;
 }
 
-std::uint64_t Recent::end() const {
+std::uint64_t FrameHistory::end() const {
   const std::lock_guard lock(mutex_);
   return forgotten_ + frames_.size();
 }
 
-std::vector<hal::CanFrame> Recent::between(hal::Time from, hal::Time to) const {
+std::vector<hal::CanFrame> FrameHistory::between(hal::Time from, hal::Time to) const {
   const std::lock_guard lock(mutex_);
   if (frames_.empty()) return {};
   if (from.count() < 0) from += frames_.back().received;
@@ -75,20 +75,20 @@ std::vector<hal::CanFrame> Recent::between(hal::Time from, hal::Time to) const {
   return {first, std::max(first, last)};
 }
 
-BusFigures Recent::figures() const {
+BusFigures FrameHistory::figures() const {
   const std::lock_guard lock(mutex_);
   BusFigures figures;
   if (frames_.empty() || !lost_.empty()) return figures;
   const hal::Time from = frames_.back().received - std::chrono::seconds(1);
   for (auto frame = frames_.rbegin(); frame != frames_.rend() && frame->received > from; ++frame) {
-    figures.load += telemetry::most_bits(frame->length) / bit_rate_;
+    figures.load += telemetry::max_bits(frame->length) / bit_rate_;
     figures.frames_per_s += 1.0;
     if (!can::decode(*frame)) figures.foreign_per_s += 1.0;
   }
   return figures;
 }
 
-std::vector<std::uint8_t> Recent::nodes() const {
+std::vector<std::uint8_t> FrameHistory::nodes() const {
   const std::lock_guard lock(mutex_);
   std::vector<std::uint8_t> nodes;
   for (std::uint8_t node = 1; node < 64; ++node) {
@@ -97,12 +97,12 @@ std::vector<std::uint8_t> Recent::nodes() const {
   return nodes;
 }
 
-void Recent::set_lost(const std::string& reason) {
+void FrameHistory::set_lost(const std::string& reason) {
   const std::lock_guard lock(mutex_);
   lost_ = reason;
 }
 
-std::string Recent::lost() const {
+std::string FrameHistory::lost() const {
   const std::lock_guard lock(mutex_);
   return lost_;
 }

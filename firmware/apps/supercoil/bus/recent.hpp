@@ -21,10 +21,11 @@ struct BusFigures {
 };
 
 /// Safe from any thread.
-class Recent {
+class FrameHistory {
  public:
   /// keep_s: older frames are forgotten; 0: none is. bit_rate: of the bus, for its load.
-  Recent(double keep_s, double bit_rate) : keep_(hal::duration_from(keep_s)), bit_rate_(bit_rate) {}
+  FrameHistory(double keep_s, double bit_rate)
+      : keep_(hal::duration_from(keep_s)), bit_rate_(bit_rate) {}
 
   void add(const std::vector<hal::CanFrame>& frames);
 

@@ -56,7 +56,7 @@ tl::expected<void, std::string> SocketcandBus::connect(Clock::duration within) {
     const std::string expected = request.empty() ? "hi" : "ok";
     if (!request.empty() && !write(request)) return fail("closed the connection");
     const auto answer = element_until(deadline);
-    if (!answer) return fail("is no socketcand: it said nothing within the time");
+    if (!answer) return fail("is not socketcand: no answer in time");
     if (*answer != expected) return fail("answered '" + *answer + "' to '" + request + "'");
   }
   return {};

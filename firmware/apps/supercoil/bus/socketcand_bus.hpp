@@ -21,7 +21,7 @@ namespace supercoil::operating {
 /// tries every second to have it again, which takes up to a second when the host does not answer.
 class SocketcandBus final : public hal::CanBus {
  public:
-  /// Waits at most 2 s. The error says what the server, or nobody, answered.
+  /// Waits at most 2 s. The error has the server's answer, or says that there was none.
   static tl::expected<std::unique_ptr<SocketcandBus>, std::string> open(
       const SocketcandAddress& address);
   explicit SocketcandBus(SocketcandAddress address) : address_(std::move(address)) {}

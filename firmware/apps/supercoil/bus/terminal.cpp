@@ -113,25 +113,26 @@ std::string node_text(int number, const Newest& node) {
 
 }  // namespace
 
-std::string state_text(const Recent& recent) {
+std::string state_text(const FrameHistory& frame_history) {
   std::map<int, Newest> nodes;
   hal::Time newest{};
   // Everything is sent within this time.
-  for (const hal::CanFrame& frame : recent.between(-std::chrono::seconds(3), hal::Time::max())) {
+  for (const hal::CanFrame& frame :
+       frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
     newest = frame.received;
     if (const auto decoded = can::decode(frame))
       nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
   }
   for (auto& [number, node] : nodes) {
-    const auto cause = recent.first_cause(static_cast<std::uint8_t>(number));
+    const auto cause = frame_history.first_cause(static_cast<std::uint8_t>(number));
     const auto decoded = cause ? can::decode(*cause) : std::nullopt;
     if (decoded) node.insert_or_assign(decoded->message->name, *decoded);
   }
-  const BusFigures bus = recent.figures();
+  const BusFigures bus = frame_history.figures();
   std::array<char, 120> head{};
   std::snprintf(head.data(), head.size(), "at %.3f s: %.0f frames/s, bus %.1f %% busy%s%s\n",
                 hal::seconds(newest), bus.frames_per_s, 100.0 * bus.load,
-                recent.lost().empty() ? "" : "; LOST: ", recent.lost().c_str());
+                frame_history.lost().empty() ? "" : "; LOST: ", frame_history.lost().c_str());
   std::string text = head.data();
   if (nodes.empty()) text += "no node of supercoil is heard\n";
   for (const auto& [number, node] : nodes)
@@ -139,13 +140,14 @@ std::string state_text(const Recent& recent) {
   return text;
 }
 
-int show_on_terminal(const Recent& recent, bool log, const std::function<bool()>& ended) {
+int show_on_terminal(const FrameHistory& frame_history, bool log,
+                     const std::function<bool()>& ended) {
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   const auto every = std::chrono::milliseconds(terminal ? 200 : 1000);
   do {
     if (!log) std::this_thread::sleep_for(every);
     // Home, and clear what is below.
-    const std::string text = (terminal && !log ? "\x1b[H\x1b[J" : "") + state_text(recent);
+    const std::string text = (terminal && !log ? "\x1b[H\x1b[J" : "") + state_text(frame_history);
     if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0) return exit_failed;
   } while (!log && !ended());
   return exit_done;

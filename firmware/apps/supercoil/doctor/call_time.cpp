@@ -87,16 +87,16 @@ std::string shown(const CallTime& time) {
 
 hal::Finding judged(const std::string& what, const std::string& found, const CallTime& time,
                     const std::string& remedy) {
-  using hal::Verdict;
+  using hal::Severity;
   const std::string all = found + "; " + shown(time);
   if (time.calls == 0) {
-    return {what, Verdict::warning, all + ": cannot be timed",
+    return {what, Severity::warning, all + ": cannot be timed",
             "end what else keeps this processor busy"};
   }
-  if (time.p99 <= most_of_a_direct_call) return {what, Verdict::ok, all, ""};
-  const std::string slow = all + ": more than " + in_us(most_of_a_direct_call);
-  if (time.real_time) return {what, Verdict::problem, slow, remedy};
-  return {what, Verdict::warning, slow,
+  if (time.p99 <= max_direct_call) return {what, Severity::ok, all, ""};
+  const std::string slow = all + ": more than " + in_us(max_direct_call);
+  if (time.real_time) return {what, Severity::problem, slow, remedy};
+  return {what, Severity::warning, slow,
           "measure with the right to real time; if it stays: " + remedy};
 }
 

@@ -10,7 +10,7 @@
 namespace supercoil::doctor {
 
 /// Of a device that is called in the tick (docs/configuration.md).
-inline constexpr hal::Duration most_of_a_direct_call = std::chrono::microseconds(20);
+inline constexpr hal::Duration max_direct_call = std::chrono::microseconds(20);
 
 struct CallTime {
   hal::Duration mean{};

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "supercoil/hal_linux/check/can_link.hpp"
+#include "supercoil/hal_linux/check/can_interface.hpp"
+#include "supercoil/hal_linux/check/competing_threads.hpp"
 #include "supercoil/hal_linux/check/kernel.hpp"
 #include "supercoil/hal_linux/check/rights.hpp"
-#include "supercoil/hal_linux/check/rivals.hpp"
 #include "supercoil/hal_linux/check/watchdog.hpp"
 
 #include "apps/supercoil/doctor/check_buses.hpp"
@@ -25,17 +25,17 @@ namespace supercoil::doctor {
 
 namespace {
 
-using hal::Verdict;
+using hal::Severity;
 
-void check_system(const CheckOptions& options, const hal::Tell& tell) {
-  check_kernel(options.machine, tell);
-  check_throttling(options.machine, tell);
-  check_priority(options.machine, options.loop, tell);
-  check_rivals(options.machine, options.loop, tell);
-  check_locked_memory(options.machine, tell);
-  check_wakefulness(options.machine, tell);
-  check_governor(options.machine, tell);
-  check_processors(options.machine, options.loop, tell);
+void check_system(const CheckOptions& options, const hal::FindingSink& sink) {
+  check_kernel(options.machine, sink);
+  check_throttling(options.machine, sink);
+  check_priority(options.machine, options.loop, sink);
+  check_competing_threads(options.machine, options.loop, sink);
+  check_locked_memory(options.machine, sink);
+  check_cpu_latency(options.machine, sink);
+  check_governor(options.machine, sink);
+  check_processors(options.machine, options.loop, sink);
 }
 
 std::string in_percent(double part) {
@@ -46,21 +46,21 @@ std::string in_percent(double part) {
 
 /// The interface that is asked for, or that of the configuration; and what the board will send.
 void check_can(const config::BoardConfig& config, const CheckOptions& options,
-               const hal::Tell& tell) {
+               const hal::FindingSink& sink) {
   const auto& can = config.can;
   const std::string interface = can && options.can.empty() ? can->interface : options.can;
-  if (!interface.empty()) check_can_link(options.machine, interface, tell);
+  if (!interface.empty()) check_can_interface(options.machine, interface, sink);
   if (!can) return;
   const double load = telemetry::bus_load(*can, config.settings.channels.size());
-  tell({"CAN load", Verdict::ok,
+  sink({"CAN load", Severity::ok,
         in_percent(load) + " of " + std::to_string(std::lround(1e-3 * can->bit_rate)) +
-            " kbit/s at worst, beside commands; at most " + in_percent(can->most_load),
+            " kbit/s at worst, beside commands; at most " + in_percent(can->max_load),
         ""});
 }
 
 /// What there is of a kind, by the names that the kernel gives it.
 void list_devices(const std::string& what, const std::string& folder, const std::string& prefix,
-                  const std::string& remedy, const hal::Tell& tell) {
+                  const std::string& remedy, const hal::FindingSink& sink) {
   std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
@@ -68,49 +68,49 @@ void list_devices(const std::string& what, const std::string& folder, const std:
     if (name.starts_with(prefix)) names.push_back(std::move(name));
   }
   std::sort(names.begin(), names.end());
-  if (names.empty()) return tell({what, Verdict::warning, "none in " + folder, remedy});
-  tell({what, Verdict::ok, joined(names), ""});
+  if (names.empty()) return sink({what, Severity::warning, "none in " + folder, remedy});
+  sink({what, Severity::ok, joined(names), ""});
 }
 
 }  // namespace
 
-void check_machine(const CheckOptions& options, const hal::Tell& tell) {
-  check_system(options, tell);
-  if (!options.can.empty()) check_can_link(options.machine, options.can, tell);
+void check_machine(const CheckOptions& options, const hal::FindingSink& sink) {
+  check_system(options, sink);
+  if (!options.can.empty()) check_can_interface(options.machine, options.can, sink);
   const hal_linux::Machine& m = options.machine;
-  list_devices("GPIO chips", m.dev, "gpiochip", "load the driver of this board's GPIO", tell);
+  list_devices("GPIO chips", m.dev, "gpiochip", "load the driver of this board's GPIO", sink);
   list_devices("PWM chips", m.pwm_chips(), "pwmchip",
-               "enable PWM, or an expander such as the PCA9685, in the device tree", tell);
+               "enable PWM, or an expander such as the PCA9685, in the device tree", sink);
   list_devices("I2C buses", m.sys + "/bus/i2c/devices", "i2c-",
-               "enable I2C in the device tree, if a device is on it", tell);
+               "enable I2C in the device tree, if a device is on it", sink);
   list_devices("SPI devices", m.sys + "/bus/spi/devices", "spi",
-               "enable SPI in the device tree, if a device is on it", tell);
+               "enable SPI in the device tree, if a device is on it", sink);
   list_devices("CAN interfaces", m.sys + "/class/net", "can",
-               "bring one up (docs/can.md), if this board is to be on a bus", tell);
+               "bring one up (docs/can.md), if this board is to be on a bus", sink);
   list_devices("converters", m.converters(), "iio:device",
-               "enable the converter in the device tree", tell);
+               "enable the converter in the device tree", sink);
 }
 
 void check_board(const config::BoardConfig& config, const CheckOptions& options,
-                 const hal::Tell& tell) {
-  check_system(options, tell);
-  check_can(config, options, tell);
+                 const hal::FindingSink& sink) {
+  check_system(options, sink);
+  check_can(config, options, sink);
   const auto lock = linux_board::LockFile::take(options.run_folder + "/lock");
   const auto& watchdog = config.wiring.watchdog;
   if (watchdog) {
-    check_watchdog(options.machine, watchdog->device, !lock.has_value(), tell);
+    check_watchdog(options.machine, watchdog->device, !lock.has_value(), sink);
   } else {
-    tell({"watchdog", Verdict::warning, "none: board.watchdog is absent",
+    sink({"watchdog", Severity::warning, "none: board.watchdog is absent",
           "use one: without it a kernel that hangs is never reset"});
   }
   BusTimes measured;
   if (lock) {
-    measured = check_devices(config, options.machine, options.loop.priority, tell);
+    measured = check_devices(config, options.machine, options.loop.priority, sink);
   } else {
-    tell({"devices", Verdict::warning, "not looked at: " + lock.error(),
+    sink({"devices", Severity::warning, "not looked at: " + lock.error(),
           "stop supercoild, or make its folder, and run this again"});
   }
-  check_buses(config, measured, tell);
+  check_buses(config, measured, sink);
 }
 
 }  // namespace supercoil::doctor

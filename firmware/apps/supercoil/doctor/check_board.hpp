@@ -4,7 +4,7 @@
 #include <string>
 
 #include "supercoil/hal/board_check.hpp"
-#include "supercoil/hal_linux/check/loop_wish.hpp"
+#include "supercoil/hal_linux/check/loop_thread_settings.hpp"
 #include "supercoil/hal_linux/machine.hpp"
 
 #include "config/board_config.hpp"
@@ -13,7 +13,7 @@ namespace supercoil::doctor {
 
 struct CheckOptions {
   hal_linux::Machine machine;
-  hal_linux::LoopWish loop;
+  hal_linux::LoopThreadSettings loop;
   std::string run_folder = "/run/supercoil";  ///< of supercoild's lock
   std::string can;                            ///< an interface, e.g. can0; empty: that of [can]
 };
@@ -21,10 +21,10 @@ struct CheckOptions {
 /// Tells every finding. Opens devices only while it holds the lock, that is, while no supercoild
 /// runs. Nothing is heated: duties stay 0, enable lines low, the heartbeat has no edge.
 void check_board(const config::BoardConfig& config, const CheckOptions& options,
-                 const hal::Tell& tell);
+                 const hal::FindingSink& sink);
 
 /// The same of a machine that has no configuration yet: kernel, processor, rights, and what buses
 /// and devices it has. Opens none.
-void check_machine(const CheckOptions& options, const hal::Tell& tell);
+void check_machine(const CheckOptions& options, const hal::FindingSink& sink);
 
 }  // namespace supercoil::doctor

@@ -22,8 +22,8 @@ std::string of_tick(double time_s, double tick_s) {
 }  // namespace
 
 void check_buses(const config::BoardConfig& config, const BusTimes& measured,
-                 const hal::Tell& tell) {
-  using hal::Verdict;
+                 const hal::FindingSink& sink) {
+  using hal::Severity;
   const double tick_s = config.settings.step_s();
   for (const config::BusAddress& bus : config.wiring.buses) {
     const std::string what = "bus " + bus.name;
@@ -31,20 +31,20 @@ void check_buses(const config::BoardConfig& config, const BusTimes& measured,
     const std::string computed = of_tick(computed_s, tick_s) + " by the configuration";
     const auto found = measured.find(bus.name);
     if (found == measured.end()) {
-      tell({what, Verdict::ok, computed + "; not measured", ""});
+      sink({what, Severity::ok, computed + "; not measured", ""});
       continue;
     }
     const double time_s = hal::seconds(found->second);
     const std::string both = computed + ", " + of_tick(time_s, tick_s) + " measured";
-    if (time_s > config::most_bus_part * tick_s) {
-      tell({what, Verdict::problem, both + ": 70 % is the most",
+    if (time_s > config::max_bus_load * tick_s) {
+      sink({what, Severity::problem, both + ": 70 % is the most",
             "a faster clock, fewer devices on this bus, or a lower rate_Hz"});
     } else if (time_s > borne * computed_s) {
-      tell({what, Verdict::warning, both,
+      sink({what, Severity::warning, both,
             "correct clock_Hz, overhead_us, transactions or wait_ms: the check of the bus's time "
             "relies on them"});
     } else {
-      tell({what, Verdict::ok, both, ""});
+      sink({what, Severity::ok, both, ""});
     }
   }
 }

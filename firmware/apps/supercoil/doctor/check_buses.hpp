@@ -17,6 +17,6 @@ using BusTimes = std::map<std::string, hal::Duration>;
 
 /// Compares what the configuration makes of each bus with what was measured, and both with a tick.
 void check_buses(const config::BoardConfig& config, const BusTimes& measured,
-                 const hal::Tell& tell);
+                 const hal::FindingSink& sink);
 
 }  // namespace supercoil::doctor

@@ -10,7 +10,7 @@ namespace supercoil::doctor {
 
 namespace {
 
-using hal::Verdict;
+using hal::Severity;
 using linux_board::ConverterPart;
 
 constexpr int rounds = 50;
@@ -27,8 +27,8 @@ Expected supply_of(const BoardSettings& settings) {
   const BoardSupervision& s = settings.supervision;
   return {.quantity = "the supply",
           .scaling = settings.supply.scaling,
-          .lowest = s.lowest_supply_V,
-          .highest = s.highest_supply_V,
+          .lowest = s.min_supply_V,
+          .highest = s.max_supply_V,
           .unit = "V",
           .shown_per_unit = 1.0,
           .must_move = false,
@@ -53,8 +53,8 @@ Expected position_of(const ChannelSettings& settings) {
   const ChannelSupervision& s = settings.supervision;
   return {.quantity = "the position's sensor",
           .scaling = settings.position.scaling,
-          .lowest = s.lowest_position_m,
-          .highest = s.highest_position_m,
+          .lowest = s.min_position_m,
+          .highest = s.max_position_m,
           .unit = "mm",
           .shown_per_unit = 1e3,
           .must_move = s.position_noise_rms_m > 0.0,
@@ -107,36 +107,36 @@ void read(std::vector<Candidate>& all, double tick_s) {
 }
 
 void judge(Candidate& candidate, const hal_linux::Machine& machine, int priority,
-           const hal::Tell& tell) {
+           const hal::FindingSink& sink) {
   ConverterPart& part = *candidate.part;
   if (!part.device) {
-    return tell({part.what, Verdict::problem, part.device.error().text,
+    return sink({part.what, Severity::problem, part.device.error().text,
                  "load the converter's driver, or correct device and input (ls "
                  "/sys/bus/iio/devices)"});
   }
   const hal::Finding finding =
       judged(part.what, config::shown(*candidate.address), candidate.readings, candidate.expected,
              hal_linux::count_range(linux_board::converter_place(*candidate.address, machine)));
-  if (candidate.address->access.buffered() || finding.verdict == Verdict::problem) {
-    return tell(finding);
+  if (candidate.address->access.buffered() || finding.severity == Severity::problem) {
+    return sink(finding);
   }
   const CallTime time = time_calls([&] { static_cast<void>((*part.device)->latest()); }, priority);
   const hal::Finding direct =
       judged(part.what, finding.found, time, "make it buffered: bus = \"…\" in its table");
-  tell(direct.verdict == Verdict::ok
-           ? hal::Finding{part.what, finding.verdict, direct.found, finding.remedy}
+  sink(direct.severity == Severity::ok
+           ? hal::Finding{part.what, finding.severity, direct.found, finding.remedy}
            : direct);
 }
 
 }  // namespace
 
 void check_converters(const config::BoardConfig& config, const hal_linux::Machine& machine,
-                      linux_board::Parts& parts, int priority, const hal::Tell& tell,
+                      linux_board::Parts& parts, int priority, const hal::FindingSink& sink,
                       std::vector<BusShare>& shares) {
   std::vector<Candidate> all = candidates(config, parts);
   read(all, config.settings.step_s());
   for (Candidate& candidate : all) {
-    judge(candidate, machine, priority, tell);
+    judge(candidate, machine, priority, sink);
     const config::Access& access = candidate.address->access;
     if (!access.buffered()) continue;
     const bool known = candidate.part->device.has_value() && candidate.readings.good() > 0;

@@ -14,7 +14,7 @@ namespace supercoil::doctor {
 
 /// Reads all of them in 50 ticks. Adds the buffered ones' shares.
 void check_converters(const config::BoardConfig& config, const hal_linux::Machine& machine,
-                      linux_board::Parts& parts, int priority, const hal::Tell& tell,
+                      linux_board::Parts& parts, int priority, const hal::FindingSink& sink,
                       std::vector<BusShare>& shares);
 
 }  // namespace supercoil::doctor

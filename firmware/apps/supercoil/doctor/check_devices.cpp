@@ -28,12 +28,12 @@ BusTimes sums(const std::vector<BusShare>& shares) {
 }  // namespace
 
 BusTimes check_devices(const config::BoardConfig& config, const hal_linux::Machine& machine,
-                       int priority, const hal::Tell& tell) {
+                       int priority, const hal::FindingSink& sink) {
   linux_board::Parts parts = linux_board::open_parts(config.wiring, machine);
-  check_lines(config.wiring, machine, parts, priority, tell);
+  check_lines(config.wiring, machine, parts, priority, sink);
   std::vector<BusShare> shares;
-  check_pwms(config.wiring, parts, priority, tell, shares);
-  check_converters(config, machine, parts, priority, tell, shares);
+  check_pwms(config.wiring, parts, priority, sink, shares);
+  check_converters(config, machine, parts, priority, sink, shares);
   return sums(shares);
 }
 

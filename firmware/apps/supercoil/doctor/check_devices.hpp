@@ -12,6 +12,6 @@ namespace supercoil::doctor {
 /// Lines, PWM and converters, in this order. The caller holds the board's lock. Takes some 50
 /// ticks. priority: of the calls that are timed.
 BusTimes check_devices(const config::BoardConfig& config, const hal_linux::Machine& machine,
-                       int priority, const hal::Tell& tell);
+                       int priority, const hal::FindingSink& sink);
 
 }  // namespace supercoil::doctor

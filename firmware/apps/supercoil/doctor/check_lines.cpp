@@ -7,7 +7,7 @@ namespace supercoil::doctor {
 
 namespace {
 
-using hal::Verdict;
+using hal::Severity;
 
 constexpr const char* rename_line =
     "correct chip and line in the board's file (gpiodetect, gpioinfo), or name the line in the "
@@ -18,7 +18,7 @@ constexpr const char* line_is_slow =
 const char* text(hal_linux::Bias bias) {
   switch (bias) {
     case hal_linux::Bias::none:
-      return "the chip pulls it nowhere";
+      return "the chip has no pull";
     case hal_linux::Bias::pull_up:
       return "the chip pulls it up";
     case hal_linux::Bias::pull_down:
@@ -26,95 +26,94 @@ const char* text(hal_linux::Bias bias) {
     case hal_linux::Bias::unknown:
       break;
   }
-  return "what pulls it is not told";
+  return "its pull is unknown";
 }
 
 void check_output(const config::LineAddress& address, linux_board::OutputPart& part, int priority,
-                  const hal::Tell& tell) {
+                  const hal::FindingSink& sink) {
   if (!part.device)
-    return tell({part.what, Verdict::problem, part.device.error().text, rename_line});
+    return sink({part.what, Severity::problem, part.device.error().text, rename_line});
   hal::Status status = hal::Status::ok;
   // Low, as it is already: what is timed is the call.
   const CallTime time = time_calls([&] { status = (*part.device)->set(false); }, priority);
   if (status != hal::Status::ok) {
-    return tell({part.what, Verdict::problem,
+    return sink({part.what, Severity::problem,
                  config::shown(address) + " cannot be set: " + hal::text(status),
                  "look at what the kernel says of its chip (dmesg)"});
   }
-  tell(judged(part.what, config::shown(address) + ", low", time, line_is_slow));
+  sink(judged(part.what, config::shown(address) + ", low", time, line_is_slow));
 }
 
 void check_stop(const config::LineAddress& address, linux_board::InputPart& part, int priority,
-                const hal::Tell& tell) {
+                const hal::FindingSink& sink) {
   if (!part.device)
-    return tell({part.what, Verdict::problem, part.device.error().text, rename_line});
+    return sink({part.what, Severity::problem, part.device.error().text, rename_line});
   hal::Level level;
   const CallTime time = time_calls([&] { level = (*part.device)->read(); }, priority);
   const std::string where = config::shown(address);
   if (level.status != hal::Status::ok) {
-    tell({part.what, Verdict::problem, where + " cannot be read: " + hal::text(level.status),
+    sink({part.what, Severity::problem, where + " cannot be read: " + hal::text(level.status),
           "look at what the kernel says of its chip (dmesg)"});
   } else if (!level.high) {
-    tell({part.what, Verdict::warning, where + ": open (pressed, or a wire of it is off)",
+    sink({part.what, Severity::warning, where + ": open (pressed, or a wire of it is off)",
           "close it: nothing can be armed before"});
   } else {
-    tell(judged(part.what, where + ": closed", time, line_is_slow));
+    sink(judged(part.what, where + ": closed", time, line_is_slow));
   }
 }
 
 /// Duty 0 is what makes this safe on a board whose resistor is missing.
 void check_released(const config::LineAddress& address, const hal_linux::Machine& machine,
-                    linux_board::ChannelParts& channel, const hal::Tell& tell) {
+                    linux_board::ChannelParts& channel, const hal::FindingSink& sink) {
   linux_board::OutputPart& enable = channel.enable;
   const std::string what = enable.what + " released";
   // What is missing has been told.
   if (!enable.device) return;
   if (!channel.pwm.device) {
-    return tell({what, Verdict::warning, "not looked at: its duty is not known to be 0",
+    return sink({what, Severity::warning, "not looked at: its duty is not known to be 0",
                  "see to " + channel.pwm.what + " first"});
   }
   const hal_linux::LineName name = linux_board::line_name(address);
   enable.device->reset();
-  const auto at_rest = hal_linux::look_at_rest(name, machine.dev);
+  const auto at_rest = hal_linux::read_undriven(name, machine.dev);
   enable.device = hal_linux::GpioOutput::open(name, machine.dev);
-  if (at_rest && enable.device) return tell(judged(what, *at_rest));
+  if (at_rest && enable.device) return sink(judged(what, *at_rest));
   const std::string& why = at_rest ? enable.device.error().text : at_rest.error().text;
-  tell({what, Verdict::problem, "given up for a moment, and then: " + why,
-        "end what else takes this line"});
+  sink({what, Severity::problem, "released for a moment: " + why, "end what else takes this line"});
 }
 
 }  // namespace
 
-hal::Finding judged(const std::string& what, const hal_linux::LineAtRest& found) {
+hal::Finding judged(const std::string& what, const hal_linux::UndrivenLine& found) {
   using hal_linux::Bias;
   constexpr const char* fit_resistor =
       "see that a resistor on the board pulls it down: without one the gate may open when the "
       "firmware dies, and while the board starts";
   const std::string told = std::string("; ") + text(found.bias);
   if (found.level.status != hal::Status::ok) {
-    return {what, Verdict::warning,
+    return {what, Severity::warning,
             std::string("cannot be read while nobody drives it: ") + hal::text(found.level.status) +
                 told,
             fit_resistor};
   }
   if (found.level.high) {
-    return {what, Verdict::problem, "high while nobody drives it" + told,
+    return {what, Severity::problem, "high while nobody drives it" + told,
             "fit a resistor that pulls it down, stronger than what pulls it up: the gate opens "
             "when the firmware dies"};
   }
   const std::string low = "low while nobody drives it" + told;
-  if (found.bias == Bias::pull_down) return {what, Verdict::ok, low, ""};
-  return {what, Verdict::warning, low, fit_resistor};
+  if (found.bias == Bias::pull_down) return {what, Severity::ok, low, ""};
+  return {what, Severity::warning, low, fit_resistor};
 }
 
 void check_lines(const config::BoardWiring& wiring, const hal_linux::Machine& machine,
-                 linux_board::Parts& parts, int priority, const hal::Tell& tell) {
-  check_output(wiring.heartbeat, parts.heartbeat, priority, tell);
-  check_stop(wiring.stop_circuit, parts.stop_circuit, priority, tell);
-  if (parts.light) check_output(*wiring.light, *parts.light, priority, tell);
+                 linux_board::Parts& parts, int priority, const hal::FindingSink& sink) {
+  check_output(wiring.heartbeat, parts.heartbeat, priority, sink);
+  check_stop(wiring.stop_circuit, parts.stop_circuit, priority, sink);
+  if (parts.light) check_output(*wiring.light, *parts.light, priority, sink);
   for (std::size_t i = 0; i < parts.channels.size(); ++i) {
-    check_output(wiring.channels[i].enable, parts.channels[i].enable, priority, tell);
-    check_released(wiring.channels[i].enable, machine, parts.channels[i], tell);
+    check_output(wiring.channels[i].enable, parts.channels[i].enable, priority, sink);
+    check_released(wiring.channels[i].enable, machine, parts.channels[i], sink);
   }
 }
 

@@ -12,11 +12,11 @@
 namespace supercoil::doctor {
 
 /// What becomes of an enable line when the firmware dies. found: the line while nobody drives it.
-hal::Finding judged(const std::string& what, const hal_linux::LineAtRest& found);
+hal::Finding judged(const std::string& what, const hal_linux::UndrivenLine& found);
 
 /// Gives each enable line up for a moment to see what it is then, if its channel's duty is 0 for
 /// certain, and takes it again.
 void check_lines(const config::BoardWiring& wiring, const hal_linux::Machine& machine,
-                 linux_board::Parts& parts, int priority, const hal::Tell& tell);
+                 linux_board::Parts& parts, int priority, const hal::FindingSink& sink);
 
 }  // namespace supercoil::doctor

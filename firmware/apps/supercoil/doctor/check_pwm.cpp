@@ -6,30 +6,30 @@ namespace supercoil::doctor {
 
 namespace {
 
-using hal::Verdict;
+using hal::Severity;
 
 void check(const config::PwmAddress& address, linux_board::PwmPart& part, int priority,
-           const hal::Tell& tell, std::vector<BusShare>& shares) {
+           const hal::FindingSink& sink, std::vector<BusShare>& shares) {
   const config::Access& access = address.access;
   std::optional<hal::Duration> write;
   const auto share = [&] {
     if (access.buffered()) shares.push_back({access.bus, write});
   };
   if (!part.device) {
-    tell({part.what, Verdict::problem, part.device.error().text,
+    sink({part.what, Severity::problem, part.device.error().text,
           "load the chip's driver, or correct pwm.device, pwm.number and pwm.period_ns (ls "
           "/sys/class/pwm)"});
     return share();
   }
   hal::Status status = hal::Status::ok;
-  CallTime time = time_calls([&] { status = (*part.device)->wink(); }, priority);
+  CallTime time = time_calls([&] { status = (*part.device)->pulse_enable(); }, priority);
   // Each call is two writes.
   time.mean /= 2;
   time.p99 /= 2;
   time.worst /= 2;
   const std::string where = "output " + std::to_string(address.number) + " of " + address.device;
   if (status != hal::Status::ok) {
-    tell({part.what, Verdict::problem, where + " cannot be written: " + hal::text(status),
+    sink({part.what, Severity::problem, where + " cannot be written: " + hal::text(status),
           "look at what the kernel says of its driver and bus (dmesg)"});
     return share();
   }
@@ -37,9 +37,9 @@ void check(const config::PwmAddress& address, linux_board::PwmPart& part, int pr
   const std::string found = where + " took its period of " + std::to_string(address.period_ns) +
                             " ns, not inversed, duty 0";
   if (access.buffered()) {
-    tell({part.what, Verdict::ok, found + "; on " + access.bus + ", " + shown(time), ""});
+    sink({part.what, Severity::ok, found + "; on " + access.bus + ", " + shown(time), ""});
   } else {
-    tell(judged(part.what, found, time, "make it buffered: bus = \"…\" in its table"));
+    sink(judged(part.what, found, time, "make it buffered: bus = \"…\" in its table"));
   }
   share();
 }
@@ -47,9 +47,9 @@ void check(const config::PwmAddress& address, linux_board::PwmPart& part, int pr
 }  // namespace
 
 void check_pwms(const config::BoardWiring& wiring, linux_board::Parts& parts, int priority,
-                const hal::Tell& tell, std::vector<BusShare>& shares) {
+                const hal::FindingSink& sink, std::vector<BusShare>& shares) {
   for (std::size_t i = 0; i < parts.channels.size(); ++i)
-    check(wiring.channels[i].pwm, parts.channels[i].pwm, priority, tell, shares);
+    check(wiring.channels[i].pwm, parts.channels[i].pwm, priority, sink, shares);
 }
 
 }  // namespace supercoil::doctor

@@ -21,6 +21,6 @@ struct BusShare {
 
 /// Adds the buffered ones' shares.
 void check_pwms(const config::BoardWiring& wiring, linux_board::Parts& parts, int priority,
-                const hal::Tell& tell, std::vector<BusShare>& shares);
+                const hal::FindingSink& sink, std::vector<BusShare>& shares);
 
 }  // namespace supercoil::doctor

@@ -11,7 +11,7 @@ namespace supercoil::doctor {
 namespace {
 
 using hal::Finding;
-using hal::Verdict;
+using hal::Severity;
 
 std::string number(double value) {
   std::array<char, 32> text{};
@@ -36,8 +36,8 @@ void Readings::add(const hal::Sample& sample, hal::Duration took) {
     failure_ = sample.status;
     return;
   }
-  lowest_ = good_ == 0 ? sample.counts : std::min(lowest_, sample.counts);
-  highest_ = good_ == 0 ? sample.counts : std::max(highest_, sample.counts);
+  min_ = good_ == 0 ? sample.counts : std::min(min_, sample.counts);
+  max_ = good_ == 0 ? sample.counts : std::max(max_, sample.counts);
   ++good_;
   sum_ += sample.counts;
   sum_of_squares_ += static_cast<double>(sample.counts) * sample.counts;
@@ -62,7 +62,7 @@ Finding judged(const std::string& what, const std::string& where, const Readings
                const Expected& expected, const std::optional<hal_linux::CountRange>& range) {
   const std::int64_t all = readings.good() + readings.failed();
   if (readings.failed() > 0) {
-    return {what, Verdict::problem,
+    return {what, Severity::problem,
             where + ": " + std::to_string(readings.failed()) + " of " + std::to_string(all) +
                 " readings failed (" + hal::text(readings.failure()) + ")",
             "look for what else uses the device or its bus (dmesg), and at its wires"};
@@ -81,21 +81,21 @@ Finding judged(const std::string& what, const std::string& where, const Readings
                             text(std::abs(expected.scaling.per_count) * readings.rms()) + unit +
                             " rms, " + std::to_string(all) + " readings";
   if (const std::string end = rail(readings, range); !end.empty()) {
-    return {what, Verdict::problem,
+    return {what, Severity::problem,
             found + ", all of them " + std::to_string(readings.lowest()) +
                 " counts: stuck at the converter's " + end + " rail",
             "look for a wire that is off or shorted, at " + expected.quantity};
   }
   if (low < expected.lowest || high > expected.highest) {
-    return {what, Verdict::problem, found + ": must be " + band, expected.remedy};
+    return {what, Severity::problem, found + ": must be " + band, expected.remedy};
   }
   if (expected.must_move && readings.lowest() == readings.highest()) {
     return {
-        what, Verdict::warning,
+        what, Severity::warning,
         found + ": the same " + std::to_string(readings.lowest()) + " counts each time",
         "move it by hand and look again: a sensor without noise cannot be told from a frozen one"};
   }
-  return {what, Verdict::ok, found, ""};
+  return {what, Severity::ok, found, ""};
 }
 
 }  // namespace supercoil::doctor

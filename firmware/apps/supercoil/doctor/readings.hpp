@@ -22,8 +22,8 @@ class Readings {
   std::int64_t good() const { return good_; }
   std::int64_t failed() const { return failed_; }
   hal::Status failure() const { return failure_; }
-  std::int32_t lowest() const { return lowest_; }
-  std::int32_t highest() const { return highest_; }
+  std::int32_t lowest() const { return min_; }
+  std::int32_t highest() const { return max_; }
   double mean() const;  ///< counts
   double rms() const;   ///< counts, around the mean
   hal::Duration mean_time() const;
@@ -32,8 +32,8 @@ class Readings {
   std::int64_t good_ = 0;
   std::int64_t failed_ = 0;
   hal::Status failure_ = hal::Status::ok;  ///< the last one
-  std::int32_t lowest_ = 0;
-  std::int32_t highest_ = 0;
+  std::int32_t min_ = 0;
+  std::int32_t max_ = 0;
   double sum_ = 0.0;
   double sum_of_squares_ = 0.0;
   hal::Duration time_{};

@@ -8,7 +8,7 @@
 namespace supercoil::doctor {
 
 using hal::Finding;
-using hal::Verdict;
+using hal::Severity;
 
 namespace {
 
@@ -23,25 +23,25 @@ std::string padded(std::string text, std::size_t width) {
 
 }  // namespace
 
-std::int64_t Report::count(Verdict verdict) const {
+std::int64_t Report::count(Severity severity) const {
   return std::count_if(findings.begin(), findings.end(),
-                       [&](const Finding& finding) { return finding.verdict == verdict; });
+                       [&](const Finding& finding) { return finding.severity == severity; });
 }
 
 std::string to_text(const Finding& finding) {
-  constexpr std::size_t verdict_width = 9;
+  constexpr std::size_t severity_width = 9;
   constexpr std::size_t what_width = 26;
-  const std::string indent(verdict_width, ' ');
-  std::string line = padded(hal::text(finding.verdict), verdict_width) +
+  const std::string indent(severity_width, ' ');
+  std::string line = padded(hal::text(finding.severity), severity_width) +
                      padded(finding.what + " ", what_width) + finding.found + "\n";
   if (!finding.remedy.empty()) line += indent + "what to do: " + finding.remedy + "\n";
   return line;
 }
 
 std::string summary(const Report& report) {
-  return counted(report.count(Verdict::problem), "problem") + ", " +
-         counted(report.count(Verdict::warning), "warning") + ", " +
-         std::to_string(report.count(Verdict::ok)) + " in order";
+  return counted(report.count(Severity::problem), "problem") + ", " +
+         counted(report.count(Severity::warning), "warning") + ", " +
+         std::to_string(report.count(Severity::ok)) + " in order";
 }
 
 std::string to_json(const Report& report) {
@@ -49,14 +49,14 @@ std::string to_json(const Report& report) {
   ordered_json findings = ordered_json::array();
   for (const Finding& f : report.findings) {
     findings.push_back({{"what", f.what},
-                        {"verdict", hal::text(f.verdict)},
+                        {"severity", hal::text(f.severity)},
                         {"found", f.found},
                         {"remedy", f.remedy}});
   }
   const ordered_json all{{"board", report.board},
                          {"config", report.config},
-                         {"problems", report.count(Verdict::problem)},
-                         {"warnings", report.count(Verdict::warning)},
+                         {"problems", report.count(Severity::problem)},
+                         {"warnings", report.count(Severity::warning)},
                          {"findings", findings}};
   // A device's name may hold bytes that are no text.
   return all.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -15,7 +15,7 @@ struct Report {
   std::string config;  ///< path of its configuration
   std::vector<hal::Finding> findings;
 
-  std::int64_t count(hal::Verdict verdict) const;
+  std::int64_t count(hal::Severity severity) const;
 };
 
 /// One finding: verdict, what, how it is; under it what to do.

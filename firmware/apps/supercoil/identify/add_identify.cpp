@@ -56,11 +56,11 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
                      "Where rows are missing, power stayed as it was");
   identify
       ->add_option("--thermal-mass", o.thermal_mass_J_per_K,
-                   "Of the muscle in J/K, which position and power cannot tell [0.162]")
+                   "Of the muscle in J/K, which position and power cannot give [0.162]")
       ->check(CLI::Range(1e-4, 1e3));
   CLI::Option* stiffness = identify
                                ->add_option("--stiffness", o.stiffness_N_per_m,
-                                            "In N/m, which position and power cannot tell [16]")
+                                            "In N/m, which position and power cannot give [16]")
                                ->check(CLI::Range(1e-2, 1e6));
   identify
       ->add_option("--moving-mass", o.moving_mass_kg,

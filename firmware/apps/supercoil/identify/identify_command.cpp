@@ -48,7 +48,7 @@ tl::expected<Span, std::string> span_in(const char* option, const std::string& t
 }
 
 tl::expected<Parts, std::string> parts_in(const IdentifyOptions& o, const Samples& samples) {
-  Parts parts = identification::usual_parts(samples);
+  Parts parts = identification::default_parts(samples);
   if (!o.fit.empty()) {
     const auto fitted = span_in("--fit", o.fit, samples);
     if (!fitted) return tl::unexpected(fitted.error());
@@ -81,7 +81,7 @@ Findings find(const IdentifyOptions& o, std::size_t rows, Samples samples, const
   const Span all{f.samples.start_s, f.samples.end_s()};
   const auto& best = f.comparison.best().fit;
   const auto& linear = f.comparison.models.front().fit;
-  const auto effects = identification::linear_part(best.effects);
+  const auto effects = identification::linear_effects(best.effects);
   f.whole = identification::refit(best.muscle, best.effects, f.samples, all);
   f.linear_first = identification::refit(linear.muscle, effects, f.samples, parts.fitted);
   f.linear = identification::refit(f.linear_first.muscle, effects, f.samples, all);

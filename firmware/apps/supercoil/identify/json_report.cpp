@@ -58,7 +58,7 @@ std::string json_report(const Findings& f) {
     result["reason"] = c.not_a_muscle;
     return result.dump() + "\n";
   }
-  const auto change = identification::largest_change(f.linear_first, f.linear);
+  const auto change = identification::max_change(f.linear_first, f.linear);
   const auto theta = identification::theta_of(f.linear, f.assumed);
   result["chosen"] = name(c.best().fit.effects);
   result["whole"] = parameters_of(f.whole);

@@ -14,7 +14,7 @@ void add_line(std::string& text, const char* key, double value, const char* comm
   text += line.data();
 }
 
-bool told_of(const identification::Fit& fit, double identification::Muscle::*member) {
+bool reported_of(const identification::Fit& fit, double identification::Muscle::*member) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i)
     if (fit.parameters[i].member == member) return told(fit, i);
   return false;
@@ -34,9 +34,9 @@ tl::expected<std::string, std::string> muscle_table(const Findings& f) {
     return tl::unexpected(std::string(text.data()));
   }
   const bool by_mass = f.assumed.moving_mass_kg.has_value();
-  const bool frequency = told_of(f.linear, &Muscle::natural_frequency_rad_per_s);
-  const bool damping = told_of(f.linear, &Muscle::damping_ratio);
-  const char* unseen = "not told by the recording: too fast, or too little motion";
+  const bool frequency = reported_of(f.linear, &Muscle::natural_frequency_rad_per_s);
+  const bool damping = reported_of(f.linear, &Muscle::damping_ratio);
+  const char* unseen = "not determined by the recording: too fast, or too little motion";
   std::string text = "# " + f.file + ", " + name(f.linear.effects) + ", the whole recording\n";
   text += "[muscle]\n";
   add_line(text, "thermal_mass_J_per_K", p.thermal_mass_J_per_K,

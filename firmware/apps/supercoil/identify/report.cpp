@@ -73,7 +73,7 @@ void add_parameters(std::string& text, const Fit& part, const Fit& whole) {
 }
 
 void add_change(std::string& text, const Findings& f) {
-  const auto change = identification::largest_change(f.linear_first, f.linear);
+  const auto change = identification::max_change(f.linear_first, f.linear);
   const std::string what(f.linear.parameters[change.parameter].name);
   const double percent = 100.0 * (change.ratio - 1.0);
   if (change.deviations <= 3.0) {

@@ -28,7 +28,7 @@ bool names_us(const Access& access, const std::string& host_and_port, int port) 
 
 }  // namespace
 
-void take_port_alone(httplib::Server& server) {
+void bind_exclusively(httplib::Server& server) {
   server.set_socket_options([](socket_t socket) {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
@@ -50,7 +50,7 @@ bool is_loopback(const std::string& host) {
   return host == "localhost" || host.starts_with("127.");
 }
 
-bool host_is_ours(const Access& access, const httplib::Request& request, int port) {
+bool is_own_host(const Access& access, const httplib::Request& request, int port) {
   return names_us(access, request.get_header_value("Host"), port);
 }
 
@@ -60,30 +60,30 @@ bool has_token(const Access& access, const httplib::Request& request) {
                                 : request.get_param_value("token"));
 }
 
-bool comes_from_our_page(const Access& access, const httplib::Request& request) {
+bool is_same_origin(const Access& access, const httplib::Request& request) {
   const std::string origin = request.get_header_value("Origin");
   const std::string scheme = "http://";
   return origin.starts_with(scheme) && names_us(access, origin.substr(scheme.size()), access.port);
 }
 
 std::string refuse_to_show(const Access& access, const httplib::Request& request) {
-  if (!host_is_ours(access, request, access.port)) return "asked for under another host's name";
+  if (!is_own_host(access, request, access.port)) return "asked for under another host's name";
   if (!access.loopback && !has_token(access, request)) return "needs the token that was printed";
   return {};
 }
 
 std::string refuse_to_command(const Access& access, const httplib::Request& request) {
   if (access.read_only) return "this monitor is read-only";
-  if (!host_is_ours(access, request, access.port)) return "asked for under another host's name";
-  if (!comes_from_our_page(access, request)) return "does not come from this monitor's page";
+  if (!is_own_host(access, request, access.port)) return "asked for under another host's name";
+  if (!is_same_origin(access, request)) return "does not come from this monitor's page";
   if (!has_token(access, request)) return "needs the token that was printed";
   return {};
 }
 
 std::string refuse_to_stop(const Access& access, const httplib::Request& request, int port) {
   if (access.read_only) return "this monitor is read-only";
-  if (!host_is_ours(access, request, port)) return "asked for under another host's name";
-  if (!comes_from_our_page(access, request)) return "does not come from this monitor's page";
+  if (!is_own_host(access, request, port)) return "asked for under another host's name";
+  if (!is_same_origin(access, request)) return "does not come from this monitor's page";
   if (!access.loopback && !same(access.token, request.body))
     return "needs the token that was printed";
   return {};

@@ -17,7 +17,7 @@ struct Access {
 
 /// Sets the server up so that a port that another program has is refused: the library's own way
 /// shares it, and half of the requests would go to the other.
-void take_port_alone(httplib::Server& server);
+void bind_exclusively(httplib::Server& server);
 
 /// From a source of true randomness.
 std::string new_token();
@@ -25,11 +25,11 @@ bool is_loopback(const std::string& host);
 
 /// The request names this server as its host: another name that leads here is somebody else's page
 /// that wants to read ours (DNS rebinding).
-bool host_is_ours(const Access& access, const httplib::Request& request, int port);
+bool is_own_host(const Access& access, const httplib::Request& request, int port);
 /// The token that came with it, as header X-Supercoil-Token or as ?token=, is right.
 bool has_token(const Access& access, const httplib::Request& request);
 /// The page that sent it is ours.
-bool comes_from_our_page(const Access& access, const httplib::Request& request);
+bool is_same_origin(const Access& access, const httplib::Request& request);
 
 /// Why it is refused; empty: it is not.
 std::string refuse_to_show(const Access& access, const httplib::Request& request);

@@ -9,7 +9,7 @@
 
 #include "apps/supercoil/monitor/assets.hpp"
 #include "apps/supercoil/monitor/batch.hpp"
-#include "apps/supercoil/monitor/order.hpp"
+#include "apps/supercoil/monitor/command_request.hpp"
 #include "telemetry/opcodes.hpp"
 
 namespace supercoil::operating {
@@ -36,9 +36,9 @@ std::optional<hal::Time> time_of(const httplib::Request& request, const std::str
   const std::string text = request.get_param_value(name);
   double time_s = 0.0;
   const auto read = std::from_chars(text.data(), text.data() + text.size(), time_s);
-  constexpr double most_s = 4e9;
+  constexpr double max_s = 4e9;
   const bool right = read.ec == std::errc{} && read.ptr == text.data() + text.size();
-  if (!right || !(std::abs(time_s) < most_s)) return std::nullopt;
+  if (!right || !(std::abs(time_s) < max_s)) return std::nullopt;
   return hal::duration_from(time_s);
 }
 
@@ -80,21 +80,24 @@ void serve_files(httplib::Server& server) {
 
 }  // namespace
 
-Hand& Hands::of(std::uint8_t node) {
+ManualControl& ManualControls::of(std::uint8_t node) {
   const std::lock_guard lock(mutex_);
-  auto& hand = hands_[node];
-  if (!hand) hand = std::make_unique<Hand>(node, bus_of_(node));
-  return *hand;
+  auto& control = controls_[node];
+  if (!control) control = std::make_unique<ManualControl>(node, bus_of_(node));
+  return *control;
 }
 
-void Hands::let_go(const std::string& reason) {
+void ManualControls::release_hold(const std::string& reason) {
   const std::lock_guard lock(mutex_);
-  for (const auto& [node, hand] : hands_)
-    hand->let_go(reason);
+  for (const auto& [node, control] : controls_)
+    control->release_hold(reason);
 }
 
-Api::Api(Access access, const Recent& recent, Hands& hands, About about)
-    : access_(std::move(access)), recent_(&recent), hands_(&hands), about_(std::move(about)) {}
+Api::Api(Access access, const FrameHistory& frame_history, ManualControls& controls, About about)
+    : access_(std::move(access)),
+      frame_history_(&frame_history),
+      controls_(&controls),
+      about_(std::move(about)) {}
 
 void Api::serve_with(httplib::Server& server) {
   add_headers(server, access_, about_.stop_port);
@@ -129,15 +132,16 @@ void Api::serve_with(httplib::Server& server) {
 void Api::about(const Request& request, Response& response) const {
   // A request for data has no Origin that could be asked for.
   const bool may = !about_.log && !access_.read_only && has_token(access_, request);
-  const json told{{"version", SUPERCOIL_VERSION},
-                  {"source", about_.source},
-                  {"kind", about_.log ? "log" : "live"},
-                  {"read_only", access_.read_only},
-                  {"may_command", may},
-                  {"stop_port", about_.stop_port},
-                  {"page_timeout_s", std::chrono::duration<double>(Hand::page_timeout).count()},
-                  {"protocol", json::parse(protocol_json())},
-                  {"protocol_version", telemetry::protocol_version}};
+  const json told{
+      {"version", SUPERCOIL_VERSION},
+      {"source", about_.source},
+      {"kind", about_.log ? "log" : "live"},
+      {"read_only", access_.read_only},
+      {"may_command", may},
+      {"stop_port", about_.stop_port},
+      {"page_timeout_s", std::chrono::duration<double>(ManualControl::page_timeout).count()},
+      {"protocol", json::parse(protocol_json())},
+      {"protocol_version", telemetry::protocol_version}};
   response.set_content(told.dump(), json_type);
 }
 
@@ -145,47 +149,48 @@ void Api::history(const Request& request, Response& response) const {
   const auto from = time_of(request, "from_s", hal::Time::zero());
   const auto to = time_of(request, "to_s", hal::Time::max());
   if (!from || !to) return refuse(response, 400, "from_s and to_s must be seconds");
-  response.set_content(to_batch(recent_->between(*from, *to), recent_->figures()), json_type);
+  response.set_content(to_batch(frame_history_->between(*from, *to), frame_history_->figures()),
+                       json_type);
 }
 
 bool Api::stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost) {
   const auto send = [&](const std::string& text) { return sink.write(text.data(), text.size()); };
   for (int quiet = 0; quiet < beat_after && !ending_; ++quiet) {
     std::this_thread::sleep_for(stream_every);
-    const std::string lost = recent_->lost();
+    const std::string lost = frame_history_->lost();
     if (lost.empty() == was_lost) {
       was_lost = !was_lost;
       const json told{{"reason", lost}};
       return send((was_lost ? "event: lost\ndata: " : "event: found\ndata: ") + told.dump() +
                   "\n\n");
     }
-    Recent::Part part = recent_->since(next);
+    FrameHistory::Part part = frame_history_->since(next);
     next = part.next;
     if (!part.frames.empty())
-      return send("data: " + to_batch(part.frames, recent_->figures()) + "\n\n");
+      return send("data: " + to_batch(part.frames, frame_history_->figures()) + "\n\n");
   }
   if (ending_) return false;
   return send(": beat\n\n");
 }
 
 void Api::stream(const Request&, Response& response) {
-  if (streams_.fetch_add(1) >= most_streams) {
+  if (streams_.fetch_add(1) >= max_streams) {
     --streams_;
     return refuse(response, 503, "too many pages watch: close some");
   }
   response.set_chunked_content_provider(
       "text/event-stream",
-      [this, next = recent_->end(), was_lost = false](std::size_t,
-                                                      httplib::DataSink& sink) mutable {
+      [this, next = frame_history_->end(), was_lost = false](std::size_t,
+                                                             httplib::DataSink& sink) mutable {
         return stream_piece(sink, next, was_lost);
       },
       [this](bool) { --streams_; });
 }
 
 void Api::command(const Request& request, Response& response) {
-  const auto order = parse_order(request.body);
+  const auto order = parse_command_request(request.body);
   if (!order) return refuse(response, 400, order.error());
-  const auto answer = hands_->of(order->node).ask(order->verb, order->value);
+  const auto answer = controls_->of(order->node).ask(order->verb, order->value);
   if (!answer) return refuse(response, 504, answer.error());
   response.set_content(json{{"refusal", name(*answer)}}.dump(), json_type);
 }
@@ -193,7 +198,7 @@ void Api::command(const Request& request, Response& response) {
 void Api::alive(const Request& request, Response& response) {
   const auto node = parse_node(request.body);
   if (!node) return refuse(response, 400, node.error());
-  const Hand::Holding holding = hands_->of(*node).alive();
+  const ManualControl::Holding holding = controls_->of(*node).alive();
   json told{{"holding", holding.holding}};
   if (!holding.holding) told["reason"] = holding.reason;
   response.set_content(told.dump(), json_type);

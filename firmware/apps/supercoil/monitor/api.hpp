@@ -10,22 +10,23 @@
 
 #include "apps/supercoil/bus/recent.hpp"
 #include "apps/supercoil/monitor/access.hpp"
-#include "apps/supercoil/monitor/hand.hpp"
+#include "apps/supercoil/monitor/manual_control.hpp"
 
 namespace supercoil::operating {
 
 /// The hands on all nodes; each is made when it is first asked for. Safe from any thread.
-class Hands {
+class ManualControls {
  public:
-  explicit Hands(std::function<Hand::OpenBus(std::uint8_t)> bus_of) : bus_of_(std::move(bus_of)) {}
+  explicit ManualControls(std::function<ManualControl::OpenBus(std::uint8_t)> bus_of)
+      : bus_of_(std::move(bus_of)) {}
 
-  Hand& of(std::uint8_t node);
-  void let_go(const std::string& reason);
+  ManualControl& of(std::uint8_t node);
+  void release_hold(const std::string& reason);
 
  private:
-  std::function<Hand::OpenBus(std::uint8_t)> bus_of_;
+  std::function<ManualControl::OpenBus(std::uint8_t)> bus_of_;
   std::mutex mutex_;
-  std::map<std::uint8_t, std::unique_ptr<Hand>> hands_;
+  std::map<std::uint8_t, std::unique_ptr<ManualControl>> controls_;
 };
 
 /// Handlers of one server. Nothing of it is copied; all outlives the server.
@@ -37,7 +38,7 @@ class Api {
     int stop_port = 0;  ///< 0: nothing can be commanded
   };
 
-  Api(Access access, const Recent& recent, Hands& hands, About about);
+  Api(Access access, const FrameHistory& frame_history, ManualControls& controls, About about);
 
   void serve_with(httplib::Server& server);
   /// Streams end within a second.
@@ -56,11 +57,11 @@ class Api {
   bool stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost);
 
   /// The page's threads are more, so that streams cannot take them all.
-  static constexpr int most_streams = 24;
+  static constexpr int max_streams = 24;
 
   Access access_;
-  const Recent* recent_;
-  Hands* hands_;
+  const FrameHistory* frame_history_;
+  ManualControls* controls_;
   About about_;
   std::atomic<bool> ending_{false};
   std::atomic<int> streams_{0};

@@ -19,7 +19,7 @@ namespace {
 /// tree of JSON values.
 struct Columns {
   std::string time_s;
-  std::array<std::string, can::most_signals> values;
+  std::array<std::string, can::max_signals> values;
 };
 
 using Key = std::pair<std::uint8_t, const can::MessageInfo*>;

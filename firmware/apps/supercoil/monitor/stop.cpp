@@ -16,26 +16,26 @@ using Clock = std::chrono::steady_clock;
 constexpr int repetitions = 3;
 constexpr auto between = std::chrono::milliseconds(10);
 constexpr auto max_busy_time = std::chrono::milliseconds(500);
-/// While nobody stops: what the bus brings is read, and a lost bus is tried again.
+/// Between stops: what the bus brings is read, and a lost bus is tried again.
 constexpr auto read_every = std::chrono::milliseconds(50);
 constexpr auto try_every = std::chrono::seconds(1);
 
 }  // namespace
 
-StopServer::StopServer(Access access, Hand::OpenBus open_bus, const Recent& recent,
-                       std::function<void()> let_go)
+StopServer::StopServer(Access access, ManualControl::OpenBus open_bus,
+                       const FrameHistory& frame_history, std::function<void()> release_hold)
     : access_(std::move(access)),
       new_bus_(std::move(open_bus)),
-      recent_(&recent),
-      let_go_(std::move(let_go)) {}
+      frame_history_(&frame_history),
+      release_hold_(std::move(release_hold)) {}
 
 tl::expected<std::unique_ptr<StopServer>, std::string> StopServer::start(
-    const Access& access, Hand::OpenBus open_bus, const Recent& recent,
-    std::function<void()> let_go) {
+    const Access& access, ManualControl::OpenBus open_bus, const FrameHistory& frame_history,
+    std::function<void()> release_hold) {
   auto listener = StopListener::open(access.host, access.port + 1);
   if (!listener) return tl::unexpected(listener.error());
   std::unique_ptr<StopServer> server(
-      new StopServer(access, std::move(open_bus), recent, std::move(let_go)));
+      new StopServer(access, std::move(open_bus), frame_history, std::move(release_hold)));
   server->listener_ = std::move(*listener);
   server->thread_ = std::thread([server = server.get()] { server->run(); });
   server->listener_->start([server = server.get()](const auto& request, const auto& answer) {
@@ -57,11 +57,11 @@ StopServer::~StopServer() {
 void StopServer::take(const httplib::Request& request, const StopListener::Answer& answer) {
   // The page's own port is another origin than this one.
   const std::string origin =
-      comes_from_our_page(access_, request) ? request.get_header_value("Origin") : std::string();
+      is_same_origin(access_, request) ? request.get_header_value("Origin") : std::string();
   if (request.method != "POST" || request.path != "/stop") return answer({404, origin, "{}"});
   if (const std::string refused = refuse_to_stop(access_, request, port()); !refused.empty())
     return answer({403, origin, nlohmann::json{{"error", refused}}.dump()});
-  let_go_();
+  release_hold_();
   {
     const std::lock_guard lock(mutex_);
     waiting_.push_back({answer, origin});
@@ -87,10 +87,10 @@ void StopServer::run() {
   }
 }
 
-/// Whoever asked while others were stopped for is stopped for together with all who wait.
+/// Requests that came during a stop are answered together by the next one.
 void StopServer::stop(const std::vector<Waiting>& waiting) {
   const std::string failed = disarm_all();
-  nlohmann::json told{{"nodes", recent_->nodes()}};
+  nlohmann::json told{{"nodes", frame_history_->nodes()}};
   if (!failed.empty()) told["error"] = failed;
   for (const auto& [answer, origin] : waiting)
     answer({failed.empty() ? 200 : 502, origin, told.dump()});
@@ -105,7 +105,7 @@ std::string StopServer::open_bus() {
   return {};
 }
 
-/// A bus that was lost without a word is only noticed by who reads it; what it brings is nobody's.
+/// Only reading shows that a bus was lost silently; what is read is dropped.
 void StopServer::keep_bus() {
   if (bus_) {
     for (hal::CanFrame heard; bus_->receive(heard) == hal::Status::ok;) {
@@ -127,7 +127,7 @@ std::string StopServer::send_disarm() {
   if (std::string failed = open_bus(); !failed.empty()) return failed;
   const auto deadline = Clock::now() + max_busy_time;
   for (int i = 0; i < repetitions; ++i) {
-    for (const std::uint8_t node : recent_->nodes()) {
+    for (const std::uint8_t node : frame_history_->nodes()) {
       const hal::CanFrame frame = can_client::Master(node, 0).command(Verb::disarm, 0.0);
       hal::Status sent = bus_->send(frame);
       while (sent == hal::Status::busy && Clock::now() < deadline) {

@@ -12,7 +12,7 @@
 
 #include "apps/supercoil/bus/recent.hpp"
 #include "apps/supercoil/monitor/access.hpp"
-#include "apps/supercoil/monitor/hand.hpp"
+#include "apps/supercoil/monitor/manual_control.hpp"
 #include "apps/supercoil/monitor/stop_listener.hpp"
 
 namespace supercoil::operating {
@@ -21,12 +21,11 @@ namespace supercoil::operating {
 /// waits; another has a connection of its own to the bus, open before it is needed.
 class StopServer {
  public:
-  /// let_go: tells the hands, without waiting. port: the one after the page's if it is free, else
-  /// any. recent outlives it. The error says why it cannot listen.
-  static tl::expected<std::unique_ptr<StopServer>, std::string> start(const Access& access,
-                                                                      Hand::OpenBus open_bus,
-                                                                      const Recent& recent,
-                                                                      std::function<void()> let_go);
+  /// release_hold: tells the hands, without waiting. port: the one after the page's if it is free,
+  /// else any. recent outlives it. The error says why it cannot listen.
+  static tl::expected<std::unique_ptr<StopServer>, std::string> start(
+      const Access& access, ManualControl::OpenBus open_bus, const FrameHistory& frame_history,
+      std::function<void()> release_hold);
   StopServer(const StopServer&) = delete;
   StopServer& operator=(const StopServer&) = delete;
   ~StopServer();
@@ -34,8 +33,8 @@ class StopServer {
   int port() const { return listener_->port(); }
 
  private:
-  StopServer(Access access, Hand::OpenBus open_bus, const Recent& recent,
-             std::function<void()> let_go);
+  StopServer(Access access, ManualControl::OpenBus open_bus, const FrameHistory& frame_history,
+             std::function<void()> release_hold);
   struct Waiting {
     StopListener::Answer answer;
     std::string allowed_origin;
@@ -51,9 +50,9 @@ class StopServer {
   void keep_bus();
 
   Access access_;
-  Hand::OpenBus new_bus_;
-  const Recent* recent_;
-  std::function<void()> let_go_;
+  ManualControl::OpenBus new_bus_;
+  const FrameHistory* frame_history_;
+  std::function<void()> release_hold_;
   std::unique_ptr<hal::CanBus> bus_;  ///< of the thread
   std::chrono::steady_clock::time_point next_try_{};
   std::mutex mutex_;

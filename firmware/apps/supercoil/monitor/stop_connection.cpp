@@ -38,7 +38,7 @@ void StopConnection::start() {
 
 void StopConnection::close() {
   boost::system::error_code ignored;
-  // Whoever never asked leaves nothing behind in the kernel either.
+  // A connection without a request leaves nothing behind in the kernel either.
   if (!has_asked_) socket_.set_option(boost::asio::socket_base::linger(true, 0), ignored);
   socket_.close(ignored);
   deadline_.cancel();

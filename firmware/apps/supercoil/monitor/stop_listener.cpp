@@ -26,7 +26,7 @@ tl::expected<std::unique_ptr<StopListener>, std::string> StopListener::open(cons
   auto listener = std::make_unique<StopListener>();
   boost::system::error_code error = listener->listen(host, port);
   if (error) error = listener->listen(host, 0);
-  if (error) return tl::unexpected(host + ": no port for STOP can be had: " + error.message());
+  if (error) return tl::unexpected(host + ": no port available for STOP: " + error.message());
   return listener;
 }
 

@@ -1,4 +1,4 @@
-// The port of STOP: nobody who is slow, or says nothing, keeps anybody else out.
+// The port of STOP: a slow or silent client never blocks another.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace supercoil::operating {
 class StopConnection;
 
 /// For STOP's threads: the calling one gets the processor before others do, where the system lets
-/// this user have that (RLIMIT_NICE). No real-time priority: whoever floods STOP's port would take
+/// this user have that (RLIMIT_NICE). No real-time priority: flooding STOP's port would take
 /// a processor from all else.
 void take_precedence();
 

@@ -23,8 +23,8 @@ void Histogram::add(hal::Duration time) noexcept {
   ++bins_[std::min(static_cast<std::size_t>(time / width_), bins_.size() - 1)];
   ++count_;
   sum_ns_ += static_cast<double>(time.count());
-  shortest_ = std::min(shortest_, time);
-  longest_ = std::max(longest_, time);
+  min_ = std::min(min_, time);
+  max_ = std::max(max_, time);
 }
 
 double Histogram::mean_ns() const {
@@ -38,13 +38,13 @@ hal::Duration Histogram::quantile(double share) const {
   for (std::size_t i = 0; i + 1 < bins_.size(); ++i) {
     counted += static_cast<double>(bins_[i]);
     const hal::Duration end = static_cast<std::int64_t>(i + 1) * width_;
-    if (counted >= wanted && counted > 0.0) return std::min(end, longest_);
+    if (counted >= wanted && counted > 0.0) return std::min(end, max_);
   }
-  return longest_;
+  return max_;
 }
 
 std::vector<Bar> bars(const Histogram& histogram) {
-  constexpr std::size_t most_equal = 20;
+  constexpr std::size_t max_bars = 20;
   constexpr double tail_begins = 0.99;
   const auto bin_of = [&](hal::Duration time) {
     return std::min(static_cast<std::size_t>(time / histogram.width()),
@@ -54,7 +54,7 @@ std::vector<Bar> bars(const Histogram& histogram) {
   if (histogram.count() == 0) return all;
   const std::size_t last = bin_of(histogram.longest());
   const std::size_t tail = bin_of(histogram.quantile(tail_begins));
-  std::size_t wide = round_up((tail - bin_of(histogram.shortest())) / most_equal + 1);
+  std::size_t wide = round_up((tail - bin_of(histogram.shortest())) / max_bars + 1);
   std::size_t from = bin_of(histogram.shortest()) / wide * wide;
   while (from <= last) {
     const std::size_t to = std::min(from + wide, histogram.bins().size());

@@ -23,8 +23,8 @@ class Histogram {
   const std::vector<std::uint64_t>& bins() const { return bins_; }
   std::uint64_t count() const { return count_; }
   /// Exact, unlike what bins say; 0 when nothing was added.
-  hal::Duration shortest() const { return count_ == 0 ? hal::Duration{} : shortest_; }
-  hal::Duration longest() const { return longest_; }
+  hal::Duration shortest() const { return count_ == 0 ? hal::Duration{} : min_; }
+  hal::Duration longest() const { return max_; }
   double mean_ns() const;
   /// At least `share` (0 to 1) of the times are shorter than this, or equal: the end of a bin, but
   /// never more than the longest.
@@ -35,8 +35,8 @@ class Histogram {
   std::vector<std::uint64_t> bins_;
   std::uint64_t count_ = 0;
   double sum_ns_ = 0.0;
-  hal::Duration shortest_ = hal::Duration::max();
-  hal::Duration longest_{};
+  hal::Duration min_ = hal::Duration::max();
+  hal::Duration max_{};
 };
 
 /// Some bins together.

@@ -1,4 +1,4 @@
-// A board that is none: for measuring the loop without anything that could heat.
+// A board without devices: for measuring the loop with nothing that could heat.
 #pragma once
 
 #include <cstddef>

@@ -19,7 +19,7 @@ namespace supercoil::daemon {
 
 namespace {
 
-constexpr hal::Duration tell_every = std::chrono::seconds(2);
+constexpr hal::Duration print_every = std::chrono::seconds(2);
 constexpr double settling_s = 0.1;
 
 std::optional<BoardSettings> settings_of(const LatencyOptions& options) {
@@ -38,7 +38,7 @@ std::uint64_t wanted_ticks(const LatencyOptions& options, double rate_Hz) {
       std::max<std::int64_t>(1, std::llround(options.seconds * rate_Hz)));
 }
 
-void tell(const LatencyMeter& meter, std::uint64_t ticks) {
+void notify(const LatencyMeter& meter, std::uint64_t ticks) {
   log(Level::info, std::to_string(meter.measured()) + " of " + std::to_string(ticks) +
                        " ticks, the latest " + std::to_string(meter.latest().count() / 1000) +
                        " us after its time");
@@ -47,15 +47,15 @@ void tell(const LatencyMeter& meter, std::uint64_t ticks) {
 /// What the daemon's other threads do meanwhile, until all is measured or a signal ends it.
 void keep_until_done(Loop& loop, const LatencyMeter& meter, std::uint64_t ticks) {
   const hal_linux::MonotonicClock clock;
-  hal::Time next = clock.now() + tell_every;
+  hal::Time next = clock.now() + print_every;
   std::uint32_t beats = 0;
   while (!meter.done() && !ending_signal_within(std::chrono::milliseconds(20))) {
-    loop.health().telemetry_beats.store(++beats, std::memory_order_relaxed);
+    loop.health().telemetry_heartbeats.store(++beats, std::memory_order_relaxed);
     for (Row row; loop.take(row);) {
     }
     if (clock.now() < next) continue;
-    next += tell_every;
-    tell(meter, ticks);
+    next += print_every;
+    notify(meter, ticks);
   }
 }
 
@@ -73,7 +73,7 @@ int latency_command(const LatencyOptions& options) {
   Loop loop(*settings, board.devices(settings->channels.size()));
   LatencyMeter meter(loop, static_cast<std::uint64_t>(settling_s * rate_Hz), ticks);
   {
-    hal_linux::WakefulCpus wakeful;
+    hal_linux::CpuLatencyRequest wakeful;
     if (options.priority > 0) conditions.steps = {hal_linux::lock_memory(), wakeful.hold()};
     auto thread = LoopThread::start(loop, meter, rate_Hz, {"loop", options.priority, options.cpu});
     if (!thread) return fail(thread.error());

@@ -26,7 +26,7 @@ struct Latency {
 class LatencyMeter final : public hal::Clock {
  public:
   /// Leaves the first `settling` ticks out, for the thread has its priority only a moment after it
-  /// was started; then counts so many `ticks`. The loop outlives it.
+  /// was started; then counts this many `ticks`. The loop outlives it.
   LatencyMeter(const Loop& loop, std::uint64_t settling, std::uint64_t ticks)
       : loop_(&loop), settling_(settling), ticks_(ticks) {}
 

@@ -1,4 +1,4 @@
-// Does the heater do what it is told, and nothing else?
+// Does the heater do what is commanded, and nothing else?
 #pragma once
 
 #include <algorithm>
@@ -22,17 +22,17 @@ class OpenLoad final : public Detector {
 
   bool step(double duty, double current_A) {
     current_A_ = current_A;
-    least_A_ = settings_.min_A_per_duty * duty;
+    min_A_ = settings_.min_A_per_duty * duty;
     judged_ = duty >= settings_.min_duty;
-    return held_.step(judged_ && !(current_A >= least_A_));
+    return held_.step(judged_ && !(current_A >= min_A_));
   }
-  Margin margin() const override { return {current_A_, least_A_, true, judged_}; }
+  Margin margin() const override { return {current_A_, min_A_, true, judged_}; }
 
  private:
   Settings settings_;
-  HeldFor held_;
+  HoldTimer held_;
   double current_A_ = 0.0;
-  double least_A_ = 0.0;
+  double min_A_ = 0.0;
   bool judged_ = false;
 };
 
@@ -61,7 +61,7 @@ class StuckOn final : public Detector {
 
  private:
   Settings settings_;
-  HeldFor held_;
+  HoldTimer held_;
   double current_A_ = 0.0;
   bool off_ = false;
 };
@@ -73,8 +73,8 @@ class NotResponding final : public Detector {
  public:
   struct Settings {
     double window_s = 20.0;
-    double least_part = 0.3;          ///< of the expected motion
-    double least_expected_m = 0.001;  ///< an expected motion smaller than this is not judged
+    double min_ratio = 0.3;         ///< of the expected motion
+    double min_expected_m = 0.001;  ///< an expected motion smaller than this is not judged
   };
   NotResponding(const Settings& settings, double step_s) : settings_(settings), step_s_(step_s) {}
 
@@ -109,8 +109,8 @@ class NotResponding final : public Detector {
     double expected = expected_high_[0] - expected_low_[0];
     for (std::size_t i = 1; i < expected_low_.size(); ++i)
       expected = std::min(expected, expected_high_[i] - expected_low_[i]);
-    const bool judged = expected >= settings_.least_expected_m;
-    return {high_ - low_, settings_.least_part * expected, true, judged};
+    const bool judged = expected >= settings_.min_expected_m;
+    return {high_ - low_, settings_.min_ratio * expected, true, judged};
   }
 
  private:
@@ -157,7 +157,7 @@ class WrongDuty final : public Detector {
  private:
   bool wrong() const { return read_back_ >= 0 && read_back_ != set_; }
 
-  HeldFor held_;
+  HoldTimer held_;
   int set_ = 0;
   int read_back_ = -1;
 };

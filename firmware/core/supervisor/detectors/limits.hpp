@@ -5,7 +5,7 @@
 
 namespace supercoil::detectors {
 
-/// Trips at once when a value that must not be passed is passed, or is no number. For temperature:
+/// Trips at once when a value that must not be passed is passed, or is NaN. For temperature:
 /// the hottest of the observers; for travel: the position.
 class Limit final : public Detector {
  public:
@@ -22,18 +22,18 @@ class Limit final : public Detector {
   double value_ = 0.0;
 };
 
-/// Trips at once when something is not well that can only be well or not.
+/// Trips at once when a yes-or-no condition is bad.
 class Flag final : public Detector {
  public:
   bool step(bool bad) { return bad_ = bad; }
-  /// 0 is well, 1 is not.
+  /// 0: good, 1: bad.
   Margin margin() const override { return rising(bad_ ? 1.0 : 0.0, 0.0); }
 
  private:
   bool bad_ = false;
 };
 
-/// Trips when a value is above its limit, or is no number, for hold_s.
+/// Trips when a value is above its limit, or is NaN, for hold_s.
 class Above final : public Detector {
  public:
   struct Settings {
@@ -51,11 +51,11 @@ class Above final : public Detector {
 
  private:
   Settings settings_;
-  HeldFor held_;
+  HoldTimer held_;
   double value_ = 0.0;
 };
 
-/// Trips when a value is below its limit, or is no number, for hold_s.
+/// Trips when a value is below its limit, or is NaN, for hold_s.
 class Below final : public Detector {
  public:
   struct Settings {
@@ -73,14 +73,14 @@ class Below final : public Detector {
 
  private:
   Settings settings_;
-  HeldFor held_;
+  HoldTimer held_;
   double value_ = 0.0;
 };
 
-/// Trips when a state that is not well has lasted for max_s; 0: at once.
-class Lasting final : public Detector {
+/// Trips when a bad state has lasted for max_s; 0: at once.
+class TimedFlag final : public Detector {
  public:
-  Lasting(double max_s, double step_s) : max_s_(max_s), held_(max_s, step_s) {}
+  TimedFlag(double max_s, double step_s) : max_s_(max_s), held_(max_s, step_s) {}
 
   bool step(bool holds) { return held_.step(holds); }
   void reset() { held_.reset(); }
@@ -88,7 +88,7 @@ class Lasting final : public Detector {
 
  private:
   double max_s_;
-  HeldFor held_;
+  HoldTimer held_;
 };
 
 }  // namespace supercoil::detectors

@@ -1,4 +1,4 @@
-// Is everybody still at work: the loop, the threads, whoever commands?
+// Liveness of the loop, the threads and the master.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,29 @@
 namespace supercoil::detectors {
 
 /// Trips at `most` events in a row (periods left out; damaged commands).
-class InARow final : public Detector {
+class ConsecutiveCount final : public Detector {
  public:
-  explicit InARow(int most) : most_(most) {}
+  explicit ConsecutiveCount(int most) : max_count_(most) {}
 
   bool step(bool happened) { return step(std::int64_t{happened}); }
   /// Several at once; none ends the row.
   bool step(std::int64_t happened) {
     count_ = happened > 0 ? count_ + happened : 0;
-    return count_ >= most_;
+    return count_ >= max_count_;
   }
   Margin margin() const override {
-    return rising(static_cast<double>(count_), static_cast<double>(most_));
+    return rising(static_cast<double>(count_), static_cast<double>(max_count_));
   }
 
  private:
-  int most_;
+  int max_count_;
   std::int64_t count_ = 0;
 };
 
 /// Trips when a counter that its owner turns has stood still for max_s (a thread's sign of life).
-class Silent final : public Detector {
+class StalledCounter final : public Detector {
  public:
-  Silent(double max_s, double step_s) : still_(max_s, step_s) {}
+  StalledCounter(double max_s, double step_s) : still_(max_s, step_s) {}
 
   bool step(std::uint32_t counter) {
     const bool still = counter == last_;
@@ -40,15 +40,15 @@ class Silent final : public Detector {
   Margin margin() const override { return still_.margin(); }
 
  private:
-  Lasting still_;
+  TimedFlag still_;
   std::uint32_t last_ = 0;
 };
 
 /// Every command to heat expires unless it is renewed: trips when it is older than max_s while it
 /// holds.
-class Expired final : public Detector {
+class CommandTimeout final : public Detector {
  public:
-  Expired(double max_s, double step_s) : max_s_(max_s), step_s_(step_s) {}
+  CommandTimeout(double max_s, double step_s) : max_s_(max_s), step_s_(step_s) {}
 
   /// renewed: a valid command arrived since the last tick. heating: a command to heat is in force.
   bool step(bool renewed, bool heating) {
@@ -63,26 +63,26 @@ class Expired final : public Detector {
   double age_s_ = 0.0;
 };
 
-/// Trips when what the controller wants is no number, and when it has wanted more than it got for
+/// Trips when what the controller wants is NaN, and when it has wanted more than it got for
 /// max_s without a gap: it is lost.
-class ControllerLost final : public Detector {
+class ControllerSaturated final : public Detector {
  public:
-  ControllerLost(double max_s, double step_s) : more_(max_s, step_s) {}
+  ControllerSaturated(double max_s, double step_s) : more_(max_s, step_s) {}
 
-  /// wants_more: than it got, since the last tick.
-  bool step(double wanted_W, bool wants_more) {
-    wanted_W_ = wanted_W;
-    const bool lost = more_.step(wants_more);
-    return !std::isfinite(wanted_W) || lost;
+  /// unmet_demand: than it got, since the last tick.
+  bool step(double demanded_W, bool unmet_demand) {
+    demanded_W_ = demanded_W;
+    const bool lost = more_.step(unmet_demand);
+    return !std::isfinite(demanded_W) || lost;
   }
   void reset() { more_.reset(); }
   Margin margin() const override {
-    return std::isfinite(wanted_W_) ? more_.margin() : rising(wanted_W_, 1.0);
+    return std::isfinite(demanded_W_) ? more_.margin() : rising(demanded_W_, 1.0);
   }
 
  private:
-  Lasting more_;
-  double wanted_W_ = 0.0;
+  TimedFlag more_;
+  double demanded_W_ = 0.0;
 };
 
 }  // namespace supercoil::detectors

@@ -36,7 +36,7 @@ inline Margin falling(double measured, double limit) {
 /// publishes one: only what is asked for is worked out.
 class Detector {
  public:
-  /// As of its last step, also when all is well.
+  /// As of its last step, also far from tripping.
   virtual Margin margin() const = 0;
 
  protected:
@@ -47,11 +47,11 @@ class Detector {
 };
 
 /// Tells whether something has held for a whole time.
-class HeldFor {
+class HoldTimer {
  public:
   /// hold_s: 0 means at once. forgets: how many times as fast it is forgotten as it was held; by
   /// default any gap ends it. With less than 1 something that comes and goes adds up.
-  HeldFor(double hold_s, double step_s, double forgets = 1e12)
+  HoldTimer(double hold_s, double step_s, double forgets = 1e12)
       : hold_s_(hold_s), step_s_(step_s), forgets_s_(forgets * step_s) {}
 
   /// One tick. True from the tick on at which it has held for hold_s.

@@ -42,12 +42,12 @@ class ResistanceDrift final : public Detector {
   ResistanceDrift(const Settings& settings, double step_s)
       : settings_(settings), held_(settings.hold_s, step_s) {}
 
-  /// least_Ohm and most_Ohm: between these a muscle lies that is as it was calibrated.
-  bool step(double measured_Ohm, double least_Ohm, double most_Ohm, bool probed) {
+  /// min_warm_Ohm and max_warm_Ohm: between these a muscle lies that is as it was calibrated.
+  bool step(double measured_Ohm, double min_warm_Ohm, double max_warm_Ohm, bool probed) {
     measured_Ohm_ = measured_Ohm;
-    low_Ohm_ = least_Ohm * (1.0 - settings_.part);
-    high_Ohm_ = most_Ohm * (1.0 + settings_.part);
-    falls_ = measured_Ohm < least_Ohm;
+    low_Ohm_ = min_warm_Ohm * (1.0 - settings_.part);
+    high_Ohm_ = max_warm_Ohm * (1.0 + settings_.part);
+    falls_ = measured_Ohm < min_warm_Ohm;
     const bool outside = !(measured_Ohm >= low_Ohm_ && measured_Ohm <= high_Ohm_);
     return held_.step(outside) || (probed && outside);
   }
@@ -59,7 +59,7 @@ class ResistanceDrift final : public Detector {
 
  private:
   Settings settings_;
-  HeldFor held_;
+  HoldTimer held_;
   double measured_Ohm_ = 0.0;
   double low_Ohm_ = 0.0;
   double high_Ohm_ = 0.0;

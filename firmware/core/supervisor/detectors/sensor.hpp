@@ -5,8 +5,8 @@
 
 namespace supercoil::detectors {
 
-/// Trips when readings are outside [low, high], or are no numbers, for hold_s (Klipper counts
-/// consecutive faults for the same reason: one wild conversion is no fault).
+/// Trips when readings are outside [low, high], or are NaN, for hold_s (Klipper counts
+/// consecutive faults for the same reason: one wild conversion is not a fault).
 class OutOfRange final : public Detector {
  public:
   struct Settings {
@@ -29,7 +29,7 @@ class OutOfRange final : public Detector {
 
  private:
   Settings settings_;
-  HeldFor held_;
+  HoldTimer held_;
   double reading_ = 0.0;
 };
 
@@ -54,7 +54,7 @@ class Frozen final : public Detector {
 
  private:
   double band_;
-  Lasting still_;
+  TimedFlag still_;
   double anchor_ = INFINITY;
 };
 
@@ -90,12 +90,12 @@ class Jump final : public Detector {
   double allowed_ = 0.0;
 };
 
-/// Trips when the temperature that resistance tells and the one that position tells lie further
+/// Trips when the temperatures from resistance and from position lie further
 /// apart than both can be wrong, for hold_s.
-class Disagree final : public Detector {
+class SensorsDisagree final : public Detector {
  public:
   /// limit: in K.
-  Disagree(const Above::Settings& settings, double step_s) : difference_(settings, step_s) {}
+  SensorsDisagree(const Above::Settings& settings, double step_s) : difference_(settings, step_s) {}
 
   bool step(double from_resistance_K, double from_position_K) {
     return difference_.step(std::abs(from_resistance_K - from_position_K));

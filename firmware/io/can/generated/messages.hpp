@@ -123,12 +123,12 @@ inline constexpr std::array<ValueName, 14> names_of_refusal{{
     {5, "busy"},
     {6, "out_of_range"},
     {7, "no_such_channel"},
-    {8, "not_yours"},
+    {8, "not_lease_holder"},
     {9, "no_lease"},
     {10, "wrong_counter"},
-    {11, "too_many"},
+    {11, "queue_full"},
     {12, "claim_again"},
-    {13, "other_version"},
+    {13, "protocol_mismatch"},
 }};
 
 inline constexpr std::array<ValueName, 11> names_of_result{{
@@ -138,15 +138,15 @@ inline constexpr std::array<ValueName, 11> names_of_result{{
     {3, "interrupted"},
     {4, "not_cold"},
     {5, "moved"},
-    {6, "not_explained"},
+    {6, "poor_fit"},
     {7, "uncertain"},
     {8, "implausible"},
     {9, "not_stored"},
-    {10, "too_still"},
+    {10, "too_little_motion"},
 }};
 
 inline constexpr std::array<ValueName, 15> names_of_setting{{
-    {0, "most_power_W"},
+    {0, "max_power_W"},
     {1, "measurement_Hz"},
     {2, "tracking_Hz"},
     {3, "power_Hz"},

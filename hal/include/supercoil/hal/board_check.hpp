@@ -1,4 +1,4 @@
-// What is found of a board when it is looked at before anybody heats anything.
+// Findings of a check of a board before anything is heated.
 #pragma once
 
 #include <functional>
@@ -6,34 +6,34 @@
 
 namespace supercoil::hal {
 
-enum class Verdict {
+enum class Severity {
   ok,
   warning,  ///< the firmware runs, but not as it should; or it cannot be known
   problem,  ///< the firmware does not start, or nothing may be heated with it
 };
 
-constexpr const char* text(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::ok:
+constexpr const char* text(Severity severity) {
+  switch (severity) {
+    case Severity::ok:
       return "ok";
-    case Verdict::warning:
+    case Severity::warning:
       return "warning";
-    case Verdict::problem:
+    case Severity::problem:
       return "problem";
   }
   return "?";
 }
 
-/// One thing that was looked at.
+/// One finding.
 struct Finding {
   std::string what;  ///< e.g. "channel 1, enable"
-  Verdict verdict = Verdict::ok;
+  Severity severity = Severity::ok;
   std::string found;   ///< how it is; of what is missing, where it was looked for and what is there
   std::string remedy;  ///< what to do; empty when ok
 };
 
 /// Takes each finding as it is made. A check of a board is a function that gets one; it may block
 /// and allocate, and never turns anything on.
-using Tell = std::function<void(const Finding&)>;
+using FindingSink = std::function<void(const Finding&)>;
 
 }  // namespace supercoil::hal

@@ -16,8 +16,8 @@ class DigitalOutput {
   virtual Status set(bool high) = 0;
 };
 
-/// An input's level, or why there is none. A caller whose safety hangs on it treats every status
-/// but ok as the dangerous level.
+/// An input's level, or why it cannot be read. A caller whose safety hangs on it treats every
+/// status but ok as the dangerous level.
 struct Level {
   bool high = false;
   Status status = Status::not_ready;

@@ -7,7 +7,7 @@ namespace supercoil::hal {
 enum class Status {
   ok,
   not_ready,     ///< no value yet, or the last one was already taken
-  busy,          ///< somebody else uses the device (EBUSY)
+  busy,          ///< another program uses the device (EBUSY)
   io_error,      ///< the device answered wrongly or not at all (EIO, a short write)
   gone,          ///< the device is no longer there (ENODEV)
   out_of_range,  ///< the argument is not one that the device can take; nothing was changed

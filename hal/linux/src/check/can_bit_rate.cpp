@@ -8,7 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "supercoil/hal_linux/check/can_link.hpp"
+#include "supercoil/hal_linux/check/can_interface.hpp"
 #include "supercoil/hal_linux/descriptor.hpp"
 
 namespace supercoil::hal_linux {
@@ -67,7 +67,7 @@ std::optional<std::uint32_t> bit_rate_in(const std::vector<std::byte>& answer) {
 }
 
 std::optional<std::uint32_t> can_bit_rate(const std::string& interface) {
-  constexpr std::size_t longest_answer = 32768;
+  constexpr std::size_t max_answer = 32768;
   Question question;
   question.header.nlmsg_len = sizeof(Question);
   question.header.nlmsg_type = RTM_GETLINK;
@@ -78,7 +78,7 @@ std::optional<std::uint32_t> can_bit_rate(const std::string& interface) {
   const Descriptor socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
   if (!socket.is_open()) return {};
   if (::send(socket.number(), &question, sizeof(question), 0) != sizeof(question)) return {};
-  std::vector<std::byte> answer(longest_answer);
+  std::vector<std::byte> answer(max_answer);
   const ssize_t size = ::recv(socket.number(), answer.data(), answer.size(), 0);
   if (size < 0) return {};
   answer.resize(static_cast<std::size_t>(size));

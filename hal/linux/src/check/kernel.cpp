@@ -17,7 +17,7 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-using hal::Verdict;
+using hal::Severity;
 
 /// "0-2,5" holds 1.
 bool in_list(std::string_view list, int number) {
@@ -52,71 +52,72 @@ std::string realtime_package() {
 
 }  // namespace
 
-void check_kernel(const Machine& machine, const hal::Tell& tell) {
+void check_kernel(const Machine& machine, const hal::FindingSink& sink) {
   const auto release = read_text(machine.proc + "/sys/kernel/osrelease");
   const std::string name = release.value_or("of unknown release");
   const auto realtime = read_whole(machine.sys + "/kernel/realtime");
   if (realtime && *realtime == 1) {
-    tell({"kernel", Verdict::ok, name + ", real-time (PREEMPT_RT)", ""});
+    sink({"kernel", Severity::ok, name + ", real-time (PREEMPT_RT)", ""});
     return;
   }
-  tell({"kernel", Verdict::warning,
+  sink({"kernel", Severity::warning,
         name + ", not a real-time kernel (" + machine.sys + "/kernel/realtime is not 1)",
         "install a kernel with PREEMPT_RT, on Debian " + realtime_package() +
             ": this one may wake the loop milliseconds late when the board is busy"});
 }
 
-void check_throttling(const Machine& machine, const hal::Tell& tell) {
-  constexpr std::int64_t least_percent = 90;
+void check_throttling(const Machine& machine, const hal::FindingSink& sink) {
+  constexpr std::int64_t min_percent = 90;
   const std::string what = "real-time share";
   const std::string path = machine.proc + "/sys/kernel/sched_rt_runtime_us";
   const auto runtime_us = read_whole(path);
   const auto period_us = read_whole(machine.proc + "/sys/kernel/sched_rt_period_us");
   if (!runtime_us || !period_us || *period_us <= 0) {
     const std::string why = runtime_us ? path + " has no period" : runtime_us.error().text;
-    tell({what, Verdict::warning, "not known: " + why, "use a kernel that tells it"});
+    sink({what, Severity::warning, "not known: " + why, "use a kernel that reports it"});
     return;
   }
   if (*runtime_us < 0) {
-    tell({what, Verdict::ok, "real-time threads may use all of the processor", ""});
+    sink({what, Severity::ok, "real-time threads may use all of the processor", ""});
     return;
   }
   const std::int64_t percent = 100 * *runtime_us / *period_us;
   const std::string found = "real-time threads may use " + std::to_string(percent) + " % of each " +
                             std::to_string(*period_us) + " us";
-  if (percent >= least_percent) {
-    tell({what, Verdict::ok, found, ""});
+  if (percent >= min_percent) {
+    sink({what, Severity::ok, found, ""});
   } else {
-    tell({what, percent == 0 ? Verdict::problem : Verdict::warning,
+    sink({what, percent == 0 ? Severity::problem : Severity::warning,
           found + ", then they stand still", "sysctl kernel.sched_rt_runtime_us=950000"});
   }
 }
 
-void check_governor(const Machine& machine, const hal::Tell& tell) {
+void check_governor(const Machine& machine, const hal::FindingSink& sink) {
   const std::string what = "frequency";
   const std::string root = machine.sys + "/devices/system/cpu";
   const auto processors = numbered_folders(root, "cpu");
   std::map<std::string, std::vector<std::string>> by_governor;
   for (const DeviceFolder& processor : processors.value_or(std::vector<DeviceFolder>{})) {
     const auto governor = read_text(processor.folder + "/cpufreq/scaling_governor");
-    if (governor) by_governor[*governor].push_back(last_part(processor.folder));
+    if (governor) by_governor[*governor].push_back(base_name(processor.folder));
   }
   std::vector<std::string> slow;
   for (const auto& [governor, which] : by_governor)
     if (governor != "performance") slow.push_back("'" + governor + "' on " + listed(which));
   if (slow.empty()) {
-    tell({what, Verdict::ok,
+    sink({what, Severity::ok,
           by_governor.empty() ? "the processors keep theirs (no cpufreq in " + root + ")"
                               : "governor 'performance' on all processors",
           ""});
     return;
   }
-  tell({what, Verdict::warning, "governor " + listed(slow),
+  sink({what, Severity::warning, "governor " + listed(slow),
         "echo performance | tee " + root +
             "/cpu*/cpufreq/scaling_governor: a processor that slows down makes ticks late"});
 }
 
-void check_processors(const Machine& machine, const LoopWish& wish, const hal::Tell& tell) {
+void check_processors(const Machine& machine, const LoopThreadSettings& settings,
+                      const hal::FindingSink& sink) {
   const std::string what = "processors";
   const std::string root = machine.sys + "/devices/system/cpu";
   const std::string online = read_text(root + "/online").value_or("");
@@ -124,14 +125,14 @@ void check_processors(const Machine& machine, const LoopWish& wish, const hal::T
   const std::string isolated = read_text(root + "/isolated").value_or("");
   const std::string found = "running " + (online.empty() ? std::string("unknown") : online) +
                             ", isolated " + (isolated.empty() ? std::string("none") : isolated);
-  if (wish.cpu < 0 || in_list(isolated, wish.cpu)) {
-    tell({what, Verdict::ok, found, ""});
-  } else if (!in_list(online, wish.cpu)) {
-    tell({what, Verdict::problem, found + ": " + std::to_string(wish.cpu) + " does not run",
+  if (settings.cpu < 0 || in_list(isolated, settings.cpu)) {
+    sink({what, Severity::ok, found, ""});
+  } else if (!in_list(online, settings.cpu)) {
+    sink({what, Severity::problem, found + ": " + std::to_string(settings.cpu) + " does not run",
           "choose another --cpu"});
   } else {
-    const std::string cpu = std::to_string(wish.cpu);
-    tell({what, Verdict::warning, found + ": other work may run on the loop's, " + cpu,
+    const std::string cpu = std::to_string(settings.cpu);
+    sink({what, Severity::warning, found + ": other work may run on the loop's, " + cpu,
           "isolcpus=" + cpu + " on the kernel's command line"});
   }
 }

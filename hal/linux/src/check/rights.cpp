@@ -18,7 +18,7 @@ namespace supercoil::hal_linux {
 namespace {
 
 using hal::Finding;
-using hal::Verdict;
+using hal::Severity;
 
 /// 16 channels at 1 kHz with their recorder, program, libraries and stacks are less.
 constexpr std::int64_t needed_bytes = std::int64_t{64} * 1024 * 1024;
@@ -44,16 +44,17 @@ std::optional<bool> has_capability(const Machine& machine, int capability) {
 }
 
 Finding finding(const std::string& what, const SetupStep& step) {
-  if (step.worked) return {what, Verdict::ok, step.step, ""};
-  return {what, Verdict::warning, "not " + step.step + ": " + step.reason, step.remedy};
+  if (step.worked) return {what, Severity::ok, step.step, ""};
+  return {what, Severity::warning, "not " + step.step + ": " + step.reason, step.remedy};
 }
 
 }  // namespace
 
-void check_priority(const Machine& machine, const LoopWish& wish, const hal::Tell& tell) {
+void check_priority(const Machine& machine, const LoopThreadSettings& settings,
+                    const hal::FindingSink& sink) {
   SetupStep step;
   const auto tried = Thread::start({"doctor"}, [&] {
-                       step = set_fifo_priority(::pthread_self(), wish.priority);
+                       step = set_fifo_priority(::pthread_self(), settings.priority);
                      }).map([](Thread&&) {});
   if (!tried) step = {"a thread", false, tried.error().text, "free memory"};
   Finding result = finding("priority", step);
@@ -63,14 +64,14 @@ void check_priority(const Machine& machine, const LoopWish& wish, const hal::Tel
         "the control group has no real-time share (CONFIG_RT_GROUP_SCHED): give it one in "
         "cpu.rt_runtime_us, or run outside of the container";
   }
-  tell(result);
+  sink(result);
 }
 
-void check_locked_memory(const Machine& machine, const hal::Tell& tell) {
+void check_locked_memory(const Machine& machine, const hal::FindingSink& sink) {
   const std::string what = "locked memory";
   const std::string wanted = std::to_string(needed_bytes / (std::int64_t{1024} * 1024)) + " MiB";
   if (has_capability(machine, CAP_IPC_LOCK).value_or(false)) {
-    tell({what, Verdict::ok, "without limit (CAP_IPC_LOCK)", ""});
+    sink({what, Severity::ok, "without limit (CAP_IPC_LOCK)", ""});
     return;
   }
   const auto limits = read_text(machine.proc + "/self/limits");
@@ -78,21 +79,21 @@ void check_locked_memory(const Machine& machine, const hal::Tell& tell) {
   const Number bytes = parse_number(limit);
   const bool enough = bytes.status == hal::Status::ok && bytes.value >= needed_bytes;
   if (limit == "unlimited" || enough) {
-    tell({what, Verdict::ok, "limit " + std::string(limit), ""});
+    sink({what, Severity::ok, "limit " + std::string(limit), ""});
   } else if (bytes.status != hal::Status::ok) {
-    tell({what, Verdict::warning,
+    sink({what, Severity::warning,
           "the limit is not known: no number in " + machine.proc + "/self/limits",
           "run as root, or LimitMEMLOCK=infinity in the service"});
   } else {
-    tell({what, Verdict::warning,
+    sink({what, Severity::warning,
           "the limit is " + std::string(limit) + " bytes; " + wanted + " are always enough",
           "run as root, or LimitMEMLOCK=infinity in the service"});
   }
 }
 
-void check_wakefulness(const Machine& machine, const hal::Tell& tell) {
-  WakefulCpus cpus;
-  tell(finding("deep sleep", cpus.hold(machine.dev + "/cpu_dma_latency")));
+void check_cpu_latency(const Machine& machine, const hal::FindingSink& sink) {
+  CpuLatencyRequest cpus;
+  sink(finding("deep sleep", cpus.hold(machine.dev + "/cpu_dma_latency")));
 }
 
 }  // namespace supercoil::hal_linux

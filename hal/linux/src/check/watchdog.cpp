@@ -17,14 +17,14 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-using hal::Verdict;
+using hal::Severity;
 
 /// Of /dev/watchdog, which is another name of the first one.
 constexpr unsigned misc_major = 10;
 constexpr unsigned watchdog_minor = 130;
 
 std::string identity(const DeviceFolder& folder) {
-  return last_part(folder.folder) + " '" +
+  return base_name(folder.folder) + " '" +
          read_text(folder.folder + "/identity").value_or("unknown") + "'";
 }
 
@@ -36,53 +36,53 @@ std::optional<DeviceFolder> behind(const struct stat& device,
   const bool first = major == misc_major && minor == watchdog_minor;
   const std::string number = std::to_string(major) + ":" + std::to_string(minor);
   const auto found = std::find_if(all.begin(), all.end(), [&](const DeviceFolder& folder) {
-    if (first) return last_part(folder.folder) == "watchdog0";
+    if (first) return base_name(folder.folder) == "watchdog0";
     return read_text(folder.folder + "/dev").value_or("") == number;
   });
   if (found == all.end()) return {};
   return *found;
 }
 
-void tell_missing(const std::string& path, int error, const std::string& root,
-                  const std::vector<DeviceFolder>& all, const hal::Tell& tell) {
+void print_missing(const std::string& path, int error, const std::string& root,
+                   const std::vector<DeviceFolder>& all, const hal::FindingSink& sink) {
   std::vector<std::string> names;
   std::transform(all.begin(), all.end(), std::back_inserter(names), identity);
-  tell({"watchdog", Verdict::problem,
+  sink({"watchdog", Severity::problem,
         path + ": " + std::generic_category().message(error) + "; in " + root +
-            (names.empty() ? " there is none at all" : " there are " + listed(names)),
+            (names.empty() ? " there is none" : " there are " + listed(names)),
         "load its driver, or name the right device in board.watchdog"});
 }
 
 }  // namespace
 
 void check_watchdog(const Machine& machine, const std::string& path, bool in_use,
-                    const hal::Tell& tell) {
+                    const hal::FindingSink& sink) {
   const std::string what = "watchdog";
   const std::string root = machine.sys + "/class/watchdog";
   const auto all = numbered_folders(root, "watchdog").value_or(std::vector<DeviceFolder>{});
   struct stat about {};
-  if (::stat(path.c_str(), &about) != 0) return tell_missing(path, errno, root, all, tell);
-  if (!S_ISCHR(about.st_mode)) return tell_missing(path, ENODEV, root, all, tell);
+  if (::stat(path.c_str(), &about) != 0) return print_missing(path, errno, root, all, sink);
+  if (!S_ISCHR(about.st_mode)) return print_missing(path, ENODEV, root, all, sink);
   if (::access(path.c_str(), W_OK) != 0) {
-    tell({what, Verdict::problem, path + ": " + std::generic_category().message(errno),
+    sink({what, Severity::problem, path + ": " + std::generic_category().message(errno),
           "run as root, or let the service's user write to it"});
     return;
   }
   const auto folder = behind(about, all);
   if (!folder) {
-    tell({what, Verdict::warning, path + " is there; " + root + " does not tell what it is",
+    sink({what, Severity::warning, path + " is there; " + root + " does not tell what it is",
           "use a kernel with CONFIG_WATCHDOG_SYSFS, or look at wdctl"});
     return;
   }
   const std::string found = path + " is " + identity(*folder);
   if (!in_use && read_text(folder->folder + "/state").value_or("") == "active") {
-    tell({what, Verdict::problem, found + ", and somebody else uses it",
+    sink({what, Severity::problem, found + ", and somebody else uses it",
           "end what does: of systemd RuntimeWatchdogSec=off, else the watchdog daemon"});
   } else if (read_text(folder->folder + "/nowayout").value_or("") == "1") {
-    tell({what, Verdict::warning, found + "; once started it cannot be stopped (nowayout)",
+    sink({what, Severity::warning, found + "; once started it cannot be stopped (nowayout)",
           "expect the board to be reset when supercoild ends, or load the driver with nowayout=0"});
   } else {
-    tell({what, Verdict::ok, found + "; not opened, since that starts it", ""});
+    sink({what, Severity::ok, found + "; not opened, since that starts it", ""});
   }
 }
 

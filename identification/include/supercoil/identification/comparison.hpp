@@ -25,7 +25,7 @@ struct Parts {
 
 /// From the last time that the muscle is heated out of rest on, where there are two such times or
 /// more and it is after three tenths of the recording; else the last third.
-Parts usual_parts(const Samples& samples);
+Parts default_parts(const Samples& samples);
 
 struct Comparison {
   Sizes sizes{};
@@ -47,7 +47,7 @@ struct Comparison {
 Comparison compare(const Samples& samples, const Parts& parts);
 
 /// What of a model a linear controller can use: the linear model and what moves the rest length.
-Effects linear_part(const Effects& effects);
+Effects linear_effects(const Effects& effects);
 
 /// How far apart two fits of the same model say a parameter is, in the first one's deviations, with
 /// its index in the fit; the largest of gain and time constant.
@@ -56,6 +56,6 @@ struct Change {
   double ratio;       ///< second/first value
   double deviations;  ///< of the first fit
 };
-Change largest_change(const Fit& first, const Fit& second);
+Change max_change(const Fit& first, const Fit& second);
 
 }  // namespace supercoil::identification

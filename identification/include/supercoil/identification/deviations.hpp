@@ -10,8 +10,8 @@ struct Accuracy {
   double cross_validated = 0.0;  ///< rms of each stretch's residuals, when the others were fitted
 };
 
-/// The residuals of a model that is not exact are no white noise: they are alike over seconds. So
-/// two covariances are added:
+/// The residuals of a model that is not exact are not white noise: they are correlated over
+/// seconds. So two covariances are added:
 /// - the delete-a-block jackknife, linearised: how far the solution moves when each of ten
 /// stretches
 ///   of the recording is left out;

@@ -26,7 +26,7 @@ Sizes sizes_of(const Samples& samples);
 
 /// Levenberg-Marquardt on the samples within the span that were measured, from the best of several
 /// starts. The motion is always integrated from the recording's first row. The parameters' wide
-/// prior deviations keep finite what the recording does not tell.
+/// prior deviations keep finite what the recording does not determine.
 Fit fit_model(const Effects& effects, const Samples& samples, Span span);
 
 /// The same from a fit with fewer or other effects.

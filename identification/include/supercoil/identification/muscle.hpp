@@ -1,4 +1,4 @@
-// A muscle with its effects, as parameters that position and power can tell, and its motion.
+// A muscle with its effects, as parameters that position and power determine, and its motion.
 #pragma once
 
 #include <span>

@@ -8,9 +8,9 @@
 
 namespace supercoil::identification {
 
-/// What position and power cannot tell. Heat capacity, heat transfer and force per kelvin times any
-/// factor move alike; so do mass, damping, stiffness and force. None of it changes how the muscle
-/// is controlled; the first decides how hot it is taken to be.
+/// What position and power cannot determine. Heat capacity, heat transfer and force per kelvin
+/// times any factor move alike; so do mass, damping, stiffness and force. None of it changes how
+/// the muscle is controlled; the first decides how hot it is taken to be.
 struct Assumed {
   double thermal_mass_J_per_K = control::PhysicalParameters{}.thermal_mass_J_per_K;
   double stiffness_N_per_m = control::PhysicalParameters{}.stiffness_N_per_m;

@@ -9,7 +9,7 @@ namespace supercoil::identification {
 
 enum class Quantity { time, position, power };
 
-/// How much one of this unit is in SI; empty for a unit that is none of the quantity's.
+/// How much one of this unit is in SI; empty for a unit of another quantity.
 std::optional<double> unit_size(Quantity quantity, std::string_view unit);
 /// "s, ms, us, min"
 std::string units_of(Quantity quantity);

@@ -28,7 +28,7 @@ inline void resistance(Rig& rig, double resistance_Ohm) {
   rig.muscle().set(settings);
 }
 
-/// Troubles that go on, and their end.
+/// Faults that persist, and their end.
 inline void every_tick(Rig& rig, std::function<void()> what) {
   rig.before_tick = std::move(what);
 }

@@ -30,7 +30,7 @@ void soon_lost(RigSettings& s) {
   channel.limiter.max_W = 3.0;
   channel.supervision.saturated_s = 1.0;
   channel.supervision.max_travel_m = 0.055;
-  channel.supervision.highest_position_m = 0.06;
+  channel.supervision.max_position_m = 0.06;
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void slow_power_stage(RigSettings& s) {
   ChannelSettings& channel = s.firmware.channels[Rig::tested];
   // The measured resistance lags: else the power stage corrects itself within 0.2 s.
   channel.heater.resistance_filter_s = 10.0;
-  channel.supervision.resistance_part = 0.9;
+  channel.supervision.resistance_ratio = 0.9;
   channel.heater.temperature_coefficient_per_K = 0.0;
   channel.limiter.max_W = 4.0;
   channel.supervision.max_measured_W = 4.4;

@@ -4,17 +4,17 @@ namespace supercoil::test {
 
 namespace {
 
-using host_sim::ConverterTrouble;
+using host_sim::ConverterFaults;
 
-std::function<void(Rig&)> position(const ConverterTrouble& trouble) {
-  return [trouble](Rig& rig) { rig.muscle().position.set(trouble); };
+std::function<void(Rig&)> position(const ConverterFaults& faults) {
+  return [faults](Rig& rig) { rig.muscle().position.set(faults); };
 }
 
 /// A third more than what a muscle can move in a period, and what noise can be besides.
 void jump(Rig& rig) {
   const ChannelSupervision limits;
   const double noise_m = 50e-6 + 12.0 * limits.position_noise_rms_m;
-  const double allowed_m = limits.fastest_m_per_s * rig.period_s() + noise_m;
+  const double allowed_m = limits.max_speed_m_per_s * rig.period_s() + noise_m;
   rig.muscle().position.set({.offset = 1.3 * allowed_m});
 }
 

@@ -42,7 +42,7 @@ double of_model(double time_s) {
 
 TEST_GROUP(ChangeDetector){};
 
-TEST(ChangeDetector, AModelsErrorThatReturnsIsNoChange) {
+TEST(ChangeDetector, AModelErrorThatReturnsIsNotAChange) {
   Detector detector = fresh();
   DOUBLES_EQUAL(-1.0, watch(detector, 2000.0, of_model).time_s, 0.0);
 }
@@ -64,7 +64,7 @@ TEST(ChangeDetector, AChangeAlongADirectionIsFoundAndMeasured) {
   }
 }
 
-TEST(ChangeDetector, IsBlindAtFirstAndTellsTheSameChangeOnlyOnceInAWhile) {
+TEST(ChangeDetector, IsBlindAtFirstAndReportsTheSameChangeOnlyOnceInAWhile) {
   Detector detector = fresh();
   const Found found =
       watch(detector, 300.0, [](double time_s) { return time_s > 50.0 ? 1.0 : 0.0; });

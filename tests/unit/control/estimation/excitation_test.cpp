@@ -63,11 +63,11 @@ TEST(Excitation, SmallestEigenvalueIsTheClosedFormOfOrthogonalSines) {
     ExcitationMonitor monitor({.window_s = 20.0}, block_step_s);
     for (long k = 1; k < 2000; ++k) {
       monitor.step(basis * orthogonal_sines(k, amplitude), 0.0, Phi::Zero());
-      DOUBLES_EQUAL(0.0, monitor.smallest_eigenvalue(), 0.0);  // not before a whole window
+      DOUBLES_EQUAL(0.0, monitor.min_eigenvalue(), 0.0);  // not before a whole window
     }
     monitor.step(basis * orthogonal_sines(2000, amplitude), 0.0, Phi::Zero());
     // ∫ a² sin² over whole periods = a² T/2.
-    DOUBLES_EQUAL(0.25 * 20.0 / 2.0, monitor.smallest_eigenvalue(), 1e-9);
+    DOUBLES_EQUAL(0.25 * 20.0 / 2.0, monitor.min_eigenvalue(), 1e-9);
   }
 }
 
@@ -75,10 +75,10 @@ TEST(Excitation, TheWindowForgetsWhatIsOlder) {
   ExcitationMonitor monitor({.window_s = 20.0}, block_step_s);
   for (long k = 0; k < 2000; ++k)
     monitor.step(orthogonal_sines(k, Phi::Constant(1.0)), 0.0, Phi::Zero());
-  CHECK(monitor.smallest_eigenvalue() > 1.0);
+  CHECK(monitor.min_eigenvalue() > 1.0);
   for (long k = 0; k < 2000; ++k)
     monitor.step(Phi{1.0, 0.0, 0.0, 0.0}, 0.0, Phi::Zero());
-  DOUBLES_EQUAL(0.0, monitor.smallest_eigenvalue(), 1e-12);
+  DOUBLES_EQUAL(0.0, monitor.min_eigenvalue(), 1e-12);
   CHECK_FALSE(monitor.trusted());
 }
 

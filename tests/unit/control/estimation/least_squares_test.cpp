@@ -78,12 +78,12 @@ TEST(LeastSquares, FloatFollowsDoubleToATenthOfTheNoisesEffect) {
 
 TEST(LeastSquares, TellsNoPointOutsideItsBounds) {
   LeastSquaresSettings settings;
-  settings.highest_part = 0.9;
+  settings.max_ratio = 0.9;
   Learning<double> learning(1, settings);
   learning.run_until(5.0);
   const auto told = learning.estimator.parameters().head<4>().eval();
   DOUBLES_EQUAL(0.9, told.maxCoeff(), 1e-12);
-  CHECK(told.minCoeff() >= settings.lowest_part);
+  CHECK(told.minCoeff() >= settings.min_ratio);
 }
 
 TEST(LeastSquares, InFloatItLearnsOverHoursOfMotionAndOfRest) {

@@ -19,7 +19,7 @@ RegressionScale scale_of(const PhysicalParameters& p) {
 }
 
 /// The largest |z − θ*ᵀφ| in 20 s of random power levels, each held for half a second.
-double largest_residual(const PhysicalParameters& p, double step_s) {
+double max_residual(const PhysicalParameters& p, double step_s) {
   const RegressionScale scale = scale_of(p);
   Muscle muscle(p, step_s);
   ParametricModel<double> model(paper_lambda, scale, step_s);
@@ -43,13 +43,13 @@ constexpr PhysicalParameters slow_muscle{0.5, 0.1, 4.0, 0.3, 0.2, 0.02};
 TEST_GROUP(ParametricModel){};
 
 TEST(ParametricModel, TrueParametersExplainThePowerWithoutNoise) {
-  CHECK(largest_residual(PhysicalParameters{}, 1e-3) < 2e-7);
-  CHECK(largest_residual(slow_muscle, 1e-3) < 2e-7);
+  CHECK(max_residual(PhysicalParameters{}, 1e-3) < 2e-7);
+  CHECK(max_residual(slow_muscle, 1e-3) < 2e-7);
 }
 
 TEST(ParametricModel, WhatRemainsFallsWithTheSquareOfTheStep) {
-  const double coarse = largest_residual(PhysicalParameters{}, 10e-3);
-  const double fine = largest_residual(PhysicalParameters{}, 5e-3);
+  const double coarse = max_residual(PhysicalParameters{}, 10e-3);
+  const double fine = max_residual(PhysicalParameters{}, 5e-3);
   CHECK(coarse > 1e-7);
   DOUBLES_EQUAL(4.0, coarse / fine, 0.3);
 }

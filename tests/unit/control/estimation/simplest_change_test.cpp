@@ -47,7 +47,7 @@ Square sum_known() {
 
 TEST_GROUP(SimplestChange){};
 
-TEST(SimplestChange, WhatIsKnownIsToldAsItIs) {
+TEST(SimplestChange, KnownValuesArePassedThrough) {
   const Square known = Square::Identity() * 1e-6;
   for (const Parameters& theta : {moved(1.0, 1.0, 0.75, 0.75, 0.0), moved(1.3, 1.3, 1.3, 1.3, 0.0),
                                   moved(1.0, 1.0, 1.0, 1.0, 0.5), moved(1.0, 1.0, 1.0, 1.4, 0.0)}) {
@@ -79,7 +79,7 @@ TEST(SimplestChange, TwoThatExplainItAsWellAreNotDecided) {
   DOUBLES_EQUAL(1.0, change.before()[3], 0.0);
 }
 
-TEST(SimplestChange, OfTwoThatExplainItAsWellTheOneThatAllowsLessIsToldFirst) {
+TEST(SimplestChange, PrefersTheNarrowerOfTwoEquallyGoodExplanations) {
   const auto told = begun(20.0).explained(moved(1.0, 1.0, 1.0, 1.25, 0.25), sum_known());
   CHECK(told.has_value());
   DOUBLES_EQUAL(1.0, (*told)[3], 0.02);
@@ -93,6 +93,6 @@ TEST(SimplestChange, TwoChangesAtOnceAreToldAsLeastSquaresHasThem) {
   CHECK((*told - theta).norm() < 1e-9);
 }
 
-TEST(SimplestChange, WhatIsNoNumberIsNotDecided) {
+TEST(SimplestChange, NaNIsNotDecided) {
   CHECK_FALSE(begun().explained(Parameters::Constant(NAN), Square::Identity()).has_value());
 }

@@ -38,7 +38,7 @@ TEST(UdCovariance, IsTheTextbooksCovarianceAndGain) {
     CHECK((covariance.matrix() - expected).norm() < 1e-6 * expected.norm());
   }
   const double largest = expected.diagonal().maxCoeff();
-  DOUBLES_EQUAL(largest, covariance.largest_variance(0), 1e-6 * largest);
+  DOUBLES_EQUAL(largest, covariance.max_variance(0), 1e-6 * largest);
 }
 
 TEST(UdCovariance, StaysPositiveInFloatWhereTheTextbooksUpdateDoesNot) {
@@ -46,17 +46,17 @@ TEST(UdCovariance, StaysPositiveInFloatWhereTheTextbooksUpdateDoesNot) {
   Matrix<float, 4> textbook = Matrix<float, 4>::Identity() * 100.0F;
   UdCovariance<float, 4> covariance(Vector<float, 4>::Constant(100.0F));
   float lowest = 1.0F;
-  float lowest_of_textbook = 1.0F;
+  float min_of_textbook = 1.0F;
   for (int k = 0; k < 20'000; ++k) {
     const Vector<float, 4> phi = regressors.next().cast<float>();
     covariance.update(phi, 1e-7F, 0.9997F, 0);
     lowest = std::fmin(lowest, covariance.matrix().diagonal().minCoeff());
     const Vector<float, 4> along = textbook * phi;
     textbook = ((textbook - along * along.transpose() / (1e-7F + phi.dot(along))) / 0.9997F).eval();
-    lowest_of_textbook = std::fmin(lowest_of_textbook, textbook.diagonal().minCoeff());
+    min_of_textbook = std::fmin(min_of_textbook, textbook.diagonal().minCoeff());
   }
   CHECK(lowest > 0.0F);
-  CHECK_FALSE(lowest_of_textbook > 0.0F);
+  CHECK_FALSE(min_of_textbook > 0.0F);
 }
 
 TEST(UdCovariance, WhatIsKnownDoesNotMove) {

@@ -66,13 +66,13 @@ TEST(Polynomials, PositiveRealnessAgreesWithASweepOverFrequency) {
     const PositiveRealness result = realness_of(c);
     const bool expected = c.at("strict");
     CHECK_EQUAL_TEXT(expected, result.strict(), c.dump().c_str());
-    if (c.at("lowest_real_part").is_null()) {
+    if (c.at("min_real_part").is_null()) {
       CHECK_FALSE(result.high_frequency);
-      CHECK(result.lowest_real_part < 0.0);
+      CHECK(result.min_real_part < 0.0);
     } else {
-      const double swept = c.at("lowest_real_part");
-      DOUBLES_EQUAL(swept, result.lowest_real_part, 1e-4 * (1.0 + std::abs(swept)));
-      CHECK(result.lowest_real_part <= swept + 1e-12);  // a sweep can only miss the least
+      const double swept = c.at("min_real_part");
+      DOUBLES_EQUAL(swept, result.min_real_part, 1e-4 * (1.0 + std::abs(swept)));
+      CHECK(result.min_real_part <= swept + 1e-12);  // a sweep can only miss the least
     }
   }
 }

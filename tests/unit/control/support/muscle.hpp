@@ -37,7 +37,7 @@ struct Tick {
   double time_s;
   double position_m;
   double model_m;
-  double wanted_power_W;
+  double demanded_power_W;
   double applied_power_W;
 };
 
@@ -56,9 +56,9 @@ void run_closed_loop(Controller& controller, double step_s, double duration_s,
                                       .position_m = position,
                                       .applied_power_W = applied,
                                       .limited = limited});
-    applied = range.clip(out.wanted_power_W);
-    limited = applied != out.wanted_power_W;
-    observe(Tick{time_s, position, out.model_m, out.wanted_power_W, applied});
+    applied = range.clip(out.demanded_power_W);
+    limited = applied != out.demanded_power_W;
+    observe(Tick{time_s, position, out.model_m, out.demanded_power_W, applied});
     muscle.step(applied);
   }
 }

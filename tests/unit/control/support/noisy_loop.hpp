@@ -63,8 +63,8 @@ struct NoisyLoop {
                                  .limited = limited,
                                  .range = range});
       see(time_s, 1e6 * (out.model_m - muscle.position_m()));
-      power_W = range.clip(out.wanted_power_W);
-      limited = power_W != out.wanted_power_W;
+      power_W = range.clip(out.demanded_power_W);
+      limited = power_W != out.demanded_power_W;
       muscle.step(power_W);
     }
   }

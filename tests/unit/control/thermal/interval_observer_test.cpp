@@ -32,17 +32,16 @@ TEST(IntervalObserver, HoldsTheTruthThoughTheMuscleChangesUnderIt) {
     IntervalObserver observer(bounds, slow_step_s);
     double truth_K = 0.0;
     for (int stretch = 0; stretch < 12; ++stretch) {
-      const double mass = uniform(bounds.lowest_mass_J_per_K, bounds.highest_mass_J_per_K);
-      const double transfer =
-          uniform(bounds.lowest_transfer_W_per_K, bounds.highest_transfer_W_per_K);
+      const double mass = uniform(bounds.min_mass_J_per_K, bounds.max_mass_J_per_K);
+      const double transfer = uniform(bounds.min_transfer_W_per_K, bounds.max_transfer_W_per_K);
       const double ratio = uniform(min_ratio, max_ratio);
       const double power_W = *rc::gen::element(0.0, uniform(0.0, 4.5), 4.5);
       for (int tick = 0; tick < 100; ++tick) {
         const double rest_K = ratio * power_W / transfer;
         truth_K = rest_K + (truth_K - rest_K) * std::exp(-transfer / mass * slow_step_s);
         observer.step(min_ratio * power_W, max_ratio * power_W);
-        RC_ASSERT(observer.lowest_K() <= truth_K + 1e-9);
-        RC_ASSERT(observer.highest_K() >= truth_K - 1e-9);
+        RC_ASSERT(observer.min_K() <= truth_K + 1e-9);
+        RC_ASSERT(observer.max_K() >= truth_K - 1e-9);
       }
     }
   }));
@@ -53,8 +52,8 @@ TEST(IntervalObserver, OfAKnownMuscleIsItsTemperature) {
   for (int tick = 0; tick < 182; ++tick)
     observer.step(4.5);
   const double expected_K = 4.5 / 0.089 * (1.0 - std::exp(-0.089 / 0.162 * 1.82));
-  DOUBLES_EQUAL(expected_K, observer.highest_K(), 1e-9);
-  DOUBLES_EQUAL(expected_K, observer.lowest_K(), 1e-9);
+  DOUBLES_EQUAL(expected_K, observer.max_K(), 1e-9);
+  DOUBLES_EQUAL(expected_K, observer.min_K(), 1e-9);
 }
 
 TEST(IntervalObserver, IsHotterWhileCoolingThanAnObserverWithBothLowerBounds) {
@@ -69,12 +68,12 @@ TEST(IntervalObserver, IsHotterWhileCoolingThanAnObserverWithBothLowerBounds) {
     heavy_K += (power_W / 0.06 - heavy_K) * (1.0 - std::exp(-0.06 / 0.20 * slow_step_s));
   }
   CHECK_COMPARE(light_K, <, heavy_K);
-  CHECK_COMPARE(observer.highest_K(), >=, heavy_K);
+  CHECK_COMPARE(observer.max_K(), >=, heavy_K);
 }
 
-TEST(IntervalObserver, AfterAnUnknownPastIsAnythingUpToWhatItIsTold) {
+TEST(IntervalObserver, AfterAnUnknownPastTheIntervalReachesTheGivenLimit) {
   IntervalObserver observer(bounds, slow_step_s);
   observer.reset(140.0);
-  DOUBLES_EQUAL(0.0, observer.lowest_K(), 0.0);
-  DOUBLES_EQUAL(140.0, observer.highest_K(), 0.0);
+  DOUBLES_EQUAL(0.0, observer.min_K(), 0.0);
+  DOUBLES_EQUAL(140.0, observer.max_K(), 0.0);
 }

@@ -24,7 +24,7 @@ double any_between(double low, double high) {
 
 /// A muscle whose heat transfer grows with its rise, by no more than the cube root.
 struct GrowingMuscle {
-  double mass = any_between(wide_bounds.lowest_mass_J_per_K, wide_bounds.highest_mass_J_per_K);
+  double mass = any_between(wide_bounds.min_mass_J_per_K, wide_bounds.max_mass_J_per_K);
   double at_K = any_between(10.0, 100.0);
   double transfer = any_between(0.06, 0.12);  ///< at at_K
   double power = any_between(0.0, 1.0 / 3.0);
@@ -32,7 +32,7 @@ struct GrowingMuscle {
 
   double transfer_at(double rise) const {
     // Within the configured bounds also where it is cold.
-    return std::fmax(wide_bounds.lowest_transfer_W_per_K, transfer * std::pow(rise / at_K, power));
+    return std::fmax(wide_bounds.min_transfer_W_per_K, transfer * std::pow(rise / at_K, power));
   }
   void step(double power_W, double step_s) {
     constexpr int substeps = 50;
@@ -62,8 +62,8 @@ TEST(RiseIntervalObserver, HoldsAMuscleWhoseHeatTransferGrowsWithItsRise) {
         observer.step(power_W, power_W);
         // Euler's steps of the truth are not exact.
         const double allowed_K = 1e-6 + 2e-3 * muscle.rise_K;
-        RC_ASSERT(observer.lowest_K() <= muscle.rise_K + allowed_K);
-        RC_ASSERT(observer.highest_K() >= muscle.rise_K - allowed_K);
+        RC_ASSERT(observer.min_K() <= muscle.rise_K + allowed_K);
+        RC_ASSERT(observer.max_K() >= muscle.rise_K - allowed_K);
       }
     }
   }));
@@ -79,8 +79,8 @@ TEST(RiseIntervalObserver, WithoutSpansIsThePlainOneToTheLastBit) {
       const double power_W = any_between(0.0, 15.0);
       observer.step(0.9 * power_W, power_W);
       plain.step(0.9 * power_W, power_W);
-      RC_ASSERT(observer.lowest_K() == plain.lowest_K());
-      RC_ASSERT(observer.highest_K() == plain.highest_K());
+      RC_ASSERT(observer.min_K() == plain.min_K());
+      RC_ASSERT(observer.max_K() == plain.max_K());
     }
   }));
 }
@@ -97,8 +97,8 @@ TEST(RiseIntervalObserver, IsNeverWiderThanWithoutSpans) {
     for (int tick = 0; tick < 600; ++tick) {
       observer.step(3.0, 4.0);
       plain.step(3.0, 4.0);
-      RC_ASSERT(observer.lowest_K() >= plain.lowest_K());
-      RC_ASSERT(observer.highest_K() <= plain.highest_K());
+      RC_ASSERT(observer.min_K() >= plain.min_K());
+      RC_ASSERT(observer.max_K() <= plain.max_K());
     }
   }));
 }
@@ -108,11 +108,11 @@ TEST(RiseIntervalObserver, GoesOnFromWhereItIsWhenItIsSetAnew) {
   observer.reset(120.0);
   const std::array<TransferSpan, 1> spans{{{0.08, 0.10, 20.0, 40.0}}};
   observer.set(wide_bounds, spans);
-  DOUBLES_EQUAL(120.0, observer.highest_K(), 0.0);
+  DOUBLES_EQUAL(120.0, observer.max_K(), 0.0);
   for (int tick = 0; tick < 6000; ++tick)
     observer.step(2.4, 2.4);
-  DOUBLES_EQUAL(30.0, observer.highest_K(), 1e-6);
-  DOUBLES_EQUAL(24.0, observer.lowest_K(), 1e-6);
+  DOUBLES_EQUAL(30.0, observer.max_K(), 1e-6);
+  DOUBLES_EQUAL(24.0, observer.min_K(), 1e-6);
 }
 
 TEST(RiseIntervalObserver, KnowsLessBesideTheRisesOfASpan) {

@@ -68,7 +68,7 @@ bool grows_after_a_push(const std::string& name, const PhysicalParameters& param
   for (int k = 0; k < all; ++k) {
     const double position_m = muscle.position_m();
     const auto out = controller.step({.position_m = position_m, .applied_power_W = applied_W});
-    powers_W.push_back(out.wanted_power_W + (k == 0 ? 1.0 : 0.0));
+    powers_W.push_back(out.demanded_power_W + (k == 0 ? 1.0 : 0.0));
     applied_W = powers_W.front();
     powers_W.pop_front();
     muscle.step(applied_W);

@@ -10,14 +10,14 @@ using supercoil::test::NoisyLoop;
 
 namespace {
 
-/// first_part: of the true θ: what estimator and feedforward begin with.
-NoisyLoop feedforward_loop(double first_part = 1.0) {
+/// initial_ratio: of the true θ: what estimator and feedforward begin with.
+NoisyLoop feedforward_loop(double initial_ratio = 1.0) {
   NoisyLoop loop;
   loop.controller.kind = ControllerKind::adaptive_ff;
   loop.controller.model = design_model();
   EstimatorSettings estimator;
   estimator.kind = EstimatorKind::least_squares;
-  estimator.least_squares.initial *= first_part;
+  estimator.least_squares.initial *= initial_ratio;
   loop.estimator = estimator;
   loop.believed = {.theta = estimator.least_squares.initial, .settled = true};
   return loop;

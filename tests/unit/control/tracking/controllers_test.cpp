@@ -103,7 +103,7 @@ TEST(Controllers, ThoseThatLearnTakeAHeldPowerOver) {
                       .hold = true});
     const auto out = controller.step(
         {.reference_m = 0.01, .position_m = 0.0101, .applied_power_W = 1.7, .limited = false});
-    DOUBLES_EQUAL(1.7, out.wanted_power_W, 1e-3);
+    DOUBLES_EQUAL(1.7, out.demanded_power_W, 1e-3);
   }
 }
 
@@ -115,7 +115,7 @@ TEST(Controllers, OpenLoopPassesThePowerOn) {
     Controller controller(settings, 1e-3);
     ControllerInput input;
     input.reference_power_W = 1.2345678901;
-    DOUBLES_EQUAL(1.2345678901, controller.step(input).wanted_power_W, 0.0);
+    DOUBLES_EQUAL(1.2345678901, controller.step(input).demanded_power_W, 0.0);
   }
 }
 

@@ -23,7 +23,7 @@ double share_of(double true_share, double other_W, LearnedShare share) {
 }
 
 LearnedShare usual() {
-  return LearnedShare({.period_s = observation_period_s, .least_W = 0.01}, 1.0);
+  return LearnedShare({.period_s = observation_period_s, .min_W = 0.01}, 1.0);
 }
 
 }  // namespace

@@ -73,26 +73,26 @@ TEST(OscillationDetector, LetsALawSlowDownUntilTheLightlyDampedMuscleIsFollowed)
                                   muscle.moving_mass_kg};
     settings.slow_when_oscillating = slow_down;
     Controller controller(settings, tick_s);
-    controller.suit(theta_from(muscle));
+    controller.retune(theta_from(muscle));
     supercoil::test::Muscle plant(muscle, tick_s);
     const PowerRange range;
     double power_W = 0.0;
     bool limited = false;
-    double largest_m = 0.0;
+    double max_m = 0.0;
     bool told = false;
     for (int k = 0; k < 80'000; ++k) {
       const auto out = controller.step({.reference_m = supercoil::test::paper_sine_m(k * tick_s),
                                         .position_m = plant.position_m(),
                                         .applied_power_W = power_W,
                                         .limited = limited});
-      power_W = range.clip(out.wanted_power_W);
-      limited = power_W != out.wanted_power_W;
-      if (k > 55'000) largest_m = std::fmax(largest_m, std::abs(out.model_m - plant.position_m()));
+      power_W = range.clip(out.demanded_power_W);
+      limited = power_W != out.demanded_power_W;
+      if (k > 55'000) max_m = std::fmax(max_m, std::abs(out.model_m - plant.position_m()));
       told = out.oscillated;
       plant.step(power_W);
     }
     CHECK(told);
-    CHECK_EQUAL(slow_down, largest_m < 20e-6);
-    if (!slow_down) CHECK(largest_m > 1e-3);
+    CHECK_EQUAL(slow_down, max_m < 20e-6);
+    if (!slow_down) CHECK(max_m > 1e-3);
   }
 }

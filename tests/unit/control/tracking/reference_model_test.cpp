@@ -73,6 +73,6 @@ TEST(ReferenceModels, VelocityAndAccelerationAreThePositionsDerivatives) {
   DOUBLES_EQUAL((after.velocity - before.velocity) / (2 * step_s), now.acceleration, 1e-6);
 }
 
-TEST(ReferenceModels, AnUnknownNameIsNoModel) {
+TEST(ReferenceModels, AnUnknownNameGivesNoModel) {
   CHECK_FALSE(reference_model_named("eq9").has_value());
 }

@@ -76,15 +76,15 @@ TEST(ReferenceShapers, FallIsTheCoolingMuscleItself) {
 TEST(ReferenceShapers, ItArrivesAndIsNoMoreLimited) {
   Shaped shaped;
   shaped.at_rest(level_m);
-  double least_m = level_m;
+  double min_m = level_m;
   for (int k = 0; k < 30'000; ++k) {
     shaped.tick(0.002);
-    least_m = std::fmin(least_m, shaped.position_m());
+    min_m = std::fmin(min_m, shaped.position_m());
   }
   CHECK(shaped.now.what == Infeasible::nothing);
   DOUBLES_EQUAL(0.002, shaped.position_m(), 1e-6);
   // Hardly more than the model's own overshoot, 5 %.
-  CHECK(least_m > 0.002 - 0.08 * (level_m - 0.002));
+  CHECK(min_m > 0.002 - 0.08 * (level_m - 0.002));
 }
 
 TEST(ReferenceShapers, GreatestPowerSetsTheHighestPosition) {

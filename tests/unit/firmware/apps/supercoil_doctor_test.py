@@ -39,11 +39,11 @@ class Doctor(unittest.TestCase):
         self.assertEqual(done.stderr, "")
         report = json.loads(done.stdout)
         for verdict, key in (("problem", "problems"), ("warning", "warnings")):
-            self.assertEqual(sum(f["verdict"] == verdict for f in report["findings"]), report[key])
+            self.assertEqual(sum(f["severity"] == verdict for f in report["findings"]), report[key])
         self.assertEqual(done.returncode, 1 if report["problems"] else 0)
         for finding in report["findings"]:
-            self.assertEqual(list(finding), ["what", "verdict", "found", "remedy"])
-            self.assertEqual(finding["remedy"] == "", finding["verdict"] == "ok", finding)
+            self.assertEqual(list(finding), ["what", "severity", "found", "remedy"])
+            self.assertEqual(finding["remedy"] == "", finding["severity"] == "ok", finding)
         names = [finding["what"] for finding in report["findings"]]
         self.assertEqual(len(names), len(set(names)))
         return {finding["what"]: finding for finding in report["findings"]}
@@ -51,13 +51,13 @@ class Doctor(unittest.TestCase):
     def test_every_device_that_is_missing_is_named_with_where_it_was_looked_for(self):
         found = self.findings()
         for what in ("heartbeat", "stop_circuit", "light", "channel 1, enable", "channel 4, enable"):
-            self.assertEqual(found[what]["verdict"], "problem")
+            self.assertEqual(found[what]["severity"], "problem")
             self.assertRegex(found[what]["found"], "^no chip with the label 'no-such-chip' in /dev: there ")
             self.assertIn("gpioinfo", found[what]["remedy"])
         for what in ("channel 1, pwm", "channel 4, pwm", "supply", "channel 1, position", "channel 4, current"):
-            self.assertEqual(found[what]["verdict"], "problem")
+            self.assertEqual(found[what]["severity"], "problem")
             self.assertRegex(found[what]["found"], "(in|into) /sys/")
-        self.assertEqual(found["watchdog"]["verdict"], "problem")
+        self.assertEqual(found["watchdog"]["severity"], "problem")
         self.assertIn("/dev/no-such-watchdog: No such file or directory; in /sys/class/watchdog",
                       found["watchdog"]["found"])
         self.assertIn("by the configuration; not measured", found["bus i2c-1"]["found"])
@@ -66,7 +66,7 @@ class Doctor(unittest.TestCase):
         found = self.findings()
         for what in ("kernel", "real-time share", "priority", "other programs", "locked memory", "deep sleep",
                      "frequency", "processors"):
-            self.assertIn(found[what]["verdict"], ("ok", "warning"))
+            self.assertIn(found[what]["severity"], ("ok", "warning"))
         self.assertIn(os.uname().release, found["kernel"]["found"])
 
     def test_as_text_each_finding_has_its_line_and_its_remedy(self):
@@ -85,7 +85,7 @@ class Doctor(unittest.TestCase):
             lock.flush()
             fcntl.flock(lock, fcntl.LOCK_EX)
             found = self.findings()
-        self.assertEqual(found["devices"]["verdict"], "warning")
+        self.assertEqual(found["devices"]["severity"], "warning")
         self.assertEqual(found["devices"]["found"],
                          "not looked at: ./lock: another supercoild drives this board, process 4711")
         self.assertNotIn("heartbeat", found)
@@ -102,26 +102,26 @@ class Doctor(unittest.TestCase):
         (self.path / "b.toml").write_text("".join(
             line for line in text.splitlines(keepends=True) if not line.startswith("watchdog")))
         found = self.findings("--run-folder", "none")
-        self.assertEqual({finding["verdict"] for finding in found.values()}, {"ok", "warning"})
+        self.assertEqual({finding["severity"] for finding in found.values()}, {"ok", "warning"})
         self.assertEqual(found["watchdog"]["found"], "none: board.watchdog is absent")
 
     def test_the_bus_of_the_configuration_and_its_load(self):
         with open(self.path / "b.toml", "a") as file:
             file.write('[can]\ninterface = "no-can6"\nbit_rate = 500000\n')
         found = self.findings()
-        self.assertEqual(found["CAN no-can6"]["verdict"], "problem")
+        self.assertEqual(found["CAN no-can6"]["severity"], "problem")
         self.assertRegex(found["CAN load"]["found"], r"^\d+\.\d % of 500 kbit/s at worst, beside commands; at most 50.0 %$")
 
     def test_a_can_interface_only_when_it_is_asked_for(self):
         self.assertNotIn("CAN", " ".join(self.findings()))
         found = self.findings("--can", "no-can7")["CAN no-can7"]
-        self.assertEqual(found["verdict"], "problem")
+        self.assertEqual(found["severity"], "problem")
         self.assertIn("no interface 'no-can7' in /sys/class/net: there ", found["found"])
 
     def test_a_realtime_kernel_is_named_for_this_architecture(self):
         found = self.findings()["kernel"]
         package = {"x86_64": "linux-image-rt-amd64", "aarch64": "linux-image-rt-arm64"}.get(os.uname().machine)
-        if found["verdict"] == "ok" or package is None:
+        if found["severity"] == "ok" or package is None:
             self.skipTest("no advice here")
         self.assertIn(f"on Debian {package}:", found["remedy"])
 
@@ -132,8 +132,8 @@ class Doctor(unittest.TestCase):
         found = {finding["what"]: finding for finding in json.loads(done.stdout)["findings"]}
         for what in ("kernel", "priority", "processors", "GPIO chips", "PWM chips", "I2C buses", "SPI devices",
                      "CAN interfaces", "converters"):
-            self.assertIn(found[what]["verdict"], ("ok", "warning"))
-        self.assertEqual(found["configuration"]["verdict"], "problem")
+            self.assertIn(found[what]["severity"], ("ok", "warning"))
+        self.assertEqual(found["configuration"]["severity"], "problem")
         self.assertIn("/etc/supercoil/boards", found["configuration"]["remedy"])
         self.assertIn("this machine: 1 problem, ", subprocess.run([PROGRAM, "doctor"], capture_output=True, text=True).stdout)
         for arguments in (("--config", "none.toml"), ("--config", "none.toml", "--json")):

@@ -13,9 +13,9 @@ PROGRAM = os.environ["SUPERCOIL"]
 WRITE_SAMPLE = os.environ["WRITE_SAMPLE"]
 HEADER, ROW = 512, 112
 COLUMNS = ("time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,model_m,"
-           "position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,resistance_age_s,coldest_C,"
-           "hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,margin_of,margin_used,margin_measured,"
-           "margin_limit,gain_of,gain,result,aside_of,aside,identify_notes").split(",")
+           "position_m,demanded_W,applied_W,duty,supply_V,current_A,resistance_Ohm,resistance_age_s,coldest_C,"
+           "hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,margin_selector,margin_used,margin_measured,"
+           "margin_limit,gain_selector,gain,result,multiplexed_selector,multiplexed_value,identify_notes").split(",")
 
 
 class Log(unittest.TestCase):
@@ -193,7 +193,7 @@ class Log(unittest.TestCase):
         for written, meant in (("comand", "did you mean command?"), ("xyzzy", "the commands are: log, command, ")):
             done = subprocess.run([PROGRAM, written, "state"], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
-            self.assertIn(f"supercoil: '{written}' is no command; {meant}", done.stderr)
+            self.assertIn(f"supercoil: '{written}' is not a command; {meant}", done.stderr)
 
     def test_help_and_version(self):
         self.assertIn("log", subprocess.run([PROGRAM, "--help"], capture_output=True, text=True).stdout)

@@ -78,7 +78,7 @@ class Program(unittest.TestCase):
                   "moving_mass_kg": 0.09, "force_per_kelvin_N_per_K": 0.0086}
         calibration = {"position_offset_m": 0.0, "position_scale": 1.0, "cold_resistance_Ohm": 10.0}
         senses = {"supply_gain": 1.01, "current_gain": 0.99, "error_ratio": 0.02, "compared_s": 1795219200.0}
-        self.learned(1, 3, muscle=muscle, calibration=calibration, senses=senses, small_motions={"answer_ratio": 0.01})
+        self.learned(1, 3, muscle=muscle, calibration=calibration, senses=senses, small_motions={"response_ratio": 0.01})
         name, _ = self.changed("rate_Hz = 100.0", f'rate_Hz = 100.0\nstorage_folder = "{self.path}"')
         done = self.run_program("--check", name)
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -28,21 +28,21 @@ TEST_GROUP(CheckKernel) {
   template <class Check>
   static hal::Finding only(const Check& check) {
     Told told;
-    check(told.tell());
+    check(told.sink());
     LONGS_EQUAL(1, told.findings.size());
     return told.findings.front();
   }
   hal::Finding kernel() const {
-    return only([&](const hal::Tell& tell) { check_kernel(machine, tell); });
+    return only([&](const hal::FindingSink& sink) { check_kernel(machine, sink); });
   }
   hal::Finding throttling() const {
-    return only([&](const hal::Tell& tell) { check_throttling(machine, tell); });
+    return only([&](const hal::FindingSink& sink) { check_throttling(machine, sink); });
   }
   hal::Finding governor() const {
-    return only([&](const hal::Tell& tell) { check_governor(machine, tell); });
+    return only([&](const hal::FindingSink& sink) { check_governor(machine, sink); });
   }
   hal::Finding processors(int cpu) const {
-    return only([&](const hal::Tell& tell) { check_processors(machine, {80, cpu}, tell); });
+    return only([&](const hal::FindingSink& sink) { check_processors(machine, {80, cpu}, sink); });
   }
 };
 

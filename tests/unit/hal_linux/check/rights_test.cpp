@@ -37,12 +37,12 @@ TEST_GROUP(CheckRights) {
   }
   hal::Finding priority(int answer) {
     next(Call::set_scheduling, "", [answer] { return -answer; });
-    check_priority(machine, {80, -1}, told.tell());
+    check_priority(machine, {80, -1}, told.sink());
     LONGS_EQUAL(0, waiting());
     return told.findings.back();
   }
   hal::Finding memory() {
-    check_locked_memory(machine, told.tell());
+    check_locked_memory(machine, told.sink());
     return told.findings.back();
   }
 };
@@ -73,10 +73,10 @@ TEST(CheckRights, ComparesTheLimitOfLockedMemory) {
 }
 
 TEST(CheckRights, SaysWhyProcessorsMaySleep) {
-  check_wakefulness(machine, told.tell());
+  check_cpu_latency(machine, told.sink());
   check_finding("warning", "cannot open " + root / "dev/cpu_dma_latency", "allow writing to",
                 told.findings.back());
   root.write("dev/cpu_dma_latency", "");
-  check_wakefulness(machine, told.tell());
+  check_cpu_latency(machine, told.sink());
   check_finding("ok", "CPUs kept from deep sleep", "", told.findings.back());
 }

@@ -12,15 +12,15 @@ namespace supercoil::test {
 
 struct Told {
   std::vector<hal::Finding> findings;
-  hal::Tell tell() {
+  hal::FindingSink sink() {
     return [this](const hal::Finding& finding) { findings.push_back(finding); };
   }
 };
 
 /// found and remedy: parts of them; an empty remedy asks for none.
-inline void check_finding(const std::string& verdict, const std::string& found,
+inline void check_finding(const std::string& severity, const std::string& found,
                           const std::string& remedy, const hal::Finding& finding) {
-  STRCMP_EQUAL(verdict.c_str(), hal::text(finding.verdict));
+  STRCMP_EQUAL(severity.c_str(), hal::text(finding.severity));
   STRCMP_CONTAINS(found.c_str(), finding.found.c_str());
   STRCMP_CONTAINS(remedy.c_str(), finding.remedy.c_str());
   CHECK_EQUAL(remedy.empty(), finding.remedy.empty());

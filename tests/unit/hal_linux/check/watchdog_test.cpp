@@ -37,7 +37,7 @@ TEST_GROUP(CheckWatchdog) {
   }
   hal::Finding found(const std::string& path, bool in_use = false) const {
     Told told;
-    check_watchdog(machine, path, in_use, told.tell());
+    check_watchdog(machine, path, in_use, told.sink());
     LONGS_EQUAL(1, told.findings.size());
     return told.findings.front();
   }
@@ -56,7 +56,7 @@ TEST(CheckWatchdog, NamesWhatThereIsInstead) {
   check_finding("problem", root / "dev/watchdog" + ": No such device", "load its driver",
                 found(root / "dev/watchdog"));
   root.remove("sys");
-  check_finding("problem", "there is none at all", "load its driver", found(root / "dev/none"));
+  check_finding("problem", "there is none", "load its driver", found(root / "dev/none"));
 }
 
 TEST(CheckWatchdog, SaysThatSomebodyElseHasIt) {

@@ -93,7 +93,7 @@ int __wrap_setsockopt(int file, int level, int option, const void* value, sockle
     const auto* const filters = static_cast<const can_filter*>(value);
     current->filters.assign(filters, filters + size / sizeof(can_filter));
   } else if (option == CAN_RAW_ERR_FILTER) {
-    std::memcpy(&current->told_errors, value, sizeof(current->told_errors));
+    std::memcpy(&current->reported_errors, value, sizeof(current->reported_errors));
   } else {
     return refuse(ENOPROTOOPT);
   }

@@ -43,7 +43,7 @@ class CanKernel {
 
   TemporaryFolder net;
   std::vector<can_filter> filters;
-  can_err_mask_t told_errors = 0;
+  can_err_mask_t reported_errors = 0;
   int bound_to = 0;
   int sockets = 0;                 ///< opened so far
   std::deque<int> receive_errors;  ///< for the next calls of recvmsg

@@ -101,7 +101,7 @@ long PwmKernel::apply(const PwmState& wanted) {
   const bool from_bad_to_bad = rules_ == Rules::since_6_8 && !is_valid(state);
   if (judged && !is_valid(wanted) && !from_bad_to_bad) return -EINVAL;
   state = wanted;
-  most_on = std::max(most_on, state.on());
+  max_on = std::max(max_on, state.on());
   return 0;
 }
 

@@ -44,7 +44,7 @@ class PwmKernel {
   PwmState state;
   std::vector<std::string> writes;    ///< "duty_cycle 0"
   std::vector<std::string> refusals;  ///< the same, of those answered with EINVAL
-  double most_on = 0.0;               ///< of all states that were accepted
+  double max_on = 0.0;                ///< of all states that were accepted
 
  private:
   long write(const std::string& path, std::string_view text);

@@ -46,8 +46,8 @@ class ScanTree {
     tree.write(path + "_index", std::to_string(index) + "\n");
     tree.write(path + "_type", type + "\n");
   }
-  hal_linux::ScanPlace place(const std::vector<std::string>& inputs = {"voltage2",
-                                                                       "voltage0"}) const {
+  hal_linux::ScanLocation place(const std::vector<std::string>& inputs = {"voltage2",
+                                                                          "voltage0"}) const {
     return {"ads7951", inputs, "supercoil", 64, tree / "bus", tree / "dev"};
   }
   std::string attribute(const std::string& name) const { return tree.read(device + "/" + name); }

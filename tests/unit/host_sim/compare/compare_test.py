@@ -162,7 +162,7 @@ class Compare(unittest.TestCase):
         self.assertNotIn("mrac-c,brief,q8.24", text)
 
     def test_a_fault_is_counted_and_the_muscle_not_followed(self):
-        (self.path / "broken.toml").write_text(BRIEF.replace("plant.stiffness_N_per_m = 12.0", "trouble.heater_open = true"))
+        (self.path / "broken.toml").write_text(BRIEF.replace("plant.stiffness_N_per_m = 12.0", "injected_fault.heater_open = true"))
         self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--no-plot", "--out", "out")
         with open(self.path / "out/runs.csv") as file:
             next(file)

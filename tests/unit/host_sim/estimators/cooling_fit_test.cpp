@@ -16,7 +16,7 @@ namespace {
 
 constexpr double fit_step_s = 1e-3;
 constexpr double max_travel_m = 0.040;
-constexpr double longest_s = 1500.0;
+constexpr double max_s = 1500.0;
 
 modes::Excitation begun() {
   modes::Excitation excitation({max_travel_m, fit_step_s});
@@ -50,7 +50,7 @@ Identified identify_preset(MusclePreset preset, double cooling_ratio, double max
   double sum_K = 0.0;
   long ticks = 0;
   modes::Excitation excitation = begun();
-  for (; !excitation.done() && static_cast<double>(ticks) * fit_step_s < longest_s; ++ticks) {
+  for (; !excitation.done() && static_cast<double>(ticks) * fit_step_s < max_s; ++ticks) {
     const double seen_m = plant.position_m() + noise_m(random);
     fit.step(seen_m, power_W);
     power_W = excitation.step(seen_m, max_W);

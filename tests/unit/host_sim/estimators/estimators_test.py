@@ -38,7 +38,7 @@ class Estimators(unittest.TestCase):
         self.assertTrue(0.1 * steady["bound"] < steady["least_squares"] < 3.0 * steady["bound"], steady)
         self.assertTrue(0.1 * steady["bound"] < steady["ekf"] < 3.0 * steady["bound"], steady)
         self.assertGreater(steady["gradient"], 3.0 * steady["bound"])
-        self.assertEqual(rows["nominal", "gradient", "told_rms_percent"]["theta1"], "")
+        self.assertEqual(rows["nominal", "gradient", "reported_rms_percent"]["theta1"], "")
 
     def test_what_is_wrong_is_said(self):
         self.assertIn("--seeds", self.compare("--seeds", 0, status=2).stderr)

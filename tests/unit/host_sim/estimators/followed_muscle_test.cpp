@@ -71,7 +71,7 @@ TEST(Changes, ALoadLeavesTheta2AndTheta3) {
   for (const Course motion : {Course::sine, Course::steps, Course::random_steps}) {
     muscle.motion = motion;
     // With the load 4.5 W hold 19 mm.
-    muscle.highest_m = motion == Course::sine ? 0.020 : 0.015;
+    muscle.max_m = motion == Course::sine ? 0.020 : 0.015;
     for (int i = 0; i < 4; ++i) {
       muscle.change_at_s = 100.0 + 7.0 * i;
       double off = 0.0;
@@ -114,8 +114,8 @@ TEST(Changes, TimesAndPowersFollowTheMuscle) {
   CHECK(slowest_s(small, 2) <= 0.5);
   FollowedMuscle stiff;
   stiff.parameters.stiffness_N_per_m = 80.0;
-  stiff.lowest_m = 0.0005;
-  stiff.highest_m = 0.004;
+  stiff.min_m = 0.0005;
+  stiff.max_m = 0.004;
   stiff.stiffness_ratio = 0.75;
   CHECK(slowest_s(stiff, 2) <= 0.5);
 }

@@ -37,7 +37,7 @@ void learn(MuscleFilter& filter, Bench& bench, double seconds) {
   }
 }
 
-double largest_error(const MuscleFilter& filter, const Bench& bench) {
+double max_error(const MuscleFilter& filter, const Bench& bench) {
   return (filter.theta().cwiseQuotient(bench.truth()) - Theta::Ones()).cwiseAbs().maxCoeff();
 }
 
@@ -64,7 +64,7 @@ TEST(MuscleFilter, ComesNearTheTruthWithoutNoise) {
     Bench bench(steady_muscle(0.0), 1);
     MuscleFilter filter(predict, near_by(), tick_s);
     learn(filter, bench, 12.0);
-    CHECK_COMPARE(largest_error(filter, bench), <, 0.05);
+    CHECK_COMPARE(max_error(filter, bench), <, 0.05);
     LONGS_EQUAL(0, filter.restarts());
   }
 }
@@ -160,5 +160,5 @@ TEST(MuscleFilter, KeepsThetaWithinItsBounds) {
   const MuscleFilter filter(predict_extended, settings, tick_s);
   const Theta part = filter.theta().cwiseQuotient(settings.scale.nominal);
   for (int i = 0; i < 4; ++i)
-    DOUBLES_EQUAL(settings.lowest_part, part[i], 1e-12);
+    DOUBLES_EQUAL(settings.min_ratio, part[i], 1e-12);
 }

@@ -17,7 +17,7 @@ const std::map<std::string, std::string>& table() {
   static const auto rows = [] {
     std::map<std::string, std::string> result;
     for (const Part& part : reproduce([](double) {})) {
-      for (const Row& row : part.rows) {
+      for (const ReproductionRow& row : part.rows) {
         std::string& value = result[row.id + " " + row.case_name];
         CHECK_TEXT(value.empty(), (row.id + " " + row.case_name + " stands twice").c_str());
         value = row.measured;

@@ -138,8 +138,8 @@ TEST(GuideFriction, HoldsWithoutDriftWhatIsLessThanStaticFriction) {
   push(0.9 * coulomb_N, 5.0);
   const double rested_m = motion.position_m;
   // A bristle yields as it bends: z = z0 (1 − exp(−x/z0)), z0 where static friction would be.
-  const double longest_m = 1.2 * effects.friction_bristle_m;
-  DOUBLES_EQUAL(-longest_m * std::log(1.0 - 0.9 / 1.2), rested_m, 1e-7);
+  const double max_m = 1.2 * effects.friction_bristle_m;
+  DOUBLES_EQUAL(-max_m * std::log(1.0 - 0.9 / 1.2), rested_m, 1e-7);
   push(0.9 * coulomb_N, 100.0);
   DOUBLES_EQUAL(rested_m, motion.position_m, 1e-9);
   DOUBLES_EQUAL(0.0, motion.velocity_m_per_s, 1e-9);

@@ -68,8 +68,8 @@ struct LearningLoop {
         squares += error_um * error_um;
         count += 1.0;
       }
-      power_W = range.clip(out.wanted_power_W);
-      limited = power_W != out.wanted_power_W;
+      power_W = range.clip(out.demanded_power_W);
+      limited = power_W != out.demanded_power_W;
       constexpr double pwm_W = 14.4 / 4095;
       const double exact = power_W / pwm_W + carried;
       carried = exact - std::floor(exact);

@@ -58,7 +58,7 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
   record.thermometer_C = 31.5;
   writer.add(record, estimate);
   record.thermometer_C = NAN;
-  record.open_loop = record.asks_power = true;
+  record.open_loop = record.commands_power = true;
   record.state = State::fault;
   record.fault = Fault::heater_open;
   record.limited_by = LimitedBy::temperature;

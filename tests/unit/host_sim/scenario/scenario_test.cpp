@@ -57,9 +57,9 @@ error_feedback = false
 delay_s = 0.004
 gain = 0.9
 [thermal]
-mass_part = [0.8, 1.2]
-transfer_part = [0.5, 2.0]
-power_part = [0.9, 1.1]
+mass_ratio = [0.8, 1.2]
+transfer_ratio = [0.5, 2.0]
+power_ratio = [0.9, 1.1]
 [ambient]
 air_C = 21.0
 warmest_C = 30.0
@@ -68,10 +68,10 @@ sensor_error_K = 1.5
 sensor_offset_K = -0.5
 [senses]
 error_ratio = 0.05
-[trouble]
+[injected_fault]
 heater_open = true
 [operator]
-wish = "identify"
+action = "identify"
 [reference]
 kind = "multisine"
 offset_m = 0.010
@@ -115,8 +115,8 @@ trusted_error = 0.1
   CHECK(c.thermal == (ThermalSpans{{0.8, 1.2}, {0.5, 2.0}, {0.9, 1.1}}));
   CHECK(c.ambient == (Ambient{21.0, 30.0, 10.0, 1.5, -0.5}));
   DOUBLES_EQUAL(0.05, c.sense_error_ratio, 0.0);
-  CHECK(c.trouble == Trouble{.heater_open = true});
-  CHECK(c.wish == Wish::identify);
+  CHECK(c.injected_faults == InjectedFaults{.heater_open = true});
+  CHECK(c.action == OperatorAction::identify);
   CHECK(c.reference.kind == ReferenceKind::multisine);
   DOUBLES_EQUAL(0.013, c.reference.highest(), 1e-15);
   DOUBLES_EQUAL(36.0, c.controller.model.gain, 1e-12);
@@ -132,10 +132,11 @@ trusted_error = 0.1
 }
 
 TEST(ReadScenario, TroublesThatAreNumbersArriveWhereTheyBelong) {
-  const Trouble trouble =
-      read("trouble = {current_gain = 0.8, supply_gain = 1.1, switch_leak_ratio = 0.05}")
-          .start.trouble;
-  CHECK(trouble == (Trouble{.current_gain = 0.8, .supply_gain = 1.1, .switch_leak_ratio = 0.05}));
+  const InjectedFaults injected_faults =
+      read("injected_fault = {current_gain = 0.8, supply_gain = 1.1, switch_leak_ratio = 0.05}")
+          .start.injected_faults;
+  CHECK(injected_faults ==
+        (InjectedFaults{.current_gain = 0.8, .supply_gain = 1.1, .switch_leak_ratio = 0.05}));
 }
 
 TEST(ReadScenario, MracTakesAPresetAndWhatIsWrittenBesideIt) {

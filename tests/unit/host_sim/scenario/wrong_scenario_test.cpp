@@ -39,7 +39,7 @@ TEST(WrongScenario, UnknownKeyWithNothingNearListsWhatThereIs) {
       "[sensor.position]\ncolour = \"red\"");
 }
 
-TEST(WrongScenario, MissingUnitIsToldTheUnit) {
+TEST(WrongScenario, MissingUnitIsNamed) {
   check_answer(
       "s.toml:2: simulation.duration = 10: is not a key of [simulation]; did you mean duration_s "
       "(the unit is part of the name)?",
@@ -248,7 +248,7 @@ TEST(WrongScenario, NameThatNoBuiltInScenarioHas) {
   const auto scenario = read_scenario("sinus");
   STRCMP_EQUAL(
       "sinus: there is no such file\n"
-      "sinus: and no built-in scenario is called so; they are: b, bench, c, disturbances, "
+      "sinus: and no built-in scenario has that name; they are: b, bench, c, disturbances, "
       "first-motion, fixed-point, identify, pwm, real, real_hard, sine, steps\n",
       supercoil::config::to_text(scenario.error()).c_str());
 }

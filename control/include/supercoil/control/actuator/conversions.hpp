@@ -13,7 +13,7 @@ Theta theta_from(const PhysicalParameters& parameters);
 /// b0…b3 from the physical parameters (any valid set).
 TransferFunction transfer_function_from(const PhysicalParameters& parameters);
 
-/// What θ cannot tell: force per kelvin γ in N/K and moving mass m̂ in kg.
+/// Not contained in θ: force per kelvin γ in N/K and moving mass m̂ in kg.
 struct KnownParameters {
   double force_per_kelvin_N_per_K;
   double moving_mass_kg;

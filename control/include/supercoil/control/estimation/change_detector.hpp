@@ -14,8 +14,8 @@ namespace supercoil::control {
 /// How slow a muscle is: θ3/θ4, its thermal time constant, over that of the paper's muscle, on
 /// which times of filters and detectors were found.
 inline double slowness(const Theta& theta) {
-  constexpr double usual_thermal_s = 1.945;
-  return theta[2] / theta[3] / usual_thermal_s;
+  constexpr double typical_thermal_s = 1.945;
+  return theta[2] / theta[3] / typical_thermal_s;
 }
 
 /// A directional likelihood ratio. A change moves the parameters along a known direction d, and so
@@ -31,7 +31,7 @@ class ChangeDetector {
  public:
   using Signals = Vector<double, Directions>;
 
-  /// Times suit a muscle with a thermal time constant of 1.95 s.
+  /// Times are for a muscle with a thermal time constant of 1.95 s.
   struct Settings {
     double period_s;           ///< between steps
     double floor_rms;          ///< that g must exceed in any case, squared; in the residual's unit
@@ -40,10 +40,10 @@ class ChangeDetector {
     double memory_s = 1000.0;  ///< with which the largest g is forgotten
     double ratio = 5.0;        ///< to the largest g before
     double settle_s = 15.0;    ///< first errors are the start's
-    double blind_s = 90.0;     ///< no change is told before
+    double blind_s = 90.0;     ///< no change is reported before
     double repeat_s = 5.0;     ///< between changes
 
-    /// For a muscle so many times as slow: all times in which it moves.
+    /// Scales all times of motion for a muscle this many times slower.
     void stretch(double slow) {
       window_s *= slow;
       delay_s *= slow;

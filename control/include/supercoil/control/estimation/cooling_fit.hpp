@@ -16,7 +16,7 @@ namespace supercoil::control {
 /// damping and a drift:
 ///   x + a₁ẋ + a₂ẍ = c₀ + c₁u + c₂u² + c₃u³ + c₄ play(u; r₁) + c₅ play(u; r₂) + c₆ t,  u = q/max_W.
 /// That is linear in all but τ, so it is fitted for each of a row of them; the one that leaves the
-/// least is found. A fit that takes the motion for linear as well tells τ wrong by a factor of up
+/// least is found. A fit that takes the motion for linear as well gets τ wrong by a factor of up
 /// to 2.9 on a muscle whose force grows with temperature (docs/safety.md).
 class CoolingFit {
  public:
@@ -30,8 +30,8 @@ class CoolingFit {
     double mean_W;  ///< the power at which it was found
   };
 
-  static constexpr double most_unexplained = 0.01;  ///< of the position's variance
-  static constexpr double settle_s = 6.0;           ///< not used: filters and muscle start anew
+  static constexpr double max_unexplained = 0.01;  ///< of the position's variance
+  static constexpr double settle_s = 6.0;          ///< not used: filters and muscle start anew
 
   /// step_s > 0. Allocates nothing.
   CoolingFit(const Settings& settings, double step_s);
@@ -49,11 +49,11 @@ class CoolingFit {
   static constexpr double wanted_step_s = 0.01;
   static constexpr double corner_rad_per_s = 4.0;  ///< of two equal low-passes
   static constexpr double margin = 1.3;            ///< beside what is possible
-  static constexpr double least_used_s = 20.0;
+  static constexpr double min_used_s = 20.0;
   static constexpr double fine_play = 0.03;  ///< of max_W
   static constexpr double coarse_play = 0.12;
   static constexpr std::size_t aside = 4;  ///< all candidates so far from the best, or farther,
-  static constexpr double least_sharpness = 1.7;  ///< leave so many times more
+  static constexpr double min_sharpness = 1.7;  ///< leave this many times more
   static constexpr double ridge = 1e-10;
 
   struct Fit {

@@ -1,4 +1,4 @@
-// What an estimator tells of the muscle.
+// An estimator's result.
 #pragma once
 
 #include <cmath>
@@ -13,10 +13,10 @@ struct Estimate {
   double excitation_W2s = 0.0;        ///< λmin of ∫φφᵀ, see ExcitationMonitor; gradient only
   double relative_error_bound = 0.0;  ///< of all parameters together; infinity at first
   bool trusted = false;               ///< that bound is small enough
-  /// θ is near enough to go by, be it not yet trusted: see each estimator.
+  /// θ is near enough to be used, even when not yet trusted: see each estimator.
   bool settled = false;
-  double bias_W = 0.0;  ///< of the power, constant; the gradient law knows none
-  /// Standard deviations, as least squares tells them; infinity where the law tells none.
+  double bias_W = 0.0;  ///< of the power, constant; the gradient law has none
+  /// Standard deviations from least squares; infinity where the law has none.
   Theta deviation = Theta::Constant(INFINITY);
   double bias_deviation_W = INFINITY;
 };

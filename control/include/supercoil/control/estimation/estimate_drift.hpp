@@ -9,7 +9,7 @@
 namespace supercoil::control {
 
 /// A model that is not quite right fits a little otherwise wherever the muscle is, and no
-/// covariance that is computed from residuals foretells by how much. So θ is compared with itself a
+/// covariance that is computed from residuals predicts by how much. So θ is compared with itself a
 /// while ago, in the metric of the covariance that it had then: δᵀD⁻¹δ over the number of
 /// directions in which anything was known.
 class EstimateDrift {

@@ -32,7 +32,7 @@ struct EstimatorSettings {
   ExcitationMonitor::Settings excitation;
 };
 
-/// Of θ1…θ4 together, by the standard deviations over nominal that least squares tells.
+/// Of θ1…θ4 together, by least squares' standard deviations over nominal.
 double relative_error_bound(const Vector<double, 5>& deviations);
 
 /// What q8.24 cannot hold of the settings (see controller.hpp).
@@ -55,9 +55,9 @@ class Estimator {
                            LeastSquaresEstimator<float>>;
   static Any choose(const EstimatorSettings& settings, double step_s);
   template <class Scalar>
-  Estimate told(const GradientEstimator<Scalar>& estimator) const;
+  Estimate estimate_of(const GradientEstimator<Scalar>& estimator) const;
   template <class Scalar>
-  Estimate told(const LeastSquaresEstimator<Scalar>& estimator) const;
+  Estimate estimate_of(const LeastSquaresEstimator<Scalar>& estimator) const;
 
   Any any_;
   double to_watts_;

@@ -40,7 +40,7 @@ class ExcitationMonitor {
   }
 
   /// λmin in W²s over the last whole window; 0 until one has passed.
-  double smallest_eigenvalue() const { return smallest_eigenvalue_; }
+  double min_eigenvalue() const { return min_eigenvalue_; }
   /// The largest distance of θ from the window's best fit, relative to the nominal parameters;
   /// infinity until a window has passed. It judges θ as it was at the last sixteenth of a window.
   double error_bound() const { return error_bound_; }
@@ -63,7 +63,7 @@ class ExcitationMonitor {
   std::size_t filled_ = 0;
   Block current_;
   std::array<Block, blocks> history_;
-  double smallest_eigenvalue_ = 0.0;
+  double min_eigenvalue_ = 0.0;
   double error_bound_ = std::numeric_limits<double>::infinity();
 };
 

@@ -19,7 +19,7 @@ inline constexpr double steep_lambda_gain = 64.0;
 template <class Scalar>
 class FilteredRegression {
  public:
-  static constexpr int free = 3;  ///< so many free responses come first
+  static constexpr int free = 3;  ///< number of free responses, which come first
   static constexpr int size = free + 4 + 1;
   using Regressors = Vector<Scalar, size>;
   using Derivatives = Vector<double, 5>;

@@ -26,9 +26,9 @@ struct LeastSquaresSettings {
   double prior_variance = 100.0;  ///< C(0), of each θ over its nominal
   /// Of each θ over its nominal: so sure of `initial` where nothing excites it.
   double unexcited_deviation = 0.5;
-  double lowest_part = 0.2;  ///< θ is kept between these parts of its nominal
-  double highest_part = 5.0;
-  double largest_bias_W = 3.0;
+  double min_ratio = 0.2;  ///< θ is kept between these parts of its nominal
+  double max_ratio = 5.0;
+  double max_bias_W = 3.0;
   double max_W = 4.5;               ///< > 0, the largest power: the scale of changes
   double position_noise_m = 10e-6;  ///< expected, rms; see EstimateAccuracy
   bool detects_changes = true;      ///< else it only forgets: to compare
@@ -75,12 +75,12 @@ class LeastSquaresEstimator {
   /// The muscle is heated anew after a pause: the filters start at rest, what was learned stays.
   void restart() { begins_ = true; }
 
-  /// Within the bounds. Only what is told is projected: a θ moved under the recursion would no
+  /// Within the bounds. Only the output is projected: a θ moved under the recursion would no
   /// longer be what its covariance says (after changes it then did not converge at all).
-  const Parameters& parameters() const { return told_; }
+  const Parameters& parameters() const { return reported_; }
   const Parameters& standard_deviations() const { return deviations_; }
   /// Whose diagonal they are the roots of; zero at first.
-  const Matrix<double, 5>& covariance() const { return told_covariance_; }
+  const Matrix<double, 5>& covariance() const { return reported_covariance_; }
   /// ε = z − θᵀφ of the last update, in watts through 1/Λ'.
   double error() const { return static_cast<double>(error_); }
   /// Since it began or began anew, and since the last detected change (infinity before any).
@@ -149,9 +149,9 @@ class LeastSquaresEstimator {
         covariance_(All::Zero()) {
     initial_ << s.initial.cwiseQuotient(s.scale.nominal), 0.0;
     theta_ << Vector<Wide, free>::Zero(), initial_.template cast<Wide>();
-    bounds_.lower << Vector<double, 4>::Constant(s.lowest_part), -s.largest_bias_W;
-    bounds_.upper << Vector<double, 4>::Constant(s.highest_part), s.largest_bias_W;
-    told_ = project<double, 5>(initial_, bounds_);
+    bounds_.lower << Vector<double, 4>::Constant(s.min_ratio), -s.max_bias_W;
+    bounds_.upper << Vector<double, 4>::Constant(s.max_ratio), s.max_bias_W;
+    reported_ = project<double, 5>(initial_, bounds_);
     const Vector<double, size> variances = Vector<double, size>::Constant(s.prior_variance);
     covariance_.reset(variances.template cast<Scalar>());
     accuracy_.forget(variances);
@@ -213,7 +213,7 @@ class LeastSquaresEstimator {
     ++since_change_;
     const Parameters now = theta_.template tail<5>().template cast<double>();
     if (watch_.update(now) && settings_.detects_changes) change(position_W, now);
-    tell();
+    publish_estimate();
   }
 
   /// What the model's error adds is learned from how θ has moved.
@@ -223,34 +223,35 @@ class LeastSquaresEstimator {
     drift_.step(theta.template tail<5>(), parts.noise + parts.prior);
     errs_ = accuracy_.model_errs(theta);
     const double more = errs_ ? std::max(1.0, drift_share * drift_.mean_square()) : 1.0;
-    told_covariance_ = more * parts.noise + parts.prior;
-    if (more > 1.0 || explains()) told_covariance_ = accuracy_.bounded(told_covariance_);
-    deviations_ = told_covariance_.diagonal().cwiseMax(0.0).cwiseSqrt();
+    reported_covariance_ = more * parts.noise + parts.prior;
+    if (more > 1.0 || explains()) reported_covariance_ = accuracy_.bounded(reported_covariance_);
+    deviations_ = reported_covariance_.diagonal().cwiseMax(0.0).cwiseSqrt();
   }
 
   /// What has changed may still be told from the rest.
   bool explains() const { return since_change_s() < explains_s_; }
 
-  void tell() {
-    told_ = theta_.template tail<5>().template cast<double>();
+  void publish_estimate() {
+    reported_ = theta_.template tail<5>().template cast<double>();
     if (explains()) {
-      const auto simplest = change_.explained(told_, counted_covariance() / change_scale_);
-      if (simplest) told_ = *simplest;
-      if (!simplest && !settled()) told_ = change_.before();
+      const auto simplest = change_.explained(reported_, counted_covariance() / change_scale_);
+      if (simplest) reported_ = *simplest;
+      if (!simplest && !settled()) reported_ = change_.before();
     }
-    if (!bounds_.contains(told_)) told_ = project<5>(told_, bounds_, counted_covariance());
+    if (!bounds_.contains(reported_))
+      reported_ = project<5>(reported_, bounds_, counted_covariance());
   }
 
   /// As if each θ in its turn had been seen at its initial value, with as little weight as leaves
   /// it the deviation of what nothing excites.
   void return_unexcited() {
-    turn_ = (turn_ + 1) % 5;
-    const double variance = unexcited_[turn_] * scale_;
+    selector_ = (selector_ + 1) % 5;
+    const double variance = unexcited_[selector_] * scale_;
     const double seen_variance =
         variance / (-std::expm1(-period_s_ / settings_.forgetting_s) * 5.0);
-    const All gain =
-        covariance_.update(All::Unit(free + turn_), to<Scalar>(seen_variance), Scalar(1), first_);
-    const Wide off = Wide(initial_[turn_]) - theta_[free + turn_];
+    const All gain = covariance_.update(All::Unit(free + selector_), to<Scalar>(seen_variance),
+                                        Scalar(1), first_);
+    const Wide off = Wide(initial_[selector_]) - theta_[free + selector_];
     theta_ += gain.template cast<Wide>() * off;
   }
 
@@ -304,16 +305,16 @@ class LeastSquaresEstimator {
   EstimateAccuracy accuracy_;
   EstimateDrift drift_;
   Scalar forgetting_;
-  double counted_updates_;  ///< for so many a model's error counts once
+  double counted_updates_;  ///< per this many a model's error counts once
   double explains_s_;       ///< so long after a change
   SimplestChange change_;
   double change_scale_ = 1.0;  ///< counted_scale() at the last change
   UdCovariance<Scalar, size> covariance_;
   Vector<Wide, size> theta_;
   Parameters initial_;
-  Parameters told_;
+  Parameters reported_;
   Box<double, 5> bounds_;
-  Matrix<double, 5> told_covariance_ = Matrix<double, 5>::Zero();
+  Matrix<double, 5> reported_covariance_ = Matrix<double, 5>::Zero();
   Parameters deviations_ = Parameters::Constant(INFINITY);
 
   bool begins_ = true;
@@ -324,7 +325,7 @@ class LeastSquaresEstimator {
   std::int64_t since_start_ = 0;  ///< of the filters, in updates
   std::int64_t since_change_ = 0;
   std::int64_t changes_ = 0;
-  int turn_ = 0;        ///< of the parameters in return_unexcited()
+  int selector_ = 0;    ///< of the parameters in return_unexcited()
   double scale_ = 1.0;  ///< of the counted covariance to a true one, for what is added to it
   Scalar error_{};
 };

@@ -29,7 +29,7 @@ Vector<Scalar, N> project(const Vector<Scalar, N>& value, const Box<Scalar, N>& 
 
 /// Into the box along what is likely: the value that is most standard deviations outside goes to
 /// its bound and the others to what they then are likely to be, until all are inside. Element by
-/// element, what the data do tell (how the values go together) would be lost.
+/// element, what the data do contain (how the values go together) would be lost.
 template <int N>
 Vector<double, N> project(Vector<double, N> value, const Box<double, N>& box,
                           Matrix<double, N> covariance) {

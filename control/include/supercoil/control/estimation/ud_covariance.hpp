@@ -77,7 +77,7 @@ class UdCovariance {
   /// Adds to the variance of each parameter (>= 0); what leans on what stays.
   void inflate(Scalar variance) { add(Matrix<Scalar, N>::Identity() * variance); }
 
-  Scalar largest_variance(int first) const {
+  Scalar max_variance(int first) const {
     Scalar largest{};
     for (int i = first; i < N; ++i) {
       Scalar variance = d_[i];

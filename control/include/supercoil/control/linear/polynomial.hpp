@@ -46,11 +46,11 @@ constexpr bool is_hurwitz(const Polynomial<Degree>& c) {
 
 /// What strict positive realness of a transfer function of relative degree one hangs on.
 struct PositiveRealness {
-  bool hurwitz;             ///< the denominator has all its roots in the left half plane
-  bool high_frequency;      ///< lim ω² Re G(jω) > 0
-  double lowest_real_part;  ///< the least of Re G(jω)·|D(jω)|² over all ω
-  double worst_rad_per_s;   ///< where it is reached (infinity when it falls without bound)
-  bool strict() const { return hurwitz && high_frequency && lowest_real_part > 0.0; }
+  bool hurwitz;            ///< the denominator has all its roots in the left half plane
+  bool high_frequency;     ///< lim ω² Re G(jω) > 0
+  double min_real_part;    ///< the least of Re G(jω)·|D(jω)|² over all ω
+  double worst_rad_per_s;  ///< where it is reached (infinity when it falls without bound)
+  bool strict() const { return hurwitz && high_frequency && min_real_part > 0.0; }
 };
 
 /// G = (n2 s² + n1 s + n0)/(s³ + d2 s² + d1 s + d0), closed form: Re N(jω)D(−jω) is a parabola in

@@ -21,9 +21,9 @@ constexpr std::optional<Value> find_named(const Names<Value, N>& names, std::str
 }
 
 template <class Value, std::size_t N>
-constexpr std::string_view name_of(const Names<Value, N>& names, Value wanted) {
+constexpr std::string_view name_of(const Names<Value, N>& names, Value demanded) {
   for (const auto& [text, value] : names) {
-    if (value == wanted) return text;
+    if (value == demanded) return text;
   }
   return "?";
 }

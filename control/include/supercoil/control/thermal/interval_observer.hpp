@@ -8,10 +8,10 @@ namespace supercoil::control {
 /// Bounds that are known to hold of the muscle's ψ and η.
 template <class Real>
 struct BasicThermalBounds {
-  Real lowest_mass_J_per_K;
-  Real highest_mass_J_per_K;
-  Real lowest_transfer_W_per_K;
-  Real highest_transfer_W_per_K;
+  Real min_mass_J_per_K;
+  Real max_mass_J_per_K;
+  Real min_transfer_W_per_K;
+  Real max_transfer_W_per_K;
 };
 using ThermalBounds = BasicThermalBounds<double>;
 
@@ -38,17 +38,15 @@ Real thermal_decay(Real transfer_W_per_K, Real mass_J_per_K, Real step_s) {
 template <class Real>
 BasicIntervalEnd<Real> hot_end(Real transfer_W_per_K, const BasicThermalBounds<Real>& bounds,
                                Real step_s) {
-  return {1.0 / transfer_W_per_K,
-          thermal_decay(transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s),
-          thermal_decay(transfer_W_per_K, bounds.highest_mass_J_per_K, step_s)};
+  return {1.0 / transfer_W_per_K, thermal_decay(transfer_W_per_K, bounds.min_mass_J_per_K, step_s),
+          thermal_decay(transfer_W_per_K, bounds.max_mass_J_per_K, step_s)};
 }
 /// Of one with at most this heat transfer.
 template <class Real>
 BasicIntervalEnd<Real> cold_end(Real transfer_W_per_K, const BasicThermalBounds<Real>& bounds,
                                 Real step_s) {
-  return {1.0 / transfer_W_per_K,
-          thermal_decay(transfer_W_per_K, bounds.highest_mass_J_per_K, step_s),
-          thermal_decay(transfer_W_per_K, bounds.lowest_mass_J_per_K, step_s)};
+  return {1.0 / transfer_W_per_K, thermal_decay(transfer_W_per_K, bounds.max_mass_J_per_K, step_s),
+          thermal_decay(transfer_W_per_K, bounds.min_mass_J_per_K, step_s)};
 }
 
 /// An interval observer of ψφ̇ = −ηφ + P (paper, Eq. (1)). φ̇ lies between the least and the greatest
@@ -63,31 +61,31 @@ class BasicIntervalObserver {
  public:
   /// All bounds positive and in order; step_s > 0.
   BasicIntervalObserver(const BasicThermalBounds<Real>& bounds, Real step_s)
-      : hot_(hot_end(bounds.lowest_transfer_W_per_K, bounds, step_s)),
-        cold_(cold_end(bounds.highest_transfer_W_per_K, bounds, step_s)) {}
+      : hot_(hot_end(bounds.min_transfer_W_per_K, bounds, step_s)),
+        cold_(cold_end(bounds.max_transfer_W_per_K, bounds, step_s)) {}
 
-  /// least_W, most_W ≥ 0: what was applied since the last tick lies between them.
-  void step(Real least_W, Real most_W) {
-    highest_K_ = hot_.moved(highest_K_, most_W);
-    lowest_K_ = cold_.moved(lowest_K_, least_W);
+  /// min_W, max_W ≥ 0: what was applied since the last tick lies between them.
+  void step(Real min_W, Real max_W) {
+    max_K_ = hot_.moved(max_K_, max_W);
+    min_K_ = cold_.moved(min_K_, min_W);
   }
   void step(Real power_W) { step(power_W, power_W); }
 
   /// Temperature rise over ambient.
-  Real lowest_K() const { return lowest_K_; }
-  Real highest_K() const { return highest_K_; }
+  Real min_K() const { return min_K_; }
+  Real max_K() const { return max_K_; }
 
-  /// After a start whose history is unknown: anything from 0 to at_most_K.
-  void reset(Real at_most_K) {
-    lowest_K_ = 0.0;
-    highest_K_ = at_most_K;
+  /// After a start whose history is unknown: anything from 0 to limit_K.
+  void reset(Real limit_K) {
+    min_K_ = 0.0;
+    max_K_ = limit_K;
   }
 
  private:
   BasicIntervalEnd<Real> hot_;
   BasicIntervalEnd<Real> cold_;
-  Real lowest_K_ = 0.0;
-  Real highest_K_ = 0.0;
+  Real min_K_ = 0.0;
+  Real max_K_ = 0.0;
 };
 using IntervalObserver = BasicIntervalObserver<double>;
 

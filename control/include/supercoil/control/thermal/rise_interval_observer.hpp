@@ -41,46 +41,46 @@ class RiseIntervalObserver {
   /// Within `bounds`, and within each of the spans as far as that leaves anything.
   void set(const ThermalBounds& bounds, std::span<const TransferSpan> spans) {
     for (std::size_t i = 0; i < bands; ++i) {
-      double lowest = bounds.lowest_transfer_W_per_K;
-      double highest = bounds.highest_transfer_W_per_K;
+      double lowest = bounds.min_transfer_W_per_K;
+      double highest = bounds.max_transfer_W_per_K;
       const double from_K = band_K * static_cast<double>(i);
       for (const TransferSpan& span : spans) {
-        lowest = std::max(lowest, std::min(span.lowest(from_K), bounds.highest_transfer_W_per_K));
+        lowest = std::max(lowest, std::min(span.lowest(from_K), bounds.max_transfer_W_per_K));
         // The last band has no end.
         if (i + 1 < bands) highest = std::min(highest, span.highest(from_K + band_K));
       }
-      highest = std::max(highest, bounds.lowest_transfer_W_per_K);
+      highest = std::max(highest, bounds.min_transfer_W_per_K);
       hot_[i] = hot_end(lowest, bounds, step_s_);
       cold_[i] = cold_end(highest, bounds, step_s_);
     }
   }
 
-  /// least_W, most_W ≥ 0: what was applied since the last tick lies between them.
-  void step(double least_W, double most_W) {
+  /// min_W, max_W ≥ 0: what was applied since the last tick lies between them.
+  void step(double min_W, double max_W) {
     // Where an end moves into another band, the bound must hold in both.
-    const std::size_t hot = band(highest_K_);
-    const double highest_K = hot_[hot].moved(highest_K_, most_W);
-    const std::size_t cooler = band(highest_K);
-    highest_K_ = cooler < hot ? hot_[cooler].moved(highest_K_, most_W) : highest_K;
-    const std::size_t cold = band(lowest_K_);
-    const double lowest_K = cold_[cold].moved(lowest_K_, least_W);
-    const std::size_t warmer = band(lowest_K);
-    lowest_K_ = warmer > cold ? cold_[warmer].moved(lowest_K_, least_W) : lowest_K;
+    const std::size_t hot = band(max_K_);
+    const double max_K = hot_[hot].moved(max_K_, max_W);
+    const std::size_t cooler = band(max_K);
+    max_K_ = cooler < hot ? hot_[cooler].moved(max_K_, max_W) : max_K;
+    const std::size_t cold = band(min_K_);
+    const double min_K = cold_[cold].moved(min_K_, min_W);
+    const std::size_t warmer = band(min_K);
+    min_K_ = warmer > cold ? cold_[warmer].moved(min_K_, min_W) : min_K;
   }
 
   /// Temperature rise over ambient.
-  double lowest_K() const { return lowest_K_; }
-  double highest_K() const { return highest_K_; }
+  double min_K() const { return min_K_; }
+  double max_K() const { return max_K_; }
 
-  /// After a start whose history is unknown: anything from 0 to at_most_K.
-  void reset(double at_most_K) {
-    lowest_K_ = 0.0;
-    highest_K_ = at_most_K;
+  /// After a start whose history is unknown: anything from 0 to limit_K.
+  void reset(double limit_K) {
+    min_K_ = 0.0;
+    max_K_ = limit_K;
   }
   /// From the ends that another one has reached.
   void start_from(const RiseIntervalObserver& other) {
-    lowest_K_ = other.lowest_K_;
-    highest_K_ = other.highest_K_;
+    min_K_ = other.min_K_;
+    max_K_ = other.max_K_;
   }
 
  private:
@@ -95,8 +95,8 @@ class RiseIntervalObserver {
   double step_s_;
   std::array<BasicIntervalEnd<double>, bands> hot_{};
   std::array<BasicIntervalEnd<double>, bands> cold_{};
-  double lowest_K_ = 0.0;
-  double highest_K_ = 0.0;
+  double min_K_ = 0.0;
+  double max_K_ = 0.0;
 };
 
 }  // namespace supercoil::control

@@ -1,4 +1,4 @@
-// Feedforward by what the estimator knows of the muscle, with a fixed PID for the rest.
+// Feedforward from the estimated muscle, with a fixed PID for the rest.
 #pragma once
 
 #include "supercoil/control/estimation/estimate.hpp"
@@ -42,13 +42,13 @@ class AdaptiveFeedforward {
 
   /// The muscle was identified: θ̄ and the PID's gains are its own, and the bias stays. For a law
   /// that does not run.
-  void suit(const Theta& theta) {
-    pid_.suit(theta);
+  void retune(const Theta& theta) {
+    pid_.retune(theta);
     const Theta relative = theta.cwiseQuotient(settings_.scale.nominal);
     theta_.template head<4>() = relative.template cast<Wide>();
   }
 
-  /// What the estimator tells, once a tick before step().
+  /// The estimate, once a tick before step().
   void learn(const Estimate& estimate) {
     if (!estimate.settled) return;
     Parameters now;
@@ -57,7 +57,7 @@ class AdaptiveFeedforward {
     const Parameters change = (now - theta_) * follow_step_;
     theta_ += change;
     // What the feedforward takes over, the integral has held until now.
-    pid_.give_up(change.cwiseProduct(weights_).dot(motion_));
+    pid_.hand_over_to_feedforward(change.cwiseProduct(weights_).dot(motion_));
   }
 
   /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
@@ -75,7 +75,7 @@ class AdaptiveFeedforward {
 
   /// Returns the wanted power.
   Scalar step(const LawInput<Scalar>& in) {
-    pid_.see(in.position);
+    pid_.update_derivative(in.position);
     motion_ = motion_of(in);
     return pid_.step(in, feedforward(motion_));
   }

@@ -55,10 +55,10 @@ struct ControllerSettings {
 
 /// What q8.24 cannot hold of the settings; empty when all fits, and for other arithmetics. Fixed
 /// point saturates silently: this is asked before it runs. quantity is the setting's name in
-/// configurations, value what fixed point would have to hold for it. largest_reference_m: of the
+/// configurations, value what fixed point would have to hold for it. max_reference_m: of the
 /// channel; max_W: its greatest power.
 std::optional<Violation> check_fit(const ControllerSettings& settings, double step_s,
-                                   double largest_reference_m, double max_W);
+                                   double max_reference_m, double max_W);
 
 /// One tick's inputs in SI units.
 struct ControllerInput {
@@ -71,7 +71,7 @@ struct ControllerInput {
 };
 
 struct ControllerOutput {
-  double wanted_power_W = 0.0;
+  double demanded_power_W = 0.0;
   double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
   Infeasible infeasible = Infeasible::nothing;  ///< of the reference, which was shaped
   bool oscillated = false;  ///< since the muscle is this one; the feedback is slower if it may be
@@ -91,9 +91,9 @@ class OpenLoopPower {
  public:
   void start(const ControllerStart&) {}
   void learn(const Estimate&) {}
-  void suit(const Theta&) {}
+  void retune(const Theta&) {}
   ControllerOutput step(const ControllerInput& in) const {
-    return {.wanted_power_W = in.reference_power_W};
+    return {.demanded_power_W = in.reference_power_W};
   }
   ModelMotion<double> motion() const { return {}; }
   static GainValue gain(std::uint32_t) { return {}; }
@@ -138,25 +138,25 @@ class ModelFollower {
     input.limited = in.limited;
     last_reference_ = input.reference;
     watch(in.position_m, static_cast<double>(input.model.position) * to_metres_);
-    const auto wanted = static_cast<double>(law_.step(input));
+    const auto demanded = static_cast<double>(law_.step(input));
     if (bridging_) {
       // What the law itself could not take over is added, and fades.
-      bridge_W_ = held_W_ - wanted;
+      bridge_W_ = held_W_ - demanded;
       bridging_ = false;
     }
-    const double bridged_W = wanted + bridge_W_;
+    const double bridged_W = demanded + bridge_W_;
     bridge_W_ *= fading_;
     return {bridged_W, static_cast<double>(input.model.position) * to_metres_, asked.what,
             oscillated_};
   }
 
   void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
-  void suit(const Theta& theta) {
-    if (suited_ == theta) return;
-    suited_ = theta;
+  void retune(const Theta& theta) {
+    if (tuned_for_ == theta) return;
+    tuned_for_ = theta;
     oscillated_ = false;
-    if (shaper_) shaper_->suit(theta);
-    if constexpr (requires { law_.suit(theta); }) law_.suit(theta);
+    if (shaper_) shaper_->retune(theta);
+    if constexpr (requires { law_.retune(theta); }) law_.retune(theta);
   }
 
   void learn(const Estimate& estimate) {
@@ -172,8 +172,8 @@ class ModelFollower {
   }
 
   /// Gains come round as turn takes all values, whatever its step (see Controller).
-  GainValue gain(std::uint32_t turn) const {
-    return law_.gain((std::uint64_t{turn} * Law::gains) >> 32U);
+  GainValue gain(std::uint32_t selector) const {
+    return law_.gain((std::uint64_t{selector} * Law::gains) >> 32U);
   }
 
   const Law& law() const { return law_; }
@@ -192,7 +192,7 @@ class ModelFollower {
   bool slow_when_oscillating_;
   bool oscillated_ = false;
   std::optional<ReferenceShaper> shaper_;
-  std::optional<Theta> suited_;
+  std::optional<Theta> tuned_for_;
   /// Slower than every law here: the loop, not the fading, decides where the muscle is.
   static constexpr double bridge_s = 10.0;
 
@@ -217,13 +217,13 @@ class Controller {
   /// The muscle was identified, or is known from before: gains that follow from it are its own from
   /// then on. The same muscle again changes nothing that was learned since. theta: in its own
   /// units. Before start(), not while it runs.
-  void suit(const Theta& theta);
+  void retune(const Theta& theta);
   /// What is known of the muscle, each tick before step(); only laws with a model of it care.
   void learn(const Estimate& estimate);
   /// Of its reference model, in metres; zero in open loop.
   ModelMotion<double> motion() const;
   /// One of its gains: turn is the part of a full turn, in 2⁻³², at which this one comes round.
-  GainValue gain(std::uint32_t turn) const;
+  GainValue gain(std::uint32_t selector) const;
 
  private:
   template <class Scalar>

@@ -20,7 +20,7 @@ class ErrorPower {
   /// belongs to the power that acted since.
   void step(double error) { sum_ += std::exchange(last_, error); }
 
-  /// Ends a period of so many ticks. filter_share: of a low-pass, in a period.
+  /// Ends a period of this many ticks. filter_share: of a low-pass, in a period.
   void update(double ticks, double filter_share, double period_s) {
     once_ += filter_share * (std::exchange(sum_, 0.0) / ticks - once_);
     const double before = twice_;

@@ -15,7 +15,7 @@ namespace supercoil::control {
 /// 8 rad/s, and is followed within 0.34 µm at 1 rad/s.
 constexpr double damping_share = 0.36;
 
-/// ωc of a FixedPid that suits the muscle. Its damping rate µ/m̂ is about θ2/(θ1 m̂).
+/// ωc of a FixedPid tuned for the muscle. Its damping rate µ/m̂ is about θ2/(θ1 m̂).
 inline double feedback_bandwidth(double max_rad_per_s, const Theta& theta, double moving_mass_kg) {
   const double damping_rad_per_s = theta[1] / (theta[0] * moving_mass_kg);
   return std::min(max_rad_per_s, damping_share * damping_rad_per_s);
@@ -36,42 +36,42 @@ class FixedPid {
         step_s_(step_s),
         slope_({filter_rad_per_s * filter_rad_per_s, 2.0 * filter_rad_per_s, 1.0}, step_s),
         slope_gain_(filter_rad_per_s * filter_rad_per_s) {
-    suit(scale.nominal);
+    retune(scale.nominal);
   }
 
-  /// ωc from the next suit() on.
+  /// ωc from the next retune() on.
   void set_bandwidth(double rad_per_s) { bandwidth_rad_per_s_ = rad_per_s; }
 
   /// Gains for another muscle than the nominal one, in the same units. For a law that does not run.
-  void suit(const Theta& theta) {
+  void retune(const Theta& theta) {
     gains_ = theta * bandwidth_rad_per_s_;
     const Theta units = gains_ * dc_gain_m_per_W_;
-    suited_proportional_ = proportional_ = to<Scalar>(units[2]);
-    suited_derivative_ = derivative_ = to<Scalar>(units[1]);
-    suited_integral_step_ = integral_step_ = Wide(units[3] * step_s_);
+    tuned_proportional_ = proportional_ = to<Scalar>(units[2]);
+    tuned_derivative_ = derivative_ = to<Scalar>(units[1]);
+    tuned_integral_step_ = integral_step_ = Wide(units[3] * step_s_);
   }
 
   /// The loop oscillates: lower gains, until another muscle is found.
   void slow_down() {
-    gains_ *= slower;
-    suited_proportional_ = suited_proportional_ * to<Scalar>(slower);
-    suited_derivative_ = suited_derivative_ * to<Scalar>(slower);
-    suited_integral_step_ = suited_integral_step_ * Wide(slower);
+    gains_ *= oscillation_gain_ratio;
+    tuned_proportional_ = tuned_proportional_ * to<Scalar>(oscillation_gain_ratio);
+    tuned_derivative_ = tuned_derivative_ * to<Scalar>(oscillation_gain_ratio);
+    tuned_integral_step_ = tuned_integral_step_ * Wide(oscillation_gain_ratio);
     schedule(Scalar(1));
   }
 
-  /// All gains from now on, over those that suit the muscle.
+  /// All gains from now on, over those tuned for the muscle.
   void schedule(Scalar ratio) {
-    proportional_ = suited_proportional_ * ratio;
-    derivative_ = suited_derivative_ * ratio;
-    integral_step_ = suited_integral_step_ * Wide(ratio);
+    proportional_ = tuned_proportional_ * ratio;
+    derivative_ = tuned_derivative_ * ratio;
+    integral_step_ = tuned_integral_step_ * Wide(ratio);
   }
 
   /// As if the muscle had long moved as the model does; the integral is zero.
   void start(const LawStart<Scalar>& at) {
     slope_.settle(at.position, at.model.velocity);
     integral_ = Wide{};
-    wanted_ = at.power;
+    demanded_ = at.power;
   }
   /// What the rest, at the start's motion, leaves of the power to the integral.
   void hold(const LawInput<Scalar>& at, Scalar power, Scalar rest) {
@@ -82,17 +82,17 @@ class FixedPid {
   /// the error leads out of the limit.
   Scalar step(const LawInput<Scalar>& in, Scalar rest) {
     const Scalar error = in.model.position - in.position;
-    const bool leads_out = (wanted_ > in.applied) == (error < Scalar(0));
+    const bool leads_out = (demanded_ > in.applied) == (error < Scalar(0));
     if (!in.limited || leads_out) integral_ += Wide(error) * integral_step_;
-    wanted_ = rest + feedback(in) + to<Scalar>(integral_);
-    return wanted_;
+    demanded_ = rest + feedback(in) + to<Scalar>(integral_);
+    return demanded_;
   }
   /// The rest gives so much more from now on, which was the integral's to give.
-  void give_up(Wide power) { integral_ -= power; }
+  void hand_over_to_feedforward(Wide power) { integral_ -= power; }
   /// What the last step wanted.
-  Scalar wanted() const { return wanted_; }
+  Scalar demanded() const { return demanded_; }
   /// Before step(), once a tick.
-  void see(Scalar position) { slope_.step(position); }
+  void update_derivative(Scalar position) { slope_.step(position); }
 
   static constexpr std::size_t gains = 3;
   GainValue gain(std::size_t i) const {
@@ -114,14 +114,14 @@ class FixedPid {
   Theta gains_;
   StateVariableFilter<Scalar, 2, Hold::first_order> slope_;
   Wide slope_gain_;
-  Scalar suited_proportional_{};
-  Scalar suited_derivative_{};
-  Wide suited_integral_step_{};
+  Scalar tuned_proportional_{};
+  Scalar tuned_derivative_{};
+  Wide tuned_integral_step_{};
   Scalar proportional_{};
   Scalar derivative_{};
   Wide integral_step_{};
   Wide integral_{};
-  Scalar wanted_{};
+  Scalar demanded_{};
 };
 
 }  // namespace supercoil::control

@@ -14,7 +14,7 @@ namespace supercoil::control {
 /// make grow from period to period is averaged away.
 class IterativeLearning {
  public:
-  /// Times suit a muscle with a thermal time constant of 1.95 s. Found by trials on `real` and
+  /// Times are for a muscle with a thermal time constant of 1.95 s. Found by trials on `real` and
   /// `real_hard`: a width of 0.06 s diverges on the latter.
   struct Settings {
     double period_s = 0.0;  ///< of the reference; 0: it does not repeat itself

@@ -1,5 +1,5 @@
-// What every tracking law is given at a tick, and the saturation of Eq. (19). A law also tells its
-// gains: `gains` is how many it has, gain(i) the one of them with i < gains.
+// What every tracking law is given at a tick, and the saturation of Eq. (19). A law also publishes
+// its gains: `gains` is how many it has, gain(i) the one of them with i < gains.
 #pragma once
 
 #include "supercoil/control/tracking/gain.hpp"
@@ -8,7 +8,7 @@
 namespace supercoil::control {
 
 /// By which a law lowers its feedback's gains each time that its loop is seen to oscillate.
-inline constexpr double slower = 0.7;
+inline constexpr double oscillation_gain_ratio = 0.7;
 
 /// Inputs of one tick. Positions are in watts at rest (metres over the muscle's DC gain), so that
 /// position, reference and power are of one size in every arithmetic.

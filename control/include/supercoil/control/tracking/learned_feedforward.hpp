@@ -51,7 +51,7 @@ class LearnedFeedforward {
   LearnedFeedforward(const LearnedFeedforwardSettings& s, double step_s);
 
   /// The muscle was identified: w begins from its own θ again. For a law that does not run.
-  void suit(const Theta& theta);
+  void retune(const Theta& theta);
 
   /// The muscle moves as its model does, and the integral is what the rest leaves of the power.
   void start(const LawStart<Scalar>& at);
@@ -84,7 +84,7 @@ class LearnedFeedforward {
   IterativeLearning::Settings repetition() const;
   LearnedShare share() const;
   double period_s() const { return step_s_ * static_cast<double>(ticks_per_update_); }
-  /// So many updates take a time that suits the usual muscle.
+  /// The number of updates that takes a time right for a typical muscle.
   std::int64_t updates_of(double usual_s) const {
     return std::llround(usual_s * slowness(theta_) / period_s());
   }

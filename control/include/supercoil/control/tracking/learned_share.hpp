@@ -1,4 +1,4 @@
-// How much of what was learned a law should go by.
+// The share of what was learned that a law should use.
 #pragma once
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace supercoil::control {
 
-/// As much as would have foretold the power no worse than nothing learned. z is what the muscle as
+/// As much as would have predicted the power no worse than nothing learned. z is what the muscle as
 /// believed leaves of the power, d what was learned some seconds before adds to it: of all shares s
 /// in [0, 1], the largest with E(z − s d)² ≤ E z², which is 2 E[z d]/E[d²]. Of both only what is
 /// quicker than trend_s counts, since the feedback's integral has the rest. No observation counts
@@ -16,19 +16,19 @@ class LearnedShare {
  public:
   struct Settings {
     double period_s;         ///< between steps
-    double least_W;          ///< of a power that says anything
+    double min_W;            ///< of a power that says anything
     double trend_s = 2.0;    ///< for a muscle with a thermal time constant of 1.95 s
     double memory_s = 60.0;  ///< the same
   };
 
   /// slowness: of the muscle.
   LearnedShare(const Settings& s, double slowness)
-      : least_W2_(s.least_W * s.least_W),
+      : min_W2_(s.min_W * s.min_W),
         trend_share_(s.period_s / (s.trend_s * slowness)),
         memory_share_(s.period_s / (s.memory_s * slowness)),
         trusting_(1.0 / s.period_s) {}
 
-  /// All of it, until there is evidence.
+  /// All of it, until there are data.
   void restart() { both_ = learned_ = 0.0; }
 
   /// One observation; judge: it says something of the muscle.
@@ -39,9 +39,8 @@ class LearnedShare {
     const double z = left_W - left_trend_W_;
     const double d = learned_W - learned_trend_W_;
     const double size_W2 = z * z + d * d;
-    usual_W2_ +=
-        memory_share_ * (std::min(size_W2, most_usual * usual_W2_ + least_W2_) - usual_W2_);
-    const double weight = 1.0 / (size_W2 + usual_W2_ + least_W2_);
+    usual_W2_ += memory_share_ * (std::min(size_W2, max_ratio * usual_W2_ + min_W2_) - usual_W2_);
+    const double weight = 1.0 / (size_W2 + usual_W2_ + min_W2_);
     both_ += weight * z * d - memory_share_ * both_;
     learned_ += weight * d * d - memory_share_ * learned_;
   }
@@ -51,9 +50,9 @@ class LearnedShare {
   }
 
  private:
-  static constexpr double most_usual = 10.0;
+  static constexpr double max_ratio = 10.0;
 
-  double least_W2_;
+  double min_W2_;
   double trend_share_;
   double memory_share_;
   double trusting_;  ///< observations of a second, in favour

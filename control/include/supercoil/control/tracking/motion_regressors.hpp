@@ -41,11 +41,11 @@ class MotionRegressors {
         moving_mass_kg_(scale.moving_mass_kg),
         per_max_W_(1.0 / max_W),
         plays_{Play(narrow_ratio * max_W), Play(wide_ratio * max_W)} {
-    suit(scale.nominal);
+    retune(scale.nominal);
   }
 
   /// The muscle was found to be another one.
-  void suit(const Theta& theta) {
+  void retune(const Theta& theta) {
     units_ = theta * dc_gain_m_per_W_;
     units_[0] *= moving_mass_kg_;
   }

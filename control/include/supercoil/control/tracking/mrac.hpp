@@ -27,7 +27,7 @@ class Mrac {
         first_bank_(settings.p1_rad_per_s, step_s, inputs_held),
         second_bank_(settings.p0_rad_per_s, step_s, none_held),
         first_gain_(1.0 / settings.p1_rad_per_s),
-        lambda_part_(1.0 / settings.lambda[0]),
+        inverse_lambda_(1.0 / settings.lambda[0]),
         alpha_{Wide(settings.alpha[0]), Wide(settings.alpha[1])},
         step_(step_s),
         rate_(1.0 / step_s),
@@ -60,7 +60,7 @@ class Mrac {
     position_filter_.settle(at.position, rate);
     const WideParameters omega = regressors(at.position, at.reference);
     omega_ = omega.template cast<Scalar>();
-    const Wide filtered = Wide(rate) * alpha_[1] * lambda_part_;
+    const Wide filtered = Wide(rate) * alpha_[1] * inverse_lambda_;
     WideParameters rates;
     rates << Wide{}, filtered, Wide{}, filtered, Wide(rate), Wide(rate);
     first_bank_.settle(omega, rates);
@@ -92,10 +92,10 @@ class Mrac {
     const Wide q = Wide(phi.dot(direction)) * rate_;
     const Wide q_slope = Wide(slope.dot(direction)) * rate_;
     const Scalar certain = theta_.template cast<Scalar>().dot(omega_);
-    const Wide wanted = Wide(certain) + change.dot(phi1) * rate_ + damping(q, q_slope, epsilon);
+    const Wide demanded = Wide(certain) + change.dot(phi1) * rate_ + damping(q, q_slope, epsilon);
 
     adapt(change, q, epsilon, rests);
-    return to<Scalar>(wanted);
+    return to<Scalar>(demanded);
   }
 
   static constexpr std::size_t gains = 7;
@@ -159,7 +159,7 @@ class Mrac {
   OnePoleBank<Scalar, 6> first_bank_;
   OnePoleBank<Scalar, 6> second_bank_;
   Wide first_gain_;
-  Wide lambda_part_;
+  Wide inverse_lambda_;
   std::array<Wide, 2> alpha_;
   Wide step_;
   Wide rate_;

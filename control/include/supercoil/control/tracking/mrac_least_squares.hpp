@@ -28,7 +28,7 @@ struct MracLeastSquaresSettings {
   /// The muscle has changed when the residual's mean square over 0.2 s exceeds this one's square.
   double change_W = 1e-3;
   double boost = 0.1;     ///< added then to each variance
-  double hold_s = 6.0;    ///< after a change; the law goes by what it knew before
+  double hold_s = 6.0;    ///< after a change; the law uses the previous estimate
   double follow_s = 1.0;  ///< time constant with which the law follows what is found
   /// ωc of the fixed PID beside it: Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle.
   double bandwidth_rad_per_s = 2.0;
@@ -93,7 +93,7 @@ class MracLeastSquares {
   }
 
   /// The muscle was identified: the PID's gains are its own. For a law that does not run.
-  void suit(const Theta& theta) { pid_.suit(theta); }
+  void retune(const Theta& theta) { pid_.retune(theta); }
 
   /// The filters as if the muscle had long moved as it does; to hold a power, the integral becomes
   /// what the rest leaves of it.
@@ -118,9 +118,10 @@ class MracLeastSquares {
     position_.step(in.position);
     far_power_.step(in.applied);
     far_position_.step(in.position);
-    pid_.see(in.position);
+    pid_.update_derivative(in.position);
     if (++tick_ == ticks_per_update_) update();
-    if (since_change_s() > settings_.hold_s) follower_ += (told() - follower_) * follow_step_;
+    if (since_change_s() > settings_.hold_s)
+      follower_ += (clamped_parameters() - follower_) * follow_step_;
     return pid_.step(in, certain(in));
   }
 
@@ -132,7 +133,7 @@ class MracLeastSquares {
     return pid_.gain(i - size);
   }
 
-  /// What the law goes by.
+  /// What the law uses.
   Vector<double, size> theta() const {
     return follower_.cwiseProduct(scale_).template cast<double>();
   }
@@ -147,10 +148,10 @@ class MracLeastSquares {
   static constexpr double mean_square_s = 0.2;  ///< over which a change shows
   static constexpr double blind_s = 10.0;       ///< at first errors are the start's, not a change's
   static constexpr double change_every_s = 5.0;
-  static constexpr double first_c0 = 0.2;   ///< a fifth of what the nominal muscle at rest needs
-  static constexpr double lowest_c0 = 0.3;  ///< of the nominal one; the law goes by no other
-  static constexpr double highest_c0 = 3.0;
-  static constexpr double least_scale = 0.05;  ///< a θ* of about 0 is not known to be 0
+  static constexpr double first_c0 = 0.2;  ///< a fifth of what the nominal muscle at rest needs
+  static constexpr double min_c0 = 0.3;    ///< of the nominal one; the law uses no smaller one
+  static constexpr double max_c0 = 3.0;
+  static constexpr double min_scale = 0.05;  ///< a θ* of about 0 is not known to be 0
 
   /// |θ*| of the nominal muscle.
   static WideParameters scale_of(const MracLeastSquaresSettings& s,
@@ -158,7 +159,7 @@ class MracLeastSquares {
     WideParameters scale = WideParameters::Ones();
     if (const auto matched = match(s, model)) {
       scale.template head<6>() =
-          matched->theta.cwiseAbs().cwiseMax(least_scale).template cast<Wide>();
+          matched->theta.cwiseAbs().cwiseMax(min_scale).template cast<Wide>();
     }
     return scale;
   }
@@ -196,7 +197,7 @@ class MracLeastSquares {
 
   /// Without excitation forgetting alone would let the covariance grow for ever.
   void cap() {
-    const Scalar largest = covariance_.largest_variance(0);
+    const Scalar largest = covariance_.max_variance(0);
     const auto most = to<Scalar>(settings_.prior_variance);
     if (largest > most) covariance_.scale(most / largest);
   }
@@ -214,10 +215,11 @@ class MracLeastSquares {
   }
 
   /// What was found, with c0 within its bounds.
-  WideParameters told() const {
-    WideParameters told = theta_;
-    told[reference_at] = std::clamp(told[reference_at], Wide(lowest_c0), Wide(highest_c0));
-    return told;
+  WideParameters clamped_parameters() const {
+    WideParameters clamped_parameters = theta_;
+    clamped_parameters[reference_at] =
+        std::clamp(clamped_parameters[reference_at], Wide(min_c0), Wide(max_c0));
+    return clamped_parameters;
   }
 
   Scalar certain(const LawInput<Scalar>& in) const {

@@ -41,8 +41,8 @@ class OscillationDetector {
     const double error = error_.step(error_m, fast_share_, slow_share_);
     const double model = model_.step(model_m, fast_share_, slow_share_);
     half_s_ += step_s_;
-    largest_m_ = std::fmax(largest_m_, std::abs(error));
-    model_largest_m_ = std::fmax(model_largest_m_, std::abs(model));
+    max_m_ = std::fmax(max_m_, std::abs(error));
+    model_peak_m_ = std::fmax(model_peak_m_, std::abs(model));
     if (half_s_ > std::numbers::pi / settings_.slow_rad_per_s) start_counting();
     if (std::abs(error) <= settings_.min_amplitude_m) return false;
     const int sign = error > 0.0 ? 1 : -1;
@@ -70,20 +70,20 @@ class OscillationDetector {
     count_ = 0;
     usual_s_ = usual_m_ = 0.0;
   }
-  void begin_half_period() { half_s_ = largest_m_ = model_largest_m_ = 0.0; }
+  void begin_half_period() { half_s_ = max_m_ = model_peak_m_ = 0.0; }
 
   bool end_half_period() {
-    const bool own = half_s_ > std::numbers::pi / settings_.fast_rad_per_s &&
-                     model_largest_m_ < 0.5 * largest_m_;
+    const bool own =
+        half_s_ > std::numbers::pi / settings_.fast_rad_per_s && model_peak_m_ < 0.5 * max_m_;
     const bool alike = count_ == 0 || (std::abs(half_s_ - usual_s_) < 0.3 * usual_s_ &&
-                                       largest_m_ < 2.0 * usual_m_ && usual_m_ < 2.0 * largest_m_);
+                                       max_m_ < 2.0 * usual_m_ && usual_m_ < 2.0 * max_m_);
     if (!own || !alike) {
       start_counting();
       return false;
     }
     const double part = count_ == 0 ? 1.0 : 0.3;
     usual_s_ += part * (half_s_ - usual_s_);
-    usual_m_ += part * (largest_m_ - usual_m_);
+    usual_m_ += part * (max_m_ - usual_m_);
     if (++count_ < settings_.half_periods) return false;
     start_counting();
     return true;
@@ -100,8 +100,8 @@ class OscillationDetector {
   double usual_s_ = 0.0;  // of them
   double usual_m_ = 0.0;
   double half_s_ = 0.0;  // of the present half period
-  double largest_m_ = 0.0;
-  double model_largest_m_ = 0.0;
+  double max_m_ = 0.0;
+  double model_peak_m_ = 0.0;
 };
 
 }  // namespace supercoil::control

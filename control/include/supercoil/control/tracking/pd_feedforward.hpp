@@ -30,10 +30,10 @@ class PdFeedforward {
   void start(const LawStart<Scalar>& at) { filter_.settle(at.position, at.model.velocity); }
 
   void slow_down() {
-    settings_.proportional_W_per_m *= slower;
-    settings_.derivative_Ws_per_m *= slower;
-    proportional_ = proportional_ * to<Scalar>(slower);
-    derivative_ = derivative_ * to<Scalar>(slower);
+    settings_.proportional_W_per_m *= oscillation_gain_ratio;
+    settings_.derivative_Ws_per_m *= oscillation_gain_ratio;
+    proportional_ = proportional_ * to<Scalar>(oscillation_gain_ratio);
+    derivative_ = derivative_ * to<Scalar>(oscillation_gain_ratio);
   }
 
   /// Returns the wanted power.

@@ -50,20 +50,20 @@ class PeriodFinder {
   static constexpr std::size_t times = 16;
   static constexpr double first_sample_s = 0.016;
   static constexpr int compared_per_tick = 8;
-  static constexpr std::int64_t least_samples = 32;  ///< in a period
-  static constexpr float tolerance = 0.01F;          ///< of the range
-  static constexpr int most_wrong = 3;               ///< samples in a row
+  static constexpr std::int64_t min_samples = 32;  ///< in a period
+  static constexpr float tolerance = 0.01F;        ///< of the range
+  static constexpr int max_wrong = 3;              ///< samples in a row
 
   double sample_s() const { return static_cast<double>(sample_ticks_) * step_s_; }
-  float range() const { return highest_ - lowest_; }
+  float range() const { return max_ - min_; }
 
   void remember(float value) {
     // A period fits in half of the samples: once it is known, the oldest may go.
     if (period_s_ == 0.0 && count_ == samples) halve();
     if (ticks_ % sample_ticks_ != 0) return;
-    if (count_ == 0) lowest_ = highest_ = value;
-    lowest_ = std::min(lowest_, value);
-    highest_ = std::max(highest_, value);
+    if (count_ == 0) min_ = max_ = value;
+    min_ = std::min(min_, value);
+    max_ = std::max(max_, value);
     history_[static_cast<std::size_t>(count_++) % samples] = value;
     if (period_s_ > 0.0) follow();
   }
@@ -78,7 +78,7 @@ class PeriodFinder {
   }
 
   void look_for_rise(double reference) {
-    const double middle = 0.5 * (static_cast<double>(lowest_) + static_cast<double>(highest_));
+    const double middle = 0.5 * (static_cast<double>(min_) + static_cast<double>(max_));
     const double margin = 0.1 * static_cast<double>(range());
     if (reference < middle - margin) armed_ = true;
     if (!armed_ || !(reference >= middle) || margin == 0.0) return;
@@ -92,7 +92,7 @@ class PeriodFinder {
     if (period_s_ == 0.0) propose(1);
   }
 
-  /// The time since the rise that was so many before the last one, or one further back.
+  /// The time since the rise that was this many before the last one, or one further back.
   void propose(std::int64_t back) {
     for (candidate_ = 0; back < rises_; ++back) {
       const double time_s = rise_s_[0] - rise_s_[static_cast<std::size_t>(back)];
@@ -100,7 +100,7 @@ class PeriodFinder {
       lag_ = time_s / sample_s();
       compared_ = count_ - 1;
       compared_to_ = compared_ - static_cast<std::int64_t>(lag_);
-      if (lag_ < least_samples || static_cast<double>(compared_to_) - lag_ < 2.0) continue;
+      if (lag_ < min_samples || static_cast<double>(compared_to_) - lag_ < 2.0) continue;
       candidate_ = back;
       return;
     }
@@ -141,7 +141,7 @@ class PeriodFinder {
 
   void follow() {
     wrong_ = alike(count_ - 1) ? 0 : wrong_ + 1;
-    if (wrong_ >= most_wrong) restart();
+    if (wrong_ >= max_wrong) restart();
   }
 
   double step_s_;
@@ -150,8 +150,8 @@ class PeriodFinder {
   std::int64_t ticks_ = 0;
   std::int64_t sample_ticks_ = 1;
   std::int64_t count_ = 0;  ///< of samples
-  float lowest_ = 0.0F;
-  float highest_ = 0.0F;
+  float min_ = 0.0F;
+  float max_ = 0.0F;
   bool armed_ = false;  ///< it was well below the middle
   std::int64_t rises_ = 0;
   std::array<double, times> rise_s_{};  ///< the last one first

@@ -22,28 +22,28 @@ class Pi {
 
   /// The integral is what the error leaves of the power.
   void start(const LawStart<Scalar>& at) {
-    wanted_ = at.hold ? at.power : Scalar{};
-    integral_ = Accumulator<Scalar>(wanted_ - (at.model.position - at.position) * proportional_);
+    demanded_ = at.hold ? at.power : Scalar{};
+    integral_ = Accumulator<Scalar>(demanded_ - (at.model.position - at.position) * proportional_);
     if (!at.hold) integral_ = {};
   }
 
   void slow_down() {
-    settings_.proportional_W_per_m *= slower;
-    settings_.integral_W_per_m_s *= slower;
-    proportional_ = proportional_ * to<Scalar>(slower);
-    integral_step_ = integral_step_ * Accumulator<Scalar>(slower);
+    settings_.proportional_W_per_m *= oscillation_gain_ratio;
+    settings_.integral_W_per_m_s *= oscillation_gain_ratio;
+    proportional_ = proportional_ * to<Scalar>(oscillation_gain_ratio);
+    integral_step_ = integral_step_ * Accumulator<Scalar>(oscillation_gain_ratio);
   }
 
   /// Returns the wanted power. The integrator holds while the power is limited, unless the error
   /// leads out of the limit.
   Scalar step(const LawInput<Scalar>& in) {
     const Scalar error = in.model.position - in.position;
-    const bool leads_out = (wanted_ > in.applied) == (error < Scalar(0));
+    const bool leads_out = (demanded_ > in.applied) == (error < Scalar(0));
     if (!in.limited || leads_out) {
       integral_ += Accumulator<Scalar>(error) * integral_step_;
     }
-    wanted_ = error * proportional_ + to<Scalar>(integral_);
-    return wanted_;
+    demanded_ = error * proportional_ + to<Scalar>(integral_);
+    return demanded_;
   }
 
   static constexpr std::size_t gains = 2;
@@ -57,7 +57,7 @@ class Pi {
   Scalar proportional_;
   Accumulator<Scalar> integral_step_;
   Accumulator<Scalar> integral_{};
-  Scalar wanted_{};
+  Scalar demanded_{};
 };
 
 }  // namespace supercoil::control

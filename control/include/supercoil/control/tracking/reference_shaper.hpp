@@ -33,7 +33,7 @@ class ReferenceShaper {
       : model_(model), theta_(muscle.nominal), moving_mass_kg_(muscle.moving_mass_kg) {}
 
   /// The muscle was identified. What else pulls at it is not the muscle's.
-  void suit(const Theta& theta) { theta_ = theta; }
+  void retune(const Theta& theta) { theta_ = theta; }
   /// Goes by the estimate while that is trusted, then by the last that was.
   void learn(const Estimate& estimate) {
     if (!estimate.trusted) return;

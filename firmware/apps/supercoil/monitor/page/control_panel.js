@@ -16,9 +16,9 @@ const MODES = {
 
 export class ControlPanel {
   /** may: {command: may it, why: why not}; log: is told (text, kind) of each command. */
-  constructor(hand, may, log) {
-    Object.assign(this, { hand, may, log, mode: "position", values: {}, limits: new Map() });
-    const id = (name) => `${name}-${hand.node}`;
+  constructor(manual, may, log) {
+    Object.assign(this, { manual, may, log, mode: "position", values: {}, limits: new Map() });
+    const id = (name) => `${name}-${manual.node}`;
     this.arm = this.#button("arm", "arm");
     this.disarm = this.#button("disarm", "disarm");
     this.reset = this.#button("reset fault", "reset");
@@ -40,17 +40,17 @@ export class ControlPanel {
     this.notice = element("p", { class: "notice", role: "alert", hidden: true });
     const form = element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#go(); } },
       element("div", { class: "set" }, this.value_row, this.go), this.slider, this.hint);
-    this.element = element("section", { class: "card hand full-only", "aria-label": `command node ${hand.node}` },
-      element("h2", {}, "Hand on the muscle"),
+    this.element = element("section", { class: "card manual full-only", "aria-label": `command node ${manual.node}` },
+      element("h2", {}, "Manual control"),
       may.command ? "" : element("p", { class: "why" }, may.why),
       element("div", { class: "buttons" }, this.arm, this.disarm, this.reset),
       element("fieldset", { class: "modes" }, element("legend", {}, "mode"), ...this.radios),
       form, this.answer, this.notice);
-    hand.addEventListener("notice", () => {
-      show(this.notice, hand.notice);
-      this.notice.hidden = hand.notice === "";
-      this.notice.classList.toggle("calm", !hand.alarming);
-      if (hand.notice) log(hand.notice, hand.alarming ? "warn" : "");
+    manual.addEventListener("notice", () => {
+      show(this.notice, manual.notice);
+      this.notice.hidden = manual.notice === "";
+      this.notice.classList.toggle("calm", !manual.alarming);
+      if (manual.notice) log(manual.notice, manual.alarming ? "warn" : "");
     });
     this.#choose(this.mode);
   }
@@ -94,7 +94,7 @@ export class ControlPanel {
   async #send(opcode, value = 0, said = "") {
     const what = said ? `${opcode} ${said}` : opcode;
     this.#answer(`${what} …`, true);
-    const { obeyed, text } = await this.hand.send(opcode, value);
+    const { obeyed, text } = await this.manual.send(opcode, value);
     this.#answer(`${what}: ${text}`, obeyed);
     this.log(`${what}: ${text}`, obeyed ? "" : "warn");
   }
@@ -106,7 +106,7 @@ export class ControlPanel {
 
   /** status: what the channel says of itself, in words, or null. The sensible next step stands out. */
   update(status, limits) {
-    if (status) this.hand.observe(status);
+    if (status) this.manual.observe(status);
     for (const [button, state] of [[this.arm, "disarmed"], [this.reset, "fault"]])
       button.classList.toggle("next", status?.state === state);
     this.go.classList.toggle("next", status?.state === "armed");

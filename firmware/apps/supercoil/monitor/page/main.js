@@ -52,8 +52,8 @@ function begin(about) {
     for (const node of views()) node.journal.read(detail.nodes?.[node.node]);
   });
   const stop = new Stop(by_id("stop"), by_id("stop-notice"), about, () => [...tabs.views.keys()], () => store.newest_s, () =>
-    views().forEach(({ hand, journal }) => {
-      hand.let_go();
+    views().forEach(({ manual, journal }) => {
+      manual.release_hold();
       journal.add("STOP");
     }));
 

@@ -3,7 +3,7 @@
 import { ControlPanel } from "./control_panel.js";
 import { element } from "./dom.js";
 import { Gains } from "./gains.js";
-import { Hand } from "./hand.js";
+import { ManualControl } from "./manual_control.js";
 import { Journal } from "./journal.js";
 import { Margins } from "./margins.js";
 import { Parameters } from "./parameters.js";
@@ -19,10 +19,10 @@ export class NodeView {
   /** may: {command, why}; on_fault: opens the page of a fault. */
   constructor(node, store, view, about, may, on_fault) {
     Object.assign(this, { node, view, store });
-    this.hand = new Hand(node, about.page_timeout_s);
+    this.manual = new ManualControl(node, about.page_timeout_s);
     this.journal = new Journal(node, store);
     this.state = new StateCard(node, store, on_fault, about.protocol_version);
-    this.panel = new ControlPanel(this.hand, may, (text, kind) => this.journal.add(text, kind));
+    this.panel = new ControlPanel(this.manual, may, (text, kind) => this.journal.add(text, kind));
     this.panel.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
     this.cards = [new Readouts(node, store), new Parameters(node, store), new Gains(node, store), this.margins];

@@ -19,7 +19,7 @@ function tell_first_plot() {
 
 export class Plot {
   /**
-   * spec: {title, unit, factor, decimals, least_span, from_zero, lines: [{message, column, name, colour, dash, fill}],
+   * spec: {title, unit, factor, decimals, min_span, from_zero, lines: [{message, column, name, colour, dash, fill}],
    * band: [upper, lower] places in lines, mark: {message, column}: drawn as a strip while it is 1,
    * limit: fault whose limit is drawn}; what is shown is the column times factor. limits: of the detectors, by fault.
    */
@@ -85,7 +85,7 @@ export class Plot {
     const limit = this.#limit;
     if (this.spec.from_zero) low = Math.min(0, low);
     if (limit !== null && (this.spec.show_limit || high > 0.8 * limit)) high = Math.max(high, limit * 1.04);
-    const missing = this.spec.least_span - (high - low);
+    const missing = this.spec.min_span - (high - low);
     if (missing > 0) {
       high += this.spec.from_zero ? missing : missing / 2;
       low -= this.spec.from_zero ? 0 : missing / 2;

@@ -28,11 +28,11 @@ const RESULTS = {
   interrupted: "interrupted by a command or a fault",
   not_cold: "the muscle did not cool within two minutes",
   moved: "the position changed while its zero was taken",
-  not_explained: "the muscle did not do what the fit foretold",
+  poor_fit: "the muscle did not do what the fit predicted",
   uncertain: "parameters that a controller needs are not known well enough",
   implausible: "what was found is out of range, nothing is changed",
   not_stored: "used, but not stored: the disk is behind",
-  too_still: "the muscle hardly moved with all the power that it may have",
+  too_little_motion: "the muscle hardly moved with all the power that it may have",
 };
 
 // What else identify has to say: the bits of identify_notes.

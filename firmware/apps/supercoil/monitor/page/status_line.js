@@ -8,23 +8,23 @@ const SILENT_MS = 1500;
 
 export class StatusLine {
   constructor(place, stream, store, view, is_log) {
-    Object.assign(this, { place, store, view, is_log, trouble: null, heard_ms: null });
+    Object.assign(this, { place, store, view, is_log, problem: null, heard_ms: null });
     [this.word, this.text] = [place.querySelector("b"), place.querySelector("span")];
     // Frames that were on their way may come after the word that the source is lost.
     stream.addEventListener("batch", () => (this.heard_ms = performance.now()));
     stream.addEventListener("open", () => this.#clear());
     stream.addEventListener("found", () => this.#clear());
-    stream.addEventListener("lost", ({ detail }) => this.#trouble("source lost", detail?.reason));
-    stream.addEventListener("closed", () => this.#trouble("connection lost", "supercoil monitor does not answer"));
+    stream.addEventListener("lost", ({ detail }) => this.#problem("source lost", detail?.reason));
+    stream.addEventListener("closed", () => this.#problem("connection lost", "supercoil monitor does not answer"));
   }
 
   #clear() {
-    this.trouble = null;
+    this.problem = null;
     this.heard_ms ??= performance.now();
   }
 
-  #trouble(word, why) {
-    if (this.trouble?.word !== word) this.trouble = { word, why, since_ms: this.heard_ms ?? performance.now() };
+  #problem(word, why) {
+    if (this.problem?.word !== word) this.problem = { word, why, since_ms: this.heard_ms ?? performance.now() };
   }
 
   update() {
@@ -37,7 +37,7 @@ export class StatusLine {
   #now() {
     const now_ms = performance.now();
     const since = (from_ms) => `since ${duration((now_ms - from_ms) / 1e3)}`;
-    if (this.trouble) return { kind: "lost", word: this.trouble.word, text: `${since(this.trouble.since_ms)}${this.trouble.why ? `: ${this.trouble.why}` : ""}` };
+    if (this.problem) return { kind: "lost", word: this.problem.word, text: `${since(this.problem.since_ms)}${this.problem.why ? `: ${this.problem.why}` : ""}` };
     if (this.heard_ms === null && this.store.empty) return { kind: "wait", word: "connecting", text: "" };
     const at = bus_time(this.view.range.to_s);
     if (!this.view.live) return { kind: "paused", word: "paused", text: `at ${at}` };

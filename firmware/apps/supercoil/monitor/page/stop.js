@@ -10,9 +10,9 @@ const DISARM_WITHIN_MS = 1500;
 const OFF = new Set(["disarmed", "fault"]);
 
 export class Stop {
-  /** nodes, newest_s: functions that tell the known nodes and the newest time that was heard; let_go: ends all that this page keeps hot, without asking anybody. */
-  constructor(button, notice, about, nodes, newest_s, let_go) {
-    Object.assign(this, { button, notice, port: about.stop_port, nodes, newest_s, let_go });
+  /** nodes, newest_s: functions that tell the known nodes and the newest time that was heard; release_hold: ends all that this page keeps hot, without asking anybody. */
+  constructor(button, notice, about, nodes, newest_s, release_hold) {
+    Object.assign(this, { button, notice, port: about.stop_port, nodes, newest_s, release_hold });
     button.hidden = about.kind === "log";
     button.disabled = about.read_only;
     if (button.disabled) button.title = "this monitor is read-only: use the board's stop button";
@@ -40,7 +40,7 @@ export class Stop {
 
   async press() {
     // First, as it needs no answer: what nobody renews any more expires on the board by itself.
-    this.let_go();
+    this.release_hold();
     this.pressed_s = this.newest_s();
     this.button.classList.add("pressed");
     try {

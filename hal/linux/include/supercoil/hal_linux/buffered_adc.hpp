@@ -5,14 +5,14 @@
 #include <utility>
 
 #include "supercoil/hal/adc_channel.hpp"
+#include "supercoil/hal_linux/bus_device.hpp"
 #include "supercoil/hal_linux/mailbox.hpp"
-#include "supercoil/hal_linux/served.hpp"
 
 namespace supercoil::hal_linux {
 
 /// Hands the newest conversion from the bus's thread to the loop's. A device that fails is told by
 /// the status; counts and time are then those of the last good conversion.
-class BufferedAdc final : public hal::AdcChannel, public Served {
+class BufferedAdc final : public hal::AdcChannel, public BusDevice {
  public:
   explicit BufferedAdc(std::unique_ptr<hal::AdcChannel> device) : device_(std::move(device)) {}
 

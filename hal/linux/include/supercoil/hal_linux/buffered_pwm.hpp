@@ -5,16 +5,16 @@
 #include <memory>
 
 #include "supercoil/hal/pwm_output.hpp"
+#include "supercoil/hal_linux/bus_device.hpp"
 #include "supercoil/hal_linux/mailbox.hpp"
-#include "supercoil/hal_linux/served.hpp"
 
 namespace supercoil::hal_linux {
 
 /// Hands the newest duty from the loop's thread to the bus's, and back how the last write went.
-class BufferedPwm final : public hal::PwmOutput, public Served {
+class BufferedPwm final : public hal::PwmOutput, public BusDevice {
  public:
   /// So many sets without a single write in between, and set() answers busy.
-  static constexpr int most_unserved = 10;
+  static constexpr int max_unserved = 10;
 
   explicit BufferedPwm(std::unique_ptr<hal::PwmOutput> device);
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "supercoil/hal/clock.hpp"
+#include "supercoil/hal_linux/bus_device.hpp"
 #include "supercoil/hal_linux/problem.hpp"
-#include "supercoil/hal_linux/served.hpp"
 #include "supercoil/hal_linux/thread.hpp"
 
 namespace supercoil::hal_linux {
@@ -17,7 +17,7 @@ namespace supercoil::hal_linux {
 struct BusHealth {
   std::atomic<std::uint64_t> rounds{0};   ///< finished
   std::atomic<std::uint64_t> skipped{0};  ///< periods left out since a round took too long
-  std::atomic<std::int64_t> longest_round_ns{0};
+  std::atomic<std::int64_t> max_round_ns{0};
 };
 
 /// Once a period it serves the devices, one after the other, in their order. One that fails is
@@ -27,8 +27,9 @@ class BusThread {
  public:
   /// devices: not null; they outlive this. Put PWM outputs first: a duty should not wait for
   /// conversions.
-  static Result<std::unique_ptr<BusThread>> start(const ThreadWish& wish, hal::Duration period,
-                                                  std::vector<Served*> devices);
+  static Result<std::unique_ptr<BusThread>> start(const ThreadSettings& settings,
+                                                  hal::Duration period,
+                                                  std::vector<BusDevice*> devices);
   BusThread(const BusThread&) = delete;
   BusThread& operator=(const BusThread&) = delete;
   /// Waits for the round under way, and for at most a period more.
@@ -39,14 +40,14 @@ class BusThread {
   const std::vector<SetupStep>& steps() const { return thread_->steps(); }
 
  private:
-  BusThread(hal::Duration period, std::vector<Served*> devices)
+  BusThread(hal::Duration period, std::vector<BusDevice*> devices)
       : period_(period), devices_(std::move(devices)) {}
 
   void run();
   void serve_all(hal::Time started);
 
   hal::Duration period_;
-  std::vector<Served*> devices_;
+  std::vector<BusDevice*> devices_;
   BusHealth health_;
   std::atomic<bool> ending_{false};
   std::unique_ptr<Thread> thread_;

@@ -51,9 +51,9 @@ hal::Status write_next(const Descriptor& file, const char* data, std::size_t siz
 /// a driver that answers EINTR for a reason of its own, must come to an end.
 template <class Call>
 auto uninterrupted(const Call& call) noexcept {
-  constexpr int most_repetitions = 16;
+  constexpr int max_repetitions = 16;
   auto result = call();
-  for (int i = 0; result < 0 && errno == EINTR && i < most_repetitions; ++i)
+  for (int i = 0; result < 0 && errno == EINTR && i < max_repetitions; ++i)
     result = call();
   return result;
 }

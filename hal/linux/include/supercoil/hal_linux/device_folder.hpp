@@ -32,7 +32,7 @@ Result<DeviceFolder> choose(const std::vector<DeviceFolder>& all, std::string_vi
 /// The path behind all links; empty when there is none.
 std::string real_path(const std::string& path);
 /// The part behind the last slash; the part before it.
-std::string last_part(const std::string& path);
+std::string base_name(const std::string& path);
 std::string parent_of(const std::string& path);
 /// "a, b, c"; of more than 12 the rest is counted.
 std::string listed(const std::vector<std::string>& items);

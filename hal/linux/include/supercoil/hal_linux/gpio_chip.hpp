@@ -13,7 +13,7 @@ namespace supercoil::hal_linux {
 /// What a line is asked to be.
 enum class Direction { input, output };
 
-/// A line that this process holds: nobody else can take it. Released when it ends; what level it
+/// A line that this process holds exclusively. Released when it ends; what level it
 /// has then is the chip's affair, so set it low before. Move-only. set() and get() are one system
 /// call and allocate nothing.
 class HeldLine {
@@ -36,10 +36,10 @@ class HeldLine {
 /// The resistor of the chip's own at a line.
 enum class Bias { unknown, none, pull_up, pull_down };
 
-/// A line as the kernel tells of it.
-struct LineAbout {
+/// A line as the kernel describes it.
+struct LineDescription {
   std::string name;      ///< empty: none
-  std::string consumer;  ///< who holds it; empty: nobody
+  std::string consumer;  ///< the program that holds it; empty: none
   Bias bias = Bias::unknown;
 };
 
@@ -52,8 +52,8 @@ class GpioChip {
   std::string name() const;   ///< gpiochip0
   std::string label() const;  ///< pinctrl-bcm2711
   unsigned line_count() const;
-  LineAbout about(unsigned offset) const;
-  /// An output is low from the first moment. EBUSY when somebody holds the line. Ends the chip, on
+  LineDescription about(unsigned offset) const;
+  /// An output is low from the first moment. EBUSY when the line is held already. Ends the chip, on
   /// which the line hangs in libgpiod 1.
   Result<HeldLine> request(unsigned offset, Direction direction) &&;
 

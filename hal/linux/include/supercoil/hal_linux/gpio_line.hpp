@@ -21,14 +21,14 @@ struct LineName {
 Result<HeldLine> hold_line(const LineName& name, Direction direction,
                            const std::string& dev = "/dev");
 
-/// A line that nobody drives.
-struct LineAtRest {
+/// An undriven line.
+struct UndrivenLine {
   hal::Level level;
-  Bias bias = Bias::unknown;  ///< the chip's own; a resistor on the board is not told
+  Bias bias = Bias::unknown;  ///< the chip's own; a resistor on the board is not visible
 };
 
 /// Takes the line as an input for a moment. Errors as hold_line().
-Result<LineAtRest> look_at_rest(const LineName& name, const std::string& dev = "/dev");
+Result<UndrivenLine> read_undriven(const LineName& name, const std::string& dev = "/dev");
 
 /// An output. Low when it is opened, and low again before it is released.
 class GpioOutput final : public hal::DigitalOutput {

@@ -14,7 +14,7 @@ namespace supercoil::hal_linux {
 class IioAdc final : public hal::AdcChannel {
  public:
   /// Reads once, so that a device that does not answer is known before anything is hot.
-  static Result<std::unique_ptr<IioAdc>> open(const ConverterPlace& place);
+  static Result<std::unique_ptr<IioAdc>> open(const ConverterLocation& place);
   explicit IioAdc(Attribute raw) : raw_(std::move(raw)) {}
 
   /// The time is that before the read: a conversion is never younger than it seems.

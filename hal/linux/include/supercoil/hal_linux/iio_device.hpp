@@ -12,7 +12,7 @@
 namespace supercoil::hal_linux {
 
 /// Where a converter's input is.
-struct ConverterPlace {
+struct ConverterLocation {
   std::string device;  ///< IIO name, or the end of its device path when it holds a slash
   std::string input;   ///< e.g. voltage0, or voltage0-voltage1
   std::string root = "/sys/bus/iio/devices";
@@ -29,8 +29,8 @@ struct CountRange {
   std::int64_t highest = 0;
 };
 
-/// From the type of the input's scans; nothing when the device tells none.
-std::optional<CountRange> count_range(const ConverterPlace& place);
+/// From the type of the input's scans; nothing when the device has none.
+std::optional<CountRange> count_range(const ConverterLocation& place);
 
 /// Whether `input` may be part of a file's name: letters, digits, '-' and '_'.
 bool is_input_name(const std::string& input);

@@ -15,7 +15,7 @@
 namespace supercoil::hal_linux {
 
 /// Which inputs are converted together, and when.
-struct ScanPlace {
+struct ScanLocation {
   std::string device;               ///< IIO name, or the end of its device path with a slash
   std::vector<std::string> inputs;  ///< voltage0, …; each once
   std::string trigger;              ///< name of a trigger; empty: the one that is set already
@@ -28,25 +28,25 @@ struct ScanPlace {
 struct ReadyScan {
   Descriptor device;
   Attribute enable;
-  std::vector<ScanElement> inputs;  ///< in the order of ScanPlace::inputs
+  std::vector<ScanElement> inputs;  ///< in the order of ScanLocation::inputs
   ScanElement timestamp;
   std::size_t bytes = 0;  ///< of a scan
 };
 
 /// Disables the buffer, chooses elements, clock and trigger, and opens the device. Timestamps are
 /// of CLOCK_MONOTONIC; a device that has none is refused, for a value without its time is useless.
-Result<ReadyScan> set_up_scan(const ScanPlace& place);
+Result<ReadyScan> set_up_scan(const ScanLocation& place);
 
 /// An enabled buffer. One thread uses it and its inputs. It is disabled when it ends.
 class IioScan {
  public:
-  static Result<std::unique_ptr<IioScan>> open(const ScanPlace& place);
+  static Result<std::unique_ptr<IioScan>> open(const ScanLocation& place);
   IioScan(ReadyScan ready, int length);
   IioScan(const IioScan&) = delete;
   IioScan& operator=(const IioScan&) = delete;
   ~IioScan();
 
-  /// The input number `index` of ScanPlace::inputs; lives as long as this. Its latest() is that
+  /// The input number `index` of ScanLocation::inputs; lives as long as this. Its latest() is that
   /// of the newest scan: one read that never blocks and takes all that the kernel has kept.
   hal::AdcChannel& input(std::size_t index);
 

@@ -33,7 +33,7 @@ SetupStep set_fifo_priority(pthread_t thread, int priority);
 SetupStep pin_to_cpu(pthread_t thread, int cpu);
 
 /// While it lives, CPUs do not sleep so deeply that waking them takes time. Move-only.
-class WakefulCpus {
+class CpuLatencyRequest {
  public:
   SetupStep hold(const std::string& path = "/dev/cpu_dma_latency");
 

@@ -14,7 +14,7 @@ namespace supercoil::hal_linux {
 
 /// Which bus, and what is heard of it. Bit rate and restart after bus-off are the interface's
 /// set-up ("ip link set can0 up type can bitrate 500000 restart-ms 100"), not the firmware's.
-struct CanPlace {
+struct CanLocation {
   std::string interface;              ///< e.g. can0
   std::vector<std::uint16_t> listen;  ///< identifiers, 0 to 0x7FF, at most 512; none: hears nothing
   std::string net = "/sys/class/net";
@@ -22,14 +22,14 @@ struct CanPlace {
 };
 
 /// An interface as it was found: without a socket when it is down.
-struct CanLink {
+struct CanInterface {
   Descriptor socket;
   hal::CanState state = hal::CanState::down;
 };
 
 /// A socket that hears what is listened to and the controller's error frames, with the time when
 /// each came. The error has the errno of an interface that is not there.
-Result<CanLink> open_can_link(const CanPlace& place);
+Result<CanInterface> open_can_interface(const CanLocation& place);
 
 /// Every CAN interface of this machine, up or not.
 std::vector<std::string> can_interfaces(const std::string& net);
@@ -40,14 +40,15 @@ std::vector<std::string> can_interfaces(const std::string& net);
 /// waits.
 class SocketCan final : public hal::CanBus {
  public:
-  /// An interface that is down is no error: it may come up later. One that is not there, or is none
-  /// of CAN, is an error that says which there are.
-  static Result<std::unique_ptr<SocketCan>> open(const CanPlace& place);
-  SocketCan(CanPlace place, CanLink link) : place_(std::move(place)), link_(std::move(link)) {}
+  /// An interface that is down is not an error: it may come up later. One that is not there, or is
+  /// none of CAN, is an error that says which there are.
+  static Result<std::unique_ptr<SocketCan>> open(const CanLocation& place);
+  SocketCan(CanLocation place, CanInterface link)
+      : place_(std::move(place)), link_(std::move(link)) {}
 
   /// busy: the kernel's queue is full, and the frame is not in it. out_of_range: no such frame.
   hal::Status send(const hal::CanFrame& frame) override;
-  /// Passes over what is no classical data frame with 11 bits. CanFrame::received is when the
+  /// Skips all but classical data frames with 11-bit identifiers. CanFrame::received is when the
   /// kernel got it, so a frame that waited is as old as it is.
   hal::Status receive(hal::CanFrame& frame) override;
   /// As the last error frame told: so receive() has to be called. A controller that was
@@ -58,8 +59,8 @@ class SocketCan final : public hal::CanBus {
   bool is_there();
   hal::Status lost_if_gone(hal::Status status);
 
-  CanPlace place_;
-  CanLink link_;
+  CanLocation place_;
+  CanInterface link_;
   hal::Time next_look_{};
 };
 

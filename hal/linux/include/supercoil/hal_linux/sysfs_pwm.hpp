@@ -13,7 +13,7 @@
 namespace supercoil::hal_linux {
 
 /// Where a PWM output is, and what it shall be.
-struct PwmPlace {
+struct PwmLocation {
   std::string device;  ///< the chip's name, or the end of its device path when it holds a slash
   int number = 0;      ///< of the output on its chip
   std::int64_t period_ns = 0;  ///< steps or more
@@ -32,8 +32,8 @@ struct PwmFiles {
 /// The PWM chips in root.
 Result<std::vector<DeviceFolder>> pwm_chips(const std::string& root);
 
-/// Finds the output, exports it when nobody has, and opens its files. Writes nothing else.
-Result<PwmFiles> open_pwm_files(const PwmPlace& place);
+/// Finds the output, exports it if necessary, and opens its files. Writes nothing else.
+Result<PwmFiles> open_pwm_files(const PwmLocation& place);
 
 /// Brings an output from whatever state it was left in to: duty 0, not inversed, its period,
 /// enabled; and reads back that it is so. The order is one that the kernel refuses in no state.
@@ -42,7 +42,7 @@ Result<void> prepare_pwm(const PwmFiles& files, std::int64_t period_ns);
 /// A prepared output. Its duty is 0 when it is opened and again when it ends. It stays exported.
 class SysfsPwm final : public hal::PwmOutput {
  public:
-  static Result<std::unique_ptr<SysfsPwm>> open(const PwmPlace& place);
+  static Result<std::unique_ptr<SysfsPwm>> open(const PwmLocation& place);
   SysfsPwm(PwmFiles files, std::int64_t period_ns, int steps);
   /// Duty 0 first: what a disabled output's pin does is the chip's affair.
   ~SysfsPwm() override;
@@ -54,7 +54,7 @@ class SysfsPwm final : public hal::PwmOutput {
 
   /// For timing the device while its duty is 0: disables and enables it. The kernel does not pass
   /// on a duty that it believes is set already.
-  hal::Status wink() const;
+  hal::Status pulse_enable() const;
 
  private:
   PwmFiles files_;

@@ -15,7 +15,7 @@
 namespace supercoil::hal_linux {
 
 /// How a thread should run.
-struct ThreadWish {
+struct ThreadSettings {
   std::string name;  ///< as top shows it: its first 15 characters
   int priority = 0;  ///< of SCHED_FIFO, 1 to 99; 0: an ordinary thread
   int cpu = -1;      ///< negative: any
@@ -26,7 +26,7 @@ struct ThreadWish {
 /// over its stack, and eight locked megabytes a thread are more than the firmware itself.
 class Thread {
  public:
-  static Result<Thread> start(const ThreadWish& wish, std::function<void()> body);
+  static Result<Thread> start(const ThreadSettings& settings, std::function<void()> body);
   Thread(Thread&& other) noexcept = default;
   Thread& operator=(Thread&& other) = delete;
   ~Thread();

@@ -52,7 +52,7 @@ TEST_GROUP(DoctorDevices) {
     const auto config = config::parse_board_config(text, "b.toml");
     if (!config) FAIL(config::to_text(config.error()).c_str());
     Told told;
-    times = doctor::check_devices(*config, machine, 1, told.tell());
+    times = doctor::check_devices(*config, machine, 1, told.sink());
     findings = told.findings;
   }
   hal::Finding found(const std::string& what) const {
@@ -95,7 +95,7 @@ TEST(DoctorDevices, AreNeverOnAndLeftOff) {
   CHECK_FALSE(pwm.state.enabled);
   LONGS_EQUAL(0, pwm.state.duty_ns);
   // In no state that it was brought to.
-  DOUBLES_EQUAL(0.0, pwm.most_on, 0.0);
+  DOUBLES_EQUAL(0.0, pwm.max_on, 0.0);
   for (const std::string& write : pwm.writes)
     CHECK(!write.starts_with("duty_cycle") || write == "duty_cycle 0");
   for (const char* name : {"BEAT", "EN1"}) {

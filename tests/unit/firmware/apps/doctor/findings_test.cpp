@@ -28,7 +28,7 @@ static hal::Finding bus(const BusTimes& measured, double rate_Hz = 100.0) {
   config.wiring.buses.push_back({"i2c-1", config::BusKind::i2c, 100e3, 30e-6});
   config.wiring.supply.access = {"i2c-1", 3, 5, 0.0};
   Told told;
-  check_buses(config, measured, told.tell());
+  check_buses(config, measured, told.sink());
   LONGS_EQUAL(1, told.findings.size());
   return told.findings.front();
 }

@@ -4,14 +4,14 @@
 #include <nlohmann/json.hpp>
 
 using namespace supercoil;
-using hal::Verdict;
+using hal::Severity;
 
 TEST_GROUP(DoctorReport) {
   const doctor::Report report{"rig",
                               "board.toml",
-                              {{"kernel", Verdict::ok, "6.1", ""},
-                               {"light", Verdict::problem, "no line '\xff\"'", "name it"},
-                               {"watchdog", Verdict::warning, "none", "use one"}}};
+                              {{"kernel", Severity::ok, "6.1", ""},
+                               {"light", Severity::problem, "no line '\xff\"'", "name it"},
+                               {"watchdog", Severity::warning, "none", "use one"}}};
 };
 
 TEST(DoctorReport, IsReadByPeople) {
@@ -34,7 +34,7 @@ TEST(DoctorReport, IsReadByPrograms) {
   LONGS_EQUAL(3, json["findings"].size());
   const auto& second = json["findings"][1];
   STRCMP_EQUAL("light", second["what"].get<std::string>().c_str());
-  STRCMP_EQUAL("problem", second["verdict"].get<std::string>().c_str());
+  STRCMP_EQUAL("problem", second["severity"].get<std::string>().c_str());
   STRCMP_EQUAL("name it", second["remedy"].get<std::string>().c_str());
   // A byte that is no text does not make it unreadable.
   STRCMP_EQUAL("no line '\xef\xbf\xbd\"'", second["found"].get<std::string>().c_str());

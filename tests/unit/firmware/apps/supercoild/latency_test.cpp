@@ -39,7 +39,7 @@ TEST(LatencyHistogram, HoldsExactEndsAndMeanBesideItsBins) {
   LONGS_EQUAL(2, histogram.bins()[1]);
 }
 
-TEST(LatencyHistogram, QuantileIsTheEndOfTheBinWhereSoManyAreCounted) {
+TEST(LatencyHistogram, QuantileIsTheEndOfItsBin) {
   Histogram histogram(1us, 1000);
   for (int i = 0; i < 100; ++i)
     histogram.add(i * 1us + 300ns);
@@ -99,7 +99,7 @@ struct MeasuredLoop {
   /// As the executive does it.
   void run(LatencyMeter& meter, int ticks, long skipped = 0) {
     for (int i = 0; i < ticks; ++i) {
-      loop.health().telemetry_beats.fetch_add(1);
+      loop.health().telemetry_heartbeats.fetch_add(1);
       const hal::Time woke = meter.wait_until(clock.now());
       loop.tick(woke - 3us, woke, skipped);
     }

@@ -136,7 +136,7 @@ TEST(LocalCommands, AnAnswerThatIsLostMovesNoOther) {
   STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
 }
 
-TEST(LocalCommands, ANinthClientIsToldWhyItIsNotHeard) {
+TEST(LocalCommands, ANinthClientIsRefusedWithAReason) {
   std::vector<Client> clients;
   clients.reserve(8);
   for (int i = 0; i < 8; ++i)

@@ -10,9 +10,9 @@
 
 #include "apps/supercoil/board_socket.hpp"
 #include "apps/supercoild/ending_signals.hpp"
-#include "apps/supercoild/keeper.hpp"
 #include "apps/supercoild/local_commands.hpp"
 #include "apps/supercoild/loop_thread.hpp"
+#include "apps/supercoild/storage_worker.hpp"
 #include "apps/supercoild/telemetry.hpp"
 #include "loop/support/rig.hpp"
 #include "unit/firmware/apps/supercoild/support/meeting_bus.hpp"
@@ -34,7 +34,7 @@ test::RigSettings patient_board() {
   s.board.charge_pump_decay_s = board.charge_pump_decay_s = 1.01;
   board.overruns_in_a_row = 100;
   board.late_in_a_row = 1000;
-  board.telemetry_silence_s = 30.0;
+  board.telemetry_timeout_s = 30.0;
   for (ChannelSettings& channel : s.firmware.channels) {
     channel.thermal.boot_rise_K = 0.0;
     channel.supervision.command_timeout_s = 2.0;
@@ -64,9 +64,9 @@ TEST_GROUP(DaemonThreads) {
   std::vector<storage::LearnedStore> stores;
   test::RealTimeBoard board{settings.board};
   Loop loop{settings.firmware, board.devices()};
-  std::unique_ptr<Keeper> keeper;
+  std::unique_ptr<StorageWorker> storage_worker;
   test::MeetingBus bus;
-  supercoil::telemetry::CanLink can{{}, settings.firmware, loop, bus, std::mt19937(1)};
+  supercoil::telemetry::CanEndpoint can{{}, settings.firmware, loop, bus, std::mt19937(1)};
   std::unique_ptr<Telemetry> telemetry;
   std::unique_ptr<LoopThread> thread;
   sigset_t before{};
@@ -80,10 +80,11 @@ TEST_GROUP(DaemonThreads) {
     block_ending_signals();
     for (std::size_t i = 0; i < loop.channels(); ++i)
       stores.emplace_back(folder.path(), static_cast<int>(i + 1), files);
-    keeper = std::make_unique<Keeper>(config, stores, files);
+    storage_worker = std::make_unique<StorageWorker>(config, stores, files);
     auto commands = LocalCommands::open(folder / "commands");
     if (!commands) FAIL(commands.error().c_str());
-    telemetry = std::make_unique<Telemetry>(loop, keeper->relay(), std::move(*commands), &can);
+    telemetry =
+        std::make_unique<Telemetry>(loop, storage_worker->relay(), std::move(*commands), &can);
     CHECK(telemetry->start().has_value());
     auto started = LoopThread::start(loop, board, settings.firmware.rate_Hz, {"loop"});
     if (!started) FAIL(started.error().c_str());
@@ -109,9 +110,9 @@ TEST_GROUP(DaemonThreads) {
   /// Keeps rows, as the daemon's main thread does, until the condition holds.
   template <class Condition>
   void until(const Condition& holds) {
-    constexpr int most_rounds = 6000;
-    for (int i = 0; i < most_rounds; ++i) {
-      keeper->poll(loop, board.now());
+    constexpr int max_rounds = 6000;
+    for (int i = 0; i < max_rounds; ++i) {
+      storage_worker->poll(loop, board.now());
       if (holds()) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -128,7 +129,7 @@ TEST_GROUP(DaemonThreads) {
     const BoardSocket socket = client();
     arm(socket);
     kill(getpid(), signal);
-    until([&] { return keeper->all_off(); });
+    until([&] { return storage_worker->all_off(); });
     sigset_t sent;
     sigemptyset(&sent);
     sigaddset(&sent, signal);
@@ -149,12 +150,12 @@ TEST(DaemonThreads, ACommandThatIsNotRenewedExpires) {
   until_state(socket, "1 disarmed");
 }
 
-TEST(DaemonThreads, CoolingIsObeyedAndNobodyElseIsHeard) {
+TEST(DaemonThreads, CoolingIsObeyedAndOtherCommandsAreIgnored) {
   const BoardSocket socket = client();
   arm(socket);
-  CHECK_FALSE(keeper->all_off());
+  CHECK_FALSE(storage_worker->all_off());
   telemetry->cool();
-  until([&] { return keeper->all_off(); });
+  until([&] { return storage_worker->all_off(); });
 }
 
 TEST(DaemonThreads, AMasterOnTheBusIsAnsweredThereAndLocalProgramsHere) {
@@ -195,7 +196,7 @@ TEST(DaemonThreads, APendingSighupCoolsWhileTheMainThreadIsBusyElsewhere) {
   cools_at(SIGHUP);
 }
 
-TEST(DaemonThreads, ClientsThatGoAwayTakeNobodysAnswers) {
+TEST(DaemonThreads, ClientsThatGoAwayTakeNoOthersAnswers) {
   const BoardSocket stays = client();
   for (int i = 0; i < 20; ++i) {
     {

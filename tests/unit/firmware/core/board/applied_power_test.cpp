@@ -6,9 +6,9 @@ using namespace supercoil::board;
 
 TEST_GROUP(OutputDelay){};
 
-TEST(OutputDelay, GivesWhatWasSetSoManyTicksAgo) {
+TEST(OutputDelay, GivesTheValueSetThatManyTicksAgo) {
   for (const std::size_t ticks :
-       {std::size_t{0}, std::size_t{1}, std::size_t{7}, OutputDelay::longest_ticks}) {
+       {std::size_t{0}, std::size_t{1}, std::size_t{7}, OutputDelay::max_ticks}) {
     OutputDelay delay(ticks);
     for (std::size_t i = 0; i < 3 * (ticks + 1); ++i) {
       const double expected_W = i < ticks ? 0.0 : static_cast<double>(i - ticks + 1);
@@ -21,8 +21,8 @@ TEST(OutputDelay, GivesWhatWasSetSoManyTicksAgo) {
 }
 
 TEST(OutputDelay, IsNoLongerThanItsLine) {
-  OutputDelay delay(OutputDelay::longest_ticks + 100);
-  for (std::size_t i = 0; i < OutputDelay::longest_ticks; ++i)
+  OutputDelay delay(OutputDelay::max_ticks + 100);
+  for (std::size_t i = 0; i < OutputDelay::max_ticks; ++i)
     DOUBLES_EQUAL(0.0, delay.step({1.0, 0.0, false}).power_W, 0.0);
   DOUBLES_EQUAL(1.0, delay.step({1.0, 0.0, false}).power_W, 0.0);
 }

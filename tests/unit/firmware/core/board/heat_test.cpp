@@ -24,8 +24,8 @@ double hottest_after_K(const ThermalSettings& settings, double learned_pole_rad_
 }
 
 /// Of a thermometer, at 2 W.
-board::HeatFacts read_at_2_W() {
-  board::HeatFacts facts;
+board::ThermalFacts read_at_2_W() {
+  board::ThermalFacts facts;
   facts.steady_rise_K = 22.5;
   facts.steady_error_K = 1.0;
   facts.steady_min_W = 1.98;
@@ -37,10 +37,8 @@ board::HeatFacts read_at_2_W() {
 
 TEST_GROUP(HotEnd) {
   ThermalSettings settings;
-  double slowest_pole =
-      -settings.bounds.lowest_transfer_W_per_K / settings.bounds.highest_mass_J_per_K;
-  double fastest_pole =
-      -settings.bounds.highest_transfer_W_per_K / settings.bounds.lowest_mass_J_per_K;
+  double slowest_pole = -settings.bounds.min_transfer_W_per_K / settings.bounds.max_mass_J_per_K;
+  double fastest_pole = -settings.bounds.max_transfer_W_per_K / settings.bounds.min_mass_J_per_K;
 };
 
 TEST(HotEnd, WhatIsLearnedOfCoolingIsNotBelievedBeyondTheConfiguredBounds) {
@@ -50,7 +48,7 @@ TEST(HotEnd, WhatIsLearnedOfCoolingIsNotBelievedBeyondTheConfiguredBounds) {
 }
 
 TEST(HotEnd, IsTheHotterOfWhatIsConfiguredAndWhatIsLearned) {
-  const double configured_K = heating_W / settings.bounds.lowest_transfer_W_per_K;
+  const double configured_K = heating_W / settings.bounds.min_transfer_W_per_K;
   DOUBLES_EQUAL(configured_K, hottest_after_K(settings, fastest_pole, 60.0), 0.01);
   DOUBLES_EQUAL(configured_K, hottest_after_K(settings, 100.0 * fastest_pole, 60.0), 0.01);
   const double slower_pole = 1.05 * slowest_pole;
@@ -71,13 +69,13 @@ TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
   Heat heat(settings, muscle, tick_s);
   for (int i = 0; i < 120'000; ++i)
     heat.step(1.0, 3.0, 2.0);
-  DOUBLES_EQUAL(1.0 / settings.bounds.highest_transfer_W_per_K, heat.coldest_K(), 0.01);
-  DOUBLES_EQUAL(3.0 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
+  DOUBLES_EQUAL(1.0 / settings.bounds.max_transfer_W_per_K, heat.coldest_K(), 0.01);
+  DOUBLES_EQUAL(3.0 / settings.bounds.min_transfer_W_per_K, heat.hottest_K(), 0.01);
   const double metres_per_K = muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;
   DOUBLES_EQUAL(2.0 * muscle.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);
-  DOUBLES_EQUAL(2.0 / settings.bounds.highest_transfer_W_per_K * metres_per_K, heat.expected_m()[1],
+  DOUBLES_EQUAL(2.0 / settings.bounds.max_transfer_W_per_K * metres_per_K, heat.expected_m()[1],
                 1e-5);
-  DOUBLES_EQUAL(2.0 / settings.bounds.lowest_transfer_W_per_K * metres_per_K, heat.expected_m()[2],
+  DOUBLES_EQUAL(2.0 / settings.bounds.min_transfer_W_per_K * metres_per_K, heat.expected_m()[2],
                 1e-5);
 }
 
@@ -91,25 +89,25 @@ TEST(HotEnd, CountsFromTheAirThatIsMeasured) {
 
 TEST(HotEnd, GoesOnFromWhereItIsWhenTheMuscleIsKnownAnew) {
   Heat heat(settings, {}, tick_s);
-  const board::HeatFacts facts = read_at_2_W();
-  const PowerBounds::Interval true_over_told{0.96, 1.04};
-  heat.know(facts, true_over_told);
+  const board::ThermalFacts facts = read_at_2_W();
+  const PowerBounds::Interval true_over_measured{0.96, 1.04};
+  heat.set_thermal_facts(facts, true_over_measured);
   for (int i = 0; i < 60'000; ++i)
     heat.step(1.9, 2.1, 2.0);
   const double hottest_K = heat.hottest_K();
   const double coldest_K = heat.coldest_K();
   CHECK_COMPARE(hottest_K, <, 30.0);  // without the reading 47 K
-  heat.know(facts, true_over_told);
+  heat.set_thermal_facts(facts, true_over_measured);
   DOUBLES_EQUAL(hottest_K, heat.hottest_K(), 0.0);
   DOUBLES_EQUAL(coldest_K, heat.coldest_K(), 0.0);
-  heat.know({}, true_over_told);
-  DOUBLES_EQUAL(2.1 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
+  heat.set_thermal_facts({}, true_over_measured);
+  DOUBLES_EQUAL(2.1 / settings.bounds.min_transfer_W_per_K, heat.hottest_K(), 0.01);
 }
 
 TEST(HotEnd, OfAReadingIsHotterWherePowerIsAssumedInsteadOfSensed) {
   const auto hottest_K = [&](bool sensed) {
     Heat heat(settings, {}, tick_s);
-    heat.know(read_at_2_W(), {0.8, 1.2});
+    heat.set_thermal_facts(read_at_2_W(), {0.8, 1.2});
     for (int i = 0; i < 60'000; ++i)
       heat.step(1.9, 2.1, 2.0, sensed);
     return heat.hottest_K();

@@ -5,12 +5,12 @@
 #include <CppUTest/TestHarness.h>
 
 #include "board/heat.hpp"
-#include "board/steady_heat.hpp"
+#include "board/steady_state.hpp"
 #include "unit/firmware/core/support/tick.hpp"
 
 using namespace supercoil;
 using namespace supercoil::board;
-using supercoil::board::HeatFacts;
+using supercoil::board::ThermalFacts;
 using supercoil::test::tick_s;
 
 namespace {
@@ -24,8 +24,8 @@ ThermalSettings weighed_muscle() {
 }
 
 /// Of the paper's muscle, at 2 W.
-HeatFacts found_of_paper() {
-  HeatFacts facts;
+ThermalFacts found_of_paper() {
+  ThermalFacts facts;
   facts.time_constant_s = 0.162 / 0.089;
   facts.time_constant_at_W = 2.0;
   return facts;
@@ -33,68 +33,68 @@ HeatFacts found_of_paper() {
 
 }  // namespace
 
-TEST_GROUP(KnownHeat){};
+TEST_GROUP(KnownThermalBounds){};
 
-TEST(KnownHeat, IsWhatIsConfiguredWhereNothingWasWeighed) {
+TEST(KnownThermalBounds, IsWhatIsConfiguredWhereNothingWasWeighed) {
   const ThermalSettings s;
-  const KnownHeat known = known_heat(s, found_of_paper());
+  const KnownThermalBounds known = known_thermal_bounds(s, found_of_paper());
   LONGS_EQUAL(0, known.count);
-  DOUBLES_EQUAL(s.bounds.lowest_mass_J_per_K, known.bounds.lowest_mass_J_per_K, 0.0);
-  DOUBLES_EQUAL(s.bounds.highest_mass_J_per_K, known.bounds.highest_mass_J_per_K, 0.0);
+  DOUBLES_EQUAL(s.bounds.min_mass_J_per_K, known.bounds.min_mass_J_per_K, 0.0);
+  DOUBLES_EQUAL(s.bounds.max_mass_J_per_K, known.bounds.max_mass_J_per_K, 0.0);
   for (const double rise_K : {1.0, 30.0, 150.0}) {
-    DOUBLES_EQUAL(s.bounds.lowest_transfer_W_per_K, known.lowest_W_per_K(rise_K), 0.0);
-    DOUBLES_EQUAL(s.bounds.highest_transfer_W_per_K, known.highest_W_per_K(rise_K), 0.0);
+    DOUBLES_EQUAL(s.bounds.min_transfer_W_per_K, known.min_heat_transfer_W_per_K(rise_K), 0.0);
+    DOUBLES_EQUAL(s.bounds.max_transfer_W_per_K, known.max_heat_transfer_W_per_K(rise_K), 0.0);
   }
 }
 
-TEST(KnownHeat, OfAWeighedMuscleIsItsMassOverItsTimeConstant) {
-  const KnownHeat known = known_heat(weighed_muscle(), found_of_paper());
-  DOUBLES_EQUAL(0.97 * 0.162, known.bounds.lowest_mass_J_per_K, 1e-12);
-  DOUBLES_EQUAL(1.03 * 0.162, known.bounds.highest_mass_J_per_K, 1e-12);
+TEST(KnownThermalBounds, OfAWeighedMuscleIsItsMassOverItsTimeConstant) {
+  const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
+  DOUBLES_EQUAL(0.97 * 0.162, known.bounds.min_mass_J_per_K, 1e-12);
+  DOUBLES_EQUAL(1.03 * 0.162, known.bounds.max_mass_J_per_K, 1e-12);
   // 2 W are 22.5 K.
-  DOUBLES_EQUAL(0.97 * 0.089 / 1.25, known.lowest_W_per_K(22.5), 1e-9);
-  DOUBLES_EQUAL(1.03 * 0.089 * 1.25, known.highest_W_per_K(22.0), 1e-9);
-  CHECK_COMPARE(known.lowest_W_per_K(5.0), <, known.lowest_W_per_K(16.0));
-  CHECK_COMPARE(known.highest_W_per_K(60.0), >, known.highest_W_per_K(22.0));
+  DOUBLES_EQUAL(0.97 * 0.089 / 1.25, known.min_heat_transfer_W_per_K(22.5), 1e-9);
+  DOUBLES_EQUAL(1.03 * 0.089 * 1.25, known.max_heat_transfer_W_per_K(22.0), 1e-9);
+  CHECK_COMPARE(known.min_heat_transfer_W_per_K(5.0), <, known.min_heat_transfer_W_per_K(16.0));
+  CHECK_COMPARE(known.max_heat_transfer_W_per_K(60.0), >, known.max_heat_transfer_W_per_K(22.0));
 }
 
-TEST(KnownHeat, NeverLeavesWhatIsConfigured) {
+TEST(KnownThermalBounds, NeverLeavesWhatIsConfigured) {
   ThermalSettings s = weighed_muscle();
   s.mass_error_ratio = 0.5;
   for (const double ratio : {0.05, 0.5, 1.0, 2.0, 20.0}) {
-    HeatFacts facts = found_of_paper();
+    ThermalFacts facts = found_of_paper();
     facts.time_constant_s *= ratio;
-    const KnownHeat known = known_heat(s, facts);
-    CHECK_COMPARE(known.bounds.lowest_mass_J_per_K, >=, s.bounds.lowest_mass_J_per_K);
-    CHECK_COMPARE(known.bounds.highest_mass_J_per_K, <=, s.bounds.highest_mass_J_per_K);
+    const KnownThermalBounds known = known_thermal_bounds(s, facts);
+    CHECK_COMPARE(known.bounds.min_mass_J_per_K, >=, s.bounds.min_mass_J_per_K);
+    CHECK_COMPARE(known.bounds.max_mass_J_per_K, <=, s.bounds.max_mass_J_per_K);
     for (const double rise_K : {0.0, 3.0, 20.0, 140.0}) {
-      CHECK_COMPARE(known.lowest_W_per_K(rise_K), >=, s.bounds.lowest_transfer_W_per_K);
-      CHECK_COMPARE(known.lowest_W_per_K(rise_K), <=, s.bounds.highest_transfer_W_per_K);
-      CHECK_COMPARE(known.highest_W_per_K(rise_K), <=, s.bounds.highest_transfer_W_per_K);
-      CHECK_COMPARE(known.highest_W_per_K(rise_K), >=, s.bounds.lowest_transfer_W_per_K);
+      CHECK_COMPARE(known.min_heat_transfer_W_per_K(rise_K), >=, s.bounds.min_transfer_W_per_K);
+      CHECK_COMPARE(known.min_heat_transfer_W_per_K(rise_K), <=, s.bounds.max_transfer_W_per_K);
+      CHECK_COMPARE(known.max_heat_transfer_W_per_K(rise_K), <=, s.bounds.max_transfer_W_per_K);
+      CHECK_COMPARE(known.max_heat_transfer_W_per_K(rise_K), >=, s.bounds.min_transfer_W_per_K);
     }
   }
 }
 
-TEST_GROUP(SteadyHeat) {
+TEST_GROUP(SteadyState) {
   ThermalSettings settings;
-  HeatFacts facts;
+  ThermalFacts facts;
 
   /// Held at 1.5 W for so long; the slowest that the bounds allow takes 4.4 s.
-  SteadyHeat held(double time_s) const {
-    SteadyHeat steady(settings, tick_s);
+  SteadyState held(double time_s) const {
+    SteadyState steady(settings, tick_s);
     hold(steady, time_s);
     return steady;
   }
-  static void hold(SteadyHeat & steady, double time_s) {
+  static void hold(SteadyState & steady, double time_s) {
     for (long i = std::lround(time_s / tick_s); i > 0; --i)
       steady.step({1.5, 1.51}, 40.0);
   }
 };
 
-TEST(SteadyHeat, TakesAReadingWhenTheMuscleMustBeInSteadyHeat) {
+TEST(SteadyState, TakesAReadingWhenTheMuscleMustBeInSteadyHeat) {
   CHECK(held(20.0).read(17.0, compared_power, facts) == Refusal::not_ready);
-  CHECK_FALSE(facts.was_read());
+  CHECK_FALSE(facts.has_reading());
   CHECK(held(23.0).read(17.0, compared_power, facts) == Refusal::none);
   DOUBLES_EQUAL(17.0, facts.steady_rise_K, 0.0);
   // The thermometer's kelvin, and what is left of 40 K after five time constants.
@@ -103,23 +103,23 @@ TEST(SteadyHeat, TakesAReadingWhenTheMuscleMustBeInSteadyHeat) {
   DOUBLES_EQUAL(1.51, facts.steady_max_W, 1e-9);
 }
 
-TEST(SteadyHeat, WaitsAnewWhenThePowerIsAnotherOne) {
-  SteadyHeat steady = held(30.0);
+TEST(SteadyState, WaitsAnewWhenThePowerIsAnotherOne) {
+  SteadyState steady = held(30.0);
   steady.restart();
   hold(steady, 20.0);
   CHECK(steady.read(17.0, compared_power, facts) == Refusal::not_ready);
 }
 
-TEST(SteadyHeat, RefusesWhatTheMuscleCannotBe) {
-  const SteadyHeat steady = held(30.0);
+TEST(SteadyState, RefusesWhatTheMuscleCannotBe) {
+  const SteadyState steady = held(30.0);
   // 1.5 W over the configured 0.045 to 0.18 W/K is 8.3 to 33 K.
   for (const double rise_K : {-17.0, 0.5, 2.0, 6.0, 40.0, 170.0, 1e9, std::nan("")})
     CHECK(steady.read(rise_K, compared_power, facts) == Refusal::out_of_range);
-  CHECK_FALSE(facts.was_read());
+  CHECK_FALSE(facts.has_reading());
   // Of a muscle whose time constant is known with its mass, less is possible.
   settings = weighed_muscle();
   facts = found_of_paper();
-  const SteadyHeat known = held(30.0);
+  const SteadyState known = held(30.0);
   CHECK(known.read(10.0, compared_power, facts) == Refusal::out_of_range);
   CHECK(known.read(17.0, compared_power, facts) == Refusal::none);
 }
@@ -128,17 +128,19 @@ TEST_GROUP(HeatThatWasRead) {
   ThermalSettings settings;
 
   /// Held at a power for good, with senses that tell 2 % too much of it or too little.
-  static Heat held(const ThermalSettings& settings, const HeatFacts& facts, double told_W) {
+  static Heat held(const ThermalSettings& settings, const ThermalFacts& facts,
+                   double measured_power_W) {
     Heat heat(settings, {}, tick_s);
-    heat.know(facts, compared_power);
+    heat.set_thermal_facts(facts, compared_power);
     for (int i = 0; i < 60'000; ++i)
-      heat.step(compared_power.min * told_W, compared_power.max * told_W, told_W);
+      heat.step(compared_power.min * measured_power_W, compared_power.max * measured_power_W,
+                measured_power_W);
     return heat;
   }
 };
 
 TEST(HeatThatWasRead, DoesNotSufferFromTheSensesErrors) {
-  const HeatFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
+  const ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   const Heat heat = held(settings, facts, 1.5);
   // At the power at which it was read, what is left is what the thermometer errs by.
   DOUBLES_EQUAL(17.85, heat.hottest_K(), 0.5);
@@ -148,9 +150,9 @@ TEST(HeatThatWasRead, DoesNotSufferFromTheSensesErrors) {
 }
 
 TEST(HeatThatWasRead, IsWiderWhereAReadingOfThePowerIsMissing) {
-  const HeatFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
+  const ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   Heat sensed(settings, {}, tick_s);
-  sensed.know(facts, compared_power);
+  sensed.set_thermal_facts(facts, compared_power);
   Heat blind = sensed;
   for (int i = 0; i < 60'000; ++i) {
     sensed.step(0.0, 1.5, 1.5);
@@ -161,12 +163,12 @@ TEST(HeatThatWasRead, IsWiderWhereAReadingOfThePowerIsMissing) {
 }
 
 TEST(HeatThatWasRead, IsForgottenWithoutAJump) {
-  HeatFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
+  ThermalFacts facts{0.0, 0.0, 16.85, 1.0, 1.5, 1.5};
   Heat heat = held(settings, facts, 1.5);
-  facts.forget_reading();
-  heat.know(facts, compared_power);
+  facts.clear_reading();
+  heat.set_thermal_facts(facts, compared_power);
   CHECK_COMPARE(heat.hottest_K(), >=, 17.85);
   for (int i = 0; i < 60'000; ++i)
     heat.step(1.5, 1.5, 1.5);
-  DOUBLES_EQUAL(1.5 / settings.bounds.lowest_transfer_W_per_K, heat.hottest_K(), 0.01);
+  DOUBLES_EQUAL(1.5 / settings.bounds.min_transfer_W_per_K, heat.hottest_K(), 0.01);
 }

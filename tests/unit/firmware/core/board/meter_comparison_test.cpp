@@ -66,7 +66,7 @@ TEST(MeterComparison, FindsTheGainsFromTwoPowers) {
   DOUBLES_EQUAL(0.0, found->compared_s, 0.0);
 }
 
-TEST(MeterComparison, FindsGainsOverWhatTheSensesTellWithoutTheirPresentOnes) {
+TEST(MeterComparison, FindsGainsOverTheUncorrectedReadings) {
   present = {1.25, 0.8, 0.05, 1.0};
   supply_told = 1.25 * 0.9;
   current_told = 0.8 * 0.9;
@@ -162,10 +162,10 @@ TEST(MeterComparison, AGainBeyondItsRangeIsRefused) {
 }
 
 TEST(MeterComparison, AResistanceThatIsNotTheConfiguredOneIsRefused) {
-  const double least_A = 0.1 * supply_V / (10.5 * 1.3);
-  const double most_A = 0.1 * supply_V / (10.0 * 0.7);
-  for (const double meter_A : {0.99 * least_A, 1.01 * most_A, 1.01 * least_A, 0.99 * most_A}) {
-    const bool fits = meter_A > least_A && meter_A < most_A;
+  const double min_A = 0.1 * supply_V / (10.5 * 1.3);
+  const double max_A = 0.1 * supply_V / (10.0 * 0.7);
+  for (const double meter_A : {0.99 * min_A, 1.01 * max_A, 1.01 * min_A, 0.99 * max_A}) {
+    const bool fits = meter_A > min_A && meter_A < max_A;
     hold(0.1);
     current_told = meter_A / line_A();  // so that the gain is no reason
     hold(0.1);

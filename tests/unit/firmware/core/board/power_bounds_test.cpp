@@ -78,12 +78,13 @@ TEST(PowerBounds, AreNoWiderAtAnySupplyThanTheWorst) {
   CHECK(rc::check("a supply that is no fault", [] {
     const double supply_V = *test::reals(10.8, 13.2);
     for (const PowerBounds& bounds : {PowerBounds(settings()), compared(0.02)}) {
-      const auto here = bounds.true_over_told(supply_V);
-      const auto worst = bounds.true_over_told();
+      const auto here = bounds.true_over_measured(supply_V);
+      const auto worst = bounds.true_over_measured();
       RC_ASSERT(here.max <= worst.max + 1e-12 && here.min >= worst.min - 1e-12);
     }
   }));
-  DOUBLES_EQUAL(1.3 * std::pow(13.2 / 10.8, 2), PowerBounds(settings()).true_over_told().max, 1e-9);
+  DOUBLES_EQUAL(1.3 * std::pow(13.2 / 10.8, 2), PowerBounds(settings()).true_over_measured().max,
+                1e-9);
 }
 
 TEST(PowerBounds, OfComparedSensesAreNarrow) {

@@ -53,9 +53,9 @@ TEST(Feasibility, TheHeldPowerIsTheOneThatDeratingLeaves) {
   channel.supervision.proof_of_response = false;
   const Feasibility f = found();
   CHECK(f.held_by == LimitedBy::temperature);
-  const double eta = channel.thermal.bounds.lowest_transfer_W_per_K;
+  const double eta = channel.thermal.bounds.min_transfer_W_per_K;
   const double hottest_C = channel.thermal.air.warmest_C +
-                           f.held_W * power_bounds(channel, board).true_over_told().max / eta;
+                           f.held_W * power_bounds(channel, board).true_over_measured().max / eta;
   DOUBLES_EQUAL(f.held_W, Limiter(channel.limiter, 0.001).max_W(hottest_C), 1e-9);
   DOUBLES_EQUAL(gain_m_per_W() * f.held_W, f.travel_m, 1e-12);
 }
@@ -131,17 +131,17 @@ TEST(Feasibility, ItMayBeArmedWhenTheSlowestCoolingIsOver) {
   control::RiseIntervalObserver interval(t.bounds, 0.001);
   interval.reset(t.boot_rise_K);
   double time_s = 0.0;
-  for (; t.air.warmest_C + interval.highest_K() >= channel.limiter.derate_from_C; time_s += 0.001)
+  for (; t.air.warmest_C + interval.max_K() >= channel.limiter.derate_from_C; time_s += 0.001)
     interval.step(0.0, 0.0);
   DOUBLES_EQUAL(time_s, found().armable_s, 0.002);
 }
 
 TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
   channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 15.0};
-  channel.supervision.lowest_position_m = -0.0081;
+  channel.supervision.min_position_m = -0.0081;
   const Feasibility f = found();
   DOUBLES_EQUAL(15.0 * 0.0086 / 16.0, f.air_shift_m, 1e-9);
   CHECK(f.rest_seen);
-  channel.supervision.lowest_position_m = -0.0080;
+  channel.supervision.min_position_m = -0.0080;
   CHECK_FALSE(found().rest_seen);
 }

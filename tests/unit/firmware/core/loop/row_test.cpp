@@ -41,7 +41,7 @@ TEST(RowOf, HasEachNumber) {
       Quantity{&Snapshot::reference, &Row::reference},
       Quantity{&Snapshot::model_m, &Row::model_m},
       Quantity{&Snapshot::position_m, &Row::position_m},
-      Quantity{&Snapshot::wanted_W, &Row::wanted_W},
+      Quantity{&Snapshot::demanded_W, &Row::demanded_W},
       Quantity{&Snapshot::applied_W, &Row::applied_W},
       Quantity{&Snapshot::duty, &Row::duty},
       Quantity{&Snapshot::supply_V, &Row::supply_V},
@@ -72,18 +72,18 @@ TEST(RowOf, HasWhatTakesTurns) {
   s.bias_deviation_W = 9.0;
   const Row row = row_of(s);
   DOUBLES_EQUAL(0.5, row.progress, 0.0);
-  LONGS_EQUAL(control::Gain::proportional, row.gain_turn);
+  LONGS_EQUAL(control::Gain::proportional, row.gain_selector);
   DOUBLES_EQUAL(0.25, row.gain, 0.0);
   DOUBLES_EQUAL(0.5, row.margin_used, 0.0);
   DOUBLES_EQUAL(2.0, row.margin_measured, 0.0);
   DOUBLES_EQUAL(4.0, row.margin_limit, 0.0);
   for (int i = 0; i < 4; ++i)
     DOUBLES_EQUAL(i + 1.0, row.theta.at(static_cast<std::size_t>(i)), 0.0);
-  CHECK(std::isnan(row.aside));
-  constexpr std::array asides{0.125, 5.0, 6.0, 7.0, 8.0, 9.0};
-  for (const double aside : asides) {
-    ++s.aside;
-    DOUBLES_EQUAL(aside, row_of(s).aside, 0.0);
-    LONGS_EQUAL(s.aside, row_of(s).aside_turn);
+  CHECK(std::isnan(row.multiplexed_value));
+  constexpr std::array multiplexed{0.125, 5.0, 6.0, 7.0, 8.0, 9.0};
+  for (const double multiplexed_value : multiplexed) {
+    ++s.multiplexed_selector;
+    DOUBLES_EQUAL(multiplexed_value, row_of(s).multiplexed_value, 0.0);
+    LONGS_EQUAL(s.multiplexed_selector, row_of(s).multiplexed_selector);
   }
 }

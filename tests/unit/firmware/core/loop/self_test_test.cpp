@@ -15,12 +15,12 @@ constexpr double idle_A = 0.007;
 
 /// Runs it on a board whose current depends on what the lines are.
 template <class Current>
-SelfTest::Verdict verdict(Current current) {
+SelfTest::Outcome outcome(Current current) {
   SelfTest test({0.02}, tick_s);
   for (int i = 0; i < 10000 && !test.passed() && !test.failed(); ++i) {
     test.step(true, current(test.lines()), idle_A);
   }
-  return test.verdict();
+  return test.outcome();
 }
 
 }  // namespace
@@ -28,17 +28,17 @@ SelfTest::Verdict verdict(Current current) {
 TEST_GROUP(SelfTest){};
 
 TEST(SelfTest, PassesWhenNothingEverFlows) {
-  CHECK(verdict([](SelfTest::Lines) { return 0.001; }) == SelfTest::Verdict::passed);
+  CHECK(outcome([](SelfTest::Lines) { return 0.001; }) == SelfTest::Outcome::passed);
 }
 
 TEST(SelfTest, FindsASupplySwitchThatIsStuckClosed) {
   const auto current = [](SelfTest::Lines l) { return l.pulse && l.enable ? 0.024 : 0.0; };
-  CHECK(verdict(current) == SelfTest::Verdict::pump_does_not_open);
+  CHECK(outcome(current) == SelfTest::Outcome::pump_does_not_open);
 }
 
 TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
   const auto current = [](SelfTest::Lines l) { return l.pulse && l.heartbeat ? 0.024 : 0.0; };
-  CHECK(verdict(current) == SelfTest::Verdict::enable_does_not_cut);
+  CHECK(outcome(current) == SelfTest::Outcome::enable_does_not_cut);
 }
 
 TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
@@ -64,7 +64,7 @@ TEST(SelfTest, WaitsForTheLastLifesChargePumpToDecayFirst) {
 TEST(SelfTest, IsNotFailedByASingleNoisyReading) {
   int tick = 0;
   const auto current = [&](SelfTest::Lines l) { return l.pulse && ++tick % 7 == 0 ? 0.024 : 0.0; };
-  CHECK(verdict(current) == SelfTest::Verdict::passed);
+  CHECK(outcome(current) == SelfTest::Outcome::passed);
 }
 
 TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
@@ -75,7 +75,7 @@ TEST(SelfTest, FindsASwitchThatIsStuckOnAsSoonAsTheSupplyCloses) {
     hot_ticks += hot ? 1 : 0;
     test.step(true, hot ? 1.2 : 0.0, idle_A);
   }
-  CHECK(test.verdict() == SelfTest::Verdict::enable_does_not_cut);
+  CHECK(test.outcome() == SelfTest::Outcome::enable_does_not_cut);
   CHECK_COMPARE(hot_ticks, <=, 10);
 }
 
@@ -92,9 +92,9 @@ TEST(SelfTest, WaitsColdWhileItMayNotRunAndBeginsAgain) {
   DOUBLES_EQUAL(test.duration_s(), ticks * tick_s, 2e-3);
 }
 
-TEST(SelfTest, FailsOnACurrentThatIsNoNumber) {
+TEST(SelfTest, FailsOnACurrentOfNaN) {
   const auto current = [](SelfTest::Lines l) { return l.pulse ? NAN : 0.0; };
-  CHECK(verdict(current) == SelfTest::Verdict::pump_does_not_open);
+  CHECK(outcome(current) == SelfTest::Outcome::pump_does_not_open);
 }
 
 TEST(SelfTest, ThatIsDecidedStaysSo) {
@@ -103,11 +103,11 @@ TEST(SelfTest, ThatIsDecidedStaysSo) {
     const auto step = [&](double current_A) { test.step(true, current_A, idle_A); };
     while (!test.passed() && !test.failed())
       step(well ? 0.0 : 1.2);
-    const SelfTest::Verdict decided = test.verdict();
-    CHECK((decided == SelfTest::Verdict::passed) == well);
+    const SelfTest::Outcome decided = test.outcome();
+    CHECK((decided == SelfTest::Outcome::passed) == well);
     for (int i = 0; i < 1000; ++i)
       step(well ? 1.2 : 0.0);
-    CHECK(test.verdict() == decided);
+    CHECK(test.outcome() == decided);
   }
 }
 
@@ -115,5 +115,5 @@ TEST(SelfTest, FailsWhereAPulseIsTooShortToBeMeasured) {
   SelfTest test({.pump_decay_s = 0.02, .pulse_s = tick_s}, tick_s);
   for (int i = 0; i < 1000; ++i)
     test.step(true, 0.0, idle_A);
-  CHECK(test.verdict() == SelfTest::Verdict::pump_does_not_open);
+  CHECK(test.outcome() == SelfTest::Outcome::pump_does_not_open);
 }

@@ -18,7 +18,7 @@ TEST(BoardSettingsCheck, DefaultsMayRun) {
   CHECK_FALSE(check(settings).has_value());
 }
 
-TEST(BoardSettingsCheck, RefusesWhatIsNoBoard) {
+TEST(BoardSettingsCheck, RefusesAnInvalidBoard) {
   settings.channels.clear();
   check_says("a board has 1 to 16 channels, not 0");
   settings.channels.resize(17);

@@ -1,4 +1,4 @@
-// Which evidence is which fault of a board, from when on, and none other.
+// Which inputs are which fault of a board, from when on, and no other.
 #include "supervisor/board_supervisor.hpp"
 
 #include <cmath>
@@ -15,21 +15,21 @@ using supercoil::test::tick_s;
 
 namespace {
 
-using BoardChange = std::function<void(BoardEvidence&)>;
+using BoardChange = std::function<void(BoardInputs&)>;
 
 /// A board on which all is well, tick by tick.
 class Board {
  public:
-  BoardEvidence evidence;
+  BoardInputs inputs;
   BoardSupervisor supervisor{BoardSupervision{}, tick_s};
 
   Board() {
-    evidence.supply = {12.0, 0.0, true, hal::Status::ok};
-    evidence.stop_circuit = {true, hal::Status::ok};
+    inputs.supply = {12.0, 0.0, true, hal::Status::ok};
+    inputs.stop_circuit = {true, hal::Status::ok};
   }
   Fault step() {
-    if (telemetry_lives) ++evidence.telemetry_beats;
-    return supervisor.step(evidence);
+    if (telemetry_lives) ++inputs.telemetry_heartbeats;
+    return supervisor.step(inputs);
   }
   bool telemetry_lives = true;
 };
@@ -41,23 +41,22 @@ struct BoardCause {
 };
 
 const std::vector<BoardCause> board_causes{
-    {Fault::emergency_stop, 1, [](BoardEvidence& e) { e.stop_circuit.high = false; }},
+    {Fault::emergency_stop, 1, [](BoardInputs& e) { e.stop_circuit.high = false; }},
     {Fault::emergency_stop, 1,
-     [](BoardEvidence& e) { e.stop_circuit.status = hal::Status::io_error; }},
-    {Fault::under_voltage, 20, [](BoardEvidence& e) { e.supply.value = 10.7; }},
-    {Fault::under_voltage, 20, [](BoardEvidence& e) { e.supply.present = false; }},
-    {Fault::over_voltage, 20, [](BoardEvidence& e) { e.supply.value = 13.3; }},
-    {Fault::overrun, 5, [](BoardEvidence& e) { e.skipped = 1; }},
-    {Fault::overrun, 1, [](BoardEvidence& e) { e.skipped = 5; }},
-    {Fault::tick_late, 5, [](BoardEvidence& e) { e.late_s = 0.00051; }},
-    {Fault::bus_off, 1, [](BoardEvidence& e) { e.bus = hal::CanState::bus_off; }},
-    {Fault::bus_off, 1, [](BoardEvidence& e) { e.bus = hal::CanState::down; }},
-    {Fault::bus_error_passive, 1000,
-     [](BoardEvidence& e) { e.bus = hal::CanState::error_passive; }},
-    {Fault::node_conflict, 1, [](BoardEvidence& e) { e.node_conflict = true; }},
-    {Fault::line_failed, 1, [](BoardEvidence& e) { e.lines_ok = false; }},
-    {Fault::configuration_invalid, 1, [](BoardEvidence& e) { e.configuration_changed = true; }},
-    {Fault::self_test_failed, 1, [](BoardEvidence& e) { e.self_test_failed = true; }},
+     [](BoardInputs& e) { e.stop_circuit.status = hal::Status::io_error; }},
+    {Fault::under_voltage, 20, [](BoardInputs& e) { e.supply.value = 10.7; }},
+    {Fault::under_voltage, 20, [](BoardInputs& e) { e.supply.present = false; }},
+    {Fault::over_voltage, 20, [](BoardInputs& e) { e.supply.value = 13.3; }},
+    {Fault::overrun, 5, [](BoardInputs& e) { e.skipped = 1; }},
+    {Fault::overrun, 1, [](BoardInputs& e) { e.skipped = 5; }},
+    {Fault::tick_late, 5, [](BoardInputs& e) { e.late_s = 0.00051; }},
+    {Fault::bus_off, 1, [](BoardInputs& e) { e.bus = hal::CanState::bus_off; }},
+    {Fault::bus_off, 1, [](BoardInputs& e) { e.bus = hal::CanState::down; }},
+    {Fault::bus_error_passive, 1000, [](BoardInputs& e) { e.bus = hal::CanState::error_passive; }},
+    {Fault::node_conflict, 1, [](BoardInputs& e) { e.node_conflict = true; }},
+    {Fault::line_failed, 1, [](BoardInputs& e) { e.lines_ok = false; }},
+    {Fault::configuration_invalid, 1, [](BoardInputs& e) { e.configuration_changed = true; }},
+    {Fault::self_test_failed, 1, [](BoardInputs& e) { e.self_test_failed = true; }},
 };
 
 void check_board_fault(Fault expected, Fault found) {
@@ -70,23 +69,23 @@ TEST_GROUP(BoardSupervisor){};
 
 TEST(BoardSupervisor, FindsNothingWrongWhereAllIsWell) {
   Board board;
-  board.evidence.late_s = 0.00049;
+  board.inputs.late_s = 0.00049;
   for (int i = 0; i < 3000; ++i)
     check_board_fault(Fault::none, board.step());
 }
 
 TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
-  for (const BoardCause& trouble : board_causes) {
+  for (const BoardCause& injected : board_causes) {
     Board board;
     for (int i = 0; i < 10; ++i)
       check_board_fault(Fault::none, board.step());
-    trouble.begins(board.evidence);
-    for (int i = 1; i < trouble.ticks; ++i)
+    injected.begins(board.inputs);
+    for (int i = 1; i < injected.ticks; ++i)
       check_board_fault(Fault::none, board.step());
-    check_board_fault(trouble.fault, board.step());
-    CHECK(board.supervisor.verdict().fault() == trouble.fault);
+    check_board_fault(injected.fault, board.step());
+    CHECK(board.supervisor.verdict().fault() == injected.fault);
     // Whose margin is full.
-    CHECK_COMPARE(board.supervisor.verdict().margin(trouble.fault).used(), >=, 0.99);
+    CHECK_COMPARE(board.supervisor.verdict().margin(injected.fault).used(), >=, 0.99);
   }
 }
 
@@ -102,14 +101,14 @@ TEST(BoardSupervisor, FindsThatTheTelemetryThreadStands) {
 }
 
 TEST(BoardSupervisor, ForgetsWhatIsOver) {
-  for (const BoardCause& trouble : board_causes) {
+  for (const BoardCause& injected : board_causes) {
     Board board;
-    const BoardEvidence well = board.evidence;
-    trouble.begins(board.evidence);
-    for (int i = 0; i < trouble.ticks; ++i)
+    const BoardInputs well = board.inputs;
+    injected.begins(board.inputs);
+    for (int i = 0; i < injected.ticks; ++i)
       board.step();
-    board.evidence = well;
-    board.evidence.telemetry_beats = 1000;
+    board.inputs = well;
+    board.inputs.telemetry_heartbeats = 1000;
     check_board_fault(Fault::none, board.step());
     check_board_fault(Fault::none, board.supervisor.verdict().board_fault());
   }
@@ -117,29 +116,29 @@ TEST(BoardSupervisor, ForgetsWhatIsOver) {
 
 // A bus is no reason to doubt the switches: it leaves the board's latch free.
 TEST(BoardSupervisor, KeepsApartWhatStopsTheHeartbeat) {
-  for (const BoardCause& trouble : board_causes) {
+  for (const BoardCause& injected : board_causes) {
     Board board;
-    trouble.begins(board.evidence);
-    for (int i = 0; i < trouble.ticks; ++i)
+    injected.begins(board.inputs);
+    for (int i = 0; i < injected.ticks; ++i)
       board.step();
-    const bool stops = info(trouble.fault)->scope == Scope::board;
-    check_board_fault(stops ? trouble.fault : Fault::none,
+    const bool stops = info(injected.fault)->scope == Scope::board;
+    check_board_fault(stops ? injected.fault : Fault::none,
                       board.supervisor.verdict().board_fault());
   }
 }
 
 TEST(BoardSupervisor, TheFirstCauseOfATickHidesNoFaultOfTheBoard) {
   Board board;
-  board.evidence.bus = hal::CanState::bus_off;
-  board.evidence.configuration_changed = true;
+  board.inputs.bus = hal::CanState::bus_off;
+  board.inputs.configuration_changed = true;
   check_board_fault(Fault::bus_off, board.step());
   check_board_fault(Fault::configuration_invalid, board.supervisor.verdict().board_fault());
 }
 
-TEST(BoardSupervisor, OfTwoFaultsOfTheBoardTellsTheFirst) {
+TEST(BoardSupervisor, ReportsTheFirstOfTwoFaultsOfTheBoard) {
   Board board;
-  board.evidence.stop_circuit.high = false;
-  board.evidence.configuration_changed = true;
+  board.inputs.stop_circuit.high = false;
+  board.inputs.configuration_changed = true;
   board.step();
   check_board_fault(Fault::emergency_stop, board.supervisor.verdict().board_fault());
 }

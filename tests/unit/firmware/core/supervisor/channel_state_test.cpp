@@ -47,7 +47,7 @@ TEST(ChannelState, KeepsItsFirstCause) {
   CHECK_FALSE(channel.enable());
 }
 
-TEST(ChannelState, OrdinaryStopIsNoFault) {
+TEST(ChannelState, OrdinaryStopIsNotAFault) {
   ChannelState channel = active();
   channel.disarm(Fault::none);
   CHECK(channel.state() == State::disarmed);

@@ -1,4 +1,4 @@
-// Which evidence is which fault of a channel, from when on, and none other.
+// Which inputs are which fault of a channel, from when on, and no other.
 #include "supervisor/channel_supervisor.hpp"
 
 #include <cmath>
@@ -15,7 +15,7 @@ using supercoil::test::tick_s;
 
 namespace {
 
-struct Evidence {
+struct ChannelInputs {
   AxisEvidence axis;
   HeaterEvidence heater;
   CommandEvidence commands;
@@ -24,12 +24,12 @@ struct Evidence {
 /// A muscle of 10 Ohm that is heated with 3.6 W, hot and where it should be.
 class Channel {
  public:
-  Evidence evidence;
+  ChannelInputs inputs;
   ChannelSupervisor supervisor{ChannelSupervision{}, 10.0, 10.8, tick_s};
   bool sensor_lives = true;
 
   Channel() {
-    Evidence& e = evidence;
+    ChannelInputs& e = inputs;
     e.axis.position = {0.01, 0.0, true, hal::Status::ok};
     e.axis.sensor_m = 0.01;
     e.axis.position_elapsed_s = tick_s;
@@ -41,13 +41,13 @@ class Channel {
     e.heater.set_step = e.heater.read_back = 1000;
     e.heater.expected_m = {0.01, 0.01, 0.01};
     e.heater.hottest_C = 100.0;
-    e.heater.applied_W = e.heater.measured_W = e.axis.wanted_W = 3.6;
+    e.heater.applied_W = e.heater.measured_W = e.axis.demanded_W = 3.6;
     e.heater.resistance_Ohm = e.heater.min_Ohm = e.heater.max_Ohm = 10.0;
     e.commands.renewed = e.commands.obeyed = true;
   }
   Fault step() {
     if (sensor_lives) noise_m_ = -noise_m_;
-    Evidence now = evidence;
+    ChannelInputs now = inputs;
     now.axis.position.value += noise_m_;
     now.axis.sensor_m += noise_m_;
     return supervisor.step(now.axis, now.heater, now.commands);
@@ -57,59 +57,60 @@ class Channel {
   double noise_m_ = 15e-6;
 };
 
-struct Trouble {
+struct InjectedFault {
   Fault fault;
   int ticks;  ///< until it is found
-  std::function<void(Evidence&)> begins;
+  std::function<void(ChannelInputs&)> begins;
 };
 
-void drift(Evidence& e) {
+void drift(ChannelInputs& e) {
   e.heater.resistance_fresh = true;
   e.heater.resistance_Ohm = 13.1;
 }
 
-const std::vector<Trouble> troubles{
-    {Fault::sensor_stale, 1, [](Evidence& e) { e.axis.position.present = false; }},
-    {Fault::sensor_stale, 1, [](Evidence& e) { e.heater.current.present = false; }},
-    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.axis.sensor_m = 0.0421; }},
-    {Fault::sensor_out_of_range, 5, [](Evidence& e) { e.axis.sensor_m = -0.0021; }},
-    {Fault::sensor_jump, 2, [](Evidence& e) { e.axis.sensor_m = 0.0108; }},
-    {Fault::sensors_disagree, 2000, [](Evidence& e) { e.heater.from_resistance_K = 30.1; }},
-    {Fault::heater_open, 20, [](Evidence& e) { e.heater.current.value = 0.067; }},
-    {Fault::heater_open, 1, [](Evidence& e) { e.heater.probe_failed = true; }},
-    {Fault::heater_short, 2, [](Evidence& e) { e.heater.current.value = 0.651; }},
+const std::vector<InjectedFault> injected_faults{
+    {Fault::sensor_stale, 1, [](ChannelInputs& e) { e.axis.position.present = false; }},
+    {Fault::sensor_stale, 1, [](ChannelInputs& e) { e.heater.current.present = false; }},
+    {Fault::sensor_out_of_range, 5, [](ChannelInputs& e) { e.axis.sensor_m = 0.0421; }},
+    {Fault::sensor_out_of_range, 5, [](ChannelInputs& e) { e.axis.sensor_m = -0.0021; }},
+    {Fault::sensor_jump, 2, [](ChannelInputs& e) { e.axis.sensor_m = 0.0108; }},
+    {Fault::sensors_disagree, 2000, [](ChannelInputs& e) { e.heater.from_resistance_K = 30.1; }},
+    {Fault::heater_open, 20, [](ChannelInputs& e) { e.heater.current.value = 0.067; }},
+    {Fault::heater_open, 1, [](ChannelInputs& e) { e.heater.probe_failed = true; }},
+    {Fault::heater_short, 2, [](ChannelInputs& e) { e.heater.current.value = 0.651; }},
     {Fault::heater_stuck_on, 50,
-     [](Evidence& e) {
+     [](ChannelInputs& e) {
        e.heater.off = true;
        e.heater.current.value = 0.051;
      }},
     {Fault::heater_not_responding, 1,
-     [](Evidence& e) {
+     [](ChannelInputs& e) {
        e.axis.unanswered = true;
        e.axis.answer = {0.001, 0.002, true, true};
      }},
-    {Fault::duty_wrong, 5, [](Evidence& e) { e.heater.read_back = 1001; }},
-    {Fault::duty_wrong, 5, [](Evidence& e) { e.heater.devices_ok = false; }},
-    {Fault::over_temperature, 1, [](Evidence& e) { e.heater.hottest_C = 160.1; }},
-    {Fault::over_temperature, 1, [](Evidence& e) { e.heater.hottest_C = std::nan(""); }},
-    {Fault::over_travel, 1, [](Evidence& e) { e.axis.position.value = 0.0351; }},
-    {Fault::energy_budget_exceeded, 1, [](Evidence& e) { e.heater.measured_W = 298.0 / tick_s; }},
+    {Fault::duty_wrong, 5, [](ChannelInputs& e) { e.heater.read_back = 1001; }},
+    {Fault::duty_wrong, 5, [](ChannelInputs& e) { e.heater.devices_ok = false; }},
+    {Fault::over_temperature, 1, [](ChannelInputs& e) { e.heater.hottest_C = 160.1; }},
+    {Fault::over_temperature, 1, [](ChannelInputs& e) { e.heater.hottest_C = std::nan(""); }},
+    {Fault::over_travel, 1, [](ChannelInputs& e) { e.axis.position.value = 0.0351; }},
+    {Fault::energy_budget_exceeded, 1,
+     [](ChannelInputs& e) { e.heater.measured_W = 298.0 / tick_s; }},
     {Fault::resistance_drift, 500, drift},
     {Fault::resistance_drift, 1,
-     [](Evidence& e) {
+     [](ChannelInputs& e) {
        drift(e);
        e.heater.probed = true;
      }},
-    {Fault::power_limit_exceeded, 100, [](Evidence& e) { e.heater.current.value = 0.4945; }},
-    {Fault::controller_invalid, 1, [](Evidence& e) { e.axis.wanted_W = std::nan(""); }},
+    {Fault::power_limit_exceeded, 100, [](ChannelInputs& e) { e.heater.current.value = 0.4945; }},
+    {Fault::controller_invalid, 1, [](ChannelInputs& e) { e.axis.demanded_W = std::nan(""); }},
     {Fault::controller_invalid, 120000,
-     [](Evidence& e) {
+     [](ChannelInputs& e) {
        e.heater.limited = true;
-       e.axis.wanted_W = 3.61;
+       e.axis.demanded_W = 3.61;
      }},
-    {Fault::command_timeout, 251, [](Evidence& e) { e.commands.renewed = false; }},
-    {Fault::command_damaged, 10, [](Evidence& e) { e.commands.damaged = true; }},
-    {Fault::command_not_allowed, 10, [](Evidence& e) { e.commands.refused = true; }},
+    {Fault::command_timeout, 251, [](ChannelInputs& e) { e.commands.renewed = false; }},
+    {Fault::command_damaged, 10, [](ChannelInputs& e) { e.commands.damaged = true; }},
+    {Fault::command_not_allowed, 10, [](ChannelInputs& e) { e.commands.refused = true; }},
 };
 
 void check_fault(Fault expected, Fault found) {
@@ -127,30 +128,30 @@ TEST(ChannelSupervisor, FindsNothingWrongWhereAllIsWell) {
 }
 
 TEST(ChannelSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
-  for (const Trouble& trouble : troubles) {
+  for (const InjectedFault& injected : injected_faults) {
     Channel channel;
     for (int i = 0; i < 10; ++i)
       check_fault(Fault::none, channel.step());
-    trouble.begins(channel.evidence);
-    for (int i = 1; i < trouble.ticks; ++i)
+    injected.begins(channel.inputs);
+    for (int i = 1; i < injected.ticks; ++i)
       check_fault(Fault::none, channel.step());
-    check_fault(trouble.fault, channel.step());
-    CHECK(channel.supervisor.verdict().fault() == trouble.fault);
+    check_fault(injected.fault, channel.step());
+    CHECK(channel.supervisor.verdict().fault() == injected.fault);
   }
 }
 
 // But where a probe finds no resistance: that has no size.
 TEST(ChannelSupervisor, TellsOfEachTroubleThatItsMarginIsUsed) {
-  for (const Trouble& trouble : troubles) {
+  for (const InjectedFault& injected : injected_faults) {
     Channel channel;
     channel.step();
-    const detectors::Margin before = channel.supervisor.verdict().margin(trouble.fault);
+    const detectors::Margin before = channel.supervisor.verdict().margin(injected.fault);
     CHECK_COMPARE(before.used(), <, 1.0);
-    trouble.begins(channel.evidence);
-    for (int i = 0; i < trouble.ticks; ++i)
+    injected.begins(channel.inputs);
+    for (int i = 0; i < injected.ticks; ++i)
       channel.step();
-    const detectors::Margin full = channel.supervisor.verdict().margin(trouble.fault);
-    if (channel.evidence.heater.probe_failed) continue;
+    const detectors::Margin full = channel.supervisor.verdict().margin(injected.fault);
+    if (channel.inputs.heater.probe_failed) continue;
     CHECK_COMPARE(full.used(), >=, 0.99);
   }
 }
@@ -164,17 +165,17 @@ TEST(ChannelSupervisor, HasNoMarginOfWhatConcernsTheBoard) {
 }
 
 TEST(ChannelSupervisor, ForgetsWhatIsOver) {
-  for (const Trouble& trouble : troubles) {
+  for (const InjectedFault& injected : injected_faults) {
     // What was heated too much stays so; a place that was taken for the truth is left by a jump.
-    if (trouble.fault == Fault::energy_budget_exceeded || trouble.fault == Fault::sensor_jump)
+    if (injected.fault == Fault::energy_budget_exceeded || injected.fault == Fault::sensor_jump)
       continue;
     Channel channel;
     channel.step();
-    const Evidence well = channel.evidence;
-    trouble.begins(channel.evidence);
-    for (int i = 0; i < trouble.ticks; ++i)
+    const ChannelInputs well = channel.inputs;
+    injected.begins(channel.inputs);
+    for (int i = 0; i < injected.ticks; ++i)
       channel.step();
-    channel.evidence = well;
+    channel.inputs = well;
     check_fault(Fault::none, channel.step());
   }
 }
@@ -182,7 +183,7 @@ TEST(ChannelSupervisor, ForgetsWhatIsOver) {
 TEST(ChannelSupervisor, FindsASensorWithoutItsNoiseWhileTheMuscleIsHot) {
   for (const bool hot : {false, true}) {
     Channel channel;
-    channel.evidence.heater.hot = hot;
+    channel.inputs.heater.hot = hot;
     for (int i = 0; i < 10; ++i)
       check_fault(Fault::none, channel.step());
     channel.sensor_lives = false;
@@ -199,24 +200,24 @@ TEST(ChannelSupervisor, CannotTellASensorWithoutNoiseFromAFrozenOne) {
   ChannelSupervision quiet;
   quiet.position_noise_rms_m = 0.0;
   ChannelSupervisor supervisor(quiet, 10.0, 10.8, tick_s);
-  const Evidence evidence = Channel().evidence;
+  const ChannelInputs inputs = Channel().inputs;
   for (int i = 0; i < 2000; ++i)
-    check_fault(Fault::none, supervisor.step(evidence.axis, evidence.heater, evidence.commands));
+    check_fault(Fault::none, supervisor.step(inputs.axis, inputs.heater, inputs.commands));
 }
 
-TEST(ChannelSupervisor, AReadingThatIsNotFreshIsNoJump) {
+TEST(ChannelSupervisor, AStaleReadingIsNotAJump) {
   Channel channel;
   channel.step();
-  channel.evidence.axis.sensor_m = 0.0108;
-  channel.evidence.axis.position_elapsed_s = 0.0;
+  channel.inputs.axis.sensor_m = 0.0108;
+  channel.inputs.axis.position_elapsed_s = 0.0;
   for (int i = 0; i < 10; ++i)
     check_fault(Fault::none, channel.step());
 }
 
 TEST(ChannelSupervisor, WithoutASupplyThatIsKnownNoCurrentIsAShort) {
   Channel channel;
-  channel.evidence.heater.supply_V = 0.0;
-  channel.evidence.heater.current.value = 1.0;
+  channel.inputs.heater.supply_V = 0.0;
+  channel.inputs.heater.current.value = 1.0;
   for (int i = 0; i < 10; ++i)
     check_fault(Fault::none, channel.step());
 }
@@ -224,7 +225,7 @@ TEST(ChannelSupervisor, WithoutASupplyThatIsKnownNoCurrentIsAShort) {
 TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome) {
   for (const Fault fault : {Fault::command_damaged, Fault::command_not_allowed}) {
     Channel channel;
-    Evidence& e = channel.evidence;
+    ChannelInputs& e = channel.inputs;
     bool& wrong = fault == Fault::command_damaged ? e.commands.damaged : e.commands.refused;
     e.commands.obeyed = false;
     for (int i = 1; i <= 10; ++i) {
@@ -236,18 +237,18 @@ TEST(ChannelSupervisor, CountsWrongCommandsUntilOneIsObeyedHoweverSeldomTheyCome
   }
 }
 
-TEST(ChannelSupervisor, CoolingIsNoLostController) {
+TEST(ChannelSupervisor, CoolingIsNotALostController) {
   Channel channel;
-  channel.evidence.heater.limited = true;
-  channel.evidence.axis.wanted_W = -5.0;
+  channel.inputs.heater.limited = true;
+  channel.inputs.axis.demanded_W = -5.0;
   for (int i = 0; i < 130000; ++i)
     check_fault(Fault::none, channel.step());
 }
 
-TEST(ChannelSupervisor, AnOldCommandIsNoTroubleOfAMuscleThatRests) {
+TEST(ChannelSupervisor, AnExpiredCommandDoesNotConcernARestingMuscle) {
   Channel channel;
-  channel.evidence.commands.heating = false;
-  channel.evidence.commands.renewed = false;
+  channel.inputs.commands.heating = false;
+  channel.inputs.commands.renewed = false;
   for (int i = 0; i < 1000; ++i)
     check_fault(Fault::none, channel.step());
 }

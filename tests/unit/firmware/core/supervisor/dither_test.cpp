@@ -13,12 +13,12 @@ namespace {
 
 constexpr double dither_step_s = 0.01;
 
-double greatest_answer_m(const Dither& dither, double answer_ratio = 1.0) {
-  ExpectedMotion motion({}, dither_step_s, answer_ratio);
-  double greatest_m = 0.0;
+double peak_response_m(const Dither& dither, double response_ratio = 1.0) {
+  ExpectedMotion motion({}, dither_step_s, response_ratio);
+  double peak_m = 0.0;
   for (int i = 0; i < 300; ++i)
-    greatest_m = std::max(greatest_m, std::abs(motion.step(dither.amplitude_W * dither.sign(i))));
-  return greatest_m;
+    peak_m = std::max(peak_m, std::abs(motion.step(dither.amplitude_W * dither.sign(i))));
+  return peak_m;
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ TEST_GROUP(Dither){};
 
 TEST(Dither, MovesTheMuscleBy20MicrometresAtMostAndIsDecidedInHalfASecond) {
   const ProofPlan plan = plan_proof(paper_proof(), {}, 1000.0);
-  CHECK_COMPARE(greatest_answer_m(plan.dither), <=, 20.001e-6);
+  CHECK_COMPARE(peak_response_m(plan.dither), <=, 20.001e-6);
   CHECK_COMPARE(plan.dither.decided_s, <, 0.5);
   DOUBLES_EQUAL(4.5, plan.provable_W, 1e-9);
 }
@@ -95,10 +95,10 @@ TEST(Dither, IsAsLargeAsTheMeasuredAnswerAllowsAndAsSoonDecided) {
   const ProofPlan whole = plan_proof(paper_proof(), {}, 1000.0);
   for (const double ratio : {0.4, 2.0}) {
     ProofSettings measured = paper_proof();
-    measured.answer_ratio = ratio;
+    measured.response_ratio = ratio;
     const ProofPlan plan = plan_proof(measured, {}, 1000.0);
     DOUBLES_EQUAL(whole.dither.amplitude_W / ratio, plan.dither.amplitude_W, 1e-9);
-    DOUBLES_EQUAL(20e-6, greatest_answer_m(plan.dither, ratio), 1e-9);
+    DOUBLES_EQUAL(20e-6, peak_response_m(plan.dither, ratio), 1e-9);
     DOUBLES_EQUAL(whole.dither.decided_s, plan.dither.decided_s, 1e-9);
     DOUBLES_EQUAL(4.5, plan.provable_W, 1e-9);
   }
@@ -106,7 +106,7 @@ TEST(Dither, IsAsLargeAsTheMeasuredAnswerAllowsAndAsSoonDecided) {
 
 TEST(Dither, ThatFrictionSwallowsHoldsTheMuscleToTheSafePower) {
   ProofSettings stuck = paper_proof();
-  stuck.answer_ratio = 0.01;
+  stuck.response_ratio = 0.01;
   const ProofPlan plan = plan_proof(stuck, {}, 1000.0);
   CHECK(std::isinf(plan.dither.decided_s));
   DOUBLES_EQUAL(plan.safe_W, plan.provable_W, 1e-9);

@@ -96,8 +96,8 @@ TEST(Documented, NumbersOnTheBusAreThoseOfTheProtocol) {
       "refusal",
       {Refusal::none, Refusal::wrong_state, Refusal::cause_persists, Refusal::no_edge,
        Refusal::not_ready, Refusal::busy, Refusal::out_of_range, Refusal::no_such_channel,
-       Refusal::not_yours, Refusal::no_lease, Refusal::wrong_counter, Refusal::too_many,
-       Refusal::claim_again, Refusal::other_version});
+       Refusal::not_lease_holder, Refusal::no_lease, Refusal::wrong_counter, Refusal::queue_full,
+       Refusal::claim_again, Refusal::protocol_mismatch});
   check_names<LimitedBy>("limited_by", {LimitedBy::nothing, LimitedBy::minimum, LimitedBy::maximum,
                                         LimitedBy::slew, LimitedBy::temperature, LimitedBy::invalid,
                                         LimitedBy::cooling, LimitedBy::unproven});
@@ -109,29 +109,29 @@ TEST(Documented, NumbersOnTheBusAreThoseOfTheProtocol) {
 
 TEST(Documented, ThresholdsOfAChannelAreTheDefaults) {
   const ChannelSupervision s;
-  check_says("sensor_out_of_range", "below −%g mm", -1e3 * s.lowest_position_m);
-  check_says("sensor_out_of_range", "above %g mm", 1e3 * s.highest_position_m);
+  check_says("sensor_out_of_range", "below −%g mm", -1e3 * s.min_position_m);
+  check_says("sensor_out_of_range", "above %g mm", 1e3 * s.max_position_m);
   check_says("sensor_out_of_range", "for %g ms without a gap", 1e3 * s.out_of_range_s);
   check_says("sensor_frozen", "`position_noise_rms_m` = %g µm", 1e6 * s.position_noise_rms_m);
   check_says("sensor_frozen", "for %g s", s.frozen_s);
-  check_says("sensor_jump", "than %g m/s times", s.fastest_m_per_s);
+  check_says("sensor_jump", "than %g m/s times", s.max_speed_m_per_s);
   check_says("sensors_disagree", "more than %g K", s.disagree_K);
   check_says("sensors_disagree", "K for %g s", s.disagree_s);
   check_says("heater_open", "is at least %g %%", 1e2 * s.open_min_duty);
   check_says("heater_open", "for %g ms", 1e3 * s.open_s);
-  check_says("heater_short", "duty × supply / %g Ω", s.least_resistance_Ohm);
+  check_says("heater_short", "duty × supply / %g Ω", s.min_resistance_Ohm);
   check_says("heater_short", "for %g ms", 1e3 * s.short_s);
   check_says("heater_stuck_on", "is above %g mA", 1e3 * s.off_current_A);
   check_says("heater_stuck_on", "for %g ms without a gap", 1e3 * s.stuck_on_s);
   check_says("heater_not_responding", "window of %g s", s.responding_window_s);
-  check_says("heater_not_responding", "less than %g of", s.responding_part);
-  check_says("heater_not_responding", "at least %g mm", 1e3 * s.responding_least_m);
+  check_says("heater_not_responding", "less than %g of", s.responding_ratio);
+  check_says("heater_not_responding", "at least %g mm", 1e3 * s.responding_min_m);
   check_says("duty_wrong", "for %g ms", 1e3 * s.wrong_duty_s);
   check_says("over_temperature", "is above %g °C (`trip_C`)", s.trip_C);
   check_says("over_travel", "is above %g mm", 1e3 * s.max_travel_m);
   check_says("energy_budget_exceeded", "%g J for 4.5 W", s.energy_J);
   check_says("energy_budget_exceeded", "4.5 W and %g s", s.energy_window_s);
-  check_says("resistance_drift", "More than %g %% either way", 1e2 * s.resistance_part);
+  check_says("resistance_drift", "More than %g %% either way", 1e2 * s.resistance_ratio);
   check_says("power_limit_exceeded", "(%.2g W for 4.5 W)", s.max_measured_W);
   check_says("power_limit_exceeded", "for %g ms", 1e3 * s.over_power_s);
   check_says("command_timeout", "for more than %g s", s.command_timeout_s);
@@ -143,16 +143,16 @@ TEST(Documented, ThresholdsOfAChannelAreTheDefaults) {
 
 TEST(Documented, ThresholdsOfABoardAreTheDefaults) {
   const BoardSupervision s;
-  check_says("under_voltage", "below %g V", s.lowest_supply_V);
+  check_says("under_voltage", "below %g V", s.min_supply_V);
   check_says("under_voltage", "for %g ms", 1e3 * s.supply_s);
-  check_says("over_voltage", "more than %g V", s.highest_supply_V);
+  check_says("over_voltage", "more than %g V", s.max_supply_V);
   check_says("tick_late", "%g ms", 1e3 * s.late_s);
   check_says("tick_late", "%g ticks", s.late_in_a_row);
   check_says("overrun", "when %g periods", s.overruns_in_a_row);
   check_says("emergency_stop", "the pump's decay, %g ms", 1e3 * s.charge_pump_decay_s);
-  check_says("telemetry_dead", "%g s", s.telemetry_silence_s);
+  check_says("telemetry_dead", "%g s", s.telemetry_timeout_s);
   check_says("bus_off", "`bus_off_s` is %g: at once", s.bus_off_s);
-  check_says("bus_error_passive", "for %g s without a gap", s.bus_passive_s);
+  check_says("bus_error_passive", "for %g s without a gap", s.bus_error_passive_s);
 }
 
 TEST(Documented, LimitsOfPowerAndTemperatureAreTheDefaults) {

@@ -25,13 +25,13 @@ TEST(FreshDetectors, HaveUsedNothing) {
   check_fresh(Limit(160.0));
   check_fresh(Flag());
   check_fresh(Above({5.9, 0.1}, tick_s));
-  check_fresh(Lasting(0.1, tick_s));
-  check_fresh(InARow(10));
-  check_fresh(Silent(0.5, tick_s));
-  check_fresh(Expired(0.25, tick_s));
-  check_fresh(ControllerLost(120.0, tick_s));
+  check_fresh(TimedFlag(0.1, tick_s));
+  check_fresh(ConsecutiveCount(10));
+  check_fresh(StalledCounter(0.5, tick_s));
+  check_fresh(CommandTimeout(0.25, tick_s));
+  check_fresh(ControllerSaturated(120.0, tick_s));
   check_fresh(Frozen({1e-6, 1.0}, tick_s));
-  check_fresh(Disagree({30.0, 2.0}, tick_s));
+  check_fresh(SensorsDisagree({30.0, 2.0}, tick_s));
   check_fresh(EnergyBudget({297.0, 60.0}, tick_s));
   check_fresh(WrongDuty(0.005, tick_s));
 }

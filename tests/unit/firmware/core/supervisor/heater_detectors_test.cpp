@@ -35,7 +35,7 @@ TEST(HeaterDetectors, OpenLoadDoesNotJudgeASmallDutyNorTripForAGoodHeater) {
   DOUBLES_EQUAL(0.15 / 0.36, detector.margin().used(), 1e-9);
 }
 
-TEST(HeaterDetectors, OpenLoadTripsForACurrentThatIsNoNumber) {
+TEST(HeaterDetectors, OpenLoadTripsForACurrentOfNaN) {
   OpenLoad detector({0.02, 0.5, 0.002}, tick_s);
   LONGS_EQUAL(2, ticks_until([&](int) { return detector.step(0.3, std::nan("")); }));
 }

@@ -30,7 +30,7 @@ TEST(Limiter, TellsWhatAHotMuscleMayHave) {
   DOUBLES_EQUAL(2.25, limiter.max_W(145.0), 1e-12);
   DOUBLES_EQUAL(0.0, limiter.max_W(170.0), 0.0);
   DOUBLES_EQUAL(0.0, limiter.max_W(std::nan("")), 0.0);
-  limiter.set_most(1.0);
+  limiter.set_cap(1.0);
   DOUBLES_EQUAL(0.5, limiter.max_W(145.0), 1e-12);
 }
 
@@ -76,7 +76,7 @@ TEST(Limiter, SlowsRisesAndNeverFalls) {
   check(limiter.step(4.0, cool_C), 0.1, LimitedBy::slew);
 }
 
-TEST(Limiter, GivesNothingForWhatIsNoNumber) {
+TEST(Limiter, GivesNothingForNaN) {
   Limiter limiter({}, tick_s);
   check(limiter.step(std::nan(""), cool_C), 0.0, LimitedBy::invalid);
   check(limiter.step(INFINITY, cool_C), 0.0, LimitedBy::invalid);

@@ -13,7 +13,7 @@ namespace {}
 
 TEST_GROUP(MuscleDetectors){};
 
-TEST(MuscleDetectors, LimitTripsAtOnceAndForWhatIsNoNumber) {
+TEST(MuscleDetectors, LimitTripsAtOnceAndForNaN) {
   Limit detector(160.0);
   CHECK_FALSE(detector.step(160.0));
   DOUBLES_EQUAL(1.0, detector.margin().used(), 1e-12);

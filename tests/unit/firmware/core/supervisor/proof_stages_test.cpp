@@ -27,10 +27,10 @@ TEST(ProofStages, UndecidedInTimeGivesTheSafePowerUntilSomethingIsAnswered) {
   muscle.swing_m = 60e-6;
   muscle.run(60.0);
   CHECK_FALSE(muscle.unanswered);
-  DOUBLES_EQUAL(paper_safe_W(), muscle.lowest_W, 1e-9);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.min_W, 1e-9);
   muscle.swing_m = 0.0;
   muscle.run(0.5);
-  muscle.wanted_W = 0.5;
+  muscle.demanded_W = 0.5;
   muscle.run(5.0);
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
 }
@@ -68,11 +68,11 @@ TEST(ProofStages, AtItsLimitAMuscleIsGivenTheSafePowerAtOnce) {
 
 TEST(ProofStages, ADitherHasRoomAtTheGreatestPower) {
   HeldMuscle muscle(paper_proof());
-  muscle.wanted_W = 4.5;
+  muscle.demanded_W = 4.5;
   muscle.run(60.0);
   CHECK_FALSE(muscle.unanswered);
   CHECK_COMPARE(muscle.dither_ticks, >, 100);
-  CHECK_COMPARE(muscle.highest_W, <=, 4.5);
+  CHECK_COMPARE(muscle.peak_W, <=, 4.5);
 }
 
 TEST(ProofStages, ARemovalOfPowerThatMovesNoMuscleFarEndsInTime) {
@@ -85,18 +85,18 @@ TEST(ProofStages, ARemovalOfPowerThatMovesNoMuscleFarEndsInTime) {
     muscle.play_m = contact ? 200e-6 : 0.0;
     muscle.run(10.0);
     LONGS_EQUAL(!contact, muscle.unanswered);
-    DOUBLES_EQUAL(0.0, muscle.lowest_W, 0.0);
+    DOUBLES_EQUAL(0.0, muscle.min_W, 0.0);
     DOUBLES_EQUAL(contact ? paper_safe_W() : 0.0, muscle.proof.max_W(), 1e-9);
   }
 }
 
-TEST(ProofStages, WhereFrictionSwallowsADitherSilenceIsNoFaultUntilTheNextStart) {
+TEST(ProofStages, WhereFrictionSwallowsADitherNoResponseIsNotAFaultUntilTheNextStart) {
   HeldMuscle muscle(paper_proof());
   muscle.play_m = 200e-6;
   muscle.run(60.0);
   muscle.off_sensor = true;
-  for (const double wanted_W : {0.2, 1.0, 0.2, 1.0}) {
-    muscle.wanted_W = wanted_W;
+  for (const double demanded_W : {0.2, 1.0, 0.2, 1.0}) {
+    muscle.demanded_W = demanded_W;
     muscle.run(2.0);
     DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
   }
@@ -124,14 +124,14 @@ TEST(ProofStages, BeginAnewWithAMuscleThatWasLearned) {
   muscle.run(20.0);
   CHECK(std::isinf(muscle.proof.max_W()));
   muscle.proof.learn({}, 0.5);
-  DOUBLES_EQUAL(0.5, muscle.proof.settings().answer_ratio, 0.0);
+  DOUBLES_EQUAL(0.5, muscle.proof.settings().response_ratio, 0.0);
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
   muscle.off_sensor = true;
   muscle.run(20.0);
   CHECK(muscle.unanswered);
 }
 
-TEST(ProofStages, ANewCalibrationIsNoMotion) {
+TEST(ProofStages, ANewCalibrationIsNotMotion) {
   for (const bool told : {false, true}) {
     HeldMuscle muscle(paper_proof());
     muscle.run(20.0);

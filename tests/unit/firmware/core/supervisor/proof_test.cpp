@@ -19,7 +19,7 @@ TEST(Proof, OfALivingMuscleIsFoundAgainAndAgain) {
   muscle.run(600.0);
   CHECK_FALSE(muscle.unanswered);
   CHECK_COMPARE(muscle.dither_ticks, >, 1000);
-  DOUBLES_EQUAL(4.5, muscle.lowest_W, 1e-9);
+  DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
 }
 
 TEST(Proof, IsMissedWithinSecondsOfALostContact) {
@@ -29,7 +29,7 @@ TEST(Proof, IsMissedWithinSecondsOfALostContact) {
     muscle.off_sensor = true;
     muscle.run(3.0);
     CHECK(muscle.unanswered);
-    DOUBLES_EQUAL(0.0, muscle.lowest_W, 1e-9);
+    DOUBLES_EQUAL(0.0, muscle.min_W, 1e-9);
     const detectors::Margin margin = muscle.proof.margin();
     CHECK_COMPARE(margin.measured, <, margin.limit);
   }
@@ -52,7 +52,7 @@ TEST(Proof, IsNoFaultWhileALoadSwings) {
 
 TEST(Proof, IsNotAskedForAtThePowerThatIsSafeAnyway) {
   HeldMuscle muscle(paper_proof());
-  muscle.wanted_W = 1.1;
+  muscle.demanded_W = 1.1;
   muscle.run(60.0);
   LONGS_EQUAL(0, muscle.dither_ticks);
 }

@@ -40,7 +40,7 @@ TEST(SensorDetectors, JumpTripsForABadContactThatComesAndGoes) {
   CHECK(tripped);
 }
 
-TEST(SensorDetectors, OutOfRangeTripsForWhatIsNoNumber) {
+TEST(SensorDetectors, OutOfRangeTripsForNaN) {
   OutOfRange detector({0.0, 0.04, 0.002}, tick_s);
   CHECK_FALSE(detector.step(nan_value));
   CHECK(std::isinf(detector.margin().used()));
@@ -102,7 +102,7 @@ TEST(SensorDetectors, JumpAllowsWhatAMuscleCanMoveBetweenReadings) {
 }
 
 TEST(SensorDetectors, DisagreeTripsAfterItsTime) {
-  Disagree detector({20.0, 0.003}, tick_s);
+  SensorsDisagree detector({20.0, 0.003}, tick_s);
   CHECK_FALSE(detector.step(50.0, 75.0));
   CHECK_FALSE(detector.step(50.0, 75.0));
   CHECK(detector.step(50.0, 75.0));

@@ -41,7 +41,7 @@ double measured_ratio(const Sensor& sensor, const ProofSettings& settings = pape
     power_W = measuring.power_W();
   }
   CHECK_FALSE(goes_on);
-  return measuring.answer_ratio();
+  return measuring.response_ratio();
 }
 
 }  // namespace

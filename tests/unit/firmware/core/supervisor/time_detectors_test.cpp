@@ -12,8 +12,8 @@ namespace {}
 
 TEST_GROUP(TimeDetectors){};
 
-TEST(TimeDetectors, InARowForgetsAtEachGoodOne) {
-  InARow detector(3);
+TEST(TimeDetectors, ConsecutiveCountForgetsAtEachGoodOne) {
+  ConsecutiveCount detector(3);
   CHECK_FALSE(detector.step(true));
   CHECK_FALSE(detector.step(true));
   CHECK_FALSE(detector.step(false));
@@ -23,7 +23,7 @@ TEST(TimeDetectors, InARowForgetsAtEachGoodOne) {
 }
 
 TEST(TimeDetectors, SilentTripsWhenTheCounterStands) {
-  Silent detector(0.01, tick_s);
+  StalledCounter detector(0.01, tick_s);
   for (std::uint32_t i = 1; i < 100; ++i)
     CHECK_FALSE(detector.step(i));
   for (int i = 0; i < 9; ++i)
@@ -33,7 +33,7 @@ TEST(TimeDetectors, SilentTripsWhenTheCounterStands) {
 }
 
 TEST(TimeDetectors, ExpiredTripsForACommandThatIsNotRenewed) {
-  Expired detector(0.25, tick_s);
+  CommandTimeout detector(0.25, tick_s);
   CHECK_FALSE(detector.step(true, true));
   for (int i = 0; i < 250; ++i)
     CHECK_FALSE(detector.step(false, true));
@@ -41,7 +41,7 @@ TEST(TimeDetectors, ExpiredTripsForACommandThatIsNotRenewed) {
 }
 
 TEST(TimeDetectors, ExpiredDoesNotTripWhileRenewedOrCold) {
-  Expired detector(0.25, tick_s);
+  CommandTimeout detector(0.25, tick_s);
   for (int i = 0; i < 5000; ++i)
     CHECK_FALSE(detector.step(i % 250 == 0, true));
   for (int i = 0; i < 5000; ++i)
@@ -49,7 +49,7 @@ TEST(TimeDetectors, ExpiredDoesNotTripWhileRenewedOrCold) {
 }
 
 TEST(TimeDetectors, AControllerIsLostWhenItHasWantedMoreForTooLong) {
-  ControllerLost detector(0.01, tick_s);
+  ControllerSaturated detector(0.01, tick_s);
   for (int i = 0; i < 9; ++i)
     CHECK_FALSE(detector.step(4.5, true));
   CHECK_FALSE(detector.step(4.5, false));
@@ -61,8 +61,8 @@ TEST(TimeDetectors, AControllerIsLostWhenItHasWantedMoreForTooLong) {
   CHECK_FALSE(detector.step(4.5, true));
 }
 
-TEST(TimeDetectors, AControllerIsLostAtOnceWhenItWantsWhatIsNoNumber) {
-  ControllerLost detector(10.0, tick_s);
+TEST(TimeDetectors, AControllerIsLostAtOnceWhenItDemandsNaN) {
+  ControllerSaturated detector(10.0, tick_s);
   CHECK(detector.step(std::nan(""), false));
   CHECK(std::isinf(detector.margin().used()));
   CHECK(detector.step(INFINITY, false));

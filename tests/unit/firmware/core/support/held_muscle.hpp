@@ -24,7 +24,7 @@ class HeldMuscle {
       tick();
   }
 
-  double wanted_W = 3.0;
+  double demanded_W = 3.0;
   bool off_sensor = false;
   bool present = true;    ///< the position
   bool heating = true;    ///< a command to heat is in force
@@ -38,8 +38,8 @@ class HeldMuscle {
   Proof proof;
   bool unanswered = false;
   long dither_ticks = 0;
-  double lowest_W = 1e3;   ///< that was allowed
-  double highest_W = 0.0;  ///< that was asked for
+  double min_W = 1e3;   ///< that was allowed
+  double peak_W = 0.0;  ///< that was asked for
 
  private:
   void tick() {
@@ -49,15 +49,15 @@ class HeldMuscle {
     heat_.step(1.05 * power_W_);
     const double swing = swing_m * std::sin(6.28 * time_s_);
     const double position_m = end_m_ + moved_m + swing + noise_(random_);
-    proof.step({power_W_, dither_W_, 1, present, position_m, heat_.highest_K() + hotter_K, heating,
+    proof.step({power_W_, dither_W_, 1, present, position_m, heat_.max_K() + hotter_K, heating,
                 warmer_air_K});
     unanswered = unanswered || proof.unanswered();
-    const double asked_W = proof.added_to(wanted_W);
+    const double asked_W = proof.added_to(demanded_W);
     power_W_ = obeys ? std::min(asked_W, proof.max_W()) : asked_W;
     dither_W_ = power_W_ < asked_W ? 0.0 : proof.dither_W();
     dither_ticks += dither_W_ != 0.0 ? 1 : 0;
-    lowest_W = std::min(lowest_W, proof.max_W());
-    highest_W = std::max(highest_W, asked_W);
+    min_W = std::min(min_W, proof.max_W());
+    peak_W = std::max(peak_W, asked_W);
   }
 
   ExpectedMotion muscle_{{}, tick_s};

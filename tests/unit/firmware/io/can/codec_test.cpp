@@ -133,7 +133,7 @@ TEST(Codec, AValueBeyondTheRangeBecomesItsEndAndNeverNotAvailable) {
   }
 }
 
-TEST(Codec, TheReservedRawValueIsNoNumber) {
+TEST(Codec, TheReservedRawValueIsNaN) {
   int reserved = 0;
   for (const CodecMessage& message : codec_messages) {
     for (const SignalInfo& signal : find_message(message.name)->signals) {
@@ -173,7 +173,7 @@ TEST(Codec, OnlyIdentifiersAndLengthsOfTheProtocolAreFrames) {
       frame.length = length;
       const bool ours = std::any_of(
           codec_messages.begin(), codec_messages.end(), [&](const CodecMessage& message) {
-            return id >= message.id && id < message.id + most_nodes && length == message.length;
+            return id >= message.id && id < message.id + max_nodes && length == message.length;
           });
       const auto decoded = decode(frame);
       CHECK_EQUAL(ours, decoded.has_value());

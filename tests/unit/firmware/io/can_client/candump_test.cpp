@@ -74,7 +74,7 @@ TEST(Candump, FramesOfOtherKindsAreNotOurs) {
   CHECK_FALSE(is_ours("(1.0) can0 281##1" + std::string(128, 'A')));
 }
 
-TEST(Candump, WhatIsNoLineIsTold) {
+TEST(Candump, AnInvalidLineIsReported) {
   for (const char* line :
        {"", "\n", "can0 281#00", "1.0 can0 281#00", "() can0 281#00", "(1) can0 281#00",
         "(1.) can0 281#00", "(.5) can0 281#00", "(-1.0) can0 281#00", "(1.x) can0 281#00",

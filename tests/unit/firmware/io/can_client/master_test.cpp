@@ -91,7 +91,7 @@ TEST(MasterAnswers, LeaseIsGoneWhenItWasGivenBack) {
 }
 
 TEST(MasterAnswers, LeaseEndsByWhatTheNodeSaysOfIt) {
-  for (const auto refusal : {Refusal::no_lease, Refusal::not_yours}) {
+  for (const auto refusal : {Refusal::no_lease, Refusal::not_lease_holder}) {
     Master holder = master;
     const auto asked = holder.command(Verb::rest, 0.0);
     const auto verb = static_cast<std::uint8_t>(Verb::rest);
@@ -110,18 +110,18 @@ TEST(MasterAnswers, LeaseOutlivesRefusalsThatAreNotAboutIt) {
 
 TEST(MasterAnswers, LeaseEndsByTheAnswerToItsOwnWrite) {
   const auto asked = master.setting_write(1, 4.0);
-  const auto heard =
-      master.hear_setting(setting_answer(counter_of(asked), granted, Refusal::not_yours), true);
-  CHECK(heard && heard->refusal == Refusal::not_yours);
+  const auto heard = master.receive_setting(
+      setting_answer(counter_of(asked), granted, Refusal::not_lease_holder), true);
+  CHECK(heard && heard->refusal == Refusal::not_lease_holder);
   CHECK_FALSE(master.holds_lease());
 }
 
 TEST(MasterAnswers, SomebodyElsesWriteEndsNoLease) {
   const auto asked = master.setting_write(1, 4.0);
-  const auto theirs = setting_answer(counter_of(asked), granted + 1, Refusal::not_yours);
-  CHECK_FALSE(master.hear_setting(theirs, true).has_value());
+  const auto theirs = setting_answer(counter_of(asked), granted + 1, Refusal::not_lease_holder);
+  CHECK_FALSE(master.receive_setting(theirs, true).has_value());
   // Who reads hears it as the setting's value: the lease is no matter of theirs.
-  CHECK(master.hear_setting(theirs, false).has_value());
+  CHECK(master.receive_setting(theirs, false).has_value());
   CHECK_TRUE(master.holds_lease());
 }
 

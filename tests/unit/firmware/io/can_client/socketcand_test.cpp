@@ -130,7 +130,7 @@ TEST(Socketcand, ReadsWhatOthersWrite) {
   CHECK(heard->received == 1500ms);
 }
 
-TEST(Socketcand, WhatIsNoFrameIsRefused) {
+TEST(Socketcand, AnInvalidFrameIsRefused) {
   for (const char* element :
        {"", "send", "send 123", "sendx 123 0", "send 800 0", "send 00000123 0", "send 0123 0",
         "send -1 0", "send 12G 0", "send 123 9 1 1 1 1 1 1 1 1 1", "send 123 -1", "send 123 2 1",

@@ -108,7 +108,7 @@ TEST(BoardConfig, SmallBoardIsCompletedByDefaults) {
   DOUBLES_EQUAL(1000.0, c.settings.rate_Hz, 0.0);
   DOUBLES_EQUAL(0.0005, c.settings.supervision.late_s, 1e-12);
   DOUBLES_EQUAL(0.25, channel.supervision.command_timeout_s, 1e-12);
-  DOUBLES_EQUAL(5.0, channel.supervision.least_resistance_Ohm, 1e-12);
+  DOUBLES_EQUAL(5.0, channel.supervision.min_resistance_Ohm, 1e-12);
   DOUBLES_EQUAL(1.25 * 4.5 + 0.3, channel.supervision.max_measured_W, 1e-12);
   DOUBLES_EQUAL(130.0, channel.thermal.boot_rise_K, 1e-9);
   CHECK(channel.muscle == control::PhysicalParameters{});
@@ -147,8 +147,8 @@ TEST(BoardConfig, ThresholdsOfASlowBoardAreAFewTicksAtLeast) {
 }
 
 TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
-  const std::string quiet = describe(
-      read(test::small_board_with("highest_m = 0.041", "highest_m = 0.041\nnoise_rms_m = 0.0")));
+  const std::string quiet =
+      describe(read(test::small_board_with("max_m = 0.041", "max_m = 0.041\nnoise_rms_m = 0.0")));
   check_says(quiet,
              "channel 1: sensor_frozen: position.noise_rms_m is 0, and a frozen sensor cannot be "
              "told from a quiet one\n");
@@ -175,7 +175,7 @@ TEST(BoardConfig, ThermalFuseIsAskedForAndJudgedAgainstTheTrip) {
   }
 }
 
-TEST(BoardConfig, DescriptionTellsWhatNarrowsTheTemperaturesInterval) {
+TEST(BoardConfig, DescriptionSaysWhatNarrowsTheTemperatureInterval) {
   check_says(describe(read(test::small_board)),
              "not weighed (thermal.weighed_mass_error_ratio): position and power tell the time "
              "constant only; no thermometer was read (compare_rise)");
@@ -183,7 +183,7 @@ TEST(BoardConfig, DescriptionTellsWhatNarrowsTheTemperaturesInterval) {
       "[channel.limits]",
       "weighed_mass_J_per_K = 0.16\nweighed_mass_error_ratio = 0.05\n[channel.limits]"));
   check_says(describe(weighed), "from 0.152 to 0.168 J/K and 0.045 to 0.18 W/K");
-  check_says(describe(weighed), "weighed to 5 %; identify tells the time constant");
+  check_says(describe(weighed), "weighed to 5 %; identify finds the time constant");
   weighed.settings.channels[0].heat = {1.8, 2.4, 21.5, 1.2, 1.5, 1.5};
   check_says(describe(weighed),
              "weighed to 5 %; time constant 1.8 s: 0.0676 to 0.117 W/K from 18.9 to 27 K above "
@@ -208,7 +208,7 @@ TEST(BoardConfig, CanIsAbsentUnlessItIsAskedForAndThenHasTheProtocolsRates) {
   DOUBLES_EQUAL(1.0, c.can->lease_s, 1e-12);
 }
 
-TEST(BoardConfig, DescriptionTellsTheLoadOfTheCanBus) {
+TEST(BoardConfig, DescriptionHasTheLoadOfTheCanBus) {
   const std::string text = describe(
       read(test::small_board + "[can]\nfirst_node = 7\nrates = {status_Hz = 5.0, power_Hz = 0}\n"));
   check_says(text, "CAN on can0 at 500 kbit/s, nodes 7 to 7");

@@ -35,7 +35,7 @@ TEST(WrongBoard, MisspeltKeyIsSaidOnceAlthoughItIsRequired) {
                  "[channel[1].heater]; did you mean cold_resistance_Ohm?");
 }
 
-TEST(WrongBoard, MissingUnitIsToldTheUnit) {
+TEST(WrongBoard, MissingUnitIsNamed) {
   check_replaced("max_W = 4.5", "max = 4.5",
                  "b.toml:40: channel[1].limits.max = 4.5: is not a key of [channel[1].limits]; did "
                  "you mean max_W (the unit is part of the name)?");
@@ -51,17 +51,17 @@ TEST(WrongBoard, NotANumber) {
                  "b.toml:40: channel[1].limits.max_W = nan: must be 0.001 to 1000");
 }
 
-TEST(WrongBoard, ThermalFuseThatNobodyMakes) {
+TEST(WrongBoard, ThermalFuseOfAnImpossibleTemperature) {
   check_replaced("cold_resistance_Ohm = 10.0", "cold_resistance_Ohm = 10.0\nthermal_fuse_C = 45",
                  "b.toml:34: channel[1].heater.thermal_fuse_C = 45: must be 60 to 260, or 0 where "
                  "there is no thermal fuse");
 }
 
 TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
-  check_replaced("lowest_mass_J_per_K = 0.13",
-                 "lowest_mass_J_per_K = 0.13\nweighed_mass_error_ratio = 0.03",
+  check_replaced("min_mass_J_per_K = 0.13",
+                 "min_mass_J_per_K = 0.13\nweighed_mass_error_ratio = 0.03",
                  "b.toml:36: channel[1].thermal.weighed_mass_error_ratio = 0.03: needs "
-                 "weighed_mass_J_per_K: what is only believed narrows nothing");
+                 "weighed_mass_J_per_K: an assumed mass narrows nothing");
 }
 
 TEST(WrongBoard, TextForANumber) {
@@ -125,8 +125,8 @@ TEST(WrongBoard, BufferedWithoutABus) {
   check_replaced("number = 0", "number = 0, bus = 'i2c-7'",
                  "b.toml:21: channel[1].pwm.bus = 'i2c-7': is not the name of a [[bus]]");
   check_replaced("number = 0", "number = 0, bus = 'i2c-1', buffered = false",
-                 "b.toml:21: channel[1].pwm.buffered = false: must be true: what hangs on a bus is "
-                 "served by the bus's thread");
+                 "b.toml:21: channel[1].pwm.buffered = false: must be true: devices on a bus are "
+                 "served by its thread");
 }
 
 TEST(WrongBoard, PumpThatOpensBeforeToleratedOverrunsAreOver) {
@@ -167,10 +167,10 @@ TEST(WrongBoard, SeventeenChannels) {
     text += "'}\n";
   }
   text +=
-      "[every_channel]\nposition = {m_per_count = 1e-6, lowest_m = 0.0, highest_m = 0.04}\n"
+      "[every_channel]\nposition = {m_per_count = 1e-6, min_m = 0.0, max_m = 0.04}\n"
       "current.A_per_count = 0.0001\nheater.cold_resistance_Ohm = 10.0\n"
-      "thermal = {lowest_mass_J_per_K = 0.13, highest_mass_J_per_K = 0.2, "
-      "lowest_transfer_W_per_K = 0.045, highest_transfer_W_per_K = 0.18}\n"
+      "thermal = {min_mass_J_per_K = 0.13, max_mass_J_per_K = 0.2, "
+      "min_transfer_W_per_K = 0.045, max_transfer_W_per_K = 0.18}\n"
       "limits = {max_W = 4.5, max_travel_m = 0.025}\n";
   check_answer("b.toml:117: channel: a board has 1 to 16 [[channel]], not 17", text);
 }
@@ -181,26 +181,25 @@ TEST(WrongBoard, NoChannel) {
 }
 
 TEST(WrongBoard, ThermalBoundsThatDoNotContainTheMuscle) {
-  check_replaced(
-      "lowest_mass_J_per_K = 0.13", "lowest_mass_J_per_K = 0.17",
-      "b.toml:35: channel[1].thermal.lowest_mass_J_per_K = 0.17: must not exceed what is "
-      "believed: muscle.thermal_mass_J_per_K = 0.162");
-  check_replaced("highest_transfer_W_per_K = 0.18", "highest_transfer_W_per_K = 0.08",
-                 "b.toml:38: channel[1].thermal.highest_transfer_W_per_K = 0.08: must not be less "
-                 "than what is believed: muscle.heat_transfer_W_per_K = 0.089");
+  check_replaced("min_mass_J_per_K = 0.13", "min_mass_J_per_K = 0.17",
+                 "b.toml:35: channel[1].thermal.min_mass_J_per_K = 0.17: must not exceed what is "
+                 "believed: muscle.thermal_mass_J_per_K = 0.162");
+  check_replaced("max_transfer_W_per_K = 0.18", "max_transfer_W_per_K = 0.08",
+                 "b.toml:38: channel[1].thermal.max_transfer_W_per_K = 0.08: must not be less "
+                 "than the believed value: muscle.heat_transfer_W_per_K = 0.089");
 }
 
 TEST(WrongBoard, ThermalBoundsOutOfOrder) {
-  check_replaced("lowest_transfer_W_per_K = 0.045", "lowest_transfer_W_per_K = 0.2",
-                 "b.toml:37: channel[1].thermal.lowest_transfer_W_per_K = 0.2: must be less than "
-                 "highest_transfer_W_per_K");
+  check_replaced("min_transfer_W_per_K = 0.045", "min_transfer_W_per_K = 0.2",
+                 "b.toml:37: channel[1].thermal.min_transfer_W_per_K = 0.2: must be less than "
+                 "max_transfer_W_per_K");
 }
 
 TEST(WrongBoard, BoundOfPowerNarrowerThanWhatTheSensesMayHide) {
-  check_replaced("highest_transfer_W_per_K = 0.18",
-                 "highest_transfer_W_per_K = 0.18\npower_part = [0.95, 1.05]",
+  check_replaced("max_transfer_W_per_K = 0.18",
+                 "max_transfer_W_per_K = 0.18\npower_part = [0.95, 1.05]",
                  "b.toml:39: channel[1].thermal.power_part = [0.95, 1.05]: contradicts "
-                 "detectors.resistance_part, below which no error of the senses is noticed; leave "
+                 "detectors.resistance_ratio, below which no error of the senses is noticed; leave "
                  "it out: the bounds of power follow from that until the senses are compared with "
                  "a meter (supercoil doctor --compare-senses)");
 }
@@ -224,7 +223,7 @@ TEST(WrongBoard, PowerBeyondTheSupply) {
   check_replaced(
       "max_W = 4.5", "max_W = 12.0",
       "b.toml:40: channel[1].limits.max_W = 12: must not exceed what the supply gives at "
-      "a duty of 1: lowest_V²/cold_resistance_Ohm = 11.664 W");
+      "a duty of 1: min_V²/cold_resistance_Ohm = 11.664 W");
 }
 
 TEST(WrongBoard, DeratingThatBeginsAfterTheTrip) {
@@ -240,7 +239,7 @@ TEST(WrongBoard, NothingNearSkinIsHotterThanThePreset) {
 TEST(WrongBoard, TravelBeyondTheSensor) {
   check_replaced("max_travel_m = 0.025", "max_travel_m = 0.05",
                  "b.toml:41: channel[1].limits.max_travel_m = 0.05: must be within what the sensor "
-                 "can read: position.highest_m = 0.041");
+                 "can read: position.max_m = 0.041");
 }
 
 TEST(WrongBoard, ProbeThatIsTooMuchTooLongOrNothing) {
@@ -251,7 +250,7 @@ TEST(WrongBoard, ProbeThatIsTooMuchTooLongOrNothing) {
                  "b.toml:34: channel[1].heater.probe_ms = 80: must be 1 to 50");
   check_replaced("number = 0", "number = 0, bits = 5",
                  "b.toml:32: channel[1].heater.probe_duty (its default): is less than one of the "
-                 "PWM's 31 steps: a probe would be nothing");
+                 "PWM's 31 steps: a probe would be 0");
 }
 
 TEST(WrongBoard, WhatFixedPointCannotHold) {
@@ -314,7 +313,7 @@ TEST(WrongBoard, FileThatIsNotThere) {
 TEST(WrongBoard, CanBusThatWouldBeTooBusy) {
   check_answer(
       "b.toml:43: can.bit_rate = 50000: the bus would be busy for 90 % with what is sent at a "
-      "rate, and 50 % is the most (most_load): choose lower rates",
+      "rate, and 50 % is the most (max_load): choose lower rates",
       small_board + "[can]\nbit_rate = 50000\n");
 }
 

@@ -82,7 +82,7 @@ TEST(Captures, ItRunsUntilTheLastOfItsInputsEnds) {
   STRCMP_EQUAL("0\n", board.attribute("buffer/enable").c_str());
 }
 
-TEST(Captures, ADeviceThatIsNotThereIsToldForEachInput) {
+TEST(Captures, AMissingDeviceIsReportedForEachInput) {
   wiring.channels[0].position = captured("voltage0", "ads9999");
   Captures captures(wiring, machine);
   for (int i = 0; i < 2; ++i) {

@@ -57,18 +57,24 @@ TEST(Csv, HasEveryFieldUnderItsName) {
   r.limited_by = 4;
   r.controller = 3;
   r.flags = 5;
-  r.turn = 41;
-  r.gain_turn = 2;
+  r.margin_selector = 41;
+  r.gain_selector = 2;
   r.result = 6;
-  r.aside_turn = 2;
-  r.identify_notes = note_not_explained | note_theta2_uncertain;
+  r.multiplexed_selector = 2;
+  r.identify_notes = note_poor_fit | note_theta2_uncertain;
   float value = 0.5F;
-  for (float* field :
-       {&r.reference,    &r.model_m,     &r.position_m, &r.wanted_W,       &r.applied_W,
-        &r.duty,         &r.supply_V,    &r.current_A,  &r.resistance_Ohm, &r.resistance_age_s,
-        &r.coldest_C,    &r.hottest_C,   &r.theta[0],   &r.theta[1],       &r.theta[2],
-        &r.theta[3],     &r.error_bound, &r.progress,   &r.margin_used,    &r.margin_measured,
-        &r.margin_limit, &r.gain,        &r.aside}) {
+  for (float* field : {&r.reference,        &r.model_m,
+                       &r.position_m,       &r.demanded_W,
+                       &r.applied_W,        &r.duty,
+                       &r.supply_V,         &r.current_A,
+                       &r.resistance_Ohm,   &r.resistance_age_s,
+                       &r.coldest_C,        &r.hottest_C,
+                       &r.theta[0],         &r.theta[1],
+                       &r.theta[2],         &r.theta[3],
+                       &r.error_bound,      &r.progress,
+                       &r.margin_used,      &r.margin_measured,
+                       &r.margin_limit,     &r.gain,
+                       &r.multiplexed_value}) {
     *field = value;
     value += 1.0F;
   }
@@ -77,19 +83,20 @@ TEST(Csv, HasEveryFieldUnderItsName) {
   LONGS_EQUAL(2, all.size());
   STRCMP_EQUAL(
       "time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,"
-      "model_m,position_m,wanted_W,applied_W,duty,supply_V,current_A,resistance_Ohm,"
+      "model_m,position_m,demanded_W,applied_W,duty,supply_V,current_A,resistance_Ohm,"
       "resistance_age_s,coldest_C,hottest_C,theta1,theta2,theta3,theta4,error_bound,progress,"
-      "margin_of,margin_used,margin_measured,margin_limit,gain_of,gain,result,aside_of,aside,"
+      "margin_selector,margin_used,margin_measured,margin_limit,gain_selector,gain,result,"
+      "multiplexed_selector,multiplexed_value,"
       "identify_notes",
       all[0].c_str());
   STRCMP_EQUAL(
       "-0.001,2,active,position,over_temperature,temperature,3,1,0,1,0.5,1.5,2.5,3.5,4.5,5.5,6.5,"
       "7.5,8.5,9.5,10.5,11.5,12.5,13.5,14.5,15.5,16.5,17.5,over_voltage,18.5,19.5,20.5,integral,21."
-      "5,not_explained,theta1_deviation,22.5,18",
+      "5,poor_fit,theta1_deviation,22.5,18",
       all[1].c_str());
 }
 
-TEST(Csv, WhatIsNoNumberIsEmptyAndInfinityIsInf) {
+TEST(Csv, NaNIsEmptyAndInfinityIsInf) {
   Row r{};
   r.reference = NAN;
   r.margin_limit = -NAN;

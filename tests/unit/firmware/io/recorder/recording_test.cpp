@@ -66,11 +66,11 @@ TEST(Recording, FieldsStandWhereTheDocumentationSays) {
   LONGS_EQUAL(12, offsetof(Row, limited_by));
   LONGS_EQUAL(13, offsetof(Row, controller));
   LONGS_EQUAL(14, offsetof(Row, flags));
-  LONGS_EQUAL(15, offsetof(Row, turn));
+  LONGS_EQUAL(15, offsetof(Row, margin_selector));
   LONGS_EQUAL(16, offsetof(Row, reference));
   LONGS_EQUAL(20, offsetof(Row, model_m));
   LONGS_EQUAL(24, offsetof(Row, position_m));
-  LONGS_EQUAL(28, offsetof(Row, wanted_W));
+  LONGS_EQUAL(28, offsetof(Row, demanded_W));
   LONGS_EQUAL(32, offsetof(Row, applied_W));
   LONGS_EQUAL(36, offsetof(Row, duty));
   LONGS_EQUAL(40, offsetof(Row, supply_V));
@@ -86,10 +86,10 @@ TEST(Recording, FieldsStandWhereTheDocumentationSays) {
   LONGS_EQUAL(92, offsetof(Row, margin_measured));
   LONGS_EQUAL(96, offsetof(Row, margin_limit));
   LONGS_EQUAL(100, offsetof(Row, gain));
-  LONGS_EQUAL(104, offsetof(Row, gain_turn));
+  LONGS_EQUAL(104, offsetof(Row, gain_selector));
   LONGS_EQUAL(105, offsetof(Row, result));
-  LONGS_EQUAL(106, offsetof(Row, aside_turn));
-  LONGS_EQUAL(108, offsetof(Row, aside));
+  LONGS_EQUAL(106, offsetof(Row, multiplexed_selector));
+  LONGS_EQUAL(108, offsetof(Row, multiplexed_value));
 }
 
 TEST(Recording, TheHeaderIsTextThatSaysWhatFollows) {

@@ -22,13 +22,13 @@ Row sample(std::int64_t tick, int channel) {
   row.flags = 2;
   row.reference = 0.011F;
   row.applied_W = faulty ? 0.0F : hot ? 4.0F : 1.0F;
-  row.wanted_W = row.applied_W;
+  row.demanded_W = row.applied_W;
   row.supply_V = 12.0F;
   row.resistance_Ohm = faulty ? NAN : 10.0F;
   const std::int64_t hot_C = 60 + tick / 20;
   row.hottest_C = hot ? static_cast<float>(hot_C) : 40.0F;
   const Fault detectors[] = {Fault::over_temperature, Fault::over_travel, Fault::under_voltage};
-  row.turn = static_cast<std::uint8_t>(detectors[tick % 3]);
+  row.margin_selector = static_cast<std::uint8_t>(detectors[tick % 3]);
   row.margin_limit = tick % 3 == 0 ? 160.0F : 1.0F;
   row.margin_measured = tick % 3 == 0 ? row.hottest_C : 0.25F * static_cast<float>(tick % 3);
   row.margin_used = row.margin_measured / row.margin_limit;

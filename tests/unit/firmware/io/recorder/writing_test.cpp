@@ -184,7 +184,7 @@ TEST(Writing, AListThatFailsIsAProblemLikeAnyOther) {
   LONGS_EQUAL(0, files.calls());
 }
 
-TEST(Writing, NotesThatNobodyTakesDoNotGrowWithoutEnd) {
+TEST(Writing, UnreadNotesDoNotGrowWithoutEnd) {
   for (int i = 0; i < 40; ++i)
     a_fault();
   const auto said = recorder.take_notes();

@@ -27,7 +27,7 @@ board::Learned full_set() {
   board::Learned set;
   set.senses = {1.25, 0.875, 0.0625, 1795219200.0};
   set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
-  set.answer_ratio = 0.375;
+  set.response_ratio = 0.375;
   return set;
 }
 
@@ -80,7 +80,7 @@ TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
       "position_scale = 1.0\ncold_resistance_Ohm = 10.0\n";
   const auto read = decode(before);
   CHECK(read.has_value());
-  CHECK(read->knows_muscle);
+  CHECK(read->has_muscle);
   CHECK_FALSE(read->senses.compared());
   CHECK(read->senses == board::SenseComparison{});
 }
@@ -106,16 +106,16 @@ TEST(Codec, WhatIsKnownOfHeatHasATableOfItsOwn) {
 
 TEST(Codec, WhatArrivesOfSmallMotionsHasATableOfItsOwnWhereItWasMeasured) {
   board::Learned set = full_set();
-  STRCMP_CONTAINS("\n[small_motions]\nanswer_ratio = 0.375\n", encode(set).c_str());
-  set.answer_ratio = 0.0;
+  STRCMP_CONTAINS("\n[small_motions]\nresponse_ratio = 0.375\n", encode(set).c_str());
+  set.response_ratio = 0.0;
   CHECK(encode(set).find("small_motions") == std::string::npos);
   CHECK(decode(encode(set)) == set);
 }
 
 TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   board::Learned set = full_set();
-  set.knows_muscle = false;
-  set.answer_ratio = 0.0;
+  set.has_muscle = false;
+  set.response_ratio = 0.0;
   set.version = 1;
   CHECK(encode(set).find("muscle") == std::string::npos);
   CHECK(encode(set).find("calibration") == std::string::npos);
@@ -195,7 +195,7 @@ TEST(Codec, RefusesAnotherType) {
   }
 }
 
-TEST(Codec, RefusesWhatIsNotToml) {
+TEST(Codec, RefusesInvalidToml) {
   STRCMP_CONTAINS("is not valid TOML: ", answer(sealed_with("= 16.0", "= = 16.0")).c_str());
   STRCMP_CONTAINS("is not valid TOML: ", answer(sealed_with("[calibration]", "[muscle]")).c_str());
 }

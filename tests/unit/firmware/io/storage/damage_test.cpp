@@ -129,7 +129,7 @@ TEST(Damage, AFileOfANewerFirmwareIsNotCalledDamaged) {
 }
 
 TEST(Damage, AFileOfMoreThan64KiBIsRefusedWhateverItHolds) {
-  const std::string comment = "#" + std::string(largest_file_bytes, ' ') + "\n";
+  const std::string comment = "#" + std::string(max_file_bytes, ' ') + "\n";
   STRCMP_EQUAL("is larger than 64 KiB, which no stored set is",
                answer(seal("version = 1\n" + comment)).c_str());
 }

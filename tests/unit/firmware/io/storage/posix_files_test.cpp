@@ -68,7 +68,7 @@ TEST(PosixFiles, SayWhichPathIsNotThere) {
   LONGS_EQUAL(ENOENT, files.rename(gone, path("y")).error().code);
 }
 
-TEST(PosixFiles, AFileIsNoFolderAndAFolderIsNoFile) {
+TEST(PosixFiles, FilesAndFoldersAreNotConfused) {
   put("x", "1");
   LONGS_EQUAL(ENOTDIR, files.check_folder(path("x")).error().code);
   LONGS_EQUAL(EISDIR, files.read(folder.path(), 9).error().code);

@@ -59,23 +59,23 @@ TEST(LearnedStore, KeepsTheComparisonOfTheSensesWhenTheMuscleIsForgotten) {
     CHECK(store.forget().has_value());
     const auto kept = store.load()->learned;
     CHECK(kept.has_value());
-    CHECK_FALSE(kept->knows_muscle);
+    CHECK_FALSE(kept->has_muscle);
     CHECK(kept->senses == set.senses);
     LONGS_EQUAL(1, kept->version);
     // Still the muscle, when there was none to forget.
-    CHECK(decode(text_of(path + ".cleared"))->knows_muscle);
+    CHECK(decode(text_of(path + ".cleared"))->has_muscle);
   }
 }
 
 TEST(LearnedStore, ForgetsWithTheMuscleWhatIsKnownOfItsHeat) {
-  for (const bool knows_muscle : {true, false}) {
+  for (const bool has_muscle : {true, false}) {
     board::Learned set = nth_set(1);
     set.senses = {1.25, 0.875, 0.0625, 1.7e9};
     set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
-    set.knows_muscle = knows_muscle;
+    set.has_muscle = has_muscle;
     CHECK(store.save(set).has_value());
     CHECK(store.forget().has_value());
-    CHECK(store.load()->learned->heat == board::HeatFacts{});
+    CHECK(store.load()->learned->heat == board::ThermalFacts{});
     CHECK(store.load()->learned->senses == set.senses);
   }
 }

@@ -76,7 +76,7 @@ TEST(CanCommands, OfAnotherMasterAreRefusedAndItsClaimToo) {
   other.name = 0x4321;
   LONGS_EQUAL(0, claim(other));
   other.session = static_cast<std::uint16_t>(master.session + 1);
-  CHECK(refusal_of(other.frame(Verb::position, 0.01F)) == Refusal::not_yours);
+  CHECK(refusal_of(other.frame(Verb::position, 0.01F)) == Refusal::not_lease_holder);
   CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
 }
 
@@ -106,7 +106,7 @@ TEST(CanCommands, ALeaseEndsWhenItIsUnusedAndWhenItIsReleased) {
   CHECK(claim(next) != 0);
   // A frame of the earlier session.
   Master earlier = gone;
-  CHECK(refusal_of(earlier.frame(Verb::position, 0.01F)) == Refusal::not_yours);
+  CHECK(refusal_of(earlier.frame(Verb::position, 0.01F)) == Refusal::not_lease_holder);
   CHECK(refusal_of(next.frame(Opcode::lease, releases)) == Refusal::none);
   CHECK_FALSE(leases.held(0, now));
 }
@@ -138,7 +138,7 @@ TEST(CanCommands, FramesOfEveryEarlierSessionAreRefused) {
     Master each;
     CHECK(claim(each) != 0);
     for (const hal::CanFrame& frame : earlier)
-      CHECK(refusal_of(frame) == Refusal::not_yours);
+      CHECK(refusal_of(frame) == Refusal::not_lease_holder);
     sessions.insert(each.session);
     earlier.push_back(each.frame(Verb::position, 0.01F));
     refusal_of(each.frame(Opcode::lease, releases));
@@ -167,7 +167,7 @@ TEST(CanCommands, MoreThanTheLoopCanTakeAreAnsweredAtOnce) {
     CHECK(take(master.frame(Verb::renew)).command.has_value());
   const auto taken = take(master.frame(Verb::renew));
   CHECK_FALSE(taken.command.has_value());
-  CHECK(static_cast<Refusal>(read_answer(*taken.answer).refusal) == Refusal::too_many);
+  CHECK(static_cast<Refusal>(read_answer(*taken.answer).refusal) == Refusal::queue_full);
 }
 
 TEST(CanCommands, AnAnswerThatIsLostMovesNoOther) {
@@ -248,7 +248,7 @@ TEST(CanCommands, ACircleOfSixteenRecordedFramesIsObeyedWhileTheLeaseLastsOnly) 
     CHECK(refusal_of(frame) == Refusal::no_lease);
 }
 
-TEST(CanCommands, AClaimOfVersion3IsToldThatThisIsAnother) {
+TEST(CanCommands, AClaimOfVersion3IsRefusedAsAnotherVersion) {
   const auto answer = *take(master.frame(Opcode::claim_of_version_3)).answer;
   LONGS_EQUAL(7, answer.length);
   LONGS_EQUAL(13, read_answer(answer).refusal);
@@ -275,7 +275,7 @@ TEST(CanCommands, AClaimThatMeansNothingCountsInTheSequenceToo) {
   CHECK(refusal_of(master.frame(Verb::arm)) == Refusal::none);
   Master stranger;
   stranger.session = 7;
-  CHECK(refusal_of(stranger.frame(Opcode::lease, 1.0F)) == Refusal::not_yours);
+  CHECK(refusal_of(stranger.frame(Opcode::lease, 1.0F)) == Refusal::not_lease_holder);
 }
 
 TEST(CanCommands, ThreeMayBeLostInBetweenAndAfterMoreTheNextIsObeyed) {

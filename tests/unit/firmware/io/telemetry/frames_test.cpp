@@ -1,5 +1,5 @@
 // What is put into a signal comes out of it: rounded to the nearest quantum, at the range's end
-// when it lies beyond, and "not available" when it is no number.
+// when it lies beyond, and "not available" when it is NaN.
 #include "telemetry/frames.hpp"
 
 #include <cmath>
@@ -107,7 +107,7 @@ constexpr Signal signals[] = {
     {"reference_m", &Row::reference, 1e-7, -0.8388607, 0.8388607, reference},
     {"model_m", &Row::model_m, 1e-7, -0.8388607, 0.8388607, model},
     {"error_m", &Row::position_m, 1e-6, -0.032767, 0.032767, error},
-    {"demanded_W", &Row::wanted_W, 2e-4, -1677.7214, 1677.7214, demanded},
+    {"demanded_W", &Row::demanded_W, 2e-4, -1677.7214, 1677.7214, demanded},
     {"applied_W", &Row::applied_W, 2e-4, -1677.7214, 1677.7214, applied},
     {"supply_V", &Row::supply_V, 1e-3, 0.0, 65.534, supply},
     {"current_A", &Row::current_A, 1e-5, -83.88607, 83.88607, current},
@@ -180,42 +180,43 @@ TEST(Frames, FloatsGoAsTheyAre) {
 }
 
 TEST(Frames, BiasAndDeviationsAreTheNewestThatWereToldAndNoneIsNaN) {
-  Asides asides;
+  MultiplexedValues multiplexed;
   const auto carried = [&](std::size_t place) {
     const auto parameter = static_cast<std::uint8_t>(7 + place);
-    const auto m = unpacked(estimate(1, {}, parameter, {1, 1}, asides), supercoil_estimate_unpack);
+    const auto m =
+        unpacked(estimate(1, {}, parameter, {1, 1}, multiplexed), supercoil_estimate_unpack);
     LONGS_EQUAL(parameter, m.parameter);
     const float of[] = {m.bias_w,           m.theta1_deviation, m.theta2_deviation,
                         m.theta3_deviation, m.theta4_deviation, m.bias_deviation_w};
     return of[place - 1];
   };
   for (std::uint8_t place = 6; place > 0; --place) {
-    LONGS_EQUAL(8, asides.parameters());
+    LONGS_EQUAL(8, multiplexed.parameters());
     CHECK(std::isnan(carried(place)));
     Row row{};
-    row.aside_turn = place;
+    row.multiplexed_selector = place;
     for (const float value : {99.0F, 0.5F * static_cast<float>(place)}) {
-      row.aside = value;
-      asides.take(row);
+      row.multiplexed_value = value;
+      multiplexed.take(row);
     }
   }
-  LONGS_EQUAL(14, asides.parameters());
+  LONGS_EQUAL(14, multiplexed.parameters());
   for (std::uint8_t place = 1; place <= 6; ++place)
     CHECK(carried(place) == 0.5F * static_cast<float>(place));
-  asides.take({});
-  LONGS_EQUAL(8, asides.parameters());
+  multiplexed.take({});
+  LONGS_EQUAL(8, multiplexed.parameters());
   for (std::uint8_t place = 1; place <= 6; ++place)
     CHECK(std::isnan(carried(place)));
 }
 
-TEST(Frames, AStatusTellsThatTheProofOfResponseIsOff) {
+TEST(Frames, AStatusSaysThatTheProofOfResponseIsOff) {
   Row row{};
   LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
   row.flags = row_proof_off;
   LONGS_EQUAL(1, unpacked(status(1, row, false, 0), supercoil_status_unpack).proof_off);
 }
 
-TEST(Frames, AStatusTellsOfFrictionAsAnEstimateHasNoBitLeft) {
+TEST(Frames, AStatusReportsFrictionAsAnEstimateHasNoBitLeft) {
   Row row{};
   LONGS_EQUAL(0, unpacked(status(1, row, false, 0), supercoil_status_unpack).friction);
   row.identify_notes = note_friction | note_theta1_kept;
@@ -225,9 +226,9 @@ TEST(Frames, AStatusTellsOfFrictionAsAnEstimateHasNoBitLeft) {
   LONGS_EQUAL(0, m.trusted);
 }
 
-TEST(Frames, EveryEstimateTellsWhatIdentifyHasToSay) {
+TEST(Frames, EveryEstimateHasTheNotesOfIdentify) {
   Row row{};
-  row.identify_notes = note_too_still | note_theta1_kept;
+  row.identify_notes = note_too_little_motion | note_theta1_kept;
   for (std::uint8_t parameter = 0; parameter < 14; ++parameter) {
     const auto m = unpacked(estimate(1, row, parameter, {1, 1}, {}), supercoil_estimate_unpack);
     LONGS_EQUAL(65, m.identify_notes);
@@ -267,7 +268,7 @@ TEST(Frames, AnIdentifierIsItsBaseAndItsNode) {
   LONGS_EQUAL(0x080 + 2, emergency(2, {}).id);
 }
 
-TEST(Frames, AnEmergencyTellsFaultStateAndTimeToAMicrosecond) {
+TEST(Frames, AnEmergencyHasFaultStateAndTimeToAMicrosecond) {
   Row row{};
   row.time_ns = 86'400'123'456'789;
   row.fault = static_cast<std::uint8_t>(Fault::over_temperature);

@@ -66,8 +66,8 @@ TEST(Publisher, ParametersComeRoundAndWhatTheEstimatorCannotTellIsLeftOut) {
     for (int ms = from_ms; ms < from_ms + 30; ++ms) {
       Row row = row_at(ms * 1ms);
       for (std::uint8_t place = 1; told && place <= 6; ++place) {
-        row.aside_turn = place;
-        row.aside = 0.5F;
+        row.multiplexed_selector = place;
+        row.multiplexed_value = 0.5F;
         publisher.offer(row);
       }
       publisher.offer(row);

@@ -25,7 +25,7 @@ std::vector<int> frames_per_ms(Schedule& schedule, int milliseconds) {
 TEST_GROUP(Schedule){};
 
 TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
-  Rates rates = usual_rates();
+  Rates rates = default_rates();
   rates[static_cast<std::size_t>(Message::power)] = 0.0;
   rates[static_cast<std::size_t>(Message::heater)] = 3.0;
   Schedule schedule(std::vector<Rates>(4, rates));
@@ -47,7 +47,7 @@ TEST(Schedule, SendsEachMessageOfEachChannelAtItsRate) {
 /// What docs/can.md says of supercoild's rounds of 5 ms, and of the simulated board's ticks of 1
 /// ms.
 TEST(Schedule, SendsAMessageOnceForEachLookAtTheBus) {
-  Rates rates = usual_rates();
+  Rates rates = default_rates();
   rates[static_cast<std::size_t>(Message::measurement)] = 1000.0;
   for (const auto& [every, expected] : {std::pair{5, 2000}, std::pair{1, 10'000}}) {
     Schedule schedule({rates});
@@ -63,7 +63,7 @@ TEST(Schedule, SendsAMessageOnceForEachLookAtTheBus) {
 
 TEST(Schedule, HasNoBursts) {
   for (const std::size_t channels : {1U, 2U, 4U, 8U, 16U}) {
-    Schedule schedule(std::vector<Rates>(channels, usual_rates()));
+    Schedule schedule(std::vector<Rates>(channels, default_rates()));
     const auto counts = frames_per_ms(schedule, 2000);
     double sum = 0.0;
     for (const int count : counts)
@@ -75,7 +75,7 @@ TEST(Schedule, HasNoBursts) {
 }
 
 TEST(Schedule, DoesNotMakeUpForWhatWasMissed) {
-  Schedule schedule({usual_rates()});
+  Schedule schedule({default_rates()});
   frames_per_ms(schedule, 1000);
   int sent = 0;
   const auto count = [&](std::uint8_t, Message) { ++sent; };
@@ -88,8 +88,8 @@ TEST(Schedule, DoesNotMakeUpForWhatWasMissed) {
 
 TEST(Schedule, CountsTheBitsOfAFrameAtItsWorst) {
   // Davis et al. 2007: 55 to 135 bits of frames with 11-bit identifiers.
-  LONGS_EQUAL(55, most_bits(0));
-  LONGS_EQUAL(135, most_bits(8));
+  LONGS_EQUAL(55, max_bits(0));
+  LONGS_EQUAL(135, max_bits(8));
 }
 
 TEST(Schedule, TellsTheLoadOfTheBus) {

@@ -28,8 +28,8 @@ struct FollowedMuscle {
   control::PhysicalParameters parameters;
   host_sim::PlantEffects effects;
   double max_W = 4.5;
-  double lowest_m = 0.002;
-  double highest_m = 0.020;
+  double min_m = 0.002;
+  double max_m = 0.020;
   Course motion = Course::sine;
   unsigned seed = 1;
   control::Theta believed = control::Theta::Ones();  ///< θ(0) over that of `parameters`
@@ -96,8 +96,8 @@ struct FollowedMuscle {
                                  .range = {0.0, max_W}});
       const double error_m = out.model_m - plant.position_m();
       if (!see(Tick{time_s, seen_W, power_W, error_m, estimator})) return;
-      power_W = control::PowerRange{0.0, max_W}.clip(out.wanted_power_W);
-      limited = power_W != out.wanted_power_W;
+      power_W = control::PowerRange{0.0, max_W}.clip(out.demanded_power_W);
+      limited = power_W != out.demanded_power_W;
       const double counts = power_W / max_W * pwm_counts + carried;
       carried = counts - std::floor(counts);
       plant.step(std::floor(counts) / pwm_counts * max_W, pull_N);
@@ -129,7 +129,7 @@ struct FollowedMuscle {
 
    private:
     double between(double part) const {
-      return muscle_.lowest_m + part * (muscle_.highest_m - muscle_.lowest_m);
+      return muscle_.min_m + part * (muscle_.max_m - muscle_.min_m);
     }
     const FollowedMuscle& muscle_;
     boost::random::mt19937 source_;
@@ -166,8 +166,8 @@ inline FollowedMuscle followed(host_sim::MusclePreset preset) {
   f.effects = muscle.effects;
   if (preset == host_sim::MusclePreset::b) {
     f.max_W = 2.15;
-    f.lowest_m = 0.001;
-    f.highest_m = 0.004;
+    f.min_m = 0.001;
+    f.max_m = 0.004;
   } else if (preset == host_sim::MusclePreset::c) {
     f.max_W = 3.1;
   }

@@ -10,6 +10,6 @@ namespace supercoil::hal_linux {
 
 /// path: its device, e.g. /dev/watchdog. in_use: supercoild runs, so the watchdog does too.
 void check_watchdog(const Machine& machine, const std::string& path, bool in_use,
-                    const hal::Tell& tell);
+                    const hal::FindingSink& sink);
 
 }  // namespace supercoil::hal_linux

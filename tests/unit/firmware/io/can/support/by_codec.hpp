@@ -15,7 +15,7 @@
 namespace supercoil::test {
 
 /// In the order of a message's signals; NaN: not available, or not in this frame.
-using Values = std::array<double, can::most_signals>;
+using Values = std::array<double, can::max_signals>;
 
 inline Values values(std::initializer_list<double> read) {
   Values all;

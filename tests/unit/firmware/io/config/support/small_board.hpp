@@ -23,8 +23,8 @@ clock_Hz = 400000
 device = "adc"
 input = "voltage0"
 V_per_count = 0.001
-lowest_V = 10.8
-highest_V = 13.2
+min_V = 10.8
+max_V = 13.2
 [[channel]]
 enable = {line = "EN1"}
 pwm = {device = "pwm", number = 0}
@@ -32,8 +32,8 @@ pwm = {device = "pwm", number = 0}
 device = "adc"
 input = "voltage1"
 m_per_count = 1e-6
-lowest_m = -0.001
-highest_m = 0.041
+min_m = -0.001
+max_m = 0.041
 [channel.current]
 device = "adc"
 input = "voltage2"
@@ -41,10 +41,10 @@ A_per_count = 0.0001
 [channel.heater]
 cold_resistance_Ohm = 10.0
 [channel.thermal]
-lowest_mass_J_per_K = 0.13
-highest_mass_J_per_K = 0.20
-lowest_transfer_W_per_K = 0.045
-highest_transfer_W_per_K = 0.18
+min_mass_J_per_K = 0.13
+max_mass_J_per_K = 0.20
+min_transfer_W_per_K = 0.045
+max_transfer_W_per_K = 0.18
 [channel.limits]
 max_W = 4.5
 max_travel_m = 0.025

@@ -65,12 +65,12 @@ inline rc::Gen<board::SenseComparison> comparisons() {
                             any_magnitude(1e-3, 0.2), any_magnitude(1.0, 2e11)));
 }
 
-inline rc::Gen<board::HeatFacts> heat_facts() {
+inline rc::Gen<board::ThermalFacts> heat_facts() {
   return rc::gen::oneOf(
-      rc::gen::just(board::HeatFacts{}),
+      rc::gen::just(board::ThermalFacts{}),
       rc::gen::apply(
           [](double time_s, double at_W, double rise_K, double error_K, double power_W) {
-            return board::HeatFacts{time_s, at_W, rise_K, error_K, power_W, 1.01 * power_W};
+            return board::ThermalFacts{time_s, at_W, rise_K, error_K, power_W, 1.01 * power_W};
           },
           any_magnitude(1e-3, 1e4), any_magnitude(1e-3, 1e3), any_magnitude(1e-3, 300.0),
           any_magnitude(1e-3, 100.0), any_magnitude(1e-3, 900.0)));
@@ -81,14 +81,14 @@ inline rc::Gen<board::Learned> learned_sets() {
   return rc::gen::apply(
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
          double scale, double resistance, const board::SenseComparison& senses,
-         const board::HeatFacts& heat, double answer_ratio, std::uint32_t version) {
+         const board::ThermalFacts& heat, double response_ratio, std::uint32_t version) {
         return board::Learned{{psi, eta, rho, mu, mass, gamma},
                               {offset, scale, resistance},
                               senses,
                               version,
                               true,
                               heat,
-                              answer_ratio};
+                              response_ratio};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),

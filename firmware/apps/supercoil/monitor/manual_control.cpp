@@ -1,4 +1,4 @@
-#include "apps/supercoil/monitor/hand.hpp"
+#include "apps/supercoil/monitor/manual_control.hpp"
 
 #include <utility>
 
@@ -20,10 +20,10 @@ bool cools(Verb verb) {
 
 }  // namespace
 
-Hand::Hand(std::uint8_t node, OpenBus open_bus)
+ManualControl::ManualControl(std::uint8_t node, OpenBus open_bus)
     : node_(node), open_bus_(std::move(open_bus)), thread_([this] { run(); }) {}
 
-Hand::~Hand() {
+ManualControl::~ManualControl() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;
@@ -32,38 +32,38 @@ Hand::~Hand() {
   thread_.join();
 }
 
-Hand::Answer Hand::ask(Verb verb, double value) {
-  const std::lock_guard turn(turn_);
+ManualControl::Answer ManualControl::ask(Verb verb, double value) {
+  const std::lock_guard turn(asking_);
   std::future<Answer> answer;
   {
     const std::lock_guard lock(mutex_);
-    order_.emplace(Order{verb, value, {}});
-    answer = order_->answer.get_future();
+    pending_.emplace(PendingCommand{verb, value, {}});
+    answer = pending_->answer.get_future();
   }
   woken_.notify_one();
   return answer.get();
 }
 
-Hand::Holding Hand::alive() {
+ManualControl::Holding ManualControl::alive() {
   const std::lock_guard lock(mutex_);
   if (holding_) alive_ = Clock::now();
   return {holding_, holding_ ? "" : reason_};
 }
 
-void Hand::let_go(const std::string& reason) {
+void ManualControl::release_hold(const std::string& reason) {
   const std::lock_guard lock(mutex_);
   if (!holding_) return;
   holding_ = false;
   reason_ = reason;
 }
 
-bool Hand::holds() const {
+bool ManualControl::holds() const {
   const std::lock_guard lock(mutex_);
   return holding_;
 }
 
 /// A board that did not answer is asked over a new connection the next time.
-Hand::Answer Hand::command(Verb verb, double value) {
+ManualControl::Answer ManualControl::command(Verb verb, double value) {
   if (!commander_) {
     auto bus = open_bus_();
     if (!bus) return tl::unexpected(bus.error());
@@ -74,7 +74,7 @@ Hand::Answer Hand::command(Verb verb, double value) {
   return answer;
 }
 
-void Hand::obey(Order& order) {
+void ManualControl::obey(PendingCommand& order) {
   const Answer answer = command(order.verb, order.value);
   const bool obeyed = answer && *answer == Refusal::none;
   if (obeyed && heats(order.verb)) {
@@ -82,12 +82,12 @@ void Hand::obey(Order& order) {
     holding_ = true;
     alive_ = Clock::now();
   } else if (obeyed && cools(order.verb)) {
-    let_go("cooled by a command");
+    release_hold("cooled by a command");
   }
   order.answer.set_value(answer);
 }
 
-void Hand::renew() {
+void ManualControl::renew() {
   {
     const std::lock_guard lock(mutex_);
     if (holding_ && Clock::now() - alive_ > page_timeout) {
@@ -100,20 +100,20 @@ void Hand::renew() {
     return;
   }
   const Answer answer = command(Verb::renew, 0.0);
-  if (!answer) return let_go("expired: " + answer.error());
+  if (!answer) return release_hold("expired: " + answer.error());
   // Identification and calibration end by themselves; what else ended it, the board's state tells.
-  if (*answer == Refusal::wrong_state) return let_go("ended: the board let it go");
-  if (*answer != Refusal::none) let_go("refused: " + std::string(name(*answer)));
+  if (*answer == Refusal::wrong_state) return release_hold("ended: the board stopped it");
+  if (*answer != Refusal::none) release_hold("refused: " + std::string(name(*answer)));
 }
 
-void Hand::run() {
+void ManualControl::run() {
   for (;;) {
-    std::optional<Order> order;
+    std::optional<PendingCommand> order;
     {
       std::unique_lock lock(mutex_);
-      woken_.wait_for(lock, renew_every, [&] { return ending_ || order_; });
+      woken_.wait_for(lock, renew_every, [&] { return ending_ || pending_; });
       if (ending_) break;
-      order = std::exchange(order_, std::nullopt);
+      order = std::exchange(pending_, std::nullopt);
     }
     if (order) {
       obey(*order);

@@ -1,4 +1,4 @@
-#include "supercoil/hal_linux/check/can_link.hpp"
+#include "supercoil/hal_linux/check/can_interface.hpp"
 
 #include <cstring>
 
@@ -75,7 +75,7 @@ TEST_GROUP(CheckCanLink) {
   }
   hal::Finding found(const std::string& interface = "supercoil-no0") const {
     Told told;
-    check_can_link(machine, interface, told.tell());
+    check_can_interface(machine, interface, told.sink());
     LONGS_EQUAL(1, told.findings.size());
     return told.findings.front();
   }

@@ -13,42 +13,42 @@ namespace supercoil::board {
 
 /// In steady heat η is power over rise, at that rise. Steady is a muscle after five of the slowest
 /// time constants that it may have, at a power that did not change: e⁻⁵ is left of how far it was.
-class SteadyHeat {
+class SteadyState {
  public:
-  SteadyHeat(const ThermalSettings& settings, double step_s)
+  SteadyState(const ThermalSettings& settings, double step_s)
       : settings_(settings),
-        slowest_s_(with_weighed_mass(settings).highest_mass_J_per_K /
-                   settings.bounds.lowest_transfer_W_per_K),
+        slowest_s_(with_weighed_mass(settings).max_mass_J_per_K /
+                   settings.bounds.min_transfer_W_per_K),
         steady_ticks_(std::llround(slowest_constants * slowest_s_ / step_s)),
         smoothing_(-std::expm1(-2.0 * step_s / slowest_s_)) {}
 
-  /// A tick at unchanged power, with the bounds of what the senses tell of it, and the hot end.
-  void step(const PowerBounds::Interval& told_W, double hottest_K) {
+  /// A tick at unchanged power, with the bounds of the measurement, and the hot end.
+  void step(const PowerBounds::Interval& measured_power_W, double hottest_K) {
     if (ticks_++ == 0) {
-      told_W_ = told_W;
+      measured_power_W_ = measured_power_W;
       from_K_ = hottest_K;
     }
-    told_W_.min += smoothing_ * (told_W.min - told_W_.min);
-    told_W_.max += smoothing_ * (told_W.max - told_W_.max);
+    measured_power_W_.min += smoothing_ * (measured_power_W.min - measured_power_W_.min);
+    measured_power_W_.max += smoothing_ * (measured_power_W.max - measured_power_W_.max);
   }
   /// The power is another one from now on, or is not known.
   void restart() { ticks_ = 0; }
 
   /// How much warmer the muscle is than the air. A reading that contradicts what is known is
   /// refused; facts are those before it, and with it when it is taken.
-  Refusal read(double rise_K, const PowerBounds::Interval& true_over_told,
-               board::HeatFacts& facts) const {
+  Refusal read(double rise_K, const PowerBounds::Interval& true_over_measured,
+               board::ThermalFacts& facts) const {
     if (ticks_ < steady_ticks_) return Refusal::not_ready;
     const double error_K =
         settings_.thermometer_error_K + std::exp(-slowest_constants) * std::max(from_K_, rise_K);
     // Written so that a NaN is refused.
-    if (!(rise_K >= least_errors * error_K && rise_K <= most_K)) return Refusal::out_of_range;
-    board::HeatFacts read = facts;
+    if (!(rise_K >= min_errors * error_K && rise_K <= max_K)) return Refusal::out_of_range;
+    board::ThermalFacts read = facts;
     read.steady_rise_K = rise_K;
     read.steady_error_K = error_K;
-    read.steady_min_W = told_W_.min;
-    read.steady_max_W = told_W_.max;
-    if (!is_possible(known_heat(settings_, facts), read, true_over_told))
+    read.steady_min_W = measured_power_W_.min;
+    read.steady_max_W = measured_power_W_.max;
+    if (!is_possible(known_thermal_bounds(settings_, facts), read, true_over_measured))
       return Refusal::out_of_range;
     facts = read;
     return Refusal::none;
@@ -56,15 +56,15 @@ class SteadyHeat {
 
  private:
   static constexpr double slowest_constants = 5.0;
-  static constexpr double least_errors = 3.0;  ///< a smaller rise says nothing
-  static constexpr double most_K = 300.0;
+  static constexpr double min_errors = 3.0;  ///< a smaller rise says nothing
+  static constexpr double max_K = 300.0;
 
   ThermalSettings settings_;
   double slowest_s_;
   std::int64_t steady_ticks_;
   double smoothing_;
   std::int64_t ticks_ = 0;
-  PowerBounds::Interval told_W_{0.0, 0.0};
+  PowerBounds::Interval measured_power_W_{0.0, 0.0};
   double from_K_ = 0.0;  ///< the hot end, when the power became what it is
 };
 

@@ -1,4 +1,4 @@
-// The hand on one muscle: gives commands, and says that this page lives as long as what it commanded may heat.
+// Manual control of one muscle: gives commands, and says that this page lives as long as what it commanded may heat.
 
 import { alive, command } from "./server.js";
 import { clock_now, words } from "./format.js";
@@ -17,24 +17,24 @@ const WHY = {
   busy: "busy with another mode, or with a probe: let it rest first",
   out_of_range: "out of range",
   no_such_channel: "the board has no such channel",
-  not_yours: "somebody else holds the lease to command this muscle",
+  not_lease_holder: "somebody else holds the lease to command this muscle",
   no_lease: "the lease had ended: try again",
   wrong_counter: "commands were lost: try again",
-  too_many: "more commands than the board takes at once: try again",
+  queue_full: "more commands than the board takes at once: try again",
 };
 
 /** Why a command was refused, in words. */
 export const refusal_words = (refusal) => WHY[refusal] ?? words(refusal);
 
-export class Hand extends EventTarget {
+export class ManualControl extends EventTarget {
   constructor(node, timeout_s) {
     super();
-    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, let_go_count: 0 });
+    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, release_count: 0 });
   }
 
   /** Resolves to {obeyed, text}. */
   async send(opcode, value = 0) {
-    const let_go_count = this.let_go_count;
+    const release_count = this.release_count;
     try {
       const refusal = await command(this.node, opcode, value);
       if (refusal !== "none") return { obeyed: false, text: `refused: ${refusal_words(refusal)}` };
@@ -42,8 +42,8 @@ export class Hand extends EventTarget {
       return { obeyed: false, text: problem.message };
     }
     // What was let go before the answer came is not held after it.
-    if (HEATS.has(opcode) && let_go_count === this.let_go_count) this.#hold(opcode);
-    if (COOLS.has(opcode)) this.let_go();
+    if (HEATS.has(opcode) && release_count === this.release_count) this.#hold(opcode);
+    if (COOLS.has(opcode)) this.release_hold();
     return { obeyed: true, text: "obeyed" };
   }
 
@@ -56,8 +56,8 @@ export class Hand extends EventTarget {
   }
 
   /** This page commands nothing any more that heats. */
-  let_go(notice = "", alarming = true) {
-    ++this.let_go_count;
+  release_hold(notice = "", alarming = true) {
+    ++this.release_count;
     clearInterval(this.timer);
     this.timer = 0;
     this.holds = null;
@@ -68,9 +68,9 @@ export class Hand extends EventTarget {
   observe({ state, fault }) {
     const settled = performance.now() - this.since_ms >= SETTLES_MS;
     if (!this.holds || !settled || state === "active" || state === "silent") return;
-    if (fault === "command_timeout") this.let_go(`command expired: it was not renewed in time (${clock_now()})`);
-    else if (state === "armed") this.let_go(`${this.holds} has ended`, false);
-    else this.let_go(`${this.holds} has ended: the muscle is ${state}`);
+    if (fault === "command_timeout") this.release_hold(`command expired: it was not renewed in time (${clock_now()})`);
+    else if (state === "armed") this.release_hold(`${this.holds} has ended`, false);
+    else this.release_hold(`${this.holds} has ended: the muscle is ${state}`);
   }
 
   async #live() {
@@ -79,7 +79,7 @@ export class Hand extends EventTarget {
     try {
       const { holding, reason } = await alive(this.node);
       this.#heard();
-      if (!holding && this.holds) this.let_go(`command ${reason} (${clock_now()})`, reason !== "ended");
+      if (!holding && this.holds) this.release_hold(`command ${reason} (${clock_now()})`, reason !== "ended");
       else if (this.holds) this.#say("");
     } catch {
       if (performance.now() - this.heard_ms > 1e3 * this.timeout_s && this.holds)

@@ -1,4 +1,4 @@
-#include "compare/carry_out.hpp"
+#include "compare/run_plan.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -34,8 +34,8 @@ std::optional<Result> simulate(const Case& of, std::uint64_t seed, const std::at
 
 }  // namespace
 
-void carry_out(const std::vector<Case>& cases, const std::vector<Run>& runs, unsigned jobs,
-               const Listener& listener) {
+void run_plan(const std::vector<Case>& cases, const std::vector<Run>& runs, unsigned jobs,
+              const Listener& listener) {
   in_parallel(
       runs.size(), jobs,
       [&](std::size_t number, const std::atomic<bool>& stop) -> Handover {

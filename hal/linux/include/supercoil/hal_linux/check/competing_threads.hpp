@@ -6,12 +6,12 @@
 #include <string_view>
 
 #include "supercoil/hal/board_check.hpp"
-#include "supercoil/hal_linux/check/loop_wish.hpp"
+#include "supercoil/hal_linux/check/loop_thread_settings.hpp"
 #include "supercoil/hal_linux/machine.hpp"
 
 namespace supercoil::hal_linux {
 
-/// One thread as /proc/PID/task/TID/stat tells of it.
+/// One thread as in /proc/PID/task/TID/stat.
 struct ThreadStat {
   std::string name;
   bool of_kernel = false;
@@ -23,7 +23,8 @@ struct ThreadStat {
 std::optional<ThreadStat> parse_thread_stat(std::string_view line);
 
 /// Threads of other programs above the loop's priority, or with deadlines. The kernel's own are
-/// counted only: they are short, and nobody can do without them.
-void check_rivals(const Machine& machine, const LoopWish& wish, const hal::Tell& tell);
+/// counted only: they are short and indispensable.
+void check_competing_threads(const Machine& machine, const LoopThreadSettings& settings,
+                             const hal::FindingSink& sink);
 
 }  // namespace supercoil::hal_linux

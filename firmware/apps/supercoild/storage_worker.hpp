@@ -1,4 +1,4 @@
-// Keeps what the loop tells: recordings, what was learned, and the log.
+// The thread that may wait for the disk: recordings, learned sets, and the log.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 namespace supercoil::daemon {
 
 /// What a channel learned before.
-void recall(ChannelSettings& channel, const board::Learned& learned);
+void apply_learned(ChannelSettings& channel, const board::Learned& learned);
 
-/// What channels learned before, into the settings of a board that a keeper is made for then. The
-/// error says what cannot be read; a board does not start without what it knew, for a lost zero is
-/// a wrong position.
-tl::expected<void, std::string> remember(config::BoardConfig& config,
-                                         std::vector<storage::LearnedStore>& stores);
+/// What channels learned before, into the settings of a board whose storage worker is made then.
+/// The error says what cannot be read; a board does not start without what it knew, for a lost zero
+/// is a wrong position.
+tl::expected<void, std::string> load_learned(config::BoardConfig& config,
+                                             std::vector<storage::LearnedStore>& stores);
 
 /// The one thread that may wait for the disk. Everything of it is taken when it is made, before
 /// memory is locked.
-class Keeper {
+class StorageWorker {
  public:
   /// Both outlive it.
-  Keeper(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
-         storage::Files& files);
+  StorageWorker(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
+                storage::Files& files);
 
   /// Takes what has come since by the relay. now: on the loop's clock, read before.
   void poll(Loop& loop, hal::Time now);
@@ -39,7 +39,7 @@ class Keeper {
   RowRelay& relay() { return relay_; }
   /// How many rows have come: a loop that is alive makes them.
   std::uint64_t rows() const { return rows_; }
-  /// No channel is armed or active, as far as rows tell.
+  /// No channel is armed or active, by the rows so far.
   bool all_off() const;
 
  private:
@@ -47,7 +47,7 @@ class Keeper {
   void store_learned(Loop& loop, std::size_t channel);
   void forget(std::size_t channel, const std::string& who);
   void date(std::size_t channel, const std::string& who, board::SenseComparison& senses);
-  void tell_notes();
+  void log_notes();
   static void tell_lost(std::size_t lost, std::size_t& told, const char* why);
 
   const config::BoardConfig* config_;
@@ -56,7 +56,7 @@ class Keeper {
   RowRelay relay_;
   std::size_t told_lost_by_disk_ = 0;
   std::size_t told_lost_by_loop_ = 0;
-  std::vector<board::SenseComparison> senses_;  ///< that each channel goes by
+  std::vector<board::SenseComparison> senses_;  ///< in use by each channel
   std::vector<Row> last_;                       ///< of each channel
   std::uint64_t rows_ = 0;
 };

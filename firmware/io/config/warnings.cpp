@@ -13,10 +13,10 @@ namespace supercoil::config {
 namespace {
 
 /// Counts of current below which a probe says little.
-constexpr double least_probe_counts = 10.0;
+constexpr double min_probe_counts = 10.0;
 /// Ratings come in steps of up to 25 K, and the smallest is for 72 °C: near skin nothing else is to
 /// be had.
-constexpr double highest_fuse_above_trip_K = 30.0;
+constexpr double max_fuse_above_trip_K = 30.0;
 
 /// One finding, with the channels that share it.
 struct Finding {
@@ -58,22 +58,22 @@ class Findings {
 void judge_sensors(const ChannelSettings& c, Findings& findings) {
   if (c.supervision.position_noise_rms_m == 0.0) {
     findings.add(Fault::sensor_frozen,
-                 "position.noise_rms_m is 0, and a frozen sensor cannot be told from a quiet one");
+                 "position.noise_rms_m is 0, and a frozen sensor looks like a quiet one");
   } else if (c.supervision.position_noise_rms_m < 0.3 * std::abs(c.position.scaling.per_count)) {
     findings.add(Fault::sensor_frozen,
                  "one count is more than the noise: a resting sensor may look frozen, and trip");
   }
   if (c.heater.temperature_coefficient_per_K == 0.0) {
     findings.add(Fault::sensors_disagree,
-                 "heater.temperature_coefficient_per_K is 0: the resistance tells no temperature");
+                 "heater.temperature_coefficient_per_K is 0: the resistance gives no temperature");
   }
 }
 
 void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
   const HeaterSettings& h = c.heater;
   const ChannelSupervision& s = c.supervision;
-  const double probe_A = h.probe_duty * board.supervision.lowest_supply_V / h.cold_resistance_Ohm;
-  if (probe_A < least_probe_counts * h.current.scaling.per_count) {
+  const double probe_A = h.probe_duty * board.supervision.min_supply_V / h.cold_resistance_Ohm;
+  if (probe_A < min_probe_counts * h.current.scaling.per_count) {
     std::ostringstream reason;
     reason << "a probe's " << 1e3 * probe_A << " mA are only "
            << probe_A / h.current.scaling.per_count << " counts: the resistance is hardly measured";
@@ -84,17 +84,17 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
   if (s.off_current_A > idle_A) {
     std::ostringstream reason;
     reason << "more than " << 1e3 * idle_A << " mA fail it, and current.off_A is "
-           << 1e3 * s.off_current_A << " mA: what you call no current may be too much";
+           << 1e3 * s.off_current_A << " mA: the configured off current may be too large";
     findings.add(Fault::self_test_failed, reason.str());
   }
   const double furthest_m = c.limiter.max_W * c.muscle.dc_gain_m_per_W();
-  if (furthest_m < s.responding_least_m) {
+  if (furthest_m < s.responding_min_m) {
     findings.add(Fault::heater_not_responding,
-                 "max_W moves the muscle less than detectors.responding_least_m: never judged");
+                 "max_W moves the muscle less than detectors.responding_min_m: never judged");
   }
 }
 
-/// Of a muscle that is held still and hot only a dither can tell whether it still answers.
+/// Only a dither shows whether a hot muscle at rest still responds.
 void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
   if (!c.supervision.proof_of_response) {
     findings.add(
@@ -106,9 +106,9 @@ void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings&
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
   if (plan.provable_W >= c.limiter.max_W) return;
   std::ostringstream reason;
-  const bool friction = c.answer_ratio > 0.0 && c.answer_ratio < 1.0;
+  const bool friction = c.response_ratio > 0.0 && c.response_ratio < 1.0;
   reason << (friction
-                 ? "friction leaves too little of a small motion to be told from noise in time: "
+                 ? "friction leaves too little of a small motion to stand out of noise in time: "
                  : "a motion of 20 um or two counts is told from the sensor's noise too late for "
                    "more: once identified, ")
          << "the muscle gets no more than " << std::nearbyint(1e2 * plan.provable_W) / 1e2
@@ -136,8 +136,8 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
   } else if (*opens_at_C < trip_C) {
     reason << "opens at " << *opens_at_C << " °C, below trip_C = " << trip_C
            << " °C: it may open in ordinary use, and for good";
-  } else if (*opens_at_C > trip_C + highest_fuse_above_trip_K) {
-    reason << "opens at " << *opens_at_C << " °C, more than " << highest_fuse_above_trip_K
+  } else if (*opens_at_C > trip_C + max_fuse_above_trip_K) {
+    reason << "opens at " << *opens_at_C << " °C, more than " << max_fuse_above_trip_K
            << " K above trip_C = " << trip_C << " °C: what is too hot stays on until then";
   } else {
     return;
@@ -147,7 +147,7 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
 
 }  // namespace
 
-std::vector<std::string> weaknesses(const BoardConfig& config) {
+std::vector<std::string> warnings(const BoardConfig& config) {
   Findings findings;
   for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
     const ChannelSettings& c = config.settings.channels[i];

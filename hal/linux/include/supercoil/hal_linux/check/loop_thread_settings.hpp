@@ -4,7 +4,7 @@
 namespace supercoil::hal_linux {
 
 /// Its options --priority and --cpu.
-struct LoopWish {
+struct LoopThreadSettings {
   int priority = 80;  ///< of SCHED_FIFO, 1 to 99
   int cpu = -1;       ///< negative: any
 };

@@ -1,4 +1,4 @@
-#include "telemetry/can_link.hpp"
+#include "telemetry/can_endpoint.hpp"
 
 #include <utility>
 
@@ -31,8 +31,8 @@ std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t ch
   return ids;
 }
 
-CanLink::CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop,
-                 hal::CanBus& bus, Leases::Random random)
+CanEndpoint::CanEndpoint(const CanSettings& settings, const BoardSettings& board, Loop& loop,
+                         hal::CanBus& bus, Leases::Random random)
     : loop_(&loop),
       bus_(&bus),
       publisher_(settings, muscles_of(board), loop.timing(), bus),
@@ -41,7 +41,7 @@ CanLink::CanLink(const CanSettings& settings, const BoardSettings& board, Loop& 
       settings_(settings, board, leases_, publisher_, loop),
       first_node_(settings.first_node) {}
 
-void CanLink::answer(const Answer& answer) {
+void CanEndpoint::answer(const Answer& answer) {
   const auto frame = commands_.answered(answer);
   if (!frame) return;
   publisher_.send(*frame);
@@ -52,20 +52,20 @@ void CanLink::answer(const Answer& answer) {
                                 sent(command.verb, answer.nearest).value));
 }
 
-void CanLink::poll(hal::Time now) {
+void CanEndpoint::poll(hal::Time now) {
   loop_->health().bus.store(bus_->state(), std::memory_order_relaxed);
   receive(now);
   loop_->health().node_conflict.store(now < conflict_until_, std::memory_order_relaxed);
   publisher_.poll(now, [&](std::uint8_t channel) { return leases_.held(channel, now); });
 }
 
-bool CanLink::is_own(const hal::CanFrame& frame) const {
+bool CanEndpoint::is_own(const hal::CanFrame& frame) const {
   return can::channel_of(frame, can::message::status, first_node_, leases_.channels()).has_value();
 }
 
-void CanLink::receive(hal::Time now) {
+void CanEndpoint::receive(hal::Time now) {
   hal::CanFrame frame;
-  for (int i = 0; i < most_at_once && bus_->receive(frame) == hal::Status::ok; ++i) {
+  for (int i = 0; i < max_batch && bus_->receive(frame) == hal::Status::ok; ++i) {
     if (is_own(frame)) conflict_until_ = now + conflict_lasts;
     const Commands::Taken taken = commands_.take(frame, now);
     if (taken.damaged) loop_->send_damaged(*taken.damaged);

@@ -1,4 +1,4 @@
-// Troubles, ordered as text lines through a FIFO while the plant runs.
+// Faults to inject, as text lines through a FIFO while the plant runs.
 //
 //   channel N wire_open|switch_stuck_on|enable_stuck_on|slack on|off
 //   channel N short_Ohm OHM            across the muscle; 0: none

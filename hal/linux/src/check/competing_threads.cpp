@@ -1,4 +1,4 @@
-#include "supercoil/hal_linux/check/rivals.hpp"
+#include "supercoil/hal_linux/check/competing_threads.hpp"
 
 #include <charconv>
 #include <map>
@@ -31,30 +31,32 @@ std::string counted(int count, const std::string& one) {
 }
 
 /// The threads that are preferred to the loop, and of which program: "name (90)".
-struct Rivals {
+struct CompetingThreads {
   std::map<std::string, int> programs;
   int of_kernel = 0;
 };
 
-void note(const ThreadStat& thread, const LoopWish& wish, Rivals& rivals) {
-  const bool above = thread.policy == deadline || thread.priority > wish.priority;
+void note(const ThreadStat& thread, const LoopThreadSettings& settings,
+          CompetingThreads& competing) {
+  const bool above = thread.policy == deadline || thread.priority > settings.priority;
   if (!above) return;
   if (thread.of_kernel) {
-    ++rivals.of_kernel;
+    ++competing.of_kernel;
   } else {
     const std::string how =
         thread.policy == deadline ? "deadline" : std::to_string(thread.priority);
-    ++rivals.programs[thread.name + " (" + how + ")"];
+    ++competing.programs[thread.name + " (" + how + ")"];
   }
 }
 
 /// tasks: /proc/PID/task
-void look_at(const std::string& tasks, const LoopWish& wish, Rivals& rivals) {
+void look_at(const std::string& tasks, const LoopThreadSettings& settings,
+             CompetingThreads& competing) {
   for (std::string path : names_in(tasks).value_or(std::vector<std::string>{})) {
     path.insert(0, tasks + "/").append("/stat");
     // One that cannot be read ended in the meantime.
     const auto thread = parse_thread_stat(read_text(path).value_or(""));
-    if (thread) note(*thread, wish, rivals);
+    if (thread) note(*thread, settings, competing);
   }
 }
 
@@ -86,29 +88,31 @@ std::optional<ThreadStat> parse_thread_stat(std::string_view line) {
   return thread;
 }
 
-void check_rivals(const Machine& machine, const LoopWish& wish, const hal::Tell& tell) {
-  using hal::Verdict;
+void check_competing_threads(const Machine& machine, const LoopThreadSettings& settings,
+                             const hal::FindingSink& sink) {
+  using hal::Severity;
   const std::string what = "other programs";
   const auto processes = names_in(machine.proc);
   if (!processes) {
-    tell({what, Verdict::warning, processes.error().text, "mount /proc"});
+    sink({what, Severity::warning, processes.error().text, "mount /proc"});
     return;
   }
-  Rivals rivals;
+  CompetingThreads competing;
   for (const std::string& process : *processes) {
     if (!is_number(process)) continue;
-    look_at(std::string(machine.proc).append("/").append(process).append("/task"), wish, rivals);
+    look_at(std::string(machine.proc).append("/").append(process).append("/task"), settings,
+            competing);
   }
-  const std::string above = " above priority " + std::to_string(wish.priority);
-  const std::string kernel = counted(rivals.of_kernel, "thread") + " of the kernel";
-  if (rivals.programs.empty()) {
-    tell({what, Verdict::ok, "none" + above + " (beside " + kernel + ")", ""});
+  const std::string above = " above priority " + std::to_string(settings.priority);
+  const std::string kernel = counted(competing.of_kernel, "thread") + " of the kernel";
+  if (competing.programs.empty()) {
+    sink({what, Severity::ok, "none" + above + " (beside " + kernel + ")", ""});
     return;
   }
   std::vector<std::string> names;
-  for (const auto& [name, threads] : rivals.programs)
+  for (const auto& [name, threads] : competing.programs)
     names.push_back(threads == 1 ? name : name + ", " + counted(threads, "thread"));
-  tell({what, Verdict::warning, listed(names) + above + " (and " + kernel + ")",
+  sink({what, Severity::warning, listed(names) + above + " (and " + kernel + ")",
         "give them less (chrt), or supercoild more (--priority): what they do makes ticks late"});
 }
 

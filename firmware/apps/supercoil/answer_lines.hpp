@@ -7,10 +7,10 @@
 
 namespace supercoil::operating {
 
-/// Of one thread, and of one file. Reads what is there and never waits longer than it is told.
-class Answers {
+/// Of one thread, and of one file. Reads what is there and never waits longer than asked.
+class AnswerLines {
  public:
-  explicit Answers(int file) : file_(file) {}
+  explicit AnswerLines(int file) : file_(file) {}
 
   /// The next line, without its end; empty: none came within that time, or none will.
   std::optional<std::string> wait(std::chrono::milliseconds longest);

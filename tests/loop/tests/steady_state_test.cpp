@@ -47,10 +47,10 @@ TEST_GROUP(SteadyHeatRead) {
   double width_K() {
     return rig().snapshot().hottest_C - rig().snapshot().coldest_C;
   }
-  std::optional<board::Learned> lesson() {
-    board::Lesson lesson;
-    rig().loop.channel(0).take_lesson(lesson);
-    return lesson;
+  std::optional<board::Learned> update() {
+    board::LearnedUpdate update;
+    rig().loop.channel(0).take_learned_update(update);
+    return update;
   }
 };
 
@@ -58,10 +58,10 @@ TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
   hold(1.5, 24.0);
   const double wide_K = width_K();
   check(Refusal::none, read(true_rise_K() + 0.9));
-  const auto kept = lesson();
+  const auto kept = update();
   CHECK(kept.has_value());
-  CHECK(kept->heat.was_read());
-  CHECK_FALSE(kept->knows_muscle);
+  CHECK(kept->heat.has_reading());
+  CHECK_FALSE(kept->has_muscle);
   hold(1.5, 20.0);
   CHECK_COMPARE(width_K(), <, 0.25 * wide_K);
   for (const double power_W : {4.0, 0.3, 2.0, 0.0}) {
@@ -89,7 +89,7 @@ TEST(SteadyHeatRead, IsRefusedWhereTheMuscleMayNotBeInSteadyHeat) {
   const double wide_K = width_K();
   hold(1.5, 5.0);
   DOUBLES_EQUAL(wide_K, width_K(), 0.2);
-  CHECK_FALSE(lesson().has_value());
+  CHECK_FALSE(update().has_value());
 }
 
 TEST(SteadyHeatRead, NeedsComparedSenses) {
@@ -116,7 +116,7 @@ TEST(SteadyHeatRead, IsForgottenOnDemandAndWithTheComparisonOfTheSenses) {
   }
 }
 
-TEST(SteadyHeatRead, AWeighedMassAndIdentifyTellTheHeatTransfer) {
+TEST(SteadyHeatRead, AWeighedMassAndIdentifyGiveTheHeatTransfer) {
   for (const bool weighed : {false, true}) {
     settings.firmware.channels[0].thermal.mass_error_ratio = weighed ? 0.03 : 0.0;
     rig_.reset();
@@ -124,13 +124,13 @@ TEST(SteadyHeatRead, AWeighedMassAndIdentifyTellTheHeatTransfer) {
     rig().run(61.0);
     CHECK(rig().state() == State::armed);
     // Whatever identify itself says of the muscle.
-    const auto found = lesson();
-    CHECK((found.has_value() && found->heat.knows_time_constant()) == weighed);
+    const auto found = update();
+    CHECK((found.has_value() && found->heat.has_time_constant()) == weighed);
     if (weighed) DOUBLES_EQUAL(0.162 / 0.089, found->heat.time_constant_s, 0.03);
     rig().task = test::Task::nothing;
     hold(1.5, 25.0);
-    const double most_K = 1.04 * 1.5 / 0.089 * 1.25 / 0.97;
-    CHECK((rig().snapshot().hottest_C - 25.0 < most_K + 1.0) == weighed);
+    const double max_K = 1.04 * 1.5 / 0.089 * 1.25 / 0.97;
+    CHECK((rig().snapshot().hottest_C - 25.0 < max_K + 1.0) == weighed);
     CHECK_FALSE(rig().interval_missed);
   }
 }

@@ -1,4 +1,4 @@
-#include "apps/supercoild/keeper.hpp"
+#include "apps/supercoild/storage_worker.hpp"
 
 #include <algorithm>
 #include <ctime>
@@ -18,7 +18,7 @@ std::string notes_text(const Row& row) {
   return notes.empty() ? notes : " (" + notes + ")";
 }
 
-/// Of rows that wait for the keeper while it waits for the disk.
+/// Of rows that wait for the storage worker while it waits for the disk.
 constexpr double relayed_s = 1.0;
 
 std::size_t rows_relayed(const BoardSettings& board) {
@@ -26,31 +26,31 @@ std::size_t rows_relayed(const BoardSettings& board) {
 }
 
 /// What the configuration's muscle allowed, the one that was found may not.
-void tell_unstable(const ChannelSettings& channel, std::size_t index, double step_s) {
+void warn_unstable(const ChannelSettings& channel, std::size_t index, double step_s) {
   for (std::size_t i = 0; i < channel.controllers.size(); ++i) {
     const auto margin = margin_of(channel.controllers[i], channel, step_s);
     if (!margin || margin->stable()) continue;
     log(Level::problem, "channel " + std::to_string(index + 1) + ": controller " +
-                            std::to_string(i) + " is unstable on the muscle that it knows");
+                            std::to_string(i) + " is unstable on the muscle learned before");
   }
 }
 
 }  // namespace
 
-void recall(ChannelSettings& channel, const board::Learned& learned) {
+void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
   channel.senses = learned.senses;
   channel.heat = learned.heat;
-  channel.knows_muscle = learned.knows_muscle;
-  if (!channel.knows_muscle) return;
+  channel.has_muscle = learned.has_muscle;
+  if (!channel.has_muscle) return;
   // Calibrating alone stores the muscle as the file has it: that is no identification.
   channel.muscle_identified = !(learned.muscle == channel.muscle);
   channel.muscle = learned.muscle;
   channel.calibration = learned.calibration;
-  channel.answer_ratio = learned.answer_ratio;
+  channel.response_ratio = learned.response_ratio;
 }
 
-tl::expected<void, std::string> remember(config::BoardConfig& config,
-                                         std::vector<storage::LearnedStore>& stores) {
+tl::expected<void, std::string> load_learned(config::BoardConfig& config,
+                                             std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {
     if (!config.settings.channels[i].supervision.proof_of_response) {
       log(Level::warning,
@@ -63,25 +63,25 @@ tl::expected<void, std::string> remember(config::BoardConfig& config,
     for (const std::string& problem : loaded->problems)
       log(Level::warning, problem);
     ChannelSettings& channel = config.settings.channels[i];
-    if (loaded->learned) recall(channel, *loaded->learned);
+    if (loaded->learned) apply_learned(channel, *loaded->learned);
     log(channel.senses.compared() ? Level::info : Level::warning,
         "channel " + std::to_string(i + 1) +
             ": senses: " + config::describe_senses(channel, config.settings));
     log(Level::info,
         "channel " + std::to_string(i + 1) + ": heat: " + config::describe_heat(channel));
-    if (!channel.knows_muscle) continue;
+    if (!channel.has_muscle) continue;
     log(Level::info, "channel " + std::to_string(i + 1) + ": small motions: " +
                          config::describe_small_motions(channel, config.settings));
     log(Level::info, "channel " + std::to_string(i + 1) + " (" + config.labels[i].name +
-                         ") knows its muscle from version " +
+                         ") uses its muscle from version " +
                          std::to_string(loaded->learned->version));
-    tell_unstable(channel, i, config.settings.step_s());
+    warn_unstable(channel, i, config.settings.step_s());
   }
   return {};
 }
 
-Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedStore>& stores,
-               storage::Files& files)
+StorageWorker::StorageWorker(const config::BoardConfig& config,
+                             std::vector<storage::LearnedStore>& stores, storage::Files& files)
     : config_(&config),
       stores_(&stores),
       recorder_(config.storage_folder, static_cast<int>(config.settings.channels.size()),
@@ -92,33 +92,33 @@ Keeper::Keeper(const config::BoardConfig& config, std::vector<storage::LearnedSt
     senses_.push_back(channel.senses);
 }
 
-void Keeper::poll(Loop& loop, hal::Time now) {
+void StorageWorker::poll(Loop& loop, hal::Time now) {
   struct Tee {
     bool take(Row& row) const {
-      if (!keeper->relay_.take(row)) return false;
-      keeper->watch(row);
+      if (!storage_worker->relay_.take(row)) return false;
+      storage_worker->watch(row);
       return true;
     }
-    Keeper* keeper;
+    StorageWorker* storage_worker;
   } tee{this};
   recorder::pump(tee, recorder_, now);
   tell_lost(loop.timing().lost_rows.load(std::memory_order_relaxed), told_lost_by_loop_,
             "the telemetry thread was kept from running for more than a second");
-  tell_notes();
+  log_notes();
   for (std::size_t i = 0; i < stores_->size(); ++i)
     store_learned(loop, i);
 }
 
-void Keeper::store_learned(Loop& loop, std::size_t channel) {
+void StorageWorker::store_learned(Loop& loop, std::size_t channel) {
   const std::string who = "channel " + std::to_string(channel + 1);
-  board::Lesson lesson;
-  while (loop.channel(channel).take_lesson(lesson)) {
-    if (!lesson) {
+  board::LearnedUpdate update;
+  while (loop.channel(channel).take_learned_update(update)) {
+    if (!update) {
       forget(channel, who);
       continue;
     }
-    date(channel, who, lesson->senses);
-    const auto saved = (*stores_)[channel].save(*lesson);
+    date(channel, who, update->senses);
+    const auto saved = (*stores_)[channel].save(*update);
     if (saved) {
       log(Level::info, who + " learned; stored as version " + std::to_string(*saved));
     } else {
@@ -128,7 +128,8 @@ void Keeper::store_learned(Loop& loop, std::size_t channel) {
 }
 
 /// The loop has no calendar: a comparison that it made has its date from here.
-void Keeper::date(std::size_t channel, const std::string& who, board::SenseComparison& senses) {
+void StorageWorker::date(std::size_t channel, const std::string& who,
+                         board::SenseComparison& senses) {
   board::SenseComparison& known = senses_[channel];
   const bool is_known = senses.supply_gain == known.supply_gain &&
                         senses.current_gain == known.current_gain &&
@@ -144,27 +145,27 @@ void Keeper::date(std::size_t channel, const std::string& who, board::SenseCompa
   log(Level::info, who + ": senses: " + config::describe_senses(now, config_->settings));
 }
 
-void Keeper::forget(std::size_t channel, const std::string& who) {
+void StorageWorker::forget(std::size_t channel, const std::string& who) {
   if (const auto forgotten = (*stores_)[channel].forget(); !forgotten) {
-    log(Level::problem, who + " is to forget its muscle, but: " + forgotten.error());
+    log(Level::problem, who + " cannot forget its muscle: " + forgotten.error());
     return;
   }
   log(Level::info, who + " has forgotten its muscle, from the next start on");
 }
 
-void Keeper::finish() {
+void StorageWorker::finish() {
   recorder_.finish();
-  tell_notes();
+  log_notes();
 }
 
-bool Keeper::all_off() const {
+bool StorageWorker::all_off() const {
   return std::none_of(last_.begin(), last_.end(), [](const Row& row) {
     const auto state = static_cast<State>(row.state);
     return state == State::armed || state == State::active;
   });
 }
 
-void Keeper::watch(const Row& row) {
+void StorageWorker::watch(const Row& row) {
   ++rows_;
   if (row.channel >= last_.size()) return;
   Row& before = last_[row.channel];
@@ -188,13 +189,13 @@ void Keeper::watch(const Row& row) {
   before = row;
 }
 
-void Keeper::tell_lost(std::size_t lost, std::size_t& told, const char* why) {
+void StorageWorker::tell_lost(std::size_t lost, std::size_t& told, const char* why) {
   if (lost == told) return;
   log(Level::warning, std::to_string(lost - told) + " rows are missing in recordings: " + why);
   told = lost;
 }
 
-void Keeper::tell_notes() {
+void StorageWorker::log_notes() {
   tell_lost(relay_.lost(), told_lost_by_disk_, "the disk kept the recorder waiting");
   for (const recorder::RecorderNote& note : recorder_.take_notes())
     log(note.problem ? Level::problem : Level::info, note.text);

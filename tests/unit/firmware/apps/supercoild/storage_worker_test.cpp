@@ -1,5 +1,5 @@
-// What the keeper stores of a comparison with a meter, and what the next start makes of it.
-#include "apps/supercoild/keeper.hpp"
+// What the storage worker stores of a comparison with a meter, and what the next start makes of it.
+#include "apps/supercoild/storage_worker.hpp"
 
 #include <ctime>
 
@@ -10,7 +10,7 @@
 
 using namespace supercoil;
 
-TEST_GROUP(Keeper) {
+TEST_GROUP(StorageWorker) {
   static constexpr double supply_V = 12.0;
 
   test::TemporaryFolder folder;
@@ -18,7 +18,7 @@ TEST_GROUP(Keeper) {
   test::RigSettings settings = test::rough_board();
   test::Rig rig{settings};
   std::vector<storage::LearnedStore> stores;
-  std::unique_ptr<daemon::Keeper> keeper;
+  std::unique_ptr<daemon::StorageWorker> storage_worker;
 
   config::BoardConfig config() const {
     config::BoardConfig config;
@@ -32,7 +32,7 @@ TEST_GROUP(Keeper) {
   void setup() override {
     for (int channel : {1, 2})
       stores.emplace_back(folder.path(), channel, files);
-    keeper = std::make_unique<daemon::Keeper>(configured, stores, files);
+    storage_worker = std::make_unique<daemon::StorageWorker>(configured, stores, files);
     rig.boot();
     rig.arm();
     rig.run(0.1);
@@ -50,18 +50,18 @@ TEST_GROUP(Keeper) {
     keep();
   }
   void keep() {
-    keeper->poll(rig.loop, hal::Time{});
+    storage_worker->poll(rig.loop, hal::Time{});
   }
   /// The first channel of a board that starts now.
   ChannelSettings next_start() {
     config::BoardConfig next = config();
-    const auto known = daemon::remember(next, stores);
+    const auto known = daemon::load_learned(next, stores);
     if (!known) FAIL(known.error().c_str());
     return next.settings.channels[0];
   }
 };
 
-TEST(Keeper, DatesAComparisonAndTheNextStartGoesByIt) {
+TEST(StorageWorker, DatesAComparisonAndTheNextStartUsesIt) {
   CHECK_FALSE(next_start().senses.compared());
   const auto before = static_cast<double>(std::time(nullptr));
   compare();
@@ -70,29 +70,29 @@ TEST(Keeper, DatesAComparisonAndTheNextStartGoesByIt) {
   CHECK(next.senses.compared_s >= before);
   CHECK(next.senses.compared_s <= static_cast<double>(std::time(nullptr)));
   // The muscle was never learned: the configuration's goes on to hold.
-  CHECK_FALSE(next.knows_muscle);
+  CHECK_FALSE(next.has_muscle);
   CHECK(next.muscle == settings.firmware.channels[0].muscle);
 }
 
-TEST(Keeper, WhatIsLearnedLaterKeepsTheDate) {
+TEST(StorageWorker, WhatIsLearnedLaterKeepsTheDate) {
   compare();
   const board::SenseComparison compared = next_start().senses;
   rig.send(Verb::scale, 0.9 * rig.snapshot().position_m);
   rig.run_ticks(1);
   keep();
   const ChannelSettings next = next_start();
-  CHECK(next.knows_muscle);
+  CHECK(next.has_muscle);
   DOUBLES_EQUAL(0.9, next.calibration.position_scale, 0.05);
   CHECK(next.senses == compared);
 }
 
-TEST(Keeper, TheComparisonOutlivesTheMuscleAndIsForgottenByItsOwnCommand) {
+TEST(StorageWorker, TheComparisonOutlivesTheMuscleAndIsForgottenByItsOwnCommand) {
   compare();
   rig.send(Verb::scale, 0.9 * rig.snapshot().position_m);
   rig.send(Verb::store, 0.0);
   rig.run_ticks(1);
   keep();
-  CHECK_FALSE(next_start().knows_muscle);
+  CHECK_FALSE(next_start().has_muscle);
   CHECK(next_start().senses.compared());
   rig.send(Verb::rest);
   rig.send(Verb::compare_supply, 0.0);

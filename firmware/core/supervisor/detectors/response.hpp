@@ -9,9 +9,9 @@ namespace supercoil::detectors {
 
 /// Takes the slow part away: drift of the rest length, of the air, and what a model does not know
 /// of them. Two equal high-passes.
-class SlowPartRemoved {
+class HighPass {
  public:
-  SlowPartRemoved(double corner_rad_per_s, double step_s)
+  HighPass(double corner_rad_per_s, double step_s)
       : taken_(-std::expm1(-corner_rad_per_s * step_s)) {}
 
   double step(double value) {
@@ -34,7 +34,7 @@ class SlowPartRemoved {
 
 /// Sums over a block: what the model expects, times itself and times what was measured. A block is
 /// decided when its expected motion is needed_deviations times the noise of the measured ratio.
-class Answer {
+class Response {
  public:
   // One-sided tails of a normal distribution. 1e-3 of dead muscles pass. Of living ones whose
   // answer is half of the model's (identified: within 15 %; the rest is for hysteresis, which takes
@@ -42,16 +42,16 @@ class Answer {
   // looked at again.
   static constexpr double missed_deviations = 3.1;
   static constexpr double false_deviations = 6.2;
-  static constexpr double least_answer_ratio = 0.5;
+  static constexpr double min_response_ratio = 0.5;
   static constexpr double needed_deviations =
-      (missed_deviations + false_deviations) / least_answer_ratio;
-  /// A smaller ratio of measured to expected motion is no answer.
+      (missed_deviations + false_deviations) / min_response_ratio;
+  /// A smaller ratio of measured to expected motion is no response.
   static constexpr double silent_ratio = missed_deviations / needed_deviations;
 
   enum class Result { open, answered, silent };
 
   /// noise_m: standard deviation of one measured value, > 0.
-  explicit Answer(double noise_m) : variance_m2_(noise_m * noise_m) {}
+  explicit Response(double noise_m) : variance_m2_(noise_m * noise_m) {}
 
   void restart() { expected_ = shared_ = measured_ = count_ = 0.0; }
 
@@ -61,22 +61,22 @@ class Answer {
     shared_ += expected_m * measured_m;
     measured_ += measured_m * measured_m;
     count_ += 1.0;
-    if (count_ < least_count || expected_ < square(needed_deviations) * variance_m2_)
+    if (count_ < min_count || expected_ < square(needed_deviations) * variance_m2_)
       return Result::open;
     if (ratio() < silent_ratio) return is_quiet() ? Result::silent : Result::open;
     const bool certain = square(ratio()) * expected_ >= square(false_deviations) * noise_m2();
     return certain ? Result::answered : Result::open;
   }
   /// Whether the position moved by more than this, rms over the block, for whatever reason.
-  bool moved_m(double rms_m) const { return measured_ > square(rms_m) * (count_ + least_count); }
+  bool moved_m(double rms_m) const { return measured_ > square(rms_m) * (count_ + min_count); }
   /// Measured over expected motion in this block; 0 before anything was expected.
   double ratio() const { return expected_ > 0.0 ? shared_ / expected_ : 0.0; }
 
  private:
-  /// As responding_part: what moves by more of the expected motion, however it moves, is not dead.
+  /// As responding_ratio: what moves by more of the expected motion, however it moves, is not dead.
   static constexpr double moved_ratio = 0.3;
   /// Of fewer values the residual says too little of its own size.
-  static constexpr double least_count = 10.0;
+  static constexpr double min_count = 10.0;
 
   static double square(double x) { return x * x; }
 
@@ -84,7 +84,7 @@ class Answer {
   double noise_m2() const {
     return std::fmax(variance_m2_, (measured_ - shared_ * ratio()) / (count_ - 1.0));
   }
-  /// What moves by itself, if not by the power, is no proof of a dead muscle.
+  /// Motion not caused by the power does not prove that the muscle is dead.
   bool is_quiet() const {
     const bool enough = expected_ >= square(needed_deviations) * noise_m2();
     const double quiet_m2 = std::fmax(4.0 * count_ * variance_m2_, square(moved_ratio) * expected_);
@@ -99,7 +99,7 @@ class Answer {
 };
 
 /// A margin that was found elsewhere.
-class Reported final : public Detector {
+class ReportedMargin final : public Detector {
  public:
   bool step(bool trips, const Margin& margin) {
     margin_ = margin;

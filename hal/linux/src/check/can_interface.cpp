@@ -1,4 +1,4 @@
-#include "supercoil/hal_linux/check/can_link.hpp"
+#include "supercoil/hal_linux/check/can_interface.hpp"
 
 #include <charconv>
 
@@ -9,14 +9,14 @@ namespace supercoil::hal_linux {
 
 namespace {
 
-using hal::Verdict;
+using hal::Severity;
 
 /// ARPHRD_CAN.
 constexpr std::int64_t can_type = 280;
 /// IFF_UP.
 constexpr unsigned up_flag = 1;
 /// All frames that a board of 16 channels sends within some 10 ms.
-constexpr std::int64_t least_queue = 100;
+constexpr std::int64_t min_queue = 100;
 
 /// sysfs shows flags as 0x40080.
 bool is_up(const std::string& folder) {
@@ -29,7 +29,8 @@ bool is_up(const std::string& folder) {
 
 }  // namespace
 
-void check_can_link(const Machine& machine, const std::string& interface, const hal::Tell& tell) {
+void check_can_interface(const Machine& machine, const std::string& interface,
+                         const hal::FindingSink& sink) {
   const std::string what = "CAN " + interface;
   const std::string root = machine.sys + "/class/net";
   const std::string folder = root + "/" + interface;
@@ -38,23 +39,23 @@ void check_can_link(const Machine& machine, const std::string& interface, const 
   const auto type = read_whole(folder + "/type");
   if (!type) {
     const auto all = names_in(root).value_or(std::vector<std::string>{});
-    tell({what, Verdict::problem,
+    sink({what, Severity::problem,
           "no interface '" + interface + "' in " + root + ": there " +
-              (all.empty() ? "is none at all" : "are " + listed(all)),
+              (all.empty() ? "is none" : "are " + listed(all)),
           "load its driver, or name the right one"});
     return;
   }
   if (*type != can_type) {
-    tell({what, Verdict::problem,
+    sink({what, Severity::problem,
           folder + "/type is " + std::to_string(*type) + ": not CAN (" + std::to_string(can_type) +
               ")",
           "name the right interface"});
     return;
   }
-  if (!is_up(folder)) return tell({what, Verdict::problem, "down", bring_up});
+  if (!is_up(folder)) return sink({what, Severity::problem, "down", bring_up});
   // Not operstate, which follows a second later.
   if (read_whole(folder + "/carrier").value_or(0) != 1) {
-    return tell({what, Verdict::problem, "set up, but off the bus (no carrier)",
+    return sink({what, Severity::problem, "set up, but off the bus (no carrier)",
                  "look for wires, ends and bit rate; then " + bring_up});
   }
   const auto rate = can_bit_rate(interface);
@@ -62,10 +63,10 @@ void check_can_link(const Machine& machine, const std::string& interface, const 
   const std::string found =
       "up, " + (rate ? std::to_string(*rate) + " bit/s" : "without a bit rate") + ", queue of " +
       (queue ? std::to_string(*queue) : "unknown many") + " frames";
-  if (queue && *queue >= least_queue) {
-    tell({what, Verdict::ok, found, ""});
+  if (queue && *queue >= min_queue) {
+    sink({what, Severity::ok, found, ""});
   } else {
-    tell({what, Verdict::warning, found,
+    sink({what, Severity::warning, found,
           "ip link set " + interface + " txqueuelen 1000: a short queue refuses frames (ENOBUFS)"});
   }
 }

@@ -12,11 +12,11 @@ std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t ch
 
 /// Of one thread, which is not the loop's: on a board the telemetry thread, in a simulation the
 /// runner between two ticks. Nothing blocks.
-class CanLink {
+class CanEndpoint {
  public:
   /// board: as the loop was made with. Loop and bus outlive the link.
-  CanLink(const CanSettings& settings, const BoardSettings& board, Loop& loop, hal::CanBus& bus,
-          Leases::Random random);
+  CanEndpoint(const CanSettings& settings, const BoardSettings& board, Loop& loop, hal::CanBus& bus,
+              Leases::Random random);
 
   /// The newest row of a channel.
   void offer(const Row& row) { publisher_.offer(row); }
@@ -33,7 +33,7 @@ class CanLink {
   bool is_own(const hal::CanFrame& frame) const;
 
   /// Frames taken in one poll: more than a full bus brings within a telemetry thread's round.
-  static constexpr int most_at_once = 256;
+  static constexpr int max_batch = 256;
   /// Longer than two heartbeats of the slowest rate.
   static constexpr hal::Duration conflict_lasts = std::chrono::milliseconds(2500);
 

@@ -4,12 +4,12 @@
 namespace supercoil::hal_linux {
 
 /// A device behind a bus.
-class Served {
+class BusDevice {
  public:
-  Served() = default;
-  Served(const Served&) = delete;
-  Served& operator=(const Served&) = delete;
-  virtual ~Served() = default;
+  BusDevice() = default;
+  BusDevice(const BusDevice&) = delete;
+  BusDevice& operator=(const BusDevice&) = delete;
+  virtual ~BusDevice() = default;
 
   /// Called by the bus's thread alone, once a period. May block for as long as the bus does. Tells
   /// of failures through the device's own answers.

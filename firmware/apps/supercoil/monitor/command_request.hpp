@@ -10,7 +10,7 @@
 
 namespace supercoil::operating {
 
-struct Order {
+struct CommandRequest {
   std::uint8_t node;  ///< 1 to 63
   Verb verb;
   double value;
@@ -18,7 +18,7 @@ struct Order {
 
 /// {"node":1,"opcode":"position","value":0.002}; value may be absent where the verb has none. The
 /// error says what is wrong, and with what.
-tl::expected<Order, std::string> parse_order(const std::string& text);
+tl::expected<CommandRequest, std::string> parse_command_request(const std::string& text);
 /// {"node":1}
 tl::expected<std::uint8_t, std::string> parse_node(const std::string& text);
 

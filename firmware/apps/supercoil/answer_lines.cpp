@@ -1,4 +1,4 @@
-#include "apps/supercoil/answers.hpp"
+#include "apps/supercoil/answer_lines.hpp"
 
 #include <array>
 #include <thread>
@@ -8,7 +8,7 @@
 
 namespace supercoil::operating {
 
-std::optional<std::string> Answers::wait(std::chrono::milliseconds longest) {
+std::optional<std::string> AnswerLines::wait(std::chrono::milliseconds longest) {
   if (auto line = take_line()) return line;
   if (ended_) {
     std::this_thread::sleep_for(longest);
@@ -23,7 +23,7 @@ std::optional<std::string> Answers::wait(std::chrono::milliseconds longest) {
   return take_line();
 }
 
-std::optional<std::string> Answers::take_line() {
+std::optional<std::string> AnswerLines::take_line() {
   const std::size_t end = read_.find('\n');
   if (end == std::string::npos && !(ended_ && !read_.empty())) return std::nullopt;
   std::string line = read_.substr(0, end);

@@ -7,7 +7,7 @@
 
 namespace supercoil::host_sim::paper {
 
-struct Row {
+struct ReproductionRow {
   std::string id;         ///< stable: others refer to it
   std::string case_name;  ///< which reading of the paper, or which of our controllers
   std::string quantity;

@@ -13,7 +13,8 @@
 namespace supercoil::hal_linux {
 
 /// Link, bit rate, and length of the queue of frames to send. interface: e.g. can0.
-void check_can_link(const Machine& machine, const std::string& interface, const hal::Tell& tell);
+void check_can_interface(const Machine& machine, const std::string& interface,
+                         const hal::FindingSink& sink);
 
 /// In bit/s, as the kernel tells it by rtnetlink; nothing of an interface that has none (vcan).
 std::optional<std::uint32_t> can_bit_rate(const std::string& interface);

@@ -18,7 +18,7 @@ struct Listener {
 
 /// Carries the runs out. A run's result does not depend on how many jobs there are, or on their
 /// order. jobs >= 1. Throws what a run or ended() threw.
-void carry_out(const std::vector<Case>& cases, const std::vector<Run>& runs, unsigned jobs,
-               const Listener& listener);
+void run_plan(const std::vector<Case>& cases, const std::vector<Run>& runs, unsigned jobs,
+              const Listener& listener);
 
 }  // namespace supercoil::host_sim::compare

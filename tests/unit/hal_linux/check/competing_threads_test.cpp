@@ -1,4 +1,4 @@
-#include "supercoil/hal_linux/check/rivals.hpp"
+#include "supercoil/hal_linux/check/competing_threads.hpp"
 
 #include <sched.h>
 
@@ -37,7 +37,7 @@ TEST_GROUP(CheckRivals) {
   }
   hal::Finding found(int priority = 80) const {
     Told told;
-    check_rivals(machine, {priority, -1}, told.tell());
+    check_competing_threads(machine, {priority, -1}, told.sink());
     LONGS_EQUAL(1, told.findings.size());
     return told.findings.front();
   }

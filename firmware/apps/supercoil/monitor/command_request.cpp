@@ -1,4 +1,4 @@
-#include "apps/supercoil/monitor/order.hpp"
+#include "apps/supercoil/monitor/command_request.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +16,8 @@ using nlohmann::json;
 tl::expected<std::uint8_t, std::string> node_of(const json& read) {
   const auto node = read.is_object() ? read.find("node") : read.end();
   if (!read.is_object() || node == read.end() || !node->is_number_integer() || *node < 1 ||
-      *node > can::most_nodes) {
-    return tl::unexpected("node must be 1 to " + std::to_string(can::most_nodes));
+      *node > can::max_nodes) {
+    return tl::unexpected("node must be 1 to " + std::to_string(can::max_nodes));
   }
   return node->get<std::uint8_t>();
 }
@@ -32,7 +32,7 @@ tl::expected<std::uint8_t, std::string> parse_node(const std::string& text) {
   return node_of(read_json(text));
 }
 
-tl::expected<Order, std::string> parse_order(const std::string& text) {
+tl::expected<CommandRequest, std::string> parse_command_request(const std::string& text) {
   const json read = read_json(text);
   const auto node = node_of(read);
   if (!node) return tl::unexpected(node.error());
@@ -40,14 +40,14 @@ tl::expected<Order, std::string> parse_order(const std::string& text) {
                                  ? read["opcode"].get<std::string>()
                                  : std::string();
   const auto verb = std::find(verb_names.begin() + 1, verb_names.end(), opcode);
-  if (verb == verb_names.end()) return tl::unexpected("'" + opcode + "' is no opcode");
+  if (verb == verb_names.end()) return tl::unexpected("'" + opcode + "' is not an opcode");
   double value = 0.0;
   if (const auto given = read.find("value"); given != read.end()) {
     if (!given->is_number() || !std::isfinite(given->get<double>()))
       return tl::unexpected(std::string("value must be a number"));
     value = given->get<double>();
   }
-  return Order{*node, static_cast<Verb>(std::distance(verb_names.begin(), verb)), value};
+  return CommandRequest{*node, static_cast<Verb>(std::distance(verb_names.begin(), verb)), value};
 }
 
 }  // namespace supercoil::operating

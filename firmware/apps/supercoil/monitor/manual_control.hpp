@@ -1,4 +1,4 @@
-// A person's hand on one muscle: commands, and renewals for as long as somebody watches.
+// Manual control of one muscle: commands, and renewals for as long as somebody watches.
 #pragma once
 
 #include <chrono>
@@ -20,16 +20,16 @@ namespace supercoil::operating {
 /// What heats is renewed every 50 ms while a page says again and again that it is alive; when none
 /// has for page_timeout, nothing is renewed any more, and the board lets the command expire.
 /// Safe from any thread; a thread of its own talks to the node.
-class Hand {
+class ManualControl {
  public:
   using Answer = tl::expected<Refusal, std::string>;
   using OpenBus = std::function<tl::expected<std::unique_ptr<hal::CanBus>, std::string>()>;
   static constexpr auto page_timeout = std::chrono::milliseconds(1500);
 
-  Hand(std::uint8_t node, OpenBus open_bus);
-  Hand(const Hand&) = delete;
-  Hand& operator=(const Hand&) = delete;
-  ~Hand();
+  ManualControl(std::uint8_t node, OpenBus open_bus);
+  ManualControl(const ManualControl&) = delete;
+  ManualControl& operator=(const ManualControl&) = delete;
+  ~ManualControl();
 
   /// Waits for the board's answer. One at a time; others wait for their turn.
   Answer ask(Verb verb, double value);
@@ -40,18 +40,18 @@ class Hand {
   /// A page that heats lives.
   Holding alive();
   /// Nothing is renewed any more. Does not wait for the board.
-  void let_go(const std::string& reason);
+  void release_hold(const std::string& reason);
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Order {
+  struct PendingCommand {
     Verb verb;
     double value;
     std::promise<Answer> answer;
   };
 
   void run();
-  void obey(Order& order);
+  void obey(PendingCommand& order);
   void renew();
   Answer command(Verb verb, double value);
   bool holds() const;
@@ -59,10 +59,10 @@ class Hand {
   std::uint8_t node_;
   OpenBus open_bus_;
   std::unique_ptr<Commander> commander_;  ///< of the thread
-  std::mutex turn_;                       ///< of those who ask
+  std::mutex asking_;                     ///< of those who ask
   mutable std::mutex mutex_;
   std::condition_variable woken_;
-  std::optional<Order> order_;
+  std::optional<PendingCommand> pending_;
   bool ending_ = false;
   bool holding_ = false;
   std::string reason_ = "nothing is held";

@@ -1,4 +1,4 @@
-#include "troubles.hpp"
+#include "injected_faults.hpp"
 
 #include <array>
 #include <cerrno>
@@ -12,7 +12,7 @@ namespace supercoil::rig {
 
 namespace {
 
-using host_sim::ConverterTrouble;
+using host_sim::ConverterFaults;
 
 bool on_or_off(const std::string& word, bool& value) {
   value = word == "on";
@@ -20,12 +20,12 @@ bool on_or_off(const std::string& word, bool& value) {
 }
 
 bool set_converter(const std::string& word, host_sim::SimulatedConverter& converter) {
-  ConverterTrouble trouble;
-  trouble.silent = word == "silent";
-  trouble.frozen = word == "frozen";
-  trouble.loose = word == "loose";
-  if (word != "well" && trouble == ConverterTrouble{}) return false;
-  converter.set(trouble);
+  ConverterFaults faults;
+  faults.silent = word == "silent";
+  faults.frozen = word == "frozen";
+  faults.loose = word == "loose";
+  if (word != "well" && faults == ConverterFaults{}) return false;
+  converter.set(faults);
   return true;
 }
 
@@ -34,11 +34,11 @@ bool set_channel(const std::string& what, const std::string& word,
   if (what == "position") return set_converter(word, channel.position);
   if (what == "current") return set_converter(word, channel.current);
   if (what == "short_Ohm")
-    return static_cast<bool>(std::istringstream(word) >> channel.trouble.short_Ohm);
-  if (what == "wire_open") return on_or_off(word, channel.trouble.wire_open);
-  if (what == "switch_stuck_on") return on_or_off(word, channel.trouble.switch_stuck_on);
-  if (what == "enable_stuck_on") return on_or_off(word, channel.trouble.enable_stuck_on);
-  if (what == "slack") return on_or_off(word, channel.trouble.slack);
+    return static_cast<bool>(std::istringstream(word) >> channel.faults.short_Ohm);
+  if (what == "wire_open") return on_or_off(word, channel.faults.wire_open);
+  if (what == "switch_stuck_on") return on_or_off(word, channel.faults.switch_stuck_on);
+  if (what == "enable_stuck_on") return on_or_off(word, channel.faults.enable_stuck_on);
+  if (what == "slack") return on_or_off(word, channel.faults.slack);
   return false;
 }
 
@@ -63,7 +63,7 @@ std::string obey(const std::string& order, host_sim::SimulatedBoard& board, std:
   } else if (subject == "pump_stuck") {
     understood = on_or_off(word, board.pump.stuck_closed);
   }
-  return understood ? "" : "is not known: see plant/troubles.hpp";
+  return understood ? "" : "is not known: see plant/injected_faults.hpp";
 }
 
 // For reading and writing, so that it does not end when an orderer closes it.

@@ -88,6 +88,9 @@ class Scripts(OnSimulatedBoard):
         unknown = setting("1", "mesurement_Hz")
         self.assertEqual(unknown.returncode, 2)
         self.assertIn("'mesurement_Hz' is not a setting; there are max_power_W, measurement_Hz,", unknown.stderr)
+        renamed = setting("1", "most_power_W")
+        self.assertEqual((renamed.returncode, renamed.stderr),
+                         (2, "supercoil: 'most_power_W' was renamed in 0.2.0: write max_power_W\n"))
         self.assertIn("no answer from node 9", setting("9", "status_Hz").stderr)
         self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
 

@@ -6,6 +6,7 @@
 #include "apps/supercoil/bus/bus_name.hpp"
 #include "apps/supercoil/bus/commander.hpp"
 #include "apps/supercoil/commands.hpp"
+#include "config/renamed_keys.hpp"
 #include "telemetry/run_settings.hpp"
 
 namespace supercoil::operating {
@@ -60,8 +61,11 @@ int all(Commander& node, bool json) {
 int setting_command(const SettingOptions& options) {
   const auto setting = setting_of(options.name);
   if (!options.name.empty() && !setting) {
+    const std::string_view renamed = config::renamed_to("setting", options.name);
     return fail(exit_wrong_input,
-                "'" + options.name + "' is not a setting; there are " + all_names());
+                "'" + options.name + "' " +
+                    (renamed.empty() ? "is not a setting; there are " + all_names()
+                                     : "was renamed in 0.2.0: write " + std::string(renamed)));
   }
   const auto id = static_cast<std::uint8_t>(options.node);
   auto bus = open_bus(options.can, {can_client::acknowledge_id(id), can_client::setting_id(id)});

@@ -1,6 +1,8 @@
 // Tables in tables, and what is left over when everything has been asked for.
 #include <algorithm>
 
+#include "config/renamed_keys.hpp"
+#include "text/nearest.hpp"
 #include "config/section.hpp"
 #include "text/nearest.hpp"
 
@@ -52,6 +54,11 @@ std::vector<std::string> Section::refuse_unknown(const toml::table* table,
   for (const auto& [key, node] : *table) {
     const std::string name(key.str());
     if (std::find(known_.begin(), known_.end(), name) != known_.end()) continue;
+    if (const std::string renamed = renamed_message(path, name); !renamed.empty()) {
+      wrong(name, renamed);
+      meant.emplace_back(renamed_to(path, name));
+      continue;
+    }
     std::string message = "is not a key of ";
     message += path.empty() ? "this file" : "[" + path + "]";
     if (!default_kind_.empty()) message += " of kind \"" + default_kind_ + "\" (its default)";

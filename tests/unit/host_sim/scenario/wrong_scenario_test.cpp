@@ -39,6 +39,18 @@ TEST(WrongScenario, UnknownKeyWithNothingNearListsWhatThereIs) {
       "[sensor.position]\ncolour = \"red\"");
 }
 
+TEST(WrongScenario, KeyThatWasRenamedNamesTheNewOne) {
+  check_answer("s.toml:1: trouble: was renamed in 0.2.0: write injected_fault",
+               "[trouble]\nheater_open = true");
+  check_answer("s.toml:3: trouble: was renamed in 0.2.0: write injected_fault",
+               "[[event]]\nat_s = 10.0\ntrouble.heater_open = true");
+  check_answer("s.toml:1: operator.wish = 'rest': was renamed in 0.2.0: write operator.action",
+               "operator.wish = 'rest'");
+  check_answer(
+      "s.toml:2: thermal.power_part = [0.9, 1]: was renamed in 0.2.0: write thermal.power_ratio",
+      "[thermal]\npower_part = [0.9, 1.0]");
+}
+
 TEST(WrongScenario, MissingUnitIsNamed) {
   check_answer(
       "s.toml:2: simulation.duration = 10: is not a key of [simulation]; did you mean duration_s "

@@ -2,7 +2,10 @@
 #include <string>
 
 #include <CppUTest/TestHarness.h>
+#include <toml++/toml.h>
 
+#include "config/renamed_keys.hpp"
+#include "config/section.hpp"
 #include "unit/firmware/io/config/support/small_board.hpp"
 
 using supercoil::test::problems_of;
@@ -39,6 +42,41 @@ TEST(WrongBoard, MissingUnitIsNamed) {
   check_replaced("max_W = 4.5", "max = 4.5",
                  "b.toml:40: channel[1].limits.max = 4.5: is not a key of [channel[1].limits]; did "
                  "you mean max_W (the unit is part of the name)?");
+}
+
+TEST(WrongBoard, KeyThatWasRenamedNamesTheNewOne) {
+  check_replaced("[[bus]]", "[can]\nmost_load = 0.5\n[[bus]]",
+                 "b.toml:11: can.most_load = 0.5: was renamed in 0.2.0: write can.max_load");
+  // Once, although the new one is required.
+  check_replaced("max_m = 0.041", "highest_m = 0.041",
+                 "b.toml:28: channel[1].position.highest_m = 0.041: was renamed in 0.2.0: write "
+                 "channel[1].position.max_m");
+  check_answer(
+      "b.toml:44: channel[1].estimator.lowest_part = 0.2: was renamed in 0.2.0: write "
+      "channel[1].estimator.min_ratio",
+      small_board + "[channel.estimator]\nkind = 'least_squares'\nlowest_part = 0.2\n");
+  check_answer(
+      "b.toml:43: every_channel.detectors.resistance_part = 0.3: was renamed in 0.2.0: write "
+      "every_channel.detectors.resistance_ratio",
+      small_board + "[every_channel.detectors]\nresistance_part = 0.3\n");
+}
+
+TEST(WrongBoard, EveryRenamedKeyIsRefusedInItsTableOnly) {
+  for (const supercoil::config::RenamedKey& renamed : supercoil::config::renamed_keys) {
+    const std::string key(renamed.old_key);
+    const toml::table table{{key, 1.0}};
+    const auto answer = [&](const std::string& path) {
+      supercoil::config::Diagnostics diagnostics("b.toml");
+      supercoil::config::Section(&table, path, diagnostics).finish();
+      return diagnostics.problems().at(0).message;
+    };
+    const std::string path(renamed.table);
+    STRCMP_EQUAL(("was renamed in 0.2.0: write " + (path.empty() ? "" : path + ".") +
+                  std::string(renamed.key))
+                     .c_str(),
+                 answer(path).c_str());
+    STRCMP_CONTAINS("is not a key of [elsewhere]", answer("elsewhere").c_str());
+  }
 }
 
 TEST(WrongBoard, ValueOutOfRange) {

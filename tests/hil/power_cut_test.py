@@ -48,7 +48,7 @@ def record(stores):
 def whole(text):
     """The version of a learned file, if it is what its first line says (docs/storage.md); None: damaged or not there."""
     head, _, body = text.partition(b"\n")
-    found = re.fullmatch(rb"# supercoil learned, format 1, (\d+) bytes, CRC-32 ([0-9a-f]{8})", head)
+    found = re.fullmatch(rb"# supercoil learned, format 2, (\d+) bytes, CRC-32 ([0-9a-f]{8})", head)
     if not found or len(body) != int(found[1]) or zlib.crc32(body) != int(found[2], 16):
         return None
     return int(re.search(rb"^version = (\d+)$", body, re.M)[1])

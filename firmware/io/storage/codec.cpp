@@ -27,8 +27,8 @@ std::string number(double value) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-std::string path(const Field& field) {
-  return std::string(field.table) + "." + std::string(field.key);
+std::string path(const Field& field, unsigned format) {
+  return std::string(field.table) + "." + std::string(key_in(field, format));
 }
 
 bool is_table(std::string_view name) {
@@ -38,20 +38,21 @@ bool is_table(std::string_view name) {
   return false;
 }
 
-bool is_field(std::string_view table, std::string_view key) {
+bool is_field(std::string_view table, std::string_view key, unsigned format) {
   for (const Field& field : fields) {
-    if (field.table == table && field.key == key) return true;
+    if (field.table == table && key_in(field, format) == key) return true;
   }
   return false;
 }
 
-std::optional<std::string> unknown_key(const toml::table& file) {
+std::optional<std::string> unknown_key(const toml::table& file, unsigned format) {
   for (const auto& [name, node] : file) {
     if (name == "version") continue;
     const toml::table* table = node.as_table();
     if (table == nullptr || !is_table(name)) return std::string(name.str());
     for (const auto& [key, value] : *table) {
-      if (!is_field(name, key)) return std::string(name.str()) + "." + std::string(key.str());
+      if (!is_field(name, key, format))
+        return std::string(name.str()) + "." + std::string(key.str());
     }
   }
   return std::nullopt;
@@ -76,8 +77,8 @@ std::optional<std::string> read_version(const toml::node* node, std::uint32_t& v
   return std::nullopt;
 }
 
-tl::expected<board::Learned, std::string> read(const toml::table& file) {
-  if (const auto key = unknown_key(file)) {
+tl::expected<board::Learned, std::string> read(const toml::table& file, unsigned format) {
+  if (const auto key = unknown_key(file, format)) {
     return tl::unexpected("has a key that this firmware does not know: " + *key);
   }
   board::Learned learned;
@@ -89,9 +90,9 @@ tl::expected<board::Learned, std::string> read(const toml::table& file) {
     const toml::table* table = file[field.table].as_table();
     const bool left_out = may_lack(field.table) ? table == nullptr : !learned.has_muscle;
     if (left_out) continue;
-    const toml::node* node = table == nullptr ? nullptr : table->get(field.key);
+    const toml::node* node = table == nullptr ? nullptr : table->get(key_in(field, format));
     if (const auto wrong = read_number(node, field.of(learned))) {
-      return tl::unexpected(path(field) + " " + *wrong);
+      return tl::unexpected(path(field, format) + " " + *wrong);
     }
   }
   if (const auto violation = check(learned)) {
@@ -121,10 +122,10 @@ std::string encode(const board::Learned& learned) {
 }
 
 tl::expected<board::Learned, std::string> decode(std::string_view text) {
-  const auto body = unseal(text);
-  if (!body) return tl::unexpected(body.error());
+  const auto unsealed = unseal(text);
+  if (!unsealed) return tl::unexpected(unsealed.error());
   try {
-    return read(toml::parse(*body));
+    return read(toml::parse(unsealed->body), unsealed->format);
   } catch (const toml::parse_error& error) {
     return tl::unexpected("is not valid TOML: " + std::string(error.description()));
   }

@@ -19,8 +19,8 @@ std::string hexadecimal(std::uint32_t value, int digits) {
   return text.data();
 }
 
-std::string first_line_of(std::string_view body) {
-  return std::string(magic) + std::to_string(file_format) + ", " + std::to_string(body.size()) +
+std::string first_line_of(std::string_view body, unsigned format) {
+  return std::string(magic) + std::to_string(format) + ", " + std::to_string(body.size()) +
          " bytes, CRC-32 " + hexadecimal(crc32(body), 8);
 }
 
@@ -69,11 +69,11 @@ std::size_t first_binary(std::string_view text) {
 
 }  // namespace
 
-std::string seal(std::string_view body) {
-  return first_line_of(body) + "\n" + std::string(body);
+std::string seal(std::string_view body, unsigned format) {
+  return first_line_of(body, format) + "\n" + std::string(body);
 }
 
-tl::expected<std::string_view, std::string> unseal(std::string_view text) {
+tl::expected<Unsealed, std::string> unseal(std::string_view text) {
   if (text.empty()) return tl::unexpected<std::string>("is empty");
   if (text.size() > max_file_bytes) {
     return tl::unexpected<std::string>("is larger than 64 KiB, which no stored set is");
@@ -96,8 +96,10 @@ tl::expected<std::string_view, std::string> unseal(std::string_view text) {
   const std::string_view line = text.substr(0, end);
   const std::string_view body = text.substr(end + 1);
   // The same line to the letter, or a change of, say, the case of the CRC would go unnoticed.
-  if (line != first_line_of(body)) return tl::unexpected(difference(line, body));
-  return body;
+  for (unsigned format = 1; format <= file_format; ++format) {
+    if (line == first_line_of(body, format)) return Unsealed{body, format};
+  }
+  return tl::unexpected(difference(line, body));
 }
 
 }  // namespace supercoil::storage

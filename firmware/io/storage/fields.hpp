@@ -50,6 +50,11 @@ inline constexpr std::array<Field, 20> fields{{
      [](board::Learned& l) -> double& { return l.response_ratio; }},
 }};
 
+/// The key as a file of that format has it.
+constexpr std::string_view key_in(const Field& field, unsigned format) {
+  return format == 1 && field.key == "response_ratio" ? "answer_ratio" : field.key;
+}
+
 /// Tables that a file may lack, where nothing is known of what they hold: files of earlier versions
 /// have none of them.
 inline constexpr bool may_lack(std::string_view table) {

@@ -71,7 +71,7 @@ class Program(unittest.TestCase):
         body = f"version = {version}\n" + "".join(
             f"\n[{name}]\n" + "".join(f"{key} = {value}\n" for key, value in table.items()) for name, table in tables.items())
         (self.path / f"learned-{channel}.toml").write_text(
-            f"# supercoil learned, format 1, {len(body)} bytes, CRC-32 {zlib.crc32(body.encode()):08x}\n{body}")
+            f"# supercoil learned, format 2, {len(body)} bytes, CRC-32 {zlib.crc32(body.encode()):08x}\n{body}")
 
     def test_check_goes_by_what_the_board_has_learned(self):
         muscle = {"thermal_mass_J_per_K": 0.17, "heat_transfer_W_per_K": 0.09, "stiffness_N_per_m": 16.5, "damping_Ns_per_m": 2.0,

@@ -50,7 +50,7 @@ TEST(Codec, WritesWhatAPersonCanRead) {
   set.calibration.position_offset_m = -0.00125;
   set.version = 3;
   STRCMP_EQUAL(
-      "# supercoil learned, format 1, 352 bytes, CRC-32 b7433581\n"
+      "# supercoil learned, format 2, 352 bytes, CRC-32 b7433581\n"
       "# Written by supercoild. An edited file counts as damaged and is not used.\n"
       "version = 3\n"
       "\n"
@@ -83,6 +83,30 @@ TEST(Codec, AFileFromBeforeThereWereComparisonsHasNone) {
   CHECK(read->has_muscle);
   CHECK_FALSE(read->senses.compared());
   CHECK(read->senses == board::SenseComparison{});
+}
+
+TEST(Codec, AFileOf0_1_0IsReadUnderItsOwnKeys) {
+  // docs/storage.md of 0.1.0.
+  const std::string body =
+      "# Written by supercoild. An edited file counts as damaged and is not used.\n"
+      "version = 3\n\n[muscle]\nthermal_mass_J_per_K = 0.162\nheat_transfer_W_per_K = 0.089\n"
+      "stiffness_N_per_m = 16.0\ndamping_Ns_per_m = 2.0\nmoving_mass_kg = 0.09\n"
+      "force_per_kelvin_N_per_K = 0.0086\n\n[calibration]\nposition_offset_m = -0.00125\n"
+      "position_scale = 1.0\ncold_resistance_Ohm = 10.0\n\n[senses]\nsupply_gain = 1.012\n"
+      "current_gain = 0.994\nerror_ratio = 0.021\ncompared_s = 1795219200.0\n\n[heat]\n"
+      "time_constant_s = 1.81\ntime_constant_at_W = 2.17\nsteady_rise_K = 21.5\n"
+      "steady_error_K = 1.3\nsteady_min_W = 1.49\nsteady_max_W = 1.51\n\n[small_motions]\n";
+  const std::string whole = "# supercoil learned, format 1, 625 bytes, CRC-32 a4be8f0a\n" + body +
+                            "answer_ratio = 0.98\n";
+  const auto read = decode(whole);
+  CHECK_TEXT(read.has_value(), answer(whole).c_str());
+  DOUBLES_EQUAL(0.98, read->response_ratio, 0.0);
+  CHECK(read->heat.time_constant_s == 1.81);
+  // Under the new format the old key is unknown, and the new one under the old format.
+  check_answer("has a key that this firmware does not know: small_motions.answer_ratio",
+               seal(body + "answer_ratio = 0.98\n"));
+  check_answer("has a key that this firmware does not know: small_motions.response_ratio",
+               seal(body + "response_ratio = 0.98\n", 1));
 }
 
 TEST(Codec, AComparisonHasATableOfItsOwn) {

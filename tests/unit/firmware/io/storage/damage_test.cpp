@@ -117,15 +117,15 @@ TEST(Damage, IsSaidInWords) {
   STRCMP_CONTAINS("is damaged: its content and its first line do not belong together (CRC-32 of ",
                   answer(replaced(text, "0.162", "0.163")).c_str());
   STRCMP_EQUAL("is damaged: its first line is not as it was written",
-               answer(replaced(text, "format 1", "format x")).c_str());
+               answer(replaced(text, "format 2", "format x")).c_str());
   STRCMP_EQUAL("is damaged: its first line is not as it was written",
-               answer(replaced(text, "1, 347", "1; 347")).c_str());
+               answer(replaced(text, "2, 347", "2; 347")).c_str());
 }
 
 TEST(Damage, AFileOfANewerFirmwareIsNotCalledDamaged) {
   STRCMP_EQUAL(
-      "is of format 2, written by a newer firmware; this one reads format 1",
-      answer("# supercoil learned, format 2, sealed in another way\nversion = 1\n").c_str());
+      "is of format 3, written by a newer firmware; this one reads format 2",
+      answer("# supercoil learned, format 3, sealed in another way\nversion = 1\n").c_str());
 }
 
 TEST(Damage, AFileOfMoreThan64KiBIsRefusedWhateverItHolds) {

@@ -11,6 +11,7 @@ import unittest
 
 PROGRAM = os.environ["SUPERCOIL"]
 WRITE_SAMPLE = os.environ["WRITE_SAMPLE"]
+RECORDING_OF_0_1_0 = pathlib.Path(__file__).resolve().parents[2] / "fuzz/corpus/fuzz_recording/whole"
 HEADER, ROW = 512, 112
 COLUMNS = ("time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,model_m,"
            "position_m,demanded_W,applied_W,duty,supply_V,current_A,resistance_Ohm,resistance_age_s,coldest_C,"
@@ -55,6 +56,15 @@ class Log(unittest.TestCase):
         self.assertEqual(fault["resistance_Ohm"], "")
         self.assertEqual(rows[0]["mode"], "position")
         self.assertEqual(float(fault["hottest_C"]), 160.0)
+
+    def test_a_recording_of_0_1_0_is_read(self):
+        rows = list(csv.DictReader(io.StringIO(self.log(RECORDING_OF_0_1_0).stdout)))
+        self.assertEqual([row["time_s"] for row in rows], ["-0.001", "0"])
+        last = {name: rows[-1][name] for name in ("state", "fault", "demanded_W", "applied_W", "margin_selector", "margin_used",
+                                                  "gain_selector", "gain", "multiplexed_selector", "multiplexed_value")}
+        self.assertEqual(last, {"state": "fault", "fault": "heater_not_responding", "demanded_W": "", "applied_W": "0.01",
+                                "margin_selector": "9", "margin_used": "", "gain_selector": "reference", "gain": "",
+                                "multiplexed_selector": "35", "multiplexed_value": "4"})
 
     def test_times_and_channel_are_chosen(self):
         rows = self.rows("--from", "-0.5", "--to", "0.25", "--channel", "2")

@@ -144,7 +144,7 @@ void Axis::disarm() {
   heater_.cut();
 }
 
-void Axis::publish(std::uint32_t margin_selector, Snapshot& s) const {
+void Axis::publish(std::uint32_t selector, Snapshot& s) const {
   s.mode = mode_;
   s.limited_by = limited_by();
   s.controller = static_cast<std::uint8_t>(tracking_.chosen());
@@ -161,8 +161,8 @@ void Axis::publish(std::uint32_t margin_selector, Snapshot& s) const {
   const bool friction =
       response_ratio_ > 0.0 && response_ratio_ < detectors::Response::min_response_ratio;
   s.identify_notes = static_cast<std::uint8_t>(identify_.notes() | (friction ? note_friction : 0));
-  s.gain = tracking_.gain(margin_selector);
-  estimation_.publish(margin_selector, s);
+  s.gain = tracking_.gain(selector);
+  estimation_.publish(selector, s);
   heater_.publish(s);
 }
 

@@ -18,8 +18,8 @@
 #include "loop/tracking.hpp"
 #include "modes/calibrate.hpp"
 #include "modes/identify.hpp"
+#include "supervisor/channel_inputs.hpp"
 #include "supervisor/channel_state.hpp"
-#include "supervisor/evidence.hpp"
 #include "supervisor/proof.hpp"
 #include "supervisor/small_signal.hpp"
 
@@ -36,7 +36,7 @@ class Axis {
   void sample(hal::Time now);
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
-  const AxisEvidence& evidence() const { return inputs_; }
+  const AxisInputs& inputs() const { return inputs_; }
   /// The supervisor has judged what happened since the last tick.
   void judged() {
     inputs_.position_elapsed_s = 0.0;
@@ -55,7 +55,7 @@ class Axis {
   /// Calibrate probes when it has found the zero, and not before.
   void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
   /// Its part of what is published, with the heater's. turn: of a full turn, what is told in turn.
-  void publish(std::uint32_t margin_selector, Snapshot& s) const;
+  void publish(std::uint32_t selector, Snapshot& s) const;
 
   /// Whether it may be armed: everything is measured, and how hot the muscle is is known.
   bool ready() const;
@@ -113,7 +113,7 @@ class Axis {
   double step_s_;
   hal::AdcChannel* sensor_;
   hal::Time position_taken_{-1};
-  AxisEvidence inputs_;
+  AxisInputs inputs_;
   Heater heater_;
   Tracking tracking_;
   Estimation estimation_;

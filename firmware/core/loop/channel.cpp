@@ -31,8 +31,8 @@ void Channel::sample(hal::Time now) {
 
 void Channel::supervise(const BoardTick& board) {
   axis_.observe(board.supply_V, board.air, board.periods);
-  const AxisEvidence& axis = axis_.evidence();
-  const HeaterEvidence& heater = axis_.heater().evidence(state_);
+  const AxisInputs& axis = axis_.inputs();
+  const HeaterInputs& heater = axis_.heater().inputs(state_);
   commands_.heating = state_.may_heat();
   present_fault_ = supervisor_.step(axis, heater, commands_);
   // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.

@@ -94,7 +94,7 @@ class Channel {
   ChannelState state_;
   Axis axis_;
   ChannelSupervisor supervisor_;
-  CommandEvidence commands_;
+  CommandInputs commands_;
   Fault present_fault_ = Fault::none;
   detectors::Margin first_margin_;
   bool cause_is_new_ = false;  ///< no row has told it yet

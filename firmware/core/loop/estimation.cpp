@@ -40,7 +40,7 @@ std::optional<control::PhysicalParameters> Estimation::trusted_muscle(
                                 {known.force_per_kelvin_N_per_K, known.moving_mass_kg});
 }
 
-void Estimation::publish(std::uint32_t margin_selector, Snapshot& s) const {
+void Estimation::publish(std::uint32_t selector, Snapshot& s) const {
   control::Estimate e{.theta = control::Theta::Constant(std::nan("")),
                       .relative_error_bound = std::nan("")};
   if (estimate_) e = *estimate_;
@@ -54,8 +54,7 @@ void Estimation::publish(std::uint32_t margin_selector, Snapshot& s) const {
   s.bias_W = told ? e.bias_W : s.bias_deviation_W;
   constexpr std::uint64_t multiplexed = multiplexed_names.size() - 1;
   s.multiplexed_selector =
-      told ? static_cast<std::uint8_t>(1 + (margin_selector * multiplexed >> 32U))
-           : std::uint8_t{0};
+      told ? static_cast<std::uint8_t>(1 + (selector * multiplexed >> 32U)) : std::uint8_t{0};
 }
 
 }  // namespace supercoil

@@ -31,7 +31,7 @@ class Estimation {
   std::optional<control::PhysicalParameters> trusted_muscle(
       const control::PhysicalParameters& known) const;
   /// turn: of a full turn, chooses the value that is told beside theta.
-  void publish(std::uint32_t margin_selector, Snapshot& s) const;
+  void publish(std::uint32_t selector, Snapshot& s) const;
 
  private:
   std::vector<control::Estimator> estimators_;

@@ -99,8 +99,8 @@ void Heater::follow_probe() {
   if (probed_) resistance_.set(probed.resistance_Ohm);
 }
 
-const HeaterEvidence& Heater::evidence(const ChannelState& state) {
-  HeaterEvidence& e = inputs_;
+const HeaterInputs& Heater::inputs(const ChannelState& state) {
+  HeaterInputs& e = inputs_;
   e.current = current_;
   e.supply_V = supply_V_;
   e.hot = heat_.hottest_K() > hot_K;

@@ -15,8 +15,8 @@
 #include "board/resistance.hpp"
 #include "loop/settings.hpp"
 #include "loop/snapshot.hpp"
+#include "supervisor/channel_inputs.hpp"
 #include "supervisor/channel_state.hpp"
-#include "supervisor/evidence.hpp"
 
 namespace supercoil {
 
@@ -51,7 +51,7 @@ class Heater {
   /// measured. supply_V: as read. air: in °C, null without a sensor. periods: since the last tick.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
   /// For the supervisor, of this tick.
-  const HeaterEvidence& evidence(const ChannelState& state);
+  const HeaterInputs& inputs(const ChannelState& state);
   /// Its part of what is published.
   void publish(Snapshot& s) const;
   /// proven_W: what a muscle may have by what it has proven.
@@ -127,7 +127,7 @@ class Heater {
   board::ThermalFacts facts_;
   board::Measured current_;
   double supply_V_ = 0.0;
-  HeaterEvidence inputs_;
+  HeaterInputs inputs_;
   board::Resistance resistance_;
   board::PowerBounds power_bounds_;
   board::PowerBounds::Interval measured_power_W_{0.0, 0.0};

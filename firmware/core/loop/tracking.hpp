@@ -35,8 +35,8 @@ class Tracking {
   control::ControllerOutput step(const control::ControllerInput& input,
                                  const std::optional<control::Estimate>& estimate);
   /// One gain of the controller that is chosen, in turn.
-  control::GainValue gain(std::uint32_t margin_selector) const {
-    return controllers_[chosen_].gain(margin_selector);
+  control::GainValue gain(std::uint32_t selector) const {
+    return controllers_[chosen_].gain(selector);
   }
 
  private:

@@ -45,8 +45,8 @@ ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_re
       refused_(s.refused_in_a_row),
       lost_(s.saturated_s, step_s) {}
 
-Fault ChannelSupervisor::step(const AxisEvidence& axis, const HeaterEvidence& heater,
-                              const CommandEvidence& commands) {
+Fault ChannelSupervisor::step(const AxisInputs& axis, const HeaterInputs& heater,
+                              const CommandInputs& commands) {
   verdict_.begin();
   judge_sensors(axis, heater);
   judge_heater(heater);
@@ -56,7 +56,7 @@ Fault ChannelSupervisor::step(const AxisEvidence& axis, const HeaterEvidence& he
   return verdict_.fault();
 }
 
-void ChannelSupervisor::judge_sensors(const AxisEvidence& axis, const HeaterEvidence& heater) {
+void ChannelSupervisor::judge_sensors(const AxisInputs& axis, const HeaterInputs& heater) {
   using enum Fault;
   const bool absent = !axis.position.present || !heater.current.present;
   verdict_.note(sensor_stale, stale_.step(absent), stale_);
@@ -72,7 +72,7 @@ void ChannelSupervisor::judge_sensors(const AxisEvidence& axis, const HeaterEvid
                 disagree_);
 }
 
-void ChannelSupervisor::judge_heater(const HeaterEvidence& e) {
+void ChannelSupervisor::judge_heater(const HeaterInputs& e) {
   using enum Fault;
   const double current_A = e.current.present ? e.current.value : 0.0;
   verdict_.note(duty_wrong, wrong_duty_.step(e.set_step, e.devices_ok ? e.read_back : 1 << 30),
@@ -91,7 +91,7 @@ void ChannelSupervisor::judge_heater(const HeaterEvidence& e) {
   verdict_.note(power_limit_exceeded, power_.step(measured_W), power_);
 }
 
-void ChannelSupervisor::judge_answer(const AxisEvidence& axis, const HeaterEvidence& heater) {
+void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs& heater) {
   using enum Fault;
   if (axis.recalibrated) not_responding_.reset();
   if (!heater.current.present) return;
@@ -104,7 +104,7 @@ void ChannelSupervisor::judge_answer(const AxisEvidence& axis, const HeaterEvide
   }
 }
 
-void ChannelSupervisor::judge_muscle(const AxisEvidence& axis, const HeaterEvidence& heater) {
+void ChannelSupervisor::judge_muscle(const AxisInputs& axis, const HeaterInputs& heater) {
   using enum Fault;
   verdict_.note(over_temperature, temperature_.step(heater.hottest_C), temperature_);
   if (axis.position.present && inside(axis.sensor_m)) {
@@ -122,8 +122,8 @@ void ChannelSupervisor::judge_muscle(const AxisEvidence& axis, const HeaterEvide
   if (heater.probe_failed) verdict_.note(heater_open, true, open_);
 }
 
-void ChannelSupervisor::judge_commands(const CommandEvidence& commands, const AxisEvidence& axis,
-                                       const HeaterEvidence& heater) {
+void ChannelSupervisor::judge_commands(const CommandInputs& commands, const AxisInputs& axis,
+                                       const HeaterInputs& heater) {
   using enum Fault;
   // Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
   const bool unmet_demand =

@@ -1,12 +1,12 @@
 // May this channel be hot? All of a channel's detectors, and nothing but they.
 #pragma once
 
+#include "supervisor/channel_inputs.hpp"
 #include "supervisor/detectors/heater.hpp"
 #include "supervisor/detectors/liveness.hpp"
 #include "supervisor/detectors/muscle.hpp"
 #include "supervisor/detectors/response.hpp"
 #include "supervisor/detectors/sensor.hpp"
-#include "supervisor/evidence.hpp"
 #include "supervisor/supervision.hpp"
 #include "supervisor/verdict.hpp"
 
@@ -22,8 +22,7 @@ class ChannelSupervisor {
 
   /// One tick: the fault of this tick, or none.
   /// After an overrun it is called once for each period that passed.
-  Fault step(const AxisEvidence& axis, const HeaterEvidence& heater,
-             const CommandEvidence& commands);
+  Fault step(const AxisInputs& axis, const HeaterInputs& heater, const CommandInputs& commands);
   const Verdict& verdict() const { return verdict_; }
   /// Whether a working sensor can give this.
   bool inside(double sensor_m) const {
@@ -33,12 +32,12 @@ class ChannelSupervisor {
   void rearmed() { lost_.reset(); }
 
  private:
-  void judge_sensors(const AxisEvidence& axis, const HeaterEvidence& heater);
-  void judge_heater(const HeaterEvidence& heater);
-  void judge_answer(const AxisEvidence& axis, const HeaterEvidence& heater);
-  void judge_muscle(const AxisEvidence& axis, const HeaterEvidence& heater);
-  void judge_commands(const CommandEvidence& commands, const AxisEvidence& axis,
-                      const HeaterEvidence& heater);
+  void judge_sensors(const AxisInputs& axis, const HeaterInputs& heater);
+  void judge_heater(const HeaterInputs& heater);
+  void judge_answer(const AxisInputs& axis, const HeaterInputs& heater);
+  void judge_muscle(const AxisInputs& axis, const HeaterInputs& heater);
+  void judge_commands(const CommandInputs& commands, const AxisInputs& axis,
+                      const HeaterInputs& heater);
 
   ChannelSupervision settings_;
   Verdict verdict_;

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "config/renamed_keys.hpp"
-#include "text/nearest.hpp"
 #include "config/section.hpp"
 #include "text/nearest.hpp"
 

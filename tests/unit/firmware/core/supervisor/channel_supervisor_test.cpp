@@ -16,9 +16,9 @@ using supercoil::test::tick_s;
 namespace {
 
 struct ChannelInputs {
-  AxisEvidence axis;
-  HeaterEvidence heater;
-  CommandEvidence commands;
+  AxisInputs axis;
+  HeaterInputs heater;
+  CommandInputs commands;
 };
 
 /// A muscle of 10 Ohm that is heated with 3.6 W, hot and where it should be.

@@ -8,7 +8,7 @@
 namespace supercoil {
 
 /// Of the muscle's motion, at this tick.
-struct AxisEvidence {
+struct AxisInputs {
   board::Measured position;         ///< in m, calibrated
   double sensor_m = 0.0;            ///< the same as the sensor gives it
   double position_elapsed_s = 0.0;  ///< since the last fresh position; 0: this one is not fresh
@@ -20,7 +20,7 @@ struct AxisEvidence {
 };
 
 /// Of the heater, at this tick.
-struct HeaterEvidence {
+struct HeaterInputs {
   board::Measured current;  ///< in A, averaged
   double supply_V = 0.0;
   bool hot = false;   ///< the muscle may be warmer than the air
@@ -44,7 +44,7 @@ struct HeaterEvidence {
 };
 
 /// Of the commands since the last tick.
-struct CommandEvidence {
+struct CommandInputs {
   bool heating = false;  ///< a command to heat is in force
   bool renewed = false;
   bool damaged = false;

@@ -67,7 +67,7 @@ inline constexpr std::array quantities{
     Quantity{"gain", value_of<&Row::gain>},
     Quantity{"result", value_of<&Row::result>, result_name},
     Quantity{"multiplexed_selector", value_of<&Row::multiplexed_selector>, multiplexed_name},
-    Quantity{"aside", value_of<&Row::multiplexed_value>},
+    Quantity{"multiplexed_value", value_of<&Row::multiplexed_value>},
     Quantity{"identify_notes", value_of<&Row::identify_notes>},
 };
 /// Those that have a signal, and no column: the format of CSV is older.

@@ -84,7 +84,7 @@ hal::CanFrame tracking(can::Node node, const Row& row) {
 }
 
 hal::CanFrame power(can::Node node, const Row& row) {
-  return encoder<message::power>(node, row).set("demanded_W", row.demanded_W).frame();
+  return encoder<message::power>(node, row).frame();
 }
 
 hal::CanFrame heater(can::Node node, const Row& row) {

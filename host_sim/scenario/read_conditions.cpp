@@ -1,5 +1,3 @@
-#include "scenario/read_conditions.hpp"
-
 #include <cmath>
 #include <sstream>
 
@@ -8,8 +6,7 @@
 #include "board/applied_power.hpp"
 #include "config/read_control.hpp"
 #include "config/section.hpp"
-#include "scenario/read_plant.hpp"
-#include "scenario/read_reference.hpp"
+#include "scenario/read_tables.hpp"
 
 namespace supercoil::host_sim {
 

@@ -1,9 +1,8 @@
-#include "scenario/read_plant.hpp"
-
 #include <sstream>
 
 #include "config/read_control.hpp"
 #include "plant/presets.hpp"
+#include "scenario/read_tables.hpp"
 
 namespace supercoil::host_sim {
 

@@ -1,4 +1,4 @@
-#include "scenario/read_reference.hpp"
+#include "scenario/read_tables.hpp"
 
 namespace supercoil::host_sim {
 

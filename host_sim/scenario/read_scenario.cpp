@@ -8,7 +8,7 @@
 #include "config/section.hpp"
 #include "config/toml_file.hpp"
 #include "scenario/builtin.hpp"
-#include "scenario/read_conditions.hpp"
+#include "scenario/read_tables.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::host_sim {

@@ -1,11 +1,10 @@
-#include "apps/supercoild/check_command.hpp"
-
 #include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/common/exit_status.hpp"
+#include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "apps/supercoild/storage_worker.hpp"
 #include "config/board_config.hpp"

@@ -7,11 +7,8 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/exit_status.hpp"
-#include "apps/supercoild/check_command.hpp"
-#include "apps/supercoild/latency/latency_command.hpp"
+#include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
-#include "apps/supercoild/off_command.hpp"
-#include "apps/supercoild/run_command.hpp"
 
 namespace {
 

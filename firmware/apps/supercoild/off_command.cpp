@@ -1,10 +1,9 @@
-#include "apps/supercoild/off_command.hpp"
-
 #include <cstdio>
 #include <string>
 #include <vector>
 
 #include "apps/common/exit_status.hpp"
+#include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/log.hpp"
 #include "config/board_config.hpp"
 #include "linux_board/lock_file.hpp"

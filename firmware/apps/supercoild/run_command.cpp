@@ -1,5 +1,3 @@
-#include "apps/supercoild/run_command.hpp"
-
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -14,6 +12,7 @@
 
 #include "apps/common/exit_status.hpp"
 #include "apps/supercoild/bus_watch.hpp"
+#include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/ending_signals.hpp"
 #include "apps/supercoild/log.hpp"
 #include "apps/supercoild/loop_thread.hpp"

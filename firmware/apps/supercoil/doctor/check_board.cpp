@@ -9,13 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "supercoil/hal_linux/check/can_interface.hpp"
-#include "supercoil/hal_linux/check/competing_threads.hpp"
-#include "supercoil/hal_linux/check/kernel.hpp"
-#include "supercoil/hal_linux/check/rights.hpp"
-#include "supercoil/hal_linux/check/watchdog.hpp"
+#include "supercoil/hal_linux/checks.hpp"
 
-#include "apps/supercoil/doctor/check_buses.hpp"
 #include "apps/supercoil/doctor/check_devices.hpp"
 #include "linux_board/lock_file.hpp"
 #include "telemetry/schedule.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "supercoil/hal/board_check.hpp"
-#include "supercoil/hal_linux/check/loop_thread_settings.hpp"
+#include "supercoil/hal_linux/checks.hpp"
 #include "supercoil/hal_linux/machine.hpp"
 
 #include "config/board_config.hpp"

@@ -1,8 +1,7 @@
-#include "apps/supercoil/doctor/check_buses.hpp"
-
 #include <array>
 #include <cstdio>
 
+#include "apps/supercoil/doctor/check_devices.hpp"
 #include "config/bus_time.hpp"
 
 namespace supercoil::doctor {

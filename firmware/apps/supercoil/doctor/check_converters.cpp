@@ -1,8 +1,7 @@
-#include "apps/supercoil/doctor/check_converters.hpp"
-
 #include "supercoil/hal_linux/monotonic_clock.hpp"
 
 #include "apps/supercoil/doctor/call_time.hpp"
+#include "apps/supercoil/doctor/check_devices.hpp"
 #include "apps/supercoil/doctor/readings.hpp"
 #include "config/describe.hpp"
 

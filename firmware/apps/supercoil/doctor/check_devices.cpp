@@ -2,9 +2,6 @@
 
 #include <set>
 
-#include "apps/supercoil/doctor/check_converters.hpp"
-#include "apps/supercoil/doctor/check_lines.hpp"
-#include "apps/supercoil/doctor/check_pwm.hpp"
 #include "linux_board/parts.hpp"
 
 namespace supercoil::doctor {

@@ -1,6 +1,5 @@
-#include "apps/supercoil/doctor/check_lines.hpp"
-
 #include "apps/supercoil/doctor/call_time.hpp"
+#include "apps/supercoil/doctor/check_devices.hpp"
 #include "config/describe.hpp"
 
 namespace supercoil::doctor {

@@ -1,6 +1,5 @@
-#include "apps/supercoil/doctor/check_pwm.hpp"
-
 #include "apps/supercoil/doctor/call_time.hpp"
+#include "apps/supercoil/doctor/check_devices.hpp"
 
 namespace supercoil::doctor {
 

@@ -1,5 +1,3 @@
-#include "apps/supercoild/latency/latency_command.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +6,7 @@
 #include <optional>
 
 #include "apps/common/exit_status.hpp"
+#include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/ending_signals.hpp"
 #include "apps/supercoild/latency/inert_board.hpp"
 #include "apps/supercoild/latency/report.hpp"

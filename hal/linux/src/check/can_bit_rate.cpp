@@ -8,7 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "supercoil/hal_linux/check/can_interface.hpp"
+#include "supercoil/hal_linux/checks.hpp"
 #include "supercoil/hal_linux/descriptor.hpp"
 
 namespace supercoil::hal_linux {

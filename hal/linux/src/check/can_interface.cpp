@@ -1,8 +1,7 @@
-#include "supercoil/hal_linux/check/can_interface.hpp"
-
 #include <charconv>
 
 #include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/checks.hpp"
 #include "supercoil/hal_linux/device_folder.hpp"
 
 namespace supercoil::hal_linux {

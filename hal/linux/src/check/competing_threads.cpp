@@ -1,5 +1,3 @@
-#include "supercoil/hal_linux/check/competing_threads.hpp"
-
 #include <charconv>
 #include <map>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <sched.h>
 
 #include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/checks.hpp"
 #include "supercoil/hal_linux/device_folder.hpp"
 
 namespace supercoil::hal_linux {

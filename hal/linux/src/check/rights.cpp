@@ -1,5 +1,3 @@
-#include "supercoil/hal_linux/check/rights.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -10,6 +8,7 @@
 #include <pthread.h>
 
 #include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/checks.hpp"
 #include "supercoil/hal_linux/realtime.hpp"
 #include "supercoil/hal_linux/thread.hpp"
 

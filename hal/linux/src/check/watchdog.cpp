@@ -1,5 +1,3 @@
-#include "supercoil/hal_linux/check/watchdog.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <optional>
@@ -11,6 +9,7 @@
 #include <unistd.h>
 
 #include "supercoil/hal_linux/attribute.hpp"
+#include "supercoil/hal_linux/checks.hpp"
 #include "supercoil/hal_linux/device_folder.hpp"
 
 namespace supercoil::hal_linux {

@@ -1,5 +1,3 @@
-#include "supercoil/hal_linux/check/can_interface.hpp"
-
 #include <cstring>
 
 #include <linux/can/netlink.h>
@@ -7,6 +5,8 @@
 #include <linux/rtnetlink.h>
 
 #include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal_linux/checks.hpp"
 
 #include "unit/hal_linux/check/told.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"

@@ -1,8 +1,8 @@
-#include "supercoil/hal_linux/check/competing_threads.hpp"
-
 #include <sched.h>
 
 #include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal_linux/checks.hpp"
 
 #include "unit/hal_linux/check/told.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"

@@ -1,6 +1,6 @@
-#include "supercoil/hal_linux/check/kernel.hpp"
-
 #include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal_linux/checks.hpp"
 
 #include "unit/hal_linux/check/told.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"

@@ -1,8 +1,8 @@
-#include "supercoil/hal_linux/check/watchdog.hpp"
-
 #include <cerrno>
 
 #include <CppUTest/TestHarness.h>
+
+#include "supercoil/hal_linux/checks.hpp"
 
 #include "unit/hal_linux/check/told.hpp"
 #include "unit/hal_linux/support/system_calls.hpp"

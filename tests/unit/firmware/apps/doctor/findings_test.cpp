@@ -4,8 +4,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include "apps/supercoil/doctor/call_time.hpp"
-#include "apps/supercoil/doctor/check_buses.hpp"
-#include "apps/supercoil/doctor/check_lines.hpp"
+#include "apps/supercoil/doctor/check_devices.hpp"
 #include "unit/hal_linux/check/told.hpp"
 
 using namespace supercoil;

@@ -4,9 +4,20 @@
 #include <toml++/toml.h>
 
 #include "config/diagnostics.hpp"
+#include "config/section.hpp"
+#include "scenario/conditions.hpp"
+#include "scenario/reference.hpp"
 #include "scenario/scenario.hpp"
 
 namespace supercoil::host_sim {
+
+/// Finishes the section.
+PlantSettings read_plant(config::Section section);
+
+/// Its physical parameters alone. Does not finish the section.
+control::PhysicalParameters read_plant_parameters(config::Section& section);
+
+Reference read_reference(config::Section& section);
 
 /// [muscle], what the board believes; each key that is absent is as in [plant].
 control::PhysicalParameters read_muscle(const toml::table& document,

@@ -10,6 +10,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// Of summary.json: grows when a key is renamed or means something else. Version 0.1.0 of the
+/// programs wrote 1, without saying so.
+constexpr int schema_version = 2;
+
 /// JSON has no infinity: null.
 ordered_json finite(double value) {
   return std::isfinite(value) ? ordered_json(value) : nullptr;
@@ -59,7 +63,11 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
                               double wall_s) const {
   const bool measured = tracking_.count() > 0;
   ordered_json json;
+  json["schema_version"] = schema_version;
+  json["program_version"] = SUPERCOIL_VERSION;
   json["scenario"] = scenario.name;
+  json["scenario_crc32"] = scenario.crc32;
+  json["seed"] = scenario.seed;
   json["controller"] = control::name_of(control::controller_names, scenario.start.controller.kind);
   json["arithmetic"] =
       control::name_of(control::arithmetic_names, scenario.start.controller.arithmetic);
@@ -85,6 +93,12 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["ticks_outside_temperature_interval"] = outside_interval_ticks_;
   json["hottest_temperature_rise_K"] = finite(simulation.plant().peak_temperature_rise_K());
   json["limited_ticks"] = limited_ticks_;
+  json["limited_by_ratio"] = ordered_json::object();
+  for (std::size_t i = 1; i < limit_names.size(); ++i) {
+    if (limit_ticks_.at(i) == 0) continue;
+    json["limited_by_ratio"][std::string(limit_names.at(i))] =
+        static_cast<double>(limit_ticks_.at(i)) / static_cast<double>(ticks_);
+  }
   json["not_finite_ticks"] = not_finite_ticks_;
   json["oscillated_at_s"] = finite(oscillated_at_s_);
   json["ticks"] = ticks_;

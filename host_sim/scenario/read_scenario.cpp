@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
+
+#include <boost/crc.hpp>
 
 #include "config/section.hpp"
 #include "config/toml_file.hpp"
@@ -57,6 +60,15 @@ void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostic
 }
 
 /// An event as it is written, without its time.
+std::uint32_t crc32_of(const toml::table& document) {
+  std::ostringstream text;
+  text << document;
+  const std::string written = text.str();
+  boost::crc_32_type crc;
+  crc.process_bytes(written.data(), written.size());
+  return crc.checksum();
+}
+
 struct WrittenEvent {
   double at_s;
   bool reset;
@@ -125,6 +137,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   config::Diagnostics diagnostics(name);
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
+  scenario.crc32 = crc32_of(document);
   read_simulation(document, scenario, diagnostics);
   std::vector<WrittenEvent> events = take_events(document, scenario.duration_s, diagnostics);
   const auto configured = read_muscle(document, diagnostics);

@@ -22,6 +22,7 @@ struct Event {
 
 struct Scenario {
   std::string name;
+  std::uint32_t crc32 = 0;  ///< of what is written, without comments and order of keys
   double duration_s = 200.0;
   double rate_Hz = 1000.0;
   std::uint64_t seed = 1;

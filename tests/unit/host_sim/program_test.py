@@ -308,6 +308,23 @@ class Program(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         json.loads((self.path / "out/summary.json").read_text())
 
+    def summary_of(self, text):
+        self.assertEqual(self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--quiet").returncode, 0)
+        return json.loads((self.path / "out/summary.json").read_text())
+
+    def test_summary_says_what_was_run_and_which_results_belong_together(self):
+        summary = self.summary_of(SHORT)
+        version = self.run_program("--version").stdout.strip()
+        self.assertEqual((summary["schema_version"], summary["program_version"], summary["seed"]), (2, version, 1))
+        self.assertEqual(self.summary_of("# another comment\n" + SHORT)["scenario_crc32"], summary["scenario_crc32"])
+        self.assertNotEqual(self.summary_of(SHORT + "power.pwm_bits = 11\n")["scenario_crc32"], summary["scenario_crc32"])
+
+    def test_summary_has_the_share_of_ticks_at_each_limit(self):
+        summary = self.summary_of(SHORT + "power.max_W = 0.01\n")
+        self.assertGreater(summary["limited_by_ratio"]["maximum"], 0.5)
+        self.assertLessEqual(sum(summary["limited_by_ratio"].values()), 1.0)
+        self.assertNotIn("nothing", summary["limited_by_ratio"])
+
     def test_says_beforehand_that_a_slow_muscle_cannot_follow_its_reference_model(self):
         slow = SHORT + "[plant]\nthermal_mass_J_per_K = 2.0\n"
         told = self.run_program("run", self.scenario(slow), "--check").stdout

@@ -18,9 +18,9 @@ AREAS = (
     Area("board", ("firmware/core/board/*",), WHOLE_FIRMWARE),
     Area("loop", ("firmware/core/loop/*",), WHOLE_FIRMWARE),
     Area("telemetry commands",
-         tuple(f"firmware/io/telemetry/{name}.*" for name in ("can_link", "commands", "e2e", "leases", "nodes", "opcodes",
-                                                           "run_settings")),
-         ("telemetry_tests", "loop_tests")),
+         (*(f"firmware/io/telemetry/{name}.*" for name in ("can_endpoint", "commands", "leases", "opcodes", "run_settings")),
+          *(f"firmware/io/can/{name}.*" for name in ("codec", "e2e", "nodes"))),
+         ("telemetry_tests", "can_client_tests", "loop_tests")),
     Area("storage", ("firmware/io/storage/*",), ("storage_tests",)),
     Area("Linux HAL", ("hal/linux/**/*",), ("hal_linux_tests", "gpio_tests", "bus_tests", "can_tests")),
 )

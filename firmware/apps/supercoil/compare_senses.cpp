@@ -106,10 +106,10 @@ class Guide {
     std::snprintf(text.data(), text.size(), " %.9g", value);
     auto taken = heated_->ask(verb + text.data());
     if (taken) return taken;
-    return tl::unexpected(taken.error() +
-                          ". This reading and the others do not fit one another, the senses or the "
-                          "configured resistance; the board has forgotten them and goes by what it "
-                          "went by before");
+    return tl::unexpected(
+        taken.error() +
+        ". This reading and the others do not fit one another, the senses or the "
+        "configured resistance; the board has forgotten them and uses what it used before");
   }
 
   OrEnded<double> ask(const std::string& question, const Range& allowed) {

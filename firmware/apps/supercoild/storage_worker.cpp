@@ -53,10 +53,9 @@ tl::expected<void, std::string> load_learned(config::BoardConfig& config,
                                              std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {
     if (!config.settings.channels[i].supervision.proof_of_response) {
-      log(Level::warning,
-          "channel " + std::to_string(i + 1) +
-              ": detectors.proof_of_response is false: nothing proves that a muscle "
-              "which is held still and hot answers");
+      log(Level::warning, "channel " + std::to_string(i + 1) +
+                              ": detectors.proof_of_response is false: nothing checks that a hot "
+                              "muscle at rest still responds");
     }
     const auto loaded = stores[i].load();
     if (!loaded) return tl::unexpected(loaded.error());

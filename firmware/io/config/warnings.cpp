@@ -109,7 +109,7 @@ void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings&
   const bool friction = c.response_ratio > 0.0 && c.response_ratio < 1.0;
   reason << (friction
                  ? "friction leaves too little of a small motion to stand out of noise in time: "
-                 : "a motion of 20 um or two counts is told from the sensor's noise too late for "
+                 : "a motion of 20 um or two counts stands out of the sensor's noise too late for "
                    "more: once identified, ")
          << "the muscle gets no more than " << std::nearbyint(1e2 * plan.provable_W) / 1e2
          << " W (limited_by unproven)";

@@ -150,8 +150,8 @@ TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
   const std::string quiet =
       describe(read(test::small_board_with("max_m = 0.041", "max_m = 0.041\nnoise_rms_m = 0.0")));
   check_says(quiet,
-             "channel 1: sensor_frozen: position.noise_rms_m is 0, and a frozen sensor cannot be "
-             "told from a quiet one\n");
+             "channel 1: sensor_frozen: position.noise_rms_m is 0, and a frozen sensor looks like "
+             "a quiet one\n");
   check_says(quiet, "channel 1: sensors_disagree: ");
   check_says(quiet, "board: no watchdog: ");
   const std::string coarse = describe(
@@ -177,7 +177,7 @@ TEST(BoardConfig, ThermalFuseIsAskedForAndJudgedAgainstTheTrip) {
 
 TEST(BoardConfig, DescriptionSaysWhatNarrowsTheTemperatureInterval) {
   check_says(describe(read(test::small_board)),
-             "not weighed (thermal.weighed_mass_error_ratio): position and power tell the time "
+             "not weighed (thermal.weighed_mass_error_ratio): position and power give the time "
              "constant only; no thermometer was read (compare_rise)");
   BoardConfig weighed = read(test::small_board_with(
       "[channel.limits]",

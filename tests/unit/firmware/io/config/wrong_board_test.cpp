@@ -49,7 +49,7 @@ TEST(WrongBoard, KeyThatWasRenamedNamesTheNewOne) {
                  "b.toml:11: can.most_load = 0.5: was renamed in 0.2.0: write can.max_load");
   // Once, although the new one is required.
   check_replaced("max_m = 0.041", "highest_m = 0.041",
-                 "b.toml:28: channel[1].position.highest_m = 0.041: was renamed in 0.2.0: write "
+                 "b.toml:27: channel[1].position.highest_m = 0.041: was renamed in 0.2.0: write "
                  "channel[1].position.max_m");
   check_answer(
       "b.toml:44: channel[1].estimator.lowest_part = 0.2: was renamed in 0.2.0: write "
@@ -228,8 +228,8 @@ TEST(WrongBoard, NoChannel) {
 
 TEST(WrongBoard, ThermalBoundsThatDoNotContainTheMuscle) {
   check_replaced("min_mass_J_per_K = 0.13", "min_mass_J_per_K = 0.17",
-                 "b.toml:35: channel[1].thermal.min_mass_J_per_K = 0.17: must not exceed what is "
-                 "believed: muscle.thermal_mass_J_per_K = 0.162");
+                 "b.toml:35: channel[1].thermal.min_mass_J_per_K = 0.17: must not exceed the "
+                 "believed value: muscle.thermal_mass_J_per_K = 0.162");
   check_replaced("max_transfer_W_per_K = 0.18", "max_transfer_W_per_K = 0.08",
                  "b.toml:38: channel[1].thermal.max_transfer_W_per_K = 0.08: must not be less "
                  "than the believed value: muscle.heat_transfer_W_per_K = 0.089");
@@ -261,7 +261,7 @@ TEST(WrongBoard, LawThatDoesNotHoldItsMuscle) {
                  "max_travel_m = 0.025\n"
                  "[channel.controller]\nkind = 'mrac_ls'\nbandwidth_rad_per_s = 5.0\n",
                  "b.toml:43: channel[1].controller.kind = 'mrac_ls': is unstable on this muscle, "
-                 "even when it has adapted to it, with 1 ms of delay: lower its "
+                 "even when adapted, with 1 ms of delay: lower its "
                  "bandwidth_rad_per_s, or shorten the delay");
 }
 

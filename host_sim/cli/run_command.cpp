@@ -83,8 +83,8 @@ int run_command(const RunOptions& options) {
       OutputFolder::open(options.out.empty() ? "supercoil-out/" + scenario->name : options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
 
-  if (!options.quiet) tell_feasibility(*scenario, true);
   if (options.real_time) return live_run(options, *scenario, *window, *folder, store);
+  if (!options.quiet) tell_feasibility(*scenario, true);
   return lockstep_run(options, *scenario, *window, *folder, store);
 }
 

@@ -14,7 +14,7 @@ import cantools
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
 LINE = re.compile(r"\((\d+\.\d+)\) can0 ([0-9A-F]{3})#([0-9A-F]*)")
-SCENARIO = "simulation.duration_s = 4.0\n[[event]]\nat_s = 3.0\ntrouble.heater_open = true\n"
+SCENARIO = "simulation.duration_s = 4.0\n[[event]]\nat_s = 3.0\ninjected_fault.heater_open = true\n"
 # Of a float in nine digits.
 RELATIVE = 1e-7
 
@@ -110,7 +110,7 @@ class Log(unittest.TestCase):
                 (("can.log", "--summary"), 2, "is a CAN log"),
                 (("can.log", "--node", "64"), 2, "--node"),
                 (("can.log", "--from", "1e6"), 2, "no such frames"),
-                (("flight-1.scfr", "--message", "Power"), 2, "is no CAN log"),
+                (("flight-1.scfr", "--message", "Power"), 2, "is not a CAN log"),
                 (("half.log",), 0, "half.log:"), (("none.log",), 2, "there is no such file")):
             done = self.log(*arguments)
             self.assertEqual(done.returncode, status, arguments)

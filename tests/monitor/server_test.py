@@ -270,7 +270,7 @@ class Sources(unittest.TestCase):
         with socket.create_server(("127.0.0.1", 0)) as other:
             done = self.run_monitor(f"socketcand:{other.getsockname()[1]}")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("is no socketcand", done.stderr)
+        self.assertIn("is not socketcand", done.stderr)
 
     def test_a_log_with_damaged_lines_is_shown_without_them(self):
         log = self.path / "can.log"

@@ -9,7 +9,9 @@ target_compile_options(supercoil_options INTERFACE
   # Contracted multiply-adds would make arm64 and x86-64 differ in the last bit.
   -ffp-contract=off)
 # Libraries' functions are found when a program starts: none is looked up in a tick.
-target_link_options(supercoil_options INTERFACE -Wl,-z,now)
+target_link_options(supercoil_options INTERFACE -Wl,-z,now
+  # What a program does not use of our libraries is left out: supercoild locks all of itself in memory.
+  -Wl,--gc-sections)
 
 if(SUPERCOIL_SANITIZE)
   # -O1: at -O0 the suite takes ten times as long; -g1: half of -g's time to compile, and names and lines remain.

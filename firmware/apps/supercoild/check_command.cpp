@@ -39,6 +39,7 @@ Json json_of(const std::vector<config::Problem>& problems) {
     json.push_back({{"file", problem.file},
                     {"line", problem.line},
                     {"key", problem.key},
+                    {"value", problem.value},
                     {"message", problem.message}});
   }
   return json;

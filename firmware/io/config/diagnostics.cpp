@@ -6,6 +6,8 @@ std::string Problem::text() const {
   std::string result = file;
   if (line > 0) result += ":" + std::to_string(line);
   if (!key.empty()) result += ": " + key;
+  if (!value.empty()) result += " = " + value;
+  if (of_default) result += " (its default)";
   return result + ": " + message;
 }
 

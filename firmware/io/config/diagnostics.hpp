@@ -13,8 +13,10 @@ struct Problem {
   int line = 0;     ///< 0: the file as a whole
   std::string key;  ///< the whole path, e.g. plant.moving_mass_kg; empty for the file as a whole
   std::string message;
+  std::string value{};      ///< of the key, as it is written; "" where it has none
+  bool of_default = false;  ///< the key is absent, and its default is wrong here
 
-  /// "file:line: key: message"
+  /// "file:line: key = value: message"
   std::string text() const;
 };
 
@@ -23,8 +25,10 @@ class Diagnostics {
  public:
   explicit Diagnostics(std::string file) : file_(std::move(file)) {}
 
-  void add(int line, std::string key, std::string message) {
-    problems_.push_back({file_, line, std::move(key), std::move(message)});
+  void add(int line, std::string key, std::string message, std::string value = {},
+           bool of_default = false) {
+    problems_.push_back(
+        {file_, line, std::move(key), std::move(message), std::move(value), of_default});
   }
   bool empty() const { return problems_.empty(); }
   const std::vector<Problem>& problems() const { return problems_; }

@@ -74,8 +74,7 @@ void Section::wrong(std::string_view key, const std::string& message) {
   const toml::node* node = look(key).node;
   const int place = node == nullptr ? line() : static_cast<int>(node->source().begin.line);
   const bool has_value = node != nullptr && !node->is_table() && !node->is_array_of_tables();
-  const std::string value = has_value ? " = " + shown(*node) : "";
-  diagnostics_->add(place, full(key) + value + (node == nullptr ? " (its default)" : ""), message);
+  diagnostics_->add(place, full(key), message, has_value ? shown(*node) : "", node == nullptr);
 }
 
 double Section::number(std::string_view key, double fallback, Range range) {

@@ -55,13 +55,13 @@ TEST(Accidents, SensorsWireComesOffWhileFullPowerIsAskedFor) {
       "simulation.duration_s = 60.0\ncontroller.kind = 'power'\n"
       "reference = {kind = 'power', offset_W = 4.5, amplitudes_W = [0.0], "
       "angular_frequencies_rad_per_s = [1.0]}\n"
-      "[[event]]\nat_s = 20.0\ntrouble.position_loose = true\n");
+      "[[event]]\nat_s = 20.0\ninjected_fault.position_loose = true\n");
   check_cold(by_power, Fault::sensor_out_of_range);
   DOUBLES_EQUAL(20.005, by_power.fault_s, 0.005);
   // A set point that it never reaches: full power as well.
   const Aftermath by_position = aftermath_of(
       "simulation.duration_s = 60.0\ncontroller.kind = 'pi'\nreference = " + constant("0.030") +
-      "[[event]]\nat_s = 20.0\ntrouble.position_loose = true\n");
+      "[[event]]\nat_s = 20.0\ninjected_fault.position_loose = true\n");
   check_cold(by_position, Fault::sensor_out_of_range);
   DOUBLES_EQUAL(20.005, by_position.fault_s, 0.005);
 }
@@ -73,7 +73,7 @@ TEST(Accidents, DetachedSensorShowsFourKelvinTooLittleForEver) {
     const Aftermath after =
         aftermath_of("simulation.duration_s = 90.0\ncontroller.kind = '" + std::string(controller) +
                      "'\nreference = " + constant("0.00054") +
-                     "[[event]]\nat_s = 20.0\ntrouble.muscle_slack = true\n"
+                     "[[event]]\nat_s = 20.0\ninjected_fault.muscle_slack = true\n"
                      "reference = " +
                      constant("0.00269"));
     check_cold(after, Fault::heater_not_responding);

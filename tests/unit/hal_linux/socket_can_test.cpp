@@ -210,7 +210,7 @@ TEST(SocketCan, RefusesPlacesThatCannotBe) {
                problem_of_opening().c_str());
   for (const char* name : {"", "../can0", "a_name_of_sixteen"}) {
     place = {name, {}, kernel.net.path()};
-    STRCMP_CONTAINS("is no name of a network interface", problem_of_opening().c_str());
+    STRCMP_CONTAINS("is not a network interface name", problem_of_opening().c_str());
   }
   LONGS_EQUAL(0, kernel.sockets);
 }

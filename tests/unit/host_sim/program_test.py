@@ -33,7 +33,7 @@ class Program(unittest.TestCase):
         return "s.toml"
 
     def test_a_fault_is_told_summarised_and_recorded(self):
-        text = "simulation.duration_s = 14.0\n[[event]]\nat_s = 12.0\ntrouble.heater_open = true\n"
+        text = "simulation.duration_s = 14.0\n[[event]]\nat_s = 12.0\ninjected_fault.heater_open = true\n"
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace")
         self.assertEqual((done.returncode, done.stderr),
                          (1, "supercoil-sim: the run ended in fault 20 heater_open; docs/faults/heater_open.md (--allow-fault: "
@@ -50,8 +50,8 @@ class Program(unittest.TestCase):
 
     def test_the_exit_status_tells_whether_anything_was_followed(self):
         options = ["--out", "out", "--no-plot", "--no-trace", "--no-can"]
-        broken = "simulation.duration_s = 3.0\n[[event]]\nat_s = 1.0\ntrouble.heater_open = true\n"
-        mended = broken + "[[event]]\nat_s = 2.0\nreset = true\ntrouble.heater_open = false\n"
+        broken = "simulation.duration_s = 3.0\n[[event]]\nat_s = 1.0\ninjected_fault.heater_open = true\n"
+        mended = broken + "[[event]]\nat_s = 2.0\nreset = true\ninjected_fault.heater_open = false\n"
         for text, allowed, status, told in (
                 (broken, False, 1, "ended in fault 20 heater_open"), (broken, True, 0, "ended in fault 20 heater_open"),
                 (mended, False, 0, ""), (SHORT + "injected_fault.stop_pressed = true\n", False, 1, "never armed: fault 63 emergency_stop"),
@@ -115,7 +115,7 @@ class Program(unittest.TestCase):
         # The muscle follows a reference model from 15 to 20 s only.
         self.run_program("run", self.scenario(
             "simulation.duration_s = 40.0\noperator.action = 'calibrate'\n[[event]]\nat_s = 15.0\noperator.action = 'track'\n"
-            "[[event]]\nat_s = 20.0\ntrouble.heater_open = true\n"), "--out", "out", "--no-trace", "--no-can")
+            "[[event]]\nat_s = 20.0\ninjected_fault.heater_open = true\n"), "--out", "out", "--no-trace", "--no-can")
         drawing = (self.path / "out/plot.svg").read_text()
         self.assertLessEqual({"disarmed", "armed", "active", "fault"}, set(re.findall("<text>(.*)</text>", drawing)))
         ends = re.findall(r'translate\(([\d.]+),[\d.]+\)"[^>]*text-anchor="middle"[^>]*>\s*<text> *40</text>', drawing)
@@ -175,7 +175,7 @@ class Program(unittest.TestCase):
     def test_a_misspelt_name_is_told_with_the_one_that_was_meant(self):
         self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
         self.check_refused("'fly' is not a command; the commands are: run, reproduce, ", "fly")
-        self.check_refused("no built-in scenario is called so; did you mean sine?", "run", "sin", "--out", "out")
+        self.check_refused("no built-in scenario has that name; did you mean sine?", "run", "sin", "--out", "out")
         self.check_refused("no built-in scenario is called so; they are: b, bench, ", "run", "zzz", "--out", "out")
 
     def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
@@ -288,7 +288,7 @@ class Program(unittest.TestCase):
         done = self.run_program("run", self.scenario(
             SHORT + "controller = {p0_rad_per_s = -1000.0, accept_failed_premises = true}"),
             "--out", "out", "--no-plot")
-        self.assertIn("power was no number in", done.stderr)
+        self.assertIn("power was NaN in", done.stderr)
         summary = json.loads((self.path / "out/summary.json").read_text())
         self.assertGreater(summary["not_finite_ticks"], 0)
         self.assertIn(",nan,", (self.path / "out/trace.csv").read_text().replace("-nan", "nan"))

@@ -11,7 +11,7 @@ import unittest
 
 PROGRAM = os.environ["SUPERCOIL"]
 WRITE_SAMPLE = os.environ["WRITE_SAMPLE"]
-RECORDING_OF_0_1_0 = pathlib.Path(__file__).resolve().parents[2] / "fuzz/corpus/fuzz_recording/whole"
+RECORDING_OF_0_1_0 = pathlib.Path(__file__).resolve().parents[3] / "fuzz/corpus/fuzz_recording/whole"
 HEADER, ROW = 512, 112
 COLUMNS = ("time_s,channel,state,mode,fault,limited_by,controller,probing,trusted,limited,reference,model_m,"
            "position_m,demanded_W,applied_W,duty,supply_V,current_A,resistance_Ohm,resistance_age_s,coldest_C,"

@@ -172,7 +172,7 @@ class Compare(unittest.TestCase):
 
     def test_a_table_without_a_finite_value_is_drawn(self):
         (self.path / "broken.toml").write_text(
-            "[simulation]\nduration_s = 21.5\n[[event]]\nat_s = 0.5\ntrouble.heater_open = true\n")
+            "[simulation]\nduration_s = 21.5\n[[event]]\nat_s = 0.5\ninjected_fault.heater_open = true\n")
         said = self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--out", "out").stderr
         self.assertEqual(said, "")
         self.assertIn("no value to draw", (self.path / "out/compare.svg").read_text())

@@ -18,7 +18,7 @@ CORE = ["supercoil/control/", "supercoil/hal/", "board/", "loop/", "modes/", "su
 IO = ["can/", "can_client/", "config/", "plot/", "recorder/", "storage/", "telemetry/", "text/", "boost/crc.hpp", "toml++/",
       "tl/", "fcntl.h", "sys/", "unistd.h"]
 ALLOWED = {
-    "control": ["supercoil/control/", "Eigen/", "unsupported/Eigen/"],
+    "control": ["supercoil/control/", "Eigen/"],
     "identification": ["supercoil/control/", "supercoil/identification/", "Eigen/", "unsupported/Eigen/", "tl/"],
     "hal/include": ["supercoil/hal/"],
     "hal/linux": ["supercoil/hal/", "supercoil/hal_linux/", "tl/", "gpiod.h", "fcntl.h", "linux/", "net/if.h", "pthread.h",

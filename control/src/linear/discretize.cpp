@@ -1,10 +1,18 @@
 #include "supercoil/control/linear/discretize.hpp"
 
-#include <unsupported/Eigen/MatrixFunctions>
-
-#include <Eigen/LU>
+#include "supercoil/control/linear/matrix_exponential.hpp"
 
 namespace supercoil::control {
+namespace {
+
+template <int N>
+Matrix<double, N> exponential(Matrix<double, N> matrix) {
+  static_assert(N <= max_exponential_size);
+  replace_by_exponential({matrix.data(), N * N}, N);
+  return matrix;
+}
+
+}  // namespace
 
 template <int N, int Inputs>
 ZeroOrderHold<N, Inputs> zero_order_hold(const Matrix<double, N>& a,
@@ -12,9 +20,8 @@ ZeroOrderHold<N, Inputs> zero_order_hold(const Matrix<double, N>& a,
   Matrix<double, N + Inputs> block = Matrix<double, N + Inputs>::Zero();
   block.template topLeftCorner<N, N>() = a * step_s;
   block.template topRightCorner<N, Inputs>() = b * step_s;
-  const Matrix<double, N + Inputs> exponential = block.exp();
-  return {exponential.template topLeftCorner<N, N>(),
-          exponential.template topRightCorner<N, Inputs>()};
+  block = exponential(block);
+  return {block.template topLeftCorner<N, N>(), block.template topRightCorner<N, Inputs>()};
 }
 
 template <int N, int Inputs>
@@ -25,11 +32,11 @@ FirstOrderHold<N, Inputs> first_order_hold(const Matrix<double, N>& a,
   block.template topLeftCorner<N, N>() = a * step_s;
   block.template block<N, Inputs>(0, N) = b * step_s;
   block.template block<Inputs, Inputs>(N, N + Inputs).setIdentity();
-  const Matrix<double, size> exponential = block.exp();
+  block = exponential(block);
   FirstOrderHold<N, Inputs> result;
-  result.transition = exponential.template topLeftCorner<N, N>();
-  result.end = exponential.template block<N, Inputs>(0, N + Inputs);
-  result.start = exponential.template block<N, Inputs>(0, N) - result.end;
+  result.transition = block.template topLeftCorner<N, N>();
+  result.end = block.template block<N, Inputs>(0, N + Inputs);
+  result.start = block.template block<N, Inputs>(0, N) - result.end;
   return result;
 }
 

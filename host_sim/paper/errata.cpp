@@ -3,9 +3,8 @@
 #include <limits>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
-
 #include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/control/linear/eigenvalues.hpp"
 #include "supercoil/control/tracking/mrac.hpp"
 #include "supercoil/control/tracking/mrac_matching.hpp"
 #include "supercoil/control/tracking/mrac_premises.hpp"
@@ -27,7 +26,7 @@ using Complex = std::complex<double>;
 std::array<Complex, 2> roots(double c2, double c1, double c0) {
   Eigen::Matrix3d companion;
   companion << -c2, -c1, -c0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
-  const Eigen::Vector3cd values = companion.eigenvalues();
+  const Eigen::VectorXcd values = control::eigenvalues(companion);
   std::array<Complex, 2> result;
   for (const Complex& value : values) {
     if (std::abs(value.imag()) < 1e-9) result[0] = value;
@@ -232,7 +231,7 @@ void add_scale(Part& part) {
   Eigen::Matrix4d loop = Eigen::Matrix4d::Zero();
   loop.row(0) << -g.b2, -g.b1, -(g.b0 + 50.0 * g.b3), -2.5 * g.b3;
   loop.bottomLeftCorner<3, 3>().setIdentity();
-  const Eigen::Vector4cd values = loop.eigenvalues();
+  const Eigen::VectorXcd values = control::eigenvalues(loop);
   Complex worst = values[0];
   for (const Complex& value : values) {
     if (value.real() > worst.real()) worst = value;

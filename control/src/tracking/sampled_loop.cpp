@@ -1,9 +1,8 @@
 #include "supercoil/control/tracking/sampled_loop.hpp"
 
-#include <Eigen/Eigenvalues>
-
 #include "supercoil/control/actuator/state_space.hpp"
 #include "supercoil/control/linear/discretize.hpp"
+#include "supercoil/control/linear/eigenvalues.hpp"
 
 namespace supercoil::control {
 
@@ -154,7 +153,7 @@ double spectral_radius(const FixedLaw& law, const PhysicalParameters& muscle, do
     transition.col(SampledLoop::integral).setZero();
   }
   balance(transition);
-  const double radius = transition.eigenvalues().cwiseAbs().maxCoeff();
+  const double radius = eigenvalues(transition).cwiseAbs().maxCoeff();
   return std::pow(radius, step_s / sampling.step_s);
 }
 

@@ -15,8 +15,6 @@ namespace supercoil::operating {
 
 namespace {
 
-using recorder::Recording;
-
 class Lines {
  public:
   [[gnu::format(printf, 2, 3)]] void add(const char* format, ...) {
@@ -35,7 +33,7 @@ class Lines {
   std::string all_;
 };
 
-void print_fault(Lines& lines, const Recording& recording) {
+void print_fault(Lines& lines, const recorder::Recording& recording) {
   const recorder::Header& h = recording.header;
   if (h.fault == 0) {
     lines.add("No fault is in what could be read; times are relative to the last row.");
@@ -51,7 +49,7 @@ void print_fault(Lines& lines, const Recording& recording) {
 }
 
 /// Ticks that are further apart than one and a half periods have lost rows, or were left out.
-void print_extent(Lines& lines, const Recording& recording) {
+void print_extent(Lines& lines, const recorder::Recording& recording) {
   const auto& rows = recording.rows;
   lines.add("  recorded: %.3f s to %.3f s, %zu rows", recording.time_s(rows.front()),
             recording.time_s(rows.back()), rows.size());
@@ -74,7 +72,7 @@ void print_extent(Lines& lines, const Recording& recording) {
   }
 }
 
-void print_other_faults(Lines& lines, const Recording& recording) {
+void print_other_faults(Lines& lines, const recorder::Recording& recording) {
   std::array<std::uint8_t, 256> last{};
   constexpr int most = 20;
   int told = 0;
@@ -136,7 +134,8 @@ void print_last(Lines& lines, const Row& r) {
             number(r.resistance_Ohm).c_str(), number(r.resistance_age_s).c_str());
 }
 
-void print_channel(Lines& lines, const Recording& recording, int number_, const Channel& c) {
+void print_channel(Lines& lines, const recorder::Recording& recording, int number_,
+                   const Channel& c) {
   lines.add("channel %d", number_ + 1);
   if (c.last_before != nullptr) print_last(lines, *c.last_before);
   if (c.powers > 0) {
@@ -149,7 +148,7 @@ void print_channel(Lines& lines, const Recording& recording, int number_, const 
   }
 }
 
-void print_margins(Lines& lines, const Channel& c, const Recording& recording) {
+void print_margins(Lines& lines, const Channel& c, const recorder::Recording& recording) {
   if (c.margins.empty()) return;
   std::vector<const Row*> rows;
   for (const auto& [margin_selector, row] : c.margins)
@@ -166,7 +165,7 @@ void print_margins(Lines& lines, const Channel& c, const Recording& recording) {
 
 }  // namespace
 
-std::string summary(const Recording& recording) {
+std::string summary(const recorder::Recording& recording) {
   Lines lines;
   print_fault(lines, recording);
   print_extent(lines, recording);

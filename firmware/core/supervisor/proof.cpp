@@ -109,14 +109,14 @@ SmallSignal::Settings plan_small_signal(const ProofSettings& settings,
                                         const control::PhysicalParameters& muscle, double hold_W,
                                         double rate_Hz) {
   constexpr double time_constants = 5.0;
-  constexpr double max_s = 60.0;
+  constexpr double max_settle_s = 60.0;
   ProofSettings all_arrives = settings;
   all_arrives.response_ratio = 1.0;
   SmallSignal::Settings s;
   s.dither = plan_proof(all_arrives, muscle, rate_Hz).dither;
   // Both halves of the dither need room.
   s.hold_W = std::clamp(hold_W, 2.0 * s.dither.amplitude_W, 0.5 * settings.max_W);
-  s.settle_s = std::min(max_s, -time_constants / muscle.thermal_pole_rad_per_s());
+  s.settle_s = std::min(max_settle_s, -time_constants / muscle.thermal_pole_rad_per_s());
   s.rate_Hz = rate_Hz;
   s.step_s = steps_s(rate_Hz);
   s.noise_m = sensor_of(settings, rate_Hz).noise_m;

@@ -87,7 +87,6 @@ class Reader {
 }  // namespace
 
 std::uint32_t rows_crc32(std::string_view first, std::string_view second) {
-  // With a table: storage's own goes bit by bit, which takes too long for the rows of 16 channels.
   boost::crc_32_type crc;
   crc.process_bytes(first.data(), first.size());
   crc.process_bytes(second.data(), second.size());

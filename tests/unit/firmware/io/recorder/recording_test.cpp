@@ -120,6 +120,8 @@ TEST(Recording, TheLongestHeaderFits) {
 
 TEST(Recording, TheCrcIsThatOfStorage) {
   const std::string_view text = "123456789";
+  // The check value that catalogues of CRCs give for CRC-32.
+  LONGS_EQUAL(0xCBF43926, storage::crc32(text));
   LONGS_EQUAL(storage::crc32(text), recorder::rows_crc32(text));
   LONGS_EQUAL(storage::crc32(text), recorder::rows_crc32("1234", "56789"));
 }

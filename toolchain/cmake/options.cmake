@@ -1,6 +1,9 @@
 # What every target of supercoil is compiled with.
 option(SUPERCOIL_WARNINGS_ARE_ERRORS "What the presets set" OFF)
 
+# -O3, which is CMake's, takes a quarter longer to compile, and a simulation the same time.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
 add_library(supercoil_options INTERFACE)
 target_compile_options(supercoil_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${SUPERCOIL_WARNINGS_ARE_ERRORS}>:-Werror>

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   fuzz::require(scenario->ticks() > 0, "a scenario lasts at least a tick");
-  fuzz::require(check(host_sim::firmware_of(*scenario)).empty(), "its firmware would start");
+  fuzz::require(!check(host_sim::firmware_of(*scenario)), "its firmware would start");
   host_sim::simulated_board_of(*scenario);
   double last_s = 0.0;
   for (const host_sim::Event& event : scenario->events) {

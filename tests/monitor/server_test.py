@@ -218,7 +218,7 @@ class Live(OnSimulatedBoard):
         done = subprocess.run([SUPERCOIL, "monitor", self.source, "--port", str(served.port)], capture_output=True,
                               text=True, timeout=SLACK_S)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
-        self.assertIn(f"port {served.port} of 127.0.0.1 cannot be had", done.stderr)
+        self.assertIn(f"port {served.port} of 127.0.0.1 is not available", done.stderr)
 
     def test_a_script_commands_over_the_bus_and_a_second_master_is_refused(self):
         served = self.serve()

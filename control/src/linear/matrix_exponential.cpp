@@ -23,7 +23,8 @@ struct SquareMatrix {
 
  private:
   std::size_t index(int row, int column) const {
-    return static_cast<std::size_t>(column * size + row);
+    const int at = column * size + row;
+    return static_cast<std::size_t>(at);
   }
 };
 
@@ -62,13 +63,14 @@ double sum_even_and_odd(const Term& term, int count) {
 SquareMatrix operator*(const SquareMatrix& left, const SquareMatrix& right) {
   const int size = left.size;
   SquareMatrix product(size);
-  for (int column = 0; column < size; ++column)
+  for (int column = 0; column < size; ++column) {
     for (int row = 0; row < size; ++row) {
       const auto term = [&](int k) { return left(row, k) * right(k, column); };
       product(row, column) = size < 8                ? sum_in_halves(term, 0, size)
                              : column < size / 4 * 4 ? sum_even_and_odd(term, size)
                                                      : sum_in_turn(term, 0, size);
     }
+  }
   return product;
 }
 
@@ -81,13 +83,14 @@ struct Term {
 SquareMatrix polynomial(std::initializer_list<Term> terms, double unit) {
   const int size = terms.begin()->matrix.size;
   SquareMatrix sum(size);
-  for (int column = 0; column < size; ++column)
+  for (int column = 0; column < size; ++column) {
     for (int row = 0; row < size; ++row) {
       double value = terms.begin()->factor * terms.begin()->matrix(row, column);
       for (const Term* term = terms.begin() + 1; term != terms.end(); ++term)
         value += term->factor * term->matrix(row, column);
       sum(row, column) = value + unit * (row == column ? 1.0 : 0.0);
     }
+  }
   return sum;
 }
 
@@ -160,9 +163,10 @@ Pade pade_13(const SquareMatrix& a) {
 /// The largest sum of a column's magnitudes.
 double norm_1(const SquareMatrix& a) {
   double norm = 0.0;
-  for (int column = 0; column < a.size; ++column)
+  for (int column = 0; column < a.size; ++column) {
     norm =
         std::max(norm, sum_in_halves([&](int row) { return std::abs(a(row, column)); }, 0, a.size));
+  }
   return norm;
 }
 
@@ -182,9 +186,10 @@ void factorise(SquareMatrix& a, SquareMatrix& other) {
       for (int row = k + 1; row < size; ++row)
         a(row, k) /= a(k, k);
     }
-    for (int column = k + 1; column < size; ++column)
+    for (int column = k + 1; column < size; ++column) {
       for (int row = k + 1; row < size; ++row)
         a(row, column) -= a(row, k) * a(k, column);
+    }
   }
 }
 
@@ -197,12 +202,14 @@ void solve_lower(const SquareMatrix& lu, SquareMatrix& x) {
   for (int first = 0; first < size; first += panel) {
     const int end = std::min(first + panel, size);
     for (int column = 0; column < size; ++column) {
-      for (int k = first; k < end; ++k)
+      for (int k = first; k < end; ++k) {
         for (int row = k + 1; row < end; ++row)
           x(row, column) -= x(k, column) * lu(row, k);
-      for (int row = end; row < size; ++row)
+      }
+      for (int row = end; row < size; ++row) {
         x(row, column) -=
             sum_in_turn([&](int k) { return lu(row, k) * x(k, column); }, first, end - first);
+      }
     }
   }
 }
@@ -217,9 +224,10 @@ void solve_upper(const SquareMatrix& lu, SquareMatrix& x) {
         for (int row = first; row < k; ++row)
           x(row, column) -= x(k, column) * lu(row, k);
       }
-      for (int row = 0; row < first; ++row)
+      for (int row = 0; row < first; ++row) {
         x(row, column) -=
             sum_in_turn([&](int k) { return lu(row, k) * x(k, column); }, first, end - first);
+      }
     }
   }
 }

@@ -14,7 +14,7 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr time_t max_s = 2;
+constexpr time_t max_answer_s = 2;
 constexpr std::size_t max_answer = 8192;
 
 std::string reason() {
@@ -32,7 +32,7 @@ tl::expected<BoardSocket, std::string> BoardSocket::open(const std::string& path
   std::memcpy(address.sun_path, path.data(), path.size());
   BoardSocket socket(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   if (socket.file_ < 0) return tl::unexpected("no socket: " + reason());
-  const timeval patience{max_s, 0};
+  const timeval patience{max_answer_s, 0};
   ::setsockopt(socket.file_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
   if (::connect(socket.file_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     const bool nobody = errno == ENOENT || errno == ECONNREFUSED;

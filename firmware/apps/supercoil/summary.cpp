@@ -57,18 +57,18 @@ void print_extent(Lines& lines, const recorder::Recording& recording) {
   if (rate_Hz <= 0.0) return;
   lines.add("  %d channels at %g Hz", recording.header.channels, rate_Hz);
   std::int64_t gaps = 0;
-  double max_s = 0.0, max_at_s = 0.0;
+  double max_gap_s = 0.0, max_gap_at_s = 0.0;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const double before_s = recording.time_s(rows[i - 1]);
     const double gap_s = recording.time_s(rows[i]) - before_s;
     if (gap_s * rate_Hz <= 1.5) continue;
     ++gaps;
-    if (gap_s > max_s) max_at_s = before_s;
-    max_s = std::max(max_s, gap_s);
+    if (gap_s > max_gap_s) max_gap_at_s = before_s;
+    max_gap_s = std::max(max_gap_s, gap_s);
   }
   if (gaps > 0) {
     lines.add("  ticks are missing: %" PRId64 " gap%s, the longest of %.3f s from %.3f s on", gaps,
-              gaps == 1 ? "" : "s", max_s, max_at_s);
+              gaps == 1 ? "" : "s", max_gap_s, max_gap_at_s);
   }
 }
 

@@ -33,7 +33,7 @@ class ChannelSupervisor {
 
  private:
   void judge_sensors(const AxisInputs& axis, const HeaterInputs& heater);
-  void judge_heater(const HeaterInputs& heater);
+  void judge_heater(const HeaterInputs& e);
   void judge_answer(const AxisInputs& axis, const HeaterInputs& heater);
   void judge_muscle(const AxisInputs& axis, const HeaterInputs& heater);
   void judge_commands(const CommandInputs& commands, const AxisInputs& axis,

@@ -15,7 +15,7 @@ using namespace host_sim;
 namespace {
 
 /// Longer than identify ever takes.
-constexpr double max_s = 1300.0;
+constexpr double max_identify_s = 1300.0;
 
 Scenario parsed(const std::string& text) {
   auto scenario = parse_scenario(text, "identify.toml");
@@ -66,7 +66,7 @@ std::string scenario_of(const MuscleKind& kind, int seed, double duration_s, Hea
 }  // namespace
 
 Identified run_identify(const MuscleKind& kind, int seed, Heat heat) {
-  const Scenario scenario = parsed(scenario_of(kind, seed, max_s, heat));
+  const Scenario scenario = parsed(scenario_of(kind, seed, max_identify_s, heat));
   Simulation simulation(scenario);
   const Snapshot& snapshot = simulation.loop().channel(0).snapshot();
   Identified done;

@@ -145,8 +145,8 @@ TEST(Heat, OfASenseThatReadsTooLittleCurrentIsCutBeforeItGrows) {
 
 TEST(Heat, IsContainedAfterEveryTroubleOfTheHeater) {
   for (const char* faults : {"switch_stuck_on", "heater_open", "heater_short", "pwm_refuses"}) {
-    check_contained(faults, read(sine + std::string("[[event]]\nat_s = 60.0\ninjected_fault.") + faults +
-                                 " = true\n"));
+    check_contained(faults, read(sine + std::string("[[event]]\nat_s = 60.0\ninjected_fault.") +
+                                 faults + " = true\n"));
   }
 }
 

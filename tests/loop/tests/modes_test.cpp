@@ -153,7 +153,8 @@ TEST(Modes, IdentifyStoresNothingWhenTheMuscleHardlyMoves) {
 }
 
 TEST(Modes, IdentifyStoresNothingWhenCommandsStop) {
-  check_nothing("interrupted", identify + "[[event]]\nat_s = 30.0\ninjected_fault.commands_stop = true\n");
+  check_nothing("interrupted",
+                identify + "[[event]]\nat_s = 30.0\ninjected_fault.commands_stop = true\n");
 }
 
 TEST(Modes, CalibrateFindsZeroAndColdResistance) {

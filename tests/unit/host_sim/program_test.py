@@ -176,7 +176,7 @@ class Program(unittest.TestCase):
         self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
         self.check_refused("'fly' is not a command; the commands are: run, reproduce, ", "fly")
         self.check_refused("no built-in scenario has that name; did you mean sine?", "run", "sin", "--out", "out")
-        self.check_refused("no built-in scenario is called so; they are: b, bench, ", "run", "zzz", "--out", "out")
+        self.check_refused("no built-in scenario has that name; they are: b, bench, ", "run", "zzz", "--out", "out")
 
     def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
         def small_disk():

@@ -23,10 +23,12 @@ class Matrices {
     const double zeros = between(-1.0, 1.0);
     const int empty_rows = static_cast<int>(between(0.0, 3.0));
     Matrix<double, Size> matrix = Matrix<double, Size>::Zero();
-    for (int row = 0; row < Size - empty_rows; ++row)
-      for (int column = 0; column < Size; ++column)
+    for (int row = 0; row < Size - empty_rows; ++row) {
+      for (int column = 0; column < Size; ++column) {
         if (between(0.0, 1.0) > zeros)
           matrix(row, column) = scale * between(-1.0, 1.0) * std::pow(10.0, between(-2.0, 2.0));
+      }
+    }
     return matrix;
   }
 
@@ -46,12 +48,13 @@ int differing_matrices() {
     Matrix<double, Size> actual = matrices.next<Size>();
     const Matrix<double, Size> expected = actual.exp();
     supercoil::control::replace_by_exponential({actual.data(), Size * Size}, Size);
-    for (int k = 0; k < Size * Size; ++k)
+    for (int k = 0; k < Size * Size; ++k) {
       if (actual.data()[k] != expected.data()[k] &&
           !(std::isnan(actual.data()[k]) && std::isnan(expected.data()[k]))) {
         ++differing;
         break;
       }
+    }
   }
   return differing;
 }

@@ -63,7 +63,7 @@ TEST(CheckKernel, TellsTheShareOfRealTimeThreads) {
   root.write("proc/sys/kernel/sched_rt_runtime_us", "0\n");
   check_finding("problem", "may use 0 %", "sched_rt_runtime_us=950000", throttling());
   root.remove("proc/sys/kernel/sched_rt_runtime_us");
-  check_finding("warning", "not known: cannot open ", "a kernel that tells it", throttling());
+  check_finding("warning", "not known: cannot open ", "a kernel that reports it", throttling());
 }
 
 TEST(CheckKernel, NamesProcessorsThatSlowDown) {

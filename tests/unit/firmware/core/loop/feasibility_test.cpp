@@ -91,7 +91,7 @@ TEST(Feasibility, TheFastestSineNeedsAllThePowerOrNone) {
   const double tau_s = channel.muscle.thermal_mass_J_per_K / channel.muscle.heat_transfer_W_per_K;
   const double omega = 2.0 * std::numbers::pi / f.half_travel_period_s;
   double min_W = INFINITY;
-  double max_W = -INFINITY;
+  double max_W = 0.0;
   for (int i = 0; i < 100000; ++i) {
     const double phase = 2e-5 * std::numbers::pi * i;
     const double position_m = f.travel_m * (0.5 + 0.25 * std::sin(phase));

@@ -2,7 +2,7 @@
 
 The build enforces this between our own layers and for libraries with CMake targets; header-only system libraries and
 the operating system's headers it cannot see, so their includes are read here. Nor can it see a file of tests that no list
-of sources names, and that therefore never runs.
+of sources names, and that therefore never runs; nor a link among the fuzz targets' seeds that leads nowhere.
 """
 
 import pathlib
@@ -53,6 +53,12 @@ def problems():
                     yield f"{file.relative_to(ROOT)}: {layer} may not include {include}"
 
 
+def dead_links():
+    for file in (ROOT / "tests").rglob("*"):
+        if file.is_symlink() and not file.exists():
+            yield f"{file.relative_to(ROOT)}: leads to {file.readlink()}, which is not there"
+
+
 def never_run():
     lists = {file.parent: file.read_text() for file in (ROOT / "tests").rglob("CMakeLists.txt")}
     for file in (ROOT / "tests").rglob("*_test.cpp"):
@@ -61,6 +67,6 @@ def never_run():
 
 
 if __name__ == "__main__":
-    found = [*problems(), *never_run()]
-    print("\n".join(found) or "every include is allowed, and every file of tests is built")
+    found = [*problems(), *never_run(), *dead_links()]
+    print("\n".join(found) or "every include is allowed, every file of tests is built, and every link leads somewhere")
     sys.exit(bool(found))

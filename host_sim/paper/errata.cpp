@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "supercoil/control/actuator/conversions.hpp"
-#include "supercoil/control/linear/eigenvalues.hpp"
+#include "supercoil/control/linear/matrix_functions.hpp"
 #include "supercoil/control/tracking/mrac.hpp"
 #include "supercoil/control/tracking/mrac_matching.hpp"
 #include "supercoil/control/tracking/mrac_premises.hpp"

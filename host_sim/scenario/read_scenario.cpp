@@ -6,12 +6,11 @@
 #include <filesystem>
 #include <sstream>
 
-#include <boost/crc.hpp>
-
 #include "config/section.hpp"
 #include "config/toml_file.hpp"
 #include "scenario/builtin.hpp"
 #include "scenario/read_tables.hpp"
+#include "storage/crc32.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::host_sim {
@@ -59,16 +58,13 @@ void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostic
   }
 }
 
-/// An event as it is written, without its time.
 std::uint32_t crc32_of(const toml::table& document) {
   std::ostringstream text;
   text << document;
-  const std::string written = text.str();
-  boost::crc_32_type crc;
-  crc.process_bytes(written.data(), written.size());
-  return crc.checksum();
+  return storage::crc32(text.str());
 }
 
+/// An event as it is written, without its time.
 struct WrittenEvent {
   double at_s;
   bool reset;

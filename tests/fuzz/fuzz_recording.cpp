@@ -4,6 +4,7 @@
 
 #include "fuzz/fuzz.hpp"
 #include "recorder/recording.hpp"
+#include "storage/crc32.hpp"
 
 using namespace supercoil;
 using recorder::Damaged;
@@ -45,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   header.fault = 1;
   header.fault_name = "sensor_stale";
   const std::string_view rows = bytes.substr(0, header.rows * sizeof(Row));
-  header.rows_crc32 = recorder::rows_crc32(rows);
+  header.rows_crc32 = storage::crc32(rows);
   const std::string file = recorder::encode(header) + std::string(rows);
   const auto whole = recorder::decode(file, Damaged::refuse);
   fuzz::require(whole && whole->header == header, "what is written is read back");

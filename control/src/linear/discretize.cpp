@@ -1,6 +1,6 @@
 #include "supercoil/control/linear/discretize.hpp"
 
-#include "supercoil/control/linear/matrix_exponential.hpp"
+#include "supercoil/control/linear/matrix_functions.hpp"
 
 namespace supercoil::control {
 namespace {

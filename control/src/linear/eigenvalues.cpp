@@ -1,6 +1,6 @@
-#include "supercoil/control/linear/eigenvalues.hpp"
-
 #include <Eigen/Eigenvalues>
+
+#include "supercoil/control/linear/matrix_functions.hpp"
 
 namespace supercoil::control {
 

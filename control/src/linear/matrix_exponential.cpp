@@ -1,11 +1,11 @@
-#include "supercoil/control/linear/matrix_exponential.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
 #include <utility>
+
+#include "supercoil/control/linear/matrix_functions.hpp"
 
 // Sums are in the order of Eigen 3.4 without vectors, for matrices of fixed size; where that has
 // several orders, it is said. matrix_exponential_test compares with Eigen's own.

@@ -1,6 +1,9 @@
 // Buses that are too slow for the loop, told in the log.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,16 +19,32 @@ namespace supercoil::daemon {
 class BusWatch {
  public:
   /// Lines for the log; buses: always the same ones, in the same order.
-  std::vector<std::string> news(const std::vector<linux_board::BusReport>& buses, hal::Time now);
+  std::vector<std::string> news(const std::vector<linux_board::BusReport>& buses, hal::Time now) {
+    std::vector<std::string> lines;
+    reported_.resize(buses.size());
+    for (std::size_t i = 0; i < buses.size(); ++i) {
+      const linux_board::BusReport& bus = buses[i];
+      Reported& reported = reported_[i];
+      const bool waits = reported.at && now - *reported.at < pause;
+      if (bus.left_out == reported.left_out || waits) continue;
+      reported = {bus.left_out, now};
+      std::array<char, 40> longest{};
+      std::snprintf(longest.data(), longest.size(), "%.1f ms", 1e3 * bus.max_s);
+      lines.push_back("bus " + bus.name +
+                      " is too slow for the loop: " + std::to_string(bus.left_out) +
+                      " rounds left out so far, the longest took " + longest.data());
+    }
+    return lines;
+  }
 
  private:
   static constexpr hal::Duration pause = std::chrono::minutes(1);
 
-  struct Told {
+  struct Reported {
     std::uint64_t left_out = 0;
     std::optional<hal::Time> at;
   };
-  std::vector<Told> reported_;
+  std::vector<Reported> reported_;
 };
 
 }  // namespace supercoil::daemon

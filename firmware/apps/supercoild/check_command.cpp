@@ -59,7 +59,8 @@ Json json_of(const config::BoardConfig& config, const std::vector<std::uint32_t>
           {"rate_Hz", config.settings.rate_Hz},
           {"channels", channels},
           {"can", can},
-          {"weaknesses", config::warnings(config)}};
+          {"weaknesses", config::warnings(config)},
+          {"advice", config::advice(config)}};
 }
 
 void print(const Json& json) {
@@ -71,8 +72,11 @@ void print(const Json& json) {
 int check_command(const std::string& file, bool as_json) {
   auto config = config::read_board_config(file);
   if (!config) {
-    if (as_json) print({{"problems", json_of(config.error())}});
-    std::fputs(as_json ? "" : config::to_text(config.error()).c_str(), stderr);
+    if (as_json) {
+      print({{"problems", json_of(config.error())}});
+    } else {
+      std::fputs(config::to_text(config.error()).c_str(), stderr);
+    }
     return exit_wrong_input;
   }
   const std::vector<std::uint32_t> versions = recall_learned(*config);

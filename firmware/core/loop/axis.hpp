@@ -54,7 +54,8 @@ class Axis {
   }
   /// Calibrate probes when it has found the zero, and not before.
   void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
-  /// Its part of what is published, with the heater's. turn: of a full turn, what is told in turn.
+  /// Its part of what is published, with the heater's. selector: of a full turn, chooses what is
+  /// told in turn.
   void publish(std::uint32_t selector, Snapshot& s) const;
 
   /// Whether it may be armed: everything is measured, and how hot the muscle is is known.
@@ -71,8 +72,6 @@ class Axis {
   /// Commands that neither arm nor heat.
   Reply obey(const Command& command);
 
-  Mode mode() const { return mode_; }
-  const board::Measured& position() const { return inputs_.position; }
   const Estimation& estimation() const { return estimation_; }
   Heater& heater() { return heater_; }
   const Heater& heater() const { return heater_; }

@@ -30,7 +30,7 @@ class Estimation {
   /// Empty: no estimate is trusted, or it is no muscle's. What theta does not tell is as known.
   std::optional<control::PhysicalParameters> trusted_muscle(
       const control::PhysicalParameters& known) const;
-  /// turn: of a full turn, chooses the value that is told beside theta.
+  /// selector: of a full turn, chooses the value that is told beside theta.
   void publish(std::uint32_t selector, Snapshot& s) const;
 
  private:

@@ -47,22 +47,22 @@ void find_motion(const ChannelSettings& c, Feasibility& f) {
   const double tau_s = -1.0 / c.muscle.thermal_pole_rad_per_s();
   const double gain_m_per_W = c.muscle.dc_gain_m_per_W();
   f.travel_m = std::min(c.supervision.max_travel_m, gain_m_per_W * f.held_W);
-  const double part = f.travel_m / (gain_m_per_W * f.max_W);  // of where max_W would lead
-  f.rise_s = tau_s * std::log((1.0 - 0.1 * part) / (1.0 - 0.9 * part));
+  const double travel_ratio = f.travel_m / (gain_m_per_W * f.max_W);  // to where max_W would lead
+  f.rise_s = tau_s * std::log((1.0 - 0.1 * travel_ratio) / (1.0 - 0.9 * travel_ratio));
   f.fall_s = tau_s * std::log(9.0);
-  // P = (x + τẋ)/gain must not fall below 0, or rise above max_W.
-  const double amplitude_m = 0.25 * f.travel_m;
-  const double room_m =
-      std::min(0.5 * f.travel_m, gain_m_per_W * f.max_W - 0.5 * f.travel_m) / amplitude_m;
-  f.half_travel_period_s =
-      2.0 * std::numbers::pi * tau_s / std::sqrt(std::max(0.0, room_m * room_m - 1.0));
+  // P = (x + τẋ)/gain must not fall below 0: an amplitude of half the mean leaves (ωτ)² = 3. Above,
+  // max_W leaves at least as much.
+  f.half_travel_period_s = 2.0 * std::numbers::pi * tau_s / std::numbers::sqrt3;
 }
 
 void find_rest(const ChannelSettings& c, Feasibility& f) {
   const board::ThermalSettings& t = c.thermal;
   const double metres_per_K = c.muscle.force_per_kelvin_N_per_K / c.muscle.stiffness_N_per_m;
   f.air_shift_m = metres_per_K * (t.air.warmest_C - t.air.coldest_C);
-  f.rest_seen = -f.air_shift_m >= c.supervision.min_position_m;
+  // The sensor's range is as it reads, before the calibration.
+  const double rest_m =
+      c.calibration.position_offset_m - f.air_shift_m / c.calibration.position_scale;
+  f.rest_seen = rest_m >= c.supervision.min_position_m;
   const control::ThermalBounds b = board::known_thermal_bounds(t, c.heat).bounds;
   const double allowed_K = c.limiter.derate_from_C - t.air.warmest_C;
   f.armable_s = allowed_K <= 0.0 ? INFINITY

@@ -25,10 +25,10 @@ struct Feasibility {
   double rise_s = 0.0;                     ///< 10 to 90 % of the travel at max_W
   double fall_s = 0.0;                     ///< 90 to 10 % of it without power
   double half_travel_period_s = 0.0;       ///< the fastest sine over the middle half of the travel
-  double air_shift_m =
-      0.0;                 ///< how far the coldest air draws the rest position below the warmest's
-  bool rest_seen = true;   ///< the sensor reads so far below its zero
-  double armable_s = 0.0;  ///< after boot, at the latest; infinite: never
+  /// How far the coldest air draws the rest position below that in the warmest.
+  double air_shift_m = 0.0;
+  bool rest_seen = true;                            ///< the sensor reads so far below its zero
+  double armable_s = 0.0;                           ///< after boot, at the latest; infinite: never
   std::vector<std::optional<FeasibleSteps>> steps;  ///< of each controller; empty: in open loop
 };
 

@@ -149,10 +149,10 @@ std::string describe(const BoardConfig& config) {
   out << "\ndetectors that cannot work, or not well" << (weak.empty() ? ": none\n" : "\n");
   for (const std::string& line : weak)
     out << "  " << line << "\n";
-  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
-    for (const std::string& line : advice(config.settings.channels[i], config.settings))
-      out << "\nadvice for channel " << i + 1 << "\n  " << line << "\n";
-  }
+  const auto advised = advice(config);
+  if (!advised.empty()) out << "\nadvice\n";
+  for (const std::string& line : advised)
+    out << "  " << line << "\n";
   describe_memory(out, config.settings);
   return out.str();
 }

@@ -26,6 +26,8 @@ std::vector<std::string> describe_feasibility(const ChannelSettings& channel,
                                               const BoardSettings& board);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
+/// The same of every channel, each line with the channels that share it.
+std::vector<std::string> advice(const BoardConfig& config);
 /// One line for each detector that this configuration leaves blind, whose it is, and why.
 std::vector<std::string> warnings(const BoardConfig& config);
 

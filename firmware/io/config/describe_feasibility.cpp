@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "config/describe.hpp"
+#include "config/findings.hpp"
 #include "loop/feasibility.hpp"
 
 namespace supercoil::config {
@@ -76,6 +77,16 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
     }
   }
   return lines;
+}
+
+std::vector<std::string> advice(const BoardConfig& config) {
+  Findings findings;
+  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
+    findings.enter(i + 1);
+    for (const std::string& line : advice(config.settings.channels[i], config.settings))
+      findings.add(line);
+  }
+  return findings.lines();
 }
 
 }  // namespace supercoil::config

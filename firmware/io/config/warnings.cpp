@@ -3,10 +3,9 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include "config/describe.hpp"
-#include "supervisor/fault.hpp"
+#include "config/findings.hpp"
 
 namespace supercoil::config {
 
@@ -17,43 +16,6 @@ constexpr double min_probe_counts = 10.0;
 /// Ratings come in steps of up to 25 K, and the smallest is for 72 °C: near skin nothing else is to
 /// be had.
 constexpr double max_fuse_above_trip_K = 30.0;
-
-/// One finding, with the channels that share it.
-struct Finding {
-  std::string text;
-  std::vector<std::size_t> channels;  ///< from 1
-};
-
-class Findings {
- public:
-  void enter(std::size_t channel) { channel_ = channel; }
-
-  void add(Fault fault, const std::string& reason) { add(name(fault), reason); }
-  void add(std::string_view what, const std::string& reason) {
-    const std::string text = std::string(what) + ": " + reason;
-    const auto same = [&](const Finding& finding) { return finding.text == text; };
-    const auto found = std::find_if(findings_.begin(), findings_.end(), same);
-    if (found == findings_.end()) {
-      findings_.push_back({text, {channel_}});
-    } else {
-      found->channels.push_back(channel_);
-    }
-  }
-  std::vector<std::string> lines() const {
-    std::vector<std::string> result;
-    for (const Finding& finding : findings_) {
-      std::string whose = finding.channels.size() == 1 ? "channel" : "channels";
-      for (std::size_t i = 0; i < finding.channels.size(); ++i)
-        whose += (i == 0 ? " " : ", ") + std::to_string(finding.channels[i]);
-      result.push_back(whose + ": " + finding.text);
-    }
-    return result;
-  }
-
- private:
-  std::size_t channel_ = 0;
-  std::vector<Finding> findings_;
-};
 
 void judge_sensors(const ChannelSettings& c, Findings& findings) {
   if (c.supervision.position_noise_rms_m == 0.0) {

@@ -7,6 +7,7 @@
 
 #include "recorder/names.hpp"
 #include "recorder/recording.hpp"
+#include "storage/crc32.hpp"
 
 namespace supercoil::recorder {
 
@@ -105,7 +106,7 @@ bool FlightRecorder::write(const Job& job, bool last_try) {
   header.fault_name = fault_name(job.cause.fault);
   header.fault_channel = job.cause.channel;
   header.fault_time_ns = fault_ns;
-  header.rows_crc32 = rows_crc32(found.first, found.second);
+  header.rows_crc32 = storage::crc32(found.first, found.second);
   const std::string start = encode(header);
   const auto written =
       folder_.write(std::array<std::string_view, 3>{start, found.first, found.second});

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <optional>
 
-#include <boost/crc.hpp>
+#include "storage/crc32.hpp"
 
 namespace supercoil::recorder {
 
@@ -24,7 +24,7 @@ std::string hexadecimal(std::uint32_t value) {
 /// It names the CRC of everything that follows it in the header.
 std::string first_line(std::string_view rest) {
   return std::string(magic) + std::to_string(recording_format) + ", CRC-32 " +
-         hexadecimal(rows_crc32(rest)) + "\n";
+         hexadecimal(storage::crc32(rest)) + "\n";
 }
 
 /// Shortest text that gives the same number back.
@@ -85,13 +85,6 @@ class Reader {
 };
 
 }  // namespace
-
-std::uint32_t rows_crc32(std::string_view first, std::string_view second) {
-  boost::crc_32_type crc;
-  crc.process_bytes(first.data(), first.size());
-  crc.process_bytes(second.data(), second.size());
-  return crc.checksum();
-}
 
 std::string encode(const Header& h) {
   std::string rest =

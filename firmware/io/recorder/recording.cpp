@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "recorder/header.hpp"
+#include "storage/crc32.hpp"
 
 namespace supercoil::recorder {
 
@@ -41,7 +42,7 @@ std::string fault_of_rows(const Header& header, std::string_view bytes) {
     return "has " + std::to_string(bytes.size() - header.rows * sizeof(Row)) +
            " bytes more than were written";
   }
-  const std::uint32_t crc = rows_crc32(bytes);
+  const std::uint32_t crc = storage::crc32(bytes);
   if (crc == header.rows_crc32) return {};
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(),

@@ -52,8 +52,6 @@ struct Recording {
 
 /// The first header_bytes of a file. fault_name must be letters, digits and '_', at most 40.
 std::string encode(const Header& header);
-/// CRC-32 (IEEE) of bytes that lie in two places, one after the other.
-std::uint32_t rows_crc32(std::string_view first, std::string_view second = {});
 
 enum class Damaged { refuse, read };
 

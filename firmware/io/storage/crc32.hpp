@@ -8,9 +8,11 @@
 
 namespace supercoil::storage {
 
-inline std::uint32_t crc32(std::string_view bytes) {
+/// Of bytes that may lie in two places, one after the other.
+inline std::uint32_t crc32(std::string_view first, std::string_view second = {}) {
   boost::crc_32_type crc;
-  crc.process_bytes(bytes.data(), bytes.size());
+  crc.process_bytes(first.data(), first.size());
+  crc.process_bytes(second.data(), second.size());
   return crc.checksum();
 }
 

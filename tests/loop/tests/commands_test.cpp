@@ -135,6 +135,18 @@ TEST(Commands, RenewKeepsTheLastOneInForce) {
   DOUBLES_EQUAL(1.8, rig.snapshot().applied_W, 0.01);
 }
 
+TEST(Commands, ARefusedIdentifyTakesNoRenewalBack) {
+  arm();
+  rig.heat(Task::position);
+  rig.run(0.1);
+  rig.task = Task::nothing;
+  for (int i = 0; i < 1000; ++i) {
+    rig.send(Verb::position, 0.005);
+    CHECK(answer_to(Verb::identify) == Refusal::busy);
+  }
+  CHECK(rig.state() == State::active);
+}
+
 TEST(Commands, DisarmIsObeyedFromEverywhere) {
   arm();
   rig.heat(Task::position);

@@ -3,7 +3,6 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "support/sanitized.hpp"
 #include "unit/identification/support/simulated.hpp"
 
 namespace {
@@ -38,7 +37,6 @@ TEST(Comparison, ChoosesTheEffectThatTheMuscleHas) {
   both.drift_m_per_s = 5e-5;
   both.transfer_ratio = 2.0;
   check_chosen({Effect::drift, Effect::heat_transfer}, compared(both));
-  if (supercoil::test::sanitized) return;
   Muscle force = other_muscle();
   force.force_ratio = 2.5;
   check_chosen({Effect::force}, compared(force));

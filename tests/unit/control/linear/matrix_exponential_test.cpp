@@ -1,5 +1,3 @@
-#include "supercoil/control/linear/matrix_exponential.hpp"
-
 #include <cmath>
 #include <random>
 #include <unsupported/Eigen/MatrixFunctions>
@@ -7,6 +5,7 @@
 #include <CppUTest/TestHarness.h>
 #include <Eigen/LU>
 
+#include "supercoil/control/linear/matrix_functions.hpp"
 #include "supercoil/control/scalar/scalar.hpp"
 
 using supercoil::control::Matrix;

@@ -54,6 +54,7 @@ class Program(unittest.TestCase):
         self.assertEqual(told["board"], "two muscles")
         self.assertEqual((told["can"]["interface"], told["can"]["bit_rate"]), ("can0", 500000))
         self.assertEqual([channel["learned_version"] for channel in told["channels"]], [0, 0])
+        self.assertRegex(told["advice"][0], "^channels 1, 2: in the coldest air it rests ")
 
     def test_check_prints_every_mistake_as_json(self):
         file, line = self.changed("rate_Hz", "rate_kHz")

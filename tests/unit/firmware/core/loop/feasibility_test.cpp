@@ -144,4 +144,11 @@ TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
   CHECK(f.rest_seen);
   channel.supervision.min_position_m = -0.0080;
   CHECK_FALSE(found().rest_seen);
+  // Read twice as small by a sensor that shows 2 mm at rest.
+  channel.calibration.position_offset_m = 0.002;
+  channel.calibration.position_scale = 2.0;
+  channel.supervision.min_position_m = -0.0021;
+  CHECK(found().rest_seen);
+  channel.supervision.min_position_m = -0.0020;
+  CHECK_FALSE(found().rest_seen);
 }

@@ -234,3 +234,13 @@ offset_C = -2
   check_says(describe(c), "measured to 2 K at temp of thermometer");
   check_says(describe(c), "air 0.1");  // of bus time, in ms
 }
+
+TEST(BoardConfig, AdviceNamesWhomItConcernsAndWhatToChange) {
+  // The example's sensor ends 1 mm below its zero, where it does not see a muscle in cold air.
+  check_says(describe(example("raspberry-pi-pca9685-ads1115.toml")),
+             "\nadvice\n  channels 1, 2, 3, 4: in the coldest air it rests 8.06 mm below its zero, "
+             "and the sensor reads no less than -1 mm");
+  const BoardConfig seen = read(test::small_board_with("min_m = -0.001", "min_m = -0.01"));
+  CHECK(advice(seen).empty());
+  CHECK_TEXT(describe(seen).find("\nadvice") == std::string::npos, describe(seen).c_str());
+}

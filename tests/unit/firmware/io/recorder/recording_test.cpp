@@ -36,8 +36,8 @@ TEST_GROUP(Recording) {
     const std::size_t line = text.find('\n') + 1;
     char crc[9];
     std::snprintf(crc, sizeof crc, "%08x",
-                  static_cast<unsigned>(recorder::rows_crc32(
-                      std::string_view(text).substr(line, header_bytes - line))));
+                  static_cast<unsigned>(
+                      storage::crc32(std::string_view(text).substr(line, header_bytes - line))));
     return text.replace(line - 9, 8, crc);
   }
 };
@@ -118,12 +118,11 @@ TEST(Recording, TheLongestHeaderFits) {
   STRCMP_EQUAL("is cut off: 0 of 4294967295 rows are there", error(text).c_str());
 }
 
-TEST(Recording, TheCrcIsThatOfStorage) {
+TEST(Recording, TheCrcOfTwoPlacesIsThatOfBothInOne) {
   const std::string_view text = "123456789";
   // The check value that catalogues of CRCs give for CRC-32.
   LONGS_EQUAL(0xCBF43926, storage::crc32(text));
-  LONGS_EQUAL(storage::crc32(text), recorder::rows_crc32(text));
-  LONGS_EQUAL(storage::crc32(text), recorder::rows_crc32("1234", "56789"));
+  LONGS_EQUAL(storage::crc32(text), storage::crc32("1234", "56789"));
 }
 
 TEST(Recording, EveryFlippedBitIsNoticed) {

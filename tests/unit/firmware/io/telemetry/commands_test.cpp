@@ -369,35 +369,3 @@ TEST(CanCommands, TheChecksumIsThatOfTheProfile) {
   master.session = 0xBEEF;
   LONGS_EQUAL(0xE7, master.frame(Verb::position, 0.012F).data[0]);
 }
-
-TEST_GROUP(Opcodes){};
-
-TEST(Opcodes, EveryCommandIsMeantAsItWasSent) {
-  for (std::size_t i = 1; i < verb_names.size(); ++i) {
-    const auto verb = static_cast<Verb>(i);
-    const Sent on_the_wire = sent(verb, 0.25);
-    CHECK(on_the_wire.opcode < Opcode::claim_of_version_3);
-    CHECK(meant(on_the_wire.opcode, on_the_wire.value).verb == verb);
-    DOUBLES_EQUAL(0.25, meant(on_the_wire.opcode, on_the_wire.value).value, 0.0);
-  }
-}
-
-TEST(Opcodes, HaveTheNamesOfTheProtocol) {
-  constexpr auto names = opcode_names();
-  CHECK(names[Opcode::compare] == "compare");
-  CHECK(names[static_cast<std::size_t>(Verb::store)] == "store");
-  CHECK(names[Opcode::claim_of_version_3] == "claim_of_version_3");
-  CHECK(names[Opcode::lease] == "lease");
-}
-
-TEST(Opcodes, AReadingOfTheWrongSignIsNoneOfTheOtherSense) {
-  for (const Verb verb : {Verb::compare_supply, Verb::compare_current, Verb::compare_rise})
-    CHECK(std::isnan(sent(verb, -0.25).value));
-  // Nor does an ampere too few forget the comparison, as 0 V does.
-  CHECK(std::isnan(sent(Verb::compare_current, 0.0).value));
-  DOUBLES_EQUAL(0.0, sent(Verb::compare_supply, 0.0).value, 0.0);
-  // Nor are volts ever a rise.
-  CHECK(std::isnan(sent(Verb::compare_supply, 1000.0).value));
-  CHECK(meant(Opcode::compare, 1037.5).verb == Verb::compare_rise);
-  DOUBLES_EQUAL(37.5, meant(Opcode::compare, 1037.5).value, 0.0);
-}

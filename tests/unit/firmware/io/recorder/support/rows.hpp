@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "recorder/recording.hpp"
+#include "storage/crc32.hpp"
 
 namespace supercoil::test {
 
@@ -38,7 +39,7 @@ inline std::string file_of(const std::vector<Row>& rows) {
   header.fault_name = "over_temperature";
   header.fault_channel = 1;
   header.fault_time_ns = 5 * second_ns;
-  header.rows_crc32 = recorder::rows_crc32(bytes_of(rows));
+  header.rows_crc32 = storage::crc32(bytes_of(rows));
   return encode(header) + std::string(bytes_of(rows));
 }
 

@@ -56,6 +56,19 @@ std::string senses_text(const Loop& loop) {
   return text.str();
 }
 
+/// A line for each channel: its number, and the known_quantities in their order.
+std::string muscle_text(const Loop& loop) {
+  std::ostringstream text;
+  text.precision(9);
+  for (std::size_t i = 0; i < loop.channels(); ++i) {
+    text << i + 1;
+    for (std::size_t quantity = 0; quantity < known_quantities.size(); ++quantity)
+      text << ' ' << loop.channel(i).known(quantity);
+    text << '\n';
+  }
+  return text.str();
+}
+
 }  // namespace
 
 tl::expected<LocalCommands, std::string> LocalCommands::open(const std::string& path) {
@@ -120,6 +133,10 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
   }
   if (text == "senses") {
     answer(client.number(), senses_text(loop));
+    return true;
+  }
+  if (text == "muscle") {
+    answer(client.number(), muscle_text(loop));
     return true;
   }
   auto command = parse_command(text, loop.channels());

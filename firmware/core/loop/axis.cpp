@@ -42,6 +42,7 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
       identify_({}, settings.muscle, settings.supervision.max_travel_m, step_s_),
       comparison_(comparison_settings(settings, board), step_s_),
       steady_state_(settings.thermal, step_s_) {
+  publish_muscle();
   if (settings.thermal.weighed())
     cooling_fit_ = std::make_unique<control::CoolingFit>(cooling_settings(settings), step_s_);
 }

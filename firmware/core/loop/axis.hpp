@@ -13,6 +13,7 @@
 #include "loop/command.hpp"
 #include "loop/estimation.hpp"
 #include "loop/heater.hpp"
+#include "loop/known_muscle.hpp"
 #include "loop/settings.hpp"
 #include "loop/snapshot.hpp"
 #include "loop/tracking.hpp"
@@ -75,6 +76,8 @@ class Axis {
   const Estimation& estimation() const { return estimation_; }
   Heater& heater() { return heater_; }
   const Heater& heater() const { return heater_; }
+  /// From any thread.
+  double published_muscle(std::size_t quantity) const { return published_muscle_.get(quantity); }
   /// As Channel::take_learned_update.
   bool take_learned_update(board::LearnedUpdate& update) { return learned_updates_.pop(update); }
 
@@ -102,6 +105,7 @@ class Axis {
   void restart_comparisons();
 
   board::Learned known() const;
+  void publish_muscle();
   static Refusal refusal_of(ModeResult kept);
   ModeResult keep(const control::PhysicalParameters& muscle, const board::Calibration& found);
   Refusal store_thermal_facts(const board::ThermalFacts& facts);
@@ -125,6 +129,7 @@ class Axis {
   bool has_muscle_;                     ///< learned before or since: what is stored has it
   board::Calibration calibration_;
   double response_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
+  PublishedMuscle published_muscle_;
   boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;
 
   Mode mode_ = Mode::rest;

@@ -23,9 +23,14 @@ board::Learned Axis::known() const {
           has_muscle_, heater_.facts(), response_ratio_};
 }
 
+void Axis::publish_muscle() {
+  published_muscle_.set(known_muscle(muscle_, calibration_, response_ratio_, identify_.quality()));
+}
+
 void Axis::calibrate(const board::Calibration& calibration) {
   calibration_ = calibration;
   heater_.calibrate(calibration.cold_resistance_Ohm);
+  publish_muscle();
 }
 
 /// A result is used and handed to whoever stores it, unless a quantity in it is out of its range.

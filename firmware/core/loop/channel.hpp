@@ -78,6 +78,8 @@ class Channel {
   double max_power_W() const { return axis_.heater().max_power_W(); }
   /// By which the readings are corrected, without its date; from any thread.
   board::SenseComparison senses() const { return axis_.heater().published_senses(); }
+  /// What it knows of its muscle, a place in known_quantities; NaN: not known. From any thread.
+  double known(std::size_t quantity) const { return axis_.published_muscle(quantity); }
   /// What identify or calibrate found, or was asked to store or clear; from one other thread.
   bool take_learned_update(board::LearnedUpdate& update) {
     return axis_.take_learned_update(update);

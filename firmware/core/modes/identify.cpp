@@ -11,8 +11,7 @@ namespace {
 
 constexpr std::array<std::uint8_t, 3> uncertain_notes{note_theta2_uncertain, note_theta3_uncertain,
                                                       note_theta4_uncertain};
-constexpr std::uint8_t uncertain =
-    note_theta2_uncertain | note_theta3_uncertain | note_theta4_uncertain;
+constexpr std::uint8_t uncertain = note_theta3_uncertain | note_theta4_uncertain;
 
 }  // namespace
 
@@ -21,6 +20,12 @@ using Fit = control::BatchLeastSquares::Fit;
 bool Identify::knows(const Fit& fit, int i) const {
   return fit.theta[i] > 0.0 && fit.deviation[i] <= settings_.max_deviation &&
          fit.unseen_difference[i] <= settings_.max_difference;
+}
+
+/// On a muscle that is not linear no θ2 suits all motions, and feedback only damps by it.
+bool Identify::usable_theta2(const Fit& fit) const {
+  return plausible(fit.theta[1], control::theta_from(believed_)[1]) &&
+         fit.deviation[1] <= settings_.max_theta2_deviation;
 }
 
 bool Identify::plausible(double theta, double believed) const {
@@ -61,7 +66,7 @@ ModeResult Identify::judge() {
   const auto fit = fit_.fit();
   notes_ = fit ? reasons_against(*fit) : uncertain;
   if ((notes_ & note_poor_fit) != 0) return ModeResult::poor_fit;
-  if ((notes_ & uncertain) != 0) return ModeResult::uncertain;
+  if ((notes_ & uncertain) != 0 || !usable_theta2(*fit)) return ModeResult::uncertain;
   if ((notes_ & note_implausible) != 0) return ModeResult::implausible;
 
   control::Theta theta = fit->theta;
@@ -73,6 +78,8 @@ ModeResult Identify::judge() {
     return ModeResult::implausible;
   }
   found_ = *physical;
+  quality_ = {fit->deviation, fit->unexplained_ratio};
+  if ((notes_ & note_theta1_kept) != 0) quality_.deviation_ratio[0] = NAN;
   return ModeResult::found;
 }
 

@@ -1,6 +1,7 @@
 // Learning a muscle's parameters on command.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "supercoil/control/estimation/batch_least_squares.hpp"
@@ -11,8 +12,8 @@
 namespace supercoil::modes {
 
 /// Excites the muscle at its own pace, fits it, and judges each parameter by itself. A muscle is
-/// found when θ2 to θ4, which controllers use, are known, explain the last third of the
-/// experiment, and lie within a span of what is believed. What is not known of θ1 stays as
+/// found when θ2 to θ4, which controllers use, are known (θ2 roughly), explain the last third of
+/// the experiment, and lie within a span of what is believed. What is not known of θ1 stays as
 /// believed; position and power never give γ and m̂, so they do too.
 class Identify {
  public:
@@ -21,10 +22,17 @@ class Identify {
     /// Of the unseen third's variance. Muscles with the effects of docs/muscles.md leave up to
     /// 0.02; one whose stiffness changes by a third under way, 0.13 and more.
     double max_unexplained = 0.06;
-    double max_deviation = 0.1;    ///< standard, of each parameter, relative
-    double max_difference = 0.25;  ///< of the unseen third's own fit, relative
-    double min_ratio = 0.1;        ///< each θ within these ratios to the believed muscle's
+    double max_deviation = 0.1;         ///< standard, of each parameter, relative
+    double max_difference = 0.25;       ///< of the unseen third's own fit, relative
+    double max_theta2_deviation = 0.5;  ///< more than this refuses it; between, it is noted
+    double min_ratio = 0.1;             ///< each θ within these ratios to the believed muscle's
     double max_ratio = 10.0;
+  };
+
+  /// How sure the last muscle that was found is. NaN: none was.
+  struct Quality {
+    control::Theta deviation_ratio = control::Theta::Constant(NAN);  ///< standard; NaN: kept
+    double unexplained_ratio = NAN;  ///< as BatchLeastSquares::Fit has it
   };
 
   /// max_travel_m: of the channel.
@@ -62,12 +70,14 @@ class Identify {
   /// Above the cold muscle's position, smoothed.
   double risen_m() const { return excitation_.risen_m(); }
   const control::PhysicalParameters& found() const { return found_; }
+  const Quality& quality() const { return quality_; }
   /// IdentifyNotes of the last judgement; 0 while it runs.
   std::uint8_t notes() const { return notes_; }
 
  private:
   ModeResult judge();
   bool knows(const control::BatchLeastSquares::Fit& fit, int i) const;
+  bool usable_theta2(const control::BatchLeastSquares::Fit& fit) const;
   bool plausible(double theta, double believed) const;
   std::uint8_t reasons_against(const control::BatchLeastSquares::Fit& fit) const;
   double theta1(const control::BatchLeastSquares::Fit& fit);
@@ -81,6 +91,7 @@ class Identify {
   Excitation excitation_;
   control::BatchLeastSquares fit_;
   control::PhysicalParameters found_;
+  Quality quality_;
 };
 
 }  // namespace supercoil::modes

@@ -53,6 +53,32 @@ hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting) {
   return can::Encoder<message::setting_read>(node).set("setting", setting).frame();
 }
 
+hal::CanFrame muscle_read(std::uint8_t node, std::uint8_t quantity) {
+  return can::Encoder<message::muscle_read>(node).set("quantity", quantity).frame();
+}
+
+std::uint16_t muscle_id(std::uint8_t node) {
+  return can::id_of(message::muscle, node);
+}
+
+std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
+                                     const hal::CanFrame& frame) {
+  if (frame.id != muscle_id(node) || frame.length != message::muscle.length) return std::nullopt;
+  const can::Reader<message::muscle> m(frame);
+  if (m.get<std::uint8_t>("quantity") != quantity) return std::nullopt;
+  return m.get("value");
+}
+
+std::uint16_t tracking_id(std::uint8_t node) {
+  return can::id_of(message::tracking, node);
+}
+
+std::optional<double> receive_error_m(std::uint8_t node, const hal::CanFrame& frame) {
+  if (frame.id != tracking_id(node) || frame.length != message::tracking.length)
+    return std::nullopt;
+  return can::Reader<message::tracking>(frame).get("error_m");
+}
+
 std::uint8_t Master::next_counter() {
   counter_ = static_cast<std::uint8_t>((counter_ + 1) % e2e::counters);
   return counter_;

@@ -27,6 +27,17 @@ std::optional<double> receive_nearest(std::uint8_t node, const hal::CanFrame& fr
 /// Asks for one setting of a node; needs no lease.
 hal::CanFrame setting_read(std::uint8_t node, std::uint8_t setting);
 
+/// Asks for one quantity of a node's muscle, a place in known_quantities; needs no lease.
+hal::CanFrame muscle_read(std::uint8_t node, std::uint8_t quantity);
+std::uint16_t muscle_id(std::uint8_t node);
+/// NaN: not known. Empty: the frame does not answer that.
+std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
+                                     const hal::CanFrame& frame);
+/// Of what it follows, and how closely.
+std::uint16_t tracking_id(std::uint8_t node);
+/// Position less reference model; NaN: it follows none. Empty: the frame does not tell.
+std::optional<double> receive_error_m(std::uint8_t node, const hal::CanFrame& frame);
+
 /// Neither sends nor receives.
 class Master {
  public:

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 #include "can/nodes.hpp"
 #include "telemetry/opcodes.hpp"
@@ -9,6 +10,14 @@
 namespace supercoil::telemetry {
 
 namespace {
+
+constexpr bool names_agree() {
+  for (std::size_t i = 0; i < known_quantities.size(); ++i) {
+    if (can::names_of_quantity[i].name != known_quantities[i]) return false;
+  }
+  return can::names_of_quantity.size() == known_quantities.size();
+}
+static_assert(names_agree(), "what is known of a muscle has the same names over CAN");
 
 std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
   std::vector<control::KnownParameters> muscles;
@@ -23,8 +32,9 @@ std::vector<control::KnownParameters> muscles_of(const BoardSettings& board) {
 std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t channels) {
   std::vector<std::uint16_t> ids;
   // The heartbeat of a board with the same node: every board sends it.
-  for (const can::MessageInfo& message : {can::message::command, can::message::setting_write,
-                                          can::message::setting_read, can::message::status}) {
+  for (const can::MessageInfo& message :
+       {can::message::command, can::message::setting_write, can::message::setting_read,
+        can::message::muscle_read, can::message::status}) {
     for (std::size_t i = 0; i < channels; ++i)
       ids.push_back(can::id_of(message, static_cast<can::Node>(settings.first_node + i)));
   }
@@ -63,6 +73,18 @@ bool CanEndpoint::is_own(const hal::CanFrame& frame) const {
   return can::channel_of(frame, can::message::status, first_node_, leases_.channels()).has_value();
 }
 
+/// The answer to MuscleRead.
+std::optional<hal::CanFrame> CanEndpoint::muscle_asked_for(const hal::CanFrame& frame) const {
+  const can::MessageInfo& asking = can::message::muscle_read;
+  const auto channel = can::channel_of(frame, asking, first_node_, leases_.channels());
+  if (!channel || frame.length != asking.length) return std::nullopt;
+  const auto quantity = can::Reader<can::message::muscle_read>(frame).get<std::uint8_t>("quantity");
+  return can::Encoder<can::message::muscle>(static_cast<can::Node>(first_node_ + *channel))
+      .set("quantity", quantity)
+      .set("value", loop_->channel(*channel).known(quantity))
+      .frame();
+}
+
 void CanEndpoint::receive(hal::Time now) {
   hal::CanFrame frame;
   for (int i = 0; i < max_batch && bus_->receive(frame) == hal::Status::ok; ++i) {
@@ -75,6 +97,7 @@ void CanEndpoint::receive(hal::Time now) {
     if (set.damaged) loop_->send_damaged(*set.damaged);
     if (set.answer) publisher_.send(*set.answer);
     if (set.refused_value) publisher_.send(*set.refused_value);
+    if (const auto told = muscle_asked_for(frame)) publisher_.send(*told);
   }
 }
 

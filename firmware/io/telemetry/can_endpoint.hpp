@@ -29,6 +29,7 @@ class CanEndpoint {
 
  private:
   void receive(hal::Time now);
+  std::optional<hal::CanFrame> muscle_asked_for(const hal::CanFrame& frame) const;
   /// A frame that only the board of its node sends: this bus never gives a board its own.
   bool is_own(const hal::CanFrame& frame) const;
 

@@ -2650,6 +2650,103 @@ bool supercoil_refused_value_nearest_is_in_phys_range(double value)
     return (true);
 }
 
+int supercoil_muscle_pack(
+    uint8_t *dst_p,
+    const struct supercoil_muscle_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 5u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 5);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->quantity, 0u, 0xffu);
+    memcpy(&value, &src_p->value, sizeof(value));
+    dst_p[1] |= pack_left_shift_u32(value, 0u, 0xffu);
+    dst_p[2] |= pack_right_shift_u32(value, 8u, 0xffu);
+    dst_p[3] |= pack_right_shift_u32(value, 16u, 0xffu);
+    dst_p[4] |= pack_right_shift_u32(value, 24u, 0xffu);
+
+    return (5);
+}
+
+int supercoil_muscle_unpack(
+    struct supercoil_muscle_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 5u) {
+        return (-EINVAL);
+    }
+
+    dst_p->quantity = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    value = unpack_right_shift_u32(src_p[1], 0u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[2], 8u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[3], 16u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[4], 24u, 0xffu);
+    memcpy(&dst_p->value, &value, sizeof(dst_p->value));
+
+    return (0);
+}
+
+int supercoil_muscle_init(struct supercoil_muscle_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_muscle_t));
+
+    return 0;
+}
+
+uint8_t supercoil_muscle_quantity_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_muscle_quantity_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_muscle_quantity_is_in_range(uint8_t value)
+{
+    return (value <= 14u);
+}
+
+bool supercoil_muscle_quantity_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 14.0));
+}
+
+float supercoil_muscle_value_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_muscle_value_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_muscle_value_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_muscle_value_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
+}
+
 int supercoil_setting_pack(
     uint8_t *dst_p,
     const struct supercoil_setting_t *src_p,
@@ -3063,6 +3160,65 @@ bool supercoil_setting_read_setting_is_in_range(uint8_t value)
 }
 
 bool supercoil_setting_read_setting_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 14.0));
+}
+
+int supercoil_muscle_read_pack(
+    uint8_t *dst_p,
+    const struct supercoil_muscle_read_t *src_p,
+    size_t size)
+{
+    if (size < 1u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 1);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->quantity, 0u, 0xffu);
+
+    return (1);
+}
+
+int supercoil_muscle_read_unpack(
+    struct supercoil_muscle_read_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    if (size < 1u) {
+        return (-EINVAL);
+    }
+
+    dst_p->quantity = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+
+    return (0);
+}
+
+int supercoil_muscle_read_init(struct supercoil_muscle_read_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_muscle_read_t));
+
+    return 0;
+}
+
+uint8_t supercoil_muscle_read_quantity_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_muscle_read_quantity_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_muscle_read_quantity_is_in_range(uint8_t value)
+{
+    return (value <= 14u);
+}
+
+bool supercoil_muscle_read_quantity_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 14.0));
 }

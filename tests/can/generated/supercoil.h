@@ -60,9 +60,11 @@ extern "C" {
 #define SUPERCOIL_TIMING_FRAME_ID (0x481u)
 #define SUPERCOIL_GAIN_FRAME_ID (0x4c1u)
 #define SUPERCOIL_REFUSED_VALUE_FRAME_ID (0x501u)
+#define SUPERCOIL_MUSCLE_FRAME_ID (0x541u)
 #define SUPERCOIL_SETTING_FRAME_ID (0x581u)
 #define SUPERCOIL_SETTING_WRITE_FRAME_ID (0x5c1u)
 #define SUPERCOIL_SETTING_READ_FRAME_ID (0x601u)
+#define SUPERCOIL_MUSCLE_READ_FRAME_ID (0x681u)
 #define SUPERCOIL_STATUS_FRAME_ID (0x701u)
 
 /* Frame lengths in bytes. */
@@ -81,9 +83,11 @@ extern "C" {
 #define SUPERCOIL_TIMING_LENGTH (8u)
 #define SUPERCOIL_GAIN_LENGTH (5u)
 #define SUPERCOIL_REFUSED_VALUE_LENGTH (8u)
+#define SUPERCOIL_MUSCLE_LENGTH (5u)
 #define SUPERCOIL_SETTING_LENGTH (8u)
 #define SUPERCOIL_SETTING_WRITE_LENGTH (8u)
 #define SUPERCOIL_SETTING_READ_LENGTH (1u)
+#define SUPERCOIL_MUSCLE_READ_LENGTH (1u)
 #define SUPERCOIL_STATUS_LENGTH (8u)
 
 /* Extended or standard frame types. */
@@ -102,9 +106,11 @@ extern "C" {
 #define SUPERCOIL_TIMING_IS_EXTENDED (0)
 #define SUPERCOIL_GAIN_IS_EXTENDED (0)
 #define SUPERCOIL_REFUSED_VALUE_IS_EXTENDED (0)
+#define SUPERCOIL_MUSCLE_IS_EXTENDED (0)
 #define SUPERCOIL_SETTING_IS_EXTENDED (0)
 #define SUPERCOIL_SETTING_WRITE_IS_EXTENDED (0)
 #define SUPERCOIL_SETTING_READ_IS_EXTENDED (0)
+#define SUPERCOIL_MUSCLE_READ_IS_EXTENDED (0)
 #define SUPERCOIL_STATUS_IS_EXTENDED (0)
 
 /* Frame cycle times in milliseconds. */
@@ -349,6 +355,22 @@ extern "C" {
 #define SUPERCOIL_GAIN_GAIN_FEEDFORWARD_JERK_CHOICE (14u)
 #define SUPERCOIL_GAIN_GAIN_BIAS_CHOICE (15u)
 
+#define SUPERCOIL_MUSCLE_QUANTITY_THERMAL_MASS_J_PER_K_CHOICE (0u)
+#define SUPERCOIL_MUSCLE_QUANTITY_HEAT_TRANSFER_W_PER_K_CHOICE (1u)
+#define SUPERCOIL_MUSCLE_QUANTITY_STIFFNESS_N_PER_M_CHOICE (2u)
+#define SUPERCOIL_MUSCLE_QUANTITY_DAMPING_NS_PER_M_CHOICE (3u)
+#define SUPERCOIL_MUSCLE_QUANTITY_MOVING_MASS_KG_CHOICE (4u)
+#define SUPERCOIL_MUSCLE_QUANTITY_FORCE_PER_KELVIN_N_PER_K_CHOICE (5u)
+#define SUPERCOIL_MUSCLE_QUANTITY_COLD_RESISTANCE_OHM_CHOICE (6u)
+#define SUPERCOIL_MUSCLE_QUANTITY_POSITION_OFFSET_M_CHOICE (7u)
+#define SUPERCOIL_MUSCLE_QUANTITY_POSITION_SCALE_CHOICE (8u)
+#define SUPERCOIL_MUSCLE_QUANTITY_RESPONSE_RATIO_CHOICE (9u)
+#define SUPERCOIL_MUSCLE_QUANTITY_THETA1_DEVIATION_RATIO_CHOICE (10u)
+#define SUPERCOIL_MUSCLE_QUANTITY_THETA2_DEVIATION_RATIO_CHOICE (11u)
+#define SUPERCOIL_MUSCLE_QUANTITY_THETA3_DEVIATION_RATIO_CHOICE (12u)
+#define SUPERCOIL_MUSCLE_QUANTITY_THETA4_DEVIATION_RATIO_CHOICE (13u)
+#define SUPERCOIL_MUSCLE_QUANTITY_UNEXPLAINED_RATIO_CHOICE (14u)
+
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
 #define SUPERCOIL_SETTING_SETTING_TRACKING_HZ_CHOICE (2u)
@@ -411,6 +433,22 @@ extern "C" {
 #define SUPERCOIL_SETTING_READ_SETTING_SUPPLY_GAIN_CHOICE (12u)
 #define SUPERCOIL_SETTING_READ_SETTING_CURRENT_GAIN_CHOICE (13u)
 #define SUPERCOIL_SETTING_READ_SETTING_SENSE_ERROR_RATIO_CHOICE (14u)
+
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_THERMAL_MASS_J_PER_K_CHOICE (0u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_HEAT_TRANSFER_W_PER_K_CHOICE (1u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_STIFFNESS_N_PER_M_CHOICE (2u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_DAMPING_NS_PER_M_CHOICE (3u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_MOVING_MASS_KG_CHOICE (4u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_FORCE_PER_KELVIN_N_PER_K_CHOICE (5u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_COLD_RESISTANCE_OHM_CHOICE (6u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_POSITION_OFFSET_M_CHOICE (7u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_POSITION_SCALE_CHOICE (8u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_RESPONSE_RATIO_CHOICE (9u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA1_DEVIATION_RATIO_CHOICE (10u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA2_DEVIATION_RATIO_CHOICE (11u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA3_DEVIATION_RATIO_CHOICE (12u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA4_DEVIATION_RATIO_CHOICE (13u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_UNEXPLAINED_RATIO_CHOICE (14u)
 
 #define SUPERCOIL_STATUS_STATE_DISARMED_CHOICE (0u)
 #define SUPERCOIL_STATUS_STATE_ARMED_CHOICE (1u)
@@ -495,9 +533,11 @@ extern "C" {
 #define SUPERCOIL_TIMING_NAME "Timing"
 #define SUPERCOIL_GAIN_NAME "Gain"
 #define SUPERCOIL_REFUSED_VALUE_NAME "RefusedValue"
+#define SUPERCOIL_MUSCLE_NAME "Muscle"
 #define SUPERCOIL_SETTING_NAME "Setting"
 #define SUPERCOIL_SETTING_WRITE_NAME "SettingWrite"
 #define SUPERCOIL_SETTING_READ_NAME "SettingRead"
+#define SUPERCOIL_MUSCLE_READ_NAME "MuscleRead"
 #define SUPERCOIL_STATUS_NAME "Status"
 
 /* Signal Names. */
@@ -563,6 +603,8 @@ extern "C" {
 #define SUPERCOIL_GAIN_VALUE_NAME "value"
 #define SUPERCOIL_REFUSED_VALUE_VALUE_NAME "value"
 #define SUPERCOIL_REFUSED_VALUE_NEAREST_NAME "nearest"
+#define SUPERCOIL_MUSCLE_QUANTITY_NAME "quantity"
+#define SUPERCOIL_MUSCLE_VALUE_NAME "value"
 #define SUPERCOIL_SETTING_CRC_NAME "crc"
 #define SUPERCOIL_SETTING_COUNTER_NAME "counter"
 #define SUPERCOIL_SETTING_SETTING_NAME "setting"
@@ -575,6 +617,7 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_SESSION_NAME "session"
 #define SUPERCOIL_SETTING_WRITE_VALUE_NAME "value"
 #define SUPERCOIL_SETTING_READ_SETTING_NAME "setting"
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_NAME "quantity"
 #define SUPERCOIL_STATUS_STATE_NAME "state"
 #define SUPERCOIL_STATUS_MODE_NAME "mode"
 #define SUPERCOIL_STATUS_FAULT_NAME "fault"
@@ -979,7 +1022,7 @@ struct supercoil_estimate_t {
     uint8_t trusted;
 
     /**
-     * All that the last identify has to say, as bits: 1 theta1 was not known well enough, and the believed one was kept (no refusal); refused because 2, 4, 8: theta2, theta3, theta4 is uncertain; 16: the motion was not explained; 32: implausible; 64: the muscle hardly moved.
+     * All that the last identify has to say, as bits: 1 theta1 was not known well enough, and the believed one was kept (no refusal); 2: theta2 is known to 10 to 50 % only (a refusal beyond); refused because 4, 8: theta3, theta4 is uncertain; 16: the motion was not explained; 32: implausible; 64: the muscle hardly moved.
      *
      * Range: 0..127 (0..127 -)
      * Scale: 1
@@ -1286,6 +1329,33 @@ struct supercoil_refused_value_t {
 };
 
 /**
+ * Signals in message Muscle.
+ *
+ * The answer to MuscleRead. Boards older than supercoil 0.2.0 do not answer.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_muscle_t {
+    /**
+     * Which one.
+     *
+     * Range: 0..14 (0..14 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t quantity;
+
+    /**
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. NaN: not known, or no such quantity.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float value;
+};
+
+/**
  * Signals in message Setting.
  *
  * The answer to SettingWrite and SettingRead: what holds from now on, also when the write was refused. Protected as Command is.
@@ -1418,6 +1488,24 @@ struct supercoil_setting_read_t {
      * Offset: 0
      */
     uint8_t setting;
+};
+
+/**
+ * Signals in message MuscleRead.
+ *
+ * Asks for one quantity of this node's muscle. Needs no lease: reading changes nothing.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_muscle_read_t {
+    /**
+     * Which one.
+     *
+     * Range: 0..14 (0..14 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t quantity;
 };
 
 /**
@@ -4609,6 +4697,123 @@ bool supercoil_refused_value_nearest_is_in_range(float value);
 bool supercoil_refused_value_nearest_is_in_phys_range(double value);
 
 /**
+ * Pack message Muscle.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_muscle_pack(
+    uint8_t *dst_p,
+    const struct supercoil_muscle_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Muscle.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_muscle_unpack(
+    struct supercoil_muscle_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Muscle.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_muscle_init(struct supercoil_muscle_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_muscle_quantity_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_muscle_quantity_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_muscle_quantity_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_muscle_quantity_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_muscle_value_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_muscle_value_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_muscle_value_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_muscle_value_is_in_phys_range(double value);
+
+/**
  * Pack message Setting.
  *
  * @param[out] dst_p Buffer to pack the message into.
@@ -5198,6 +5403,83 @@ bool supercoil_setting_read_setting_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_setting_read_setting_is_in_phys_range(double value);
+
+/**
+ * Pack message MuscleRead.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_muscle_read_pack(
+    uint8_t *dst_p,
+    const struct supercoil_muscle_read_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message MuscleRead.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_muscle_read_unpack(
+    struct supercoil_muscle_read_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from MuscleRead.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_muscle_read_init(struct supercoil_muscle_read_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_muscle_read_quantity_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_muscle_read_quantity_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_muscle_read_quantity_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_muscle_read_quantity_is_in_phys_range(double value);
 
 /**
  * Pack message Status.

@@ -61,6 +61,17 @@ class CanRig {
       tick();
     return settings_told.empty() ? supercoil_setting_t{} : settings_told.back();
   }
+  /// NaN: not known, or not answered.
+  double muscle(std::uint8_t quantity) {
+    last_of.erase(SUPERCOIL_MUSCLE_FRAME_ID);
+    bus.deliver({SUPERCOIL_MUSCLE_READ_FRAME_ID, 1, {quantity}, {}});
+    for (int i = 0; i < 20 && !last_of.contains(SUPERCOIL_MUSCLE_FRAME_ID); ++i)
+      tick();
+    supercoil_muscle_t told{};
+    const hal::CanFrame& frame = last_of[SUPERCOIL_MUSCLE_FRAME_ID];
+    supercoil_muscle_unpack(&told, frame.data.data(), frame.length);
+    return told.quantity == quantity ? static_cast<double>(told.value) : NAN;
+  }
   Refusal claim(Master& who) {
     who.session = who.name;
     Refusal refusal = command(who, telemetry::Opcode::lease, telemetry::claims);

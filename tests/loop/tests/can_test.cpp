@@ -69,6 +69,30 @@ TEST(OverCan, TheMasterGetsTheLoopsRefusal) {
   LONGS_EQUAL(static_cast<int>(Verb::arm), rig.answers.back().opcode);
 }
 
+/// Whoever asks needs no lease; what calibrate finds is what is told from then on.
+TEST(OverCan, WhatTheBoardKnowsOfItsMuscleIsTold) {
+  const ChannelSettings& channel = rig.settings.firmware.channels[0];
+  rig.run(1.0);
+  DOUBLES_EQUAL(channel.muscle.thermal_mass_J_per_K, rig.muscle(0), 1e-6);
+  DOUBLES_EQUAL(channel.muscle.force_per_kelvin_N_per_K, rig.muscle(5), 1e-6);
+  DOUBLES_EQUAL(channel.calibration.cold_resistance_Ohm, rig.muscle(known_cold_resistance), 1e-6);
+  CHECK(std::isnan(rig.muscle(known_unexplained_ratio)));
+  CHECK(std::isnan(rig.muscle(known_quantities.size())));
+  CHECK(std::isnan(rig.muscle(255)));
+  rig.run(15.0);
+  rig.claim(master);
+  rig.command(master, Verb::arm);
+  rig.run(0.5);
+  CHECK(rig.command(master, Verb::calibrate) == Refusal::none);
+  const auto goes_on = [&] { return rig.loop.channel(0).snapshot().mode == Mode::calibrate; };
+  for (int i = 0; i < 600 && goes_on(); ++i)
+    hold(0.1);
+  CHECK(rig.loop.channel(0).snapshot().result == ModeResult::found);
+  const double found_Ohm = rig.muscle(known_cold_resistance);
+  DOUBLES_EQUAL(channel.calibration.cold_resistance_Ohm, found_Ohm, 0.5);
+  CHECK(found_Ohm != channel.calibration.cold_resistance_Ohm);
+}
+
 TEST(OverCan, ARefusedValueComesWithTheNearestAcceptedOne) {
   rig.start(master);
   const auto max_m = static_cast<float>(rig.settings.firmware.channels[0].supervision.max_travel_m);

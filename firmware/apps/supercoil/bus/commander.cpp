@@ -130,6 +130,14 @@ Commander::Setting Commander::write(std::uint8_t setting, double value) {
   });
 }
 
+tl::expected<double, std::string> Commander::muscle(std::uint8_t quantity) {
+  drain();
+  return exchange<double>(can_client::muscle_read(master_.node(), quantity),
+                          [&](const hal::CanFrame& frame) {
+                            return can_client::receive_muscle(master_.node(), quantity, frame);
+                          });
+}
+
 void Commander::release() {
   if (master_.holds_lease()) static_cast<void>(exchange(master_.release()));
 }

@@ -28,6 +28,8 @@ class Commander {
   /// Likewise; reading needs no lease.
   Setting read(std::uint8_t setting);
   Setting write(std::uint8_t setting, double value);
+  /// A place in known_quantities; NaN: not known. Needs no lease.
+  tl::expected<double, std::string> muscle(std::uint8_t quantity);
   /// Gives the lease back, if there is one.
   void release();
   /// Passes over what came meanwhile; to be called every 100 ms or so when nothing is asked.

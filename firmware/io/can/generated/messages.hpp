@@ -114,6 +114,24 @@ inline constexpr std::array<ValueName, 14> names_of_parameter{{
     {13, "bias_deviation"},
 }};
 
+inline constexpr std::array<ValueName, 15> names_of_quantity{{
+    {0, "thermal_mass_J_per_K"},
+    {1, "heat_transfer_W_per_K"},
+    {2, "stiffness_N_per_m"},
+    {3, "damping_Ns_per_m"},
+    {4, "moving_mass_kg"},
+    {5, "force_per_kelvin_N_per_K"},
+    {6, "cold_resistance_Ohm"},
+    {7, "position_offset_m"},
+    {8, "position_scale"},
+    {9, "response_ratio"},
+    {10, "theta1_deviation_ratio"},
+    {11, "theta2_deviation_ratio"},
+    {12, "theta3_deviation_ratio"},
+    {13, "theta4_deviation_ratio"},
+    {14, "unexplained_ratio"},
+}};
+
 inline constexpr std::array<ValueName, 14> names_of_refusal{{
     {0, "none"},
     {1, "wrong_state"},
@@ -277,6 +295,11 @@ inline constexpr std::array<SignalInfo, 2> signals_of_RefusedValue{{
     {"nearest", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
 }};
 
+inline constexpr std::array<SignalInfo, 2> signals_of_Muscle{{
+    {"quantity", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_quantity},
+    {"value", "", 8, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
 inline constexpr std::array<SignalInfo, 6> signals_of_Setting{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
@@ -296,6 +319,10 @@ inline constexpr std::array<SignalInfo, 5> signals_of_SettingWrite{{
 
 inline constexpr std::array<SignalInfo, 1> signals_of_SettingRead{{
     {"setting", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_setting},
+}};
+
+inline constexpr std::array<SignalInfo, 1> signals_of_MuscleRead{{
+    {"quantity", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_quantity},
 }};
 
 inline constexpr std::array<SignalInfo, 16> signals_of_Status{{
@@ -333,14 +360,16 @@ inline constexpr MessageInfo limit{"Limit", 0x440, 5, 100, signals_of_Limit};
 inline constexpr MessageInfo timing{"Timing", 0x480, 8, 100, signals_of_Timing};
 inline constexpr MessageInfo gain{"Gain", 0x4c0, 5, 200, signals_of_Gain};
 inline constexpr MessageInfo refused_value{"RefusedValue", 0x500, 8, 0, signals_of_RefusedValue};
+inline constexpr MessageInfo muscle{"Muscle", 0x540, 5, 0, signals_of_Muscle};
 inline constexpr MessageInfo setting{"Setting", 0x580, 8, 0, signals_of_Setting};
 inline constexpr MessageInfo setting_write{"SettingWrite", 0x5c0, 8, 0, signals_of_SettingWrite};
 inline constexpr MessageInfo setting_read{"SettingRead", 0x600, 1, 0, signals_of_SettingRead};
+inline constexpr MessageInfo muscle_read{"MuscleRead", 0x680, 1, 0, signals_of_MuscleRead};
 inline constexpr MessageInfo status{"Status", 0x700, 8, 100, signals_of_Status};
 }  // namespace message
 
 /// In the order of identifiers.
-inline constexpr std::array<MessageInfo, 19> all_messages{{
+inline constexpr std::array<MessageInfo, 21> all_messages{{
     message::emergency,
     message::first_cause,
     message::command,
@@ -356,9 +385,11 @@ inline constexpr std::array<MessageInfo, 19> all_messages{{
     message::timing,
     message::gain,
     message::refused_value,
+    message::muscle,
     message::setting,
     message::setting_write,
     message::setting_read,
+    message::muscle_read,
     message::status,
 }};
 

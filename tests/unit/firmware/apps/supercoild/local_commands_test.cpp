@@ -145,3 +145,10 @@ TEST(LocalCommands, ANinthClientIsRefusedWithAReason) {
   STRCMP_EQUAL("refused: too many clients", ninth.heard().c_str());
   CHECK_FALSE(answer_to(clients.back(), "state").empty());
 }
+
+TEST(LocalCommands, WhatIsKnownOfEachMuscleIsALine) {
+  const Client asking = client();
+  const std::string answer = answer_to(asking, "muscle");
+  STRCMP_CONTAINS("1 0.162 0.089 16 2 0.09 0.0086 10 0 1 0 nan nan nan nan nan\n2 ",
+                  answer.c_str());
+}

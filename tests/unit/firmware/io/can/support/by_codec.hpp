@@ -157,6 +157,15 @@ inline Values setting_read(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_setting_read_unpack);
   return values({supercoil_setting_read_setting_decode(m.setting)});
 }
+inline Values muscle(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_muscle_unpack);
+  return values(
+      {supercoil_muscle_quantity_decode(m.quantity), supercoil_muscle_value_decode(m.value)});
+}
+inline Values muscle_read(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_muscle_read_unpack);
+  return values({supercoil_muscle_read_quantity_decode(m.quantity)});
+}
 inline Values status(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_status_unpack);
   return values(
@@ -180,7 +189,7 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 19> codec_messages{{
+constexpr std::array<CodecMessage, 21> codec_messages{{
     {"Emergency", SUPERCOIL_EMERGENCY_FRAME_ID, SUPERCOIL_EMERGENCY_LENGTH, emergency},
     {"FirstCause", SUPERCOIL_FIRST_CAUSE_FRAME_ID, SUPERCOIL_FIRST_CAUSE_LENGTH, first_cause},
     {"Command", SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, command},
@@ -197,10 +206,12 @@ constexpr std::array<CodecMessage, 19> codec_messages{{
     {"Gain", SUPERCOIL_GAIN_FRAME_ID, SUPERCOIL_GAIN_LENGTH, gain},
     {"RefusedValue", SUPERCOIL_REFUSED_VALUE_FRAME_ID, SUPERCOIL_REFUSED_VALUE_LENGTH,
      refused_value},
+    {"Muscle", SUPERCOIL_MUSCLE_FRAME_ID, SUPERCOIL_MUSCLE_LENGTH, muscle},
     {"Setting", SUPERCOIL_SETTING_FRAME_ID, SUPERCOIL_SETTING_LENGTH, setting},
     {"SettingWrite", SUPERCOIL_SETTING_WRITE_FRAME_ID, SUPERCOIL_SETTING_WRITE_LENGTH,
      setting_write},
     {"SettingRead", SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_SETTING_READ_LENGTH, setting_read},
+    {"MuscleRead", SUPERCOIL_MUSCLE_READ_FRAME_ID, SUPERCOIL_MUSCLE_READ_LENGTH, muscle_read},
     {"Status", SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, status},
 }};
 

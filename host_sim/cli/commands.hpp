@@ -31,6 +31,8 @@ struct RunOptions {
   bool quiet = false;
   bool allow_fault = false;  ///< a run that ends in a fault is not a failure
   std::string learned;       ///< folder; empty: nothing is remembered
+  std::string board;         ///< file of the firmware's configuration; empty: the scenario's own
+  int channel = 1;           ///< of the board, from 1
 };
 int run_command(const RunOptions& options);
 

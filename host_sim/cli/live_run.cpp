@@ -19,17 +19,17 @@ hal::Time since_1970() {
 
 /// Puts the board on a bus that others can join.
 tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Simulation& simulation,
+                                                                   const std::string& interface,
                                                                    std::uint16_t port) {
-  const telemetry::CanSettings can;
   auto server = SocketcandServer::listen(
-      port, can.interface, [&](const hal::CanFrame& frame) { simulation.bus()->deliver(frame); });
+      port, interface, [&](const hal::CanFrame& frame) { simulation.bus()->deliver(frame); });
   if (!server) return server;
   // Frames are as far apart as on the board, whatever this machine's scheduler does.
   const hal::Time epoch = since_1970() - simulation.start();
-  simulation.join_bus(can, [bus = server->get(), epoch](const hal::CanFrame& frame) {
+  simulation.join_bus([bus = server->get(), epoch](const hal::CanFrame& frame) {
     bus->send(frame, frame.received + epoch);
   });
-  std::printf("serving %s on 127.0.0.1:%d by the socketcand protocol\n", can.interface.c_str(),
+  std::printf("serving %s on 127.0.0.1:%d by the socketcand protocol\n", interface.c_str(),
               static_cast<int>((*server)->port()));
   return server;
 }
@@ -46,7 +46,7 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
   Summary summary(window);
   std::unique_ptr<SocketcandServer> server;
   if (options.socketcand_port) {
-    auto served = serve(simulation, *options.socketcand_port);
+    auto served = serve(simulation, scenario.can.interface, *options.socketcand_port);
     if (!served) return fail(exit_wrong_input, served.error());
     server = std::move(*served);
   }

@@ -51,9 +51,8 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   if (options.trace) trace.emplace(folder.temporary("trace.csv"), options.every);
   std::optional<CanLog> can_log;
   if (options.can) {
-    const telemetry::CanSettings can;
-    can_log.emplace(folder.temporary("can.log"), can.interface);
-    simulation.join_bus(can, [&](const hal::CanFrame& frame) {
+    can_log.emplace(folder.temporary("can.log"), scenario.can.interface);
+    simulation.join_bus([&](const hal::CanFrame& frame) {
       can_log->add(frame, frame.received - simulation.start());
     });
   }

@@ -42,6 +42,15 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
   run->add_option("--learned", options.learned,
                   "Folder of what the board learned: used at its start, and renewed");
+  CLI::Option* board =
+      run->add_option("--board", options.board,
+                      "Run the firmware as this board's file configures it, over the scenario's "
+                      "muscle [as the scenario does]")
+          ->type_name("FILE");
+  run->add_option("--channel", options.channel, "Of that board, from 1")
+      ->check(CLI::Range(1, 16))
+      ->capture_default_str()
+      ->needs(board);
   run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
   run->add_flag("!--no-can", options.can, "Write no can.log, what the board sends on its CAN bus");

@@ -5,10 +5,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/runs.hpp"
+#include "config/board_config.hpp"
 #include "config/describe.hpp"
 #include "report/output_folder.hpp"
 #include "runner/board_of.hpp"
 #include "runner/summary.hpp"
+#include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
 #include "storage/posix_files.hpp"
 #include "storage/store.hpp"
@@ -49,6 +51,24 @@ void tell_feasibility(const Scenario& scenario, bool in_brief) {
     std::printf("advice: %s\n", line.c_str());
 }
 
+/// Of --board, if there is one. The error is whole lines.
+tl::expected<void, std::string> use_own_board(const RunOptions& options,
+                                              const std::optional<board::Learned>& learned,
+                                              Scenario& scenario) {
+  if (options.board.empty()) return {};
+  const auto config = config::read_board_config(options.board);
+  if (!config) return tl::unexpected(config::to_text(config.error()));
+  const auto channels = static_cast<int>(config->settings.channels.size());
+  if (options.channel > channels) {
+    return tl::unexpected("supercoil-sim: --channel " + std::to_string(options.channel) + ": " +
+                          options.board + " has " + std::to_string(channels) + "\n");
+  }
+  const auto used =
+      use_board(scenario, *config, static_cast<std::size_t>(options.channel) - 1, learned);
+  if (used) return {};
+  return tl::unexpected(options.scenario + " on " + options.board + ": " + used.error() + "\n");
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options) {
@@ -62,9 +82,13 @@ int run_command(const RunOptions& options) {
       std::fprintf(stderr, "supercoil-sim: %s\n", problem.c_str());
     learned = loaded->learned;
   }
-  const auto scenario = read_scenario(options.scenario, learned);
+  auto scenario = read_scenario(options.scenario, learned);
   if (!scenario) {
     std::fputs(config::to_text(scenario.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  if (const auto used = use_own_board(options, learned, *scenario); !used) {
+    std::fputs(used.error().c_str(), stderr);
     return exit_wrong_input;
   }
   const auto window = read_window(options.window, scenario->duration_s, scenario->step_s());

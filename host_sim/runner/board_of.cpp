@@ -39,6 +39,7 @@ board::Scaling scaling_of(const ConverterSettings& c) {
 
 /// 12 ticks: more than twice the five overruns that are tolerated in a row.
 double pump_decay_s(const Scenario& scenario) {
+  if (scenario.board) return scenario.board->supervision.charge_pump_decay_s;
   return std::max(0.02, 12.0 * scenario.step_s());
 }
 
@@ -93,6 +94,16 @@ board::ThermalSettings thermal_of(const Conditions& c) {
   return t;
 }
 
+/// A board of its own over simulated converters, whose counts are theirs.
+BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated) {
+  board.supply.scaling = scaling_of(simulated.supply);
+  if (simulated.air) board.air.scaling = scaling_of(*simulated.air);
+  ChannelSettings& channel = board.channels[0];
+  channel.position.scaling = scaling_of(simulated.channels[0].position);
+  channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
+  return board;
+}
+
 /// In °C; beside its error, as good as any.
 const ConverterSettings air_sensor{.low = -100.0, .high = 200.0};
 
@@ -111,9 +122,10 @@ MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditio
   m.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
   m.load_N = c.plant.load_N;
   m.power_gain = c.power.gain;
-  if (c.power.pwm_bits > 0) m.pwm_steps = (1 << c.power.pwm_bits) - 1;
+  if (c.power.pwm_steps > 0) m.pwm_steps = c.power.pwm_steps;
   m.pwm_delay_s = std::nearbyint(c.power.delay_s * scenario.rate_Hz) / scenario.rate_Hz;
   m.position = converter_of(c.position_sensor);
+  if (scenario.board) m.sense_filter_s = scenario.board->channels[0].heater.sense_filter_s;
   m.current.high = 20.0 * c.power.supply_V / c.plant.resistance_Ohm;
   m.current.low = -0.1 * m.current.high;
   return m;
@@ -134,6 +146,7 @@ SimulatedBoardSettings simulated_board_of(const Scenario& scenario) {
 
 BoardSettings firmware_of(const Scenario& scenario) {
   const SimulatedBoardSettings simulated = simulated_board_of(scenario);
+  if (scenario.board) return over(*scenario.board, simulated);
   const Conditions& c = scenario.start;
   BoardSettings board;
   board.rate_Hz = scenario.rate_Hz;

@@ -14,6 +14,8 @@ namespace {
 constexpr double boot_s = 15.0;
 /// Seconds for which a slow muscle may have to be known to cool before it can be armed.
 constexpr int max_waits = 3600;
+/// Marks command()'s; those of the scenario have none.
+constexpr std::uint32_t commanded = 1;
 /// Ticks between two looks into the recorder's ring, which holds 2 s.
 constexpr std::uint32_t rows_every = 32;
 
@@ -61,11 +63,10 @@ void Simulation::boot_for(double time_s) {
   }
 }
 
-void Simulation::join_bus(const telemetry::CanSettings& settings,
-                          std::function<void(const hal::CanFrame&)> listener) {
-  bus_.emplace(board_, settings.bit_rate);
+void Simulation::join_bus(std::function<void(const hal::CanFrame&)> listener) {
+  bus_.emplace(board_, scenario_->can.bit_rate);
   bus_->listener = std::move(listener);
-  link_.emplace(settings, firmware_of(*scenario_), loop_, *bus_,
+  link_.emplace(scenario_->can, firmware_of(*scenario_), loop_, *bus_,
                 std::mt19937(static_cast<std::uint32_t>(scenario_->seed)));
 }
 
@@ -76,6 +77,7 @@ void Simulation::housekeep() {
   Answer answer;
   while (loop_.answer(answer)) {
     if (link_ && answer.command.source == Source::can) link_->answer(answer);
+    if (answer.command.id == commanded) answer_ = answer;
   }
   if (link_) link_->poll(board_.now());
   while (loop_.channel(0).take_learned_update(learned_)) {
@@ -160,6 +162,12 @@ void Simulation::ask(double reference) {
       break;
   }
   last_action_ = conditions_->action;
+}
+
+Answer Simulation::command(Verb verb, double value) {
+  loop_.send({0, verb, value, Source::local, commanded});
+  step();
+  return answer_;
 }
 
 TickRecord Simulation::step() {

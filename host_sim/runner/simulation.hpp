@@ -52,6 +52,8 @@ class Simulation {
   bool done() const { return tick_ >= ticks_; }
   /// One tick: events, what is asked for, and the firmware's tick.
   TickRecord step();
+  /// One tick as well, with a command beside the scenario's, and what the board answers to it.
+  Answer command(Verb verb, double value);
 
   std::int64_t tick() const { return tick_; }
   std::int64_t ticks() const { return ticks_; }
@@ -64,8 +66,7 @@ class Simulation {
   void record_to(recorder::FlightRecorder& recorder) { recorder_ = &recorder; }
   const Loop& loop() const { return loop_; }
   /// Puts the board on a CAN bus from now on; the listener hears every frame that it sends.
-  void join_bus(const telemetry::CanSettings& settings,
-                std::function<void(const hal::CanFrame&)> listener);
+  void join_bus(std::function<void(const hal::CanFrame&)> listener);
   /// Empty before join_bus().
   SimulatedCanBus* bus() { return bus_ ? &*bus_ : nullptr; }
   /// The board's clock at the scenario's time 0.
@@ -96,6 +97,7 @@ class Simulation {
   OperatorAction last_action_ = OperatorAction::rest;
   bool resetting_ = false;
   std::uint32_t beats_ = 0;
+  Answer answer_;  ///< to command()
   recorder::FlightRecorder* recorder_ = nullptr;
   SimulatedBoard board_;
   Loop loop_;

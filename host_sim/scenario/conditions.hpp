@@ -49,7 +49,7 @@ struct ThermometerSettings {
 struct PowerSettings {
   double max_W = 4.5;
   double min_W = 0.0;
-  int pwm_bits = 0;  ///< 0: ideal
+  int pwm_steps = 0;  ///< of a period; 0: ideal
   double supply_V = 12.0;
   bool error_feedback = true;  ///< what rounding took from one duty is added to the next
   double delay_s = 0.0;        ///< actuation delay, rounded to whole ticks

@@ -55,7 +55,8 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
   power.max_W = section.number("max_W", power.max_W, {1e-3, 1e3});
   power.min_W = section.number("min_W", power.min_W, {0.0, 1e3});
   if (!(power.min_W < power.max_W)) section.wrong("min_W", "must be less than max_W");
-  power.pwm_bits = static_cast<int>(section.integer("pwm_bits", power.pwm_bits, 0, 24));
+  const auto pwm_bits = static_cast<int>(section.integer("pwm_bits", 0, 0, 24));
+  power.pwm_steps = (1 << pwm_bits) - 1;
   power.supply_V = section.number("supply_V", power.supply_V, {0.5, 60.0});
   const double full_scale_W = power.supply_V * power.supply_V / resistance_Ohm;
   std::ostringstream message;
@@ -63,8 +64,8 @@ PowerSettings read_power(Section section, double resistance_Ohm, double step_s) 
     message << "must not exceed what the supply gives at a duty of 1: supply_V²/resistance_Ohm = "
             << full_scale_W << " W";
     section.wrong("max_W", message.str());
-  } else if (power.pwm_bits > 0) {
-    const double step_W = full_scale_W / (std::ldexp(1.0, power.pwm_bits) - 1.0);
+  } else if (power.pwm_steps > 0) {
+    const double step_W = full_scale_W / power.pwm_steps;
     if (std::ceil(power.min_W / step_W) > std::floor(power.max_W / step_W) ||
         power.max_W < step_W) {
       message << "has too few steps: one is " << step_W

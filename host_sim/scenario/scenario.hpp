@@ -3,11 +3,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "board/learned.hpp"
+#include "loop/settings.hpp"
 #include "scenario/conditions.hpp"
+#include "telemetry/settings.hpp"
 
 namespace supercoil::host_sim {
 
@@ -30,6 +33,9 @@ struct Scenario {
   bool muscle_identified = false;  ///< identified before: not only believed
   double response_ratio = 0.0;     ///< of small motions, learned before
   board::Calibration calibration;  ///< learned before; its resistance is [plant]'s otherwise
+  /// The firmware of a board of the user's own, with one channel; empty: one for the scenario.
+  std::optional<BoardSettings> board;
+  telemetry::CanSettings can;
   Conditions start;
   std::vector<Event> events;  ///< in the order of their times
 

@@ -37,18 +37,6 @@ void warn_unstable(const ChannelSettings& channel, std::size_t index, double ste
 
 }  // namespace
 
-void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
-  channel.senses = learned.senses;
-  channel.heat = learned.heat;
-  channel.has_muscle = learned.has_muscle;
-  if (!channel.has_muscle) return;
-  // Calibrating alone stores the muscle as the file has it: that is no identification.
-  channel.muscle_identified = !(learned.muscle == channel.muscle);
-  channel.muscle = learned.muscle;
-  channel.calibration = learned.calibration;
-  channel.response_ratio = learned.response_ratio;
-}
-
 tl::expected<void, std::string> load_learned(config::BoardConfig& config,
                                              std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {

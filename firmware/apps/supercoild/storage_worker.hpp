@@ -14,9 +14,6 @@
 
 namespace supercoil::daemon {
 
-/// What a channel learned before.
-void apply_learned(ChannelSettings& channel, const board::Learned& learned);
-
 /// What channels learned before, into the settings of a board whose storage worker is made then.
 /// The error says what cannot be read; a board does not start without what it knew, for a lost zero
 /// is a wrong position.

@@ -5,6 +5,18 @@
 
 namespace supercoil {
 
+void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
+  channel.senses = learned.senses;
+  channel.heat = learned.heat;
+  channel.has_muscle = learned.has_muscle;
+  if (!channel.has_muscle) return;
+  // Calibrating alone stores the muscle as the file has it: that is no identification.
+  channel.muscle_identified = !(learned.muscle == channel.muscle);
+  channel.muscle = learned.muscle;
+  channel.calibration = learned.calibration;
+  channel.response_ratio = learned.response_ratio;
+}
+
 std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,
                                              const ChannelSettings& channel, double step_s) {
   const auto law = control::fixed_law(controller, channel.muscle);

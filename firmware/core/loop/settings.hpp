@@ -67,6 +67,9 @@ struct BoardSettings {
   double step_s() const { return 1.0 / rate_Hz; }
 };
 
+/// What a channel learned before, in place of what is configured.
+void apply_learned(ChannelSettings& channel, const board::Learned& learned);
+
 /// From the sampling of a position, which may be a tick old, until the power acts that answers it.
 inline double loop_delay_s(const ChannelSettings& channel, double step_s) {
   return step_s + channel.heater.delay_s;

@@ -15,6 +15,7 @@ import time
 import unittest
 
 PROGRAM = os.environ["SUPERCOIL_SIM"]
+EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "firmware/io/config/examples"
 SHORT = "simulation.duration_s = 2.0\n"
 
 
@@ -160,6 +161,37 @@ class Program(unittest.TestCase):
         self.check_refused("/proc/none: cannot be made", "run", self.scenario(SHORT),
                            "--out", "/proc/none")
         self.check_refused("/proc/none: cannot be made", "reproduce", "--out", "/proc/none")
+
+    def test_a_scenarios_muscle_under_the_firmware_of_a_boards_own_file(self):
+        example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
+        text = "simulation.duration_s = 20.0\n"
+        done = self.run_program("run", self.scenario(text), "--board", example, "--channel", 2, "--out", "out", "--no-plot")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        summary = json.loads((self.path / "out/summary.json").read_text())
+        self.assertEqual((summary["controller"], summary["faults"]), ("pi", []))
+        with (self.path / "out/trace.csv").open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 2000)  # at the board's 100 Hz
+        # Its sensor counts 1.515 um.
+        read_m = sorted({float(row["measured_m"]) for row in rows})
+        steps_m = [after - before for before, after in zip(read_m, read_m[1:])]
+        self.assertAlmostEqual(min(steps_m), 1.515e-6, delta=2e-9)
+        self.assertGreater(len(steps_m), 100)
+
+    def test_a_board_and_a_scenario_that_do_not_go_together(self):
+        example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
+        for text, options, told in (
+                (SHORT + "power.supply_V = 24.0\n", [], "power.supply_V = 24 is outside of the board's supply.min_V to max_V, 10.8 to 13.2"),
+                (SHORT + "[[event]]\nat_s = 1.0\ncontroller.kind = 'pi'\n", [], "event at 1 s changes [controller]"),
+                (SHORT, ["--channel", 3], "has 2")):
+            done = self.run_program("run", self.scenario(text), "--board", example, *options, "--out", "out")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(told, done.stderr)
+            self.assertFalse((self.path / "out").exists())
+        (self.path / "board.toml").write_text("[bord]\n")
+        done = self.run_program("run", self.scenario(SHORT), "--board", "board.toml")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("board.toml:1: bord", done.stderr)
 
     def test_a_window_outside_the_run(self):
         for window in ["1:99", "2:1", "x:y", "5"]:

@@ -111,7 +111,7 @@ trusted_error = 0.1
   sensor.resolution_bits = 12;
   sensor.range_m = 0.030;
   CHECK(c.position_sensor == sensor);
-  CHECK(c.power == (PowerSettings{4.0, 0.1, 12, 10.0, false, 0.004, 0.9}));
+  CHECK(c.power == (PowerSettings{4.0, 0.1, 4095, 10.0, false, 0.004, 0.9}));
   CHECK(c.thermal == (ThermalSpans{{0.8, 1.2}, {0.5, 2.0}, {0.9, 1.1}}));
   CHECK(c.ambient == (Ambient{21.0, 30.0, 10.0, 1.5, -0.5}));
   DOUBLES_EQUAL(0.05, c.sense_error_ratio, 0.0);

@@ -1,0 +1,20 @@
+// Changes single values in a board's file and leaves the rest as its author wrote it.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <tl/expected.hpp>
+
+namespace supercoil::config {
+
+/// The file's text with one key of one [[channel]] set to a literal: in its place where the channel
+/// has the key, else in its table, else in the channel's first line. Comments and order stay.
+/// text: valid TOML. channel: from 0. path: "limits.max_W" or "controller", one table deep.
+/// literal: a TOML value on one line. The error says what could not be done.
+tl::expected<std::string, std::string> with_channel_value(const std::string& text,
+                                                          std::size_t channel,
+                                                          const std::string& path,
+                                                          const std::string& literal);
+
+}  // namespace supercoil::config

@@ -31,10 +31,11 @@ with contextlib.suppress(PermissionError):  # root, as in a container: the fewer
 
 
 class Simulator:
-    def __init__(self, folder, scenario="bench"):
+    def __init__(self, folder, scenario="bench", *options):
         self.out = pathlib.Path(folder) / "out"
         self.process = subprocess.Popen(
-            [os.environ["SUPERCOIL_SIM"], "run", scenario, "--real-time", "--can", "socketcand:0", "--out", self.out],
+            [os.environ["SUPERCOIL_SIM"], "run", scenario, "--real-time", "--can", "socketcand:0", "--out", self.out,
+             *options],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         first = self.process.stdout.readline()
         self.port = int(re.fullmatch(r"serving can0 on 127\.0\.0\.1:(\d+) by the socketcand protocol\n", first)[1])

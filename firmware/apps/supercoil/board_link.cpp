@@ -1,6 +1,7 @@
 #include "apps/supercoil/board_link.hpp"
 
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <sstream>
 #include <thread>
@@ -10,6 +11,7 @@
 #include "apps/supercoil/bus/listener.hpp"
 #include "apps/supercoil/bus/terminal.hpp"
 #include "can/codec.hpp"
+#include "loop/snapshot.hpp"
 #include "modes/result.hpp"
 #include "telemetry/frames.hpp"
 #include "telemetry/run_settings.hpp"
@@ -49,6 +51,29 @@ tl::expected<board::SenseComparison, std::string> LocalBoardLink::senses(
   return tl::unexpected("senses: " + *line);
 }
 
+tl::expected<KnownMuscle, std::string> LocalBoardLink::muscle(const std::string& channel) {
+  const auto line = line_of("muscle", channel);
+  if (!line) return tl::unexpected(line.error());
+  KnownMuscle known;
+  std::istringstream words(line->substr(channel.size()));
+  for (double& value : known) {
+    std::string word;
+    if (!(words >> word)) return tl::unexpected("muscle: " + *line);
+    value = std::strtod(word.c_str(), nullptr);  // streams do not read nan
+  }
+  return known;
+}
+
+tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& channel) {
+  const auto line = line_of("state", channel);
+  if (!line) return tl::unexpected(line.error());
+  std::istringstream words(*line);
+  std::string skipped, mode, model, position;
+  words >> skipped >> skipped >> mode >> skipped >> skipped >> model >> position;
+  if (mode != mode_names[static_cast<std::size_t>(Mode::position)]) return NAN;
+  return std::strtod(position.c_str(), nullptr) - std::strtod(model.c_str(), nullptr);
+}
+
 CanBoardLink::~CanBoardLink() {
   for (const auto& [node, commander] : nodes_)
     commander->release();
@@ -67,7 +92,7 @@ BoardLink::Answer CanBoardLink::ask(const std::string& line) {
 tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node) {
   if (!nodes_.contains(node)) {
     auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
-                               can_client::refused_value_id(node)});
+                               can_client::refused_value_id(node), can_client::muscle_id(node)});
     if (!bus) return tl::unexpected(bus.error());
     nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
   }
@@ -87,6 +112,32 @@ tl::expected<board::SenseComparison, std::string> CanBoardLink::senses(const std
     *value = heard->value;
   }
   return senses;
+}
+
+tl::expected<KnownMuscle, std::string> CanBoardLink::muscle(const std::string& channel) {
+  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
+  if (!node) return tl::unexpected(node.error());
+  KnownMuscle known;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto told = (*node)->muscle(static_cast<std::uint8_t>(i));
+    if (!told) return tl::unexpected(told.error());
+    known[i] = *told;
+  }
+  return known;
+}
+
+tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {
+  const auto node = static_cast<std::uint8_t>(std::stoi(channel));
+  if (!tracked_.contains(node)) {
+    auto bus = open_bus(bus_, {can_client::tracking_id(node)});
+    if (!bus) return tl::unexpected(bus.error());
+    tracked_.emplace(node, std::move(*bus));
+    errors_m_[node] = NAN;
+  }
+  for (hal::CanFrame frame; tracked_.at(node)->receive(frame) == hal::Status::ok;) {
+    if (const auto told = can_client::receive_error_m(node, frame)) errors_m_[node] = *told;
+  }
+  return errors_m_[node];
 }
 
 BoardLink::Answer CanBoardLink::state() {

@@ -1,15 +1,18 @@
 // What commands are sent to: the supercoild of this board, or nodes on a CAN bus.
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
+#include <thread>
 
 #include <tl/expected.hpp>
 
 #include "apps/supercoil/board_socket.hpp"
 #include "apps/supercoil/bus/commander.hpp"
 #include "board/learned.hpp"
+#include "loop/known_muscle.hpp"
 
 namespace supercoil::operating {
 
@@ -35,6 +38,17 @@ class BoardLink {
   virtual tl::expected<Ending, std::string> ending(const std::string& channel) = 0;
   /// What a comparison with a meter found; without its date. channel: as in a line.
   virtual tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) = 0;
+  /// What the board goes by, in the order of known_quantities. channel: as in a line.
+  virtual tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) = 0;
+  /// Position less reference model, the newest; NaN while no position is followed.
+  virtual tl::expected<double, std::string> error_m(const std::string& channel) = 0;
+  /// Lets the board go on.
+  virtual void wait(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
+  /// From whenever; grows as the board's time does.
+  virtual double time_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+  }
 };
 
 class LocalBoardLink final : public BoardLink {
@@ -44,6 +58,8 @@ class LocalBoardLink final : public BoardLink {
   Answer state() override { return socket_.ask("state"); }
   tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
+  tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override;
+  tl::expected<double, std::string> error_m(const std::string& channel) override;
 
  private:
   /// The line of a channel in the answer for all.
@@ -63,12 +79,16 @@ class CanBoardLink final : public BoardLink {
   /// From the next heartbeat; notes from the next estimates, if the board sends any.
   tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
+  tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override;
+  tl::expected<double, std::string> error_m(const std::string& channel) override;
 
  private:
   tl::expected<Commander*, std::string> commander(std::uint8_t node);
 
   std::string bus_;
   std::map<std::uint8_t, std::unique_ptr<Commander>> nodes_;
+  std::map<std::uint8_t, std::unique_ptr<hal::CanBus>> tracked_;  ///< on which nodes tell it
+  std::map<std::uint8_t, double> errors_m_;
 };
 
 /// can: a bus by its name; empty: the supercoild that listens at this socket.

@@ -10,6 +10,7 @@
 #include "apps/common/commands.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/identify/options.hpp"
+#include "apps/supercoil/setup/options.hpp"
 #include "telemetry/frames.hpp"
 
 namespace {
@@ -191,6 +192,8 @@ int run_program(int count, char** arguments) {
   add_monitor(app, monitor);
   IdentifyOptions identify;
   add_identify(app, identify);
+  SetupOptions setup;
+  add_setup(app, setup);
   DbcOptions dbc;
   add_dbc(app, dbc);
   if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
@@ -205,6 +208,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("monitor")) return monitor_command(monitor);
   if (app.got_subcommand("setting")) return setting_command(setting);
   if (app.got_subcommand("identify")) return identify_command(identify);
+  if (app.got_subcommand("setup")) return setup_command(setup);
   if (app.got_subcommand("dbc")) return dbc_command(dbc);
   return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }

@@ -1,0 +1,231 @@
+#include "apps/supercoil/setup/commission.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/interrupted.hpp"
+#include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/setup/promise.hpp"
+#include "modes/calibrate.hpp"
+#include "text/command_text.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::chrono::milliseconds renewal{100};
+constexpr std::chrono::milliseconds reference_step{20};
+/// A muscle that is cold by all bounds is armed at once; the file says how long it may take else.
+constexpr double arming_s = 5.0;
+constexpr double told_every_s = 10.0;
+/// As in firmware: calibrate waits for a cold muscle, identify judges after 1200 s.
+constexpr double max_calibrate_s = 130.0;
+constexpr double max_identify_s = 1400.0;
+/// Above the air, from which on calibrate takes a zero.
+constexpr double cold_K = modes::Calibrate::Settings{}.cold_K;
+
+std::string in_digits(double value) {
+  return number_text(value, 4);
+}
+
+/// "9.87 Ohm (configured: 10, -1.3 %)"
+std::string beside(double found, double configured, const std::string& unit) {
+  const double percent = 100.0 * (found / configured - 1.0);
+  return in_digits(found) + (unit.empty() ? "" : " ") + unit +
+         " (configured: " + in_digits(configured) + ", " + (percent < 0.0 ? "" : "+") +
+         number_text(percent, 3) + " %)";
+}
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+tl::expected<void, std::string> only_found(const std::string& mode,
+                                           const tl::expected<std::string, std::string>& result) {
+  if (!result) return tl::unexpected(result.error());
+  if (*result == "found") return {};
+  return tl::unexpected(mode + " ended: " + *result +
+                        "; docs/running.md says what each result means");
+}
+
+}  // namespace
+
+Commission::Commission(BoardLink& board, std::string channel, const ChannelSettings& configured,
+                       const BoardSettings& settings, std::function<void(const std::string&)> say)
+    : board_(board),
+      channel_(std::move(channel)),
+      configured_(configured),
+      settings_(settings),
+      say_(std::move(say)) {}
+
+Commission::Done Commission::ask(const std::string& command) {
+  const auto answer = board_.ask(channel_ + " " + command);
+  if (!answer) return tl::unexpected(answer.error());
+  if (*answer == "ok") return {};
+  return tl::unexpected(command + ": " + *answer);
+}
+
+/// Says every ten seconds that it goes on; false when it was interrupted.
+bool Commission::tell_progress(double elapsed_s, double& told_s, const std::string& what) {
+  if (elapsed_s - told_s >= told_every_s) {
+    told_s = elapsed_s;
+    say_(what + ", " + in_digits(elapsed_s) + " s");
+  }
+  return interrupted == 0;
+}
+
+/// A board that was just started waits until its muscle must be cool.
+Commission::Done Commission::arm() {
+  const Feasibility f = feasibility(configured_, settings_);
+  const double max_s = arming_s + f.armable_s;
+  const double begin_s = board_.time_s();
+  double told_s = 0.0;
+  for (;;) {
+    const double elapsed_s = board_.time_s() - begin_s;
+    const auto answer = board_.ask(channel_ + " arm");
+    if (!answer) return tl::unexpected(answer.error());
+    if (*answer == "ok" || *answer == answer_text(Refusal::wrong_state, NAN)) break;
+    if (elapsed_s >= max_s) return tl::unexpected("arm: " + *answer);
+    if (!tell_progress(elapsed_s, told_s, "waiting until the muscle must be cool"))
+      return tl::unexpected<std::string>("interrupted");
+    board_.wait(std::chrono::seconds(1));
+  }
+  board_.wait(std::chrono::milliseconds(500));  // the probe of its heater
+  return {};
+}
+
+tl::expected<std::string, std::string> Commission::run_mode(const std::string& mode, double max_s) {
+  if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
+  const double begin_s = board_.time_s();
+  double told_s = 0.0;
+  for (double elapsed_s = 0.0; elapsed_s < max_s; elapsed_s = board_.time_s() - begin_s) {
+    board_.wait(renewal);
+    if (!tell_progress(elapsed_s, told_s, mode)) {
+      static_cast<void>(ask("rest"));
+      return tl::unexpected(mode + ": interrupted");
+    }
+    const auto answer = board_.ask(channel_ + " renew");
+    if (!answer) return tl::unexpected(answer.error());
+    if (*answer != "ok") break;
+  }
+  auto ending = board_.ending(channel_);
+  for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
+    board_.wait(renewal);
+    ending = board_.ending(channel_);
+  }
+  if (!ending) return tl::unexpected(ending.error());
+  if (!ending->notes.empty()) say_(mode + " notes: " + ending->notes);
+  return ending->result;
+}
+
+tl::expected<std::string, std::string> Commission::calibrate_when_cold() {
+  const control::ThermalBounds& b = configured_.thermal.bounds;
+  const double max_tau_s = b.max_mass_J_per_K / b.min_transfer_W_per_K;
+  const double cold_after_s =
+      max_tau_s * std::log(std::max(1.0, configured_.thermal.boot_rise_K / cold_K));
+  const double begin_s = board_.time_s();
+  for (;;) {
+    auto result = run_mode("calibrate", max_calibrate_s);
+    const double left_s = cold_after_s - (board_.time_s() - begin_s);
+    if (!result || *result != "not_cold" || left_s < 0.0) return result;
+    say_("not cold yet, by the bounds of its heat; in " + in_digits(left_s) + " s at the latest");
+  }
+}
+
+StepResult Commission::calibrate() {
+  if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
+  if (auto done = only_found("calibrate", calibrate_when_cold()); !done)
+    return tl::unexpected(done.error());
+  const auto known = board_.muscle(channel_);
+  if (!known) return tl::unexpected(known.error());
+  const double cold_Ohm = (*known)[known_cold_resistance];
+  const double offset_m = (*known)[known_position_offset];
+  say_("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there");
+  say_("cold resistance: " + beside(cold_Ohm, configured_.heater.cold_resistance_Ohm, "Ohm"));
+  return Json{{"position_offset_m", number(offset_m)}, {"cold_resistance_Ohm", number(cold_Ohm)}};
+}
+
+StepResult Commission::identify() {
+  if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
+  if (auto done = only_found("identify", run_mode("identify", max_identify_s)); !done)
+    return tl::unexpected(done.error());
+  const auto known = board_.muscle(channel_);
+  if (!known) return tl::unexpected(known.error());
+  Json found;
+  for (std::size_t i = 0; i < control::physical_ranges.size(); ++i) {
+    const control::PhysicalRange& range = control::physical_ranges[i];
+    const double configured = configured_.muscle.*range.member;
+    found[range.name] = number((*known)[i]);
+    constexpr double float_rounding_ratio = 1e-6;
+    if (std::abs((*known)[i] / configured - 1.0) > float_rounding_ratio)
+      say_(std::string(range.name) + ": " + beside((*known)[i], configured, ""));
+  }
+  for (std::size_t i = known_theta1_deviation; i < known->size(); ++i)
+    found[std::string(known_quantities[i])] = number((*known)[i]);
+  const auto percent = [&](std::size_t i) { return in_digits(100.0 * (*known)[i]); };
+  constexpr std::size_t first = known_theta1_deviation;
+  say_("standard deviation of theta1 to theta4: " + percent(first) + ", " + percent(first + 1) +
+       ", " + percent(first + 2) + ", " + percent(first + 3) +
+       " %; unexplained by the linear model: " + percent(known_unexplained_ratio) + " %");
+  return found;
+}
+
+StepResult Commission::move() {
+  const auto known = board_.muscle(channel_);
+  if (!known) return tl::unexpected(known.error());
+  const ChannelSettings channel = with_known(configured_, *known);
+  const Feasibility f = feasibility(channel, settings_);
+  const FirstMotion motion = plan_first_motion(f);
+  const Promise promise =
+      promise_error(channel, settings_, motion, (*known)[known_unexplained_ratio]);
+  const auto in_um = [](double metres) { return in_digits(1e6 * metres); };
+  say_("promised: " + in_um(promise.error_m()) + " um rms on a sine of " +
+       in_digits(1e3 * (motion.middle_m - motion.amplitude_m)) + " to " +
+       in_digits(1e3 * (motion.middle_m + motion.amplitude_m)) + " mm, " +
+       in_digits(motion.period_s) + " s a period (sensor " + in_um(promise.noise_m) + ", probes " +
+       in_um(promise.probe_m) + ", dither " + in_um(promise.dither_m) + ", not linear " +
+       in_um(promise.unexplained_m) + ")");
+  if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
+  double square_sum = 0.0;
+  double told_s = 0.0;
+  int samples = 0;
+  const double begin_s = board_.time_s();
+  for (double time_s = 0.0; time_s < motion.end_s(); time_s = board_.time_s() - begin_s) {
+    if (auto asked = ask("position " + number_text(motion.at(time_s), 9)); !asked)
+      return tl::unexpected(asked.error());
+    board_.wait(reference_step);
+    const auto error_m = board_.error_m(channel_);
+    if (!error_m) return tl::unexpected(error_m.error());
+    if (!tell_progress(time_s, told_s, "moving")) break;
+    if (time_s < motion.settled_s() || std::isnan(*error_m)) continue;
+    square_sum += *error_m * *error_m;
+    ++samples;
+  }
+  if (auto rests = ask("rest"); !rests) return tl::unexpected(rests.error());
+  if (interrupted != 0) return tl::unexpected<std::string>("interrupted");
+  if (samples == 0) return tl::unexpected<std::string>("the board told no tracking error");
+  const double error_m = std::sqrt(square_sum / samples);
+  const bool kept = error_m <= promise.error_m();
+  say_("followed within " + in_um(error_m) + " um rms: the promise is " +
+       (kept ? "kept" : "not kept"));
+  return Json{{"promised_m", promise.error_m()},
+              {"noise_m", promise.noise_m},
+              {"probe_m", promise.probe_m},
+              {"dither_m", promise.dither_m},
+              {"unexplained_m", promise.unexplained_m},
+              {"error_m", error_m},
+              {"kept", kept},
+              {"middle_m", motion.middle_m},
+              {"amplitude_m", motion.amplitude_m},
+              {"period_s", motion.period_s}};
+}
+
+bool Commission::kept(const Json& result) {
+  return result.value("kept", true);
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,53 @@
+// The steps by which a muscle on a running board comes to follow.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "loop/settings.hpp"
+
+namespace supercoil::operating {
+
+/// What a step found, for people as lines and for programs; the error says what to do.
+using StepResult = tl::expected<nlohmann::ordered_json, std::string>;
+
+class Commission {
+ public:
+  /// channel: as in a line of a command. configured: as the board's file has it, of this channel.
+  /// say: a line for whoever watches. All outlive it.
+  Commission(BoardLink& board, std::string channel, const ChannelSettings& configured,
+             const BoardSettings& settings, std::function<void(const std::string&)> say);
+
+  /// Zero and resistance of the cold muscle.
+  StepResult calibrate();
+  /// The muscle's parameters, beside those that are configured.
+  StepResult identify();
+  /// A sine that the muscle can follow; its error beside the promised one.
+  StepResult move();
+
+  /// Whether the last motion kept its promise; identify found something.
+  static bool kept(const nlohmann::ordered_json& result);
+
+ private:
+  using Done = tl::expected<void, std::string>;
+
+  Done ask(const std::string& command);
+  Done arm();
+  /// identify or calibrate, until it ends; how it did.
+  tl::expected<std::string, std::string> run_mode(const std::string& mode, double max_s);
+  /// calibrate again and again, until the muscle must be cold.
+  tl::expected<std::string, std::string> calibrate_when_cold();
+  bool tell_progress(double elapsed_s, double& told_s, const std::string& what);
+
+  BoardLink& board_;
+  std::string channel_;
+  const ChannelSettings& configured_;
+  const BoardSettings& settings_;
+  std::function<void(const std::string&)> say_;
+};
+
+}  // namespace supercoil::operating

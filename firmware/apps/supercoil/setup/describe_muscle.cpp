@@ -1,0 +1,150 @@
+#include "apps/supercoil/setup/describe_muscle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "apps/supercoil/number_text.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using control::PhysicalParameters;
+
+constexpr double gravity_m_per_s2 = 9.81;
+/// Of nylon 6,6 between 25 and 100 °C, plated with silver, which has less: 1.4 to 1.9.
+constexpr double specific_heat_J_per_gK = 1.65;
+/// A swing that dies away within one period, as most muscles with a hanging load do.
+constexpr double usual_damping_ratio = 0.7;
+/// Of the paper's muscle, for which the controllers' defaults are.
+constexpr double usual_time_constant_s = 1.82;
+
+/// What follows from answers has no more digits than they; an answer keeps its own.
+constexpr int digits_that_follow = 4;
+constexpr int digits_of_answers = 9;
+
+/// What the answers may be wrong by, as ratios of the truth to what follows from them.
+struct Spread {
+  double low = 1.0;
+  double high = 1.0;
+
+  /// By one more answer that it is proportional to.
+  void times(double error) {
+    low /= 1.0 + error;
+    high /= 1.0 - error;
+  }
+  /// That it is inversely proportional to.
+  void over(double error) {
+    low *= 1.0 - error;
+    high *= 1.0 + error;
+  }
+};
+
+struct Heat {
+  double mass_J_per_K = 0.0;
+  double transfer_W_per_K = 0.0;
+  Spread mass;
+  Spread transfer;
+};
+
+Heat heat_of(const MuscleAnswers& a, double error) {
+  const double tau_s = a.of(Asked::half_cooling_s) / std::numbers::ln2;
+  Heat heat;
+  if (a.of(Asked::thread_g) > 0.0) {
+    heat.mass_J_per_K = a.of(Asked::thread_g) * specific_heat_J_per_gK;
+    heat.transfer_W_per_K = heat.mass_J_per_K / tau_s;
+    heat.mass.times(error);
+    heat.transfer = heat.mass;
+    heat.transfer.over(error);
+  } else {
+    heat.transfer_W_per_K = a.of(Asked::heated_W) / a.of(Asked::heated_K);
+    heat.mass_J_per_K = heat.transfer_W_per_K * tau_s;
+    heat.transfer.times(error);
+    heat.transfer.over(error);
+    heat.mass = heat.transfer;
+    heat.mass.times(error);
+  }
+  return heat;
+}
+
+PhysicalParameters muscle_of(const MuscleAnswers& a, const Heat& heat) {
+  PhysicalParameters m;
+  m.thermal_mass_J_per_K = heat.mass_J_per_K;
+  m.heat_transfer_W_per_K = heat.transfer_W_per_K;
+  m.stiffness_N_per_m = a.of(Asked::stretch_weight_g) * gravity_m_per_s2 / a.of(Asked::stretch_mm);
+  m.moving_mass_kg = 1e-3 * a.of(Asked::load_g);
+  m.damping_Ns_per_m =
+      2.0 * usual_damping_ratio * std::sqrt(m.stiffness_N_per_m * m.moving_mass_kg);
+  const double rise_K = a.of(Asked::heated_W) / m.heat_transfer_W_per_K;
+  m.force_per_kelvin_N_per_K = m.stiffness_N_per_m * 1e-3 * a.of(Asked::heated_mm) / rise_K;
+  return m;
+}
+
+void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h, double error) {
+  const auto add = [&](const char* key, double value, const char* reason) {
+    entries.push_back(
+        {std::string("thermal.") + key, number_text(value, digits_that_follow), reason});
+  };
+  const char* all = "all answers wrong to one side";
+  add("min_mass_J_per_K", h.mass_J_per_K * h.mass.low, all);
+  add("max_mass_J_per_K", h.mass_J_per_K * h.mass.high, all);
+  add("min_transfer_W_per_K", h.transfer_W_per_K * h.transfer.low, all);
+  add("max_transfer_W_per_K", h.transfer_W_per_K * h.transfer.high, all);
+  if (!(a.of(Asked::thread_g) > 0.0)) return;
+  add("weighed_mass_J_per_K", h.mass_J_per_K, "the thread's weight");
+  add("weighed_mass_error_ratio", std::min(0.5, std::max(0.2, error)),
+      "of the weight and of nylon's specific heat");
+}
+
+}  // namespace
+
+tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& a) {
+  if (!(a.of(Asked::thread_g) > 0.0) && !(a.of(Asked::heated_K) > 0.0)) {
+    return tl::unexpected<std::string>(
+        "thread_g or heated_K must be known: without either nothing says how hot the muscle gets");
+  }
+  const double error = 1e-2 * a.of(Asked::uncertainty_percent);
+  const Heat heat = heat_of(a, error);
+  MuscleDescription d{muscle_of(a, heat), {}};
+  if (const auto wrong = control::check(d.muscle)) {
+    std::ostringstream message;
+    message << "the answers make a muscle with " << wrong->quantity << " = " << wrong->value
+            << ", and it must be " << wrong->lowest << " to " << wrong->highest;
+    return tl::unexpected(message.str());
+  }
+  const auto add = [&](const char* path, double value, const char* reason) {
+    d.entries.push_back({path, number_text(value, digits_that_follow), reason});
+  };
+  const char* by_heat = a.of(Asked::thread_g) > 0.0 ? "thread_g and half_cooling_s"
+                                                    : "heated_W, heated_K, half_cooling_s";
+  add("muscle.thermal_mass_J_per_K", d.muscle.thermal_mass_J_per_K, by_heat);
+  add("muscle.heat_transfer_W_per_K", d.muscle.heat_transfer_W_per_K, by_heat);
+  add("muscle.stiffness_N_per_m", d.muscle.stiffness_N_per_m, "stretch_weight_g and stretch_mm");
+  add("muscle.damping_Ns_per_m", d.muscle.damping_Ns_per_m, "assumed: a damping ratio of 0.7");
+  add("muscle.moving_mass_kg", d.muscle.moving_mass_kg, "load_g");
+  add("muscle.force_per_kelvin_N_per_K", d.muscle.force_per_kelvin_N_per_K,
+      "heated_mm at heated_W, and the stiffness");
+  add_heat(d.entries, a, heat, error);
+  const auto keep = [&](const char* path, double value) {
+    d.entries.push_back({path, number_text(value, digits_of_answers), "as answered"});
+  };
+  keep("heater.cold_resistance_Ohm", a.of(Asked::cold_resistance_Ohm));
+  keep("limits.max_W", a.of(Asked::max_W));
+  keep("limits.max_travel_m", 1e-3 * a.of(Asked::max_travel_mm));
+  d.entries.push_back(recommended_controller(d.muscle));
+  return d;
+}
+
+Entry recommended_controller(const PhysicalParameters& muscle) {
+  // A slow muscle's feedback need not be fast: with the default its noise and its friction show.
+  const double tau_s = -1.0 / muscle.thermal_pole_rad_per_s();
+  const double bandwidth = 8.0 / std::sqrt(std::max(1.0, tau_s / usual_time_constant_s));
+  return {"controller",
+          "{ kind = \"learned_ff\", shape_reference = true, bandwidth_rad_per_s = " +
+              number_text(bandwidth, digits_that_follow) + " }",
+          "follows closest, and asks for no motion that the muscle cannot make"};
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,36 @@
+// From what a person knows of a muscle to what a board's file says of it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "supercoil/control/actuator/parameters.hpp"
+
+#include "apps/supercoil/setup/muscle_answers.hpp"
+
+namespace supercoil::operating {
+
+/// One key of a [[channel]], as with_channel_value takes it.
+struct Entry {
+  std::string path;
+  std::string literal;
+  std::string reason;  ///< how it follows from the answers
+};
+
+struct MuscleDescription {
+  control::PhysicalParameters muscle;
+  std::vector<Entry> entries;
+};
+
+/// Every question without a fallback must be answered. Each parameter follows from two or three
+/// answers; its bounds follow from how wrong those may be, all of them to the same side. The error
+/// says which answers contradict each other, or what no muscle of thread has.
+tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& answers);
+
+/// A controller that suits a muscle of which so much is known: the closest by docs/control.md, as
+/// the literal of a [[channel]]'s `controller`.
+Entry recommended_controller(const control::PhysicalParameters& muscle);
+
+}  // namespace supercoil::operating

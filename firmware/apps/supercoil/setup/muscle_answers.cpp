@@ -1,0 +1,29 @@
+#include "apps/supercoil/setup/muscle_answers.hpp"
+
+#include "config/toml_file.hpp"
+
+namespace supercoil::operating {
+
+tl::expected<MuscleAnswers, std::string> read_answers(const std::string& path) {
+  config::Diagnostics diagnostics(path);
+  const std::string text = config::read_text(path, diagnostics);
+  MuscleAnswers answers;
+  if (diagnostics.empty()) {
+    const toml::table document = config::parse(text, diagnostics);
+    config::Section root(&document, "", diagnostics);
+    config::Section muscle = root.section("muscle");
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      const Question& q = questions[i];
+      if (muscle.has(q.key))
+        answers.set(i, muscle.number(q.key, NAN, q.allowed));
+      else
+        muscle.allow({q.key});
+    }
+    muscle.finish();
+    root.finish();
+  }
+  if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
+  return answers;
+}
+
+}  // namespace supercoil::operating

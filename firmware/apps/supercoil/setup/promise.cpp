@@ -1,0 +1,102 @@
+#include "apps/supercoil/setup/promise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace supercoil::operating {
+
+namespace {
+
+/// Of the travel. A muscle that is not linear takes up to twice the power where it is hot, and no
+/// more is held: this leaves room for it, and the power stays clear of 0 as well.
+constexpr double middle_ratio = 0.4;
+constexpr double amplitude_ratio = 0.16;
+constexpr double slower_than_fastest = 1.2;
+/// Quicker ones show nothing that this does not, and a person sees it.
+constexpr double min_period_s = 5.0;
+
+/// One period's error differs from the next one's.
+constexpr double margin = 1.25;
+/// White noise of each tick through a loop of this bandwidth, and what its damping adds.
+constexpr double noise_gain = 2.5;
+/// Motion that is quicker than a drift, over the sensor's noise, which needs no dither.
+constexpr double telling_deviations = 20.0;
+/// As dither_for has it.
+constexpr double max_dither_m = 20e-6;
+/// The part of what the linear model does not explain that learned feedforward leaves.
+constexpr double unlearned_ratio = 0.5;
+
+double bandwidth_of(const control::ControllerSettings& c) {
+  return c.kind == control::ControllerKind::learned_ff    ? c.learned_ff.bandwidth_rad_per_s
+         : c.kind == control::ControllerKind::adaptive_ff ? c.adaptive_ff.bandwidth_rad_per_s
+                                                          : 1.0;
+}
+
+}  // namespace
+
+double FirstMotion::at(double time_s) const {
+  // Up along the sine's own rise: no step at the beginning.
+  const double angle = 2.0 * std::numbers::pi * time_s / period_s;
+  return middle_m - amplitude_m * std::cos(angle);
+}
+
+FirstMotion plan_first_motion(const Feasibility& f) {
+  return {middle_ratio * f.travel_m, amplitude_ratio * f.travel_m,
+          std::max(min_period_s, slower_than_fastest * f.half_travel_period_s)};
+}
+
+double Promise::error_m() const {
+  return margin * std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
+}
+
+Promise promise_error(const ChannelSettings& channel, const BoardSettings& board,
+                      const FirstMotion& motion, double unexplained_ratio) {
+  Promise p;
+  const control::PhysicalParameters& m = channel.muscle;
+  const double bandwidth = bandwidth_of(channel.controllers.front());
+  const double count_m = channel.position.scaling.per_count;
+  const double reading_m =
+      std::hypot(channel.supervision.position_noise_rms_m, count_m / std::sqrt(12.0));
+  p.noise_m = reading_m * std::hypot(1.0, noise_gain * std::sqrt(0.5 * bandwidth * board.step_s()));
+
+  const double tau_s = -1.0 / m.thermal_pole_rad_per_s();
+  const double turn = 2.0 * std::numbers::pi / motion.period_s;
+  const double gain = m.dc_gain_m_per_W();
+  const double middle_W = motion.middle_m / gain;
+  const double amplitude_W = motion.amplitude_m * std::hypot(1.0, turn * tau_s) / gain;
+  const double supply_V = board.supervision.max_supply_V;
+  const double probe_W =
+      channel.heater.probe_duty * supply_V * supply_V / channel.heater.cold_resistance_Ohm;
+  const double below = std::clamp((middle_W - probe_W) / amplitude_W, -1.0, 1.0);
+  const double below_s = motion.period_s / std::numbers::pi * std::acos(below);
+  // Heat through which the resistance is measured comes again before that is old.
+  if (below_s > channel.heater.probe_every_s)
+    p.probe_m = gain * probe_W * std::min(1.0, channel.heater.probe_s / tau_s);
+
+  const double unexplained = std::isnan(unexplained_ratio)
+                                 ? modes::Identify::Settings{}.max_unexplained
+                                 : unexplained_ratio;
+  // Where the motion itself tells too little, a dither asks whether the muscle still answers.
+  const double quick_m = motion.amplitude_m * turn / std::hypot(turn, motion_corner_rad_per_s);
+  if (channel.supervision.proof_of_response && quick_m < telling_deviations * reading_m)
+    p.dither_m = std::max(max_dither_m, 2.0 * count_m) / std::numbers::sqrt2;
+
+  p.unexplained_m = unlearned_ratio * std::sqrt(std::max(0.0, unexplained)) * motion.amplitude_m *
+                    std::min(1.0, turn / bandwidth);
+  return p;
+}
+
+ChannelSettings with_known(ChannelSettings channel, const KnownMuscle& known) {
+  control::PhysicalParameters& m = channel.muscle;
+  for (std::size_t i = 0; i < control::physical_ranges.size(); ++i)
+    m.*control::physical_ranges[i].member = known[i];
+  channel.calibration = {.position_offset_m = known[known_position_offset],
+                         .position_scale = known[known_position_scale],
+                         .cold_resistance_Ohm = known[known_cold_resistance]};
+  channel.response_ratio = known[known_response_ratio];
+  channel.muscle_identified = !std::isnan(known[known_unexplained_ratio]);
+  return channel;
+}
+
+}  // namespace supercoil::operating

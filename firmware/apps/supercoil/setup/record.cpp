@@ -1,0 +1,59 @@
+#include "apps/supercoil/setup/record.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "apps/supercoil/output_file.hpp"
+#include "apps/supercoil/setup/steps.hpp"
+#include "storage/posix_files.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+tl::expected<SetupRecord, std::string> SetupRecord::open(const std::string& config, int channel) {
+  const std::string path = path_of(config);
+  const std::string name = "channel-" + std::to_string(channel);
+  Json document = Json::object();
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) {
+    std::ifstream file(path);
+    document = Json::parse(std::istreambuf_iterator<char>(file), {}, nullptr, false);
+    if (!document.is_object() || (document.contains(name) && !document[name].is_object())) {
+      return tl::unexpected(path + ": is damaged: delete it, and setup begins with its first step");
+    }
+  }
+  return SetupRecord(path, name, std::move(document));
+}
+
+bool SetupRecord::has(const std::string& step) const {
+  return document_.contains(channel_) && document_[channel_].contains(step);
+}
+
+tl::expected<void, std::string> SetupRecord::add(const std::string& step, const Json& found) {
+  document_["schema_version"] = 1;
+  Json& channel = document_[channel_];
+  if (channel.is_null()) channel = Json::object();
+  bool after = false;
+  for (const SetupStep& known : setup_steps) {
+    if (after) channel.erase(std::string(known.name));
+    after = after || known.name == step;
+  }
+  channel[step] = found;
+  return write_whole(path_, document_.dump(2) + "\n");
+}
+
+tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text) {
+  storage::PosixFiles files;
+  auto file = OutputFile::open(path, files);
+  if (!file) return tl::unexpected(file.error());
+  if (auto written = file->write(text); !written) return written;
+  return file->commit();
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,35 @@
+// What setup has done so far, beside the board's file: it goes on after a power cut.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+#include <tl/expected.hpp>
+
+namespace supercoil::operating {
+
+/// Of one channel. "board.toml.setup.json" has one object for each channel, and in it one for each
+/// step that is done: what the step found.
+class SetupRecord {
+ public:
+  /// An absent file is an empty record. The error says why a file is none; nothing is lost then.
+  static tl::expected<SetupRecord, std::string> open(const std::string& config, int channel);
+  static std::string path_of(const std::string& config) { return config + ".setup.json"; }
+
+  bool has(const std::string& step) const;
+  /// Written at once, whole. What follows the step is to be done anew.
+  tl::expected<void, std::string> add(const std::string& step, const nlohmann::ordered_json& found);
+
+ private:
+  SetupRecord(std::string path, std::string channel, nlohmann::ordered_json document)
+      : path_(std::move(path)), channel_(std::move(channel)), document_(std::move(document)) {}
+
+  std::string path_;
+  std::string channel_;
+  nlohmann::ordered_json document_;
+};
+
+/// Writes a file whole, in place of one that may be there.
+tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text);
+
+}  // namespace supercoil::operating

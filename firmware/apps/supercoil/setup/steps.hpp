@@ -1,0 +1,29 @@
+// The steps of setup, in their order.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace supercoil::operating {
+
+struct SetupStep {
+  std::string_view name;
+  std::string_view does;  ///< said before it begins
+};
+
+inline constexpr std::array<SetupStep, 4> setup_steps{{
+    {"describe",
+     "writes what is known of the muscle, with its bounds and a controller, into the board's "
+     "file; heats nothing"},
+    {"calibrate",
+     "takes the zero and the resistance of the cold muscle; heats it for 50 ms; seconds, up to two "
+     "minutes if it must cool"},
+    {"identify",
+     "heats and lets cool nine times, up to 0.85 of its reach; a minute for a quick muscle, up to "
+     "25 minutes for one with a time constant of a minute"},
+    {"move",
+     "follows a slow sine over a third of the travel, three periods; compares the error "
+     "with the promised one"},
+}};
+
+}  // namespace supercoil::operating

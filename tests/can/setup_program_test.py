@@ -1,0 +1,133 @@
+"""supercoil setup as a newcomer meets it: a file that is completed, a board in real time that is calibrated, errors."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from live import DEADLINE_S, TRIES, Simulator
+
+SUPERCOIL = os.environ["SUPERCOIL"]
+SUPERCOILD = os.environ["SUPERCOILD"]
+EXAMPLE = pathlib.Path(os.environ["SUPERCOIL_EXAMPLES"]) / "raspberry-pi-pwm-ads1115.toml"
+ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "stretch_mm": 55, "heated_W": 2.0,
+           "heated_mm": 13, "half_cooling_s": 1.3, "thread_g": 0.1, "max_W": 4.5, "max_travel_mm": 25,
+           "uncertainty_percent": 30}
+# What a busy machine does to any master in real time.
+STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready")
+
+
+class SetupProgram(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+        self.board = self.path / "board.toml"
+        # Room for a muscle that rests lower in the coldest air than where its zero was taken.
+        self.example = EXAMPLE.read_text().replace("min_m = -0.001", "min_m = -0.012")
+        self.board.write_text(self.example)
+        self.record = self.path / "board.toml.setup.json"
+
+    def setup_program(self, *arguments, **options):
+        return subprocess.run([SUPERCOIL, "setup", "--config", self.board, *arguments], capture_output=True, text=True,
+                              timeout=DEADLINE_S, **options)
+
+    def script(self, **changes):
+        answers = {key: value for key, value in {**ANSWERS, **changes}.items() if value is not None}
+        path = self.path / "answers.toml"
+        path.write_text("[muscle]\n" + "".join(f"{key} = {value}\n" for key, value in answers.items()))
+        return "--script", path
+
+    def assert_refused(self, done, *told):
+        self.assertEqual(done.returncode, 2, done.stderr)
+        for part in told:
+            self.assertIn(part, done.stderr)
+        self.assertEqual(self.board.read_text(), self.example)
+        self.assertFalse(self.record.exists())
+
+    def test_a_description_completes_the_boards_file_and_keeps_its_comments(self):
+        done = self.setup_program(*self.script())
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("stiffness_N_per_m = 17.84  (stretch_weight_g and stretch_mm)", done.stdout)
+        self.assertIn("holds ", done.stdout)
+        text = self.board.read_text()
+        for line in self.example.splitlines():
+            self.assertIn(line, text)
+        checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertIn("0: learned_ff", checked.stdout)
+        self.assertIn("describe", json.loads(self.record.read_text())["channel-1"])
+        self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
+
+    def test_asks_what_no_script_answers_and_asks_again_after_a_slip(self):
+        lines = [str(value) for value in ANSWERS.values()]
+        questions = ["10 Ohm", *lines[:7], "", "22.5", *lines[8:10], ""]  # by a thermometer in place of the weight
+        done = self.setup_program("describe", input="\n".join(questions) + "\n")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("Resistance of the cold muscle by an ohmmeter, in Ohm (0.1 to 10000): '10 Ohm' is refused", done.stdout)
+        self.assertIn("wrong, in % (1 to 60) [50]: ", done.stdout)
+        self.assertIn("max_travel_m = 0.025", done.stdout)
+
+    def test_without_anybody_who_answers_nothing_changes(self):
+        self.assert_refused(self.setup_program(stdin=subprocess.DEVNULL), "nobody answers")
+
+    def test_every_wrong_answer_is_named_with_its_range(self):
+        self.assert_refused(self.setup_program(*self.script(load_g=None, stretch_mm=None)),
+                            "muscle.load_g: is missing: Weight that it lifts", "muscle.stretch_mm: is missing")
+        self.assert_refused(self.setup_program(*self.script(load_g=0)), "muscle.load_g = 0", "0.1 to 1e+06")
+        self.assert_refused(self.setup_program(*self.script(lode_g=3)), "muscle.lode_g", "did you mean load_g?")
+        self.assert_refused(self.setup_program(*self.script(thread_g=0)), "thread_g or heated_K must be known")
+        self.assert_refused(self.setup_program("--script", "missing.toml"), "missing.toml")
+        self.assert_refused(self.setup_program("--channel", "3", *self.script()), "there is no channel 3")
+        self.assert_refused(self.setup_program("calibrat"), "did you mean calibrate?")
+
+    def test_a_muscle_that_this_board_cannot_have_is_refused_by_its_key(self):
+        self.assert_refused(self.setup_program(*self.script(max_W=40)),
+                            "channel[1].limits.max_W = 40", "min_V²/cold_resistance_Ohm = 11.664 W")
+
+    def test_undo_puts_the_file_back(self):
+        self.setup_program(*self.script())
+        self.assertNotEqual(self.board.read_text(), self.example)
+        self.assertEqual(self.setup_program("--undo").returncode, 0)
+        self.assertEqual(self.board.read_text(), self.example)
+        self.assertFalse(self.record.exists())
+        again = self.setup_program("--undo")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("setup has changed nothing", again.stderr)
+
+    def test_a_board_that_does_not_run_is_said_with_how_to_start_it(self):
+        done = self.setup_program("calibrate", "--socket", self.path / "none")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("start the board with", done.stderr)
+
+    def test_on_a_running_board_it_goes_on_after_what_is_done_and_an_interruption_loses_nothing(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = f"socketcand:{simulator.port}"
+        for _ in range(TRIES):
+            subprocess.run([SUPERCOIL, "command", "1", "reset", "--can", bus], capture_output=True, timeout=DEADLINE_S)
+            done = self.setup_program("calibrate", "--can", bus, "--json")
+            if not any(why in done.stderr for why in STARVED):
+                break
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)["steps"]["calibrate"]
+        self.assertAlmostEqual(found["cold_resistance_Ohm"], 10.0, delta=0.05)
+        self.assertAlmostEqual(found["position_offset_m"], 0.0, delta=1e-4)
+        with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as program:
+            self.assertTrue(program.stdout.readline().startswith("identify: heats"))
+            time.sleep(0.5)
+            program.send_signal(signal.SIGINT)
+            _, error = program.communicate(timeout=DEADLINE_S)
+        self.assertEqual(program.returncode, 1)
+        self.assertIn("identify: ", error)
+        self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "calibrate"})
+
+
+if __name__ == "__main__":
+    unittest.main()

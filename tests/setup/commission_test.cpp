@@ -1,0 +1,44 @@
+// Setup in lockstep: descriptions that are up to half wrong, muscles that nothing was tuned on.
+#include <algorithm>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "setup/commissioned.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+constexpr double error = 0.5;
+
+Commissioned commissioned(unsigned seed) {
+  return commission(held_out_muscle(seed, error));
+}
+
+}  // namespace
+
+TEST_GROUP(Commission){};
+
+/// A quick one, a slow one, and two that are not linear.
+TEST(Commission, AMuscleFollowsAsPromisedFromADescriptionThatIsHalfWrong) {
+  for (const unsigned seed : {24U, 66U, 45U, 73U}) {
+    const HeldOut muscle = held_out_muscle(seed, error);
+    const Commissioned c = commission(muscle);
+    STRCMP_EQUAL("", c.refused.c_str());
+    CHECK(c.fault == Fault::none);
+    CHECK(c.error_m <= c.promised_m);
+    CHECK(c.error_m > c.promised_m / 3.0);
+    CHECK(c.travel_m > 1e-3);
+    CHECK(c.hottest_rise_K < 105.0);  // 130 °C, from which on power is derated
+    CHECK(c.took_s <= std::max(800.0, 15.0 * muscle.time_constant_s));
+  }
+}
+
+TEST(Commission, AMuscleThatIsNoneOfItsModelsIsRefusedWithItsReason) {
+  const Commissioned c = commissioned(69);
+  STRCMP_CONTAINS("identify ended: poor_fit", c.refused.c_str());
+  STRCMP_CONTAINS("docs/running.md", c.refused.c_str());
+  CHECK(c.fault == Fault::none);
+}

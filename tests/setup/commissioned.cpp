@@ -1,0 +1,71 @@
+#include "setup/commissioned.hpp"
+
+#include <stdexcept>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/setup/commission.hpp"
+#include "apps/supercoil/setup/describe_muscle.hpp"
+#include "config/board_config.hpp"
+#include "config/edit_toml.hpp"
+#include "runner/use_board.hpp"
+#include "scenario/read_scenario.hpp"
+#include "setup/simulated_link.hpp"
+
+namespace supercoil::test {
+
+namespace {
+
+config::BoardConfig described_board(const operating::MuscleAnswers& answers) {
+  using operating::Asked;
+  const auto described = operating::describe_muscle(answers);
+  if (!described) throw std::runtime_error(described.error());
+  std::string text =
+      held_out_board(answers.of(Asked::cold_resistance_Ohm), answers.of(Asked::max_W));
+  for (const operating::Entry& entry : described->entries) {
+    auto changed = config::with_channel_value(text, 0, entry.path, entry.literal);
+    if (!changed) throw std::runtime_error(changed.error());
+    text = std::move(*changed);
+  }
+  auto config = config::parse_board_config(text, "held_out.toml");
+  if (!config) throw std::runtime_error(config::to_text(config.error()));
+  return std::move(*config);
+}
+
+}  // namespace
+
+Commissioned commission(const HeldOut& muscle) {
+  const config::BoardConfig config = described_board(muscle.answers);
+  auto scenario = host_sim::parse_scenario(muscle.scenario, "held_out_scenario.toml");
+  if (!scenario) throw std::runtime_error(config::to_text(scenario.error()));
+  // Its senses were compared with a meter before, and nothing else is known.
+  board::Learned compared;
+  compared.has_muscle = false;
+  compared.senses = {1.0, 1.0, 0.02, 1.0};
+  if (const auto used = host_sim::use_board(*scenario, config, 0, compared); !used)
+    throw std::runtime_error(used.error());
+  const BoardSettings& board = *scenario->board;
+  host_sim::Simulation simulation(*scenario);
+  SimulatedLink link(simulation, config.settings.rate_Hz);
+  operating::Commission steps(link, "1", board.channels[0], board, [](const std::string&) {});
+  Commissioned c;
+  const auto conclude = [&](const std::string& refused) {
+    c.refused = refused;
+    c.took_s = link.time_s();
+    c.hottest_rise_K = link.hottest_rise_K();
+    c.fault = link.fault();
+    return c;
+  };
+  if (const auto done = steps.calibrate(); !done) return conclude(done.error());
+  if (const auto done = steps.identify(); !done) return conclude(done.error());
+  const auto moved = steps.move();
+  if (!moved) return conclude(moved.error());
+  c.promised_m = (*moved)["promised_m"];
+  c.probe_m = (*moved)["probe_m"];
+  c.unexplained_m = (*moved)["unexplained_m"];
+  c.error_m = (*moved)["error_m"];
+  c.travel_m = (1.0 / 0.4) * (*moved)["middle_m"].get<double>();
+  return conclude("");
+}
+
+}  // namespace supercoil::test

@@ -1,0 +1,46 @@
+// Setup on muscles that nothing was tuned on, each from a description in a bench's units:
+//   setup_study [MUSCLES [ERROR_PERCENT [FIRST]]]
+// The figures of docs/setup.md.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "setup/commissioned.hpp"
+
+int main(int argc, char** argv) {
+  using namespace supercoil;
+  using namespace supercoil::test;
+  const int muscles = argc > 1 ? std::atoi(argv[1]) : 20;
+  const double error = argc > 2 ? 1e-2 * std::atof(argv[2]) : 0.5;
+  const int first = argc > 3 ? std::atoi(argv[3]) : 1;
+  int followed = 0, kept = 0, near = 0, in_time = 0;
+  std::printf(
+      "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um ratio took_s "
+      "rise_K\n");
+  try {
+    for (int seed = first; seed < first + muscles; ++seed) {
+      const HeldOut muscle = held_out_muscle(static_cast<unsigned>(seed), error);
+      const Commissioned c = commission(muscle);
+      const double ratio = c.error_m / c.promised_m;
+      std::printf("%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %5.2f %6.0f %6.0f %s %s\n", seed,
+                  muscle.linear ? "yes" : "no", muscle.time_constant_s, 1e3 * c.travel_m,
+                  1e6 * c.promised_m, 1e6 * c.probe_m, 1e6 * c.unexplained_m, 1e6 * c.error_m,
+                  ratio, c.took_s, c.hottest_rise_K,
+                  c.fault == Fault::none ? "" : name(c.fault).data(), c.refused.c_str());
+      std::fflush(stdout);
+      if (!c.refused.empty()) continue;
+      ++followed;
+      kept += ratio <= 1.0 ? 1 : 0;
+      near += ratio <= 1.0 && ratio > 1.0 / 3.0 ? 1 : 0;
+      in_time += c.took_s <= std::max(600.0, 15.0 * muscle.time_constant_s) ? 1 : 0;
+    }
+  } catch (const std::exception& wrong) {
+    std::fprintf(stderr, "setup_study: %s\n", wrong.what());
+    return 1;
+  }
+  std::printf(
+      "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time\n",
+      followed, muscles, kept, near, in_time);
+  return 0;
+}

@@ -1,0 +1,68 @@
+// A simulated board, in lockstep, as setup commands it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/supercoil/board_link.hpp"
+#include "runner/simulation.hpp"
+#include "text/command_text.hpp"
+
+namespace supercoil::test {
+
+/// Its time goes on while it is asked or waited for, and at no other moment.
+class SimulatedLink final : public operating::BoardLink {
+ public:
+  SimulatedLink(host_sim::Simulation& simulation, double rate_Hz)
+      : simulation_(simulation), rate_Hz_(rate_Hz) {}
+
+  Answer ask(const std::string& line) override {
+    const auto command = parse_command(line, 1);
+    if (!command) return "wrong: " + command.error();
+    const supercoil::Answer answer = simulation_.command(command->verb, command->value);
+    watch();
+    return answer_text(answer.refusal, answer.nearest);
+  }
+  Answer state() override { return std::string(); }
+  tl::expected<Ending, std::string> ending(const std::string&) override {
+    const Snapshot& s = snapshot();
+    return Ending{std::string(mode_result_names.at(static_cast<std::size_t>(s.result))),
+                  describe_notes(s.identify_notes, ",")};
+  }
+  tl::expected<board::SenseComparison, std::string> senses(const std::string&) override {
+    return simulation_.loop().channel(0).senses();
+  }
+  tl::expected<KnownMuscle, std::string> muscle(const std::string&) override {
+    KnownMuscle known;
+    for (std::size_t i = 0; i < known.size(); ++i)
+      known[i] = simulation_.loop().channel(0).known(i);
+    return known;
+  }
+  tl::expected<double, std::string> error_m(const std::string&) override {
+    const Snapshot& s = snapshot();
+    return s.mode == Mode::position ? s.position_m - s.model_m : NAN;
+  }
+  void wait(std::chrono::milliseconds time) override {
+    const double until_s = time_s() + 1e-3 * static_cast<double>(time.count());
+    while (time_s() < until_s) {
+      simulation_.step();
+      watch();
+    }
+  }
+  double time_s() const override { return static_cast<double>(simulation_.tick()) / rate_Hz_; }
+
+  double hottest_rise_K() const { return hottest_rise_K_; }
+  Fault fault() const { return snapshot().fault; }
+
+ private:
+  const Snapshot& snapshot() const { return simulation_.loop().channel(0).snapshot(); }
+  void watch() {
+    hottest_rise_K_ = std::max(hottest_rise_K_, simulation_.plant().temperature_rise_K());
+  }
+
+  host_sim::Simulation& simulation_;
+  double rate_Hz_;
+  double hottest_rise_K_ = 0.0;
+};
+
+}  // namespace supercoil::test

@@ -1,0 +1,105 @@
+#include "apps/supercoil/setup/describe_muscle.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil::operating;
+
+namespace {
+
+/// What a bench tells of the paper's muscle.
+MuscleAnswers paper_answers() {
+  MuscleAnswers a;
+  const auto says = [&](Asked what, double value) { a.set(static_cast<std::size_t>(what), value); };
+  says(Asked::cold_resistance_Ohm, 10.0);
+  says(Asked::load_g, 90.0);
+  says(Asked::stretch_weight_g, 100.0);
+  says(Asked::stretch_mm, 61.3125);
+  says(Asked::heated_W, 2.0);
+  says(Asked::heated_mm, 12.0787);
+  says(Asked::half_cooling_s, 1.26168);
+  says(Asked::thread_g, 0.162 / 1.65);
+  says(Asked::heated_K, 0.0);
+  says(Asked::max_W, 4.5);
+  says(Asked::max_travel_mm, 25.0);
+  says(Asked::uncertainty_percent, 50.0);
+  return a;
+}
+
+std::string literal_of(const MuscleDescription& description, const std::string& path) {
+  const auto found = std::ranges::find(description.entries, path, &Entry::path);
+  CHECK(found != description.entries.end());
+  return found->literal;
+}
+
+double bound(const MuscleDescription& description, const std::string& key) {
+  return std::stod(literal_of(description, "thermal." + key));
+}
+
+}  // namespace
+
+TEST_GROUP(DescribeMuscle){};
+
+TEST(DescribeMuscle, ABenchsUnitsAreTheParametersOfTheMuscle) {
+  const auto d = describe_muscle(paper_answers());
+  CHECK_TRUE(d.has_value());
+  DOUBLES_EQUAL(0.162, d->muscle.thermal_mass_J_per_K, 1e-6);
+  DOUBLES_EQUAL(0.089, d->muscle.heat_transfer_W_per_K, 1e-5);
+  DOUBLES_EQUAL(16.0, d->muscle.stiffness_N_per_m, 1e-6);
+  DOUBLES_EQUAL(0.09, d->muscle.moving_mass_kg, 1e-12);
+  DOUBLES_EQUAL(0.0086, d->muscle.force_per_kelvin_N_per_K, 1e-6);
+  STRCMP_EQUAL("4.5", literal_of(*d, "limits.max_W").c_str());
+  STRCMP_EQUAL("0.025", literal_of(*d, "limits.max_travel_m").c_str());
+  STRCMP_EQUAL("10", literal_of(*d, "heater.cold_resistance_Ohm").c_str());
+}
+
+TEST(DescribeMuscle, BoundsHoldWhicheverWayAllAnswersAreWrong) {
+  const auto d = describe_muscle(paper_answers());
+  // Each answer is 0.5 to 1.5 times the truth; the heat transfer follows from two of them.
+  DOUBLES_EQUAL(0.162 / 1.5, bound(*d, "min_mass_J_per_K"), 1e-4);
+  DOUBLES_EQUAL(0.162 / 0.5, bound(*d, "max_mass_J_per_K"), 1e-4);
+  DOUBLES_EQUAL(0.089 * 0.5 / 1.5, bound(*d, "min_transfer_W_per_K"), 1e-5);
+  DOUBLES_EQUAL(0.089 * 1.5 / 0.5, bound(*d, "max_transfer_W_per_K"), 1e-4);
+  DOUBLES_EQUAL(0.5, bound(*d, "weighed_mass_error_ratio"), 0.0);
+}
+
+TEST(DescribeMuscle, AThermometerReplacesTheThreadsWeight) {
+  MuscleAnswers a = paper_answers();
+  a.set(static_cast<std::size_t>(Asked::thread_g), 0.0);
+  a.set(static_cast<std::size_t>(Asked::heated_K), 2.0 / 0.089);
+  const auto d = describe_muscle(a);
+  DOUBLES_EQUAL(0.089, d->muscle.heat_transfer_W_per_K, 1e-6);
+  DOUBLES_EQUAL(0.162, d->muscle.thermal_mass_J_per_K, 1e-4);
+  CHECK(std::ranges::find(d->entries, "thermal.weighed_mass_J_per_K", &Entry::path) ==
+        d->entries.end());
+  DOUBLES_EQUAL(0.089 * 0.5 / 1.5, bound(*d, "min_transfer_W_per_K"), 1e-5);
+  DOUBLES_EQUAL(0.162 * 0.5 / (1.5 * 1.5), bound(*d, "min_mass_J_per_K"), 1e-4);
+}
+
+TEST(DescribeMuscle, WithoutEitherNothingSaysHowHotItGets) {
+  MuscleAnswers a = paper_answers();
+  a.set(static_cast<std::size_t>(Asked::thread_g), 0.0);
+  const auto d = describe_muscle(a);
+  CHECK_FALSE(d.has_value());
+  STRCMP_CONTAINS("thread_g or heated_K", d.error().c_str());
+}
+
+TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
+  MuscleAnswers a = paper_answers();
+  a.set(static_cast<std::size_t>(Asked::stretch_weight_g), 1e6);
+  a.set(static_cast<std::size_t>(Asked::stretch_mm), 0.01);
+  const auto d = describe_muscle(a);
+  CHECK_FALSE(d.has_value());
+  STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08, and it must be 0.01 to 1e+06", d.error().c_str());
+}
+
+TEST(DescribeMuscle, ASlowMuscleGetsALowerBandwidth) {
+  supercoil::control::PhysicalParameters muscle;
+  STRCMP_CONTAINS("bandwidth_rad_per_s = 8 }", recommended_controller(muscle).literal.c_str());
+  muscle.thermal_mass_J_per_K *= 4.0;
+  STRCMP_CONTAINS("bandwidth_rad_per_s = 4", recommended_controller(muscle).literal.c_str());
+  muscle.thermal_mass_J_per_K /= 100.0;
+  STRCMP_CONTAINS("bandwidth_rad_per_s = 8 }", recommended_controller(muscle).literal.c_str());
+}

@@ -71,7 +71,8 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
     return fail(exit_failed, kept.error());
   const auto concluded =
       conclude(summary, scenario, simulation, pace.elapsed_s(), folder, options.quiet);
-  return concluded ? exit_done : fail(exit_failed, concluded.error());
+  if (!concluded) return fail(exit_failed, concluded.error());
+  return asks(scenario) ? judge(summary, scenario, simulation, options) : exit_done;
 }
 
 }  // namespace supercoil::host_sim

@@ -76,9 +76,9 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
   if (!std::isnan(summary.oscillated_at_s())) {
     std::fprintf(
         stderr,
-        "supercoil-sim: warning: the control loop oscillated by itself, first seen at %g s; "
-        "docs/control.md says what to do\n",
-        summary.oscillated_at_s());
+        "supercoil-sim: warning: the control loop oscillated by itself, first seen at %g s with a "
+        "period of %.2g s; docs/control.md says what to do\n",
+        summary.oscillated_at_s(), summary.oscillation_period_s());
   }
   if (const auto kept = keep(recorder, simulation, store, options); !kept)
     return fail(exit_failed, kept.error());

@@ -44,6 +44,11 @@ bool arms(const Conditions& conditions) {
   return conditions.action != OperatorAction::none && conditions.action != OperatorAction::disarm;
 }
 
+bool arms_later(const Scenario& scenario) {
+  return std::any_of(scenario.events.begin(), scenario.events.end(),
+                     [](const Event& event) { return arms(event.conditions); });
+}
+
 void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
                    const std::string& folder) {
   std::printf("%s: %" PRId64 " ticks in %.2f s, %.0f x real time\n",
@@ -56,6 +61,13 @@ void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
                 json["window_s"][1].get<double>());
   }
   print_limits(summary);
+  constexpr double told_from = 0.01;
+  if (summary.infeasible_ratio() > told_from) {
+    std::printf(
+        "the reference asked for more than the muscle can do in %.1f %% of the ticks that followed "
+        "it: a slower or smaller one, or shape_reference = true\n",
+        100.0 * summary.infeasible_ratio());
+  }
   for (const auto& fault : json["faults"]) {
     std::printf("fault %d %s at %.3f s (docs/faults/%s.md)\n", fault["number"].get<int>(),
                 fault["name"].get<std::string>().c_str(), fault["at_s"].get<double>(),
@@ -109,13 +121,15 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
   return {};
 }
 
+bool asks(const Scenario& scenario) {
+  return arms(scenario.start) || arms_later(scenario);
+}
+
 int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
           const RunOptions& options) {
   const Fault fault = summary.ended_in();
   if (summary.armed() && fault == Fault::none) return exit_done;
   const bool asked = arms(scenario.start);
-  const bool asked_later = std::any_of(scenario.events.begin(), scenario.events.end(),
-                                       [](const Event& event) { return arms(event.conditions); });
   std::string told = summary.armed() ? "the run ended in " : "never armed: ";
   if (fault != Fault::none) {
     told += "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
@@ -127,7 +141,7 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   } else {
     told += "[operator] action is none or disarm at the start, and it arms only there";
   }
-  const bool meant = fault == Fault::none && !asked && !asked_later;
+  const bool meant = fault == Fault::none && !asks(scenario);
   if (!options.allow_fault && !meant)
     return fail(exit_failed, told + " (--allow-fault: exit status 0)");
   if (!options.quiet) std::puts(told.c_str());

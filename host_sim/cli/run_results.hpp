@@ -32,6 +32,9 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
                                          const Simulation& simulation, double wall_s,
                                          OutputFolder& folder, bool quiet);
 
+/// The operator arms the muscle at some time: there is something to judge.
+bool asks(const Scenario& scenario);
+
 /// What of the run to tell after its figures: an error where nothing was followed. Returns the
 /// program's exit status.
 int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,

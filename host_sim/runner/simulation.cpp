@@ -201,7 +201,7 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.coldest_K = s.coldest_C - ambient_C;
   r.hottest_K = s.hottest_C - ambient_C;
   r.limited = s.limited;
-  r.oscillated = s.oscillated;
+  r.oscillation_period_s = s.oscillation_period_s;
   r.open_loop = s.mode != Mode::position;
   r.state = s.state;
   r.commands_power = conditions_->controller.kind == control::ControllerKind::power;

@@ -30,9 +30,9 @@ struct TickRecord {
   double coldest_K = 0.0;      ///< above the air: the firmware's bounds for it
   double hottest_K = 0.0;
   bool limited = false;
-  bool oscillated = false;      ///< the controller saw its loop oscillate
-  bool open_loop = false;       ///< no reference model is followed
-  bool commands_power = false;  ///< the reference is a power
+  double oscillation_period_s = 0.0;  ///< that the controller saw its loop have; 0: none
+  bool open_loop = false;             ///< no reference model is followed
+  bool commands_power = false;        ///< the reference is a power
   State state = State::disarmed;
   Fault fault = Fault::none;        ///< the channel's first cause
   Fault board_fault = Fault::none;  ///< the board's, which may come after it

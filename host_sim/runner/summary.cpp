@@ -101,6 +101,8 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   }
   json["not_finite_ticks"] = not_finite_ticks_;
   json["oscillated_at_s"] = finite(oscillated_at_s_);
+  json["oscillation_period_s"] = finite(oscillation_period_s_);
+  json["infeasible_ratio"] = finite(infeasible_ratio());
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;
   json["realtime_factor"] =

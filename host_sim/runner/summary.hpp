@@ -53,7 +53,14 @@ class Summary {
     ++limit_ticks_[static_cast<std::size_t>(record.limited_by)];
     state_ = record.state;
     armed_ = armed_ || state_ == State::armed || state_ == State::active;
-    if (record.oscillated && std::isnan(oscillated_at_s_)) oscillated_at_s_ = record.time_s;
+    if (record.oscillation_period_s > 0.0 && std::isnan(oscillated_at_s_)) {
+      oscillated_at_s_ = record.time_s;
+      oscillation_period_s_ = record.oscillation_period_s;
+    }
+    if (!record.open_loop) {
+      ++following_ticks_;
+      infeasible_ticks_ += is_infeasible(record.limited_by) ? 1 : 0;
+    }
     if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
       first_not_finite_s_ = record.time_s;
     }
@@ -86,6 +93,12 @@ class Summary {
   double first_not_finite_s() const { return first_not_finite_s_; }
   /// When a controller first saw its loop oscillate; NaN: never.
   double oscillated_at_s() const { return oscillated_at_s_; }
+  double oscillation_period_s() const { return oscillation_period_s_; }
+  /// Of the ticks at which a position was followed: the reference asked for more than the muscle
+  /// can do, and was shaped or cut. NaN: none was followed.
+  double infeasible_ratio() const {
+    return static_cast<double>(infeasible_ticks_) / static_cast<double>(following_ticks_);
+  }
 
   /// summary.json; wall_s: how long the run took.
   nlohmann::ordered_json to_json(const Scenario& scenario, const Simulation& simulation,
@@ -93,6 +106,11 @@ class Summary {
 
  private:
   static constexpr double temperature_rounding_K = 1e-9;
+
+  /// Not slew: it ends by itself, nor what is no number.
+  static constexpr bool is_infeasible(LimitedBy limit) {
+    return limit != LimitedBy::nothing && limit != LimitedBy::slew && limit != LimitedBy::invalid;
+  }
 
   void note_fault(const TickRecord& record) {
     if (record.fault != fault_ && record.fault != Fault::none) {
@@ -120,6 +138,9 @@ class Summary {
   std::int64_t not_finite_ticks_ = 0;
   double first_not_finite_s_ = 0.0;
   double oscillated_at_s_ = NAN;
+  double oscillation_period_s_ = NAN;
+  std::int64_t following_ticks_ = 0;
+  std::int64_t infeasible_ticks_ = 0;
 };
 
 }  // namespace supercoil::host_sim

@@ -21,6 +21,35 @@ class Scripts(OnSimulatedBoard):
             self.command("1", word)
         until(lambda: self.command("1", "arm").returncode == 0)
 
+    def test_what_heats_may_follow_arm_at_once(self):
+        for _ in range(8):
+            self.arm_by_script()
+            done = self.command("1", "power", "0.1")
+            self.assertNotIn("busy", done.stderr)
+
+    def test_state_is_told_in_json(self):
+        self.arm_by_script()
+        node, = json.loads(self.command("state", "--json").stdout)["nodes"]
+        self.assertEqual((node["node"], node["Status"]["state"], node["Status"]["fault"]), (1, "armed", "none"))
+        self.assertAlmostEqual(node["Measurement"]["position_m"], 0.0, delta=1e-3)
+        self.assertIsNone(node["Tracking"]["error_m"])
+        self.assertEqual(sum(name.startswith("theta") and not name.endswith("deviation") for name in node["Estimate"]), 4)
+
+    def test_an_error_is_told_in_json_as_well(self):
+        for words, status, told in ((("command", "64", "arm", "--can", self.source), 2, "must be 1 to 63"),
+                                    (("command", "2", "arm", "--can", self.source), 1, "no answer from node 2"),
+                                    (("command", "state", "--can", "socketcand:1"), 1, "socketcand"),
+                                    (("command", "1", "arm", "--amplitude", "1", "--period", "2", "--can", self.source), 2, "a sine"),
+                                    (("setting", "1", "volume", "--can", self.source), 2, "is not a setting"),
+                                    (("setting", "2", "--can", self.source), 1, "no answer from node 2"),
+                                    (("doctor", "--config", "/dev/null"), 2, "is not a file"),
+                                    (("identify", "/dev/null"), 2, "/dev/null")):
+            done = subprocess.run([SUPERCOIL, *words, "--json"], capture_output=True, text=True, timeout=SLACK_S)
+            answer = json.loads(done.stdout)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(told, answer.get("error", answer.get("answer")))
+            self.assertIn(told, done.stderr)
+
     def test_a_script_is_told_how_calibrate_ended(self):
         self.arm_by_script()
         until(lambda: self.command("1", "calibrate").returncode == 0)
@@ -42,16 +71,13 @@ class Scripts(OnSimulatedBoard):
                          ("supercoil: 1 calibrate ended: interrupted\n", 1))
 
     def identify_by_script(self, *words, meanwhile=lambda program: None):
-        """Status and texts. Again while the probe of arming runs: a fast machine asks before it has ended."""
+        """Status and texts."""
         self.arm_by_script()
-        for _ in range(100):
-            program = subprocess.Popen([SUPERCOIL, "command", "1", "identify", *words, "--can", self.source],
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            meanwhile(program)
-            out, err = program.communicate(timeout=60)
-            if "refused: busy" not in err:
-                return program.returncode, out, err
-        raise AssertionError("busy for ever")
+        program = subprocess.Popen([SUPERCOIL, "command", "1", "identify", *words, "--can", self.source],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        meanwhile(program)
+        out, err = program.communicate(timeout=60)
+        return program.returncode, out, err
 
     def test_identify_that_is_cut_short_is_no_success(self):
         ended = "supercoil: 1 identify ended: interrupted\n"

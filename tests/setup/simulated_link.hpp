@@ -24,6 +24,12 @@ class SimulatedLink final : public operating::BoardLink {
     return answer_text(answer.refusal, answer.nearest);
   }
   Answer state() override { return std::string(); }
+  Answer state_json() override { return std::string(); }
+  tl::expected<Status, std::string> status(const std::string&) override {
+    const Snapshot& s = snapshot();
+    return Status{std::string(name(s.state)),
+                  std::string(s.fault == Fault::none ? "none" : name(s.fault)), s.probing};
+  }
   tl::expected<Ending, std::string> ending(const std::string&) override {
     const Snapshot& s = snapshot();
     return Ending{std::string(mode_result_names.at(static_cast<std::size_t>(s.result))),

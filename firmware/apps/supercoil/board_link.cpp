@@ -1,183 +1,20 @@
 #include "apps/supercoil/board_link.hpp"
 
-#include <cmath>
-#include <cstdlib>
-#include <optional>
-#include <sstream>
-#include <thread>
-#include <utility>
-
-#include "apps/supercoil/bus/bus_name.hpp"
-#include "apps/supercoil/bus/listener.hpp"
-#include "apps/supercoil/bus/terminal.hpp"
-#include "can/codec.hpp"
-#include "loop/snapshot.hpp"
-#include "modes/result.hpp"
-#include "telemetry/frames.hpp"
-#include "telemetry/run_settings.hpp"
-#include "text/command_text.hpp"
-
 namespace supercoil::operating {
 
-BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std::string& channel) {
-  const auto lines = socket_.ask(request);
-  if (!lines) return tl::unexpected(lines.error());
-  std::istringstream text(*lines);
-  for (std::string line; std::getline(text, line);) {
-    if (line.starts_with(channel + " ")) return line;
+BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
+  auto answer = board.ask(channel + " arm");
+  if (!answer || *answer != "ok") return answer;
+  // A probe lasts 50 ms at most; the rest is the machine's.
+  constexpr int tries = 40;
+  for (int i = 0; i < tries; ++i) {
+    const auto now = board.status(channel);
+    if (!now) return tl::unexpected(now.error());
+    if (now->fault != "none") return "fault " + now->fault + "; docs/faults/" + now->fault + ".md";
+    if (now->state == name(State::armed) && !now->probing) return answer;
+    board.wait(std::chrono::milliseconds(50));
   }
-  return tl::unexpected("nothing is known of channel " + channel);
-}
-
-/// The last two words of the channel's line.
-tl::expected<BoardLink::Ending, std::string> LocalBoardLink::ending(const std::string& channel) {
-  const auto line = line_of("state", channel);
-  if (!line) return tl::unexpected(line.error());
-  Ending ending;
-  std::istringstream words(*line);
-  for (std::string word; words >> word;)
-    ending = {std::exchange(ending.notes, word), word};
-  if (ending.notes == "-") ending.notes.clear();
-  return ending;
-}
-
-tl::expected<board::SenseComparison, std::string> LocalBoardLink::senses(
-    const std::string& channel) {
-  const auto line = line_of("senses", channel);
-  if (!line) return tl::unexpected(line.error());
-  board::SenseComparison senses;
-  std::istringstream text(line->substr(channel.size()));
-  if (text >> senses.supply_gain >> senses.current_gain >> senses.error_ratio) return senses;
-  return tl::unexpected("senses: " + *line);
-}
-
-tl::expected<KnownMuscle, std::string> LocalBoardLink::muscle(const std::string& channel) {
-  const auto line = line_of("muscle", channel);
-  if (!line) return tl::unexpected(line.error());
-  KnownMuscle known;
-  std::istringstream words(line->substr(channel.size()));
-  for (double& value : known) {
-    std::string word;
-    if (!(words >> word)) return tl::unexpected("muscle: " + *line);
-    value = std::strtod(word.c_str(), nullptr);  // streams do not read nan
-  }
-  return known;
-}
-
-tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& channel) {
-  const auto line = line_of("state", channel);
-  if (!line) return tl::unexpected(line.error());
-  std::istringstream words(*line);
-  std::string skipped, mode, model, position;
-  words >> skipped >> skipped >> mode >> skipped >> skipped >> model >> position;
-  if (mode != mode_names[static_cast<std::size_t>(Mode::position)]) return NAN;
-  return std::strtod(position.c_str(), nullptr) - std::strtod(model.c_str(), nullptr);
-}
-
-CanBoardLink::~CanBoardLink() {
-  for (const auto& [node, commander] : nodes_)
-    commander->release();
-}
-
-BoardLink::Answer CanBoardLink::ask(const std::string& line) {
-  const auto command = parse_command(line, can::max_nodes);
-  if (!command) return command.error();
-  const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
-  if (!node) return tl::unexpected(node.error());
-  const auto answer = (*node)->ask(command->verb, command->value);
-  if (!answer) return tl::unexpected(answer.error());
-  return answer_text(*answer, *answer == Refusal::out_of_range ? (*node)->nearest() : NAN);
-}
-
-tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node) {
-  if (!nodes_.contains(node)) {
-    auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
-                               can_client::refused_value_id(node), can_client::muscle_id(node)});
-    if (!bus) return tl::unexpected(bus.error());
-    nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
-  }
-  return nodes_.at(node).get();
-}
-
-tl::expected<board::SenseComparison, std::string> CanBoardLink::senses(const std::string& channel) {
-  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
-  if (!node) return tl::unexpected(node.error());
-  board::SenseComparison senses;
-  using telemetry::SenseSetting;
-  for (const auto& [setting, value] : {std::pair{SenseSetting::supply_gain, &senses.supply_gain},
-                                       std::pair{SenseSetting::current_gain, &senses.current_gain},
-                                       std::pair{SenseSetting::sense_error, &senses.error_ratio}}) {
-    const auto heard = (*node)->read(setting);
-    if (!heard) return tl::unexpected(heard.error());
-    *value = heard->value;
-  }
-  return senses;
-}
-
-tl::expected<KnownMuscle, std::string> CanBoardLink::muscle(const std::string& channel) {
-  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
-  if (!node) return tl::unexpected(node.error());
-  KnownMuscle known;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    const auto told = (*node)->muscle(static_cast<std::uint8_t>(i));
-    if (!told) return tl::unexpected(told.error());
-    known[i] = *told;
-  }
-  return known;
-}
-
-tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {
-  const auto node = static_cast<std::uint8_t>(std::stoi(channel));
-  if (!tracked_.contains(node)) {
-    auto bus = open_bus(bus_, {can_client::tracking_id(node)});
-    if (!bus) return tl::unexpected(bus.error());
-    tracked_.emplace(node, std::move(*bus));
-    errors_m_[node] = NAN;
-  }
-  for (hal::CanFrame frame; tracked_.at(node)->receive(frame) == hal::Status::ok;) {
-    if (const auto told = can_client::receive_error_m(node, frame)) errors_m_[node] = *told;
-  }
-  return errors_m_[node];
-}
-
-BoardLink::Answer CanBoardLink::state() {
-  auto bus = open_bus(bus_);
-  if (!bus) return tl::unexpected(bus.error());
-  constexpr double keep_s = 10.0;
-  constexpr double default_bit_rate = 500e3;
-  FrameHistory frame_history(keep_s, default_bit_rate);
-  const Listener listener(std::move(*bus), frame_history);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-  return state_text(frame_history);
-}
-
-tl::expected<BoardLink::Ending, std::string> CanBoardLink::ending(const std::string& channel) {
-  const auto node = static_cast<std::uint8_t>(std::stoi(channel));
-  auto bus = open_bus(bus_, {can_client::status_id(node), can_client::estimate_id(node)});
-  if (!bus) return tl::unexpected(bus.error());
-  std::optional<std::string> result;
-  std::optional<std::string> notes;
-  unsigned friction = 0;  // has no bit left in the estimates
-  for (int i = 0; i < 100 && !(result && notes); ++i) {
-    for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
-      const auto heard = can::decode(frame);
-      if (!heard) continue;
-      const auto value = [&](const char* signal) {
-        return heard->values.at(can::signal_index(*heard->message, signal));
-      };
-      if (frame.id == can_client::status_id(node)) {
-        const std::size_t place = can::signal_index(*heard->message, "result");
-        result = can::value_name(heard->message->signals[place], value("result"));
-        friction = value("friction") == 1.0 ? note_friction : 0;
-      } else if (frame.id == can_client::estimate_id(node) && result) {
-        const auto rest = static_cast<unsigned>(value("identify_notes"));
-        notes = describe_notes(static_cast<std::uint8_t>(rest | friction), ",");
-      }
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  if (!result) return tl::unexpected("no heartbeat of node " + channel + " within 1 s");
-  return Ending{*result, notes.value_or("")};
+  return tl::unexpected<std::string>("its heater is still being measured after 2 s");
 }
 
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "apps/supercoil/board_socket.hpp"
 #include "apps/supercoil/bus/commander.hpp"
+#include "apps/supercoil/bus/recent.hpp"
 #include "board/learned.hpp"
 #include "loop/known_muscle.hpp"
 
@@ -29,6 +31,15 @@ class BoardLink {
   virtual Answer ask(const std::string& line) = 0;
   /// What is known of the board, in lines.
   virtual Answer state() = 0;
+  /// The same for programs, as one JSON object.
+  virtual Answer state_json() = 0;
+  /// What the board says of a channel now. channel: as in a line.
+  struct Status {
+    std::string state;
+    std::string fault;     ///< "none", or its first cause
+    bool probing = false;  ///< its heater is being measured
+  };
+  virtual tl::expected<Status, std::string> status(const std::string& channel) = 0;
   /// How identify or calibrate ended: a ModeResult by its name, and IdentifyNotes by theirs.
   struct Ending {
     std::string result;
@@ -56,6 +67,8 @@ class LocalBoardLink final : public BoardLink {
   explicit LocalBoardLink(BoardSocket socket) : socket_(std::move(socket)) {}
   Answer ask(const std::string& line) override { return socket_.ask(line); }
   Answer state() override { return socket_.ask("state"); }
+  Answer state_json() override;
+  tl::expected<Status, std::string> status(const std::string& channel) override;
   tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
   tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override;
@@ -76,6 +89,9 @@ class CanBoardLink final : public BoardLink {
   Answer ask(const std::string& line) override;
   /// Listens for a second and a half.
   Answer state() override;
+  Answer state_json() override;
+  /// From the next heartbeat.
+  tl::expected<Status, std::string> status(const std::string& channel) override;
   /// From the next heartbeat; notes from the next estimates, if the board sends any.
   tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
@@ -84,12 +100,18 @@ class CanBoardLink final : public BoardLink {
 
  private:
   tl::expected<Commander*, std::string> commander(std::uint8_t node);
+  /// What is told of what is heard meanwhile.
+  Answer heard(const std::function<std::string(const FrameHistory&)>& tell);
 
   std::string bus_;
   std::map<std::uint8_t, std::unique_ptr<Commander>> nodes_;
   std::map<std::uint8_t, std::unique_ptr<hal::CanBus>> tracked_;  ///< on which nodes tell it
   std::map<std::uint8_t, double> errors_m_;
 };
+
+/// Arms a channel and waits until its heater was measured: a command to heat is refused before.
+/// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
+BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
 /// can: a bus by its name; empty: the supercoild that listens at this socket.
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,

@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 /// A board's answer as an exit status; anything but "ok" is also said.
 int judged(const std::string& line, const std::string& answer) {
   if (answer == "ok") return exit_done;
-  const bool refused = answer.starts_with("refused");
+  const bool refused = answer.starts_with("refused") || answer.starts_with("fault");
   return fail(refused ? exit_failed : exit_wrong_input, line + ": " + answer);
 }
 
@@ -119,25 +119,40 @@ int hold(BoardLink& board, const CommandOptions& options) {
   return answer ? ended(board, options) : concluded(options, rest, answer);
 }
 
+/// What was asked wrongly, or of nobody; as JSON too where that is wanted.
+int refused(const CommandOptions& options, int status, const std::string& why) {
+  if (options.json) {
+    const nlohmann::ordered_json told{{"command", joined(options.words)}, {"error", why}};
+    std::printf("%s\n", told.dump().c_str());
+  }
+  return fail(status, why);
+}
+
+int tell_state(BoardLink& board, const CommandOptions& options) {
+  const auto answer = options.json ? board.state_json() : board.state();
+  if (!answer) return refused(options, exit_failed, answer.error());
+  std::fputs(answer->c_str(), stdout);
+  return exit_done;
+}
+
 }  // namespace
 
 int command_command(const CommandOptions& options) {
   const bool number = options.words.size() == 3 && is_number(options.words[2]);
   if (options.sine_period_s > 0.0 && !number) {
-    return fail(exit_wrong_input, joined(options.words) + ": a sine needs a number as its middle");
+    return refused(options, exit_wrong_input,
+                   joined(options.words) + ": a sine needs a number as its middle");
   }
   if (options.sine_period_s > 0.0 && options.hold_s <= 0.0)
-    return fail(exit_wrong_input, "a sine needs --for or --hold");
+    return refused(options, exit_wrong_input, "a sine needs --for or --hold");
   const auto board = open_link(options.can, options.socket);
-  if (!board) return fail(exit_failed, board.error());
+  if (!board) return refused(options, exit_failed, board.error());
   const std::string line = joined(options.words);
-  if (line == "state") {
-    const auto answer = (*board)->state();
-    if (!answer) return fail(exit_failed, answer.error());
-    std::fputs(answer->c_str(), stdout);
-    return exit_done;
-  }
-  return options.hold_s > 0.0 ? hold(**board, options) : ask(**board, options, line);
+  if (line == "state") return tell_state(**board, options);
+  if (options.hold_s > 0.0) return hold(**board, options);
+  const bool arms = options.words.size() == 2 && options.words[1] == name(Verb::arm);
+  return arms ? concluded(options, line, arm(**board, options.words[0]))
+              : ask(**board, options, line);
 }
 
 }  // namespace supercoil::operating

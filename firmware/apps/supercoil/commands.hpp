@@ -12,6 +12,10 @@ namespace supercoil::operating {
 
 /// Prints the message to standard error and returns the status.
 int fail(int status, const std::string& message);
+/// {"error": message} on standard output, for programs that asked for JSON.
+void tell_error(const std::string& message);
+/// As fail(), and for programs too.
+int refuse(bool json, int status, const std::string& message);
 
 struct LogOptions {
   std::string file;

@@ -59,7 +59,9 @@ int doctor_command(const DoctorOptions& options) {
   }
   const auto config = config::read_board_config(options.config);
   if (!config) {
-    std::fputs(config::to_text(config.error()).c_str(), stderr);
+    const std::string why = config::to_text(config.error());
+    if (options.json) tell_error(why);
+    std::fputs(why.c_str(), stderr);
     return exit_wrong_input;
   }
   doctor::Report report{config->name, options.config, {}};

@@ -74,11 +74,6 @@ std::string wrong_choice(const LogOptions& o, const recorder::Recording& recordi
 
 }  // namespace
 
-int fail(int status, const std::string& message) {
-  std::fprintf(stderr, "supercoil: %s\n", message.c_str());
-  return status;
-}
-
 int log_command(const LogOptions& options) {
   if (is_can_log(options.file)) return can_log_command(options);
   if (options.node != 0 || !options.message.empty()) {

@@ -4,6 +4,8 @@
 #include <system_error>
 #include <utility>
 
+#include "storage/posix_files.hpp"
+
 namespace supercoil::operating {
 
 namespace {
@@ -53,6 +55,14 @@ tl::expected<void, std::string> OutputFile::commit() {
   if (result) result = files_->rename(file_.path, path_);
   kept_ = result.has_value();
   return text_of(result);
+}
+
+tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text) {
+  storage::PosixFiles files;
+  auto file = OutputFile::open(path, files);
+  if (!file) return tl::unexpected(file.error());
+  if (auto written = file->write(text); !written) return written;
+  return file->commit();
 }
 
 }  // namespace supercoil::operating

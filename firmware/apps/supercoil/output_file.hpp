@@ -37,4 +37,7 @@ class OutputFile {
   bool kept_ = false;
 };
 
+/// Writes a file whole, in place of one that may be there.
+tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text);
+
 }  // namespace supercoil::operating

@@ -40,7 +40,7 @@ void tell(const can_client::Master::Setting& heard, bool json) {
 
 int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
   const auto heard = options.value ? node.write(setting, *options.value) : node.read(setting);
-  if (!heard) return fail(exit_failed, heard.error());
+  if (!heard) return refuse(options.json, exit_failed, heard.error());
   tell(*heard, options.json);
   if (heard->refusal == Refusal::none) return exit_done;
   return fail(exit_failed, options.name + ": refused: " + std::string(name(heard->refusal)));
@@ -50,7 +50,7 @@ int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
 int all(Commander& node, bool json) {
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
     const auto heard = node.read(i);
-    if (!heard) return fail(exit_failed, heard.error());
+    if (!heard) return refuse(json, exit_failed, heard.error());
     if (heard->refusal == Refusal::none) tell(*heard, json);
   }
   return exit_done;
@@ -62,14 +62,14 @@ int setting_command(const SettingOptions& options) {
   const auto setting = setting_of(options.name);
   if (!options.name.empty() && !setting) {
     const std::string_view renamed = config::renamed_to("setting", options.name);
-    return fail(exit_wrong_input,
-                "'" + options.name + "' " +
-                    (renamed.empty() ? "is not a setting; there are " + all_names()
-                                     : "was renamed in 0.2.0: write " + std::string(renamed)));
+    return refuse(options.json, exit_wrong_input,
+                  "'" + options.name + "' " +
+                      (renamed.empty() ? "is not a setting; there are " + all_names()
+                                       : "was renamed in 0.2.0: write " + std::string(renamed)));
   }
   const auto id = static_cast<std::uint8_t>(options.node);
   auto bus = open_bus(options.can, {can_client::acknowledge_id(id), can_client::setting_id(id)});
-  if (!bus) return fail(exit_failed, bus.error());
+  if (!bus) return refuse(options.json, exit_failed, bus.error());
   Commander node(std::move(*bus), id);
   const int status = setting ? one(node, *setting, options) : all(node, options.json);
   node.release();

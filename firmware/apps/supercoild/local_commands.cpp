@@ -131,6 +131,10 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
     answer(client.number(), rows.describe());
     return true;
   }
+  if (text == "status") {
+    answer(client.number(), rows.describe_status());
+    return true;
+  }
   if (text == "senses") {
     answer(client.number(), senses_text(loop));
     return true;

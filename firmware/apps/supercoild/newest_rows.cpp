@@ -19,4 +19,14 @@ std::string NewestRows::describe() const {
   return text.str();
 }
 
+std::string NewestRows::describe_status() const {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& r = rows_[i];
+    text << i + 1 << ' ' << recorder::state_name(r.state) << ' ' << recorder::fault_name(r.fault)
+         << ' ' << ((r.flags & row_probing) != 0 ? "probing" : "-") << '\n';
+  }
+  return text.str();
+}
+
 }  // namespace supercoil::daemon

@@ -23,6 +23,9 @@ class NewestRows {
   /// in °C, progress, and how identify or calibrate ended (ModeResult), and what else identify
   /// has to say (IdentifyNotes, "-" for nothing).
   std::string describe() const;
+  /// A line for each channel, "1 armed none probing": channel, state, fault, and whether its heater
+  /// is being measured ("-" if not).
+  std::string describe_status() const;
 
  private:
   std::vector<Row> rows_;

@@ -154,7 +154,7 @@ void Axis::publish(std::uint32_t selector, Snapshot& s) const {
   s.position_m = inputs_.position.present ? inputs_.position.value : std::nan("");
   s.demanded_W = demanded_.demanded_power_W;
   s.proof_off = !settings_.supervision.proof_of_response;
-  s.oscillated = demanded_.oscillated;
+  s.oscillation_period_s = demanded_.oscillation_period_s;
   s.progress = mode_ == Mode::identify    ? identify_.progress()
                : mode_ == Mode::calibrate ? calibrate_.progress()
                                           : 0.0F;

@@ -43,12 +43,13 @@ struct Snapshot {
   LimitedBy limited_by = LimitedBy::nothing;
   std::uint8_t controller = 0;  ///< place in the configuration
   bool probing = false;
-  bool trusted = false;     ///< the estimates
-  bool limited = false;     ///< the acting power is not the one that was wanted
-  bool proof_off = false;   ///< proof_of_response = false
-  bool oscillated = false;  ///< the controller that follows has seen its loop oscillate
-  double reference = 0.0;   ///< in m, or in W in open loop
-  double model_m = 0.0;     ///< of the reference model: what tracking is measured against
+  bool trusted = false;    ///< the estimates
+  bool limited = false;    ///< the acting power is not the one that was wanted
+  bool proof_off = false;  ///< proof_of_response = false
+  /// With which the controller that follows has seen its loop oscillate by itself; 0: it has not.
+  double oscillation_period_s = 0.0;
+  double reference = 0.0;  ///< in m, or in W in open loop
+  double model_m = 0.0;    ///< of the reference model: what tracking is measured against
   double position_m = 0.0;
   double demanded_W = 0.0;
   double applied_W = 0.0;  ///< after limits and quantisation

@@ -293,6 +293,33 @@ class Program(unittest.TestCase):
         os.close(screen)
         self.assertRegex(seen, r"\r\x1b\[Ksupercoil-sim: interrupted at [^\r\n]*\r\n$")
 
+    def test_a_run_in_real_time_has_the_same_exit_status_where_something_is_asked_for(self):
+        broken = "simulation.duration_s = 1.5\ninjected_fault.heater_open = true\n"
+        for text, options, status in ((broken, [], 1), (broken, ["--allow-fault"], 0),
+                                      ("simulation.duration_s = 0.5\n", [], 0),
+                                      (broken + "operator.action = 'none'\n", [], 0)):
+            done = self.run_program("run", self.scenario(text), "--real-time", "--out", "out", *options)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertEqual("fault 20 heater_open" in done.stderr, status == 1)
+
+    def test_a_reference_that_is_not_feasible_is_told_with_its_share_and_what_to_do(self):
+        for turn_rad_per_s, shape, told in ((2.0, "false", True), (2.0, "true", True), (0.2, "false", False)):
+            text = (f"simulation.duration_s = 120.0\ncontroller = {{kind = 'learned_ff', shape_reference = {shape}}}\n"
+                    f"reference.angular_frequency_rad_per_s = {turn_rad_per_s}\nreference_model.poles_rad_per_s = [4.0, 5.0, 6.0]\n")
+            done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
+            ratio = json.loads((self.path / "out/summary.json").read_text())["infeasible_ratio"]
+            self.assertEqual(ratio > 0.01, told, (ratio, done.stdout))
+            line = re.findall(r"asked for more than the muscle can do in (.*) % of the ticks that followed it: .*shape_reference", done.stdout)
+            self.assertEqual(line, [f"{100 * ratio:.1f}"] if told else [])
+
+    def test_a_loop_that_oscillates_is_told_with_its_period(self):
+        text = ("simulation.duration_s = 60.0\nplant.damping_Ns_per_m = 0.12\nmuscle.damping_Ns_per_m = 0.12\n"
+                "controller = {kind = 'adaptive_ff', slow_when_oscillating = false}\n")
+        done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
+        summary = json.loads((self.path / "out/summary.json").read_text())
+        self.assertAlmostEqual(summary["oscillation_period_s"], 0.5, delta=0.2)
+        self.assertIn(f"with a period of {summary['oscillation_period_s']:.2g} s", done.stderr)
+
     def test_a_run_in_real_time_says_how_far_it_came(self):
         self.scenario("simulation.duration_s = 86400.0\n")
         running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--real-time"], cwd=self.path,

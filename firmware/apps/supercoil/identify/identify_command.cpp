@@ -99,34 +99,26 @@ bool is_input(const IdentifyOptions& o, const std::string& path) {
   return !path.empty() && std::filesystem::equivalent(o.file, path, ignored);
 }
 
-tl::expected<void, std::string> write_file(const std::string& path, const std::string& text) {
-  storage::PosixFiles files;
-  auto file = OutputFile::open(path, files);
-  if (!file) return tl::unexpected(file.error());
-  auto written = file->write(text);
-  if (written) written = file->commit();
-  return written;
-}
-
 }  // namespace
 
 int identify_command(const IdentifyOptions& options) {
   for (const std::string& path : {options.muscle, options.plot})
-    if (is_input(options, path)) return fail(exit_wrong_input, path + ": is the recording itself");
+    if (is_input(options, path))
+      return refuse(options.json, exit_wrong_input, path + ": is the recording itself");
   const auto recording = read_input(options);
-  if (!recording) return fail(exit_wrong_input, recording.error());
+  if (!recording) return refuse(options.json, exit_wrong_input, recording.error());
   for (const identification::Problem& warning : recording->warnings)
     std::fprintf(stderr, "supercoil: %s\n", to_text(options.file, warning).c_str());
   Samples samples = identification::resample(*recording);
   const auto parts = parts_in(options, samples);
-  if (!parts) return fail(exit_wrong_input, parts.error());
+  if (!parts) return refuse(options.json, exit_wrong_input, parts.error());
   const Findings found = find(options, recording->size(), std::move(samples), *parts);
 
   const bool muscle = found.comparison.not_a_muscle.empty();
   std::string text = options.json ? json_report(found) : report(found);
   if (!options.plot.empty()) {
     if (const auto drawn = draw(identify_figure(found), options.plot); !drawn)
-      return fail(exit_failed, drawn.error());
+      return refuse(options.json, exit_failed, drawn.error());
   }
   tl::expected<std::string, std::string> table =
       tl::unexpected(std::string("no [muscle] table is written: this is not such a muscle"));
@@ -134,10 +126,10 @@ int identify_command(const IdentifyOptions& options) {
   if (table && options.muscle.empty() && !options.json) text += "\n" + *table;
   storage::PosixFiles files;
   if (const auto said = files.write({STDOUT_FILENO, "standard output"}, text); !said)
-    return fail(exit_failed, said.error().text);
+    return refuse(options.json, exit_failed, said.error().text);
   if (!table) return fail(exit_failed, table.error());
   if (options.muscle.empty()) return exit_done;
-  const auto written = write_file(options.muscle, *table);
+  const auto written = write_whole(options.muscle, *table);
   return written ? exit_done : fail(exit_failed, written.error());
 }
 

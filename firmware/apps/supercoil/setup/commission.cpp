@@ -66,7 +66,11 @@ Commission::Done Commission::ask(const std::string& command) {
   const auto answer = board_.ask(channel_ + " " + command);
   if (!answer) return tl::unexpected(answer.error());
   if (*answer == "ok") return {};
-  return tl::unexpected(command + ": " + *answer);
+  const auto now = board_.status(channel_);
+  const bool faulty = now && now->fault != "none";
+  return tl::unexpected(
+      command + ": " + *answer +
+      (faulty ? ", fault " + now->fault + "; docs/faults/" + now->fault + ".md" : ""));
 }
 
 /// Says every ten seconds that it goes on; false when it was interrupted.
@@ -80,22 +84,20 @@ bool Commission::tell_progress(double elapsed_s, double& told_s, const std::stri
 
 /// A board that was just started waits until its muscle must be cool.
 Commission::Done Commission::arm() {
-  const Feasibility f = feasibility(configured_, settings_);
-  const double max_s = arming_s + f.armable_s;
+  const double max_s = arming_s + feasibility(configured_, settings_).armable_s;
   const double begin_s = board_.time_s();
   double told_s = 0.0;
   for (;;) {
     const double elapsed_s = board_.time_s() - begin_s;
-    const auto answer = board_.ask(channel_ + " arm");
+    const auto answer = operating::arm(board_, channel_);
     if (!answer) return tl::unexpected(answer.error());
-    if (*answer == "ok" || *answer == answer_text(Refusal::wrong_state, NAN)) break;
-    if (elapsed_s >= max_s) return tl::unexpected("arm: " + *answer);
+    if (*answer == "ok" || *answer == answer_text(Refusal::wrong_state, NAN)) return {};
+    if (*answer != answer_text(Refusal::not_ready, NAN) || elapsed_s >= max_s)
+      return tl::unexpected("arm: " + *answer);
     if (!tell_progress(elapsed_s, told_s, "waiting until the muscle must be cool"))
       return tl::unexpected<std::string>("interrupted");
     board_.wait(std::chrono::seconds(1));
   }
-  board_.wait(std::chrono::milliseconds(500));  // the probe of its heater
-  return {};
 }
 
 tl::expected<std::string, std::string> Commission::run_mode(const std::string& mode, double max_s) {

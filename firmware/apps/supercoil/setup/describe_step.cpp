@@ -13,6 +13,7 @@
 #include "apps/supercoil/answer_lines.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/output_file.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/record.hpp"

@@ -6,7 +6,6 @@
 
 #include "apps/supercoil/output_file.hpp"
 #include "apps/supercoil/setup/steps.hpp"
-#include "storage/posix_files.hpp"
 
 namespace supercoil::operating {
 
@@ -46,14 +45,6 @@ tl::expected<void, std::string> SetupRecord::add(const std::string& step, const 
   }
   channel[step] = found;
   return write_whole(path_, document_.dump(2) + "\n");
-}
-
-tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text) {
-  storage::PosixFiles files;
-  auto file = OutputFile::open(path, files);
-  if (!file) return tl::unexpected(file.error());
-  if (auto written = file->write(text); !written) return written;
-  return file->commit();
 }
 
 }  // namespace supercoil::operating

@@ -29,7 +29,4 @@ class SetupRecord {
   nlohmann::ordered_json document_;
 };
 
-/// Writes a file whole, in place of one that may be there.
-tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text);
-
 }  // namespace supercoil::operating

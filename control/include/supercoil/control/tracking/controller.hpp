@@ -74,7 +74,9 @@ struct ControllerOutput {
   double demanded_power_W = 0.0;
   double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
   Infeasible infeasible = Infeasible::nothing;  ///< of the reference, which was shaped
-  bool oscillated = false;  ///< since the muscle is this one; the feedback is slower if it may be
+  /// Of the loop by itself, since the muscle is this one; the feedback is slower if it may be. 0:
+  /// it did not.
+  double oscillation_period_s = 0.0;
 };
 
 /// Where a controller starts, or takes over from another while the muscle is hot.
@@ -147,14 +149,14 @@ class ModelFollower {
     const double bridged_W = demanded + bridge_W_;
     bridge_W_ *= fading_;
     return {bridged_W, static_cast<double>(input.model.position) * to_metres_, asked.what,
-            oscillated_};
+            oscillation_period_s_};
   }
 
   void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
   void retune(const Theta& theta) {
     if (tuned_for_ == theta) return;
     tuned_for_ = theta;
-    oscillated_ = false;
+    oscillation_period_s_ = 0.0;
     if (shaper_) shaper_->retune(theta);
     if constexpr (requires { law_.retune(theta); }) law_.retune(theta);
   }
@@ -181,7 +183,7 @@ class ModelFollower {
  private:
   void watch(double position_m, double model_m) {
     if (!oscillation_.step(model_m - position_m, model_m)) return;
-    oscillated_ = true;
+    oscillation_period_s_ = oscillation_.period_s();
     if constexpr (requires { law_.slow_down(); })
       if (slow_when_oscillating_) law_.slow_down();
   }
@@ -190,7 +192,7 @@ class ModelFollower {
   Law law_;
   OscillationDetector oscillation_;
   bool slow_when_oscillating_;
-  bool oscillated_ = false;
+  double oscillation_period_s_ = 0.0;
   std::optional<ReferenceShaper> shaper_;
   std::optional<Theta> tuned_for_;
   /// Slower than every law here: the loop, not the fading, decides where the muscle is.

@@ -54,6 +54,9 @@ class OscillationDetector {
     return found;
   }
 
+  /// Of the oscillation that was told last; 0: none was.
+  double period_s() const { return period_s_; }
+
  private:
   /// What passes between the slow and the fast limit, to first order.
   struct Band {
@@ -85,6 +88,7 @@ class OscillationDetector {
     usual_s_ += part * (half_s_ - usual_s_);
     usual_m_ += part * (max_m_ - usual_m_);
     if (++count_ < settings_.half_periods) return false;
+    period_s_ = 2.0 * usual_s_;
     start_counting();
     return true;
   }
@@ -102,6 +106,7 @@ class OscillationDetector {
   double half_s_ = 0.0;  // of the present half period
   double max_m_ = 0.0;
   double model_peak_m_ = 0.0;
+  double period_s_ = 0.0;
 };
 
 }  // namespace supercoil::control

@@ -29,7 +29,9 @@ TEST(RowOf, HasAFlagOfItsOwnForEach) {
   LONGS_EQUAL(row_trusted, flags_of(&Snapshot::trusted));
   LONGS_EQUAL(row_limited, flags_of(&Snapshot::limited));
   LONGS_EQUAL(row_proof_off, flags_of(&Snapshot::proof_off));
-  LONGS_EQUAL(row_oscillated, flags_of(&Snapshot::oscillated));
+  Snapshot oscillating;
+  oscillating.oscillation_period_s = 0.6;
+  LONGS_EQUAL(row_oscillated, row_of(oscillating).flags);
 }
 
 TEST(RowOf, HasEachNumber) {

@@ -1,0 +1,157 @@
+// Nodes on a CAN bus.
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "apps/supercoil/bus/bus_name.hpp"
+#include "apps/supercoil/bus/listener.hpp"
+#include "apps/supercoil/bus/state_json.hpp"
+#include "apps/supercoil/bus/terminal.hpp"
+#include "can/codec.hpp"
+#include "modes/result.hpp"
+#include "telemetry/run_settings.hpp"
+#include "text/command_text.hpp"
+
+namespace supercoil::operating {
+
+CanBoardLink::~CanBoardLink() {
+  for (const auto& [node, commander] : nodes_)
+    commander->release();
+}
+
+BoardLink::Answer CanBoardLink::ask(const std::string& line) {
+  const auto command = parse_command(line, can::max_nodes);
+  if (!command) return command.error();
+  const auto node = commander(static_cast<std::uint8_t>(command->channel + 1));
+  if (!node) return tl::unexpected(node.error());
+  const auto answer = (*node)->ask(command->verb, command->value);
+  if (!answer) return tl::unexpected(answer.error());
+  return answer_text(*answer, *answer == Refusal::out_of_range ? (*node)->nearest() : NAN);
+}
+
+tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node) {
+  if (!nodes_.contains(node)) {
+    auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
+                               can_client::refused_value_id(node), can_client::muscle_id(node)});
+    if (!bus) return tl::unexpected(bus.error());
+    nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
+  }
+  return nodes_.at(node).get();
+}
+
+tl::expected<board::SenseComparison, std::string> CanBoardLink::senses(const std::string& channel) {
+  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
+  if (!node) return tl::unexpected(node.error());
+  board::SenseComparison senses;
+  using telemetry::SenseSetting;
+  for (const auto& [setting, value] : {std::pair{SenseSetting::supply_gain, &senses.supply_gain},
+                                       std::pair{SenseSetting::current_gain, &senses.current_gain},
+                                       std::pair{SenseSetting::sense_error, &senses.error_ratio}}) {
+    const auto heard = (*node)->read(setting);
+    if (!heard) return tl::unexpected(heard.error());
+    *value = heard->value;
+  }
+  return senses;
+}
+
+tl::expected<KnownMuscle, std::string> CanBoardLink::muscle(const std::string& channel) {
+  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
+  if (!node) return tl::unexpected(node.error());
+  KnownMuscle known;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto told = (*node)->muscle(static_cast<std::uint8_t>(i));
+    if (!told) return tl::unexpected(told.error());
+    known[i] = *told;
+  }
+  return known;
+}
+
+tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {
+  const auto node = static_cast<std::uint8_t>(std::stoi(channel));
+  if (!tracked_.contains(node)) {
+    auto bus = open_bus(bus_, {can_client::tracking_id(node)});
+    if (!bus) return tl::unexpected(bus.error());
+    tracked_.emplace(node, std::move(*bus));
+    errors_m_[node] = NAN;
+  }
+  for (hal::CanFrame frame; tracked_.at(node)->receive(frame) == hal::Status::ok;) {
+    if (const auto told = can_client::receive_error_m(node, frame)) errors_m_[node] = *told;
+  }
+  return errors_m_[node];
+}
+
+BoardLink::Answer CanBoardLink::heard(const std::function<std::string(const FrameHistory&)>& tell) {
+  auto bus = open_bus(bus_);
+  if (!bus) return tl::unexpected(bus.error());
+  constexpr double keep_s = 10.0;
+  constexpr double default_bit_rate = 500e3;
+  FrameHistory frame_history(keep_s, default_bit_rate);
+  const Listener listener(std::move(*bus), frame_history);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  return tell(frame_history);
+}
+
+BoardLink::Answer CanBoardLink::state() {
+  return heard(state_text);
+}
+
+BoardLink::Answer CanBoardLink::state_json() {
+  return heard([](const FrameHistory& frame_history) {
+    return operating::state_json(frame_history).dump() + "\n";
+  });
+}
+
+tl::expected<BoardLink::Status, std::string> CanBoardLink::status(const std::string& channel) {
+  const auto node = static_cast<std::uint8_t>(std::stoi(channel));
+  auto bus = open_bus(bus_, {can_client::status_id(node)});
+  if (!bus) return tl::unexpected(bus.error());
+  for (int i = 0; i < 150; ++i) {
+    for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
+      const auto heard = can::decode(frame);
+      if (!heard || frame.id != can_client::status_id(node)) continue;
+      const auto name_of = [&](const char* signal) {
+        const std::size_t place = can::signal_index(*heard->message, signal);
+        return std::string(
+            can::value_name(heard->message->signals[place], heard->values.at(place)));
+      };
+      const std::size_t probing = can::signal_index(*heard->message, "probing");
+      return Status{name_of("state"), name_of("fault"), heard->values.at(probing) == 1.0};
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return tl::unexpected("no heartbeat of node " + channel + " within 1.5 s");
+}
+
+tl::expected<BoardLink::Ending, std::string> CanBoardLink::ending(const std::string& channel) {
+  const auto node = static_cast<std::uint8_t>(std::stoi(channel));
+  auto bus = open_bus(bus_, {can_client::status_id(node), can_client::estimate_id(node)});
+  if (!bus) return tl::unexpected(bus.error());
+  std::optional<std::string> result;
+  std::optional<std::string> notes;
+  unsigned friction = 0;  // has no bit left in the estimates
+  for (int i = 0; i < 100 && !(result && notes); ++i) {
+    for (hal::CanFrame frame; (*bus)->receive(frame) == hal::Status::ok;) {
+      const auto heard = can::decode(frame);
+      if (!heard) continue;
+      const auto value = [&](const char* signal) {
+        return heard->values.at(can::signal_index(*heard->message, signal));
+      };
+      if (frame.id == can_client::status_id(node)) {
+        const std::size_t place = can::signal_index(*heard->message, "result");
+        result = can::value_name(heard->message->signals[place], value("result"));
+        friction = value("friction") == 1.0 ? note_friction : 0;
+      } else if (frame.id == can_client::estimate_id(node) && result) {
+        const auto rest = static_cast<unsigned>(value("identify_notes"));
+        notes = describe_notes(static_cast<std::uint8_t>(rest | friction), ",");
+      }
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  if (!result) return tl::unexpected("no heartbeat of node " + channel + " within 1 s");
+  return Ending{*result, notes.value_or("")};
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,111 @@
+// The supercoild of this board, by its socket.
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "loop/snapshot.hpp"
+
+namespace supercoil::operating {
+
+BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std::string& channel) {
+  const auto lines = socket_.ask(request);
+  if (!lines) return tl::unexpected(lines.error());
+  std::istringstream text(*lines);
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with(channel + " ")) return line;
+  }
+  return tl::unexpected("nothing is known of channel " + channel);
+}
+
+BoardLink::Answer LocalBoardLink::state_json() {
+  const auto lines = state();
+  if (!lines) return lines;
+  using Json = nlohmann::ordered_json;
+  Json channels = Json::array();
+  std::istringstream text(*lines);
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream words(line);
+    Json channel;
+    std::string word;
+    words >> word;
+    channel["channel"] = std::stoi(word);
+    for (const char* key : {"state", "mode", "fault"}) {
+      words >> word;
+      channel[key] = word;
+    }
+    for (const char* key : {"reference", "model_m", "position_m", "applied_W", "coldest_C",
+                            "hottest_C", "progress"}) {
+      words >> word;
+      const double value = std::strtod(word.c_str(), nullptr);
+      channel[key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+    }
+    words >> word;
+    channel["result"] = word;
+    words >> word;
+    channel["notes"] = word == "-" ? "" : word;
+    channels.push_back(channel);
+  }
+  return Json{{"channels", channels}}.dump() + "\n";
+}
+
+tl::expected<BoardLink::Status, std::string> LocalBoardLink::status(const std::string& channel) {
+  const auto line = line_of("status", channel);
+  if (!line) return tl::unexpected(line.error());
+  Status status;
+  std::string number, probing;
+  if (!(std::istringstream(*line) >> number >> status.state >> status.fault >> probing))
+    return tl::unexpected("status: " + *line);
+  status.probing = probing == "probing";
+  return status;
+}
+
+/// The last two words of the channel's line.
+tl::expected<BoardLink::Ending, std::string> LocalBoardLink::ending(const std::string& channel) {
+  const auto line = line_of("state", channel);
+  if (!line) return tl::unexpected(line.error());
+  Ending ending;
+  std::istringstream words(*line);
+  for (std::string word; words >> word;)
+    ending = {std::exchange(ending.notes, word), word};
+  if (ending.notes == "-") ending.notes.clear();
+  return ending;
+}
+
+tl::expected<board::SenseComparison, std::string> LocalBoardLink::senses(
+    const std::string& channel) {
+  const auto line = line_of("senses", channel);
+  if (!line) return tl::unexpected(line.error());
+  board::SenseComparison senses;
+  std::istringstream text(line->substr(channel.size()));
+  if (text >> senses.supply_gain >> senses.current_gain >> senses.error_ratio) return senses;
+  return tl::unexpected("senses: " + *line);
+}
+
+tl::expected<KnownMuscle, std::string> LocalBoardLink::muscle(const std::string& channel) {
+  const auto line = line_of("muscle", channel);
+  if (!line) return tl::unexpected(line.error());
+  KnownMuscle known;
+  std::istringstream words(line->substr(channel.size()));
+  for (double& value : known) {
+    std::string word;
+    if (!(words >> word)) return tl::unexpected("muscle: " + *line);
+    value = std::strtod(word.c_str(), nullptr);  // streams do not read nan
+  }
+  return known;
+}
+
+tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& channel) {
+  const auto line = line_of("state", channel);
+  if (!line) return tl::unexpected(line.error());
+  std::istringstream words(*line);
+  std::string skipped, mode, model, position;
+  words >> skipped >> skipped >> mode >> skipped >> skipped >> model >> position;
+  if (mode != mode_names[static_cast<std::size_t>(Mode::position)]) return NAN;
+  return std::strtod(position.c_str(), nullptr) - std::strtod(model.c_str(), nullptr);
+}
+
+}  // namespace supercoil::operating

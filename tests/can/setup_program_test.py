@@ -89,6 +89,22 @@ class SetupProgram(unittest.TestCase):
         self.assert_refused(self.setup_program(*self.script(max_W=40)),
                             "channel[1].limits.max_W = 40", "min_V²/cold_resistance_Ohm = 11.664 W")
 
+    def test_a_list_of_controllers_stays_as_it_was_chosen(self):
+        self.board.write_text((EXAMPLE.parent / "on-chip-pwm-fast-converter.toml").read_text())
+        done = self.setup_program(*self.script())
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        text = self.board.read_text()
+        self.assertIn('kind = "mrac"', text)
+        self.assertNotIn("learned_ff", text)
+        self.assertIn("limits = { max_W = 4.5, max_travel_m = 0.025, energy_J = 200.0 }", text)
+
+    def test_a_file_that_is_none_is_told_before_anything_is_asked(self):
+        self.board.write_text("[[channel\n")
+        done = self.setup_program(stdin=subprocess.DEVNULL)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("board.toml:1: ", done.stderr)
+        self.assertNotIn("Resistance", done.stdout)
+
     def test_undo_puts_the_file_back(self):
         self.setup_program(*self.script())
         self.assertNotEqual(self.board.read_text(), self.example)
@@ -103,6 +119,9 @@ class SetupProgram(unittest.TestCase):
         done = self.setup_program("calibrate", "--socket", self.path / "none")
         self.assertEqual(done.returncode, 1)
         self.assertIn("start the board with", done.stderr)
+        done = self.setup_program("identify", "--channel", "3")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("has no channel 3, but 2", done.stderr)
 
     def test_on_a_running_board_it_goes_on_after_what_is_done_and_an_interruption_loses_nothing(self):
         self.assertEqual(self.setup_program(*self.script()).returncode, 0)
@@ -118,6 +137,8 @@ class SetupProgram(unittest.TestCase):
         found = json.loads(done.stdout)["steps"]["calibrate"]
         self.assertAlmostEqual(found["cold_resistance_Ohm"], 10.0, delta=0.05)
         self.assertAlmostEqual(found["position_offset_m"], 0.0, delta=1e-4)
+        state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertRegex(state.stdout, "node 1: disarmed")
         with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, text=True) as program:
             self.assertTrue(program.stdout.readline().startswith("identify: heats"))

@@ -179,7 +179,10 @@ StepResult Commission::identify() {
 StepResult Commission::move() {
   const auto known = board_.muscle(channel_);
   if (!known) return tl::unexpected(known.error());
-  const ChannelSettings channel = with_known(configured_, *known);
+  const auto senses = board_.senses(channel_);
+  if (!senses) return tl::unexpected(senses.error());
+  ChannelSettings channel = with_known(configured_, *known);
+  channel.senses = *senses;
   const Feasibility f = feasibility(channel, settings_);
   const FirstMotion motion = plan_first_motion(f);
   const Promise promise =

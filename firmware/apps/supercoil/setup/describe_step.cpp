@@ -85,11 +85,19 @@ Or<MuscleAnswers> complete(MuscleAnswers answers, const SetupOptions& options, s
   return answers;
 }
 
-Or<std::string> edited(std::string text, const SetupOptions& options,
-                       const std::vector<Entry>& entries) {
+/// A list of controllers was chosen by somebody: it stays.
+bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
+  const toml::table document = toml::parse(text);
+  const toml::node* node =
+      document.at_path("channel[" + std::to_string(channel) + "]." + entry.path).node();
+  return node != nullptr && node->is_array();
+}
+
+Or<std::string> edited(std::string text, const SetupOptions& options, std::vector<Entry>& entries) {
+  const auto channel = static_cast<std::size_t>(options.channel) - 1;
+  std::erase_if(entries, [&](const Entry& entry) { return stays(entry, text, channel); });
   for (const Entry& entry : entries) {
-    auto changed = config::with_channel_value(text, static_cast<std::size_t>(options.channel) - 1,
-                                              entry.path, entry.literal);
+    auto changed = config::with_channel_value(text, channel, entry.path, entry.literal);
     if (!changed) return tl::unexpected(options.config + ": " + changed.error() + "\n");
     text = std::move(*changed);
   }
@@ -105,6 +113,7 @@ std::string kept_config(const std::string& config) {
 Or<Json> describe_step(const SetupOptions& options, std::FILE* out) {
   config::Diagnostics diagnostics(options.config);
   const std::string text = config::read_text(options.config, diagnostics);
+  if (diagnostics.empty()) config::parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
   MuscleAnswers answers;
   if (!options.script.empty()) {
@@ -114,7 +123,7 @@ Or<Json> describe_step(const SetupOptions& options, std::FILE* out) {
   }
   const auto completed = complete(answers, options, out);
   if (!completed) return tl::unexpected(completed.error());
-  const auto described = describe_muscle(*completed);
+  auto described = describe_muscle(*completed);
   if (!described) return tl::unexpected(described.error() + "\n");
   const auto changed = edited(text, options, described->entries);
   if (!changed) return tl::unexpected(changed.error());

@@ -39,6 +39,12 @@ bool wanted(const SetupStep& step, const SetupOptions& options, const SetupRecor
 class Board {
  public:
   Board(const SetupOptions& options, std::FILE* out) : options_(options), out_(out) {}
+  Board(const Board&) = delete;
+  Board& operator=(const Board&) = delete;
+  /// However it ends, the muscle gets no power.
+  ~Board() {
+    if (link_) static_cast<void>(link_->ask(address() + " disarm"));
+  }
 
   StepResult run(const std::string& step) {
     if (auto ready = open(); !ready) return tl::unexpected(ready.error());
@@ -57,6 +63,11 @@ class Board {
     if (link_) return {};
     auto config = config::read_board_config(options_.config);
     if (!config) return tl::unexpected(config::to_text(config.error()));
+    const auto channels = static_cast<int>(config->settings.channels.size());
+    if (options_.channel > channels) {
+      return tl::unexpected(options_.config + " has no channel " +
+                            std::to_string(options_.channel) + ", but " + std::to_string(channels));
+    }
     auto link = open_link(options_.can, options_.socket);
     if (!link) {
       return tl::unexpected(link.error() + "; start the board with " + options_.config +

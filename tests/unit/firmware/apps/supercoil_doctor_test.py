@@ -138,7 +138,8 @@ class Doctor(unittest.TestCase):
         self.assertIn("this machine: 1 problem, ", subprocess.run([PROGRAM, "doctor"], capture_output=True, text=True).stdout)
         for arguments in (("--config", "none.toml"), ("--config", "none.toml", "--json")):
             done = subprocess.run([PROGRAM, "doctor", *arguments], capture_output=True, text=True)
-            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            told = json.dumps({"error": done.stderr}, separators=(",", ":")) + "\n" if "--json" in arguments else ""
+            self.assertEqual((done.returncode, done.stdout), (2, told))
 
     def test_a_wrong_configuration(self):
         (self.path / "b.toml").write_text("nonsense")

@@ -112,15 +112,17 @@ void Simulation::set_air() {
   board_.set_air_C(conditions_->ambient.air_C + conditions_->ambient.sensor_offset_K);
 }
 
-void Simulation::inject_faults(const InjectedFaults& t) {
+void Simulation::inject_faults(const InjectedFaults& faults) {
   MuscleChannel& muscle = board_.channel(0);
-  muscle.faults = {t.heater_open,  t.heater_short ? 0.5 : 0.0, t.switch_stuck_on, false,
-                   t.muscle_slack, t.switch_leak_ratio};
-  muscle.position.set(ConverterFaults{t.position_silent, t.position_frozen, t.position_loose});
-  muscle.current.set(ConverterFaults{.gain = t.current_gain});
-  board_.supply.set(ConverterFaults{.gain = t.supply_gain});
-  muscle.pwm.refuses = t.pwm_refuses ? hal::Status::io_error : hal::Status::ok;
-  board_.stop_circuit.level.high = !t.stop_pressed;
+  muscle.faults = {faults.heater_open,     faults.heater_short ? 0.5 : 0.0,
+                   faults.switch_stuck_on, false,
+                   faults.muscle_slack,    faults.switch_leak_ratio};
+  muscle.position.set(
+      ConverterFaults{faults.position_silent, faults.position_frozen, faults.position_loose});
+  muscle.current.set(ConverterFaults{.gain = faults.current_gain});
+  board_.supply.set(ConverterFaults{.gain = faults.supply_gain});
+  muscle.pwm.refuses = faults.pwm_refuses ? hal::Status::io_error : hal::Status::ok;
+  board_.stop_circuit.level.high = !faults.stop_pressed;
 }
 
 void Simulation::send(Verb verb, double value) {

@@ -79,7 +79,7 @@ class Simulation {
   void boot_for(double time_s);
   void apply_event(const Event& event);
   void set_air();
-  void inject_faults(const InjectedFaults& injected_faults);
+  void inject_faults(const InjectedFaults& faults);
   void ask(double reference);
   void send(Verb verb, double value = 0.0);
   void housekeep();

@@ -22,7 +22,7 @@ BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std:
 }
 
 BoardLink::Answer LocalBoardLink::state_json() {
-  const auto lines = state();
+  auto lines = state();
   if (!lines) return lines;
   using Json = nlohmann::ordered_json;
   Json channels = Json::array();

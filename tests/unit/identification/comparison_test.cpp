@@ -80,9 +80,10 @@ TEST(Parts, JudgesByTheLastHeatingFromRest) {
   samples.step_s = 0.02;
   samples.power_W.assign(5000, 0.0);
   samples.position_m.assign(5000, 0.0);
-  for (const std::size_t from : {500U, 2500U})
+  for (const std::size_t from : {500U, 2500U}) {
     for (std::size_t k = from; k < from + 200; ++k)
       samples.power_W[k] = 1.0;
+  }
   const Parts parts = default_parts(samples);
   DOUBLES_EQUAL(0.0, parts.fitted.from_s, 1e-9);
   DOUBLES_EQUAL(49.99, parts.fitted.to_s, 1e-9);

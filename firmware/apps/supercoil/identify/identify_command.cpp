@@ -102,9 +102,10 @@ bool is_input(const IdentifyOptions& o, const std::string& path) {
 }  // namespace
 
 int identify_command(const IdentifyOptions& options) {
-  for (const std::string& path : {options.muscle, options.plot})
+  for (const std::string& path : {options.muscle, options.plot}) {
     if (is_input(options, path))
       return refuse(options.json, exit_wrong_input, path + ": is the recording itself");
+  }
   const auto recording = read_input(options);
   if (!recording) return refuse(options.json, exit_wrong_input, recording.error());
   for (const identification::Problem& warning : recording->warnings)

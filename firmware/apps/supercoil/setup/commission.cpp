@@ -104,8 +104,10 @@ tl::expected<std::string, std::string> Commission::run_mode(const std::string& m
   if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
   const double begin_s = board_.time_s();
   double told_s = 0.0;
-  for (double elapsed_s = 0.0; elapsed_s < max_s; elapsed_s = board_.time_s() - begin_s) {
+  for (;;) {
     board_.wait(renewal);
+    const double elapsed_s = board_.time_s() - begin_s;
+    if (elapsed_s >= max_s) break;
     if (!tell_progress(elapsed_s, told_s, mode)) {
       static_cast<void>(ask("rest"));
       return tl::unexpected(mode + ": interrupted");
@@ -199,7 +201,9 @@ StepResult Commission::move() {
   double told_s = 0.0;
   int samples = 0;
   const double begin_s = board_.time_s();
-  for (double time_s = 0.0; time_s < motion.end_s(); time_s = board_.time_s() - begin_s) {
+  for (;;) {
+    const double time_s = board_.time_s() - begin_s;
+    if (time_s >= motion.end_s()) break;
     if (auto asked = ask("position " + number_text(motion.at(time_s), 9)); !asked)
       return tl::unexpected(asked.error());
     board_.wait(reference_step);

@@ -14,10 +14,12 @@ tl::expected<MuscleAnswers, std::string> read_answers(const std::string& path) {
     config::Section muscle = root.section("muscle");
     for (std::size_t i = 0; i < questions.size(); ++i) {
       const Question& q = questions[i];
-      if (muscle.has(q.key))
+      // An absent key is known nevertheless: to be meant by a misspelt one.
+      if (muscle.has(q.key)) {
         answers.set(i, muscle.number(q.key, NAN, q.allowed));
-      else
+      } else {
         muscle.allow({q.key});
+      }
     }
     muscle.finish();
     root.finish();

@@ -23,9 +23,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::vector<std::string> step_names() {
-  std::vector<std::string> names;
-  for (const SetupStep& step : setup_steps)
-    names.emplace_back(step.name);
+  std::vector<std::string> names(setup_steps.size());
+  std::ranges::transform(setup_steps, names.begin(), &SetupStep::name);
   return names;
 }
 

@@ -14,7 +14,7 @@ TEST_GROUP(SetupRecord) {
   supercoil::test::TemporaryFolder folder;
   std::string config = folder.path() + "/board.toml";
 
-  SetupRecord opened(int channel = 1) {
+  SetupRecord opened(int channel = 1) const {
     auto record = SetupRecord::open(config, channel);
     CHECK_TRUE_TEXT(record.has_value(), record ? "" : record.error().c_str());
     return *record;

@@ -42,3 +42,11 @@ TEST(Commission, AMuscleThatIsNoneOfItsModelsIsRefusedWithItsReason) {
   STRCMP_CONTAINS("docs/running.md", c.refused.c_str());
   CHECK(c.fault == Fault::none);
 }
+
+TEST(Commission, AFaultUnderWayIsNamedWithItsPage) {
+  HeldOut muscle = held_out_muscle(24, error);
+  muscle.scenario += "[[event]]\nat_s = 20.0\ninjected_fault.heater_open = true\n";
+  const Commissioned c = commission(muscle);
+  STRCMP_EQUAL("identify ended: interrupted, fault heater_open; docs/faults/heater_open.md",
+               c.refused.c_str());
+}

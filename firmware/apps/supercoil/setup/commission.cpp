@@ -44,14 +44,6 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-tl::expected<void, std::string> only_found(const std::string& mode,
-                                           const tl::expected<std::string, std::string>& result) {
-  if (!result) return tl::unexpected(result.error());
-  if (*result == "found") return {};
-  return tl::unexpected(mode + " ended: " + *result +
-                        "; docs/running.md says what each result means");
-}
-
 }  // namespace
 
 Commission::Commission(BoardLink& board, std::string channel, const ChannelSettings& configured,
@@ -66,11 +58,22 @@ Commission::Done Commission::ask(const std::string& command) {
   const auto answer = board_.ask(channel_ + " " + command);
   if (!answer) return tl::unexpected(answer.error());
   if (*answer == "ok") return {};
+  return tl::unexpected(command + ": " + *answer + present_fault());
+}
+
+/// ", fault heater_open; docs/faults/heater_open.md"; empty: there is none.
+std::string Commission::present_fault() {
   const auto now = board_.status(channel_);
-  const bool faulty = now && now->fault != "none";
-  return tl::unexpected(
-      command + ": " + *answer +
-      (faulty ? ", fault " + now->fault + "; docs/faults/" + now->fault + ".md" : ""));
+  if (!now || now->fault == "none") return "";
+  return ", fault " + now->fault + "; docs/faults/" + now->fault + ".md";
+}
+
+Commission::Done Commission::only_found(const std::string& mode, const OrWhy& result) {
+  if (!result) return tl::unexpected(result.error());
+  if (*result == "found") return {};
+  const std::string fault = present_fault();
+  return tl::unexpected(mode + " ended: " + *result +
+                        (fault.empty() ? "; docs/running.md says what each result means" : fault));
 }
 
 /// Says every ten seconds that it goes on; false when it was interrupted.
@@ -100,7 +103,7 @@ Commission::Done Commission::arm() {
   }
 }
 
-tl::expected<std::string, std::string> Commission::run_mode(const std::string& mode, double max_s) {
+Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
   if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
   const double begin_s = board_.time_s();
   double told_s = 0.0;
@@ -126,7 +129,7 @@ tl::expected<std::string, std::string> Commission::run_mode(const std::string& m
   return ending->result;
 }
 
-tl::expected<std::string, std::string> Commission::calibrate_when_cold() {
+Commission::OrWhy Commission::calibrate_when_cold() {
   const control::ThermalBounds& b = configured_.thermal.bounds;
   const double max_tau_s = b.max_mass_J_per_K / b.min_transfer_W_per_K;
   const double cold_after_s =

@@ -34,13 +34,17 @@ class Commission {
 
  private:
   using Done = tl::expected<void, std::string>;
+  using OrWhy = tl::expected<std::string, std::string>;
 
   Done ask(const std::string& command);
+  std::string present_fault();
+  /// Of a mode that ended with this.
+  Done only_found(const std::string& mode, const OrWhy& result);
   Done arm();
   /// identify or calibrate, until it ends; how it did.
-  tl::expected<std::string, std::string> run_mode(const std::string& mode, double max_s);
+  OrWhy run_mode(const std::string& mode, double max_s);
   /// calibrate again and again, until the muscle must be cold.
-  tl::expected<std::string, std::string> calibrate_when_cold();
+  OrWhy calibrate_when_cold();
   bool tell_progress(double elapsed_s, double& told_s, const std::string& what);
 
   BoardLink& board_;

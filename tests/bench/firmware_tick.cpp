@@ -127,7 +127,7 @@ void firmware_tick(benchmark::State& state, const control::ControllerSettings& c
 control::ControllerSettings shaped(control::ControllerKind kind) {
   control::ControllerSettings settings;
   settings.kind = kind;
-  settings.shaped_for.emplace();
+  settings.shape_reference = true;
   return settings;
 }
 control::EstimatorSettings least_squares() {

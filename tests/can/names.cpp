@@ -8,6 +8,7 @@
 #include "loop/snapshot.hpp"
 #include "telemetry/opcodes.hpp"
 #include "telemetry/run_settings.hpp"
+#include "telemetry/tuning_frames.hpp"
 
 namespace {
 
@@ -25,6 +26,14 @@ nlohmann::ordered_json settings() {
   nlohmann::ordered_json json;
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i)
     json[std::to_string(i)] = telemetry::run_setting_name(i);
+  return json;
+}
+
+nlohmann::ordered_json tunables() {
+  nlohmann::ordered_json json;
+  for (std::size_t i = 0; i < control::tunable_count; ++i)
+    json[std::to_string(i)] = control::tunables()[i].name;
+  json[std::to_string(telemetry::all_tunables)] = "all";
   return json;
 }
 
@@ -48,6 +57,8 @@ int main() {
                                       {"result", table(mode_result_names)},
                                       {"gain", table(control::gain_names)},
                                       {"setting", settings()},
+                                      {"tunable", tunables()},
+                                      {"set", table(tuning_set_names)},
                                       {"version", telemetry::protocol_version}};
     std::puts(json.dump(1).c_str());
   } catch (const std::exception& error) {

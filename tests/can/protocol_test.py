@@ -77,7 +77,8 @@ class Protocol(unittest.TestCase):
     def test_every_other_message_of_the_board_has_its_cycle(self):
         when_needed = {message.name for message in self.database.messages if not message.cycle_time}
         self.assertEqual(when_needed, {"Emergency", "FirstCause", "Command", "Acknowledge", "RefusedValue", "Setting",
-                                       "SettingWrite", "SettingRead", "Muscle", "MuscleRead"})
+                                       "SettingWrite", "SettingRead", "Muscle", "MuscleRead", "Tuning", "TuningWrite",
+                                       "TuningRead"})
 
 
 if __name__ == "__main__":

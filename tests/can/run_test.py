@@ -63,7 +63,7 @@ OTHERWISE = {"Tracking": {"error_m"},
              "Emergency": {"fault", "state", "board_time_s"}}
 MUSCLE = ("thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m")
 FROM_MASTER = {"Command", "Acknowledge", "RefusedValue", "Setting", "SettingWrite", "SettingRead", "Muscle",
-               "MuscleRead"}  # and its answers
+               "MuscleRead", "Tuning", "TuningWrite", "TuningRead"}  # and its answers
 
 
 def single(value):

@@ -44,6 +44,17 @@ class SimulatedLink final : public operating::BoardLink {
       known[i] = simulation_.loop().channel(0).known(i);
     return known;
   }
+  tl::expected<double, std::string> tuning(const std::string&, int place, std::size_t tunable,
+                                           TuningSet set) override {
+    return simulation_.loop().channel(0).tuner().value(set, static_cast<std::size_t>(place),
+                                                       tunable);
+  }
+  Answer prepare(const std::string&, int place, const std::string& name,
+                 const std::string& value) override {
+    const Reply reply = simulation_.loop().channel(0).tuner().prepare(
+        static_cast<std::size_t>(place), control::tunable_named(name), std::stod(value));
+    return answer_text(reply.refusal, reply.nearest);
+  }
   tl::expected<double, std::string> error_m(const std::string&) override {
     const Snapshot& s = snapshot();
     return s.mode == Mode::position ? s.position_m - s.model_m : NAN;

@@ -48,8 +48,8 @@ Controller::Any Controller::choose(const ControllerSettings& settings, double st
 
 Controller::Controller(const ControllerSettings& settings, double step_s)
     : any_(choose(settings, step_s)) {
-  if (!settings.shaped_for) return;
-  const ReferenceShaper shaper(settings.model, *settings.shaped_for);
+  if (!settings.shape_reference) return;
+  const ReferenceShaper shaper(settings.model, settings.shaped_for);
   const auto shape = [&](auto& controller) {
     if constexpr (requires { controller.shape_by(shaper); }) controller.shape_by(shaper);
   };

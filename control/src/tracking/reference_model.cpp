@@ -16,7 +16,7 @@ ReferenceModelSettings wm16_model() {
 
 ReferenceModelSettings poles_model(const std::array<double, 3>& p) {
   const double product = p[0] * p[1] * p[2];
-  return {{product, p[0] * p[1] + p[0] * p[2] + p[1] * p[2], p[0] + p[1] + p[2], 1.0}, product};
+  return {{product, p[0] * p[1] + p[0] * p[2] + p[1] * p[2], p[0] + p[1] + p[2], 1.0}, product, p};
 }
 
 std::optional<ReferenceModelSettings> reference_model_named(std::string_view name) {

@@ -15,6 +15,7 @@
 #include "apps/supercoil/bus/recent.hpp"
 #include "board/learned.hpp"
 #include "loop/known_muscle.hpp"
+#include "loop/tuner.hpp"
 
 namespace supercoil::operating {
 
@@ -51,6 +52,12 @@ class BoardLink {
   virtual tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) = 0;
   /// What the board goes by, in the order of known_quantities. channel: as in a line.
   virtual tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) = 0;
+  /// One value of a controller; NaN: it has none. channel: as in a line.
+  virtual tl::expected<double, std::string> tuning(const std::string& channel, int place,
+                                                   std::size_t tunable, TuningSet set) = 0;
+  /// Prepares one value, or all of a set: then name is "all" and value the set's. As ask().
+  virtual Answer prepare(const std::string& channel, int place, const std::string& name,
+                         const std::string& value) = 0;
   /// Position less reference model, the newest; NaN while no position is followed.
   virtual tl::expected<double, std::string> error_m(const std::string& channel) = 0;
   /// Lets the board go on.
@@ -72,6 +79,10 @@ class LocalBoardLink final : public BoardLink {
   tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
   tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override;
+  tl::expected<double, std::string> tuning(const std::string& channel, int place,
+                                           std::size_t tunable, TuningSet set) override;
+  Answer prepare(const std::string& channel, int place, const std::string& name,
+                 const std::string& value) override;
   tl::expected<double, std::string> error_m(const std::string& channel) override;
 
  private:
@@ -96,6 +107,10 @@ class CanBoardLink final : public BoardLink {
   tl::expected<Ending, std::string> ending(const std::string& channel) override;
   tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override;
   tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override;
+  tl::expected<double, std::string> tuning(const std::string& channel, int place,
+                                           std::size_t tunable, TuningSet set) override;
+  Answer prepare(const std::string& channel, int place, const std::string& name,
+                 const std::string& value) override;
   tl::expected<double, std::string> error_m(const std::string& channel) override;
 
  private:

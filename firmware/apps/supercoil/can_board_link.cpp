@@ -1,4 +1,5 @@
 // Nodes on a CAN bus.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "can/codec.hpp"
 #include "modes/result.hpp"
 #include "telemetry/run_settings.hpp"
+#include "telemetry/tuning_frames.hpp"
 #include "text/command_text.hpp"
 
 namespace supercoil::operating {
@@ -35,7 +37,8 @@ BoardLink::Answer CanBoardLink::ask(const std::string& line) {
 tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node) {
   if (!nodes_.contains(node)) {
     auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
-                               can_client::refused_value_id(node), can_client::muscle_id(node)});
+                               can_client::refused_value_id(node), can_client::muscle_id(node),
+                               can_client::tuning_id(node)});
     if (!bus) return tl::unexpected(bus.error());
     nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
   }
@@ -67,6 +70,33 @@ tl::expected<KnownMuscle, std::string> CanBoardLink::muscle(const std::string& c
     known[i] = *told;
   }
   return known;
+}
+
+tl::expected<double, std::string> CanBoardLink::tuning(const std::string& channel, int place,
+                                                       std::size_t tunable, TuningSet set) {
+  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
+  if (!node) return tl::unexpected(node.error());
+  const auto heard = (*node)->read_tuning(
+      {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(tunable), set});
+  if (!heard) return tl::unexpected(heard.error());
+  return heard->value;
+}
+
+BoardLink::Answer CanBoardLink::prepare(const std::string& channel, int place,
+                                        const std::string& name, const std::string& value) {
+  const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
+  if (!node) return tl::unexpected(node.error());
+  const bool all = name == "all";
+  const auto tunable =
+      all ? telemetry::all_tunables : static_cast<std::uint8_t>(control::tunable_named(name));
+  const double number = all ? static_cast<double>(std::ranges::find(tuning_set_names, value) -
+                                                  tuning_set_names.begin())
+                            : std::stod(value);
+  const auto heard =
+      (*node)->prepare({static_cast<std::uint8_t>(place), tunable, TuningSet::prepared}, number);
+  if (!heard) return tl::unexpected(heard.error());
+  const bool out = heard->refusal == Refusal::out_of_range;
+  return answer_text(heard->refusal, out ? (*node)->nearest() : NAN);
 }
 
 tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {

@@ -98,6 +98,23 @@ tl::expected<KnownMuscle, std::string> LocalBoardLink::muscle(const std::string&
   return known;
 }
 
+tl::expected<double, std::string> LocalBoardLink::tuning(const std::string& channel, int place,
+                                                         std::size_t tunable, TuningSet set) {
+  const std::string name(control::tunables()[tunable].name);
+  const auto told = socket_.ask("tuning " + channel + " " + std::to_string(place) + " " + name +
+                                " " + std::string(tuning_set_names[static_cast<std::size_t>(set)]));
+  if (!told) return tl::unexpected(told.error());
+  char* end = nullptr;
+  const double value = std::strtod(told->c_str(), &end);
+  if (end == told->c_str()) return tl::unexpected("tuning: " + *told);
+  return value;
+}
+
+BoardLink::Answer LocalBoardLink::prepare(const std::string& channel, int place,
+                                          const std::string& name, const std::string& value) {
+  return socket_.ask("prepare " + channel + " " + std::to_string(place) + " " + name + " " + value);
+}
+
 tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& channel) {
   const auto line = line_of("state", channel);
   if (!line) return tl::unexpected(line.error());

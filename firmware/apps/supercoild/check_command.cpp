@@ -28,7 +28,13 @@ std::vector<std::uint32_t> recall_learned(config::BoardConfig& config) {
     const auto loaded = store.load();
     const bool known = loaded && loaded->learned;
     versions.push_back(known ? loaded->learned->version : 0);
-    if (known) apply_learned(config.settings.channels[i], *loaded->learned);
+    if (!known) continue;
+    apply_learned(config.settings.channels[i], *loaded->learned);
+    if (const auto problem =
+            drop_unusable_tuning(config.settings.channels[i], config.settings.step_s())) {
+      std::fprintf(stderr, "channel %zu: the stored tuning is not used: %s %s\n", i + 1,
+                   problem->key.c_str(), problem->message.c_str());
+    }
   }
   return versions;
 }

@@ -13,6 +13,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "apps/supercoild/local_tuning.hpp"
 #include "text/command_text.hpp"
 
 namespace supercoil::daemon {
@@ -143,6 +144,10 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
     answer(client.number(), muscle_text(loop));
     return true;
   }
+  if (const auto told = answer_about_tuning(text, loop)) {
+    answer(client.number(), *told);
+    return true;
+  }
   auto command = parse_command(text, loop.channels());
   if (!command) {
     answer(client.number(), "wrong: " + command.error());
@@ -157,10 +162,13 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
   return true;
 }
 
-void LocalCommands::pass(const Answer& given) {
+void LocalCommands::pass(const Answer& given, const Loop& loop) {
   const auto asked = waiting_.find(given.command.id);
   if (asked == waiting_.end()) return;  // of a client that is gone, or of nobody here
-  answer(asked->second, answer_text(given.refusal, given.nearest));
+  std::string text = answer_text(given.refusal, given.nearest);
+  if (given.refusal == Refusal::unsuitable)
+    text += ": " + loop.channel(given.command.channel).tuner().problem();
+  answer(asked->second, text);
   // The loop answers in order: what came before has lost its answer.
   waiting_.erase(waiting_.begin(), std::next(asked));
 }

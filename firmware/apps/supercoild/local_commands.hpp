@@ -27,7 +27,7 @@ class LocalCommands {
   /// Waits at most max_ms for something to do, and does it.
   void serve(Loop& loop, const NewestRows& rows, int max_ms);
   /// The loop's answer to a command with Source::local.
-  void pass(const Answer& given);
+  void pass(const Answer& given, const Loop& loop);
 
  private:
   explicit LocalCommands(hal_linux::Descriptor listener) : listener_(std::move(listener)) {}

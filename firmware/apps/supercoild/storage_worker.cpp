@@ -51,6 +51,10 @@ tl::expected<void, std::string> load_learned(config::BoardConfig& config,
       log(Level::warning, problem);
     ChannelSettings& channel = config.settings.channels[i];
     if (loaded->learned) apply_learned(channel, *loaded->learned);
+    if (const auto problem = drop_unusable_tuning(channel, config.settings.step_s())) {
+      log(Level::problem, "channel " + std::to_string(i + 1) + ": the stored tuning is not used: " +
+                              problem->key + " " + problem->message);
+    }
     log(channel.senses.compared() ? Level::info : Level::warning,
         "channel " + std::to_string(i + 1) +
             ": senses: " + config::describe_senses(channel, config.settings));

@@ -59,7 +59,7 @@ void Telemetry::pass_answers() {
     if (answer.command.source == Source::can && can_ != nullptr) {
       can_->answer(answer);
     } else if (commands_) {
-      commands_->pass(answer);
+      commands_->pass(answer, *loop_);
     }
   }
 }

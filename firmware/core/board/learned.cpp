@@ -1,16 +1,57 @@
 #include "board/learned.hpp"
 
 #include <array>
+#include <cmath>
+#include <utility>
 
 namespace supercoil::board {
 
 bool same_content(const Learned& a, const Learned& b) {
   return a.muscle == b.muscle && a.calibration == b.calibration && a.senses == b.senses &&
-         a.has_muscle == b.has_muscle && a.heat == b.heat && a.response_ratio == b.response_ratio;
+         a.has_muscle == b.has_muscle && a.heat == b.heat && a.response_ratio == b.response_ratio &&
+         a.tuning == b.tuning;
 }
+
+TunedController TunedController::difference(const control::Tuning& now,
+                                            const control::Tuning& configured) {
+  TunedController tuned;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!std::isnan(now[i]) && now[i] != configured[i]) tuned.values[i] = now[i];
+  }
+  return tuned;
+}
+
+void TunedController::apply_to(control::ControllerSettings& configured) const {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const control::Tunable& tunable = control::tunables()[i];
+    if (values[i] && !std::isnan(tunable.get(configured))) tunable.set(configured, *values[i]);
+  }
+}
+
+namespace {
+
+std::optional<control::Violation> check(const StoredTuning& tuning) {
+  for (const TunedController& controller : tuning.controllers) {
+    for (std::size_t i = 0; i < controller.values.size(); ++i) {
+      const control::Tunable& t = control::tunables()[i];
+      if (controller.values[i] && !t.in_range(*controller.values[i]))
+        return control::Violation{t.name.data(), *controller.values[i], t.lowest, t.highest};
+    }
+  }
+  constexpr double last_place = 255.0;
+  for (const auto& [name, place] :
+       {std::pair{"controller", tuning.controller}, std::pair{"estimator", tuning.estimator}}) {
+    if (place && !(*place >= 0.0 && *place <= last_place && *place == std::floor(*place)))
+      return control::Violation{name, *place, 0.0, last_place};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::optional<control::Violation> check(const Learned& learned) {
   if (const auto violation = control::check(learned.muscle)) return violation;
+  if (const auto violation = check(learned.tuning)) return violation;
   const Calibration& c = learned.calibration;
   const SenseComparison& s = learned.senses;
   constexpr double year_9999_s = 253'402'300'799.0;

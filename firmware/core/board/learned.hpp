@@ -1,10 +1,12 @@
 // What a channel learns about its muscle and keeps over a power cut.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
 #include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/tracking/tunable.hpp"
 
 namespace supercoil::board {
 
@@ -44,17 +46,37 @@ struct ThermalFacts {
   friend bool operator==(const ThermalFacts&, const ThermalFacts&) = default;
 };
 
+/// What was changed of one controller on the running board, and stored.
+struct TunedController {
+  std::array<std::optional<double>, control::tunable_count> values;  ///< empty: as configured
+
+  /// What of `now` differs from what is configured.
+  static TunedController difference(const control::Tuning& now, const control::Tuning& configured);
+  void apply_to(control::ControllerSettings& configured) const;
+  friend bool operator==(const TunedController&, const TunedController&) = default;
+};
+
+struct StoredTuning {
+  /// By their place; those behind cannot be tuned.
+  std::array<TunedController, 4> controllers;
+  std::optional<double> controller;  ///< place of the one that is chosen at the start
+  std::optional<double> estimator;   ///< likewise
+
+  friend bool operator==(const StoredTuning&, const StoredTuning&) = default;
+};
+
 /// One whole set: parameters and calibration belong together, as one was found under the other.
 struct Learned {
   control::PhysicalParameters muscle;
   Calibration calibration;
   SenseComparison senses;
   std::uint32_t version = 0;  ///< counts the saves of a channel, from 1; LearnedStore sets it
-  /// False: only the senses are known, which are the board's; muscle and calibration mean nothing.
+  /// False: only senses, heat and tuning are known; muscle and calibration mean nothing.
   bool has_muscle = true;
   ThermalFacts heat;
   /// Of the model's small motions, what arrives at the sensor, up to 10; 0: not measured.
   double response_ratio = 0.0;
+  StoredTuning tuning;
 
   friend bool operator==(const Learned&, const Learned&) = default;
 };

@@ -39,10 +39,17 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
       has_muscle_(settings.has_muscle),
       calibration_(settings.calibration),
       response_ratio_(settings.response_ratio),
+      stored_tuning_(settings.tuning),
       identify_({}, settings.muscle, settings.supervision.max_travel_m, step_s_),
       comparison_(comparison_settings(settings, board), step_s_),
       steady_state_(settings.thermal, step_s_) {
   publish_muscle();
+  const auto choose = [](std::optional<double> stored, std::size_t places, auto& among) {
+    if (stored && *stored < static_cast<double>(places))
+      among.choose(static_cast<std::size_t>(*stored));
+  };
+  choose(stored_tuning_.controller, tracking_.controllers(), tracking_);
+  choose(stored_tuning_.estimator, estimation_.estimators(), estimation_);
   if (settings.thermal.weighed())
     cooling_fit_ = std::make_unique<control::CoolingFit>(cooling_settings(settings), step_s_);
 }

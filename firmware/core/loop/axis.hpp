@@ -97,7 +97,9 @@ class Axis {
   Reply scale(double true_m);
   Reply choose_controller(double place);
   Reply choose_estimator(double place);
-  Refusal store(double what);
+  Reply tune(const Command& command);
+  Refusal store(const Command& command);
+  Refusal keep_tuning(const Command& command);
   Refusal compare(board::MeterComparison::Sense sense, double meter);
   Refusal compare_rise(double rise_K);
   Refusal apply_comparison(const board::SenseComparison& senses);
@@ -129,6 +131,7 @@ class Axis {
   bool has_muscle_;                     ///< learned before or since: what is stored has it
   board::Calibration calibration_;
   double response_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
+  board::StoredTuning stored_tuning_;
   PublishedMuscle published_muscle_;
   boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;
 

@@ -72,7 +72,9 @@ Reply Axis::obey(const Command& command) {
     case Verb::estimator:
       return choose_estimator(command.value);
     case Verb::store:
-      return store(command.value);
+      return store(command);
+    case Verb::tune:
+      return tune(command);
     case Verb::compare_supply:
       return compare(board::MeterComparison::supply, command.value);
     case Verb::compare_current:
@@ -93,6 +95,16 @@ Reply Axis::choose_controller(double place) {
   } else {
     tracking_.choose(chosen);
   }
+  return Refusal::none;
+}
+
+/// At once; a controller that is following goes on where its predecessor leaves off.
+Reply Axis::tune(const Command& command) {
+  if (!is_place(command.value, tracking_.controllers()))
+    return no_such_place(command.value, tracking_.controllers());
+  if (command.tuned == nullptr) return Refusal::unsuitable;
+  tracking_.exchange(static_cast<std::size_t>(command.value), *command.tuned,
+                     mode_ == Mode::position, reference_, muscle_);
   return Refusal::none;
 }
 

@@ -20,7 +20,7 @@ Refusal Axis::refusal_of(ModeResult kept) {
 
 board::Learned Axis::known() const {
   return {muscle_,     calibration_,    heater_.senses(), 0,
-          has_muscle_, heater_.facts(), response_ratio_};
+          has_muscle_, heater_.facts(), response_ratio_,  stored_tuning_};
 }
 
 void Axis::publish_muscle() {
@@ -84,7 +84,9 @@ Refusal Axis::apply_comparison(const board::SenseComparison& senses) {
 
 /// A running channel goes on with the muscle that it knows: what was cleared is not known at the
 /// next start. What was found of its heat is forgotten at once, as wide bounds are safe.
-Refusal Axis::store(double what) {
+Refusal Axis::store(const Command& command) {
+  const double what = command.value;
+  if (what == store_tuning || what == clear_tuning) return keep_tuning(command);
   if (what == 0.0) {
     if (!learned_updates_.push(std::nullopt)) return Refusal::queue_full;
     has_muscle_ = false;
@@ -95,6 +97,20 @@ Refusal Axis::store(double what) {
   if (!estimation_.trusted()) return Refusal::not_ready;
   const auto muscle = estimation_.trusted_muscle(muscle_);
   return muscle ? refusal_of(keep(*muscle, calibration_)) : Refusal::out_of_range;
+}
+
+/// The controllers' values, and which are chosen; to clear, neither.
+Refusal Axis::keep_tuning(const Command& command) {
+  if (command.tuning == nullptr) return Refusal::busy;
+  board::Learned learned = known();
+  learned.tuning = *command.tuning;
+  if (command.value == store_tuning) {
+    learned.tuning.controller = static_cast<double>(tracking_.chosen());
+    learned.tuning.estimator = static_cast<double>(estimation_.chosen());
+  }
+  if (board::check(learned) || !learned_updates_.push(learned)) return Refusal::queue_full;
+  stored_tuning_ = learned.tuning;
+  return Refusal::none;
 }
 
 }  // namespace supercoil

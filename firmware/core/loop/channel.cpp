@@ -21,8 +21,17 @@ Channel::Channel(const ChannelSettings& settings, const BoardSettings& board,
                  const board::ChannelDevices& devices, std::uint8_t index)
     : index_(index),
       axis_(settings, board, devices, state_),
+      tuner_(settings, board.step_s()),
       supervisor_(settings.supervision, settings.heater.cold_resistance_Ohm,
                   board.supervision.min_supply_V, board.step_s()) {}
+
+void Channel::add_tuning(Command& command) {
+  control::PhysicalParameters muscle;
+  std::size_t quantity = 0;
+  for (const control::PhysicalRange& range : control::physical_ranges)
+    muscle.*range.member = known(quantity++);
+  tuner_.add_to(command, muscle);
+}
 
 void Channel::sample(hal::Time now) {
   reset_requested_ = false;

@@ -8,6 +8,7 @@
 #include "loop/command.hpp"
 #include "loop/settings.hpp"
 #include "loop/snapshot.hpp"
+#include "loop/tuner.hpp"
 #include "supervisor/channel_supervisor.hpp"
 
 namespace supercoil {
@@ -80,6 +81,10 @@ class Channel {
   board::SenseComparison senses() const { return axis_.heater().published_senses(); }
   /// What it knows of its muscle, a place in known_quantities; NaN: not known. From any thread.
   double known(std::size_t quantity) const { return axis_.published_muscle(quantity); }
+  /// In the thread that sends commands, as all of the tuner.
+  void add_tuning(Command& command);
+  Tuner& tuner() { return tuner_; }
+  const Tuner& tuner() const { return tuner_; }
   /// What identify or calibrate found, or was asked to store or clear; from one other thread.
   bool take_learned_update(board::LearnedUpdate& update) {
     return axis_.take_learned_update(update);
@@ -95,6 +100,7 @@ class Channel {
   std::uint8_t index_;
   ChannelState state_;
   Axis axis_;
+  Tuner tuner_;
   ChannelSupervisor supervisor_;
   CommandInputs commands_;
   Fault present_fault_ = Fault::none;

@@ -7,6 +7,9 @@
 #include <limits>
 #include <string_view>
 
+#include "supercoil/control/tracking/controller.hpp"
+
+#include "board/learned.hpp"
 #include "supervisor/channel_state.hpp"
 
 namespace supercoil {
@@ -26,20 +29,26 @@ enum class Verb : std::uint8_t {
   controller = 11,      ///< value: place in the configuration
   estimator = 12,       ///< value: place in the configuration
   store = 13,           ///< value: 1 keeps the trusted estimates for the next start, 0 forgets the
-                        ///< muscle that is kept
+                        ///< muscle that is kept; 2 keeps the controllers' tuning that is in
+                        ///< use, and which are chosen; 3 forgets that
   compare_supply = 14,  ///< value: what a meter shows at the supply, in V; 0 forgets the comparison
   compare_current = 15,  ///< value: what a meter shows in the channel's line, in A
   compare_rise = 16,  ///< value: how much warmer than the air a thermometer shows the muscle, in K;
                       ///< 0 forgets what was read
+  tune = 17,          ///< value: place of a controller that gets its prepared values (Tuner)
 };
 
-inline constexpr std::array<std::string_view, 17> verb_names{
-    "none",      "arm",   "disarm",         "reset",           "position",    "power",
-    "renew",     "rest",  "identify",       "calibrate",       "scale",       "controller",
-    "estimator", "store", "compare_supply", "compare_current", "compare_rise"};
+inline constexpr std::array<std::string_view, 18> verb_names{
+    "none",      "arm",   "disarm",         "reset",           "position",     "power",
+    "renew",     "rest",  "identify",       "calibrate",       "scale",        "controller",
+    "estimator", "store", "compare_supply", "compare_current", "compare_rise", "tune"};
 constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }
+
+/// Values of Verb::store for the tuning.
+inline constexpr double store_tuning = 2.0;
+inline constexpr double clear_tuning = 3.0;
 
 /// Who asked: the answer goes back there.
 enum class Source : std::uint8_t { local, can };
@@ -53,6 +62,9 @@ struct Command {
   double value = 0.0;
   Source source = Source::local;
   std::uint32_t id = 0;  ///< chosen by whoever asks; the answer has it
+  // From the Tuner, which owns them until the answer.
+  control::Controller* tuned = nullptr;         ///< of `tune`: exchanged for the one in use
+  const board::StoredTuning* tuning = nullptr;  ///< of `store`
 };
 
 /// How a channel takes a command.

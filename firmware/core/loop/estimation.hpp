@@ -19,6 +19,7 @@ class Estimation {
 
   std::size_t estimators() const { return estimators_.size(); }
   void choose(std::size_t place);
+  std::size_t chosen() const { return chosen_; }
   /// The muscle was not driven for a while.
   void restart() { estimators_[chosen_].restart(); }
   /// One tick: this tick's position, and the power applied since the last one.

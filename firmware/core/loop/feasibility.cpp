@@ -93,7 +93,7 @@ std::optional<FeasibleSteps> feasible_steps(const control::ControllerSettings& c
   const double peak = peak_W_per_m(controller, c.muscle);
   return FeasibleSteps{std::min(f.travel_m, f.max_W / peak),
                        std::min(f.travel_m, f.travel_m / c.muscle.dc_gain_m_per_W() / peak),
-                       controller.shaped_for.has_value()};
+                       controller.shape_reference};
 }
 
 }  // namespace

@@ -84,6 +84,21 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   ++ticks_;
 }
 
+bool Loop::send(Command command) {
+  const bool known = command.channel < channels_.size();
+  if (known) channels_[command.channel]->add_tuning(command);
+  if (commands_.push(command)) return true;
+  if (known) channels_[command.channel]->tuner().conclude({command, Refusal::queue_full});
+  return false;
+}
+
+bool Loop::answer(Answer& answer) {
+  if (!answers_.pop(answer)) return false;
+  const std::uint8_t channel = answer.command.channel;
+  if (channel < channels_.size()) channels_[channel]->tuner().conclude(answer);
+  return true;
+}
+
 void Loop::obey() {
   reset_requested_before_ = reset_requested_;
   reset_requested_ = false;

@@ -64,10 +64,10 @@ class Loop {
   /// One tick that was due at `due` and woke at `woke`, after `skipped` periods were left out.
   void tick(hal::Time due, hal::Time woke, std::int64_t skipped);
 
-  /// From one other thread (each): false when the ring is full.
-  bool send(const Command& command) { return commands_.push(command); }
-  bool answer(Answer& answer) { return answers_.pop(answer); }
-  /// A frame for this channel was damaged; as send().
+  /// From one other thread, which is that of the channels' tuners: false when the ring is full.
+  bool send(Command command);
+  bool answer(Answer& answer);
+  /// A frame for this channel was damaged; from one other thread, as take() is.
   bool send_damaged(std::uint8_t channel) { return damaged_.push(channel); }
   bool take(Row& row) { return rows_.pop(row); }
   Health& health() { return health_; }

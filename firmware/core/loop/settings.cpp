@@ -1,13 +1,30 @@
 #include "loop/settings.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "supercoil/control/tracking/mrac_premises.hpp"
+
 namespace supercoil {
+
+namespace {
+
+void apply_tuning(ChannelSettings& channel, const board::StoredTuning& tuning) {
+  channel.tuning = tuning;
+  if (tuning == board::StoredTuning{}) return;
+  channel.configured_controllers = channel.controllers;
+  const std::size_t places = std::min(channel.controllers.size(), tuning.controllers.size());
+  for (std::size_t place = 0; place < places; ++place)
+    tuning.controllers[place].apply_to(channel.controllers[place]);
+}
+
+}  // namespace
 
 void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
   channel.senses = learned.senses;
   channel.heat = learned.heat;
+  apply_tuning(channel, learned.tuning);
   channel.has_muscle = learned.has_muscle;
   if (!channel.has_muscle) return;
   // Calibrating alone stores the muscle as the file has it: that is no identification.
@@ -49,6 +66,83 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
   s.obvious_m = c.supervision.responding_min_m;
   if (c.response_ratio > 0.0) s.response_ratio = c.response_ratio;
   return s;
+}
+
+namespace {
+
+const char* what_to_change(control::ControllerKind kind) {
+  using control::ControllerKind;
+  if (kind == ControllerKind::mrac) return "take slower filters or a slower reference model";
+  if (kind == ControllerKind::mrac_ls) return "lower its bandwidth_rad_per_s";
+  return "lower its gains";
+}
+
+}  // namespace
+
+std::vector<SettingsProblem> contradictions(const control::ControllerSettings& s) {
+  using control::ControllerKind;
+  std::vector<SettingsProblem> problems;
+  if (!control::supported(s.kind, s.arithmetic)) {
+    problems.push_back(
+        {"arithmetic", "must be double or float: the covariance of " +
+                           std::string(control::name_of(control::controller_names, s.kind)) +
+                           " does not fit q8.24"});
+  }
+  const bool feeds_forward =
+      s.kind == ControllerKind::adaptive_ff || s.kind == ControllerKind::learned_ff;
+  const double bandwidth_rad_per_s = s.kind == ControllerKind::adaptive_ff
+                                         ? s.adaptive_ff.bandwidth_rad_per_s
+                                         : s.learned_ff.bandwidth_rad_per_s;
+  // That of mrac_ls may be 0: it then has no PID.
+  if (feeds_forward && bandwidth_rad_per_s < 0.01)
+    problems.push_back({"bandwidth_rad_per_s", "must be 0.01 to 100"});
+  if (s.kind == ControllerKind::learned_ff) {
+    const control::LearnedFeedforwardSettings& l = s.learned_ff;
+    if (l.period_s > 0.0 && l.period_s < 2.0) {
+      problems.push_back(
+          {"period_s", "must be 0 (the reference does not repeat itself) or 2 to 600"});
+    }
+    if (l.find_period && l.period_s > 0.0)
+      problems.push_back({"find_period", "must be false where period_s is given"});
+  }
+  if (s.kind == ControllerKind::mrac && !s.mrac.accept_failed_premises) {
+    for (const char* failure : control::check_premises(s.mrac, s.model).failures()) {
+      if (failure == nullptr) continue;
+      problems.push_back({"kind", std::string("premise fails: ") + failure +
+                                      " (accept_failed_premises = true runs it nevertheless)"});
+    }
+  }
+  return problems;
+}
+
+std::optional<SettingsProblem> check(const control::ControllerSettings& controller,
+                                     const ChannelSettings& channel, double step_s) {
+  if (const auto problems = contradictions(controller); !problems.empty()) return problems.front();
+  std::ostringstream message;
+  if (const auto misfit = control::check_fit(controller, step_s, channel.supervision.max_travel_m,
+                                             channel.limiter.max_W)) {
+    message << "does not fit arithmetic = \"q8.24\": it is held as " << misfit->value
+            << " there, and must be " << misfit->lowest << " to " << misfit->highest;
+    return SettingsProblem{misfit->quantity, message.str()};
+  }
+  const auto margin = margin_of(controller, channel, step_s);
+  if (!margin || margin->stable()) return std::nullopt;
+  message << "is unstable on this muscle"
+          << (control::adapts(controller.kind) ? ", even when adapted," : "") << " with "
+          << 1e3 * loop_delay_s(channel, step_s)
+          << " ms of delay: " << what_to_change(controller.kind) << ", or shorten the delay";
+  return SettingsProblem{"kind", message.str()};
+}
+
+std::optional<SettingsProblem> drop_unusable_tuning(ChannelSettings& channel, double step_s) {
+  if (channel.configured_controllers.empty()) return std::nullopt;
+  for (const control::ControllerSettings& controller : channel.controllers) {
+    const auto problem = check(controller, channel, step_s);
+    if (!problem) continue;
+    channel.controllers = channel.configured_controllers;
+    return problem;
+  }
+  return std::nullopt;
 }
 
 std::optional<SettingsProblem> check(const BoardSettings& settings) {

@@ -47,6 +47,7 @@ struct ChannelSettings {
   board::SenseComparison senses;       ///< with a meter, as stored
   board::ThermalFacts heat;            ///< found out before, as stored
   double response_ratio = 0.0;         ///< likewise, of small motions; 0: not measured
+  board::StoredTuning tuning;          ///< as stored; controllers have it already
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;
@@ -54,6 +55,8 @@ struct ChannelSettings {
   ChannelSupervision supervision;
   /// At least one of each; commands choose among them by their place.
   std::vector<control::ControllerSettings> controllers{1};
+  /// Without what is stored of their tuning; empty: as they are.
+  std::vector<control::ControllerSettings> configured_controllers;
   std::vector<control::EstimatorSettings> estimators{1};
 };
 
@@ -87,9 +90,22 @@ std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& 
 ProofSettings proof_settings(const ChannelSettings& channel, const BoardSettings& board);
 
 struct SettingsProblem {
-  std::string key;  ///< of [board]; empty: of the board as a whole
+  std::string key;  ///< of [board] or of the controller; empty: of the board as a whole
   std::string message;
 };
+
+/// All that is wrong with a law whatever its muscle. MRAC's premises are among it, unless it was
+/// accepted that they fail.
+std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller);
+
+/// Why a controller may not run on this channel: its own contradictions, what q8.24 cannot hold, or
+/// a loop that is unstable on the channel's muscle even when it has adapted to it.
+std::optional<SettingsProblem> check(const control::ControllerSettings& controller,
+                                     const ChannelSettings& channel, double step_s);
+
+/// Stored tuning that may not run on this channel any more, for the first reason that is told: its
+/// controllers are as configured then.
+std::optional<SettingsProblem> drop_unusable_tuning(ChannelSettings& channel, double step_s);
 
 /// What makes settings unusable whoever wrote them; empty when they may run. (Ranges of single
 /// values are the configuration's to check.)

@@ -1,5 +1,7 @@
 #include "loop/tracking.hpp"
 
+#include <utility>
+
 #include "supercoil/control/actuator/conversions.hpp"
 
 namespace supercoil {
@@ -34,6 +36,18 @@ void Tracking::take_over(std::size_t place, double reference_m,
   at.hold = true;
   start(place, at, muscle);
   chosen_ = place;
+}
+
+void Tracking::exchange(std::size_t place, control::Controller& other, bool following,
+                        double reference_m, const control::PhysicalParameters& muscle) {
+  control::ControllerStart at = start_here(reference_m);
+  at.hold = true;
+  std::swap(controllers_[place], other);
+  if (following && place == chosen_) {
+    start(place, at, muscle);
+  } else {
+    controllers_[place].retune(control::theta_from(muscle));
+  }
 }
 
 control::ControllerOutput Tracking::step(const control::ControllerInput& input,

@@ -31,6 +31,10 @@ class Tracking {
   void choose(std::size_t place) { chosen_ = place; }
   /// Another controller, at once: it goes on where the one that is at work leaves off.
   void take_over(std::size_t place, double reference_m, const control::PhysicalParameters& muscle);
+  /// The one at this place is exchanged for another. following: at once where it is at work, as
+  /// take_over does.
+  void exchange(std::size_t place, control::Controller& other, bool following, double reference_m,
+                const control::PhysicalParameters& muscle);
   /// One tick of following.
   control::ControllerOutput step(const control::ControllerInput& input,
                                  const std::optional<control::Estimate>& estimate);

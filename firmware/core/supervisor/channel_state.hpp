@@ -40,12 +40,13 @@ enum class Refusal : std::uint8_t {
   queue_full = 11,         ///< more commands than a tick can take
   claim_again = 12,        ///< over CAN: the lease is free; claim it with the number in the answer
   protocol_mismatch = 13,  ///< over CAN: of another version of the protocol
+  unsuitable = 14,         ///< the prepared controller contradicts itself, or is unstable
 };
 
-inline constexpr std::array<std::string_view, 14> refusal_names{
-    "none",          "wrong_state",  "cause_persists",  "no_edge",          "not_ready",
-    "busy",          "out_of_range", "no_such_channel", "not_lease_holder", "no_lease",
-    "wrong_counter", "queue_full",   "claim_again",     "protocol_mismatch"};
+inline constexpr std::array<std::string_view, 15> refusal_names{
+    "none",          "wrong_state",  "cause_persists",  "no_edge",           "not_ready",
+    "busy",          "out_of_range", "no_such_channel", "not_lease_holder",  "no_lease",
+    "wrong_counter", "queue_full",   "claim_again",     "protocol_mismatch", "unsuitable"};
 constexpr std::string_view name(Refusal refusal) {
   return refusal_names[static_cast<std::size_t>(refusal)];
 }

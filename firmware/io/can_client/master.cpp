@@ -3,6 +3,7 @@
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 #include "telemetry/opcodes.hpp"
+#include "telemetry/tuning_frames.hpp"
 
 namespace supercoil::can_client {
 
@@ -69,6 +70,32 @@ std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
   return m.get("value");
 }
 
+hal::CanFrame tuning_read(std::uint8_t node, const TunedPlace& place) {
+  return can::Encoder<message::tuning_read>(node)
+      .set("place", place.controller)
+      .set("set", static_cast<double>(place.set))
+      .set("tunable", place.tunable)
+      .frame();
+}
+
+std::uint16_t tuning_id(std::uint8_t node) {
+  return can::id_of(message::tuning, node);
+}
+
+std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& place,
+                                         const hal::CanFrame& frame) {
+  if (frame.id != tuning_id(node) || !e2e::intact(frame, message::tuning.length))
+    return std::nullopt;
+  const can::Reader<message::tuning> m(frame);
+  const bool asked_for = m.get<std::uint8_t>("place") == place.controller &&
+                         m.get<std::uint8_t>("tunable") == place.tunable &&
+                         m.get<std::uint8_t>("set") == static_cast<std::uint8_t>(place.set);
+  const auto refusal = refusal_in(m.get("refusal"));
+  if (!asked_for || !refusal) return std::nullopt;
+  return TunedValue{*refusal, telemetry::shortest_decimal(m.get<float>("value")),
+                    m.get<std::uint8_t>("counter")};
+}
+
 std::uint16_t tracking_id(std::uint8_t node) {
   return can::id_of(message::tracking, node);
 }
@@ -117,6 +144,25 @@ hal::CanFrame Master::setting_write(std::uint8_t setting, double value) {
       .set("session", session_)
       .set("value", value)
       .protected_frame();
+}
+
+hal::CanFrame Master::tuning_write(const TunedPlace& place, double value) {
+  asked_as_ = session_;
+  return can::Encoder<message::tuning_write>(node_)
+      .set("counter", next_counter())
+      .set("place", place.controller)
+      .set("tunable", place.tunable)
+      .set("session_low", session_ & 0xFFU)
+      .set("value", value)
+      .protected_frame();
+}
+
+std::optional<TunedValue> Master::receive_tuning(const TunedPlace& place,
+                                                 const hal::CanFrame& frame) {
+  const auto heard = can_client::receive_tuning(node_, place, frame);
+  if (!heard || heard->counter != counter_) return std::nullopt;
+  if (ends_lease(heard->refusal)) session_ = 0;
+  return heard;
 }
 
 std::optional<Master::Setting> Master::receive_setting(const hal::CanFrame& frame, bool of_write) {

@@ -7,6 +7,7 @@
 #include "supercoil/hal/can_bus.hpp"
 
 #include "loop/command.hpp"
+#include "loop/tuner.hpp"
 
 namespace supercoil::can_client {
 
@@ -33,6 +34,23 @@ std::uint16_t muscle_id(std::uint8_t node);
 /// NaN: not known. Empty: the frame does not answer that.
 std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
                                      const hal::CanFrame& frame);
+/// One value of a node's controller.
+struct TunedPlace {
+  std::uint8_t controller;
+  std::uint8_t tunable;  ///< place in control::tunables()
+  TuningSet set;
+};
+struct TunedValue {
+  Refusal refusal;
+  double value;          ///< that holds now; NaN: none
+  std::uint8_t counter;  ///< of the write; 0: of a read
+};
+/// Asks for it; needs no lease.
+hal::CanFrame tuning_read(std::uint8_t node, const TunedPlace& place);
+std::uint16_t tuning_id(std::uint8_t node);
+/// Empty: no intact answer about it.
+std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& place,
+                                         const hal::CanFrame& frame);
 /// Of what it follows, and how closely.
 std::uint16_t tracking_id(std::uint8_t node);
 /// Position less reference model; NaN: it follows none. Empty: the frame does not tell.
@@ -56,6 +74,11 @@ class Master {
   hal::CanFrame command(Verb verb, double value);
   /// Under the lease.
   hal::CanFrame setting_write(std::uint8_t setting, double value);
+
+  /// Under the lease: prepares a value.
+  hal::CanFrame tuning_write(const TunedPlace& place, double value);
+  /// Empty: no intact answer to this master's last write.
+  std::optional<TunedValue> receive_tuning(const TunedPlace& place, const hal::CanFrame& frame);
 
   struct Setting {
     std::uint8_t setting;

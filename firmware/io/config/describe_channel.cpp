@@ -70,6 +70,16 @@ void describe_margin(std::ostream& out, const control::ControllerSettings& contr
       << (adapts ? "moves" : "is off") << " by more than " << std::nearbyint(100.0 * span) << " %";
 }
 
+/// What differs from the file, by name.
+void describe_tuning(std::ostream& out, const board::TunedController& tuned) {
+  const char* before = "\n              stored by tune: ";
+  for (std::size_t i = 0; i < tuned.values.size(); ++i) {
+    if (!tuned.values[i]) continue;
+    out << before << control::tunables()[i].name << " = " << *tuned.values[i];
+    before = ", ";
+  }
+}
+
 void describe_control(std::ostream& out, const ChannelSettings& c, double step_s) {
   out << "  controllers ";
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
@@ -80,6 +90,7 @@ void describe_control(std::ostream& out, const ChannelSettings& c, double step_s
       out << " in " << control::name_of(control::arithmetic_names, k.arithmetic);
     }
     describe_margin(out, k, c, step_s);
+    if (i < c.tuning.controllers.size()) describe_tuning(out, c.tuning.controllers[i]);
   }
   out << "\n  estimators  ";
   for (std::size_t i = 0; i < c.estimators.size(); ++i) {

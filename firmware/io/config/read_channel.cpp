@@ -41,26 +41,6 @@ void read_current(Section section, const std::string& owner, const BoardContext&
   section.finish();
 }
 
-const char* what_to_change(control::ControllerKind kind) {
-  using control::ControllerKind;
-  if (kind == ControllerKind::mrac) return "take slower filters or a slower reference model";
-  if (kind == ControllerKind::mrac_ls) return "lower its bandwidth_rad_per_s";
-  return "lower its gains";
-}
-
-/// Rejects controllers that are unstable on the configured muscle, even when adapted.
-void refuse_unstable(Section& table, const control::ControllerSettings& controller,
-                     const ChannelSettings& channel, double step_s) {
-  const auto margin = margin_of(controller, channel, step_s);
-  if (!margin || margin->stable()) return;
-  std::ostringstream message;
-  message << "is unstable on this muscle"
-          << (control::adapts(controller.kind) ? ", even when adapted," : "") << " with "
-          << 1e3 * loop_delay_s(channel, step_s)
-          << " ms of delay: " << what_to_change(controller.kind) << ", or shorten the delay";
-  table.wrong("kind", message.str());
-}
-
 /// [[channel.controller]], [[channel.estimator]], [channel.reference_model].
 void read_control(Section& section, double step_s, ChannelSettings& c) {
   const auto model = read_reference_model(section.section("reference_model"));
@@ -72,10 +52,10 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
   c.controllers.clear();
   for (Section& table : tables("controller")) {
     const auto controller = read_controller(table, c.muscle, model, c.limiter.max_W);
-    const auto misfit =
-        control::check_fit(controller, step_s, c.supervision.max_travel_m, c.limiter.max_W);
-    refuse_misfit(table, misfit);
-    if (!misfit) refuse_unstable(table, controller, c, step_s);
+    // What contradicts itself has been refused already.
+    const bool contradicts = !contradictions(controller).empty();
+    const auto problem = contradicts ? std::nullopt : check(controller, c, step_s);
+    if (problem) table.wrong(problem->key, problem->message);
     c.controllers.push_back(controller);
   }
   c.estimators.clear();

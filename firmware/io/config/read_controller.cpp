@@ -1,7 +1,9 @@
-#include "supercoil/control/actuator/conversions.hpp"
-#include "supercoil/control/tracking/mrac_premises.hpp"
+#include <cmath>
+
+#include "supercoil/control/tracking/tunable.hpp"
 
 #include "config/read_control.hpp"
+#include "loop/settings.hpp"
 
 namespace supercoil::config {
 
@@ -40,71 +42,31 @@ void read_mrac_constants(Section& section, MracSettings& m) {
     section.wrong(section.has("lower") ? "lower" : "upper", "lower must not exceed upper");
   }
   if (bounded) m.bounds = control::Box<double, 6>{lower, upper};
+  m.accept_failed_premises = section.flag("accept_failed_premises", false);
 }
 
-MracSettings read_mrac(Section& section, const control::ReferenceModelSettings& model) {
+MracSettings read_mrac_preset(Section& section) {
   const std::string preset = section.text("preset", "a");
-  MracSettings m;
-  if (const auto named = control::mrac_preset(preset)) {
-    m = *named;
-  } else {
-    std::string names;
-    for (const auto& [name, text] : control::mrac_presets) {
-      names += (names.empty() ? "" : ", ") + std::string(name);
-    }
-    section.wrong("preset", "must be one of: " + names);
-  }
-  m = m.scaled(section.number("adaptation_scale", 1.0, {1e-6, 1e6}));
-  read_mrac_constants(section, m);
-  const bool accepted = section.flag("accept_failed_premises", false);
-  if (!accepted) {
-    for (const char* failure : control::check_premises(m, model).failures()) {
-      if (failure == nullptr) continue;
-      section.wrong("kind", std::string("premise fails: ") + failure +
-                                " (accept_failed_premises = true runs it nevertheless)");
-    }
-  }
-  return m;
+  if (const auto named = control::mrac_preset(preset)) return *named;
+  std::string names;
+  for (const auto& [name, text] : control::mrac_presets)
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  section.wrong("preset", "must be one of: " + names);
+  return {};
 }
 
-control::MracLeastSquaresSettings read_mrac_ls(Section& section,
-                                               const control::RegressionScale& nominal) {
-  control::MracLeastSquaresSettings m;
-  m.scale = nominal;
-  m.filter_rad_per_s = section.number("filter_rad_per_s", m.filter_rad_per_s, {0.5, 100.0});
-  m.regression_rad_per_s =
-      section.number("regression_rad_per_s", m.regression_rad_per_s, {0.5, 100.0});
-  m.forgetting_s = section.number("forgetting_s", m.forgetting_s, {1.0, 3600.0});
-  m.change_W = section.number("change_W", m.change_W, {1e-6, 1e3});
-  m.hold_s = section.number("hold_s", m.hold_s, {0.0, 3600.0});
-  m.follow_s = section.number("follow_s", m.follow_s, {0.02, 3600.0});
-  m.bandwidth_rad_per_s =
-      section.number("bandwidth_rad_per_s", m.bandwidth_rad_per_s, {0.0, 100.0});
-  m.derivative_filter_rad_per_s =
-      section.number("derivative_filter_rad_per_s", m.derivative_filter_rad_per_s, {0.1, 1e4});
-  return m;
-}
-
-control::LearnedFeedforwardSettings read_learned_ff(Section& section,
-                                                    const control::RegressionScale& nominal,
-                                                    double max_W) {
-  control::LearnedFeedforwardSettings l;
-  l.scale = nominal;
-  if (std::isfinite(max_W)) l.max_W = max_W;
-  l.bandwidth_rad_per_s =
-      section.number("bandwidth_rad_per_s", l.bandwidth_rad_per_s, {0.01, 100.0});
-  l.derivative_filter_rad_per_s =
-      section.number("derivative_filter_rad_per_s", l.derivative_filter_rad_per_s, {0.1, 1e4});
-  l.follow_s = section.number("follow_s", l.follow_s, {0.02, 3600.0});
-  l.forgetting_s = section.number("forgetting_s", l.forgetting_s, {1.0, 3600.0});
-  l.learn = section.flag("learn", l.learn);
-  l.period_s = section.number("period_s", l.period_s, {0.0, 600.0});
-  if (l.period_s > 0.0 && l.period_s < 2.0)
-    section.wrong("period_s", "must be 0 (the reference does not repeat itself) or 2 to 600");
-  l.find_period = section.flag("find_period", l.find_period);
-  if (l.find_period && l.period_s > 0.0)
-    section.wrong("find_period", "must be false where period_s is given");
-  return l;
+/// All but kind and reference model, which are read apart.
+void read_tunables(Section& section, control::ControllerSettings& c) {
+  using control::TunableType;
+  for (const control::Tunable& t : control::tunables()) {
+    const double fallback = t.get(c);
+    if (std::isnan(fallback)) continue;
+    if (t.type == TunableType::number) {
+      t.set(c, section.number(t.name, fallback, {t.lowest, t.highest}));
+    } else if (t.type == TunableType::flag) {
+      t.set(c, section.flag(t.name, fallback != 0.0) ? 1.0 : 0.0);
+    }
+  }
 }
 
 }  // namespace
@@ -115,54 +77,16 @@ control::ControllerSettings read_controller(
   using control::ControllerKind;
   control::ControllerSettings c;
   c.kind = section.choice("kind", c.kind, control::controller_names);
-  c.dc_gain_m_per_W = muscle.dc_gain_m_per_W();
-  const control::RegressionScale nominal{control::theta_from(muscle), c.dc_gain_m_per_W,
-                                         muscle.moving_mass_kg};
+  c.set_nominal(muscle, max_W);
   const bool is_mrac = c.kind == ControllerKind::mrac || c.kind == ControllerKind::mrac_ls;
   c.model = model.value_or(is_mrac ? control::wm16_model() : control::design_model());
-  if (c.kind != ControllerKind::power) {
+  if (c.kind != ControllerKind::power)
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
-    if (!control::supported(c.kind, c.arithmetic)) {
-      section.wrong("arithmetic",
-                    "must be double or float: the covariance of " +
-                        std::string(control::name_of(control::controller_names, c.kind)) +
-                        " does not fit q8.24");
-    }
-    if (section.flag("shape_reference", false)) c.shaped_for = nominal;
-    if (!is_mrac)
-      c.slow_when_oscillating = section.flag("slow_when_oscillating", c.slow_when_oscillating);
-  }
-  if (c.kind == ControllerKind::pi) {
-    c.pi.proportional_W_per_m =
-        section.number("proportional_W_per_m", c.pi.proportional_W_per_m, {0.0, 1e7});
-    c.pi.integral_W_per_m_s =
-        section.number("integral_W_per_m_s", c.pi.integral_W_per_m_s, {0.0, 1e7});
-  } else if (c.kind == ControllerKind::pd_ff) {
-    control::PdFeedforwardSettings& pd = c.pd_ff;
-    pd.feedforward_W_per_m = 1.0 / c.dc_gain_m_per_W;
-    pd.proportional_W_per_m =
-        section.number("proportional_W_per_m", pd.proportional_W_per_m, {0.0, 1e7});
-    pd.derivative_Ws_per_m =
-        section.number("derivative_Ws_per_m", pd.derivative_Ws_per_m, {0.0, 1e7});
-    pd.feedforward_W_per_m =
-        section.number("feedforward_W_per_m", pd.feedforward_W_per_m, {0.0, 1e7});
-    pd.derivative_filter_rad_per_s =
-        section.number("derivative_filter_rad_per_s", pd.derivative_filter_rad_per_s, {0.1, 1e4});
-  } else if (c.kind == ControllerKind::adaptive_ff) {
-    control::AdaptiveFeedforwardSettings& a = c.adaptive_ff;
-    a.scale = nominal;
-    a.bandwidth_rad_per_s =
-        section.number("bandwidth_rad_per_s", a.bandwidth_rad_per_s, {0.01, 100.0});
-    a.derivative_filter_rad_per_s =
-        section.number("derivative_filter_rad_per_s", a.derivative_filter_rad_per_s, {0.1, 1e4});
-    a.follow_s = section.number("follow_s", a.follow_s, {0.02, 3600.0});
-  } else if (c.kind == ControllerKind::learned_ff) {
-    c.learned_ff = read_learned_ff(section, nominal, max_W);
-  } else if (c.kind == ControllerKind::mrac_ls) {
-    c.mrac_ls = read_mrac_ls(section, nominal);
-  } else if (c.kind == ControllerKind::mrac) {
-    c.mrac = read_mrac(section, c.model);
-  }
+  c.mrac = c.kind == ControllerKind::mrac ? read_mrac_preset(section) : *control::mrac_preset("a");
+  read_tunables(section, c);
+  if (c.kind == ControllerKind::mrac) read_mrac_constants(section, c.mrac);
+  for (const SettingsProblem& problem : contradictions(c))
+    section.wrong(problem.key, problem.message);
   section.finish();
   return c;
 }

@@ -1,37 +1,27 @@
 #include "storage/codec.hpp"
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include <toml++/toml.h>
 
 #include "storage/envelope.hpp"
 #include "storage/fields.hpp"
+#include "storage/number.hpp"
+#include "storage/tuning_tables.hpp"
 
 namespace supercoil::storage {
 
 namespace {
-
-std::string shown(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
-
-/// With a point or exponent: "-0" would be read as the integer 0, without its sign.
-std::string number(double value) {
-  const std::string text = shown(value);
-  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
-}
 
 std::string path(const Field& field, unsigned format) {
   return std::string(field.table) + "." + std::string(key_in(field, format));
 }
 
 bool is_table(std::string_view name) {
+  if (is_tuning_table(name)) return true;
   for (const Field& field : fields) {
     if (field.table == name) return true;
   }
@@ -39,6 +29,7 @@ bool is_table(std::string_view name) {
 }
 
 bool is_field(std::string_view table, std::string_view key, unsigned format) {
+  if (is_tuning_key(table, key)) return true;
   for (const Field& field : fields) {
     if (field.table == table && key_in(field, format) == key) return true;
   }
@@ -55,15 +46,6 @@ std::optional<std::string> unknown_key(const toml::table& file, unsigned format)
         return std::string(name.str()) + "." + std::string(key.str());
     }
   }
-  return std::nullopt;
-}
-
-/// The message of what is wrong, or nothing, with the number in value.
-std::optional<std::string> read_number(const toml::node* node, double& value) {
-  if (node == nullptr) return "is missing";
-  if (!node->is_number()) return "is not a number";
-  value = *node->value<double>();
-  if (!std::isfinite(value)) return "is " + shown(value) + ", which is not a finite number";
   return std::nullopt;
 }
 
@@ -95,6 +77,7 @@ tl::expected<board::Learned, std::string> read(const toml::table& file, unsigned
       return tl::unexpected(path(field, format) + " " + *wrong);
     }
   }
+  if (auto wrong = read_tuning(file, learned.tuning)) return tl::unexpected(std::move(*wrong));
   if (const auto violation = check(learned)) {
     return tl::unexpected(std::string(violation->quantity) + " = " + shown(violation->value) +
                           " is out of range: must be " + shown(violation->lowest) + " to " +
@@ -116,9 +99,9 @@ std::string encode(const board::Learned& learned) {
     if (!is_stored(field, learned)) continue;
     if (field.table != table) body += "\n[" + std::string(field.table) + "]\n";
     table = field.table;
-    body += std::string(field.key) + " = " + number(field.of(copy)) + "\n";
+    body += std::string(field.key) + " = " + number_text(field.of(copy)) + "\n";
   }
-  return seal(body);
+  return seal(body + encode_tuning(learned.tuning));
 }
 
 tl::expected<board::Learned, std::string> decode(std::string_view text) {

@@ -84,11 +84,13 @@ tl::expected<void, std::string> LearnedStore::forget() {
   const auto before = load();
   if (before && before->learned && !has_muscle()) return {};
   if (const auto cleared = clear(); !cleared) return tl::unexpected(cleared.error().text);
-  if (!before || !before->learned || !before->learned->senses.compared()) return {};
-  board::Learned senses_only;
-  senses_only.senses = before->learned->senses;
-  senses_only.has_muscle = false;
-  if (const auto saved = save(senses_only); !saved) return tl::unexpected(saved.error());
+  if (!before || !before->learned) return {};
+  board::Learned kept;
+  kept.senses = before->learned->senses;
+  kept.tuning = before->learned->tuning;
+  kept.has_muscle = false;
+  if (!kept.senses.compared() && kept.tuning == board::StoredTuning{}) return {};
+  if (const auto saved = save(kept); !saved) return tl::unexpected(saved.error());
   return {};
 }
 

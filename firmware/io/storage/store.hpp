@@ -56,8 +56,9 @@ class LearnedStore {
   tl::expected<std::uint32_t, std::string> save(const board::Learned& learned);
 
   /// From now on no muscle is stored, and versions count from 1 again; a comparison of the senses
-  /// is kept, as it is the board's. The current file stays for examination. When the power fails
-  /// meanwhile, or a call, the current set is still there, or nothing is.
+  /// is kept, as it is the board's, and so is the tuning, which has a way back of its own. The
+  /// current file stays for examination. When the power fails meanwhile, or a call, the current set
+  /// is still there, or nothing is.
   tl::expected<void, std::string> forget();
 
  private:

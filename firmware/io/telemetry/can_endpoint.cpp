@@ -34,7 +34,8 @@ std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t ch
   // The heartbeat of a board with the same node: every board sends it.
   for (const can::MessageInfo& message :
        {can::message::command, can::message::setting_write, can::message::setting_read,
-        can::message::muscle_read, can::message::status}) {
+        can::message::tuning_read, can::message::tuning_write, can::message::muscle_read,
+        can::message::status}) {
     for (std::size_t i = 0; i < channels; ++i)
       ids.push_back(can::id_of(message, static_cast<can::Node>(settings.first_node + i)));
   }
@@ -49,6 +50,7 @@ CanEndpoint::CanEndpoint(const CanSettings& settings, const BoardSettings& board
       leases_(settings.lease_s, board.channels.size(), std::move(random)),
       commands_(settings, leases_),
       settings_(settings, board, leases_, publisher_, loop),
+      tuning_(settings.first_node, leases_, loop),
       first_node_(settings.first_node) {}
 
 void CanEndpoint::answer(const Answer& answer) {
@@ -93,10 +95,11 @@ void CanEndpoint::receive(hal::Time now) {
     if (taken.damaged) loop_->send_damaged(*taken.damaged);
     if (taken.answer) publisher_.send(*taken.answer);
     if (taken.command && !loop_->send(*taken.command)) publisher_.send(commands_.not_taken());
-    const RunSettings::Taken set = settings_.take(frame, now);
-    if (set.damaged) loop_->send_damaged(*set.damaged);
-    if (set.answer) publisher_.send(*set.answer);
-    if (set.refused_value) publisher_.send(*set.refused_value);
+    for (const TakenWrite& write : {settings_.take(frame, now), tuning_.take(frame, now)}) {
+      if (write.damaged) loop_->send_damaged(*write.damaged);
+      if (write.answer) publisher_.send(*write.answer);
+      if (write.refused_value) publisher_.send(*write.refused_value);
+    }
     if (const auto told = muscle_asked_for(frame)) publisher_.send(*told);
   }
 }

@@ -4,6 +4,7 @@
 #include "telemetry/commands.hpp"
 #include "telemetry/publisher.hpp"
 #include "telemetry/run_settings.hpp"
+#include "telemetry/tuning_frames.hpp"
 
 namespace supercoil::telemetry {
 
@@ -44,6 +45,7 @@ class CanEndpoint {
   Leases leases_;
   Commands commands_;
   RunSettings settings_;
+  TuningFrames tuning_;
   can::Node first_node_;
   hal::Time conflict_until_{};
 };

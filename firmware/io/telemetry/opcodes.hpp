@@ -28,6 +28,9 @@ inline constexpr std::size_t opcodes = 16;
 /// A rise of 0 K is sent as this many; no supply has so many volts.
 inline constexpr double rises_from = 1000.0;
 
+/// The place of a controller to be tuned is sent as `controller` with this much added.
+inline constexpr double tunes_from = 1000.0;
+
 /// A command as it is sent.
 struct Sent {
   std::uint8_t opcode;
@@ -42,10 +45,16 @@ constexpr Sent sent(Verb verb, double value) {
   }
   if (verb == Verb::compare_current) return {compare, value > 0.0 ? -value : nonsense};
   if (verb == Verb::compare_rise) return {compare, value >= 0.0 ? rises_from + value : nonsense};
+  if (verb == Verb::tune) {
+    return {static_cast<std::uint8_t>(Verb::controller),
+            value >= 0.0 ? tunes_from + value : nonsense};
+  }
   return {static_cast<std::uint8_t>(verb), value};
 }
 /// What was sent; opcode: not the lease's. A NaN is no current.
 constexpr Command meant(std::uint8_t opcode, double value) {
+  if (opcode == static_cast<std::uint8_t>(Verb::controller) && value >= tunes_from)
+    return {0, Verb::tune, value - tunes_from};
   if (opcode != compare) return {0, static_cast<Verb>(opcode), value};
   if (value >= rises_from) return {0, Verb::compare_rise, value - rises_from};
   return value < 0.0 ? Command{0, Verb::compare_current, -value}

@@ -42,7 +42,7 @@ RunSettings::RunSettings(CanSettings can, const BoardSettings& board, Leases& le
     max_W_.push_back(channel.limiter.max_W);
 }
 
-RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
+TakenWrite RunSettings::take(const hal::CanFrame& frame, hal::Time now) {
   const auto meant = [&](const can::MessageInfo& message) {
     return can::channel_of(frame, message, can_.first_node, max_W_.size());
   };
@@ -54,15 +54,15 @@ RunSettings::Taken RunSettings::take(const hal::CanFrame& frame, hal::Time now) 
   return {{}, told(*channel, setting, known ? Refusal::none : Refusal::out_of_range, 0, 0), {}};
 }
 
-RunSettings::Taken RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& frame,
-                                           hal::Time now) {
+TakenWrite RunSettings::take_write(std::uint8_t channel, const hal::CanFrame& frame,
+                                   hal::Time now) {
   if (!can::e2e::intact(frame, message::setting_write.length)) return {channel, {}, {}};
   const can::Reader<message::setting_write> m(frame);
   const auto counter = m.get<std::uint8_t>("counter");
   const auto session = m.get<std::uint16_t>("session");
   const auto setting = m.get<std::uint8_t>("setting");
   const auto value = m.get("value");
-  Taken taken;
+  TakenWrite taken;
   Refusal refusal = leases_->check(channel, session, counter, now);
   if (refusal == Refusal::wrong_counter) taken.damaged = channel;
   if (refusal == Refusal::none) refusal = set(channel, setting, value);

@@ -21,6 +21,13 @@ static_assert(run_settings <= 16, "a setting has 4 bits");
 /// As in the DBC, with its unit.
 std::string run_setting_name(std::uint8_t setting);
 
+/// What became of a frame that may write something. All empty: it has nothing to do with it.
+struct TakenWrite {
+  std::optional<std::uint8_t> damaged;  ///< the channel whose write was damaged
+  std::optional<hal::CanFrame> answer;
+  std::optional<hal::CanFrame> refused_value;  ///< goes after the answer
+};
+
 /// Neither sends nor receives. Writing needs the channel's lease, as a command does; reading does
 /// not. Whatever came whole is answered with what holds from then on.
 class RunSettings {
@@ -29,16 +36,10 @@ class RunSettings {
   RunSettings(CanSettings can, const BoardSettings& board, Leases& leases, Publisher& publisher,
               Loop& loop);
 
-  /// What became of a frame. All empty: it has nothing to do with settings.
-  struct Taken {
-    std::optional<std::uint8_t> damaged;  ///< the channel whose write was damaged
-    std::optional<hal::CanFrame> answer;
-    std::optional<hal::CanFrame> refused_value;  ///< goes after the answer
-  };
-  Taken take(const hal::CanFrame& frame, hal::Time now);
+  TakenWrite take(const hal::CanFrame& frame, hal::Time now);
 
  private:
-  Taken take_write(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
+  TakenWrite take_write(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
   Refusal set(std::uint8_t channel, std::uint8_t setting, double value);
   Refusal set_rate(std::uint8_t channel, Message message, double rate_Hz);
   /// NaN: there is no such setting of this channel.

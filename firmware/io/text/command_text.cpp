@@ -16,7 +16,7 @@ namespace {
 bool has_value(Verb verb) {
   return verb == Verb::position || verb == Verb::power || verb == Verb::scale ||
          verb == Verb::controller || verb == Verb::estimator || verb == Verb::compare_supply ||
-         verb == Verb::compare_current || verb == Verb::compare_rise;
+         verb == Verb::compare_current || verb == Verb::compare_rise || verb == Verb::tune;
 }
 
 template <class Number>
@@ -32,7 +32,7 @@ std::string known_verbs() {
   for (const std::string_view verb : verb_names) {
     if (verb != name(Verb::none)) all += (all.empty() ? "" : ", ") + std::string(verb);
   }
-  return all + ", clear";
+  return all + ", clear, store tuning, clear tuning";
 }
 
 }  // namespace
@@ -58,7 +58,11 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
   }
   const bool stores = verb == Verb::store && !clears;
   Command command{static_cast<std::uint8_t>(*channel - 1), verb, stores ? 1.0 : 0.0};
-  const std::string_view value_word = next_word(text);
+  std::string_view value_word = next_word(text);
+  if (verb == Verb::store && value_word == "tuning") {
+    command.value = stores ? store_tuning : clear_tuning;
+    value_word = next_word(text);
+  }
   if (has_value(verb)) {
     const auto value = number<double>(value_word);
     if (!value || !std::isfinite(*value)) {

@@ -379,6 +379,111 @@ bool supercoil_first_cause_limit_is_in_phys_range(double value)
     return (true);
 }
 
+int supercoil_tuning_read_pack(
+    uint8_t *dst_p,
+    const struct supercoil_tuning_read_t *src_p,
+    size_t size)
+{
+    if (size < 2u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 2);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->place, 0u, 0x0fu);
+    dst_p[0] |= pack_left_shift_u8(src_p->set, 4u, 0xf0u);
+    dst_p[1] |= pack_left_shift_u8(src_p->tunable, 0u, 0xffu);
+
+    return (2);
+}
+
+int supercoil_tuning_read_unpack(
+    struct supercoil_tuning_read_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    if (size < 2u) {
+        return (-EINVAL);
+    }
+
+    dst_p->place = unpack_right_shift_u8(src_p[0], 0u, 0x0fu);
+    dst_p->set = unpack_right_shift_u8(src_p[0], 4u, 0xf0u);
+    dst_p->tunable = unpack_right_shift_u8(src_p[1], 0u, 0xffu);
+
+    return (0);
+}
+
+int supercoil_tuning_read_init(struct supercoil_tuning_read_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_tuning_read_t));
+
+    return 0;
+}
+
+uint8_t supercoil_tuning_read_place_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_read_place_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_read_place_is_in_range(uint8_t value)
+{
+    return (value <= 3u);
+}
+
+bool supercoil_tuning_read_place_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 3.0));
+}
+
+uint8_t supercoil_tuning_read_set_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_read_set_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_read_set_is_in_range(uint8_t value)
+{
+    return (value <= 3u);
+}
+
+bool supercoil_tuning_read_set_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 3.0));
+}
+
+uint8_t supercoil_tuning_read_tunable_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_read_tunable_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_read_tunable_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_read_tunable_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
 int supercoil_command_pack(
     uint8_t *dst_p,
     const struct supercoil_command_t *src_p,
@@ -697,12 +802,12 @@ double supercoil_acknowledge_refusal_decode(uint8_t value)
 
 bool supercoil_acknowledge_refusal_is_in_range(uint8_t value)
 {
-    return (value <= 13u);
+    return (value <= 14u);
 }
 
 bool supercoil_acknowledge_refusal_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 13.0));
+    return ((value >= 0.0) && (value <= 14.0));
 }
 
 uint16_t supercoil_acknowledge_granted_encode(double value)
@@ -2882,12 +2987,12 @@ double supercoil_setting_refusal_decode(uint8_t value)
 
 bool supercoil_setting_refusal_is_in_range(uint8_t value)
 {
-    return (value <= 13u);
+    return (value <= 14u);
 }
 
 bool supercoil_setting_refusal_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 13.0));
+    return ((value >= 0.0) && (value <= 14.0));
 }
 
 uint8_t supercoil_setting_session_low_encode(double value)
@@ -3221,6 +3326,217 @@ bool supercoil_muscle_read_quantity_is_in_range(uint8_t value)
 bool supercoil_muscle_read_quantity_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 14.0));
+}
+
+int supercoil_tuning_pack(
+    uint8_t *dst_p,
+    const struct supercoil_tuning_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->counter, 0u, 0x0fu);
+    dst_p[1] |= pack_left_shift_u8(src_p->place, 4u, 0xf0u);
+    dst_p[2] |= pack_left_shift_u8(src_p->tunable, 0u, 0xffu);
+    dst_p[3] |= pack_left_shift_u8(src_p->refusal, 0u, 0x0fu);
+    dst_p[3] |= pack_left_shift_u8(src_p->set, 4u, 0xf0u);
+    memcpy(&value, &src_p->value, sizeof(value));
+    dst_p[4] |= pack_left_shift_u32(value, 0u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(value, 8u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(value, 16u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(value, 24u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_tuning_unpack(
+    struct supercoil_tuning_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->counter = unpack_right_shift_u8(src_p[1], 0u, 0x0fu);
+    dst_p->place = unpack_right_shift_u8(src_p[1], 4u, 0xf0u);
+    dst_p->tunable = unpack_right_shift_u8(src_p[2], 0u, 0xffu);
+    dst_p->refusal = unpack_right_shift_u8(src_p[3], 0u, 0x0fu);
+    dst_p->set = unpack_right_shift_u8(src_p[3], 4u, 0xf0u);
+    value = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+    memcpy(&dst_p->value, &value, sizeof(dst_p->value));
+
+    return (0);
+}
+
+int supercoil_tuning_init(struct supercoil_tuning_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_tuning_t));
+
+    return 0;
+}
+
+uint8_t supercoil_tuning_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_tuning_counter_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_counter_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_counter_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_tuning_counter_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint8_t supercoil_tuning_place_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_place_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_place_is_in_range(uint8_t value)
+{
+    return (value <= 3u);
+}
+
+bool supercoil_tuning_place_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 3.0));
+}
+
+uint8_t supercoil_tuning_tunable_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_tunable_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_tunable_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_tunable_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_tuning_refusal_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_refusal_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_refusal_is_in_range(uint8_t value)
+{
+    return (value <= 14u);
+}
+
+bool supercoil_tuning_refusal_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 14.0));
+}
+
+uint8_t supercoil_tuning_set_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_set_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_set_is_in_range(uint8_t value)
+{
+    return (value <= 3u);
+}
+
+bool supercoil_tuning_set_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 3.0));
+}
+
+float supercoil_tuning_value_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_tuning_value_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_value_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_value_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
 }
 
 int supercoil_status_pack(
@@ -3616,4 +3932,195 @@ bool supercoil_status_friction_is_in_range(uint8_t value)
 bool supercoil_status_friction_is_in_phys_range(double value)
 {
     return ((value >= 0.0) && (value <= 1.0));
+}
+
+int supercoil_tuning_write_pack(
+    uint8_t *dst_p,
+    const struct supercoil_tuning_write_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->counter, 0u, 0x0fu);
+    dst_p[1] |= pack_left_shift_u8(src_p->place, 4u, 0xf0u);
+    dst_p[2] |= pack_left_shift_u8(src_p->tunable, 0u, 0xffu);
+    dst_p[3] |= pack_left_shift_u8(src_p->session_low, 0u, 0xffu);
+    memcpy(&value, &src_p->value, sizeof(value));
+    dst_p[4] |= pack_left_shift_u32(value, 0u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(value, 8u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(value, 16u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(value, 24u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_tuning_write_unpack(
+    struct supercoil_tuning_write_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint32_t value;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->counter = unpack_right_shift_u8(src_p[1], 0u, 0x0fu);
+    dst_p->place = unpack_right_shift_u8(src_p[1], 4u, 0xf0u);
+    dst_p->tunable = unpack_right_shift_u8(src_p[2], 0u, 0xffu);
+    dst_p->session_low = unpack_right_shift_u8(src_p[3], 0u, 0xffu);
+    value = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+    value |= unpack_left_shift_u32(src_p[7], 24u, 0xffu);
+    memcpy(&dst_p->value, &value, sizeof(dst_p->value));
+
+    return (0);
+}
+
+int supercoil_tuning_write_init(struct supercoil_tuning_write_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_tuning_write_t));
+
+    return 0;
+}
+
+uint8_t supercoil_tuning_write_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_write_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_write_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_write_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_tuning_write_counter_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_write_counter_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_write_counter_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_tuning_write_counter_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint8_t supercoil_tuning_write_place_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_write_place_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_write_place_is_in_range(uint8_t value)
+{
+    return (value <= 3u);
+}
+
+bool supercoil_tuning_write_place_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 3.0));
+}
+
+uint8_t supercoil_tuning_write_tunable_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_write_tunable_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_write_tunable_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_write_tunable_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_tuning_write_session_low_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_tuning_write_session_low_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_write_session_low_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_write_session_low_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+float supercoil_tuning_write_value_encode(double value)
+{
+    return (float)(value);
+}
+
+double supercoil_tuning_write_value_decode(float value)
+{
+    return ((double)value);
+}
+
+bool supercoil_tuning_write_value_is_in_range(float value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_tuning_write_value_is_in_phys_range(double value)
+{
+    (void)value;
+
+    return (true);
 }

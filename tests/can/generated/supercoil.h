@@ -47,6 +47,7 @@ extern "C" {
 /* Frame ids. */
 #define SUPERCOIL_EMERGENCY_FRAME_ID (0x81u)
 #define SUPERCOIL_FIRST_CAUSE_FRAME_ID (0xc1u)
+#define SUPERCOIL_TUNING_READ_FRAME_ID (0x1c1u)
 #define SUPERCOIL_COMMAND_FRAME_ID (0x201u)
 #define SUPERCOIL_ACKNOWLEDGE_FRAME_ID (0x241u)
 #define SUPERCOIL_MEASUREMENT_FRAME_ID (0x281u)
@@ -65,11 +66,14 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_FRAME_ID (0x5c1u)
 #define SUPERCOIL_SETTING_READ_FRAME_ID (0x601u)
 #define SUPERCOIL_MUSCLE_READ_FRAME_ID (0x681u)
+#define SUPERCOIL_TUNING_FRAME_ID (0x641u)
 #define SUPERCOIL_STATUS_FRAME_ID (0x701u)
+#define SUPERCOIL_TUNING_WRITE_FRAME_ID (0x6c1u)
 
 /* Frame lengths in bytes. */
 #define SUPERCOIL_EMERGENCY_LENGTH (8u)
 #define SUPERCOIL_FIRST_CAUSE_LENGTH (8u)
+#define SUPERCOIL_TUNING_READ_LENGTH (2u)
 #define SUPERCOIL_COMMAND_LENGTH (8u)
 #define SUPERCOIL_ACKNOWLEDGE_LENGTH (7u)
 #define SUPERCOIL_MEASUREMENT_LENGTH (8u)
@@ -88,11 +92,14 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_LENGTH (8u)
 #define SUPERCOIL_SETTING_READ_LENGTH (1u)
 #define SUPERCOIL_MUSCLE_READ_LENGTH (1u)
+#define SUPERCOIL_TUNING_LENGTH (8u)
 #define SUPERCOIL_STATUS_LENGTH (8u)
+#define SUPERCOIL_TUNING_WRITE_LENGTH (8u)
 
 /* Extended or standard frame types. */
 #define SUPERCOIL_EMERGENCY_IS_EXTENDED (0)
 #define SUPERCOIL_FIRST_CAUSE_IS_EXTENDED (0)
+#define SUPERCOIL_TUNING_READ_IS_EXTENDED (0)
 #define SUPERCOIL_COMMAND_IS_EXTENDED (0)
 #define SUPERCOIL_ACKNOWLEDGE_IS_EXTENDED (0)
 #define SUPERCOIL_MEASUREMENT_IS_EXTENDED (0)
@@ -111,7 +118,9 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_IS_EXTENDED (0)
 #define SUPERCOIL_SETTING_READ_IS_EXTENDED (0)
 #define SUPERCOIL_MUSCLE_READ_IS_EXTENDED (0)
+#define SUPERCOIL_TUNING_IS_EXTENDED (0)
 #define SUPERCOIL_STATUS_IS_EXTENDED (0)
+#define SUPERCOIL_TUNING_WRITE_IS_EXTENDED (0)
 
 /* Frame cycle times in milliseconds. */
 #define SUPERCOIL_MEASUREMENT_CYCLE_TIME_MS (10u)
@@ -165,6 +174,36 @@ extern "C" {
 #define SUPERCOIL_EMERGENCY_STATE_ACTIVE_CHOICE (2u)
 #define SUPERCOIL_EMERGENCY_STATE_FAULT_CHOICE (3u)
 
+#define SUPERCOIL_TUNING_READ_SET_PREPARED_CHOICE (0u)
+#define SUPERCOIL_TUNING_READ_SET_IN_USE_CHOICE (1u)
+#define SUPERCOIL_TUNING_READ_SET_CONFIGURED_CHOICE (2u)
+#define SUPERCOIL_TUNING_READ_SET_STORED_CHOICE (3u)
+
+#define SUPERCOIL_TUNING_READ_TUNABLE_KIND_CHOICE (0u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_INTEGRAL_W_PER_M_S_CHOICE (2u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_DERIVATIVE_WS_PER_M_CHOICE (3u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_FEEDFORWARD_W_PER_M_CHOICE (4u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_BANDWIDTH_RAD_PER_S_CHOICE (5u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_DERIVATIVE_FILTER_RAD_PER_S_CHOICE (6u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_FOLLOW_S_CHOICE (7u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_FORGETTING_S_CHOICE (8u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_LEARN_CHOICE (9u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_PERIOD_S_CHOICE (10u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_FIND_PERIOD_CHOICE (11u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_FILTER_RAD_PER_S_CHOICE (12u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_REGRESSION_RAD_PER_S_CHOICE (13u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_CHANGE_W_CHOICE (14u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_HOLD_S_CHOICE (15u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_SHAPE_REFERENCE_CHOICE (16u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_SLOW_WHEN_OSCILLATING_CHOICE (17u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_REFERENCE_MODEL_CHOICE (18u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_MODEL_POLE_1_RAD_PER_S_CHOICE (19u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_MODEL_POLE_2_RAD_PER_S_CHOICE (20u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_MODEL_POLE_3_RAD_PER_S_CHOICE (21u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_ADAPTATION_SCALE_CHOICE (22u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_ALL_CHOICE (255u)
+
 #define SUPERCOIL_COMMAND_OPCODE_COMPARE_CHOICE (0u)
 #define SUPERCOIL_COMMAND_OPCODE_ARM_CHOICE (1u)
 #define SUPERCOIL_COMMAND_OPCODE_DISARM_CHOICE (2u)
@@ -213,6 +252,7 @@ extern "C" {
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_QUEUE_FULL_CHOICE (11u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
+#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_UNSUITABLE_CHOICE (14u)
 
 #define SUPERCOIL_MEASUREMENT_POSITION_M_NOT_AVAILABLE_CHOICE (-8388608)
 
@@ -401,6 +441,7 @@ extern "C" {
 #define SUPERCOIL_SETTING_REFUSAL_QUEUE_FULL_CHOICE (11u)
 #define SUPERCOIL_SETTING_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
 #define SUPERCOIL_SETTING_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
+#define SUPERCOIL_SETTING_REFUSAL_UNSUITABLE_CHOICE (14u)
 
 #define SUPERCOIL_SETTING_WRITE_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -449,6 +490,52 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA3_DEVIATION_RATIO_CHOICE (12u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA4_DEVIATION_RATIO_CHOICE (13u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_UNEXPLAINED_RATIO_CHOICE (14u)
+
+#define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
+#define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
+#define SUPERCOIL_TUNING_TUNABLE_INTEGRAL_W_PER_M_S_CHOICE (2u)
+#define SUPERCOIL_TUNING_TUNABLE_DERIVATIVE_WS_PER_M_CHOICE (3u)
+#define SUPERCOIL_TUNING_TUNABLE_FEEDFORWARD_W_PER_M_CHOICE (4u)
+#define SUPERCOIL_TUNING_TUNABLE_BANDWIDTH_RAD_PER_S_CHOICE (5u)
+#define SUPERCOIL_TUNING_TUNABLE_DERIVATIVE_FILTER_RAD_PER_S_CHOICE (6u)
+#define SUPERCOIL_TUNING_TUNABLE_FOLLOW_S_CHOICE (7u)
+#define SUPERCOIL_TUNING_TUNABLE_FORGETTING_S_CHOICE (8u)
+#define SUPERCOIL_TUNING_TUNABLE_LEARN_CHOICE (9u)
+#define SUPERCOIL_TUNING_TUNABLE_PERIOD_S_CHOICE (10u)
+#define SUPERCOIL_TUNING_TUNABLE_FIND_PERIOD_CHOICE (11u)
+#define SUPERCOIL_TUNING_TUNABLE_FILTER_RAD_PER_S_CHOICE (12u)
+#define SUPERCOIL_TUNING_TUNABLE_REGRESSION_RAD_PER_S_CHOICE (13u)
+#define SUPERCOIL_TUNING_TUNABLE_CHANGE_W_CHOICE (14u)
+#define SUPERCOIL_TUNING_TUNABLE_HOLD_S_CHOICE (15u)
+#define SUPERCOIL_TUNING_TUNABLE_SHAPE_REFERENCE_CHOICE (16u)
+#define SUPERCOIL_TUNING_TUNABLE_SLOW_WHEN_OSCILLATING_CHOICE (17u)
+#define SUPERCOIL_TUNING_TUNABLE_REFERENCE_MODEL_CHOICE (18u)
+#define SUPERCOIL_TUNING_TUNABLE_MODEL_POLE_1_RAD_PER_S_CHOICE (19u)
+#define SUPERCOIL_TUNING_TUNABLE_MODEL_POLE_2_RAD_PER_S_CHOICE (20u)
+#define SUPERCOIL_TUNING_TUNABLE_MODEL_POLE_3_RAD_PER_S_CHOICE (21u)
+#define SUPERCOIL_TUNING_TUNABLE_ADAPTATION_SCALE_CHOICE (22u)
+#define SUPERCOIL_TUNING_TUNABLE_ALL_CHOICE (255u)
+
+#define SUPERCOIL_TUNING_REFUSAL_NONE_CHOICE (0u)
+#define SUPERCOIL_TUNING_REFUSAL_WRONG_STATE_CHOICE (1u)
+#define SUPERCOIL_TUNING_REFUSAL_CAUSE_PERSISTS_CHOICE (2u)
+#define SUPERCOIL_TUNING_REFUSAL_NO_EDGE_CHOICE (3u)
+#define SUPERCOIL_TUNING_REFUSAL_NOT_READY_CHOICE (4u)
+#define SUPERCOIL_TUNING_REFUSAL_BUSY_CHOICE (5u)
+#define SUPERCOIL_TUNING_REFUSAL_OUT_OF_RANGE_CHOICE (6u)
+#define SUPERCOIL_TUNING_REFUSAL_NO_SUCH_CHANNEL_CHOICE (7u)
+#define SUPERCOIL_TUNING_REFUSAL_NOT_LEASE_HOLDER_CHOICE (8u)
+#define SUPERCOIL_TUNING_REFUSAL_NO_LEASE_CHOICE (9u)
+#define SUPERCOIL_TUNING_REFUSAL_WRONG_COUNTER_CHOICE (10u)
+#define SUPERCOIL_TUNING_REFUSAL_QUEUE_FULL_CHOICE (11u)
+#define SUPERCOIL_TUNING_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
+#define SUPERCOIL_TUNING_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
+#define SUPERCOIL_TUNING_REFUSAL_UNSUITABLE_CHOICE (14u)
+
+#define SUPERCOIL_TUNING_SET_PREPARED_CHOICE (0u)
+#define SUPERCOIL_TUNING_SET_IN_USE_CHOICE (1u)
+#define SUPERCOIL_TUNING_SET_CONFIGURED_CHOICE (2u)
+#define SUPERCOIL_TUNING_SET_STORED_CHOICE (3u)
 
 #define SUPERCOIL_STATUS_STATE_DISARMED_CHOICE (0u)
 #define SUPERCOIL_STATUS_STATE_ARMED_CHOICE (1u)
@@ -517,9 +604,35 @@ extern "C" {
 #define SUPERCOIL_STATUS_RESULT_NOT_STORED_CHOICE (9u)
 #define SUPERCOIL_STATUS_RESULT_TOO_LITTLE_MOTION_CHOICE (10u)
 
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_KIND_CHOICE (0u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_INTEGRAL_W_PER_M_S_CHOICE (2u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_DERIVATIVE_WS_PER_M_CHOICE (3u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_FEEDFORWARD_W_PER_M_CHOICE (4u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_BANDWIDTH_RAD_PER_S_CHOICE (5u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_DERIVATIVE_FILTER_RAD_PER_S_CHOICE (6u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_FOLLOW_S_CHOICE (7u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_FORGETTING_S_CHOICE (8u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_LEARN_CHOICE (9u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_PERIOD_S_CHOICE (10u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_FIND_PERIOD_CHOICE (11u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_FILTER_RAD_PER_S_CHOICE (12u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_REGRESSION_RAD_PER_S_CHOICE (13u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_CHANGE_W_CHOICE (14u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_HOLD_S_CHOICE (15u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_SHAPE_REFERENCE_CHOICE (16u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_SLOW_WHEN_OSCILLATING_CHOICE (17u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_REFERENCE_MODEL_CHOICE (18u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_MODEL_POLE_1_RAD_PER_S_CHOICE (19u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_MODEL_POLE_2_RAD_PER_S_CHOICE (20u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_MODEL_POLE_3_RAD_PER_S_CHOICE (21u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_ADAPTATION_SCALE_CHOICE (22u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_ALL_CHOICE (255u)
+
 /* Frame Names. */
 #define SUPERCOIL_EMERGENCY_NAME "Emergency"
 #define SUPERCOIL_FIRST_CAUSE_NAME "FirstCause"
+#define SUPERCOIL_TUNING_READ_NAME "TuningRead"
 #define SUPERCOIL_COMMAND_NAME "Command"
 #define SUPERCOIL_ACKNOWLEDGE_NAME "Acknowledge"
 #define SUPERCOIL_MEASUREMENT_NAME "Measurement"
@@ -538,7 +651,9 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_NAME "SettingWrite"
 #define SUPERCOIL_SETTING_READ_NAME "SettingRead"
 #define SUPERCOIL_MUSCLE_READ_NAME "MuscleRead"
+#define SUPERCOIL_TUNING_NAME "Tuning"
 #define SUPERCOIL_STATUS_NAME "Status"
+#define SUPERCOIL_TUNING_WRITE_NAME "TuningWrite"
 
 /* Signal Names. */
 #define SUPERCOIL_EMERGENCY_FAULT_NAME "fault"
@@ -546,6 +661,9 @@ extern "C" {
 #define SUPERCOIL_EMERGENCY_BOARD_TIME_S_NAME "board_time_s"
 #define SUPERCOIL_FIRST_CAUSE_MEASURED_NAME "measured"
 #define SUPERCOIL_FIRST_CAUSE_LIMIT_NAME "limit"
+#define SUPERCOIL_TUNING_READ_PLACE_NAME "place"
+#define SUPERCOIL_TUNING_READ_SET_NAME "set"
+#define SUPERCOIL_TUNING_READ_TUNABLE_NAME "tunable"
 #define SUPERCOIL_COMMAND_CRC_NAME "crc"
 #define SUPERCOIL_COMMAND_COUNTER_NAME "counter"
 #define SUPERCOIL_COMMAND_OPCODE_NAME "opcode"
@@ -618,6 +736,13 @@ extern "C" {
 #define SUPERCOIL_SETTING_WRITE_VALUE_NAME "value"
 #define SUPERCOIL_SETTING_READ_SETTING_NAME "setting"
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_NAME "quantity"
+#define SUPERCOIL_TUNING_CRC_NAME "crc"
+#define SUPERCOIL_TUNING_COUNTER_NAME "counter"
+#define SUPERCOIL_TUNING_PLACE_NAME "place"
+#define SUPERCOIL_TUNING_TUNABLE_NAME "tunable"
+#define SUPERCOIL_TUNING_REFUSAL_NAME "refusal"
+#define SUPERCOIL_TUNING_SET_NAME "set"
+#define SUPERCOIL_TUNING_VALUE_NAME "value"
 #define SUPERCOIL_STATUS_STATE_NAME "state"
 #define SUPERCOIL_STATUS_MODE_NAME "mode"
 #define SUPERCOIL_STATUS_FAULT_NAME "fault"
@@ -634,6 +759,12 @@ extern "C" {
 #define SUPERCOIL_STATUS_PROOF_OFF_NAME "proof_off"
 #define SUPERCOIL_STATUS_OSCILLATED_NAME "oscillated"
 #define SUPERCOIL_STATUS_FRICTION_NAME "friction"
+#define SUPERCOIL_TUNING_WRITE_CRC_NAME "crc"
+#define SUPERCOIL_TUNING_WRITE_COUNTER_NAME "counter"
+#define SUPERCOIL_TUNING_WRITE_PLACE_NAME "place"
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_NAME "tunable"
+#define SUPERCOIL_TUNING_WRITE_SESSION_LOW_NAME "session_low"
+#define SUPERCOIL_TUNING_WRITE_VALUE_NAME "value"
 
 /**
  * Signals in message Emergency.
@@ -699,6 +830,42 @@ struct supercoil_first_cause_t {
 };
 
 /**
+ * Signals in message TuningRead.
+ *
+ * Asks for one value of a controller of this node. Needs no lease: reading changes nothing.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_tuning_read_t {
+    /**
+     * Of the controller in the configuration, from 0.
+     *
+     * Range: 0..3 (0..3 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t place;
+
+    /**
+     * Which of its values: those that tune will use, those in use, those of the board's file, those that the next start will use.
+     *
+     * Range: 0..3 (0..3 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t set;
+
+    /**
+     * Which one.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t tunable;
+};
+
+/**
  * Signals in message Command.
  *
  * One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier: damage, loss and the repetition of one frame are seen. Whoever repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or the board's start, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed.
@@ -743,7 +910,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0.
+     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to the place: this controller gets its prepared values, at once and without a jump, while it is at work too. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0.
      *
      * Range: -
      * Scale: 1
@@ -799,7 +966,7 @@ struct supercoil_acknowledge_t {
     /**
      * none: it was obeyed. Else why not. out_of_range: RefusedValue tells the value. claim_again: claim with the number in granted as value. protocol_mismatch: the frame is of another version of this protocol; disarm alone is the same in all.
      *
-     * Range: 0..13 (0..13 -)
+     * Range: 0..14 (0..14 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1393,7 +1560,7 @@ struct supercoil_setting_t {
     /**
      * none: it was written, or read. Else why not.
      *
-     * Range: 0..13 (0..13 -)
+     * Range: 0..14 (0..14 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1421,7 +1588,7 @@ struct supercoil_setting_t {
 /**
  * Signals in message SettingWrite.
  *
- * Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command or SettingWrite.
+ * Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1436,7 +1603,7 @@ struct supercoil_setting_write_t {
     uint8_t crc;
 
     /**
-     * One more with each Command or SettingWrite of a session, 0 after 15.
+     * One more with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
      *
      * Range: 0..15 (0..15 -)
      * Scale: 1
@@ -1506,6 +1673,78 @@ struct supercoil_muscle_read_t {
      * Offset: 0
      */
     uint8_t quantity;
+};
+
+/**
+ * Signals in message Tuning.
+ *
+ * The answer to TuningRead and TuningWrite. Protected as Command is. Boards older than supercoil 0.2.0 do not answer.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_tuning_t {
+    /**
+     * As in Command.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * Of the write; 0 of a read.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t counter;
+
+    /**
+     * Of the read or write.
+     *
+     * Range: 0..3 (0..3 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t place;
+
+    /**
+     * Of the read or write.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t tunable;
+
+    /**
+     * none: it was written, or read. Else why not.
+     *
+     * Range: 0..14 (0..14 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t refusal;
+
+    /**
+     * Of the read; of a write: prepared.
+     *
+     * Range: 0..3 (0..3 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t set;
+
+    /**
+     * That holds now, in the unit of the parameter's name. kind: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff. reference_model: 0 three real poles, 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such controller or parameter, or its law has none.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float value;
 };
 
 /**
@@ -1659,6 +1898,69 @@ struct supercoil_status_t {
      * Offset: 0
      */
     uint8_t friction;
+};
+
+/**
+ * Signals in message TuningWrite.
+ *
+ * Prepares one value of a controller of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_tuning_write_t {
+    /**
+     * As in Command.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * One more with each Command, SettingWrite or TuningWrite of a session, 0 after 15.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t counter;
+
+    /**
+     * Of the controller in the configuration, from 0.
+     *
+     * Range: 0..3 (0..3 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t place;
+
+    /**
+     * Which one. all: the whole prepared set becomes another.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t tunable;
+
+    /**
+     * Low byte of the lease's session.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t session_low;
+
+    /**
+     * As in Tuning. all: the number of the set.
+     *
+     * Range: -
+     * Scale: 1
+     * Offset: 0
+     */
+    float value;
 };
 
 /**
@@ -1934,6 +2236,163 @@ bool supercoil_first_cause_limit_is_in_range(float value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_first_cause_limit_is_in_phys_range(double value);
+
+/**
+ * Pack message TuningRead.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_tuning_read_pack(
+    uint8_t *dst_p,
+    const struct supercoil_tuning_read_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message TuningRead.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_tuning_read_unpack(
+    struct supercoil_tuning_read_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from TuningRead.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_tuning_read_init(struct supercoil_tuning_read_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_read_place_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_read_place_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_read_place_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_read_place_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_read_set_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_read_set_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_read_set_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_read_set_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_read_tunable_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_read_tunable_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_read_tunable_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_read_tunable_is_in_phys_range(double value);
 
 /**
  * Pack message Command.
@@ -5482,6 +5941,323 @@ bool supercoil_muscle_read_quantity_is_in_range(uint8_t value);
 bool supercoil_muscle_read_quantity_is_in_phys_range(double value);
 
 /**
+ * Pack message Tuning.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_tuning_pack(
+    uint8_t *dst_p,
+    const struct supercoil_tuning_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Tuning.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_tuning_unpack(
+    struct supercoil_tuning_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Tuning.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_tuning_init(struct supercoil_tuning_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_counter_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_counter_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_counter_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_counter_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_place_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_place_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_place_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_place_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_tunable_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_tunable_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_tunable_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_tunable_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_refusal_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_refusal_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_refusal_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_refusal_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_set_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_set_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_set_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_set_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_tuning_value_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_value_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_value_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_value_is_in_phys_range(double value);
+
+/**
  * Pack message Status.
  *
  * @param[out] dst_p Buffer to pack the message into.
@@ -6157,6 +6933,283 @@ bool supercoil_status_friction_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_status_friction_is_in_phys_range(double value);
+
+/**
+ * Pack message TuningWrite.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_tuning_write_pack(
+    uint8_t *dst_p,
+    const struct supercoil_tuning_write_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message TuningWrite.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_tuning_write_unpack(
+    struct supercoil_tuning_write_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from TuningWrite.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_tuning_write_init(struct supercoil_tuning_write_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_write_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_write_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_write_counter_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_write_counter_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_counter_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_counter_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_write_place_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_write_place_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_place_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_place_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_write_tunable_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_write_tunable_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_tunable_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_tunable_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_tuning_write_session_low_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_write_session_low_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_session_low_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_session_low_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+float supercoil_tuning_write_value_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_tuning_write_value_decode(float value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_value_is_in_range(float value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_tuning_write_value_is_in_phys_range(double value);
 
 
 #ifdef __cplusplus

@@ -38,7 +38,7 @@ void check_controllers() {
                                             MracSettings::Parameters::Constant(50.0)};
       settings.mrac.sigma_modification = 1e-4;
       settings.mrac.dead_zone_W = 1e-4;
-      settings.shaped_for = RegressionScale{};
+      settings.shape_reference = true;
       Controller controller(settings, step_s);
       expect_none(kind_name.data(), arithmetic_name, counted([&] {
                     supercoil::test::run_closed_loop(controller, step_s, steps * step_s,

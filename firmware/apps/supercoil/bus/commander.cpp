@@ -19,7 +19,8 @@ constexpr auto nap = std::chrono::milliseconds(1);
 Refusal refusal_of(Refusal answer) {
   return answer;
 }
-Refusal refusal_of(const can_client::Master::Setting& answer) {
+template <class Answer>
+Refusal refusal_of(const Answer& answer) {
   return answer.refusal;
 }
 
@@ -127,6 +128,25 @@ Commander::Setting Commander::write(std::uint8_t setting, double value) {
     return exchange<can_client::Master::Setting>(
         master_.setting_write(setting, value),
         [&](const hal::CanFrame& frame) { return master_.receive_setting(frame, true); });
+  });
+}
+
+Commander::Tuned Commander::read_tuning(const can_client::TunedPlace& place) {
+  drain();
+  return exchange<can_client::TunedValue>(
+      can_client::tuning_read(master_.node(), place), [&](const hal::CanFrame& frame) {
+        return can_client::receive_tuning(master_.node(), place, frame);
+      });
+}
+
+Commander::Tuned Commander::prepare(const can_client::TunedPlace& place, double value) {
+  return insist([&]() -> Tuned {
+    const Answer claimed = claim();
+    if (!claimed) return tl::unexpected(claimed.error());
+    if (*claimed != Refusal::none) return can_client::TunedValue{*claimed, NAN, 0};
+    return exchange<can_client::TunedValue>(
+        master_.tuning_write(place, value),
+        [&](const hal::CanFrame& frame) { return master_.receive_tuning(place, frame); });
   });
 }
 

@@ -28,6 +28,10 @@ class Commander {
   /// Likewise; reading needs no lease.
   Setting read(std::uint8_t setting);
   Setting write(std::uint8_t setting, double value);
+  /// Likewise, of a controller's values.
+  using Tuned = tl::expected<can_client::TunedValue, std::string>;
+  Tuned read_tuning(const can_client::TunedPlace& place);
+  Tuned prepare(const can_client::TunedPlace& place, double value);
   /// A place in known_quantities; NaN: not known. Needs no lease.
   tl::expected<double, std::string> muscle(std::uint8_t quantity);
   /// Gives the lease back, if there is one.

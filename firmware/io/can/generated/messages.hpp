@@ -132,7 +132,7 @@ inline constexpr std::array<ValueName, 15> names_of_quantity{{
     {14, "unexplained_ratio"},
 }};
 
-inline constexpr std::array<ValueName, 14> names_of_refusal{{
+inline constexpr std::array<ValueName, 15> names_of_refusal{{
     {0, "none"},
     {1, "wrong_state"},
     {2, "cause_persists"},
@@ -147,6 +147,7 @@ inline constexpr std::array<ValueName, 14> names_of_refusal{{
     {11, "queue_full"},
     {12, "claim_again"},
     {13, "protocol_mismatch"},
+    {14, "unsuitable"},
 }};
 
 inline constexpr std::array<ValueName, 11> names_of_result{{
@@ -161,6 +162,13 @@ inline constexpr std::array<ValueName, 11> names_of_result{{
     {8, "implausible"},
     {9, "not_stored"},
     {10, "too_little_motion"},
+}};
+
+inline constexpr std::array<ValueName, 4> names_of_set{{
+    {0, "prepared"},
+    {1, "in_use"},
+    {2, "configured"},
+    {3, "stored"},
 }};
 
 inline constexpr std::array<ValueName, 15> names_of_setting{{
@@ -188,6 +196,33 @@ inline constexpr std::array<ValueName, 4> names_of_state{{
     {3, "fault"},
 }};
 
+inline constexpr std::array<ValueName, 24> names_of_tunable{{
+    {0, "kind"},
+    {1, "proportional_W_per_m"},
+    {2, "integral_W_per_m_s"},
+    {3, "derivative_Ws_per_m"},
+    {4, "feedforward_W_per_m"},
+    {5, "bandwidth_rad_per_s"},
+    {6, "derivative_filter_rad_per_s"},
+    {7, "follow_s"},
+    {8, "forgetting_s"},
+    {9, "learn"},
+    {10, "period_s"},
+    {11, "find_period"},
+    {12, "filter_rad_per_s"},
+    {13, "regression_rad_per_s"},
+    {14, "change_W"},
+    {15, "hold_s"},
+    {16, "shape_reference"},
+    {17, "slow_when_oscillating"},
+    {18, "reference_model"},
+    {19, "model_pole_1_rad_per_s"},
+    {20, "model_pole_2_rad_per_s"},
+    {21, "model_pole_3_rad_per_s"},
+    {22, "adaptation_scale"},
+    {255, "all"},
+}};
+
 inline constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
     {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
     {"state", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
@@ -197,6 +232,12 @@ inline constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
 inline constexpr std::array<SignalInfo, 2> signals_of_FirstCause{{
     {"measured", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
     {"limit", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+inline constexpr std::array<SignalInfo, 3> signals_of_TuningRead{{
+    {"place", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"set", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_set},
+    {"tunable", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_tunable},
 }};
 
 inline constexpr std::array<SignalInfo, 5> signals_of_Command{{
@@ -325,6 +366,16 @@ inline constexpr std::array<SignalInfo, 1> signals_of_MuscleRead{{
     {"quantity", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_quantity},
 }};
 
+inline constexpr std::array<SignalInfo, 7> signals_of_Tuning{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"place", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"tunable", "", 16, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_tunable},
+    {"refusal", "", 24, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_refusal},
+    {"set", "", 28, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_set},
+    {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
 inline constexpr std::array<SignalInfo, 16> signals_of_Status{{
     {"state", "", 0, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
     {"mode", "", 4, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_mode},
@@ -344,9 +395,19 @@ inline constexpr std::array<SignalInfo, 16> signals_of_Status{{
     {"friction", "", 62, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
+inline constexpr std::array<SignalInfo, 6> signals_of_TuningWrite{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"place", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"tunable", "", 16, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_tunable},
+    {"session_low", "", 24, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"value", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
 namespace message {
 inline constexpr MessageInfo emergency{"Emergency", 0x080, 8, 0, signals_of_Emergency};
 inline constexpr MessageInfo first_cause{"FirstCause", 0x0c0, 8, 0, signals_of_FirstCause};
+inline constexpr MessageInfo tuning_read{"TuningRead", 0x1c0, 2, 0, signals_of_TuningRead};
 inline constexpr MessageInfo command{"Command", 0x200, 8, 0, signals_of_Command};
 inline constexpr MessageInfo acknowledge{"Acknowledge", 0x240, 7, 0, signals_of_Acknowledge};
 inline constexpr MessageInfo measurement{"Measurement", 0x280, 8, 10, signals_of_Measurement};
@@ -365,13 +426,16 @@ inline constexpr MessageInfo setting{"Setting", 0x580, 8, 0, signals_of_Setting}
 inline constexpr MessageInfo setting_write{"SettingWrite", 0x5c0, 8, 0, signals_of_SettingWrite};
 inline constexpr MessageInfo setting_read{"SettingRead", 0x600, 1, 0, signals_of_SettingRead};
 inline constexpr MessageInfo muscle_read{"MuscleRead", 0x680, 1, 0, signals_of_MuscleRead};
+inline constexpr MessageInfo tuning{"Tuning", 0x640, 8, 0, signals_of_Tuning};
 inline constexpr MessageInfo status{"Status", 0x700, 8, 100, signals_of_Status};
+inline constexpr MessageInfo tuning_write{"TuningWrite", 0x6c0, 8, 0, signals_of_TuningWrite};
 }  // namespace message
 
 /// In the order of identifiers.
-inline constexpr std::array<MessageInfo, 21> all_messages{{
+inline constexpr std::array<MessageInfo, 24> all_messages{{
     message::emergency,
     message::first_cause,
+    message::tuning_read,
     message::command,
     message::acknowledge,
     message::measurement,
@@ -390,7 +454,9 @@ inline constexpr std::array<MessageInfo, 21> all_messages{{
     message::setting_write,
     message::setting_read,
     message::muscle_read,
+    message::tuning,
     message::status,
+    message::tuning_write,
 }};
 
 }  // namespace supercoil::can

@@ -32,7 +32,7 @@ double fall_um(const std::array<double, 2>& span_s, bool is_shaped) {
   NoisyLoop loop;
   loop.controller.kind = ControllerKind::adaptive_ff;
   loop.controller.model = poles_model({3.0, 3.0, 3.0});
-  if (is_shaped) loop.controller.shaped_for = RegressionScale{};
+  if (is_shaped) loop.controller.shape_reference = true;
   loop.reference_m = [](double time_s) { return time_s < 20.0 ? level_m : 0.002; };
   return loop.rms_um<1>({span_s})[0];
 }

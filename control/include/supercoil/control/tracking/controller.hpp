@@ -49,8 +49,12 @@ struct ControllerSettings {
   LearnedFeedforwardSettings learned_ff;
   /// A loop that is seen to oscillate gets a slower feedback, but for mrac and mrac_ls.
   bool slow_when_oscillating = true;
-  /// The muscle for which references are shaped; empty: they are taken as they are.
-  std::optional<RegressionScale> shaped_for;
+  /// References are made feasible for the muscle; otherwise they are taken as they are.
+  bool shape_reference = false;
+  RegressionScale shaped_for;  ///< the muscle for which, until it is identified
+
+  /// The muscle from which every law begins. max_W: of its channel; NaN while that is not known.
+  void set_nominal(const PhysicalParameters& muscle, double max_W);
 };
 
 /// What q8.24 cannot hold of the settings; empty when all fits, and for other arithmetics. Fixed

@@ -31,6 +31,9 @@ struct MracSettings {
   double sigma_modification = 0.0;  ///< leak of θ towards θ(0): θ̇ −= this·Π(θ − θ(0))
   double dead_zone_W = 0.0;         ///< θ and σ rest while |ε1| is smaller
   std::optional<Box<double, 6>> bounds;  ///< θ is projected onto it
+  bool accept_failed_premises = false;   ///< runs without the proof of its stability
+
+  double adaptation_scale = 1.0;  ///< by which Π and ν were multiplied
 
   /// Π and ν multiplied by a factor > 0.
   MracSettings scaled(double factor) const;

@@ -1,6 +1,8 @@
 // The motion that a controller is asked to make the muscle follow.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -12,6 +14,8 @@ namespace supercoil::control {
 struct ReferenceModelSettings {
   Polynomial<3> denominator;  ///< monic, Hurwitz, ascending
   double gain;                ///< > 0; equal to denominator[0] for a DC gain of 1
+  /// Where the poles are real: at −poles_rad_per_s[i]. NaN: complex.
+  std::array<double, 3> poles_rad_per_s{NAN, NAN, NAN};
 
   double dc_gain() const { return gain / denominator[0]; }
 };

@@ -64,7 +64,7 @@ TEST_GROUP(LocalCommands) {
   }
   void pass_answers() {
     for (Answer answer; rig.loop.answer(answer);)
-      commands.pass(answer);
+      commands.pass(answer, rig.loop);
   }
   /// As accepted.
   Client client() {
@@ -117,10 +117,46 @@ TEST(LocalCommands, ThatTheLoopCannotTakeAreAnsweredAtOnceAndTheOthersInTheirOrd
   STRCMP_EQUAL("refused: too many commands", answer_to(busy, "1 disarm").c_str());
   rig.executive.run_tick();
   for (Answer answer; rig.loop.answer(answer);) {
-    if (answer.command.source != Source::can) commands.pass(answer);
+    if (answer.command.source != Source::can) commands.pass(answer, rig.loop);
   }
   STRCMP_EQUAL("refused: wrong_state", busy.heard().c_str());
   STRCMP_EQUAL("", busy.heard().c_str());
+}
+
+TEST(LocalCommands, AControllerIsTuned) {
+  const Client one = client();
+  const auto in_use = [&] { return answer_to(one, "tuning 1 0 integral_W_per_m_s in_use"); };
+  const std::string before = in_use();
+  STRCMP_EQUAL("ok", answer_to(one, "prepare 1 0 integral_W_per_m_s 321.5").c_str());
+  STRCMP_EQUAL(before.c_str(), in_use().c_str());
+  STRCMP_EQUAL("", answer_to(one, "1 tune 0").c_str());
+  rig.executive.run_tick();
+  pass_answers();
+  STRCMP_EQUAL("ok", one.heard().c_str());
+  STRCMP_EQUAL("321.5", in_use().c_str());
+  STRCMP_EQUAL("ok", answer_to(one, "prepare 1 0 all configured").c_str());
+  STRCMP_EQUAL(before.c_str(), answer_to(one, "tuning 1 0 integral_W_per_m_s prepared").c_str());
+}
+
+TEST(LocalCommands, WhyAControllerDoesNotSuitIsSaid) {
+  const Client one = client();
+  STRCMP_EQUAL("ok", answer_to(one, "prepare 1 0 integral_W_per_m_s 1e7").c_str());
+  answer_to(one, "1 tune 0");
+  rig.executive.run_tick();
+  pass_answers();
+  STRCMP_CONTAINS("refused: unsuitable: kind is unstable on this muscle", one.heard().c_str());
+  for (const auto& [line, answer] :
+       {std::pair{"prepare 1 0 integral_W_per_m_s 1e9",
+                  "refused: out_of_range; 1e+07 would be obeyed"},
+        std::pair{"prepare 1 7 kind 1", "refused: out_of_range"},
+        std::pair{"prepare 1 0 volume 1", "refused: out_of_range"},
+        std::pair{"prepare 1 0 kind pi", "wrong: 'pi' is no number"},
+        std::pair{"prepare 1 0 all mine", "wrong: 'mine' is no set of values"},
+        std::pair{"prepare 9 0 kind 1", "wrong: '9' is no channel"},
+        std::pair{"tuning 1 x kind in_use", "wrong: 'x' is no controller"},
+        std::pair{"tuning 1 0 kind", "wrong: '' is no set of values"},
+        std::pair{"tuning 1 0 volume in_use", "nan"}})
+    STRCMP_EQUAL(answer, answer_to(one, line).c_str());
 }
 
 TEST(LocalCommands, AnAnswerThatIsLostMovesNoOther) {

@@ -41,6 +41,43 @@ TEST(BoardSettingsCheck, RefusesAPumpThatALateTickWouldStop) {
              "charge_pump_decay_ms");
 }
 
+TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {
+  control::ControllerSettings controller;
+  controller.kind = control::ControllerKind::learned_ff;
+  CHECK(contradictions(controller).empty());
+  controller.arithmetic = control::Arithmetic::q8_24;
+  controller.learned_ff.period_s = 1.0;
+  controller.learned_ff.find_period = true;
+  controller.learned_ff.bandwidth_rad_per_s = 0.0;
+  LONGS_EQUAL(4, contradictions(controller).size());
+  controller = {};
+  CHECK(contradictions(controller).empty());
+  controller.model = control::design_model();
+  STRCMP_CONTAINS("Eq. (12)", contradictions(controller).back().message.c_str());
+  controller.mrac.accept_failed_premises = true;
+  CHECK(contradictions(controller).empty());
+}
+
+TEST(BoardSettingsCheck, StoredTuningThatIsUnstableIsDroppedAndNamed) {
+  ChannelSettings channel;
+  channel.controllers[0].kind = control::ControllerKind::pi;
+  board::Learned learned;
+  learned.has_muscle = false;
+  auto& integral =
+      learned.tuning.controllers[0].values[control::tunable_named("integral_W_per_m_s")];
+  integral = 800.0;
+  apply_learned(channel, learned);
+  CHECK_FALSE(drop_unusable_tuning(channel, 1e-3).has_value());
+  DOUBLES_EQUAL(800.0, channel.controllers[0].pi.integral_W_per_m_s, 0.0);
+  channel.controllers = channel.configured_controllers;
+  integral = 1e7;
+  apply_learned(channel, learned);
+  const auto problem = drop_unusable_tuning(channel, 1e-3);
+  CHECK(problem.has_value());
+  STRCMP_CONTAINS("unstable", problem->message.c_str());
+  DOUBLES_EQUAL(1100.0, channel.controllers[0].pi.integral_W_per_m_s, 0.0);
+}
+
 TEST(BoardSettingsCheck, TheLoopsDelayIsATickAndTheHeaters) {
   ChannelSettings channel;
   channel.heater.delay_s = 0.004;

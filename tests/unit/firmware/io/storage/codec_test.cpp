@@ -44,6 +44,40 @@ std::string sealed_with(const std::string& what, const std::string& instead) {
 
 TEST_GROUP(Codec){};
 
+TEST(Codec, TuningIsReadBack) {
+  for (const bool has_muscle : {true, false}) {
+    board::Learned set = full_set();
+    set.has_muscle = has_muscle;
+    for (std::size_t place = 0; place < set.tuning.controllers.size(); ++place) {
+      for (std::size_t i = place; i < control::tunable_count; i += 3)
+        set.tuning.controllers[place].values[i] = control::tunables()[i].highest;
+    }
+    set.tuning.controller = 3.0;
+    const auto read = decode(encode(set));
+    CHECK_TEXT(read.has_value(), read ? "" : read.error().c_str());
+    CHECK(read->tuning == set.tuning);
+    CHECK(read->has_muscle == has_muscle);
+  }
+}
+
+TEST(Codec, WrongTuningIsNamed) {
+  const auto with = [](const std::string& lines) {
+    const std::string text = encode(full_set());
+    return seal(text.substr(text.find('\n') + 1) + lines);
+  };
+  check_answer("in order", with("\n[controller_0]\nlearn = 1.0\n"));
+  check_answer("learn = 0.5 is out of range: must be 0 to 1",
+               with("\n[controller_0]\nlearn = 0.5\n"));
+  check_answer("has a key that this firmware does not know: controller_1.gain",
+               with("\n[controller_1]\ngain = 1.0\n"));
+  check_answer("has a key that this firmware does not know: controller_4",
+               with("\n[controller_4]\nlearn = 1.0\n"));
+  check_answer("controller_3.follow_s is not a number",
+               with("\n[controller_3]\nfollow_s = true\n"));
+  check_answer("estimator = 0.5 is out of range: must be 0 to 255",
+               with("\n[chosen]\nestimator = 0.5\n"));
+}
+
 // The checksum is what Python's zlib.crc32 gives for these lines.
 TEST(Codec, WritesWhatAPersonCanRead) {
   board::Learned set;

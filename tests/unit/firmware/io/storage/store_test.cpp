@@ -67,6 +67,17 @@ TEST(LearnedStore, KeepsTheComparisonOfTheSensesWhenTheMuscleIsForgotten) {
   }
 }
 
+TEST(LearnedStore, KeepsTheTuningWhenTheMuscleIsForgotten) {
+  board::Learned set = nth_set(1);
+  set.tuning.controllers[2].values[5] = 6.5;
+  CHECK(store.save(set).has_value());
+  CHECK(store.forget().has_value());
+  const auto kept = store.load()->learned;
+  CHECK(kept.has_value());
+  CHECK_FALSE(kept->has_muscle);
+  CHECK(kept->tuning == set.tuning);
+}
+
 TEST(LearnedStore, ForgetsWithTheMuscleWhatIsKnownOfItsHeat) {
   for (const bool has_muscle : {true, false}) {
     board::Learned set = nth_set(1);

@@ -29,6 +29,9 @@ TEST(CommandText, ChannelVerbAndValue) {
   DOUBLES_EQUAL(61.5, read("1 compare_rise 61.5").value, 0.0);
   CHECK(read("1 store").verb == Verb::store);
   DOUBLES_EQUAL(1.0, read("1 store").value, 0.0);
+  DOUBLES_EQUAL(store_tuning, read("1 store tuning").value, 0.0);
+  DOUBLES_EQUAL(clear_tuning, read("1 clear tuning").value, 0.0);
+  DOUBLES_EQUAL(2.0, read("1 tune 2").value, 0.0);
   CHECK(read("1 clear").verb == Verb::store);
   DOUBLES_EQUAL(0.0, read("1 clear").value, 0.0);
 }
@@ -47,7 +50,7 @@ TEST(CommandText, WhatIsWrongIsSaid) {
   check_wrong("1 heat",
               "'heat' is not a command; there are arm, disarm, reset, position, power, renew, "
               "rest, identify, calibrate, scale, controller, estimator, store, compare_supply, "
-              "compare_current, compare_rise, clear");
+              "compare_current, compare_rise, tune, clear, store tuning, clear tuning");
   check_wrong("1 store 1", "'1' is too much");
 }
 

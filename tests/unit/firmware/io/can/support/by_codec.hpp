@@ -166,6 +166,28 @@ inline Values muscle_read(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_muscle_read_unpack);
   return values({supercoil_muscle_read_quantity_decode(m.quantity)});
 }
+inline Values tuning(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_tuning_unpack);
+  return values({supercoil_tuning_crc_decode(m.crc), supercoil_tuning_counter_decode(m.counter),
+                 supercoil_tuning_place_decode(m.place), supercoil_tuning_tunable_decode(m.tunable),
+                 supercoil_tuning_refusal_decode(m.refusal), supercoil_tuning_set_decode(m.set),
+                 supercoil_tuning_value_decode(m.value)});
+}
+inline Values tuning_write(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_tuning_write_unpack);
+  return values({supercoil_tuning_write_crc_decode(m.crc),
+                 supercoil_tuning_write_counter_decode(m.counter),
+                 supercoil_tuning_write_place_decode(m.place),
+                 supercoil_tuning_write_tunable_decode(m.tunable),
+                 supercoil_tuning_write_session_low_decode(m.session_low),
+                 supercoil_tuning_write_value_decode(m.value)});
+}
+inline Values tuning_read(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_tuning_read_unpack);
+  return values({supercoil_tuning_read_place_decode(m.place),
+                 supercoil_tuning_read_set_decode(m.set),
+                 supercoil_tuning_read_tunable_decode(m.tunable)});
+}
 inline Values status(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_status_unpack);
   return values(
@@ -189,7 +211,7 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 21> codec_messages{{
+constexpr std::array<CodecMessage, 24> codec_messages{{
     {"Emergency", SUPERCOIL_EMERGENCY_FRAME_ID, SUPERCOIL_EMERGENCY_LENGTH, emergency},
     {"FirstCause", SUPERCOIL_FIRST_CAUSE_FRAME_ID, SUPERCOIL_FIRST_CAUSE_LENGTH, first_cause},
     {"Command", SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, command},
@@ -212,6 +234,9 @@ constexpr std::array<CodecMessage, 21> codec_messages{{
      setting_write},
     {"SettingRead", SUPERCOIL_SETTING_READ_FRAME_ID, SUPERCOIL_SETTING_READ_LENGTH, setting_read},
     {"MuscleRead", SUPERCOIL_MUSCLE_READ_FRAME_ID, SUPERCOIL_MUSCLE_READ_LENGTH, muscle_read},
+    {"Tuning", SUPERCOIL_TUNING_FRAME_ID, SUPERCOIL_TUNING_LENGTH, tuning},
+    {"TuningWrite", SUPERCOIL_TUNING_WRITE_FRAME_ID, SUPERCOIL_TUNING_WRITE_LENGTH, tuning_write},
+    {"TuningRead", SUPERCOIL_TUNING_READ_FRAME_ID, SUPERCOIL_TUNING_READ_LENGTH, tuning_read},
     {"Status", SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, status},
 }};
 

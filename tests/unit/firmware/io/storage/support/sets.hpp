@@ -88,7 +88,8 @@ inline rc::Gen<board::Learned> learned_sets() {
                               version,
                               true,
                               heat,
-                              response_ratio};
+                              response_ratio,
+                              {}};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),

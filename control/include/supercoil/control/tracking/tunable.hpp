@@ -1,0 +1,49 @@
+// Single values of a controller, by name: as its configuration has them, and as they are changed on
+// a running board.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "supercoil/control/tracking/controller.hpp"
+
+namespace supercoil::control {
+
+enum class TunableType : std::uint8_t {
+  number,
+  flag,   ///< 0 or 1
+  kind,   ///< a ControllerKind
+  model,  ///< 0: real poles; else a place in tunable_models, from 1
+  pole,   ///< a number; configurations have all three in reference_model.poles_rad_per_s
+};
+
+/// The reference models that have names.
+inline constexpr std::array<std::string_view, 3> tunable_models{"design", "eq8", "wm16"};
+
+struct Tunable {
+  std::string_view name;  ///< as in configurations
+  TunableType type;
+  double lowest;  ///< allowed, ends included
+  double highest;
+  /// NaN: a law of this kind has no such value.
+  double (*get)(ControllerSettings settings);
+  /// Where get() is not NaN. value: in range.
+  void (*set)(ControllerSettings& settings, double value);
+
+  bool in_range(double value) const;  ///< a NaN is not, nor half a flag
+};
+
+/// The places are those of the protocol (docs/can-protocol.md): new ones come last. In this order
+/// they can be set one after the other: what there is depends on the first.
+inline constexpr std::size_t tunable_count = 23;
+const std::array<Tunable, tunable_count>& tunables();
+/// tunable_count: there is none of this name.
+std::size_t tunable_named(std::string_view name);
+
+/// Of one controller, in the order of tunables(). NaN: it has no such value.
+using Tuning = std::array<double, tunable_count>;
+Tuning tuning_of(const ControllerSettings& settings);
+
+}  // namespace supercoil::control

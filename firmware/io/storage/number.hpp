@@ -1,0 +1,18 @@
+// Numbers of a stored file, written so that they are read back to the bit.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <toml++/toml.h>
+
+namespace supercoil::storage {
+
+/// As short as it can be.
+std::string shown(double value);
+/// With a point or exponent: "-0" would be read as the integer 0, without its sign.
+std::string number_text(double value);
+/// The message of what is wrong, or nothing, with the number in value.
+std::optional<std::string> read_number(const toml::node* node, double& value);
+
+}  // namespace supercoil::storage

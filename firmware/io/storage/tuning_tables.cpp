@@ -1,0 +1,88 @@
+#include "storage/tuning_tables.hpp"
+
+#include <array>
+#include <utility>
+
+#include "storage/number.hpp"
+
+namespace supercoil::storage {
+
+namespace {
+
+constexpr std::string_view chosen = "chosen";
+
+std::string table_of(std::size_t place) {
+  return "controller_" + std::to_string(place);
+}
+
+std::string line(std::string_view key, double value) {
+  return std::string(key) + " = " + number_text(value) + "\n";
+}
+
+/// By reference in whichever direction: what is written is what is read.
+template <class Tuning>
+auto places(Tuning& tuning) {
+  return std::array{std::pair{std::string_view("controller"), &tuning.controller},
+                    std::pair{std::string_view("estimator"), &tuning.estimator}};
+}
+
+std::optional<std::string> read_value(const toml::table& table, std::string_view name,
+                                      std::string_view key, std::optional<double>& value) {
+  const toml::node* node = table.get(key);
+  if (node == nullptr) return std::nullopt;
+  double number = 0.0;
+  if (const auto wrong = read_number(node, number))
+    return std::string(name) + "." + std::string(key) + " " + *wrong;
+  value = number;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string encode_tuning(const board::StoredTuning& tuning) {
+  std::string text;
+  for (std::size_t place = 0; place < tuning.controllers.size(); ++place) {
+    std::string lines;
+    const auto& values = tuning.controllers[place].values;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (values[i]) lines += line(control::tunables()[i].name, *values[i]);
+    }
+    if (!lines.empty()) text += "\n[" + table_of(place) + "]\n" + lines;
+  }
+  std::string lines;
+  for (const auto& [key, place] : places(tuning)) {
+    if (*place) lines += line(key, **place);
+  }
+  return lines.empty() ? text : text + "\n[" + std::string(chosen) + "]\n" + lines;
+}
+
+bool is_tuning_table(std::string_view table) {
+  bool found = table == chosen;
+  for (std::size_t place = 0; place < board::StoredTuning{}.controllers.size(); ++place)
+    found = found || table == table_of(place);
+  return found;
+}
+
+bool is_tuning_key(std::string_view table, std::string_view key) {
+  if (table == chosen) return key == "controller" || key == "estimator";
+  return is_tuning_table(table) && control::tunable_named(key) < control::tunable_count;
+}
+
+std::optional<std::string> read_tuning(const toml::table& file, board::StoredTuning& tuning) {
+  for (std::size_t place = 0; place < tuning.controllers.size(); ++place) {
+    const std::string name = table_of(place);
+    const toml::table* table = file[name].as_table();
+    for (std::size_t i = 0; table != nullptr && i < control::tunable_count; ++i) {
+      auto& value = tuning.controllers[place].values[i];
+      if (auto wrong = read_value(*table, name, control::tunables()[i].name, value)) return wrong;
+    }
+  }
+  const toml::table* table = file[chosen].as_table();
+  if (table == nullptr) return std::nullopt;
+  for (const auto& [key, place] : places(tuning)) {
+    if (auto wrong = read_value(*table, chosen, key, *place)) return wrong;
+  }
+  return std::nullopt;
+}
+
+}  // namespace supercoil::storage

@@ -1,0 +1,37 @@
+// How the controllers of a running board are tuned over CAN.
+#pragma once
+
+#include "loop/loop.hpp"
+#include "telemetry/leases.hpp"
+#include "telemetry/run_settings.hpp"
+
+namespace supercoil::telemetry {
+
+/// In TuningWrite: not one value but the whole prepared set.
+inline constexpr std::uint8_t all_tunables = 255;
+
+/// The number that was meant by whoever made a float of it: the shortest that it stands for.
+double shortest_decimal(float value);
+
+/// Neither sends nor receives. Writing prepares, and needs the channel's lease; reading does not.
+/// What is prepared is taken into use by Verb::tune.
+class TuningFrames {
+ public:
+  /// All outlive it. first_node: of the board's first channel.
+  TuningFrames(can::Node first_node, Leases& leases, Loop& loop)
+      : first_node_(first_node), leases_(&leases), loop_(&loop) {}
+
+  TakenWrite take(const hal::CanFrame& frame, hal::Time now);
+
+ private:
+  TakenWrite take_write(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
+  Reply prepare(std::uint8_t channel, std::uint8_t place, std::uint8_t tunable, float value);
+  hal::CanFrame told(std::uint8_t channel, TuningSet set, std::uint8_t place, std::uint8_t tunable,
+                     Refusal refusal, std::uint8_t counter) const;
+
+  can::Node first_node_;
+  Leases* leases_;
+  Loop* loop_;
+};
+
+}  // namespace supercoil::telemetry

@@ -53,6 +53,20 @@ struct SettingOptions {
 };
 int setting_command(const SettingOptions& options);
 
+struct TuneOptions {
+  std::string can;  ///< a bus; empty: the board on which this runs
+  std::string socket = "/run/supercoil/commands";
+  int channel = 1;
+  int place = 0;                         ///< of the controller
+  std::vector<std::string> assignments;  ///< NAME=VALUE
+  std::string from = "in_use";           ///< the set that is changed
+  bool only_prepare = false;
+  bool store = false;
+  bool clear = false;
+  bool json = false;
+};
+int tune_command(const TuneOptions& options);
+
 struct DoctorOptions {
   std::string config = "/etc/supercoil/board.toml";
   std::string run_folder = "/run/supercoil";

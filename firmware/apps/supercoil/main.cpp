@@ -54,7 +54,8 @@ void add_command(CLI::App& app, CommandOptions& options) {
       ->add_option("COMMAND", options.words,
                    "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
                    "calibrate, position M, power W, scale M, controller N, estimator N, store "
-                   "(keep what the estimator has learned) or clear (forget what is kept)")
+                   "(keep what the estimator has learned), clear (forget the muscle that is kept), "
+                   "tune N (use what was prepared)")
       ->required()
       ->expected(1, 3);
   CLI::Option* hold = command->add_option(
@@ -97,6 +98,42 @@ void add_setting(CLI::App& app, SettingOptions& options) {
       ->type_name("BUS")
       ->required();
   setting->add_flag("--json", options.json, "Print each setting as one line of JSON");
+}
+
+void add_tune(CLI::App& app, TuneOptions& options) {
+  CLI::App* tune = app.add_subcommand(
+      "tune",
+      "Show or change the values of a channel's controllers while the board runs: gains, reference "
+      "model, shaping, the law itself. A controller that is at work takes them over without a "
+      "jump");
+  tune->add_option("CHANNEL", options.channel, "From 1; over CAN its node")
+      ->required()
+      ->check(CLI::Range(1, can::max_nodes));
+  tune->add_option("NAME=VALUE", options.assignments,
+                   "e.g. bandwidth_rad_per_s=6 or kind=pi [show all]")
+      ->type_name("");
+  tune->add_option("--controller", options.place, "Its place in the configuration, from 0")
+      ->check(CLI::Range(0, 3))
+      ->capture_default_str();
+  tune->add_option("--from", options.from,
+                   "What is changed: the values in_use, configured (the way back), stored or "
+                   "prepared before")
+      ->check(CLI::IsMember({"in_use", "configured", "stored", "prepared"}))
+      ->capture_default_str();
+  tune->add_flag("--prepare", options.only_prepare,
+                 "Change the prepared values only; use them later");
+  CLI::Option* store = tune->add_flag(
+      "--store", options.store,
+      "Keep what is in use, and which controller and estimator are chosen, for the next start");
+  tune->add_flag("--clear", options.clear, "Forget what is kept: the next start is as configured")
+      ->excludes(store);
+  CLI::Option* socket = tune->add_option("--socket", options.socket, "Where supercoild listens")
+                            ->capture_default_str();
+  tune->add_option("--can", options.can,
+                   "Over this bus instead: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
+      ->type_name("BUS")
+      ->excludes(socket);
+  tune->add_flag("--json", options.json, "Print one JSON object");
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options) {
@@ -186,6 +223,8 @@ int run_program(int count, char** arguments) {
   add_command(app, command);
   SettingOptions setting;
   add_setting(app, setting);
+  TuneOptions tune;
+  add_tune(app, tune);
   DoctorOptions doctor;
   add_doctor(app, doctor);
   MonitorOptions monitor;
@@ -207,6 +246,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("doctor")) return doctor_command(doctor);
   if (app.got_subcommand("monitor")) return monitor_command(monitor);
   if (app.got_subcommand("setting")) return setting_command(setting);
+  if (app.got_subcommand("tune")) return tune_command(tune);
   if (app.got_subcommand("identify")) return identify_command(identify);
   if (app.got_subcommand("setup")) return setup_command(setup);
   if (app.got_subcommand("dbc")) return dbc_command(dbc);

@@ -10,6 +10,7 @@
 #include "apps/supercoil/monitor/assets.hpp"
 #include "apps/supercoil/monitor/batch.hpp"
 #include "apps/supercoil/monitor/command_request.hpp"
+#include "apps/supercoil/monitor/tuning_request.hpp"
 #include "telemetry/opcodes.hpp"
 
 namespace supercoil::operating {
@@ -87,6 +88,19 @@ ManualControl& ManualControls::of(std::uint8_t node) {
   return *control;
 }
 
+tl::expected<std::vector<TunedValues>, std::string> ManualControls::read_tuning(std::uint8_t node) {
+  auto bus = bus_of_(node)();
+  if (!bus) return tl::unexpected(bus.error());
+  Commander reader(std::move(*bus), node);
+  return operating::read_tuning(
+      [&](int place, std::size_t tunable, TuningSet set) -> tl::expected<double, std::string> {
+        const auto heard = reader.read_tuning(
+            {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(tunable), set});
+        if (!heard) return tl::unexpected(heard.error());
+        return heard->value;
+      });
+}
+
 void ManualControls::release_hold(const std::string& reason) {
   const std::lock_guard lock(mutex_);
   for (const auto& [node, control] : controls_)
@@ -126,6 +140,8 @@ void Api::serve_with(httplib::Server& server) {
     answer_with(response, *text, "text/markdown; charset=utf-8");
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
+  server.Get(R"(/api/tuning/(\d+))", shown([this](const auto& q, auto& a) { show_tuning(q, a); }));
+  server.Post("/api/tuning", commanded([this](const auto& q, auto& a) { tune(q, a); }));
   server.Post("/api/alive", commanded([this](const auto& q, auto& a) { alive(q, a); }));
 }
 
@@ -191,6 +207,23 @@ void Api::command(const Request& request, Response& response) {
   const auto order = parse_command_request(request.body);
   if (!order) return refuse(response, 400, order.error());
   const auto answer = controls_->of(order->node).ask(order->verb, order->value);
+  if (!answer) return refuse(response, 504, answer.error());
+  response.set_content(json{{"refusal", name(*answer)}}.dump(), json_type);
+}
+
+void Api::show_tuning(const Request& request, Response& response) {
+  if (about_.log) return refuse(response, 404, "a log has no board to ask");
+  const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
+  if (!node) return refuse(response, 400, node.error());
+  const auto controllers = controls_->read_tuning(*node);
+  if (!controllers) return refuse(response, 504, controllers.error());
+  response.set_content(tuning_json(*controllers).dump(), json_type);
+}
+
+void Api::tune(const Request& request, Response& response) {
+  const auto asked = parse_tuning_request(request.body);
+  if (!asked) return refuse(response, 400, asked.error());
+  const auto answer = operating::tune(controls_->of(asked->node), *asked);
   if (!answer) return refuse(response, 504, answer.error());
   response.set_content(json{{"refusal", name(*answer)}}.dump(), json_type);
 }

@@ -11,6 +11,7 @@
 #include "apps/supercoil/bus/recent.hpp"
 #include "apps/supercoil/monitor/access.hpp"
 #include "apps/supercoil/monitor/manual_control.hpp"
+#include "apps/supercoil/tuning_table.hpp"
 
 namespace supercoil::operating {
 
@@ -21,6 +22,8 @@ class ManualControls {
       : bus_of_(std::move(bus_of)) {}
 
   ManualControl& of(std::uint8_t node);
+  /// All values of a node's controllers, over a connection of its own: this may take a second.
+  tl::expected<std::vector<TunedValues>, std::string> read_tuning(std::uint8_t node);
   void release_hold(const std::string& reason);
 
  private:
@@ -53,6 +56,8 @@ class Api {
   void stream(const Request& request, Response& response);
   void command(const Request& request, Response& response);
   void alive(const Request& request, Response& response);
+  void show_tuning(const Request& request, Response& response);
+  void tune(const Request& request, Response& response);
   /// One piece of a stream; false: the reader is gone.
   bool stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost);
 

@@ -33,11 +33,25 @@ ManualControl::~ManualControl() {
 }
 
 ManualControl::Answer ManualControl::ask(Verb verb, double value) {
+  return wait_for([this, verb, value] { return obey(verb, value); });
+}
+
+ManualControl::Answer ManualControl::prepare(const can_client::TunedPlace& place, double value) {
+  return wait_for([this, place, value] {
+    return with_commander([&](Commander& commander) -> Answer {
+      const auto heard = commander.prepare(place, value);
+      if (!heard) return tl::unexpected(heard.error());
+      return heard->refusal;
+    });
+  });
+}
+
+ManualControl::Answer ManualControl::wait_for(Act act) {
   const std::lock_guard turn(asking_);
   std::future<Answer> answer;
   {
     const std::lock_guard lock(mutex_);
-    pending_.emplace(PendingCommand{verb, value, {}});
+    pending_.emplace(PendingCommand{std::move(act), {}});
     answer = pending_->answer.get_future();
   }
   woken_.notify_one();
@@ -63,28 +77,32 @@ bool ManualControl::holds() const {
 }
 
 /// A board that did not answer is asked over a new connection the next time.
-ManualControl::Answer ManualControl::command(Verb verb, double value) {
+ManualControl::Answer ManualControl::with_commander(const std::function<Answer(Commander&)>& act) {
   if (!commander_) {
     auto bus = open_bus_();
     if (!bus) return tl::unexpected(bus.error());
     commander_ = std::make_unique<Commander>(std::move(*bus), node_);
   }
-  Answer answer = commander_->ask(verb, value);
+  Answer answer = act(*commander_);
   if (!answer) commander_.reset();
   return answer;
 }
 
-void ManualControl::obey(PendingCommand& order) {
-  const Answer answer = command(order.verb, order.value);
+ManualControl::Answer ManualControl::command(Verb verb, double value) {
+  return with_commander([&](Commander& commander) { return commander.ask(verb, value); });
+}
+
+ManualControl::Answer ManualControl::obey(Verb verb, double value) {
+  Answer answer = command(verb, value);
   const bool obeyed = answer && *answer == Refusal::none;
-  if (obeyed && heats(order.verb)) {
+  if (obeyed && heats(verb)) {
     const std::lock_guard lock(mutex_);
     holding_ = true;
     alive_ = Clock::now();
-  } else if (obeyed && cools(order.verb)) {
+  } else if (obeyed && cools(verb)) {
     release_hold("cooled by a command");
   }
-  order.answer.set_value(answer);
+  return answer;
 }
 
 void ManualControl::renew() {
@@ -107,6 +125,7 @@ void ManualControl::renew() {
 }
 
 void ManualControl::run() {
+  Clock::time_point renewed{};
   for (;;) {
     std::optional<PendingCommand> order;
     {
@@ -115,11 +134,11 @@ void ManualControl::run() {
       if (ending_) break;
       order = std::exchange(pending_, std::nullopt);
     }
-    if (order) {
-      obey(*order);
-    } else {
-      renew();
-    }
+    if (order) order->answer.set_value(order->act());
+    // Also while one order follows the other: what heats would expire.
+    if (order && Clock::now() - renewed < renew_every) continue;
+    renewed = Clock::now();
+    renew();
   }
   if (commander_) commander_->release();
 }

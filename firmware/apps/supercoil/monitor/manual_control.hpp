@@ -33,6 +33,8 @@ class ManualControl {
 
   /// Waits for the board's answer. One at a time; others wait for their turn.
   Answer ask(Verb verb, double value);
+  /// Prepares a value of a controller, likewise.
+  Answer prepare(const can_client::TunedPlace& place, double value);
   struct Holding {
     bool holding;
     std::string reason;  ///< why not, since the last command that was held
@@ -44,15 +46,17 @@ class ManualControl {
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Act = std::function<Answer()>;
   struct PendingCommand {
-    Verb verb;
-    double value;
+    Act act;  ///< in the thread
     std::promise<Answer> answer;
   };
 
+  Answer wait_for(Act act);
   void run();
-  void obey(PendingCommand& order);
+  Answer obey(Verb verb, double value);
   void renew();
+  Answer with_commander(const std::function<Answer(Commander&)>& act);
   Answer command(Verb verb, double value);
   bool holds() const;
 

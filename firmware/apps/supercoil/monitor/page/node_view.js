@@ -11,6 +11,7 @@ import { Plot } from "./plot.js";
 import { PLOTS } from "./plots.js";
 import { Readouts } from "./readouts.js";
 import { StateCard } from "./state_card.js";
+import { Tuning } from "./tuning.js";
 
 // Beside other nodes there is room for these.
 const COMPACT_PLOTS = new Set(["Position", "Power", "Temperature"]);
@@ -21,9 +22,11 @@ export class NodeView {
     Object.assign(this, { node, view, store });
     this.manual = new ManualControl(node, about.page_timeout_s);
     this.journal = new Journal(node, store);
-    this.state = new StateCard(node, store, on_fault, about.protocol_version);
+    this.state = new StateCard(node, store, on_fault, about.protocol_version, (place) => this.tuning.kind_of(place));
     this.panel = new ControlPanel(this.manual, may, (text, kind) => this.journal.add(text, kind));
     this.panel.element.hidden = about.kind === "log";
+    this.tuning = new Tuning(node, may, (text, kind) => this.journal.add(text, kind));
+    this.tuning.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
     this.cards = [new Readouts(node, store), new Parameters(node, store), new Gains(node, store), this.margins];
     this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
@@ -32,7 +35,7 @@ export class NodeView {
     this.element = element("article", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
       element("div", { class: "side" }, this.state.element, this.panel.element, this.journal.element),
       element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
-        element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, gains), margins)));
+        element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, gains, this.tuning.element), margins)));
   }
 
   draw() {

@@ -52,6 +52,13 @@ export async function command(node, opcode, value = 0, options = {}) {
   return (await (await post("/api/command", { node, opcode, value }, options)).json()).refusal;
 }
 
+/** All values of a node's controllers: [{controller, kind: {in_use, …}, …}]. */
+export const tuning_of = async (node) => (await (await ask(`/api/tuning/${node}`)).json()).controllers;
+
+/** Changes values (texts by name), beginning with those of a set. Resolves to the refusal's name. */
+export const tune = async (node, place, from, values) =>
+  (await (await post("/api/tuning", { node, place, from, values })).json()).refusal;
+
 /** STOP's other way: an ordinary command, with a deadline. */
 export const disarm_within = (limit_ms, node) => within(limit_ms, (options) => command(node, "disarm", 0, options));
 

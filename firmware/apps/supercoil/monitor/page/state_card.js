@@ -48,8 +48,8 @@ const notes_text = (bits) => NOTES.filter((_, i) => (bits >> i) & 1).map((note) 
 
 export class StateCard {
   /** on_fault: called with a fault's name whose page is wanted. version: of the protocol that is understood here. */
-  constructor(node, store, on_fault, version) {
-    Object.assign(this, { node, store, version, fault_name: "none" });
+  constructor(node, store, on_fault, version, kind_of) {
+    Object.assign(this, { node, store, version, fault_name: "none", kind_of });
     this.word = element("strong", { class: "word", role: "status" });
     this.means = element("span", { class: "means" });
     this.facts = element("dl", { class: "facts" });
@@ -86,7 +86,7 @@ export class StateCard {
     show(this.means, state in MEANS ? `${MEANS[state]}; ${how_hot(state, this.#hottest_C(now_s))}`
       : row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : "its heartbeat was never heard");
     const facts = row
-      ? [name("mode"), `no. ${row.controller}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
+      ? [name("mode"), `${this.kind_of(row.controller) ?? `no. ${row.controller}`}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
         row.limited || name("limited_by") === "cooling" ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
       : ["–", "–", "–", "–"];
     this.values.forEach((value, i) => show(value, facts[i]));

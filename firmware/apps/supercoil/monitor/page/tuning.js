@@ -1,0 +1,107 @@
+// The controllers of a node with all their values: read when they are opened, changed by hand, stored.
+
+import { element, show } from "./dom.js";
+import { significant, words } from "./format.js";
+import { command, tune, tuning_of } from "./server.js";
+
+const STORE = 2; // of the opcode store: keeps the tuning in use
+const CLEAR = 3; // forgets what is kept
+const SETS = ["in_use", "configured", "stored"];
+const KINDS = ["power", "pi", "pd_ff", "mrac", "mrac_ls", "adaptive_ff", "learned_ff"];
+const CHOICES = { kind: KINDS, reference_model: ["design", "eq8", "wm16"] };
+const UNSUITABLE = "unsuitable: unstable on the muscle that is known, or values that contradict each other; nothing changed";
+
+const text_of = (value) => (value === null || value === undefined ? "–" : typeof value === "number" ? significant(value) : String(value));
+
+export class Tuning {
+  /** may: {command, why}; log: is told (text, kind) of what was done. */
+  constructor(node, may, log) {
+    Object.assign(this, { node, may, log, controllers: [], place: 0, inputs: new Map() });
+    this.tabs = element("div", { class: "buttons", role: "group", "aria-label": "controller" });
+    this.body = element("tbody");
+    this.answer = element("p", { class: "answer", role: "status", "aria-label": "answer about the controllers" });
+    const button = (text, act) => element("button", { type: "button", disabled: !may.command, onclick: act }, text);
+    this.element = element("details", { class: "card full-only", "aria-label": `controllers of node ${node}`, ontoggle: () => this.element.open && this.read() },
+      element("summary", {}, element("h2", {}, "Controllers")), this.tabs,
+      element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#use("in_use", this.#changed()); } },
+        element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
+          ...["value", "in use", "board.toml", "stored", "new"].map((title) => element("th", { scope: "col" }, title)))), this.body),
+        element("div", { class: "buttons" }, element("button", { type: "submit", disabled: !may.command }, "use"),
+          button("as board.toml", () => this.#use("configured", {})),
+          button("store", () => this.#keep(STORE, "stored for the next start")),
+          button("forget stored", () => this.#keep(CLEAR, "the next start is as board.toml says")))),
+      this.answer);
+  }
+
+  /** The law at a place, by its name; undefined while it is not known. */
+  kind_of(place) {
+    return this.controllers[place]?.kind.in_use;
+  }
+
+  async read() {
+    this.#say("reading …");
+    try {
+      this.controllers = await tuning_of(this.node);
+      this.place = Math.min(this.place, this.controllers.length - 1);
+      this.#draw();
+      this.#say("");
+    } catch (problem) {
+      this.#say(problem.message, true);
+    }
+  }
+
+  #draw() {
+    this.tabs.replaceChildren(...this.controllers.map(({ kind }, place) => element("button", { type: "button",
+      "aria-pressed": String(place === this.place), onclick: () => { this.place = place; this.#draw(); } }, `${place}: ${kind.in_use}`)));
+    this.inputs.clear();
+    this.body.replaceChildren(...Object.entries(this.controllers[this.place] ?? {}).filter(([name]) => name !== "controller").map(([name, sets]) => {
+      const input = this.#input(name, sets);
+      this.inputs.set(name, { input, was: input.value });
+      const differs = SETS.some((set) => sets[set] !== sets.configured);
+      return element("tr", { class: differs ? "differs" : "" }, element("th", { scope: "row", title: name }, (differs ? "✱ " : "") + words(name)),
+        ...SETS.map((set) => element("td", { class: "value" }, text_of(sets[set]))), element("td", {}, input));
+    }));
+  }
+
+  #input(name, { in_use }) {
+    const attributes = { "aria-label": `new ${words(name)}`, disabled: !this.may.command || in_use === null };
+    const choices = CHOICES[name] ?? (typeof in_use === "boolean" ? ["false", "true"] : null);
+    if (!choices) return element("input", { ...attributes, type: "text", inputmode: "decimal", value: in_use ?? "" });
+    const select = element("select", attributes, ...(choices.includes(String(in_use)) ? [] : [element("option", { selected: true }, text_of(in_use))]),
+      ...choices.map((choice) => element("option", { selected: choice === String(in_use) }, choice)));
+    return select;
+  }
+
+  /** What was written, by name. */
+  #changed() {
+    return Object.fromEntries([...this.inputs].filter(([, { input, was }]) => input.value !== was).map(([name, { input }]) => [name, input.value.trim()]));
+  }
+
+  async #use(from, values) {
+    const what = Object.entries(values).map(([name, value]) => `${name} = ${value}`).join(", ") || (from === "configured" ? "as board.toml" : "no change");
+    await this.#do(`controller ${this.place}: ${what}`, () => tune(this.node, this.place, from, values), "in use");
+  }
+
+  async #keep(value, done) {
+    await this.#do("controllers", () => command(this.node, "store", value), done);
+  }
+
+  async #do(what, act, done) {
+    this.#say("…");
+    try {
+      const refusal = await act();
+      const obeyed = refusal === "none";
+      const text = `${what}: ${obeyed ? done : refusal === "unsuitable" ? UNSUITABLE : `refused, ${words(refusal)}`}`;
+      if (obeyed) await this.read();
+      this.#say(text, !obeyed);
+      this.log(text, obeyed ? "" : "warn");
+    } catch (problem) {
+      this.#say(problem.message, true);
+    }
+  }
+
+  #say(text, refused = false) {
+    show(this.answer, text);
+    this.answer.classList.toggle("refused", refused);
+  }
+}

@@ -1,0 +1,67 @@
+#include "apps/supercoil/monitor/tuning_request.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/monitor/command_request.hpp"
+#include "apps/supercoil/tuning_table.hpp"
+#include "telemetry/tuning_frames.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using nlohmann::json;
+
+tl::expected<std::vector<TuningRequest::Value>, std::string> values_of(const json& given) {
+  std::vector<TuningRequest::Value> values;
+  for (const auto& [name, text] : given.items()) {
+    const std::size_t tunable = control::tunable_named(name);
+    if (tunable == control::tunable_count) return tl::unexpected("'" + name + "' cannot be tuned");
+    if (!text.is_string()) return tl::unexpected("the value of " + name + " must be text");
+    const auto value = tuning_value(control::tunables()[tunable], text.get<std::string>());
+    if (!value) return tl::unexpected(value.error());
+    values.push_back({static_cast<std::uint8_t>(tunable), *value});
+  }
+  std::ranges::sort(values, {}, &TuningRequest::Value::tunable);
+  return values;
+}
+
+}  // namespace
+
+tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string& text) {
+  const auto node = parse_node(text);
+  if (!node) return tl::unexpected(node.error());
+  const json read = json::parse(text);
+  const auto place = read.find("place");
+  if (place == read.end() || !place->is_number_integer() || *place < 0 || *place > 3)
+    return tl::unexpected<std::string>("place must be 0 to 3");
+  const auto from = read.find("from");
+  const auto set = from != read.end() && from->is_string()
+                       ? std::ranges::find(tuning_set_names, from->get<std::string>())
+                       : tuning_set_names.end();
+  if (set == tuning_set_names.end())
+    return tl::unexpected<std::string>("from must be prepared, in_use, configured or stored");
+  const json given = read.value("values", json::object());
+  if (!given.is_object()) return tl::unexpected<std::string>("values must be an object");
+  auto values = values_of(given);
+  if (!values) return tl::unexpected(values.error());
+  return TuningRequest{*node, place->get<std::uint8_t>(),
+                       static_cast<TuningSet>(set - tuning_set_names.begin()), std::move(*values)};
+}
+
+ManualControl::Answer tune(ManualControl& control, const TuningRequest& request) {
+  const auto prepare = [&](std::uint8_t tunable, double value) {
+    return control.prepare({request.place, tunable, TuningSet::prepared}, value);
+  };
+  auto answer = prepare(telemetry::all_tunables, static_cast<double>(request.from));
+  for (const TuningRequest::Value& one : request.values) {
+    if (!answer || *answer != Refusal::none) return answer;
+    answer = prepare(one.tunable, one.value);
+  }
+  if (!answer || *answer != Refusal::none) return answer;
+  return control.ask(Verb::tune, request.place);
+}
+
+}  // namespace supercoil::operating

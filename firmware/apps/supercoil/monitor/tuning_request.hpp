@@ -1,0 +1,32 @@
+// What a page asks of a node's controllers, and how it is done.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/monitor/manual_control.hpp"
+
+namespace supercoil::operating {
+
+struct TuningRequest {
+  std::uint8_t node;   ///< 1 to 63
+  std::uint8_t place;  ///< of the controller, 0 to 3
+  TuningSet from;      ///< the set that is changed
+  struct Value {
+    std::uint8_t tunable;
+    double value;
+  };
+  std::vector<Value> values;  ///< in the order of control::tunables()
+};
+
+/// {"node":1,"place":0,"from":"in_use","values":{"kind":"pi"}}; values are text, as on the command
+/// line. The error says what is wrong, and with what.
+tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string& text);
+
+/// Prepares what is asked for, and takes it into use. The error: no answer of the board.
+ManualControl::Answer tune(ManualControl& control, const TuningRequest& request);
+
+}  // namespace supercoil::operating

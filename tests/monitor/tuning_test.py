@@ -1,0 +1,137 @@
+"""A controller is tuned while the board runs: by `supercoil tune` over a bus, and on the live page in a real browser.
+
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+"""
+
+import json
+import subprocess
+import unittest
+
+from page_test import NEAR_MM, PageCase, TARGET_MM
+from programs import SLACK_S, SUPERCOIL
+
+CARD = "details[aria-label='controllers of node 1']"
+TOLD_S = 5.0
+
+
+class ByCommand(PageCase):
+    def tune(self, *words, channel="1"):
+        return subprocess.run([SUPERCOIL, "tune", channel, *words, "--can", self.source], capture_output=True, text=True,
+                              timeout=SLACK_S)
+
+    def values(self, *words):
+        done = self.tune(*words, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        controller, = json.loads(done.stdout)["controllers"]
+        return controller
+
+    def tearDown(self):
+        self.values("--from", "configured", "--store")
+
+    def test_values_are_used_stored_and_taken_back(self):
+        before = self.values()
+        self.assertEqual(before["kind"]["in_use"], "mrac")
+        self.assertEqual(before["shape_reference"]["configured"], False)
+        changed = self.values("adaptation_scale=2.1", "shape_reference=true")
+        self.assertEqual(changed["adaptation_scale"], {"prepared": 2.1, "in_use": 2.1, "configured": 1.0, "stored": 1.0})
+        self.assertIs(changed["shape_reference"]["in_use"], True)
+        self.assertEqual(self.values("--store")["adaptation_scale"]["stored"], 2.1)
+        self.assertEqual(self.values("--clear")["adaptation_scale"]["stored"], 1.0)
+        self.assertEqual(self.values("--from", "configured")["adaptation_scale"]["in_use"], 1.0)
+
+    def test_what_differs_has_a_star(self):
+        lines = self.tune("kind=pi", "integral_W_per_m_s=900").stdout.splitlines()
+        self.assertEqual(lines[0], "controller 0: pi")
+        starred = {line[1:].split()[0]: line[1:].split()[1:] for line in lines if line.startswith("*")}
+        self.assertEqual(starred["kind"], ["pi", "mrac", "mrac", "pi"])
+        self.assertEqual(starred["integral_W_per_m_s"], ["900", "-", "-", "900"])
+
+    def test_prepared_values_wait(self):
+        self.assertEqual(self.values("adaptation_scale=3", "--prepare")["adaptation_scale"]["in_use"], 1.0)
+        done = subprocess.run([SUPERCOIL, "command", "1", "tune", "0", "--can", self.source], timeout=SLACK_S)
+        self.assertEqual(done.returncode, 0)
+        self.assertEqual(self.values()["adaptation_scale"]["in_use"], 3.0)
+
+    def test_what_is_wrong_is_told(self):
+        for words, status, told in ((("volume=1",), 2, "volume cannot be tuned; there are: kind, "),
+                                    (("integral_W_per_m=1",), 2, "did you mean integral_W_per_m_s"),
+                                    (("kind=mrack",), 2, "kind = mrack: did you mean mrac?"),
+                                    (("shape_reference=1",), 2, "there are: false, true"),
+                                    (("adaptation_scale=0",), 2, "adaptation_scale = 0: must be 1e-06 to 1e+06"),
+                                    (("adaptation_scale",), 2, "write NAME=VALUE"),
+                                    (("follow_s=1",), 1, "follow_s = 1: refused: out_of_range"),
+                                    (("kind=pi", "integral_W_per_m_s=1e7"), 1, "refused: unsuitable: unstable on the muscle"),
+                                    (("--controller", "2", "kind=pi"), 1, "out_of_range")):
+            done = self.tune(*words)
+            self.assertEqual(done.returncode, status, done.stderr)
+            self.assertIn(told, done.stderr)
+        self.assertEqual(self.values()["kind"]["in_use"], "mrac")
+        self.assertIn("no answer from node 2", self.tune(channel="2").stderr)
+
+
+class OnThePage(PageCase):
+    def opened(self):
+        page = self.page()
+        page.click(f"{CARD} summary")
+        page.wait(lambda: "adaptation scale" in page.text(f"{CARD} tbody"), TOLD_S, "the values are read")
+        return page
+
+    def row(self, page, name):
+        return page.run(f"""const head = [...document.querySelectorAll("{CARD} tbody th")].find((th) => th.textContent.endsWith("{name}"));
+            return head ? [head.textContent, ...[...head.parentElement.querySelectorAll("td.value")].map((td) => td.textContent)] : null""")
+
+    def put(self, page, name, text):
+        field = page.find(f"{CARD} [aria-label='new {name}']")
+        if field.tag_name == "input":
+            field.clear()
+        field.send_keys(text)
+
+    def press(self, page, button):
+        page.run(f"""[...document.querySelectorAll("{CARD} button")].find((b) => b.textContent === "{button}").click()""")
+
+    def told(self, page, text):
+        page.wait(lambda: text in page.text(f"{CARD} .answer"), TOLD_S, text)
+
+    def test_a_value_is_used_stored_and_taken_back(self):
+        page = self.opened()
+        self.put(page, "adaptation scale", "2.5")
+        self.press(page, "use")
+        self.told(page, "adaptation_scale = 2.5: in use")
+        self.assertEqual(self.row(page, "adaptation scale"), ["✱ adaptation scale", "2.50", "1.00", "1.00"])
+        self.press(page, "store")
+        self.told(page, "stored for the next start")
+        self.assertEqual(self.row(page, "adaptation scale")[3], "2.50")
+        self.press(page, "as board.toml")
+        self.told(page, "as board.toml: in use")
+        self.press(page, "forget stored")
+        self.told(page, "the next start is as board.toml says")
+        self.assertEqual(self.row(page, "adaptation scale"), ["adaptation scale", "1.00", "1.00", "1.00"])
+        self.assertEqual(page.errors(), [])
+
+    def test_what_does_not_suit_is_told_and_changes_nothing(self):
+        page = self.opened()
+        self.put(page, "reference model", "design")
+        self.press(page, "use")
+        self.told(page, "unsuitable")
+        self.assertEqual(self.row(page, "reference model")[1], "wm16")
+        self.put(page, "adaptation scale", "much")
+        self.press(page, "use")
+        page.wait(lambda: "must be" in page.text(f"{CARD} .answer"), TOLD_S, "the range is told")
+
+    def test_a_muscle_that_follows_goes_on(self):
+        page = self.opened()
+        page.run("scrollTo(0, 0)")
+        page.bring_to(TARGET_MM)
+        self.put(page, "kind", "pi")
+        self.press(page, "use")
+        self.told(page, "kind = pi: in use")
+        self.assertIsNotNone(self.row(page, "integral W per m s"))
+        self.assertEqual(page.state(), "active")
+        self.assertLess(abs(page.value("position") - TARGET_MM), 2 * NEAR_MM)
+        page.press_space()
+        self.press(page, "as board.toml")
+        self.told(page, "as board.toml: in use")
+
+
+if __name__ == "__main__":
+    unittest.main()

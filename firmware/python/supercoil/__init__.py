@@ -1,0 +1,107 @@
+"""Scripts for supercoil boards, which drive super-coiled polymer artificial muscles.
+
+    async with supercoil.Muscle("can0", node=1) as muscle:
+        await muscle.arm()
+        await muscle.move_to(0.010)
+
+and the same without asyncio: with supercoil.Muscle("can0", node=1) as muscle: ...
+"""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from supercoil import sync
+from supercoil.commands import Order
+from supercoil.cycles import cycle
+from supercoil.discovery import Found, discover, stop
+from supercoil.errors import (
+    BusError,
+    DeadlineError,
+    FaultError,
+    NoAnswerError,
+    NotReachedError,
+    OutcomeError,
+    RefusalError,
+    SimulationError,
+    SupercoilError,
+    VersionMismatchError,
+)
+from supercoil.generated import faults, messages, refusals
+from supercoil.generated.names import (
+    Fault,
+    Gain,
+    LimitedBy,
+    Mode,
+    Opcode,
+    Parameter,
+    Quantity,
+    Refusal,
+    Result,
+    Setting,
+    State,
+)
+from supercoil.generated.version import PROTOCOL_VERSION, __version__
+from supercoil.learning import Outcome
+from supercoil.muscle import Muscle
+from supercoil.recording import Recording
+from supercoil.simulation import Simulation
+from supercoil.telemetry import Telemetry
+
+if TYPE_CHECKING:
+    import pandas
+
+__all__ = [
+    "PROTOCOL_VERSION",
+    "BusError",
+    "DeadlineError",
+    "Fault",
+    "FaultError",
+    "Found",
+    "Gain",
+    "LimitedBy",
+    "Mode",
+    "Muscle",
+    "NoAnswerError",
+    "NotReachedError",
+    "Opcode",
+    "Order",
+    "Outcome",
+    "OutcomeError",
+    "Parameter",
+    "Quantity",
+    "Recording",
+    "Refusal",
+    "RefusalError",
+    "Result",
+    "Setting",
+    "Simulation",
+    "SimulationError",
+    "State",
+    "SupercoilError",
+    "Telemetry",
+    "VersionMismatchError",
+    "__version__",
+    "cycle",
+    "discover",
+    "faults",
+    "load",
+    "messages",
+    "plot",
+    "refusals",
+    "stop",
+    "sync",
+]
+
+
+def load(path: str | Path, *, node: int | None = None) -> "pandas.DataFrame":
+    """A can.log, a flight recording or a trace.csv as a table of pandas; attrs["units"] has each column's unit.
+
+    node: of which node of a can.log, where it has several."""
+    from supercoil import loading
+    return loading.load(path, node=node)
+
+
+def plot(table: "pandas.DataFrame", path: str | Path | None = None) -> Any:
+    """A figure of matplotlib: position, power and temperature of a table. path: where the picture goes."""
+    from supercoil import plots
+    return plots.plot(table, path)

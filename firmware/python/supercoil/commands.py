@@ -1,0 +1,143 @@
+"""What a muscle can be told."""
+
+import asyncio
+import time
+from typing import NamedTuple
+
+from supercoil.connection import HEARTBEAT_S, Connection
+from supercoil.errors import NoAnswerError, NotReachedError
+from supercoil.generated import messages, refusals
+from supercoil.generated.names import Opcode, Quantity, Setting, State
+
+_LOOK_EVERY_S = 0.02
+_SETTLED_S = 0.2
+
+
+class Order(NamedTuple):
+    """One command to one muscle, for cycle()."""
+
+    muscle: "Commands"
+    opcode: Opcode
+    value: float
+
+
+class Commands(Connection):
+    async def arm(self, timeout_s: float = 5.0) -> None:
+        """Ready to heat, and the heater measured, when it returns. A board that is not ready yet is waited for."""
+        end = time.monotonic() + timeout_s
+        while True:
+            try:
+                await self._obey(Opcode.arm)
+                break
+            except refusals.NotReady:
+                if time.monotonic() > end:
+                    raise
+                await asyncio.sleep(0.1)
+        heartbeat = self._link.heartbeat
+        while not (heartbeat.state == State.armed and heartbeat.status and heartbeat.status.state == State.armed
+                   and not heartbeat.status.probing):
+            await heartbeat.change(HEARTBEAT_S)
+            await heartbeat.raise_fault()
+            if time.monotonic() > end + HEARTBEAT_S:
+                raise NoAnswerError(f"node {self.node}: obeyed arm, but is {heartbeat.state}")
+
+    async def disarm(self) -> None:
+        """Off. Needs no lease: it is obeyed from everybody."""
+        self._kept.rests()
+        self._kept.alive()
+        await self._link.disarm()
+        await self._leave(State.armed, State.active)
+
+    async def reset(self) -> None:
+        """Leaves the state fault, if its cause is gone; then the muscle is disarmed."""
+        self._kept.rests()
+        await self._obey(Opcode.reset)
+        await self._leave(State.fault)
+
+    async def _leave(self, *states: State) -> None:
+        """Until the heartbeat shows what was obeyed."""
+        end = time.monotonic() + HEARTBEAT_S
+        while self.state in states and time.monotonic() < end:
+            await self._link.heartbeat.change(HEARTBEAT_S)
+
+    async def set_position(self, position_m: float) -> None:
+        """From now on the set point, until another one, rest() or the deadline. Returns at once."""
+        await self._heat(Opcode.position, position_m)
+
+    async def set_power(self, power_W: float) -> None:
+        """Likewise, without control of the position."""
+        await self._heat(Opcode.power, power_W)
+
+    async def move_to(self, position_m: float, *, tolerance_m: float = 2e-4, timeout_s: float = 30.0) -> None:
+        """Returns when the muscle has been within the tolerance for 0.2 s."""
+        await self.set_position(position_m)
+        end = time.monotonic() + timeout_s
+        there_since: float | None = None
+        while there_since is None or time.monotonic() - there_since < _SETTLED_S:
+            await self._wait(_LOOK_EVERY_S)
+            now = time.monotonic()
+            told = self.telemetry.newest(messages.Measurement)
+            near = told is not None and abs(told.position_m - position_m) <= tolerance_m
+            there_since = (there_since or now) if near else None
+            if now > end and not near:
+                at = "unknown" if told is None else f"{told.position_m:.6f} m"
+                raise NotReachedError(f"node {self.node}: not at {position_m:.6f} m within {timeout_s:g} s: at {at}")
+
+    async def hold(self, seconds: float) -> None:
+        """Waits, and keeps the muscle where it is meanwhile. A fault is raised at once."""
+        end = time.monotonic() + seconds
+        self._kept.raise_if_let_go()
+        while (rest := end - time.monotonic()) > 0:
+            await self._wait(min(rest, _LOOK_EVERY_S))
+
+    async def rest(self) -> None:
+        """Active becomes armed: the muscle cools. One that was let go, or never heated, rests already."""
+        self._kept.rests()
+        try:
+            await self._obey(Opcode.rest)
+        except refusals.WrongState:
+            if self.state != State.armed:
+                raise
+        await self._leave(State.active)
+
+    async def renew(self) -> None:
+        """The last command to heat still holds. It is renewed in the background too, until the deadline."""
+        await self._heat(Opcode.renew)
+
+    async def setting(self, setting: Setting) -> float:
+        return await self._link.read(setting)
+
+    async def settings(self) -> dict[Setting, float]:
+        """All that this node has."""
+        told = {setting: await self._link.read(setting) for setting in Setting}
+        return {setting: value for setting, value in told.items() if value == value}
+
+    async def change(self, setting: Setting, value: float) -> float:
+        """Until the board starts again; what holds from now on."""
+        self._kept.alive()
+        return await self._link.write(setting, value)
+
+    async def quantities(self) -> dict[Quantity, float]:
+        """What the board knows of its muscle and goes by now; NaN: not known."""
+        return {quantity: await self._link.quantity(quantity) for quantity in Quantity}
+
+    def make_position(self, position_m: float) -> Order:
+        return Order(self, Opcode.position, position_m)
+
+    def make_power(self, power_W: float) -> Order:
+        return Order(self, Opcode.power, power_W)
+
+    def make_renew(self) -> Order:
+        return Order(self, Opcode.renew, 0.0)
+
+    def make_rest(self) -> Order:
+        return Order(self, Opcode.rest, 0.0)
+
+    async def execute(self, order: Order) -> messages.Measurement:
+        """An order, and the newest measurement."""
+        if order.opcode == Opcode.rest:
+            self._kept.rests()
+            await self._obey(order.opcode)
+        else:
+            await self._heat(order.opcode, order.value)
+        return self.telemetry.measurement

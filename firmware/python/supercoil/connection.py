@@ -1,0 +1,186 @@
+"""A connection to one muscle's node: its start, its end, and what the node tells."""
+
+import asyncio
+import contextlib
+import time
+from collections.abc import AsyncGenerator
+from types import TracebackType
+from typing import Any, Self, TypeVar
+
+import can
+
+from supercoil import codec
+from supercoil.address import is_local
+from supercoil.errors import NoAnswerError, VersionMismatchError
+from supercoil.generated import refusals
+from supercoil.generated.names import Fault, Opcode, State
+from supercoil.generated.version import PROTOCOL_VERSION
+from supercoil.keeper import Keeper
+from supercoil.link import CanLink, Link
+from supercoil.local import SocketLink
+from supercoil.recording import Recording
+from supercoil.telemetry import Telemetry, base_of
+
+M = TypeVar("M", bound=tuple[Any, ...])
+
+_NODES = range(1, 64)
+_FIRST_HEARTBEAT_S = 2.0
+HEARTBEAT_S = 2.0
+
+
+class Connection:
+    def __init__(self, address: str | can.BusABC, node: int = 1, *, deadline_s: float = 2.0, **options: object) -> None:
+        """address: can0; socketcand:[HOST:]PORT; any INTERFACE:CHANNEL of python-can, which gets the options; a bus of
+        python-can; or the path of the board's own socket, then node is the channel. deadline_s: for so long the muscle
+        is kept where it is while the program says nothing."""
+        if node not in _NODES:
+            raise ValueError(f"node {node}: must be 1 to 63")
+        if not deadline_s > 0:
+            raise ValueError(f"deadline_s {deadline_s}: must be above 0")
+        self.node = node
+        self.deadline_s = deadline_s
+        self._address = address
+        self._options = options
+        self._open_link: Link | None = None
+        self._keeper: Keeper | None = None
+        self._commanded = False
+
+    async def connect(self) -> Self:
+        """Waits for the board's heartbeat, and compares versions."""
+        link: Link
+        if isinstance(self._address, str) and is_local(self._address):
+            link = SocketLink(self._address, self.node)
+        else:
+            link = CanLink(self._address, self.node, self._options)
+        await link.open()
+        try:
+            await self._shake_hands(link)
+        except BaseException:
+            await link.close()
+            raise
+        self._open_link = link
+        self._keeper = Keeper(link, self.node, self.deadline_s)
+        self._keeper.start()
+        return self
+
+    async def _shake_hands(self, link: Link) -> None:
+        heartbeat = link.heartbeat
+        end = time.monotonic() + _FIRST_HEARTBEAT_S
+        while heartbeat.status is None:
+            try:
+                await heartbeat.change(max(0.0, end - time.monotonic()))
+            except NoAnswerError:
+                raise NoAnswerError(
+                    f"no heartbeat of node {self.node} on {self._address} within {_FIRST_HEARTBEAT_S:g} s. Is the "
+                    "board on, its node and bit rate right? docs/can.md says what to look at") from None
+        if heartbeat.status.protocol_version != PROTOCOL_VERSION:
+            raise VersionMismatchError(self.node, heartbeat.status.protocol_version)
+
+    async def close(self) -> None:
+        """Disarms the muscle if it was commanded, and gives the lease back."""
+        if self._open_link is None:
+            return
+        link, self._open_link = self._open_link, None
+        assert self._keeper is not None
+        await self._keeper.stop()
+        try:
+            # The lease may have been given back at the deadline; another master that has it now is not stopped.
+            leased = link.heartbeat.status is not None and link.heartbeat.status.leased
+            if link.holds_lease or (self._commanded and not leased):
+                await link.disarm()
+                await link.release()
+        finally:
+            await link.close()
+
+    async def __aenter__(self) -> Self:
+        return await self.connect()
+
+    async def __aexit__(self, kind: type[BaseException] | None, error: BaseException | None,
+                        trace: TracebackType | None) -> None:
+        with contextlib.suppress(NoAnswerError) if error is not None else contextlib.nullcontext():
+            await self.close()
+
+    @property
+    def _link(self) -> Link:
+        if self._open_link is None:
+            raise RuntimeError(f"node {self.node} is not connected: use 'async with', or connect()")
+        return self._open_link
+
+    @property
+    def _kept(self) -> Keeper:
+        assert self._keeper is not None
+        return self._keeper
+
+    @property
+    def telemetry(self) -> Telemetry:
+        """The newest of everything that the board sends."""
+        return self._link.telemetry
+
+    @property
+    def state(self) -> State:
+        return self._link.heartbeat.state
+
+    @property
+    def fault(self) -> Fault:
+        """What first led to the state fault; Fault.none."""
+        return self._link.heartbeat.fault
+
+    @property
+    def position_m(self) -> float:
+        """NaN: no fresh reading."""
+        return self.telemetry.measurement.position_m
+
+    def record(self, *kinds: type[Any] | str, most_frames: int | None = None) -> Recording:
+        """with muscle.record() as recording: ... keeps every message, or those of the kinds that are named; the newest
+        ones, where there may be most_frames at most."""
+        return Recording(self.telemetry, tuple(base_of(kind) for kind in kinds), most_frames)
+
+    async def stream(self, kind: type[M]) -> AsyncGenerator[M, None]:
+        """Each message of one kind, from now on. A program that takes them is not silent."""
+        loop = asyncio.get_running_loop()
+        queue: asyncio.Queue[tuple[float, bytes]] = asyncio.Queue()
+        wanted = base_of(kind)
+
+        def listen(base: int, time_s: float, data: bytes) -> None:
+            if base == wanted:
+                with contextlib.suppress(RuntimeError):
+                    loop.call_soon_threadsafe(queue.put_nowait, (time_s, data))
+
+        self.telemetry.listen(listen)
+        try:
+            while True:
+                try:
+                    async with asyncio.timeout(HEARTBEAT_S):
+                        time_s, data = await queue.get()
+                except TimeoutError:
+                    raise NoAnswerError(f"node {self.node}: no {kind.__name__} within {HEARTBEAT_S:g} s") from None
+                self._kept.alive()
+                if (message := codec.decode(wanted, data, time_s)) is not None:
+                    yield message
+        finally:
+            self._link.telemetry.forget(listen)
+
+    async def _obey(self, opcode: Opcode, value: float = 0.0) -> None:
+        """A refusal because of a fault is told as the fault."""
+        self._kept.alive()
+        try:
+            await self._link.command(opcode, value)
+            self._commanded = True
+        except refusals.WrongState:
+            if self.fault == Fault.none:
+                with contextlib.suppress(NoAnswerError):
+                    await self._link.heartbeat.change(HEARTBEAT_S)
+            if opcode != Opcode.reset:
+                await self._link.heartbeat.raise_fault()
+            raise
+
+    async def _heat(self, opcode: Opcode, value: float = 0.0) -> None:
+        self._kept.raise_if_let_go()
+        await self._obey(opcode, value)
+        self._kept.heats()
+
+    async def _wait(self, seconds: float) -> None:
+        self._kept.alive()
+        await asyncio.sleep(seconds)
+        await self._link.heartbeat.raise_fault()
+        self._kept.raise_if_let_go()

@@ -1,0 +1,56 @@
+"""Who is on a bus; and stopping a muscle without more ado."""
+
+import asyncio
+from typing import NamedTuple
+
+import can
+
+from supercoil import codec
+from supercoil.bus import Bus
+from supercoil.generated import messages
+from supercoil.generated.names import Fault, State
+from supercoil.generated.version import PROTOCOL_VERSION
+from supercoil.link import CanLink
+
+
+class Found(NamedTuple):
+    """A node that was heard."""
+
+    node: int
+    state: State
+    fault: Fault
+    leased: bool  # a master holds its lease
+    protocol_version: int
+
+    @property
+    def can_be_commanded(self) -> bool:
+        """It speaks this package's version of the protocol."""
+        return self.protocol_version == PROTOCOL_VERSION
+
+
+async def discover(address: str | can.BusABC, *, seconds: float = 1.0, **options: object) -> list[Found]:
+    """Every node whose heartbeat is heard within this time. A board sends ten of them a second."""
+    heard: dict[int, messages.Status] = {}
+
+    def hear(node: int, base: int, time_s: float, data: bytes) -> None:
+        if base == messages.STATUS and (status := codec.decode(base, data, time_s)) is not None:
+            heard[node] = status
+
+    bus = await Bus.join(address, options)
+    try:
+        with bus.overhear(hear):
+            await asyncio.sleep(seconds)
+    finally:
+        await bus.leave()
+    return [Found(node, status.state, status.fault, status.leased, status.protocol_version)
+            for node, status in sorted(heard.items())]
+
+
+async def stop(address: str | can.BusABC, node: int = 1, **options: object) -> None:
+    """Disarms a node, whoever holds its lease and whatever version of the protocol it speaks."""
+    link = CanLink(address, node, options)
+    await link.open()
+    try:
+        await link.disarm()
+    finally:
+        await link.close()

@@ -1,0 +1,92 @@
+"""What may go wrong. generated.faults has an exception for each fault, generated.refusals one for each refusal."""
+
+import math
+from typing import ClassVar
+
+from supercoil.generated.version import PROTOCOL_VERSION, __version__
+
+
+class SupercoilError(Exception):
+    """All of this package's."""
+
+
+class FaultError(SupercoilError):
+    """A fault is latched: the muscle goes cold. page has the whole text of its page."""
+
+    number: ClassVar[int] = 0
+    name: ClassVar[str] = ""
+    meaning: ClassVar[str] = ""
+    remedy: ClassVar[str] = ""
+    page: ClassVar[str] = ""
+
+    def __init__(self, node: int, measured: float = math.nan, limit: float = math.nan) -> None:
+        self.node = node
+        self.measured = measured  # by the detector, in its own unit; NaN: not known
+        self.limit = limit
+        margin = "" if math.isnan(limit) else f" (measured {measured:.4g}, limit {limit:.4g})"
+        super().__init__(f"node {node}: {self.name}{margin}: {self.meaning}\nRemedy:\n{self.remedy}")
+
+
+class UnknownFaultError(FaultError):
+    """A fault that this version of the package has no page for."""
+
+    name = "unknown"
+    meaning = "the board knows faults that this package does not: install the one of the board's release"
+
+
+class RefusalError(SupercoilError):
+    """The board refused a command. nearest: the nearest value that it would have obeyed; NaN: none, or not known."""
+
+    number: ClassVar[int] = 0
+    name: ClassVar[str] = ""
+    meaning: ClassVar[str] = ""
+
+    def __init__(self, node: int, command: str, nearest: float = math.nan) -> None:
+        self.node = node
+        self.command = command
+        self.nearest = nearest
+        instead = "" if math.isnan(nearest) else f"; {nearest:.7g} would be obeyed"
+        super().__init__(f"node {node}: {command} is refused: {self.name}{instead} ({self.meaning})")
+
+
+class BusError(SupercoilError):
+    """The bus cannot be opened, or does not take a frame."""
+
+
+class NoAnswerError(SupercoilError, TimeoutError):
+    """Nothing came from the board in time."""
+
+
+class VersionMismatchError(SupercoilError):
+    """The board speaks another version of the CAN protocol. stop() stops it all the same."""
+
+    def __init__(self, node: int, of_board: int) -> None:
+        self.node = node
+        self.of_board = of_board
+        self.of_package = PROTOCOL_VERSION
+        older = "the board's firmware" if of_board < PROTOCOL_VERSION else "this package"
+        super().__init__(
+            f"node {node} speaks version {of_board} of the CAN protocol, supercoil {__version__} for Python speaks "
+            f"{PROTOCOL_VERSION}: {older} is the older one. Install the package that came with the board's firmware "
+            "(firmware/python of its release), or the board's firmware anew. supercoil.stop() stops it all the same")
+
+
+class NotReachedError(SupercoilError, TimeoutError):
+    """The muscle did not come to its set point in time."""
+
+
+class OutcomeError(SupercoilError):
+    """identify or calibrate ended and found nothing; result and notes say why."""
+
+    def __init__(self, text: str, result: str, notes: tuple[str, ...]) -> None:
+        self.result = result
+        self.notes = notes
+        super().__init__(text)
+
+
+class DeadlineError(SupercoilError):
+    """The program was silent for longer than its deadline, so the muscle was let go."""
+
+
+class SimulationError(SupercoilError):
+    """supercoil-sim is not there, or has ended."""

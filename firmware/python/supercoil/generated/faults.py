@@ -1,0 +1,1753 @@
+# Generated from docs/faults by toolchain/generate-can. Do not edit.
+
+"""An exception for each fault, with the text of its page."""
+
+from supercoil.errors import FaultError
+
+
+class SensorOutOfRange(FaultError):
+    """The position reads a value that this sensor cannot give. Its wire is off, or shorted to a rail."""
+
+    number = 10
+    name = "sensor_out_of_range"
+    meaning = """\
+The position reads a value that this sensor cannot give. Its wire is off, or shorted to a rail."""
+    remedy = """\
+1. Read the position while cold. A value that stands far beyond both ends is a rail: cable.
+2. Move the free end by hand. A value that follows, but is off, is scaling or mounting.
+3. Reset, arm."""
+    page = """\
+# 10 sensor_out_of_range
+
+The position reads a value that this sensor cannot give. Its wire is off, or shorted to a rail.
+
+**Detected** when the reading, scaled to metres but before the calibration of zero and scale, is below −2 mm or above
+42 mm, or is NaN, for 5 ms without a gap (`min_position_m`, `max_position_m`, `out_of_range_s`). One wild
+conversion is forgiven.
+
+**Reaction:** the channel goes cold.
+
+Already during these 5 ms such a reading counts as no position: nothing is computed from it, and a channel cannot be
+armed. It is no travel and no jump either. Pull the input to a rail that lies outside the range.
+
+## Likely causes
+
+- the sensor's cable or plug
+- the sensor has lost its supply
+- a scaling (`per_count`, `offset`) that belongs to another sensor
+- the sensor sits so that the muscle leaves its range
+
+## Remedy
+
+1. Read the position while cold. A value that stands far beyond both ends is a rail: cable.
+2. Move the free end by hand. A value that follows, but is off, is scaling or mounting.
+3. Reset, arm.
+
+## Margin
+
+In metres: measured is the distance from the middle of the range (20 mm), the limit is half the range (22 mm).
+A reading of 31 mm is 0.011 of 0.022, used 0.5. Used grows towards both ends. In normal work it stays below 0.91 over
+0 to 40 mm; if it idles near 1, the sensor sits at its end.
+
+## Not detected
+
+- A broken wire on a board whose input has no pull: it floats, and may float inside the range
+  ([wiring](../wiring.md)).
+- A wrong value within the range. See [sensor_frozen](sensor_frozen.md) and
+  [heater_not_responding](heater_not_responding.md).
+- Anything while there is no fresh reading: then [sensor_stale](sensor_stale.md) speaks first.
+"""
+
+
+class SensorStale(FaultError):
+    """There is no fresh position, or no fresh current. An old value is never used in its place."""
+
+    number = 11
+    name = "sensor_stale"
+    meaning = """\
+There is no fresh position, or no fresh current. An old value is never used in its place."""
+    remedy = """\
+1. See which one it is: in the row, position_m or current_A is not a number.
+2. Compare the converter's period with max_age_s. It needs room for two periods and the bus.
+3. If both inputs of several channels go at once, it is the bus.
+4. Reset, arm."""
+    page = """\
+# 11 sensor_stale
+
+There is no fresh position, or no fresh current. An old value is never used in its place.
+
+**Detected** at the first tick at which either is absent: the converter answers with an error, its newest conversion is
+older than 10 ms (`max_age_s` of the input; the settings of each input), or it comes from the future. So a converter
+that falls silent is found after 10 ms and a tick, one that reports an error at once.
+
+**Reaction:** the channel goes cold. In that very tick no power is computed from the old position. If it is the current
+that is missing, nothing proves that the heat is off: 50 ms later [heater_stuck_on](heater_stuck_on.md) opens the supply
+of the board.
+
+While the current is absent the temperature estimate assumes anything between the power that was set and the channel's
+greatest power.
+
+## Likely causes
+
+- the bus thread of a buffered converter stalls, or its bus hangs
+- a converter slower than `max_age_s`
+- from the start: a capture's trigger that does not run, or that has too many devices
+  ([porting.md](../porting.md#a-trigger-for-iioscan))
+- the driver was unbound, or the device pulled off: it comes back for a program that opens it anew, so restart supercoild
+- a clock that is not the board's: conversions from the future
+
+## Remedy
+
+1. See which one it is: in the row, `position_m` or `current_A` is not a number.
+2. Compare the converter's period with `max_age_s`. It needs room for two periods and the bus.
+3. If both inputs of several channels go at once, it is the bus.
+4. Reset, arm.
+
+## Margin
+
+A flag: measured 0 is fresh, 1 is absent, the limit is 0. Used is 0 or infinite: nothing is seen coming.
+The age itself is not published.
+
+## Not detected
+
+- A driver that gives old values new times: [sensor_frozen](sensor_frozen.md), while hot.
+- The name of another channel fault in the same tick. A fault of the whole board is not hidden.
+"""
+
+
+class SensorFrozen(FaultError):
+    """The position stands still as no live sensor does: not even its own noise is there. The readings are new, so they are not
+stale; their content is old."""
+
+    number = 12
+    name = "sensor_frozen"
+    meaning = """\
+The position stands still as no live sensor does: not even its own noise is there. The readings are new, so they are not
+stale; their content is old."""
+    remedy = """\
+1. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
+   step of the converter, into position_noise_rms_m.
+2. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
+   heater_not_responding, which needs 20 s and more.
+3. Otherwise restart the converter's driver. Reset, arm."""
+    page = """\
+# 12 sensor_frozen
+
+The position stands still as no live sensor does: not even its own noise is there. The readings are new, so they are not
+stale; their content is old.
+
+**Detected** when, while the muscle is hot, all readings stay within ±5 µm of one of them for 1 s
+(half of `position_noise_rms_m` = 10 µm; `frozen_s`). "Hot" means that the upper bound of the temperature estimate is
+more than 5 K above the air, so for 15 s after boot as well, in every state.
+
+**Reaction:** the channel goes cold.
+
+## Likely causes
+
+- a driver or bus thread that repeats its last value
+- a converter that hangs
+- a sensor quieter than `position_noise_rms_m` says: a filter was added, or the noise was guessed
+
+## Remedy
+
+1. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
+   step of the converter, into `position_noise_rms_m`.
+2. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
+   [heater_not_responding](heater_not_responding.md), which needs 20 s and more.
+3. Otherwise restart the converter's driver. Reset, arm.
+
+## Margin
+
+In seconds: for how long the readings stood still while hot, of 1 s. A live sensor with the right noise stays below
+0.02 s; used 0.3 means that it is much quieter than was said.
+
+## Not detected
+
+- In a cold muscle, and below a steady power of about 0.21 W with the default bounds: there the upper bound ends below
+  5 K.
+- When `position_noise_rms_m` is 0.
+- A value that is replaced by a plausible changing one.
+"""
+
+
+class SensorJump(FaultError):
+    """The position moved further between two readings than any muscle can."""
+
+    number = 13
+    name = "sensor_jump"
+    meaning = """\
+The position moved further between two readings than any muscle can."""
+    remedy = """\
+1. Compare the position with what you see. If it is off by a constant, the sensor slipped: fix it, calibrate.
+2. If the load is meant to move that fast, raise max_speed_m_per_s.
+3. Only then reset. The fault will not insist."""
+    page = """\
+# 13 sensor_jump
+
+The position moved further between two readings than any muscle can.
+
+**Detected** when two fresh readings in a row lie further from the last good one than 0.5 m/s times the time since the
+previous reading, plus 0.17 mm (50 µm and 12 times the noise of 10 µm). At 1 kHz that is 0.67 mm. The first such reading
+is taken for a glitch; the second trips (`max_speed_m_per_s`, `position_noise_rms_m`). Readings from outside of the
+sensor's range take no part: they are [sensor_out_of_range](sensor_out_of_range.md). It is judged as the sensor gives
+it, before zero and scale: a calibration is no jump.
+
+**Reaction:** the channel goes cold. Then the new place is taken for the truth: the detector is content at the next
+reading, and a reset is not refused because of it.
+
+## Likely causes
+
+- a loose plug, or a broken wire whose input floats inside the range
+- the sensor slipped in its mounting, or was hit
+- the load dropped: a real motion, faster than 0.5 m/s
+
+## Remedy
+
+1. Compare the position with what you see. If it is off by a constant, the sensor slipped: fix it, calibrate.
+2. If the load is meant to move that fast, raise `max_speed_m_per_s`.
+3. Only then reset. The fault will not insist.
+
+## Margin
+
+In metres: the change, and what was allowed for the time between. At rest some 30 µm of 670 µm, used 0.04. Values near
+1 in fast motion say that `max_speed_m_per_s` is tight.
+
+## Not detected
+
+- Drift, and jumps of less than 0.67 mm.
+- Jumps that come back before the next reading.
+- With a slow converter more is allowed: 5.2 mm at 100 Hz.
+"""
+
+
+class SensorsDisagree(FaultError):
+    """The heater's resistance indicates one temperature and the position another."""
+
+    number = 14
+    name = "sensors_disagree"
+    meaning = """\
+The heater's resistance indicates one temperature and the position another."""
+    remedy = """\
+1. Let it cool. Cold, both must read about 0 K. The one that does not is the wrong one.
+2. Position wrong: look for what holds it; calibrate. Resistance wrong: look at crimps and plugs; calibrate.
+3. Reset, arm."""
+    page = """\
+# 14 sensors_disagree
+
+The heater's resistance indicates one temperature and the position another.
+
+**Off by default.** It is judged only if the resistance depends on temperature (`temperature_coefficient_per_K` above
+0) and was measured within the last second. Silver-plated nylon may have no usable coefficient: measure it before you
+switch this on.
+
+**Detected** when both differ by more than 30 K for 2 s (`disagree_K`, `disagree_s`):
+- from resistance: (R / cold R − 1) / coefficient
+- from position: position × stiffness / force per kelvin, that is, as if the muscle were at rest under its usual load
+
+**Reaction:** the channel goes cold.
+
+## Likely causes
+
+- the load changed, the muscle caught on something, or its end slipped: the position lies
+- a contact warms up or wears: the resistance lies
+- a coefficient or a cold resistance that belongs to another muscle
+
+## Remedy
+
+1. Let it cool. Cold, both must read about 0 K. The one that does not is the wrong one.
+2. Position wrong: look for what holds it; `calibrate`. Resistance wrong: look at crimps and plugs; `calibrate`.
+3. Reset, arm.
+
+## Margin
+
+In kelvin: the difference, of 30 K. Example: resistance gives 42 K, position 30 K: 12 of 30, used 0.4.
+While it is not judged, measured reads 0.
+
+## Not detected
+
+- Without a coefficient, and while duty is too small for a resistance.
+- With the paper's muscle 30 K are 16 mm of position. The detector only finds gross errors.
+- Both wrong in the same direction.
+"""
+
+
+class HeaterOpen(FaultError):
+    """Duty is applied, but hardly any current flows."""
+
+    number = 20
+    name = "heater_open"
+    meaning = """\
+Duty is applied, but hardly any current flows."""
+    remedy = """\
+1. Switch the supply off. Measure the muscle's resistance at the board's terminals.
+2. If it is right: is there voltage behind the supply switch while the heartbeat beats? If not: fuse, pump, switch.
+3. If there is: sense and power switch.
+4. All channels at once: the supply's switch.
+5. Reset, arm. The probe at arming tests it anew."""
+    page = """\
+# 20 heater_open
+
+Duty is applied, but hardly any current flows.
+
+**Detected** in one of two ways:
+- The duty, averaged like the current sense, is at least 2 % and the current stays below a quarter of what a cold muscle
+  would draw at the lowest supply, for 20 ms: 0.27 A times the duty for 10 Ω and 10.8 V (`open_min_duty`, `open_s`).
+- A probe, at arming or later, found no current, or four times the cold resistance or more. That is known when the
+  probe's 50 ms are over.
+
+**Reaction:** the channel goes cold.
+
+## Likely causes
+
+- a wire, crimp or plug of the muscle; the muscle itself burned through
+- no supply behind the switch: the charge pump does not pump, a fuse is gone. The supply is measured before the switch
+  and still looks well
+- the power switch or its gate
+- the current sense reads 0
+
+## Remedy
+
+1. Switch the supply off. Measure the muscle's resistance at the board's terminals.
+2. If it is right: is there voltage behind the supply switch while the heartbeat beats? If not: fuse, pump, switch.
+3. If there is: sense and power switch.
+4. All channels at once: the supply's switch.
+5. Reset, arm. The probe at arming tests it anew.
+
+## Margin
+
+In amperes, a least value: the current, and what it must be at this duty. 0.36 A flow at a duty of 0.3 where 0.081 A are
+needed: used 0.22. Nearer to 1: the resistance has risen. Below a duty of 2 % it is not judged and used is 0, even if
+the numbers look alarming.
+
+## Not detected
+
+- Off, or below 2 % of duty, but for probes.
+- A resistance up to four times too high: that is [resistance_drift](resistance_drift.md), at the next probe.
+"""
+
+
+class HeaterShort(FaultError):
+    """More current flows than the least resistance of a muscle explains."""
+
+    number = 21
+    name = "heater_short"
+    meaning = """\
+More current flows than the least resistance of a muscle explains."""
+    remedy = """\
+1. Look whether the board's fault is heater_stuck_on. If so, go there.
+2. Supply off. Measure the muscle's resistance; below 5 Ω it is shorted. Move it while measuring.
+3. If it is right, compare sense_filter_s with the board's filter.
+4. Reset, arm."""
+    page = """\
+# 21 heater_short
+
+More current flows than the least resistance of a muscle explains.
+
+**Detected** when, while the channel is on, the current exceeds duty × supply / 5 Ω by more than 50 mA for 2 ms
+(`min_resistance_Ohm`, `off_current_A`, `short_s`). The duty is averaged with the time constant of the current sense,
+so that both are of the same time.
+
+**Reaction:** the channel goes cold. The switch's own protection must be faster than this: 2 ms are long for a
+transistor. See [wiring](../wiring.md).
+
+## Likely causes
+
+- turns of the muscle touch, or the muscle touches metal
+- a wire is pinched
+- **the power switch conducts by itself.** It then draws full current at a small duty, and shows as a short first.
+  50 ms after the cut it becomes [heater_stuck_on](heater_stuck_on.md) for the board, while this channel keeps
+  `heater_short` as its first cause
+- `sense_filter_s` does not match the sense: while the duty falls the current seems too high
+
+## Remedy
+
+1. Look whether the board's fault is `heater_stuck_on`. If so, go there.
+2. Supply off. Measure the muscle's resistance; below 5 Ω it is shorted. Move it while measuring.
+3. If it is right, compare `sense_filter_s` with the board's filter.
+4. Reset, arm.
+
+## Margin
+
+In amperes: what flows beyond the current of the least resistance, of 0.05 A. Normally it is negative: 0.36 A at a duty
+of 0.3 and 12 V is 0.36 − 0.72 = −0.36, used −7.2. Positive values are already a part of the 50 mA.
+
+## Not detected
+
+- A resistance between 5 Ω and the right one. [resistance_drift](resistance_drift.md) sees it at the next probe.
+- While off: that is heater_stuck_on.
+- A short past the sense, which does not see that current.
+"""
+
+
+class HeaterStuckOn(FaultError):
+    """Current flows although the channel is off. The one fault that software alone cannot cure: the power switch, or
+whatever holds it, conducts by itself. So the heartbeat stops and the charge pump opens the supply of the whole board."""
+
+    number = 22
+    name = "heater_stuck_on"
+    meaning = """\
+Current flows although the channel is off. The one fault that software alone cannot cure: the power switch, or
+whatever holds it, conducts by itself. So the heartbeat stops and the charge pump opens the supply of the whole board."""
+    remedy = """\
+1. Leave it off. Do not try a reset first: the supply is open, so there is no current and the reset is accepted. It
+   starts the self-test, which closes the supply; a stuck switch then heats at full power for
+   some 30 ms, until the test has failed: 2.5 K in a simulation. After that no reset helps, only a restart.
+2. Supply off. Measure the power switch: drain to source must not conduct.
+3. If it is good: what does the sense read with the muscle unplugged? Offset or filter.
+4. Replace it. Reset or restart: either way the self-test must prove both ways of cutting before anything can be armed."""
+    page = """\
+# 22 heater_stuck_on
+
+Current flows although the channel is off. **The one fault that software alone cannot cure**: the power switch, or
+whatever holds it, conducts by itself. So the heartbeat stops and the charge pump opens the supply of the whole board.
+
+**Detected** when the duty is 0 or the enable line low, and the current is above 50 mA, no number, or not read at all,
+for 50 ms without a gap (`off_current_A`, `stuck_on_s`). Without a reading nothing proves that the heat is off. Proof is
+the current, not what the PWM reads back: that may be the kernel's memory.
+
+**Reaction:** every channel cold, heartbeat off, whatever other fault the channel has. If another was first, the channel
+keeps that name; the other channels show this one. With the default decay of 20 ms the supply is open about 70 ms after
+the switch stuck. The simulated muscle of 10 Ω at 12 V warms by 5.4 K in that time.
+
+## Likely causes
+
+- no current reading: a converter, its bus, its cable ([sensor_stale](sensor_stale.md) comes first)
+- the power transistor failed to a short, as most do
+- the gate driver or the enable gate failed
+- the sense has an offset of more than 50 mA, or its filter decays too slowly: from full current it must fall below
+  50 mA within 50 ms
+
+## Remedy
+
+1. Leave it off. **Do not try a reset first:** the supply is open, so there is no current and the reset is accepted. It
+   starts the [self-test](self_test_failed.md), which closes the supply; a stuck switch then heats at full power for
+   some 30 ms, until the test has failed: 2.5 K in a simulation. After that no reset helps, only a restart.
+2. Supply off. Measure the power switch: drain to source must not conduct.
+3. If it is good: what does the sense read with the muscle unplugged? Offset or filter.
+4. Replace it. Reset or restart: either way the self-test must prove both ways of cutting before anything can be armed.
+
+## Margin
+
+In amperes: the current while off, of 0.05 A; infinite without a reading. Used 0.1 to 0.3 is an offset. While the
+channel is on, it is not judged.
+
+## Not detected
+
+- Leaks of less than 50 mA: 0.6 W at 12 V, some 7 K for ever with the paper's muscle. The estimate counts them
+  from 10 mA on.
+- Current past the sense, or a sense that reads too little.
+- While on: [heater_short](heater_short.md) or [power_limit_exceeded](power_limit_exceeded.md) must see it first.
+"""
+
+
+class HeaterNotResponding(FaultError):
+    """Power goes in, current flows, and the position does not move as it should: 'moved 0.3 of the 2.0 mm expected in 20 s'."""
+
+    number = 23
+    name = "heater_not_responding"
+    meaning = """\
+Power goes in, current flows, and the position does not move as it should: 'moved 0.3 of the 2.0 mm expected in 20 s'."""
+    remedy = """\
+1. Do not look for it by heating more. Let it cool.
+2. Pull the free end: does the sensor follow?
+3. Is the muscle straight, free, and still elastic? One that was melted is stiff.
+4. If nothing is wrong: identify, and compare with the configuration.
+5. Reset, arm."""
+    page = """\
+# 23 heater_not_responding
+
+Power goes in, current flows, and the position does not move as it should: "moved 0.3 of the 2.0 mm expected in 20 s".
+
+**Detected** at the end of each window of 20 s: how far did the position range, from its lowest to its highest, and how
+far did the models of the muscle? If each model moved by at least 1 mm and the position by less than 0.3 of what
+the one did that moved least, it trips (`responding_window_s`, `responding_ratio`, `responding_min_m`). One model is the
+muscle that the configuration believes, nine are mixtures of the fastest and the slowest that its `[thermal]` bounds allow:
+until `identify` nothing but a belief is known, and where a muscle within the bounds may stand still nothing is asked of it. They are
+driven with the power that was applied. What they do in the window's last second is not expected any more: they have heat
+and no inertia. Windows follow each other from boot on, or from a calibration, whether the channel is armed or not, so it
+takes 20 to 40 s. Arming does not restart the window.
+
+**A muscle that was identified must also answer while it is hot and still** (mode position or power; loaded from a
+learned file counts, unless that holds the configuration's own parameters). This is decided within seconds:
+
+1. Above the safe power, that with which even a quarter of the least heat transfer (`min_transfer_W_per_K`) stays
+   below derating (1.1 W by default, 0.61 W until the senses were [compared with a meter](../safety.md#power), when 12 V may
+   be 10.8 to 13.2 V), any motion that follows the power proves the muscle. It is compared with the model
+   driven by the power that really acted.
+2. Where there is none, a *dither* is added: a square wave of power (132 mW with halves of 0.2 s on the paper's muscle)
+   whose answer is at most 20 µm, or two counts of a coarse sensor. The answer is the one that [identify](../control.md#identify)
+   measured: where friction leaves a quarter of the model's motion, four times the power is given, up to a tenth of `max_W`
+   (simulated: friction of 0.2 % of the load leaves 0.17 on the paper's muscle, of 1 % less than 0.01);
+   what that does not move enough is held to the safe power, as `--check` says. It begins so that it is decided within half of the
+   time in which a muscle at the interval's hot end, with the most power that it may get, the least mass and a quarter of
+   the least heat transfer, reaches `trip_C`: 0.6 s at 4.5 W, 1.7 s at 1.7 W. No block holds anything from before the dither.
+3. No answer: the power is taken away (limited by: `unproven`), and a living muscle must now fall. The model falls by
+   twice `responding_min_m`; if less than 0.17 of that is seen, it is this fault. A muscle that falls is alive, and
+   friction swallows its dither: it gets no more than the safe power until it rests or is disarmed.
+4. If nothing is decided in three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel
+   gets no more than the safe power until something is answered. A position that moves by more than 0.1 of
+   `responding_min_m` rms in a block, for whatever reason, is not that of a dead sensor: then it waits.
+
+| | |
+|---|---|
+| decision | a matched filter: Σ expected·measured / Σ expected², both without what is slower than 1 rad/s (of all power) or 4 rad/s (of the dither), as soon as the expected motion is 18.6 standard deviations of this ratio's noise |
+| noise | `position.noise_rms_m` and the counts, or what the model leaves of the motion, whichever is larger |
+| dead below | a ratio of 0.17: 3.1 standard deviations, so 1 dead muscle of 1000 passes a block |
+| a living one is missed | if its answer is half of the model's, less than once in 10⁹ blocks (6.2 standard deviations; counted as far as 4, where it is at most twice a normal tail) |
+
+An identified muscle never gets more power than the proof can keep up with: whatever it holds, a lost contact must be
+found before the limit. That power falls with the noise, with slow ticks, and with how far the true power may be above the
+told one. So it rises when the senses are compared with a meter, and at once: on a Raspberry Pi at 100 Hz
+(`raspberry-pi-pwm-ads1115.toml`) from 2.27 to 4.24 W. `supercoild --check` names the channel and the power. `proof_of_response = false` in `[channel.detectors]` switches all of this off; then only the window of 20 s
+remains, as for a muscle that is not identified: its parameters may be wrong by half, and a test this fine would take it
+for dead.
+
+**Reaction:** the channel goes cold. The next window begins; a reset is not refused because of this fault.
+
+## Likely causes
+
+- the muscle came off its anchor, or its end off the sensor
+- it is blocked, or melted together
+- heat goes elsewhere: it lies in water, in moving air, against metal
+- the believed parameters are far from this muscle (more than three times)
+- the sensor is frozen in a cold-looking muscle
+
+## Remedy
+
+1. Do not look for it by heating more. Let it cool.
+2. Pull the free end: does the sensor follow?
+3. Is the muscle straight, free, and still elastic? One that was melted is stiff.
+4. If nothing is wrong: `identify`, and compare with the configuration.
+5. Reset, arm.
+
+## Margin
+
+In metres, a least value: how far the position ranged in this window, and 0.3 of what the model did that moved least. 8 mm moved where
+9 mm were expected: 0.008 over 0.0027, used 0.34. Early in a window both are small; read it late. If less than 1 mm is
+expected, used is 0. After an unanswered dither: how far it fell with the power, and 0.17 of what the model did.
+
+## Not detected
+
+- A muscle that is not identified, held at a constant power: once at rest, nothing is expected to move. A sensor that
+  slips off then shows nothing. So it is in identify itself, and with `proof_of_response = false`.
+- Any motion counts, whichever way and whatever caused it: a swinging load hides a dead muscle.
+- Falsely found may be a muscle whose cooling is believed wrong by a factor of two and whose power falls slowly while it
+  still warms: of all models none stands still, but it does (1 of 75 groups of 20 runs, [safety](../safety.md#what-narrows-the-interval)).
+- Of a muscle that is not identified: within the first 20 s. At 4.5 W it is at its rest temperature long before.
+"""
+
+
+class DutyWrong(FaultError):
+    """The PWM does not do what was set: it refuses a duty, or reads back another one."""
+
+    number = 24
+    name = "duty_wrong"
+    meaning = """\
+The PWM does not do what was set: it refuses a duty, or reads back another one."""
+    remedy = """\
+1. Look at the margin. About 10⁹ (2³⁰) stands for a refused write: bus or chip.
+2. A difference of a few steps that follows the duty: a lagging read back.
+3. Any other: look for who else has the device open.
+4. Check that no current flows. Only the current shows whether the enable line did its work.
+5. Reset, arm."""
+    page = """\
+# 24 duty_wrong
+
+The PWM does not do what was set: it refuses a duty, or reads back another one.
+
+**Detected** when, for 5 ms, the last write was answered with an error, or the step that is read back differs from the
+step that was set (`wrong_duty_s`). A device that cannot be read back, or not while a write is under way (it answers
+with a negative number), is judged by its errors alone. A write that failed is tried again at each tick.
+
+**Reaction:** duty 0 is written – which may fail as well – and the enable line goes low. The enable line is the cut that
+counts here.
+
+## Likely causes
+
+- the bus of an external PWM chip hangs, or the chip lost its supply
+- another program writes to the same PWM
+- a PWM behind a bus whose read back lags: while the duty changes at each tick it is never equal. Such a driver must
+  answer that it cannot be read while its write is under way
+
+## Remedy
+
+1. Look at the margin. About 10⁹ (2³⁰) stands for a refused write: bus or chip.
+2. A difference of a few steps that follows the duty: a lagging read back.
+3. Any other: look for who else has the device open.
+4. Check that no current flows. Only the current shows whether the enable line did its work.
+5. Reset, arm.
+
+## Margin
+
+In steps of the PWM: how far the step that is read back lies from the one that was set, and the limit is 0. Used is 0
+when they are equal, and infinite else.
+
+## Not detected
+
+- A read back that is only the driver's memory of what was set (sysfs): it agrees with itself whatever the pin does.
+- A wrong period or polarity.
+- A PWM behind a bus whose duty changes at each tick: a write is always under way, and only its errors are judged.
+
+If the enable line fails as well, the current goes on, and 50 ms later [heater_stuck_on](heater_stuck_on.md) opens the
+supply.
+"""
+
+
+class LineFailed(FaultError):
+    """An enable line or the heartbeat could not be set: the driver answered with an error. The two ways of cutting are these
+lines, so none of them may be in doubt."""
+
+    number = 25
+    name = "line_failed"
+    meaning = """\
+An enable line or the heartbeat could not be set: the driver answered with an error. The two ways of cutting are these
+lines, so none of them may be in doubt."""
+    remedy = """\
+1. Stop the firmware. Set each line by hand and measure at the gate and at the pump's input.
+2. Look which program holds the lines.
+3. Start the firmware, or reset each channel: a line that failed is tried again at each tick, the heartbeat without an
+   edge, so that the reset works once all obey. The self-test follows."""
+    page = """\
+# 25 line_failed
+
+An enable line or the heartbeat could not be set: the driver answered with an error. The two ways of cutting are these
+lines, so none of them may be in doubt.
+
+**Detected** at the tick after the failed write; a single failure is enough.
+
+**Reaction:** every channel cold as far as its lines obey, and the heartbeat stops. If it was an enable line, the charge
+pump now does the work.
+
+## Likely causes
+
+- the line is held by another program, or was released
+- the GPIO chip is gone: unloaded driver, expander on a bus
+- missing rights
+
+## Remedy
+
+1. Stop the firmware. Set each line by hand and measure at the gate and at the pump's input.
+2. Look which program holds the lines.
+3. Start the firmware, or reset each channel: a line that failed is tried again at each tick, the heartbeat without an
+   edge, so that the reset works once all obey. The self-test follows.
+
+## Margin
+
+A flag: 0 good, 1 failed, the limit is 0.
+
+## Not detected
+
+- A line that is set without an error but does not reach its gate: a broken track, a wrong pin. The
+  [self-test](self_test_failed.md) finds an enable line that does not cut, and a missing heartbeat shows as
+  [heater_open](heater_open.md) on every channel when it is armed.
+- A line that is not being written: the enable lines only when their level changes.
+- The status light. Its errors are ignored.
+"""
+
+
+class OverTemperature(FaultError):
+    """The muscle may be hotter than it is allowed to be. Nobody measures its temperature: this is the upper end of an
+estimated interval (safety)."""
+
+    number = 30
+    name = "over_temperature"
+    meaning = """\
+The muscle may be hotter than it is allowed to be. Nobody measures its temperature: this is the upper end of an
+estimated interval (safety)."""
+    remedy = """\
+1. Compare the applied power with supply × current. If more is measured: heater_stuck_on.
+2. Otherwise let it cool. The reset is refused until the estimate has fallen below the limit; it falls with the slowest
+   time constant that the bounds allow, 4.4 s.
+3. If it was really too hot, look at the muscle: permanently shortened, stiff, discoloured.
+4. Change bounds only because of a measurement."""
+    page = """\
+# 30 over_temperature
+
+The muscle may be hotter than it is allowed to be. Nobody measures its temperature: this is the upper end of an
+estimated interval ([safety](../safety.md#temperature)).
+
+**Detected** at once, from the first time on that the estimate was below the derating temperature, when the hottest that
+the muscle may be is above 160 °C (`trip_C`), or is NaN. It is the warmest air (25 °C) plus the larger of two
+rises: the interval observer with the configured bounds, and the observer with what was learned. Both are driven by the
+larger of the power that was set and the power that was measured.
+
+**Reaction:** the channel goes cold. Well before, from 130 °C on, the power is derated (limited by: temperature) and is
+none at 160 °C.
+
+## Likely causes
+
+- a switch that conducts by itself: measured power far above what was set
+- a greater `max_W` than the bounds bear: at rest the rise is at most max_W × 1.05 / 0.045 W/K, 105 K for 4.5 W
+
+## Remedy
+
+1. Compare the applied power with supply × current. If more is measured: [heater_stuck_on](heater_stuck_on.md).
+2. Otherwise let it cool. The reset is refused until the estimate has fallen below the limit; it falls with the slowest
+   time constant that the bounds allow, 4.4 s.
+3. If it was really too hot, look at the muscle: permanently shortened, stiff, discoloured.
+4. Change bounds only because of a measurement.
+
+## Margin
+
+In °C: the hottest, of 160 °C. 112 of 160 is used 0.70. (Of the degrees Celsius, not of the rise.)
+With the default bounds, 4.5 W and an obedient switch it ends at 130 °C, used 0.81.
+
+## Not detected
+
+- Bounds that are wrong: another muscle, another medium, a blanket over it, air warmer than 25 °C.
+- A hot spot: the estimate is of the whole muscle.
+- Power beyond what was set by less than 10 mA × supply + 5 % (0.12 W while off): taken for the sense's error.
+- The time from boot until the estimate falls below 130 °C, 1.1 s: how hot the muscle was before is unknown, and nothing
+  can be armed.
+"""
+
+
+class OverTravel(FaultError):
+    """The muscle has contracted further than it may."""
+
+    number = 31
+    name = "over_travel"
+    meaning = """\
+The muscle has contracted further than it may."""
+    remedy = """\
+1. Is the muscle really that short? If not: sensor, zero, scale.
+2. A reset is refused until the position is back below the limit. A muscle that lost its load may need a pull.
+3. Look at the recording before the fault: a slope is the muscle, a single point is the sensor.
+4. Reset, arm."""
+    page = """\
+# 31 over_travel
+
+The muscle has contracted further than it may.
+
+**Detected** at once, by a single reading: the calibrated position is above 35 mm, or is NaN (`max_travel_m`).
+Readings that the sensor cannot give are no positions: they are [sensor_out_of_range](sensor_out_of_range.md). A
+position command beyond it is refused before it can lead here (refusal: out of range).
+
+**Reaction:** the channel goes cold.
+
+## Likely causes
+
+- power by hand (`power`): it has no position to stop at
+- an overshoot of a badly tuned controller
+- the load fell off, or broke
+- a wrong zero or scale: `scale` with the wrong length, `calibrate` of a muscle that hangs on something
+- one wild reading between 35 and 42 mm: nothing is forgiven here, as it is in [sensor_jump](sensor_jump.md)
+
+## Remedy
+
+1. Is the muscle really that short? If not: sensor, zero, scale.
+2. A reset is refused until the position is back below the limit. A muscle that lost its load may need a pull.
+3. Look at the recording before the fault: a slope is the muscle, a single point is the sensor.
+4. Reset, arm.
+
+## Margin
+
+In metres: the position, of 0.035. A reference of 20 mm gives used 0.57. Negative positions give a negative number.
+
+## Not detected
+
+- Travel the other way: a muscle that is pulled too long is not judged.
+- Without a fresh position ([sensor_stale](sensor_stale.md)), or beyond the sensor's range.
+- Force. A muscle that is blocked does not travel and may pull hard: nothing here measures it.
+"""
+
+
+class EnergyBudgetExceeded(FaultError):
+    """More energy went in, over about a minute, than the muscle may take. A second opinion on heat that needs no thermal
+bounds."""
+
+    number = 32
+    name = "energy_budget_exceeded"
+    meaning = """\
+More energy went in, over about a minute, than the muscle may take. A second opinion on heat that needs no thermal
+bounds."""
+    remedy = """\
+1. Let it rest. The account falls by 63 % in a minute; the reset is refused until it is below the limit.
+2. Is the reference's mean power (the row's applied_W) what you planned?
+3. Raise the budget only if the muscle's temperature allows it."""
+    page = """\
+# 32 energy_budget_exceeded
+
+More energy went in, over about a minute, than the muscle may take. A second opinion on heat that needs no thermal
+bounds.
+
+**Detected** at once when the account passes `energy_J`: 1.1 `max_W` × `energy_window_s` if nothing else is said, 297 J
+for 4.5 W and 60 s. The account takes in the most power that may have been applied: what
+was set, or what was measured if that is clearly more, or the channel's greatest power if there is no current reading.
+It loses a part of what is on it each second, 1/60: a constant 4.95 W just fills it after a long time, 6.9 W after 76 s,
+14.4 W after 25 s.
+
+**Reaction:** the channel goes cold.
+
+**The default trips only when more flows than was asked for.** Holding `max_W` indefinitely is within it: derating protects
+then, as far as the thermal bounds are true, and controller_invalid when it goes on. For muscles that may take a burst but no permanent power set `energy_J`
+below `max_W` × the window: with 240 J, 4.5 W trip after 132 s.
+
+## Likely causes
+
+- a budget that is smaller than what the reference needs
+- `power` by hand for too long
+- a switch that conducts by itself
+- a stiffer load, or colder surroundings: the same motion takes more power
+
+## Remedy
+
+1. Let it rest. The account falls by 63 % in a minute; the reset is refused until it is below the limit.
+2. Is the reference's mean power (the row's `applied_W`) what you planned?
+3. Raise the budget only if the muscle's temperature allows it.
+
+## Margin
+
+In joules: what is on the account, of 297. At a mean of 2.5 W it settles at 150 J, used 0.51.
+
+## Not detected
+
+- Power beyond what was set by less than 10 mA × supply + 5 %: taken for the sense's error. While off: below 0.12 W.
+- Anything before boot: the account starts empty.
+"""
+
+
+class ResistanceDrift(FaultError):
+    """The heater's resistance is far from its calibration. Silver wears off a muscle with use, so the resistance rises; turns
+that touch lower it."""
+
+    number = 33
+    name = "resistance_drift"
+    meaning = """\
+The heater's resistance is far from its calibration. Silver wears off a muscle with use, so the resistance rises; turns
+that touch lower it."""
+    remedy = """\
+1. Look at the margin: how many ohms off?
+2. Supply off, measure at the terminals, and at the muscle itself.
+3. If the muscle is worn, replace it. 30 % more resistance is 30 % less silver on average; where it is thinnest it gets
+   hotter than anything here knows.
+4. If the new value is right, put it into the configuration (cold_resistance_Ohm), remove what was learned with the
+   old one, and restart. calibrate cannot help: it needs an armed channel, and arming already ends in this fault."""
+    page = """\
+# 33 resistance_drift
+
+The heater's resistance is far from its calibration. Silver wears off a muscle with use, so the resistance rises; turns
+that touch lower it.
+
+**Detected** when a probe ends: at each arming, in `calibrate`, and while active when the last resistance is older than
+5 s, that is, at duties below the probe's. The probe is a pulse of 2 % for 50 ms; its second half is measured. The
+result is compared with the calibrated cold resistance; if the heater has a coefficient, with that at whichever
+temperature between the estimate's cold and hot end fits it best. More than 30 % either way trips (`resistance_ratio`). While
+heating, the smoothed resistance is judged alike, and trips after 0.5 s: a sense that reads too little current would make
+the power stage give more.
+From four times the cold resistance on it is [heater_open](heater_open.md).
+
+**Reaction:** the channel goes cold. Arming thus ends in `fault`, not in `armed`.
+
+## Likely causes
+
+- a worn muscle
+- another muscle than the configuration says
+- a contact with some ohms
+- few steps of PWM or a coarse converter: at 2 % a 10 Ω muscle draws only 24 mA at 12 V
+
+## Remedy
+
+1. Look at the margin: how many ohms off?
+2. Supply off, measure at the terminals, and at the muscle itself.
+3. If the muscle is worn, replace it. 30 % more resistance is 30 % less silver on average; where it is thinnest it gets
+   hotter than anything here knows.
+4. If the new value is right, put it into the configuration (`cold_resistance_Ohm`), remove what was learned with the
+   old one, and restart. `calibrate` cannot help: it needs an armed channel, and arming already ends in this fault.
+
+## Margin
+
+In ohms: the resistance, of the limit on its side of the calibration. 11.2 Ω for 10 Ω: 11.2 of 13, used 0.86; 8.8 Ω:
+limit 7, used 0.8. A muscle as it was calibrated uses 0.77. It stays as the last measurement left it, so watch how it
+grows over weeks.
+
+## Not detected
+
+- Between probes, at duties too small to measure at.
+- Of a heater with a coefficient, what any temperature of the interval explains. The wider the interval, the more.
+- Slow wear that is calibrated again and again: each calibration is the new base.
+"""
+
+
+class UnderVoltage(FaultError):
+    """The supply is too low, or it cannot be measured. An unknown supply may be anything, and no duty can be computed
+from it."""
+
+    number = 40
+    name = "under_voltage"
+    meaning = """\
+The supply is too low, or it cannot be measured. An unknown supply may be anything, and no duty can be computed
+from it."""
+    remedy = """\
+1. Measure at the board's terminals, with all channels at work.
+2. Right there, wrong in the row's supply_V (0 means absent): divider, converter, scaling.
+3. Low under load only: the supply or its wires.
+4. Reset each channel. The first reset starts the self-test; when it has passed the heartbeat beats."""
+    page = """\
+# 40 under_voltage
+
+The supply is too low, or it cannot be measured. An unknown supply may be anything, and no duty can be computed
+from it.
+
+**Detected** when the supply is below 10.8 V, or its reading is absent (older than 10 ms, or an error), for 20 ms
+(`min_supply_V`, `supply_s`; the age is `max_age_s` of the supply's input).
+
+**Reaction:** every channel cold, heartbeat off. In the 20 ms before, an absent supply already gives no duty.
+
+## Likely causes
+
+- the supply is off. A board that is started without it has this fault 0.1 s after boot; the self-test waits
+- it sags under load: too small, long thin wires, current limit
+- a battery at its end
+- the divider or the converter of the measurement
+
+## Remedy
+
+1. Measure at the board's terminals, with all channels at work.
+2. Right there, wrong in the row's `supply_V` (0 means absent): divider, converter, scaling.
+3. Low under load only: the supply or its wires.
+4. Reset each channel. The first reset starts the self-test; when it has passed the heartbeat beats.
+
+## Margin
+
+In volts, a least value. 12.0 V over 10.8 V is used 0.90. The rows carry `supply_V` itself.
+
+## Not detected
+
+- What happens behind the supply switch: the supply is measured before it. A fuse or a pump that does not pump shows as
+  [heater_open](heater_open.md).
+- Dips shorter than 20 ms.
+- A supply that reads too high or too low by a constant: the power is then wrong by the same part. The bounds on
+  power (0.95 to 1.05) must cover it.
+"""
+
+
+class OverVoltage(FaultError):
+    """The supply is above what the board is made for."""
+
+    number = 41
+    name = "over_voltage"
+    meaning = """\
+The supply is above what the board is made for."""
+    remedy = """\
+1. Measure at the terminals before anything is reset.
+2. If it is too high, replace the supply. Raise the limit only if transistors, capacitors and pump are made for it.
+3. If it is right, the scaling is wrong: then every power was wrong as well, by the same part: too low if the
+   supply reads too high. Correct it.
+4. Reset each channel."""
+    page = """\
+# 41 over_voltage
+
+The supply is above what the board is made for.
+
+**Detected** when it reads more than 13.2 V for 20 ms (`max_supply_V`, `supply_s`).
+
+**Reaction:** every channel cold, heartbeat off: the supply's switch opens and keeps the voltage from the power
+switches, but not from whatever is wired before it.
+
+The power of a muscle does not rise with the voltage while it is below the limit: the duty follows the measured supply.
+
+## Likely causes
+
+- the wrong supply, or one that is adjustable and was adjusted
+- no load on an unregulated supply
+- something feeds back: a motor on the same supply
+- the divider of the measurement
+
+## Remedy
+
+1. Measure at the terminals **before** anything is reset.
+2. If it is too high, replace the supply. Raise the limit only if transistors, capacitors and pump are made for it.
+3. If it is right, the scaling is wrong: then every power was wrong as well, by the same part: too low if the
+   supply reads too high. Correct it.
+4. Reset each channel.
+
+## Margin
+
+In volts. 12.0 of 13.2 V, used 0.91. The rows carry `supply_V` itself.
+
+## Not detected
+
+- Spikes shorter than 20 ms: those are for a suppressor on the board.
+- A supply that cannot be measured: that is [under_voltage](under_voltage.md).
+- A converter that clips below the limit. Its full scale must lie well above 13.2 V.
+"""
+
+
+class PowerLimitExceeded(FaultError):
+    """The channel draws more power than anybody may have asked for."""
+
+    number = 42
+    name = "power_limit_exceeded"
+    meaning = """\
+The channel draws more power than anybody may have asked for."""
+    remedy = """\
+1. Compare applied_W with supply × current in the recording. Together until the end: the limits do not fit each other.
+   Apart: heater or switch.
+2. If they part by a constant factor, it is a scaling. Check the sense with a known resistor.
+3. If they part suddenly, look at the switch, with the supply off.
+4. Reset, arm."""
+    page = """\
+# 42 power_limit_exceeded
+
+The channel draws more power than anybody may have asked for.
+
+**Detected** when supply × averaged current is above 1.25 `max_W` + 0.3 W (5.9 W for 4.5 W), or no number, for 100 ms (`max_measured_W`, `over_power_s`).
+It is judged in every state, also while off.
+
+**Reaction:** the channel goes cold. If the current goes on, [heater_stuck_on](heater_stuck_on.md) follows 50 ms later
+and opens the supply.
+
+## Likely causes
+
+- a switch that conducts by itself while the duty is high (at a low duty [heater_short](heater_short.md) is faster)
+- the resistance that the duty was computed from is too high: the true one is lower, and more power flows
+- `max_W` was raised and `max_measured_W` was not: it must lie above max_W by the errors of measurement
+- sense or supply scaled wrongly
+
+## Remedy
+
+1. Compare `applied_W` with supply × current in the recording. Together until the end: the limits do not fit each other.
+   Apart: heater or switch.
+2. If they part by a constant factor, it is a scaling. Check the sense with a known resistor.
+3. If they part suddenly, look at the switch, with the supply off.
+4. Reset, arm.
+
+## Margin
+
+In watts: measured power, of 5.9 W. 4.5 W is used 0.76.
+
+## Not detected
+
+- Power with the sense or the supply reading too low.
+- Bursts of less than 100 ms. In 100 ms, 14.4 W (12 V on 10 Ω) warm the paper's muscle by some 9 K.
+- Without a current reading.
+"""
+
+
+class Overrun(FaultError):
+    """The firmware does not get its ticks done in time."""
+
+    number = 50
+    name = "overrun"
+    meaning = """\
+The firmware does not get its ticks done in time."""
+    remedy = """\
+1. Look at the times of the stages (Loop::times()): which part of the tick is long? Is its maximum far from its mean?
+2. A slow drive or sample stage: a device. A slow compute stage: lower the rate, or use fewer channels.
+3. Everything long now and then: priority, core, memory.
+4. Reset each channel; the self-test follows."""
+    page = """\
+# 50 overrun
+
+The firmware does not get its ticks done in time.
+
+**Detected** when 5 periods were left out without a tick in time between them (`overruns_in_a_row`): in several short
+overruns on end, or in one stall. After an overrun whole periods are left out; two ticks never run back to back. One
+tick in time sets the count back to 0.
+
+**Reaction:** every channel cold, heartbeat off.
+
+While the stall lasts the charge pump does the work: when no edge comes for its decay time, it opens the supply,
+whatever the firmware does. The decay must exceed twice the tolerated overruns, and `check()` refuses settings where it
+does not: 5 periods of 1 ms, so more than 10 ms; 20 ms by default. So a stall that opens the supply is always a fault as
+well, and nothing heats again by itself.
+
+Periods that were left out count for all hold times, for the expiry of commands and for the temperature estimate, up to
+1000 of them.
+
+## Likely causes
+
+- something else at a higher or equal priority, or interrupts on the same core
+- page faults, a debugger, a suspended machine
+- too many channels or too costly laws for the rate
+- a direct device that is slower than 20 µs
+
+## Remedy
+
+1. Look at the times of the stages (`Loop::times()`): which part of the tick is long? Is its maximum far from its mean?
+2. A slow drive or sample stage: a device. A slow compute stage: lower the rate, or use fewer channels.
+3. Everything long now and then: priority, core, memory.
+4. Reset each channel; the self-test follows.
+
+## Margin
+
+A count of periods, of 5. `Loop::overruns()` counts all that were left out.
+
+## Not detected
+
+- Overruns that are never 5 periods in a row. Controllers and filters are computed for whole steps, and tracking
+  suffers; the protection counts the time.
+"""
+
+
+class TickLate(FaultError):
+    """The loop is woken later than it asked for. The ticks are still done in time, but their timing is not what filters and
+controllers were computed for."""
+
+    number = 51
+    name = "tick_late"
+    meaning = """\
+The loop is woken later than it asked for. The ticks are still done in time, but their timing is not what filters and
+controllers were computed for."""
+    remedy = """\
+1. Look at Loop::times().late: its mean, its maximum, its histogram. A shifted mean is a power-saving state, a long
+   tail is another thread.
+2. Give the loop its own core, a real-time priority, and locked memory.
+3. Only when the maximum is explained, raise late_s.
+4. Reset each channel."""
+    page = """\
+# 51 tick_late
+
+The loop is woken later than it asked for. The ticks are still done in time, but their timing is not what filters and
+controllers were computed for.
+
+**Detected** when 5 ticks in a row woke more than 0.5 ms after their time (`late_s`, `late_in_a_row`).
+
+**Reaction:** every channel cold, heartbeat off.
+
+0.5 ms is half of a period at 1 kHz. At other rates set it to half of theirs.
+
+## Likely causes
+
+- the thread has no real-time priority, or the kernel is not made for it
+- a power-saving state of the CPU that takes long to leave
+- another thread on the core
+- interrupts of a network or a disk
+
+## Remedy
+
+1. Look at `Loop::times().late`: its mean, its maximum, its histogram. A shifted mean is a power-saving state, a long
+   tail is another thread.
+2. Give the loop its own core, a real-time priority, and locked memory.
+3. Only when the maximum is explained, raise `late_s`.
+4. Reset each channel.
+
+## Margin
+
+A count of ticks, of 5. How late each tick was is in `Loop::times().late`.
+
+## Not detected
+
+- Single late ticks, however late, and any pattern with a punctual tick in between. They are in the histogram.
+- A clock that runs fast or slow.
+"""
+
+
+class TelemetryDead(FaultError):
+    """The telemetry thread has stopped. The board can no longer be watched, and commands may not come through;
+so nothing should be hot."""
+
+    number = 52
+    name = "telemetry_dead"
+    meaning = """\
+The telemetry thread has stopped. The board can no longer be watched, and commands may not come through;
+so nothing should be hot."""
+    remedy = """\
+1. Is the process still there, with all its threads? What does the thread wait for?
+2. If it only comes late, find what keeps the machine busy; a disk or a bus that blocks must not be in that thread.
+3. Restart the firmware: a thread that has ended does not come back by a reset.
+4. If the thread is alive again by itself, reset each channel."""
+    page = """\
+# 52 telemetry_dead
+
+The telemetry thread has stopped. The board can no longer be watched, and commands may not come through;
+so nothing should be hot.
+
+**Detected** when the counter that the thread turns (`Health::telemetry_heartbeats`) has not changed for 0.5 s
+(`telemetry_timeout_s`). It must turn from boot on.
+
+**Reaction:** every channel cold, heartbeat off.
+
+## Likely causes
+
+- the thread has ended, or hangs in a call that blocks
+- the thread is starved: too low a priority on a busy machine
+- a program that runs the loop and does not turn the counter
+
+## Remedy
+
+1. Is the process still there, with all its threads? What does the thread wait for?
+2. If it only comes late, find what keeps the machine busy; a disk or a bus that blocks must not be in that thread.
+3. Restart the firmware: a thread that has ended does not come back by a reset.
+4. If the thread is alive again by itself, reset each channel.
+
+## Margin
+
+In seconds: how long the counter has stood, of 0.5 s.
+
+## Not detected
+
+- A thread that turns its counter and does nothing else.
+- Lost telemetry: rows that found no room are counted (`LoopTiming::lost_rows`) and told in the log, which is no fault.
+- In this build there is no telemetry thread. The simulation's runner turns the counter at each tick.
+"""
+
+
+class CommandTimeout(FaultError):
+    """Every command to heat expires unless it is renewed. The master has fallen silent."""
+
+    number = 60
+    name = "command_timeout"
+    meaning = """\
+Every command to heat expires unless it is renewed. The master has fallen silent."""
+    remedy = """\
+1. See what the sender was doing at the time of the fault.
+2. Send every 50 to 80 ms, also when nothing changes.
+3. Stop sending before you reset: commands to heat are refused now, and ten refused ones in a row keep the reset from
+   working (command_not_allowed).
+4. Reset, arm, command."""
+    page = """\
+# 60 command_timeout
+
+Every command to heat expires unless it is renewed. The master has fallen silent.
+
+**Detected** when a channel has been active for more than 0.25 s without a renewal (`command_timeout_s`). `position`,
+`power` and `renew` renew; `identify` and `calibrate` only when they start, so they need `renew` while they run.
+Periods that were left out after an [overrun](overrun.md) count: no command was renewed in them.
+
+**Reaction:** the channel goes cold. At full power (4.5 W) the paper's muscle warms by some 7 K in that time.
+
+## Likely causes
+
+- the commanding program ended, hangs, or lost its connection
+- it stopped with its last command still in force: end with `rest` or `disarm`
+- it renews too seldom: 0.25 s should have room for three renewals
+- it renews another channel
+
+## Remedy
+
+1. See what the sender was doing at the time of the fault.
+2. Send every 50 to 80 ms, also when nothing changes.
+3. Stop sending before you reset: commands to heat are refused now, and ten refused ones in a row keep the reset from
+   working ([command_not_allowed](command_not_allowed.md)).
+4. Reset, arm, command.
+
+## Margin
+
+In seconds: the age of the last renewal, of 0.25 s. 0.06 of 0.25 is used 0.24. The largest value over a day says how
+near the connection is to failing. While nothing is active it is 0.
+
+## Not detected
+
+- A sender that renews without thinking: a program that hangs in the part that decides, but not in the part that sends.
+- A wrong command that is renewed faithfully.
+"""
+
+
+class CommandDamaged(FaultError):
+    """Commands arrive with a wrong checksum or a counter that does not follow."""
+
+    number = 61
+    name = "command_damaged"
+    meaning = """\
+Commands arrive with a wrong checksum or a counter that does not follow."""
+    remedy = """\
+1. Do all channels of the bus have it? Then it is the bus. One channel: its sender.
+2. Stop all senders but one.
+3. Check termination and wiring of the bus.
+4. Reset, arm. With a damaged stream still coming, the fault comes back within ten commands."""
+    page = """\
+# 61 command_damaged
+
+Commands arrive with a wrong checksum or a counter that does not follow.
+
+**Detected** at the tenth tick in a row in which a damaged command came (`damaged_in_a_row`). Ticks without any command
+do not count; a tick with only whole commands sets the count back. Damaged commands are never obeyed.
+
+**Reaction:** the channel goes cold.
+
+Checked are commands over CAN ([can.md](../can.md#commanding)). A tick in which a whole command comes beside a damaged one
+counts as damaged.
+
+## Likely causes
+
+- a bus with wrong termination, or too long
+- two senders on one channel, whose counters do not fit together
+- a sender of another version of the protocol
+
+## Remedy
+
+1. Do all channels of the bus have it? Then it is the bus. One channel: its sender.
+2. Stop all senders but one.
+3. Check termination and wiring of the bus.
+4. Reset, arm. With a damaged stream still coming, the fault comes back within ten commands.
+
+## Margin
+
+A count, of 10. Used 0.3 is three damaged ones in a row. It stands still while nothing is heard.
+
+## Not detected
+
+- Damage that keeps the checksum right: of 4 bits or more, one in 256.
+- Every second command damaged: the count never reaches 10. But then whole commands do come through.
+- A sender of which nothing arrives at all: [command_timeout](command_timeout.md).
+"""
+
+
+class CommandNotAllowed(FaultError):
+    """Somebody keeps sending commands that the channel's state does not allow. Sender and board do not agree on what the
+channel is doing."""
+
+    number = 62
+    name = "command_not_allowed"
+    meaning = """\
+Somebody keeps sending commands that the channel's state does not allow. Sender and board do not agree on what the
+channel is doing."""
+    remedy = """\
+1. Stop the stream first. The count stands at its limit as long as refused commands come: a reset among them is not
+   obeyed, and is answered 'cause persists'.
+2. Send reset, alone in its tick and not in the tick after another one.
+3. Let the sender read the channel's state: send commands to heat only when it is armed or active.
+4. Find the other sender, if there is one."""
+    page = """\
+# 62 command_not_allowed
+
+Somebody keeps sending commands that the channel's state does not allow. Sender and board do not agree on what the
+channel is doing.
+
+**Detected** at the tenth tick in a row with a command that was refused as "wrong state" (`refused_in_a_row`). Ticks
+without a command do not count; a tick with none but other answers sets the count back. Refusals for other reasons (out
+of range, busy, not ready) do not count either.
+
+**Reaction:** the channel goes cold. Most often it is cold already; then it only changes from `disarmed` to `fault`.
+
+## Likely causes
+
+- a stream of `position` or `power` that starts before the channel is armed
+- a stream, or `renew`, that goes on after `rest`, `disarm`, or another fault
+- two programs that command the same channel
+
+## Remedy
+
+1. **Stop the stream first.** The count stands at its limit as long as refused commands come: a reset among them is not
+   obeyed, and is answered "cause persists".
+2. Send `reset`, alone in its tick and not in the tick after another one.
+3. Let the sender read the channel's state: send commands to heat only when it is `armed` or `active`.
+4. Find the other sender, if there is one.
+
+## Margin
+
+A count, of 10. It stands still while no command comes. Used 0.1 to 0.3 now and then is a sender that is a little behind
+the state.
+
+## Not detected
+
+- Refused and obeyed commands in turn, each in its own tick.
+- Commands that are allowed but wrong.
+"""
+
+
+class EmergencyStop(FaultError):
+    """The emergency stop is pressed, or its circuit is broken, or its input cannot be read. All three are the same to the
+firmware."""
+
+    number = 63
+    name = "emergency_stop"
+    meaning = """\
+The emergency stop is pressed, or its circuit is broken, or its input cannot be read. All three are the same to the
+firmware."""
+    remedy = """\
+1. Make sure that the reason is gone.
+2. Release the button; the input must read high.
+3. Reset each channel. The first reset starts the self-test, 0.23 s; then arm.
+4. If it is not pressed, measure the loop: closed is high."""
+    page = """\
+# 63 emergency_stop
+
+The emergency stop is pressed, or its circuit is broken, or its input cannot be read. All three are the same to the
+firmware.
+
+**Detected** at once: the input is read at each tick, and anything but "high, read without an error" trips.
+
+**Reaction:** every channel cold and the heartbeat off in the same tick; the supply opens after the pump's decay, 20 ms.
+The fault stays when the stop is released. The self-test does not run while the stop is pressed, and ends in the tick at
+which it is; in the first 0.1 s after boot nothing is latched, but everything is off.
+
+## Likely causes
+
+- it was pressed. Ask why before you release it
+- a wire of the loop is broken, a plug is open
+- the input's line is not held by the firmware
+
+## Remedy
+
+1. Make sure that the reason is gone.
+2. Release the button; the input must read high.
+3. Reset each channel. The first reset starts the self-test, 0.23 s; then arm.
+4. If it is not pressed, measure the loop: closed is high.
+
+## Margin
+
+A flag: 0 is closed, 1 is open, the limit is 0.
+
+## Not detected
+
+- A wire shorted to the level "high".
+- **A stop that only the firmware reads is not a stop.** Its contacts must also break the supply or the pump's input by
+  themselves: [wiring](../wiring.md).
+"""
+
+
+class BusOff(FaultError):
+    """The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or
+its interface is down, which is the same for the board."""
+
+    number = 70
+    name = "bus_off"
+    meaning = """\
+The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or
+its interface is down, which is the same for the board."""
+    remedy = """\
+1. Bus unpowered, measure between CAN-H and CAN-L: 60 Ω.
+2. Compare the bit rates of all nodes.
+3. Unplug nodes one by one.
+4. When the controller is back on the bus, reset each channel."""
+    page = """\
+# 70 bus_off
+
+The CAN controller has left the bus: it saw so many errors of its own that it went silent, as the standard demands. Or
+its interface is down, which is the same for the board.
+
+**Detected** at the tick at which the telemetry thread reports it (`bus_off_s` is 0: at once).
+
+**Reaction:** every channel cold. The heartbeat goes on: a bus is no reason to doubt the switches. In the table its
+scope is therefore `channel`, but no channel is spared. It does not occupy the board's latch: the emergency stop, a
+stuck switch or any other fault of the board stops the heartbeat as ever. While it lasts no self-test begins and no
+fault of the board can be reset.
+
+In this build nothing is on a bus: its state is not reported, which stays "active".
+
+## Likely causes
+
+- CAN-H and CAN-L swapped or shorted
+- a wrong bit rate
+- no termination, or only one of two
+- the interface was never brought up, or was taken down
+- no other node: no acknowledge (that leads to [bus_error_passive](bus_error_passive.md) first)
+
+## Remedy
+
+1. Bus unpowered, measure between CAN-H and CAN-L: 60 Ω.
+2. Compare the bit rates of all nodes.
+3. Unplug nodes one by one.
+4. When the controller is back on the bus, reset each channel.
+
+## Margin
+
+In seconds: for how long, of 0: it is not judged (used 0) while the bus works, infinite when it is off.
+
+## Not detected
+
+- A bus that works and carries no frames: [command_timeout](command_timeout.md), while something is hot.
+"""
+
+
+class BusErrorPassive(FaultError):
+    """The CAN controller sees so many errors that it no longer marks them on the bus ('error passive'). It still works; the
+next step is bus_off."""
+
+    number = 71
+    name = "bus_error_passive"
+    meaning = """\
+The CAN controller sees so many errors that it no longer marks them on the bus ('error passive'). It still works; the
+next step is bus_off."""
+    remedy = """\
+1. Alone on the bus? Connect a second node, or do not use the bus.
+2. Termination: 60 Ω between CAN-H and CAN-L, at the ends and nowhere else.
+3. Look at the controller's error counters: transmit errors without receive errors mean that no node receives.
+4. Reset each channel once the counters fall."""
+    page = """\
+# 71 bus_error_passive
+
+The CAN controller sees so many errors that it no longer marks them on the bus ("error passive"). It still works; the
+next step is [bus_off](bus_off.md).
+
+**Detected** when the state is error-passive, bus-off or down for 1 s without a gap (`bus_error_passive_s`). Being off is
+found earlier, as its own fault.
+
+**Reaction:** as for bus_off: every channel cold, and the heartbeat goes on. While it lasts no self-test begins and no
+fault of the board can be reset.
+
+In this build nothing is on a bus, so this fault cannot appear.
+
+## Likely causes
+
+- the board is alone on its bus: no node acknowledges. Typical on a bench
+- termination or wiring that is nearly right
+- disturbance: a motor's cable beside the bus
+- a bit rate that is slightly off
+
+## Remedy
+
+1. Alone on the bus? Connect a second node, or do not use the bus.
+2. Termination: 60 Ω between CAN-H and CAN-L, at the ends and nowhere else.
+3. Look at the controller's error counters: transmit errors without receive errors mean that no node receives.
+4. Reset each channel once the counters fall.
+
+## Margin
+
+In seconds: how long it has been passive, of 1 s. Short spells that never reach 1 show a bus that is
+nearly bad.
+
+## Not detected
+
+- Errors below the controller's own limit of 128.
+"""
+
+
+class NodeConflict(FaultError):
+    """Another board on the CAN bus has a node of this board. Both would obey each other's masters, and their telemetry would
+mix. Neither can know whose node it is, so both go cold."""
+
+    number = 72
+    name = "node_conflict"
+    meaning = """\
+Another board on the CAN bus has a node of this board. Both would obey each other's masters, and their telemetry would
+mix. Neither can know whose node it is, so both go cold."""
+    remedy = """\
+1. supercoil monitor with one of the boards unplugged shows which nodes are taken.
+2. Give each board its own first_node in [can](../configuration.md#can), and restart it.
+3. Reset each channel of the board that kept its nodes."""
+    page = """\
+# 72 node_conflict
+
+Another board on the CAN bus has a node of this board. Both would obey each other's masters, and their telemetry would
+mix. Neither can know whose node it is, so both go cold.
+
+**Detected** when the heartbeat (Status) of one of this board's own nodes is heard from another sender: at the tick after
+the telemetry thread reads it. A board sends its heartbeat 10 times a second (at least once), so two boards find each
+other within 0.1 s (1 s). The fault's cause lasts 2.5 s after the last such frame. Frames that this board sent itself are
+never among them: the kernel does not hand them back to the socket that sent them.
+
+**Reaction:** every channel cold, as for [bus_off](bus_off.md), and the heartbeat of the charge pump goes on: a wrong
+address is no reason to doubt the switches. While it lasts no self-test begins and nothing can be reset or armed: a board
+does not start where its nodes are taken.
+
+## Likely causes
+
+- two boards with the same `first_node`, or with ranges of nodes that overlap
+- a copied SD card
+- a log that is played to a bus with its own board (`canplayer`)
+
+## Remedy
+
+1. `supercoil monitor` with one of the boards unplugged shows which nodes are taken.
+2. Give each board its own `first_node` in [`[can]`](../configuration.md#can), and restart it.
+3. Reset each channel of the board that kept its nodes.
+
+## Margin
+
+0, and 1 while another board is heard.
+
+## Not detected
+
+- A board whose control loop stands still: it sends no heartbeat.
+- Two boards with one node on two buses that are not connected.
+- A sender that forges this node's heartbeat makes it cold, as a `disarm` would.
+"""
+
+
+class ConfigurationInvalid(FaultError):
+    """The configuration is not the one that the firmware was started with: it changed under way."""
+
+    number = 80
+    name = "configuration_invalid"
+    meaning = """\
+The configuration is not the one that the firmware was started with: it changed under way."""
+    remedy = """\
+1. Compare the file with the version that you trust.
+2. If the change is meant: check it, and restart the firmware. A running firmware does not take over a configuration.
+3. If it was not edited: check the disk before you trust the board again.
+
+A reset works only if the flag is taken back, that is, when the file is as it was."""
+    page = """\
+# 80 configuration_invalid
+
+The configuration is not the one that the firmware was started with: it changed under way.
+
+**Detected** at the tick after another thread says so (`Health::configuration_changed`).
+
+**Reaction:** every channel cold, heartbeat off.
+
+Settings that are wrong from the beginning do not lead here: `check()` names what is wrong, and the program that starts the
+firmware must refuse to. In this build the configuration is not monitored, so this fault cannot appear.
+
+## Likely causes
+
+- the file was edited while the board ran
+- a package was updated under the running firmware
+- the file system gave other bytes: a disk that fails
+
+## Remedy
+
+1. Compare the file with the version that you trust.
+2. If the change is meant: check it, and restart the firmware. A running firmware does not take over a configuration.
+3. If it was not edited: check the disk before you trust the board again.
+
+A reset works only if the flag is taken back, that is, when the file is as it was.
+
+## Margin
+
+A flag: 0 is unchanged, 1 changed, the limit is 0.
+
+## Not detected
+
+- Values that are valid and wrong: thermal bounds of another muscle, another resistance. **Nothing finds these.**
+- `check()` looks at the whole (numbers of channels, of controllers, the charge pump's decay); ranges of single values
+  are for readers of the file.
+"""
+
+
+class ControllerInvalid(FaultError):
+    """The controller is lost: its demand is NaN, or it has demanded more than it can have for two minutes."""
+
+    number = 81
+    name = "controller_invalid"
+    meaning = """\
+The controller is lost: its demand is NaN, or it has demanded more than it can have for two minutes."""
+    remedy = """\
+1. Margin in seconds (120 of 120): saturated. Look at limited_by in the recording: which limit, and for how long?
+2. Maximum: a smaller reference, or more power if the muscle may. Temperature: it is derated; ask for less.
+3. No number: look at the estimates before the fault; go back to a simpler controller; identify anew.
+4. Reset, arm. A controller starts anew when it is entered."""
+    page = """\
+# 81 controller_invalid
+
+The controller is lost: its demand is NaN, or it has demanded more than it can have for two minutes.
+
+**Detected** in two ways:
+- The demanded power is NaN or infinite: found at the next tick. In the tick itself the limiter already gives 0 W
+  (limited by: invalid).
+- More was demanded than was given for 120 s without a gap while active (`saturated_s`), whichever limit took it: maximum,
+  temperature, slew, supply. To want less than 0 W is how a muscle cools, and does not count.
+
+**Reaction:** the channel goes cold.
+
+## Likely causes
+
+- no number: gains that diverge, a learned parameter that became absurd
+- a position that 4.5 W cannot reach: too much load, a softer muscle
+- `power` by hand above `max_W`
+- a supply that is too weak for the demanded power
+
+## Remedy
+
+1. Margin in seconds (120 of 120): saturated. Look at `limited_by` in the recording: which limit, and for how long?
+2. Maximum: a smaller reference, or more power if the muscle may. Temperature: it is derated; ask for less.
+3. No number: look at the estimates before the fault; go back to a simpler controller; `identify` anew.
+4. Reset, arm. A controller starts anew when it is entered.
+
+## Margin
+
+In seconds: for how long it has demanded more than it got, of 120 s. After NaN, measured is that number
+and used is infinite.
+
+## Not detected
+
+- A controller that is wrong within its limits: it oscillates, or tracks badly.
+- Saturation with a single free tick in every two minutes.
+- A controller that wants less than 0 W for ever.
+"""
+
+
+class SelfTestFailed(FaultError):
+    """The board could not prove that it can cut the heat. It never gets armed."""
+
+    number = 82
+    name = "self_test_failed"
+    meaning = """\
+The board could not prove that it can cut the heat. It never gets armed."""
+    remedy = """\
+1. Loop::self_test() says which half failed: pump_does_not_open or enable_does_not_cut.
+2. Unplug the muscles. What does each sense read? Not 0: offset.
+3. Pump: stop the firmware and measure behind the supply's switch. It must be dead.
+4. Enable: with the line low, a duty must not reach the gate.
+5. Restart. A reset does not help: a test that has failed stays failed."""
+    page = """\
+# 82 self_test_failed
+
+The board could not prove that it can cut the heat. It never gets armed.
+
+**Detected** in the self-test: at every boot, and again after every reset of a board's fault. It takes 0.23 s. Twice a
+pulse of the probe's duty (2 %, 30 ms) is set while one of the two ways of cutting is closed and the other open:
+
+| from | heartbeat | enable | duty | a current means |
+|---|---|---|---|---|
+| 0 | stands still | low | 0 | nothing yet: the last life may have pumped until just now |
+| 0.07 s | stands still | high | 2 % | the pump, or the supply's switch, does not open |
+| 0.10 s | beats | low | 0 | the power switch, or its gate, conducts by itself |
+| 0.15 s | beats | low | 2 % | the enable line does not cut |
+| 0.18 to 0.23 s | beats | low | 0 | as at 0.10 s |
+
+It fails when, from 0.07 s on and whether a pulse is on or not, any channel shows more than the smaller of
+`off_current_A` (50 mA) and half of what the probe should draw at the lowest supply (10.8 mA for 10 Ω and 10.8 V) for
+a pulse's second half on average, or four times as much for more than 9 ms at any time of the test.
+
+**It waits,** with every line low, until the supply is within its limits, the stop circuit is closed, every channel has
+a current reading and the board has no fault (a bus fault counts as well). When one of these is lost it stops in that
+tick and begins anew later. What is missing becomes its own fault 0.1 s after boot, for example
+[under_voltage](under_voltage.md); once it is there again, a reset starts the test.
+
+**Reaction:** every channel goes to `fault`, the heartbeat stays off.
+
+## Likely causes
+
+- the supply's switch is stuck closed, or the pump is bridged
+- the pump decays more slowly than `charge_pump_decay_s`, or another program beats
+- an enable gate that does nothing; a power switch that conducts by itself
+- the sense has an offset of more than 10.8 mA
+
+## Remedy
+
+1. `Loop::self_test()` says which half failed: `pump_does_not_open` or `enable_does_not_cut`.
+2. Unplug the muscles. What does each sense read? Not 0: offset.
+3. Pump: stop the firmware and measure behind the supply's switch. It must be dead.
+4. Enable: with the line low, a duty must not reach the gate.
+5. Restart. A reset does not help: a test that has failed stays failed.
+
+## Margin
+
+A flag: 0 passed, 1 failed, the limit is 0.
+
+## Not detected
+
+- Nothing can flow anyway: no muscle, a sense that reads 0, a fuse gone behind the measurement of the supply. The test
+  then passes and has proved nothing; arming fails as [heater_open](heater_open.md).
+- A way of cutting that fails later, until the next test.
+"""
+
+
+BY_NUMBER: dict[int, type[FaultError]] = {
+    10: SensorOutOfRange,
+    11: SensorStale,
+    12: SensorFrozen,
+    13: SensorJump,
+    14: SensorsDisagree,
+    20: HeaterOpen,
+    21: HeaterShort,
+    22: HeaterStuckOn,
+    23: HeaterNotResponding,
+    24: DutyWrong,
+    25: LineFailed,
+    30: OverTemperature,
+    31: OverTravel,
+    32: EnergyBudgetExceeded,
+    33: ResistanceDrift,
+    40: UnderVoltage,
+    41: OverVoltage,
+    42: PowerLimitExceeded,
+    50: Overrun,
+    51: TickLate,
+    52: TelemetryDead,
+    60: CommandTimeout,
+    61: CommandDamaged,
+    62: CommandNotAllowed,
+    63: EmergencyStop,
+    70: BusOff,
+    71: BusErrorPassive,
+    72: NodeConflict,
+    80: ConfigurationInvalid,
+    81: ControllerInvalid,
+    82: SelfTestFailed,
+}

@@ -1,0 +1,389 @@
+# Generated from firmware/io/can/supercoil.dbc by toolchain/generate-can. Do not edit.
+
+"""Every message as a type, and how it is laid out in its frame. A value that is not available is NaN."""
+
+from typing import NamedTuple
+
+from supercoil.generated import names
+from supercoil.layout import Layout, Raw, Signal
+
+
+class Emergency(NamedTuple):
+    """Sent at once when the channel's fault changes: when one latches, and with none when it was reset."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    fault: names.Fault
+    state: names.State
+    board_time_s: float
+
+
+class FirstCause(NamedTuple):
+    """Sent right after an Emergency that tells a fault: the margin of the detector that tripped, as it was then."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    measured: float
+    limit: float
+
+
+class Command(NamedTuple):
+    """One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier: damage, loss and the repetition of one frame are seen. Whoever repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or the board's start, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    opcode: names.Opcode
+    session: int
+    value: float
+
+
+class Acknowledge(NamedTuple):
+    """The answer to a command, also when it was refused. A damaged command is not answered, as nobody knows whose it was. Protected as Command is."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    opcode: names.Opcode
+    session: int
+    refusal: names.Refusal
+    granted: int
+
+
+class Measurement(NamedTuple):
+    """What is measured of the muscle."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    position_m: float
+    resistance_Ohm: float
+    resistance_age_s: float
+
+
+class Tracking(NamedTuple):
+    """How well the muscle follows its reference. Available in mode position only."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    reference_m: float
+    model_m: float
+    error_m: float
+
+
+class Power(NamedTuple):
+    """What the controller wants and what the muscle gets."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    demanded_W: float
+    applied_W: float
+    limited_by: names.LimitedBy
+    limited: bool
+
+
+class Heater(NamedTuple):
+    """The electrical side."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    supply_V: float
+    current_A: float
+    duty: float
+
+
+class Temperature(NamedTuple):
+    """The muscle's temperature lies between these; it is estimated, never measured."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    coldest_C: float
+    hottest_C: float
+
+
+class Estimate(NamedTuple):
+    """What the board has learned of the muscle: one parameter after the other, each with its trust. A round is the first 8, 0.8 s at the usual rate; while the estimator tells standard deviations (least_squares) it is all 14, 1.4 s."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    parameter: names.Parameter
+    trusted: bool
+    identify_notes: int
+    error_bound: float
+    theta1: float
+    theta2: float
+    theta3: float
+    theta4: float
+    thermal_mass_J_per_K: float
+    heat_transfer_W_per_K: float
+    stiffness_N_per_m: float
+    damping_Ns_per_m: float
+    bias_W: float
+    theta1_deviation: float
+    theta2_deviation: float
+    theta3_deviation: float
+    theta4_deviation: float
+    bias_deviation_W: float
+
+
+class Margin(NamedTuple):
+    """How near one detector is to tripping; all detectors come round."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    fault: names.Fault
+    used: float
+    measured: float
+
+
+class Limit(NamedTuple):
+    """The limit of one detector; all come round."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    fault: names.Fault
+    limit: float
+
+
+class Timing(NamedTuple):
+    """Of the whole board; sent by its first node only."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    late_s: float
+    execution_s: float
+    overruns: int
+    dropped_frames: int
+
+
+class Gain(NamedTuple):
+    """What the active controller multiplies its signals by; its gains come round. An adaptive controller changes them."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    gain: names.Gain
+    value: float
+
+
+class RefusedValue(NamedTuple):
+    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: which one, and what would have been obeyed. Told by boards of version 4 only, and not by all of them."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    value: float
+    nearest: float
+
+
+class Muscle(NamedTuple):
+    """The answer to MuscleRead. Boards older than supercoil 0.2.0 do not answer."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    quantity: names.Quantity
+    value: float
+
+
+class Setting(NamedTuple):
+    """The answer to SettingWrite and SettingRead: what holds from now on, also when the write was refused. Protected as Command is."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    setting: names.Setting
+    refusal: names.Refusal
+    session_low: int
+    value: float
+
+
+class SettingWrite(NamedTuple):
+    """Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command or SettingWrite."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    setting: names.Setting
+    session: int
+    value: float
+
+
+class SettingRead(NamedTuple):
+    """Asks for one setting of this node. Needs no lease: reading changes nothing."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    setting: names.Setting
+
+
+class MuscleRead(NamedTuple):
+    """Asks for one quantity of this node's muscle. Needs no lease: reading changes nothing."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    quantity: names.Quantity
+
+
+class Status(NamedTuple):
+    """Heartbeat of the channel. It stops when the control loop stops."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    state: names.State
+    mode: names.Mode
+    fault: names.Fault
+    limited_by: names.LimitedBy
+    probing: bool
+    trusted: bool
+    limited: bool
+    leased: bool
+    controller: int
+    progress: float
+    counter: int
+    protocol_version: int
+    result: names.Result
+    proof_off: bool
+    oscillated: bool
+    friction: bool
+
+
+LAYOUTS = (
+    Layout(Emergency, 0x080, 8, 0, True, (
+        Signal("fault", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Fault),
+        Signal("state", "", 8, 8, Raw.unsigned, 1.0, None, None, names.State),
+        Signal("board_time_s", "s", 16, 48, Raw.unsigned, 1e-06, None, None, float),
+    )),
+    Layout(FirstCause, 0x0c0, 8, 0, True, (
+        Signal("measured", "", 0, 32, Raw.floating, 1.0, None, None, float),
+        Signal("limit", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(Command, 0x200, 8, 0, False, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("opcode", "", 12, 4, Raw.unsigned, 1.0, None, None, names.Opcode),
+        Signal("session", "", 16, 16, Raw.unsigned, 1.0, None, None, int),
+        Signal("value", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(Acknowledge, 0x240, 7, 0, True, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("opcode", "", 12, 4, Raw.unsigned, 1.0, None, None, names.Opcode),
+        Signal("session", "", 16, 16, Raw.unsigned, 1.0, None, None, int),
+        Signal("refusal", "", 32, 8, Raw.unsigned, 1.0, None, None, names.Refusal),
+        Signal("granted", "", 40, 16, Raw.unsigned, 1.0, None, None, int),
+    )),
+    Layout(Measurement, 0x280, 8, 10, True, (
+        Signal("position_m", "m", 0, 24, Raw.signed, 1e-07, -8388608, None, float),
+        Signal("resistance_Ohm", "Ohm", 24, 24, Raw.unsigned, 0.001, 16777215, None, float),
+        Signal("resistance_age_s", "s", 48, 16, Raw.unsigned, 0.01, 65535, None, float),
+    )),
+    Layout(Tracking, 0x2c0, 8, 10, True, (
+        Signal("reference_m", "m", 0, 24, Raw.signed, 1e-07, -8388608, None, float),
+        Signal("model_m", "m", 24, 24, Raw.signed, 1e-07, -8388608, None, float),
+        Signal("error_m", "m", 48, 16, Raw.signed, 1e-06, -32768, None, float),
+    )),
+    Layout(Power, 0x300, 7, 20, True, (
+        Signal("demanded_W", "W", 0, 24, Raw.signed, 0.0002, -8388608, None, float),
+        Signal("applied_W", "W", 24, 24, Raw.signed, 0.0002, -8388608, None, float),
+        Signal("limited_by", "", 48, 4, Raw.unsigned, 1.0, None, None, names.LimitedBy),
+        Signal("limited", "", 52, 1, Raw.unsigned, 1.0, None, None, bool),
+    )),
+    Layout(Heater, 0x340, 7, 50, True, (
+        Signal("supply_V", "V", 0, 16, Raw.unsigned, 0.001, 65535, None, float),
+        Signal("current_A", "A", 16, 24, Raw.signed, 1e-05, -8388608, None, float),
+        Signal("duty", "", 40, 16, Raw.unsigned, 2e-05, 65535, None, float),
+    )),
+    Layout(Temperature, 0x380, 4, 100, True, (
+        Signal("coldest_C", "degC", 0, 16, Raw.signed, 0.01, -32768, None, float),
+        Signal("hottest_C", "degC", 16, 16, Raw.signed, 0.01, -32768, None, float),
+    )),
+    Layout(Estimate, 0x3c0, 8, 100, True, (
+        Signal("parameter", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Parameter),
+        Signal("trusted", "", 8, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("identify_notes", "", 9, 7, Raw.unsigned, 1.0, None, None, int),
+        Signal("error_bound", "", 16, 16, Raw.unsigned, 0.0001, 65535, None, float),
+        Signal("theta1", "m", 32, 32, Raw.floating, 1.0, None, 0, float),
+        Signal("theta2", "W s2/m", 32, 32, Raw.floating, 1.0, None, 1, float),
+        Signal("theta3", "W s/m", 32, 32, Raw.floating, 1.0, None, 2, float),
+        Signal("theta4", "W/m", 32, 32, Raw.floating, 1.0, None, 3, float),
+        Signal("thermal_mass_J_per_K", "J/K", 32, 32, Raw.floating, 1.0, None, 4, float),
+        Signal("heat_transfer_W_per_K", "W/K", 32, 32, Raw.floating, 1.0, None, 5, float),
+        Signal("stiffness_N_per_m", "N/m", 32, 32, Raw.floating, 1.0, None, 6, float),
+        Signal("damping_Ns_per_m", "Ns/m", 32, 32, Raw.floating, 1.0, None, 7, float),
+        Signal("bias_W", "W", 32, 32, Raw.floating, 1.0, None, 8, float),
+        Signal("theta1_deviation", "m", 32, 32, Raw.floating, 1.0, None, 9, float),
+        Signal("theta2_deviation", "W s2/m", 32, 32, Raw.floating, 1.0, None, 10, float),
+        Signal("theta3_deviation", "W s/m", 32, 32, Raw.floating, 1.0, None, 11, float),
+        Signal("theta4_deviation", "W/m", 32, 32, Raw.floating, 1.0, None, 12, float),
+        Signal("bias_deviation_W", "W", 32, 32, Raw.floating, 1.0, None, 13, float),
+    )),
+    Layout(Margin, 0x400, 7, 50, True, (
+        Signal("fault", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Fault),
+        Signal("used", "", 8, 16, Raw.unsigned, 0.001, 65535, None, float),
+        Signal("measured", "", 24, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(Limit, 0x440, 5, 100, True, (
+        Signal("fault", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Fault),
+        Signal("limit", "", 8, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(Timing, 0x480, 8, 100, True, (
+        Signal("late_s", "s", 0, 20, Raw.unsigned, 1e-07, 1048575, None, float),
+        Signal("execution_s", "s", 20, 20, Raw.unsigned, 1e-07, 1048575, None, float),
+        Signal("overruns", "", 40, 12, Raw.unsigned, 1.0, None, None, int),
+        Signal("dropped_frames", "", 52, 12, Raw.unsigned, 1.0, None, None, int),
+    )),
+    Layout(Gain, 0x4c0, 5, 200, True, (
+        Signal("gain", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Gain),
+        Signal("value", "", 8, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(RefusedValue, 0x500, 8, 0, True, (
+        Signal("value", "", 0, 32, Raw.floating, 1.0, None, None, float),
+        Signal("nearest", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(Muscle, 0x540, 5, 0, True, (
+        Signal("quantity", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Quantity),
+        Signal("value", "", 8, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(Setting, 0x580, 8, 0, True, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("setting", "", 12, 4, Raw.unsigned, 1.0, None, None, names.Setting),
+        Signal("refusal", "", 16, 8, Raw.unsigned, 1.0, None, None, names.Refusal),
+        Signal("session_low", "", 24, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("value", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(SettingWrite, 0x5c0, 8, 0, False, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("setting", "", 12, 4, Raw.unsigned, 1.0, None, None, names.Setting),
+        Signal("session", "", 16, 16, Raw.unsigned, 1.0, None, None, int),
+        Signal("value", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(SettingRead, 0x600, 1, 0, False, (
+        Signal("setting", "", 0, 4, Raw.unsigned, 1.0, None, None, names.Setting),
+    )),
+    Layout(MuscleRead, 0x680, 1, 0, False, (
+        Signal("quantity", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Quantity),
+    )),
+    Layout(Status, 0x700, 8, 100, True, (
+        Signal("state", "", 0, 4, Raw.unsigned, 1.0, None, None, names.State),
+        Signal("mode", "", 4, 4, Raw.unsigned, 1.0, None, None, names.Mode),
+        Signal("fault", "", 8, 8, Raw.unsigned, 1.0, None, None, names.Fault),
+        Signal("limited_by", "", 16, 4, Raw.unsigned, 1.0, None, None, names.LimitedBy),
+        Signal("probing", "", 20, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("trusted", "", 21, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("limited", "", 22, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("leased", "", 23, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("controller", "", 24, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("progress", "", 32, 8, Raw.unsigned, 0.005, 255, None, float),
+        Signal("counter", "", 40, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("protocol_version", "", 48, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("result", "", 56, 4, Raw.unsigned, 1.0, None, None, names.Result),
+        Signal("proof_off", "", 60, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("oscillated", "", 61, 1, Raw.unsigned, 1.0, None, None, bool),
+        Signal("friction", "", 62, 1, Raw.unsigned, 1.0, None, None, bool),
+    )),
+)
+
+# Identifiers are base + node.
+EMERGENCY = 0x080
+FIRST_CAUSE = 0x0c0
+COMMAND = 0x200
+ACKNOWLEDGE = 0x240
+MEASUREMENT = 0x280
+TRACKING = 0x2c0
+POWER = 0x300
+HEATER = 0x340
+TEMPERATURE = 0x380
+ESTIMATE = 0x3c0
+MARGIN = 0x400
+LIMIT = 0x440
+TIMING = 0x480
+GAIN = 0x4c0
+REFUSED_VALUE = 0x500
+MUSCLE = 0x540
+SETTING = 0x580
+SETTING_WRITE = 0x5c0
+SETTING_READ = 0x600
+MUSCLE_READ = 0x680
+STATUS = 0x700

@@ -1,0 +1,22 @@
+# Generated from docs/running.md and firmware/core/modes/result.hpp by toolchain/generate-can. Do not edit.
+
+"""How identify and calibrate end."""
+
+from supercoil.generated.names import Result
+
+MEANINGS = {
+    Result.none: "neither was asked for since the start; it has not ended",
+    Result.running: "neither was asked for since the start; it has not ended",
+    Result.found: "used from now on, and stored",
+    Result.interrupted: "by a command or a fault",
+    Result.not_cold: "the muscle did not cool within two minutes",
+    Result.moved: "the position changed by more than 0.1 mm while its zero was taken",
+    Result.poor_fit: "the muscle did not do what the fit predicted: play, a load that changes, a sensor that slips",
+    Result.uncertain: "θ3 or θ4, which controllers need, is not known well enough, or θ2 hardly at all: the sensor is too noisy for this motion",
+    Result.implausible: "out of range; of identify also: far from what the configuration says",
+    Result.not_stored: "used, but the results before it still wait for the disk",
+    Result.too_little_motion: "the muscle moved by less than 1 % of its travel with all the power that it may have",
+}
+
+# Bits of what identify has to say, from the least on.
+NOTES = ("theta1_kept", "theta2_uncertain", "theta3_uncertain", "theta4_uncertain", "poor_fit", "implausible", "too_little_motion", "friction")

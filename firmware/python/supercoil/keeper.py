@@ -1,0 +1,97 @@
+"""Renews what heats, and keeps the lease, for as long as the program says something itself now and then.
+
+A command to heat expires on the board 250 ms after its last renewal, whatever becomes of this process. While the
+process runs but the program in it hangs, the deadline here ends the renewals.
+"""
+
+import asyncio
+import contextlib
+import logging
+import time
+
+from supercoil.errors import DeadlineError, NoAnswerError, RefusalError, SupercoilError
+from supercoil.generated.names import Opcode
+from supercoil.link import Link
+
+RENEW_EVERY_S = 0.06  # 250 ms have room for three
+_KEEP_EVERY_S = 0.3
+_NAP_S = 0.02
+
+_log = logging.getLogger("supercoil")
+
+
+class Keeper:
+    def __init__(self, link: Link, node: int, deadline_s: float) -> None:
+        self._link = link
+        self._node = node
+        self._deadline_s = deadline_s
+        self._alive_at = time.monotonic()
+        self._renewed_at = 0.0
+        self._heats = False
+        self._let_go = False
+        self._task: asyncio.Task[None] | None = None
+
+    def start(self) -> None:
+        self._task = asyncio.create_task(self._run())
+
+    async def stop(self) -> None:
+        if self._task is not None:
+            self._task.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._task
+            self._task = None
+
+    def alive(self) -> None:
+        """The program says something."""
+        self._alive_at = time.monotonic()
+
+    def heats(self) -> None:
+        """A command to heat was obeyed."""
+        self._heats = True
+        self._renewed_at = time.monotonic()
+
+    def rests(self) -> None:
+        self._heats = False
+
+    def raise_if_let_go(self) -> None:
+        """Once: the program may go on from there."""
+        if self._let_go:
+            self._let_go = False
+            raise DeadlineError(
+                f"node {self._node}: the program said nothing for {self._deadline_s:g} s, so the muscle was let go. "
+                "Wait with hold(), or give Muscle a longer deadline_s")
+
+    async def _run(self) -> None:
+        while True:
+            await asyncio.sleep(_NAP_S)
+            try:
+                await self._look()
+            except RefusalError:
+                self._heats = False  # a fault, another master, or the mode has ended: the next call tells
+            except NoAnswerError:
+                pass  # the board expires by itself; the next round tries again
+            except SupercoilError as error:
+                _log.error("node %d: %s", self._node, error)
+                return
+
+    async def _look(self) -> None:
+        if not self._link.holds_lease:
+            self._heats = False
+            return
+        now = time.monotonic()
+        if now - self._alive_at > self._deadline_s:
+            await self._end()
+        elif self._heats and now - self._renewed_at >= RENEW_EVERY_S:
+            self._renewed_at = now
+            await self._link.command(Opcode.renew, 0.0)
+        elif self._link.lease_age_s >= _KEEP_EVERY_S:
+            await self._link.keep()
+
+    async def _end(self) -> None:
+        if self._heats:
+            self._heats = False
+            self._let_go = True
+            _log.warning("node %d: the program said nothing for %g s: the muscle is let go", self._node,
+                         self._deadline_s)
+            await self._link.command(Opcode.rest, 0.0)
+        await self._link.release()

@@ -1,0 +1,134 @@
+"""How a muscle's node is reached, whatever leads to it."""
+
+import asyncio
+import contextlib
+from typing import Protocol
+
+import can
+
+from supercoil import codec, e2e
+from supercoil.bus import Bus
+from supercoil.errors import BusError, NoAnswerError
+from supercoil.generated import messages
+from supercoil.generated.names import Opcode, Quantity, Setting
+from supercoil.heartbeat import Heartbeat
+from supercoil.session import ANSWER_WITHIN_S, Session
+from supercoil.telemetry import Telemetry
+
+_HEARTBEAT = frozenset((messages.STATUS, messages.EMERGENCY, messages.FIRST_CAUSE))
+_ANSWERS = frozenset((messages.ACKNOWLEDGE, messages.SETTING, messages.REFUSED_VALUE))
+# What the event loop is woken for; all else is only kept.
+_EVENTS = _HEARTBEAT | _ANSWERS | {messages.MUSCLE}
+
+
+class Link(Protocol):
+    telemetry: Telemetry
+    heartbeat: Heartbeat
+
+    async def open(self) -> None: ...
+    async def close(self) -> None: ...
+    async def command(self, opcode: Opcode, value: float) -> None: ...
+    async def disarm(self) -> None: ...
+    async def write(self, setting: Setting, value: float) -> float: ...
+    async def read(self, setting: Setting) -> float: ...
+    async def quantity(self, quantity: Quantity) -> float: ...
+    async def keep(self) -> None: ...
+    async def release(self) -> None: ...
+    @property
+    def holds_lease(self) -> bool: ...
+    @property
+    def lease_age_s(self) -> float: ...
+
+
+class CanLink:
+    def __init__(self, address: str | can.BusABC, node: int, options: dict[str, object]) -> None:
+        self.telemetry = Telemetry(node)
+        self.heartbeat = Heartbeat(node)
+        self._address = address
+        self._options = options
+        self._node = node
+        self._session = Session(node, self._send)
+        self._bus: Bus | None = None
+        self._loop = asyncio.get_running_loop()
+        self._read: dict[tuple[int, int], list[asyncio.Future[float]]] = {}
+
+    async def open(self) -> None:
+        self._bus = await Bus.join(self._address, self._options)
+        self._bus.attach(self._node, self._take)
+
+    async def close(self) -> None:
+        if self._bus is not None:
+            bus, self._bus = self._bus, None
+            bus.detach(self._node, self._take)
+            await bus.leave()
+
+    async def command(self, opcode: Opcode, value: float) -> None:
+        await self._session.command(opcode, value)
+
+    async def disarm(self) -> None:
+        await self._session.disarm()
+
+    async def write(self, setting: Setting, value: float) -> float:
+        return await self._session.write(setting, value)
+
+    async def read(self, setting: Setting) -> float:
+        return await self._ask(messages.SETTING_READ, messages.SETTING, "setting", setting)
+
+    async def quantity(self, quantity: Quantity) -> float:
+        return await self._ask(messages.MUSCLE_READ, messages.MUSCLE, "quantity", quantity)
+
+    async def keep(self) -> None:
+        await self._session.keep()
+
+    async def release(self) -> None:
+        await self._session.release()
+
+    @property
+    def holds_lease(self) -> bool:
+        return self._session.holds_lease
+
+    @property
+    def lease_age_s(self) -> float:
+        return self._session.lease_age_s
+
+    async def _send(self, identifier: int, data: bytes) -> None:
+        if self._bus is None:
+            raise BusError(f"node {self._node} is not connected")
+        await self._bus.send(identifier, data)
+
+    async def _ask(self, request: int, answer: int, signal: str, value: int) -> float:
+        """Reading needs no lease, and everybody hears the answer."""
+        waiting = self._read.setdefault((answer, value), [])
+        told: asyncio.Future[float] = self._loop.create_future()
+        waiting.append(told)
+        try:
+            await self._send(request | self._node, codec.encode(codec.LAYOUTS[request], {signal: value}))
+            async with asyncio.timeout(ANSWER_WITHIN_S):
+                return await told
+        except TimeoutError:
+            raise NoAnswerError(f"node {self._node} does not tell its {signal} {value}") from None
+        finally:
+            waiting.remove(told)
+
+    def _take(self, base: int, time_s: float, data: bytes) -> None:
+        """In the bus's thread."""
+        self.telemetry.take(base, time_s, data)
+        if base in _EVENTS:
+            with contextlib.suppress(RuntimeError):  # the loop has ended
+                self._loop.call_soon_threadsafe(self._receive, base, time_s, data)
+
+    def _receive(self, base: int, time_s: float, data: bytes) -> None:
+        if base in _HEARTBEAT:
+            self.heartbeat.receive_frame(base, time_s, data)
+        if base in _ANSWERS:
+            self._session.receive(base, data)
+        if base == messages.SETTING and e2e.is_intact(base | self._node, data):
+            setting = codec.decode(base, data)
+            self._tell(base, setting.setting, setting.value)
+        elif base == messages.MUSCLE and (told := codec.decode(base, data)) is not None:
+            self._tell(base, told.quantity, told.value)
+
+    def _tell(self, base: int, which: int, value: float) -> None:
+        for asked in self._read.get((base, which), ()):
+            if not asked.done():
+                asked.set_result(float(f"{value:.7g}"))  # a float of 32 bits has no more digits

@@ -1,0 +1,59 @@
+"""Files of boards and of simulations, as tables of pandas. attrs["units"] has each column's unit."""
+
+import re
+from pathlib import Path
+
+import pandas
+
+from supercoil import codec
+from supercoil.flight import MAGIC, load_flight
+from supercoil.tables import table_of
+from supercoil.units import unit_of
+
+_CANDUMP = re.compile(rb"\((\d+\.\d+)\)\s+\S+\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]{2}){0,8})(?:\s+[RT])?")
+
+
+def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
+    """can.log (as candump -L writes it), a flight recording, or trace.csv; by what is in it, not by its name.
+
+    The index is time_s, as in the file; of a recording, before and after its fault. can.log: columns are
+    Message.signal; node: of which; it can be left out where the log has one only. attrs["damaged_lines"]: left out.
+    """
+    file = Path(path)
+    with file.open("rb") as opened:
+        start = opened.read(len(MAGIC))
+    if start == MAGIC:
+        return load_flight(file)
+    return _load_candump(file, node) if start.startswith(b"(") else _load_csv(file)
+
+
+def _load_candump(file: Path, node: int | None) -> pandas.DataFrame:
+    frames: dict[int, list[tuple[float, int, bytes]]] = {}
+    damaged = 0
+    for line in file.read_bytes().splitlines():
+        if (found := _CANDUMP.fullmatch(line.strip())) is None:
+            damaged += 1
+            continue
+        identifier = int(found[2], 16)
+        base = identifier & codec.BASE_MASK
+        if base in codec.LAYOUTS:
+            frames.setdefault(identifier & codec.NODE_MASK, []).append(
+                (float(found[1]), base, bytes.fromhex(found[3].decode())))
+    if node is None and len(frames) > 1:
+        raise ValueError(f"{file}: has nodes {', '.join(map(str, sorted(frames)))}: say which one, node=...")
+    if node is not None and node not in frames:
+        raise ValueError(f"{file}: has no node {node}; there are {', '.join(map(str, sorted(frames))) or 'none'}")
+    chosen = next(iter(frames), 0) if node is None else node
+    table = table_of(frames.get(chosen, []))
+    table.attrs["node"] = chosen
+    table.attrs["damaged_lines"] = damaged
+    return table
+
+
+def _load_csv(file: Path) -> pandas.DataFrame:
+    table = pandas.read_csv(file)
+    if not len(table.columns) or table.columns[0] != "time_s":
+        raise ValueError(f"{file}: is no can.log, no flight recording, and no CSV whose first column is time_s")
+    table = table.set_index("time_s")
+    table.attrs["units"] = {column: unit_of(column) for column in table.columns}
+    return table

@@ -1,0 +1,152 @@
+"""The board's own socket, without CAN: for programs on the board itself. Lines of text, each answered by one packet."""
+
+import asyncio
+import contextlib
+import math
+import socket
+import time
+
+from supercoil import codec
+from supercoil.errors import BusError, NoAnswerError, RefusalError, SupercoilError
+from supercoil.generated import messages, refusals
+from supercoil.generated.names import Opcode, Quantity, Refusal, Setting
+from supercoil.heartbeat import Heartbeat
+from supercoil.local_text import command_line, frames_of
+from supercoil.telemetry import Telemetry
+
+_ANSWER_WITHIN_S = 2.0
+_LOOK_EVERY_S = 0.1
+_MOST_BYTES = 8192
+_SENSES = (Setting.supply_gain, Setting.current_gain, Setting.sense_error_ratio)
+
+
+class SocketLink:
+    """The socket knows no lease: whoever may open it may command. Its state is asked for ten times a second."""
+
+    lease_age_s = 0.0
+
+    def __init__(self, path: str, channel: int) -> None:
+        self.telemetry = Telemetry(channel)
+        self.heartbeat = Heartbeat(channel)
+        self.holds_lease = False  # something was commanded
+        self._path = path
+        self._channel = channel
+        self._socket: socket.socket | None = None
+        self._asking = asyncio.Lock()
+        self._looking: asyncio.Task[None] | None = None
+
+    async def open(self) -> None:
+        opened = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        opened.setblocking(False)
+        try:
+            await asyncio.get_running_loop().sock_connect(opened, self._path)
+        except OSError as error:
+            opened.close()
+            nobody = isinstance(error, (FileNotFoundError, ConnectionRefusedError))
+            hint = "; does supercoild run?" if nobody else ""
+            raise BusError(f"{self._path}: {error.strerror}{hint}") from error
+        self._socket = opened
+        try:
+            await self._look()
+        except BaseException:
+            await self.close()
+            raise
+        self._looking = asyncio.create_task(self._look_again())
+
+    async def close(self) -> None:
+        if self._looking is not None:
+            self._looking.cancel()
+            with contextlib.suppress(asyncio.CancelledError):
+                await self._looking
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
+    async def command(self, opcode: Opcode, value: float) -> None:
+        line = command_line(opcode, value)
+        answer = await self._ask(f"{self._channel} {line}")
+        if answer != "ok":
+            raise self._refused(line, answer)
+        self.holds_lease = True
+
+    async def disarm(self) -> None:
+        await self.command(Opcode.disarm, 0.0)
+
+    async def write(self, setting: Setting, value: float) -> float:
+        raise SupercoilError(f"{setting} cannot be changed by the board's socket, only over CAN")
+
+    async def read(self, setting: Setting) -> float:
+        """Those of the senses; the others are told over CAN only."""
+        if setting not in _SENSES:
+            return math.nan
+        return (await self._numbers("senses"))[_SENSES.index(setting)]
+
+    async def quantity(self, quantity: Quantity) -> float:
+        return (await self._numbers("muscle"))[quantity]
+
+    async def keep(self) -> None:
+        pass
+
+    async def release(self) -> None:
+        self.holds_lease = False
+
+    async def _ask(self, line: str) -> str:
+        loop = asyncio.get_running_loop()
+        async with self._asking:
+            if self._socket is None:
+                raise BusError(f"{self._path} is not connected")
+            try:
+                async with asyncio.timeout(_ANSWER_WITHIN_S):
+                    await loop.sock_sendall(self._socket, line.encode())
+                    answer = (await loop.sock_recv(self._socket, _MOST_BYTES)).decode()
+            except TimeoutError:
+                self._end()  # a late answer would pass for the next one's
+                raise NoAnswerError(f"supercoild does not answer within {_ANSWER_WITHIN_S:g} s") from None
+            except OSError as error:
+                self._end()
+                raise BusError(f"{self._path}: {error.strerror}") from error
+            if not answer:
+                self._end()
+                raise BusError(f"{self._path}: supercoild has ended")
+            return answer.strip()
+
+    def _end(self) -> None:
+        if self._socket is not None:
+            self._socket.close()
+            self._socket = None
+
+    async def _words(self, request: str) -> list[str]:
+        """What follows the channel's number in its line."""
+        answer = await self._ask(request)
+        for line in answer.splitlines():
+            channel, *words = line.split()
+            if channel == str(self._channel):
+                return words
+        raise BusError(f"{self._path}: nothing is known of channel {self._channel}: {answer}")
+
+    async def _numbers(self, request: str) -> list[float]:
+        return [float(word) for word in await self._words(request)]
+
+    def _refused(self, line: str, answer: str) -> SupercoilError:
+        verdict, _, rest = answer.partition(": ")
+        if verdict != "refused":
+            return SupercoilError(f"channel {self._channel}: {line}: {answer}")
+        name, _, instead = rest.partition("; ")
+        refusal = Refusal.__members__.get(name, Refusal.queue_full)
+        nearest = float(instead.split()[0]) if instead else math.nan
+        return refusals.BY_NUMBER.get(refusal, RefusalError)(self._channel, line, nearest)
+
+    async def _look(self) -> None:
+        state, status = await self._words("state"), await self._words("status")
+        now = time.time()
+        for base, values in frames_of(state, probing=status[-1] == "probing"):
+            data = codec.encode(codec.LAYOUTS[base], values)
+            self.telemetry.take(base, now, data)
+            if base == messages.STATUS:
+                self.heartbeat.receive_frame(base, now, data)
+
+    async def _look_again(self) -> None:
+        with contextlib.suppress(BusError, NoAnswerError):  # the next command tells
+            while True:
+                await asyncio.sleep(_LOOK_EVERY_S)
+                await self._look()

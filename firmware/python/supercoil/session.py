@@ -1,0 +1,213 @@
+"""The frames of a master that commands one node under a lease, and the node's answers (docs/can.md)."""
+
+import asyncio
+import math
+import secrets
+import time
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
+
+from supercoil import codec, e2e
+from supercoil.errors import NoAnswerError, RefusalError
+from supercoil.generated import messages, refusals
+from supercoil.generated.names import Opcode, Refusal, Setting
+from supercoil.layout import Layout
+
+ANSWER_WITHIN_S = 0.5
+# A lease lasts a second by default; one that may have run out is asked for first.
+_LEASE_LASTS_S = 0.4
+# It follows the answer at once, where the board sends it.
+_NEAREST_WITHIN_S = 0.05
+_CLAIMS_IN_A_ROW = 4
+# Of 16 counters, so that none of a frame without an answer is used again at once.
+_MOST_IN_FLIGHT = 8
+_RELEASES = -1.0
+# Where a second try can help: the lease ran out meanwhile, or frames were lost before this one.
+_TRY_AGAIN = (Refusal.no_lease, Refusal.wrong_counter)
+
+_COMMAND = codec.LAYOUTS[messages.COMMAND]
+_SETTING_WRITE = codec.LAYOUTS[messages.SETTING_WRITE]
+
+Send = Callable[[int, bytes], Awaitable[None]]
+
+
+@dataclass
+class Answer:
+    refusal: Refusal
+    value: float  # the session or number that was granted; of a setting, what holds
+    nearest: "asyncio.Future[float] | None" = None
+
+
+@dataclass
+class _Pending:
+    what: int  # opcode or setting
+    session: int
+    answered: "asyncio.Future[Answer]" = field(default_factory=lambda: asyncio.get_running_loop().create_future())
+
+
+class Session:
+    """Commands may overlap; they are sent in the order in which they were given."""
+
+    def __init__(self, node: int, send: Send) -> None:
+        self.node = node
+        self._send = send
+        self._name = secrets.randbelow(0xFFFF) + 1  # by which the answer to a claim is known
+        self._number = 0  # of the session; 0: no lease
+        self._counter = 0
+        self._lease_from = -math.inf
+        self._claiming = asyncio.Lock()
+        self._sending = asyncio.Lock()
+        self._in_flight = asyncio.Semaphore(_MOST_IN_FLIGHT)
+        self._commands: dict[int, _Pending] = {}
+        self._settings: dict[int, _Pending] = {}
+        self._newest_refused: asyncio.Future[float] | None = None
+
+    @property
+    def holds_lease(self) -> bool:
+        return self._number != 0
+
+    @property
+    def lease_age_s(self) -> float:
+        """Since the last command that was obeyed."""
+        return time.monotonic() - self._lease_from
+
+    async def command(self, opcode: Opcode, value: float = 0.0) -> None:
+        """Obeyed when it returns. The lease is claimed where there is none."""
+        await self._insist(opcode.name, lambda: self._ask(opcode, value))
+
+    async def write(self, setting: Setting, value: float) -> float:
+        """What holds from then on."""
+        return await self._insist(f"{setting.name} = {value:.7g}", lambda: self._write(setting, value))
+
+    async def disarm(self) -> None:
+        """Obeyed from everybody, in every version of the protocol."""
+        await self._judge("disarm", await self._ask(Opcode.disarm, 0.0))
+
+    async def keep(self) -> None:
+        """Where there is nothing to command; loses the lease that has ended."""
+        answer = await self._ask(Opcode.lease, 0.0)
+        if answer.refusal == Refusal.none:
+            self._lease_from = time.monotonic()
+        else:
+            self._number = 0
+
+    async def release(self) -> None:
+        if self.holds_lease:
+            await self._ask(Opcode.lease, _RELEASES)
+            self._number = 0
+
+    def receive(self, base: int, data: bytes) -> None:
+        """An Acknowledge, Setting or RefusedValue of the node."""
+        message = codec.decode(base, data)
+        if base == messages.REFUSED_VALUE and message is not None:
+            if self._newest_refused is not None and not self._newest_refused.done():
+                self._newest_refused.set_result(message.nearest)
+        elif message is not None and e2e.is_intact(base | self.node, data):
+            self._receive_answer(base, message)
+
+    def _receive_answer(self, base: int, message: messages.Acknowledge | messages.Setting) -> None:
+        if isinstance(message, messages.Acknowledge):
+            pending = self._commands.get(message.counter)
+            mine = pending is not None and (pending.what, pending.session) == (message.opcode, message.session)
+            value = float(message.granted)
+        else:
+            pending = self._settings.get(message.counter)
+            mine = pending is not None and (pending.what, pending.session & 0xFF) == (
+                message.setting, message.session_low)
+            value = message.value
+        if pending is None or not mine or pending.answered.done():
+            return
+        answer = Answer(message.refusal, value)
+        if answer.refusal == Refusal.out_of_range:
+            answer.nearest = self._newest_refused = asyncio.get_running_loop().create_future()
+        pending.answered.set_result(answer)
+
+    def _next_counter(self) -> int:
+        self._counter = (self._counter + 1) % e2e.COUNTERS
+        return self._counter
+
+    async def _ask(self, opcode: Opcode, value: float) -> Answer:
+        async with self._in_flight:
+            carried = self._number or self._name
+            fields = {"opcode": opcode, "session": carried, "value": value}
+            return await self._exchange(_COMMAND, self._commands, _Pending(opcode, carried), fields)
+
+    async def _write(self, setting: Setting, value: float) -> Answer:
+        async with self._in_flight:
+            if (self._counter + 1) % e2e.COUNTERS == 0:
+                self._next_counter()  # 0 is the counter of an answer to somebody who reads
+            fields = {"setting": setting, "session": self._number, "value": value}
+            return await self._exchange(_SETTING_WRITE, self._settings, _Pending(setting, self._number), fields)
+
+    async def _exchange(self, layout: Layout, waiting: dict[int, _Pending], pending: _Pending,
+                        fields: dict[str, float]) -> Answer:
+        identifier = layout.base | self.node
+        counter = -1
+        try:
+            async with self._sending:  # in the order of the counters, also when the bus is busy
+                counter = self._next_counter()
+                waiting[counter] = pending
+                await self._send(identifier, e2e.protected(
+                    identifier, codec.encode(layout, {**fields, "counter": counter})))
+            async with asyncio.timeout(ANSWER_WITHIN_S):
+                return await pending.answered
+        except TimeoutError as error:
+            raise NoAnswerError(f"node {self.node} does not answer within {ANSWER_WITHIN_S} s") from error
+        finally:
+            if waiting.get(counter) is pending:
+                del waiting[counter]
+
+    async def _insist(self, command: str, once: Callable[[], Awaitable[Answer]]) -> float:
+        await self._hold_lease()
+        number = self._number
+        answer = await once()
+        if answer.refusal in _TRY_AGAIN:
+            if answer.refusal == Refusal.no_lease:
+                await self._claim(number)
+            answer = await once()
+        return await self._judge(command, answer)
+
+    async def _judge(self, command: str, answer: Answer) -> float:
+        if answer.refusal == Refusal.none:
+            self._lease_from = time.monotonic()
+            return answer.value
+        if answer.refusal in (Refusal.no_lease, Refusal.not_lease_holder):
+            self._number = 0
+        nearest = math.nan
+        if answer.nearest is not None:
+            try:
+                async with asyncio.timeout(_NEAREST_WITHIN_S):
+                    nearest = await answer.nearest
+            except TimeoutError:
+                pass
+        raise self._refused(answer.refusal, command, nearest)
+
+    def _refused(self, refusal: Refusal, command: str, nearest: float = math.nan) -> RefusalError:
+        return refusals.BY_NUMBER.get(refusal, RefusalError)(self.node, command, nearest)
+
+    async def _hold_lease(self) -> None:
+        if not self.holds_lease:
+            await self._claim(0)
+        elif self.lease_age_s > _LEASE_LASTS_S:
+            await self.keep()
+            if not self.holds_lease:
+                await self._claim(0)
+
+    async def _claim(self, lost: int) -> None:
+        """Unless another command has claimed meanwhile: then the session is not the lost one."""
+        async with self._claiming:
+            if self._number != lost:
+                return
+            self._number = 0
+            answer = await self._ask(Opcode.lease, 0.0)
+            for _ in range(_CLAIMS_IN_A_ROW):  # another master may use a number first
+                if answer.refusal != Refusal.claim_again:
+                    break
+                answer = await self._ask(Opcode.lease, answer.value)
+            if answer.refusal == Refusal.no_lease:
+                # To a board of an older version the claim was a command without a lease.
+                raise self._refused(Refusal.protocol_mismatch, "lease")
+            if answer.refusal != Refusal.none:
+                raise self._refused(answer.refusal, "lease")
+            self._number = int(answer.value)
+            self._lease_from = time.monotonic()

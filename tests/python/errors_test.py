@@ -1,0 +1,48 @@
+"""Every fault and refusal that the protocol has a name for has its exception, with its page's text."""
+
+import pathlib
+import unittest
+
+import supercoil
+from supercoil.generated import faults, names, refusals, results
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class Errors(unittest.TestCase):
+    def test_every_fault_has_one_with_its_page(self):
+        self.assertEqual(set(faults.BY_NUMBER), set(names.Fault) - {names.Fault.none})
+        for number, kind in faults.BY_NUMBER.items():
+            name = names.Fault(number).name
+            self.assertEqual((kind.number, kind.name, kind.__name__), (number, name, name.title().replace("_", "")))
+            self.assertEqual(kind.page, (ROOT / "docs" / "faults" / f"{name}.md").read_text())
+            self.assertTrue(issubclass(kind, supercoil.FaultError))
+            self.assertTrue(kind.meaning and kind.remedy, name)
+
+    def test_a_fault_says_what_was_measured_and_what_to_do(self):
+        text = str(faults.OverTemperature(3, 161.0, 160.0))
+        self.assertTrue(text.startswith("node 3: over_temperature (measured 161, limit 160): "), text)
+        self.assertIn("otherwise let it cool", text.lower())
+        self.assertTrue(str(faults.OverTemperature(3)).startswith("node 3: over_temperature: "))
+
+    def test_every_refusal_has_one(self):
+        self.assertEqual(set(refusals.BY_NUMBER), set(names.Refusal) - {names.Refusal.none})
+        for number, kind in refusals.BY_NUMBER.items():
+            self.assertEqual((kind.number, kind.name), (number, names.Refusal(number).name))
+            self.assertTrue(kind.meaning)
+        self.assertIn("0.025 would be obeyed", str(refusals.OutOfRange(1, "position", 0.025)))
+
+    def test_every_result_has_a_meaning(self):
+        self.assertEqual(set(results.MEANINGS), set(names.Result))
+        self.assertEqual(len(results.NOTES), 8)
+
+    def test_a_mismatch_of_versions_names_both_and_what_to_do(self):
+        for of_board, older in ((supercoil.PROTOCOL_VERSION + 1, "this package"), (3, "the board's firmware")):
+            text = str(supercoil.VersionMismatchError(7, of_board))
+            self.assertIn(f"node 7 speaks version {of_board} ", text)
+            self.assertIn(f"speaks {supercoil.PROTOCOL_VERSION}: {older}", text)
+            self.assertIn("Install", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

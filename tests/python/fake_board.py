@@ -1,0 +1,83 @@
+"""A board that answers by a script, on a virtual bus of python-can: for what the simulated board does not do."""
+
+import threading
+
+import can
+
+from supercoil import codec, e2e
+from supercoil.generated import messages
+
+NODE = 5
+
+
+class FakeBoard:
+    """obey(opcode name, value, session) -> (refusal, granted), or None: no answer."""
+
+    def __init__(self, channel, obey=lambda *_: (0, 0), version=4, **status):
+        self.obey = obey
+        self.version = version
+        self.status = status
+        self.bus = can.Bus(interface="virtual", channel=channel)
+        self.commands = []
+        self.damage_answers = False
+        self._ended = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def end(self):
+        self._ended.set()
+        self._thread.join()
+        self.bus.shutdown()
+
+    def send(self, base, protected=False, **values):
+        identifier = base | NODE
+        data = codec.encode(codec.LAYOUTS[base], values)
+        if protected:
+            data = e2e.protected(identifier, data)
+            if self.damage_answers:
+                data = data[:-1] + bytes([data[-1] ^ 1])
+        self.bus.send(can.Message(arbitration_id=identifier, data=data, is_extended_id=False))
+
+    def _run(self):
+        while not self._ended.is_set():
+            self.send(messages.STATUS, protocol_version=self.version, **self.status)
+            frame = self.bus.recv(0.02)
+            while frame is not None:
+                self._take(frame)
+                frame = self.bus.recv(0.0)
+
+    def _take(self, frame):
+        if frame.arbitration_id != messages.COMMAND | NODE:
+            return
+        told = codec.decode(messages.COMMAND, bytes(frame.data))
+        assert e2e.is_intact(frame.arbitration_id, bytes(frame.data))
+        self.commands.append((told.opcode.name, told.value, told.session, told.counter))
+        answer = self.obey(told.opcode.name, told.value, told.session)
+        if answer is not None:
+            self.send(messages.ACKNOWLEDGE, protected=True, counter=told.counter, opcode=told.opcode,
+                      session=told.session, refusal=answer[0], granted=answer[1])
+
+
+class Leased:
+    """A board that grants session 77 after one claim_again with number 1234; all else is obeyed."""
+
+    def __init__(self):
+        self.leased = False
+        self.refuse = {}  # opcode -> refusals to come
+
+    def __call__(self, opcode, value, session):
+        if waiting := self.refuse.get(opcode):
+            return waiting.pop(0), 0
+        if opcode == "lease":
+            if value == -1.0:
+                self.leased = False
+            elif not self.leased and value != 1234:
+                return messages.names.Refusal.claim_again, 1234
+            else:
+                self.leased = True
+            return 0, 77
+        if opcode == "disarm":
+            return 0, 0
+        if not self.leased:
+            return messages.names.Refusal.no_lease, 0
+        return (0, 0) if session == 77 else (messages.names.Refusal.not_lease_holder, 0)

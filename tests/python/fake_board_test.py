@@ -1,0 +1,149 @@
+"""What a session does where a board is not as it should be: another version, damaged or no answers, lost leases."""
+
+import asyncio
+import unittest
+from unittest import mock
+
+import can
+from fake_board import NODE, FakeBoard, Leased
+from patience import patient_tests
+
+import supercoil
+from supercoil import sync
+from supercoil.address import open_bus
+from supercoil.generated.names import Refusal
+
+
+@patient_tests
+class Sessions(unittest.TestCase):
+    def board(self, obey=None, **status):
+        # A bus of its own: virtual buses of one name are one bus.
+        self.channel = self.id()
+        self.lease = obey or Leased()
+        board = FakeBoard(self.channel, self.lease, **status)
+        self.addCleanup(board.end)
+        return board
+
+    def muscle(self, **options):
+        return sync.Muscle(f"virtual:{self.channel}", NODE, deadline_s=60.0, **options)
+
+    def test_a_board_of_another_version_is_not_commanded_but_can_be_stopped(self):
+        board = self.board(version=5)
+        with self.assertRaisesRegex(supercoil.VersionMismatchError, "version 5 .* speaks 4"), self.muscle():
+            pass
+        self.assertEqual(board.commands, [])
+        self.assertFalse(sync.discover(f"virtual:{self.channel}", seconds=0.3)[0].can_be_commanded)
+        sync.stop(f"virtual:{self.channel}", NODE)
+        self.assertEqual([command[:2] for command in board.commands], [("disarm", 0.0)])
+
+    def test_a_node_that_is_not_there_is_named(self):
+        self.board()
+        with self.assertRaisesRegex(supercoil.NoAnswerError, "no heartbeat of node 6 on virtual:"), \
+                sync.Muscle(f"virtual:{self.channel}", 6):
+            pass
+
+    def test_the_lease_is_claimed_with_the_boards_number_and_given_back(self):
+        board = self.board()
+        with self.muscle() as muscle:
+            muscle.set_position(0.01)
+        asked = [command[:2] for command in board.commands]
+        self.assertEqual(asked[:3], [("lease", 0.0), ("lease", 1234.0), ("position", asked[2][1])])
+        self.assertAlmostEqual(asked[2][1], 0.01, 8)
+        self.assertEqual(asked[-2:], [("disarm", 0.0), ("lease", -1.0)])
+        self.assertEqual(board.commands[2][2], 77)
+        counters = [command[3] for command in board.commands]
+        self.assertEqual(counters, [(counters[0] + i) % 16 for i in range(len(counters))])
+
+    def test_a_lease_that_ran_out_is_claimed_again_and_the_command_repeated(self):
+        board = self.board()
+        with self.muscle() as muscle:
+            muscle.set_position(0.01)
+            self.lease.leased = False
+            muscle.set_position(0.02)
+            obeyed = [command[0] for command in board.commands if command[0] != "renew"]
+        self.assertIn(["position", "lease", "lease", "position"],
+                      [obeyed[i:i + 4] for i in range(len(obeyed))])
+
+    def test_a_lost_frame_is_made_up_for_once(self):
+        self.board()
+        with self.muscle() as muscle:
+            self.lease.refuse["rest"] = [Refusal.wrong_counter]
+            muscle.rest()
+            self.lease.refuse["rest"] = [Refusal.wrong_counter] * 2
+            with self.assertRaises(supercoil.refusals.WrongCounter):
+                muscle.rest()
+
+    def test_another_masters_lease_is_respected(self):
+        board = self.board(lambda *_: (Refusal.not_lease_holder, 0))
+        with self.muscle() as muscle:
+            with self.assertRaisesRegex(supercoil.refusals.NotLeaseHolder, "lease is refused"):
+                muscle.arm()
+            self.assertEqual([command[0] for command in board.commands], ["lease"])
+
+    def test_an_old_board_that_knows_no_lease_is_a_mismatch(self):
+        self.board(lambda *_: (Refusal.no_lease, 0))
+        with self.muscle() as muscle, self.assertRaises(supercoil.refusals.ProtocolMismatch):
+            muscle.arm()
+
+    def test_damaged_and_missing_answers_are_no_answers(self):
+        board = self.board()
+        with self.muscle() as muscle:
+            board.damage_answers = True
+            with self.assertRaisesRegex(supercoil.NoAnswerError, "does not answer"):
+                muscle.set_power(1.0)
+            board.damage_answers = False
+            muscle.set_power(1.0)
+
+    def test_every_refusal_is_raised_by_its_name(self):
+        self.board()
+        with self.muscle() as muscle:
+            for refusal in (Refusal.cause_persists, Refusal.no_edge, Refusal.busy, Refusal.queue_full):
+                self.lease.refuse["reset"] = [refusal]
+                with self.assertRaises(supercoil.refusals.BY_NUMBER[refusal]) as raised:
+                    muscle.reset()
+                self.assertIn("reset is refused", str(raised.exception))
+
+    def test_a_refusal_because_of_a_fault_is_told_as_the_fault(self):
+        self.board(state=3, fault=30)
+        with self.muscle() as muscle:
+            self.lease.refuse["position"] = [Refusal.wrong_state]
+            with self.assertRaises(supercoil.faults.OverTemperature):
+                muscle.set_position(0.01)
+            with self.assertRaises(supercoil.faults.OverTemperature):
+                muscle.hold(1.0)
+
+    def test_a_bus_of_python_can_is_taken_as_it_is_and_stays_open(self):
+        self.board()
+        with can.Bus(interface="virtual", channel=self.channel) as bus:
+            for _ in range(2):
+                with sync.Muscle(bus, NODE) as muscle:
+                    muscle.set_power(0.5)
+
+    def test_many_commands_at_once_are_each_answered(self):
+        board = self.board()
+
+        async def many():
+            async with supercoil.Muscle(f"virtual:{self.channel}", NODE) as muscle:
+                await asyncio.gather(*(muscle.set_position(i / 1e4) for i in range(100)))
+        asyncio.run(many())
+        sent = [round(command[1] * 1e4) for command in board.commands if command[0] == "position"]
+        self.assertEqual(sent, list(range(100)))
+
+    def test_an_address_is_python_cans_interface_and_channel(self):
+        for address, interface, channel in (("can0", "socketcan", "can0"), ("gs_usb:0", "gs_usb", 0),
+                                            ("slcan:/dev/ttyACM0", "slcan", "/dev/ttyACM0")):
+            with mock.patch("can.Bus") as opened:
+                open_bus(address, {"bitrate": 500_000})
+            opened.assert_called_once_with(interface=interface, channel=channel, bitrate=500_000)
+
+    def test_what_is_no_bus_is_named(self):
+        for address in ("nonsense:0", "socketcand:1", "/nowhere/commands"):
+            with self.subTest(address), self.assertRaisesRegex(supercoil.BusError, address.split(":")[0]), \
+                    sync.Muscle(address):
+                pass
+        with self.assertRaises(ValueError):
+            sync.Muscle("can0", 64)
+
+
+if __name__ == "__main__":
+    unittest.main()

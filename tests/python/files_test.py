@@ -1,0 +1,106 @@
+"""load() reads what a simulation and a flight recorder write, as the project's own program does."""
+
+import csv
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+import numpy
+
+import supercoil
+
+# One fault, so that there is a recording.
+SCENARIO = "simulation.duration_s = 4.0\n[[event]]\nat_s = 3.0\ninjected_fault.heater_open = true\n"
+
+
+class Files(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.path = pathlib.Path(folder.name)
+        (cls.path / "s.toml").write_text(SCENARIO)
+        subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", ".", "--every", "10", "--no-plot",
+                        "--allow-fault", "--quiet"], cwd=cls.path, check=True, timeout=300)
+
+    def log(self, *arguments):
+        subprocess.run([os.environ["SUPERCOIL"], "log", *arguments, "--out", "out.csv"], cwd=self.path, check=True,
+                       capture_output=True, timeout=300)
+        with open(self.path / "out.csv") as file:
+            return list(csv.DictReader(file))
+
+    def assert_same(self, value, text, where):
+        if isinstance(value, str):
+            self.assertEqual(value, text, where)
+        elif text == "":
+            self.assertTrue(numpy.isnan(value), where)
+        else:
+            numpy.testing.assert_allclose(float(value), float(text), rtol=1e-6, atol=1e-9, err_msg=where)
+
+    def test_a_can_log_is_what_supercoil_log_says_of_every_message(self):
+        table = supercoil.load(self.path / "can.log")
+        self.assertEqual((table.attrs["node"], table.attrs["damaged_lines"]), (1, 0))
+        self.assertEqual(table.attrs["units"]["Power.applied_W"], "W")
+        for message in ("Measurement", "Power", "Status", "Estimate", "Emergency"):
+            rows = self.log("can.log", "--message", message)
+            columns = [column for column in table if column.startswith(f"{message}.")]
+            told = table[columns].dropna(how="all")
+            self.assertEqual(len(told), len(rows), message)
+            for (time_s, values), row in list(zip(told.iterrows(), rows, strict=True))[::7]:
+                self.assert_same(time_s, row["time_s"], "time_s")
+                for column in columns:
+                    self.assert_same(values[column], row[column.partition(".")[2]], column)
+
+    def test_a_log_of_two_nodes_wants_to_know_which(self):
+        text = (self.path / "can.log").read_text()
+        (self.path / "two.log").write_text(text + "nonsense\n" + text.replace("701#", "702#"))
+        with self.assertRaisesRegex(ValueError, "nodes 1, 2"):
+            supercoil.load(self.path / "two.log")
+        table = supercoil.load(self.path / "two.log", node=2)
+        self.assertEqual({column.partition(".")[0] for column in table}, {"Status"})
+        self.assertEqual(table.attrs["damaged_lines"], 1)
+
+    def test_a_recording_is_what_supercoil_log_says(self):
+        table = supercoil.load(self.path / "flight-1.scfr")
+        rows = self.log("flight-1.scfr")
+        self.assertEqual(len(table), len(rows))
+        self.assertEqual(table.attrs["fault"], "heater_open")
+        self.assertEqual(table.attrs["units"]["applied_W"], "W")
+        others = {"probing", "trusted", "limited", "multiplexed_selector"}  # flags as numbers; a name of its own
+        for place in range(0, len(rows), 371):
+            self.assert_same(table.index[place], rows[place]["time_s"], "time_s")
+            for column, text in rows[place].items():
+                if column not in others | {"time_s"}:
+                    self.assert_same(table[column].iloc[place], text, column)
+
+    def test_a_damaged_recording_is_refused(self):
+        whole = (self.path / "flight-1.scfr").read_bytes()
+        for place, said in ((100, "header is damaged"), (600, "rows are damaged")):
+            damaged = bytearray(whole)
+            damaged[place] ^= 1
+            (self.path / "damaged.scfr").write_bytes(damaged)
+            with self.assertRaisesRegex(ValueError, said):
+                supercoil.load(self.path / "damaged.scfr")
+
+    def test_a_trace_has_its_rows_and_units(self):
+        table = supercoil.load(self.path / "trace.csv")
+        self.assertEqual(len(table), 400)
+        units = table.attrs["units"]
+        self.assertEqual((units["measured_m"], units["temperature_rise_K"], units["theta4"], units["thermometer_C"],
+                          units["state"]), ("m", "K", "W/m", "degC", ""))
+
+    def test_what_is_none_of_them_is_refused(self):
+        with self.assertRaisesRegex(ValueError, "no can.log"):
+            supercoil.load(self.path / "s.toml")
+
+    def test_a_figure_is_drawn_of_each(self):
+        for name in ("can.log", "flight-1.scfr", "trace.csv"):
+            figure = supercoil.plot(supercoil.load(self.path / name), self.path / "figure.svg")
+            self.assertTrue(all(panel.lines for panel in figure.axes[:2]), name)
+            self.assertTrue((self.path / "figure.svg").read_text().startswith("<?xml"))
+
+
+if __name__ == "__main__":
+    unittest.main()

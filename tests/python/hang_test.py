@@ -1,0 +1,71 @@
+"""A program that hangs does not keep a muscle hot: its commands expire."""
+
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from patience import DEADLINE_S, QUICK, TRIES, patient
+
+import supercoil
+from supercoil import Opcode, State, messages, sync
+
+# Holds the muscle until it is told otherwise.
+PROGRAM = """
+import sys, supercoil
+with supercoil.Muscle(sys.argv[1], deadline_s=1e6) as muscle:
+    if muscle.state == supercoil.State.fault:
+        muscle.reset()
+    muscle.arm()
+    muscle.set_position(0.002)
+    muscle.hold(1e6)
+"""
+RENEWING = (Opcode.position, Opcode.renew)
+
+
+class Hang(unittest.TestCase):
+    def setUp(self):
+        self.simulation = sync.Simulation(QUICK).start()
+        self.addCleanup(self.simulation.stop)
+        self.observer = self.simulation.muscle
+
+    def observe(self, wanted):
+        end = time.monotonic() + DEADLINE_S
+        while not wanted(self.observer):
+            self.assertLess(time.monotonic(), end, "never seen")
+            time.sleep(0.01)
+
+    def holding(self):
+        """A process that holds the muscle."""
+        for _ in range(TRIES):
+            process = subprocess.Popen([sys.executable, "-c", PROGRAM, self.simulation.address], stderr=subprocess.PIPE,
+                                       text=True)
+            self.addCleanup(process.communicate)
+            self.addCleanup(process.kill)
+            self.observe(lambda m, process=process: m.state == State.active or process.poll() is not None)
+            if process.poll() is None:
+                return process
+        self.fail(process.communicate()[1])
+
+    @patient
+    def test_the_command_of_a_stopped_process_expires(self):
+        process = self.holding()
+        with self.observer.record() as recording:
+            self.observer.hold(1.0)
+            process.send_signal(signal.SIGSTOP)
+            self.observe(lambda m: m.state == State.fault)
+            self.observe(lambda _: any(recording.of(messages.FirstCause)))
+        expired, = [told for told in recording.of(messages.Emergency) if told.fault != supercoil.Fault.none]
+        self.assertEqual(expired.fault, supercoil.Fault.command_timeout)
+        renewed = [told.time_s for told in recording.of(messages.Acknowledge) if told.opcode in RENEWING]
+        # By the board's clock.
+        self.assertAlmostEqual(expired.time_s - renewed[-1], 0.25, delta=0.02)
+        self.assertGreater(len(renewed), 8)
+        process.send_signal(signal.SIGCONT)
+        self.assertIn("supercoil.generated.faults.CommandTimeout", process.communicate(timeout=DEADLINE_S)[1])
+        self.assertEqual(process.returncode, 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,136 @@
+"""The board's own socket, against a server that speaks as firmware/apps/supercoild/local_commands.cpp does."""
+
+import pathlib
+import re
+import socket
+import tempfile
+import threading
+import unittest
+
+from patience import patient_tests
+
+import supercoil
+from supercoil import Setting, State, sync
+from supercoil.generated.names import Mode, Opcode
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+class FakeDaemon:
+    """Answers each line by answers (line -> text); all else is obeyed. Two channels, of which the second is told."""
+
+    def __init__(self, path):
+        self.answers = {"senses": "1 1 1 0\n2 1.02 0.985 0.021\n",
+                        "muscle": "1 nan\n2 " + " ".join(map(str, range(14))) + " nan\n"}
+        self.lines = []
+        self.tell("disarmed", "rest")
+        self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self._listener.bind(path)
+        self._listener.listen()
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def tell(self, state, mode, fault="none", result="none", notes="-"):
+        self.answers["state"] = (f"1 disarmed rest none nan nan 0 0 20 21 nan none -\n"
+                                 f"2 {state} {mode} {fault} 0.004 0.0035 0.0034 1.25 30.5 41 0.5 {result} {notes}\n")
+        self.answers["status"] = f"1 disarmed none -\n2 {state} {fault} -\n"
+
+    def end(self):
+        self._listener.close()
+
+    def _serve(self):
+        while True:
+            try:
+                client, _ = self._listener.accept()
+            except OSError:
+                return
+            threading.Thread(target=self._talk, args=(client,), daemon=True).start()
+
+    def _talk(self, client):
+        with client:
+            while line := client.recv(200).decode():
+                answer = self.answers.get(line, "ok")
+                if line not in ("state", "status"):
+                    self.lines.append(line)
+                if answer == "ok" and line.split()[1] in ("arm", "disarm", "rest", "position", "identify"):
+                    self.tell(*{"arm": ("armed", "rest"), "disarm": ("disarmed", "rest"), "rest": ("armed", "rest"),
+                                "position": ("active", "position"),
+                                "identify": ("armed", "rest", "none", "found", "theta2_uncertain,friction"),
+                                }[line.split()[1]])
+                client.send(answer.encode())
+
+
+@patient_tests
+class Local(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = f"{folder.name}/commands"
+        self.daemon = FakeDaemon(self.path)
+        self.addCleanup(self.daemon.end)
+
+    def muscle(self):
+        return sync.Muscle(self.path, 2, deadline_s=60.0)
+
+    def test_a_channel_is_commanded_and_told_as_over_can(self):
+        with self.muscle() as muscle:
+            muscle.arm()
+            muscle.move_to(0.0034)
+            self.assertEqual((muscle.state, muscle.telemetry.status.mode), (State.active, Mode.position))
+            self.assertEqual(muscle.position_m, 0.0034)
+            self.assertEqual((muscle.telemetry.tracking.reference_m, muscle.telemetry.tracking.error_m), (0.004, -1e-4))
+            self.assertEqual(muscle.telemetry.temperature[1:], (30.5, 41.0))
+            self.assertEqual(muscle.telemetry.power.applied_W, 1.25)
+        commands = [line for line in self.daemon.lines if line != "2 renew"]
+        self.assertEqual(commands, ["2 arm", "2 position 0.0034", "2 disarm"])
+        self.assertIn("2 renew", self.daemon.lines)
+
+    def test_refusals_and_faults_are_named(self):
+        with self.muscle() as muscle:
+            self.daemon.answers["2 position 1"] = "refused: out_of_range; 0.025 would be obeyed"
+            with self.assertRaises(supercoil.refusals.OutOfRange) as raised:
+                muscle.set_position(1.0)
+            self.assertEqual(raised.exception.nearest, 0.025)
+            self.daemon.answers["2 store"] = "refused: not_ready"
+            with self.assertRaises(supercoil.refusals.NotReady):
+                muscle.store()
+            self.daemon.answers["2 power 1"] = "refused: too many commands"
+            with self.assertRaises(supercoil.refusals.QueueFull):
+                muscle.set_power(1.0)
+            self.daemon.tell("fault", "rest", "heater_open")
+            with self.assertRaises(supercoil.faults.HeaterOpen):
+                muscle.hold(10.0)
+
+    def test_what_is_learned_and_known_is_told(self):
+        with self.muscle() as muscle:
+            self.assertEqual(muscle.identify(), (supercoil.Result.found, ("theta2_uncertain", "friction")))
+            self.assertEqual(muscle.quantities()[supercoil.Quantity.moving_mass_kg], 4.0)
+            self.assertEqual(muscle.settings(), {Setting.supply_gain: 1.02, Setting.current_gain: 0.985,
+                                                 Setting.sense_error_ratio: 0.021})
+            with self.assertRaisesRegex(supercoil.SupercoilError, "only over CAN"):
+                muscle.change(Setting.max_power_W, 1.0)
+
+    def test_every_command_is_one_of_the_boards_lines(self):
+        with self.muscle() as muscle:
+            muscle.scale(0.0101)
+            muscle.use_controller(1)
+            muscle.use_estimator(0)
+            muscle.forget()
+            muscle.compare_supply(12.1)
+            muscle.compare_current(0.45)
+            muscle.compare_rise(31.0)
+            muscle.renew()
+            self.assertEqual(self.daemon.lines[:8], [
+                "2 scale 0.0101", "2 controller 1", "2 estimator 0", "2 clear", "2 compare_supply 12.1",
+                "2 compare_current 0.45", "2 compare_rise 31", "2 renew"])
+        verbs = (ROOT / "firmware" / "core" / "loop" / "command.hpp").read_text()
+        known = set(re.findall(r'"(\w+)"', verbs.split("verb_names{")[1].split("}")[0])) | {"clear"}
+        self.assertLessEqual({line.split()[1] for line in self.daemon.lines}, known)
+        self.assertLessEqual({opcode.name for opcode in Opcode} - {"compare", "claim_of_version_3", "lease"}, known)
+
+    def test_a_channel_that_is_not_there_is_named(self):
+        with self.assertRaisesRegex(supercoil.BusError, "nothing is known of channel 3"), sync.Muscle(self.path, 3):
+            pass
+
+
+if __name__ == "__main__":
+    unittest.main()

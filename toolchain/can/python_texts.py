@@ -1,0 +1,35 @@
+"""Texts of the documentation, as the Python package's messages have them."""
+
+import re
+
+LINK = re.compile(r"\[([^\]]*)\](?:\([^)]*\))?")
+
+
+def plain(markdown):
+    """Without links and signs of markup."""
+    return LINK.sub(r"\1", markdown).replace("`", "").replace("**", "").replace('"', "'").strip()
+
+
+def first_paragraph(page):
+    """That which follows the page's title."""
+    return page.split("\n\n")[1]
+
+
+def section(page, heading):
+    found = re.search(rf"^## {heading}\n+(.*?)(?=^## |\Z)", page, re.M | re.S)
+    return found[1] if found else ""
+
+
+def table_rows(page, title):
+    """Of the table whose first column has this title: first cell -> last cell. Names in one cell share it."""
+    rows, inside = {}, False
+    for line in page.splitlines():
+        cells = [cell.strip() for cell in line.strip("|").split(" | ")] if line.startswith("|") else []
+        if not cells:
+            inside = False
+        elif cells[0] == title:
+            inside = True
+        elif inside:
+            for name in re.findall(r"`(\w+)`", cells[0]):
+                rows[name] = plain(cells[-1])
+    return rows

@@ -25,6 +25,15 @@ class FirstCause(NamedTuple):
     limit: float
 
 
+class TuningRead(NamedTuple):
+    """Asks for one value of a controller of this node. Needs no lease: reading changes nothing."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    place: int
+    set: names.Set
+    tunable: names.Tunable
+
+
 class Command(NamedTuple):
     """One command to this node's channel. AUTOSAR E2E Profile 2, each of its 16 data ids the low byte of the frame's identifier: damage, loss and the repetition of one frame are seen. Whoever repeats 16 recorded frames of a session in their order is obeyed while that lease lasts, and no longer: the session ends with the lease or the board's start, and a recorded lease frame does not bring it back. A command to heat expires unless it is renewed."""
 
@@ -181,7 +190,7 @@ class Setting(NamedTuple):
 
 
 class SettingWrite(NamedTuple):
-    """Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command or SettingWrite."""
+    """Changes one setting of this node until the board starts again. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int
@@ -203,6 +212,19 @@ class MuscleRead(NamedTuple):
 
     time_s: float  # on the bus, by the clock of whoever received it
     quantity: names.Quantity
+
+
+class Tuning(NamedTuple):
+    """The answer to TuningRead and TuningWrite. Protected as Command is. Boards older than supercoil 0.2.0 do not answer."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    place: int
+    tunable: names.Tunable
+    refusal: names.Refusal
+    set: names.Set
+    value: float
 
 
 class Status(NamedTuple):
@@ -227,6 +249,18 @@ class Status(NamedTuple):
     friction: bool
 
 
+class TuningWrite(NamedTuple):
+    """Prepares one value of a controller of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    place: int
+    tunable: names.Tunable
+    session_low: int
+    value: float
+
+
 LAYOUTS = (
     Layout(Emergency, 0x080, 8, 0, True, (
         Signal("fault", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Fault),
@@ -236,6 +270,11 @@ LAYOUTS = (
     Layout(FirstCause, 0x0c0, 8, 0, True, (
         Signal("measured", "", 0, 32, Raw.floating, 1.0, None, None, float),
         Signal("limit", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(TuningRead, 0x1c0, 2, 0, False, (
+        Signal("place", "", 0, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("set", "", 4, 4, Raw.unsigned, 1.0, None, None, names.Set),
+        Signal("tunable", "", 8, 8, Raw.unsigned, 1.0, None, None, names.Tunable),
     )),
     Layout(Command, 0x200, 8, 0, False, (
         Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
@@ -345,6 +384,15 @@ LAYOUTS = (
     Layout(MuscleRead, 0x680, 1, 0, False, (
         Signal("quantity", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Quantity),
     )),
+    Layout(Tuning, 0x640, 8, 0, True, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("place", "", 12, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("tunable", "", 16, 8, Raw.unsigned, 1.0, None, None, names.Tunable),
+        Signal("refusal", "", 24, 4, Raw.unsigned, 1.0, None, None, names.Refusal),
+        Signal("set", "", 28, 4, Raw.unsigned, 1.0, None, None, names.Set),
+        Signal("value", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
     Layout(Status, 0x700, 8, 100, True, (
         Signal("state", "", 0, 4, Raw.unsigned, 1.0, None, None, names.State),
         Signal("mode", "", 4, 4, Raw.unsigned, 1.0, None, None, names.Mode),
@@ -363,11 +411,20 @@ LAYOUTS = (
         Signal("oscillated", "", 61, 1, Raw.unsigned, 1.0, None, None, bool),
         Signal("friction", "", 62, 1, Raw.unsigned, 1.0, None, None, bool),
     )),
+    Layout(TuningWrite, 0x6c0, 8, 0, False, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("place", "", 12, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("tunable", "", 16, 8, Raw.unsigned, 1.0, None, None, names.Tunable),
+        Signal("session_low", "", 24, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("value", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
 )
 
 # Identifiers are base + node.
 EMERGENCY = 0x080
 FIRST_CAUSE = 0x0c0
+TUNING_READ = 0x1c0
 COMMAND = 0x200
 ACKNOWLEDGE = 0x240
 MEASUREMENT = 0x280
@@ -386,4 +443,6 @@ SETTING = 0x580
 SETTING_WRITE = 0x5c0
 SETTING_READ = 0x600
 MUSCLE_READ = 0x680
+TUNING = 0x640
 STATUS = 0x700
+TUNING_WRITE = 0x6c0

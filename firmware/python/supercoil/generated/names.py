@@ -147,6 +147,7 @@ class Refusal(Named):
     queue_full = 11
     claim_again = 12
     protocol_mismatch = 13
+    unsuitable = 14
 
 
 class Result(Named):
@@ -161,6 +162,13 @@ class Result(Named):
     implausible = 8
     not_stored = 9
     too_little_motion = 10
+
+
+class Set(Named):
+    prepared = 0
+    in_use = 1
+    configured = 2
+    stored = 3
 
 
 class Setting(Named):
@@ -186,3 +194,30 @@ class State(Named):
     armed = 1
     active = 2
     fault = 3
+
+
+class Tunable(Named):
+    kind = 0
+    proportional_W_per_m = 1
+    integral_W_per_m_s = 2
+    derivative_Ws_per_m = 3
+    feedforward_W_per_m = 4
+    bandwidth_rad_per_s = 5
+    derivative_filter_rad_per_s = 6
+    follow_s = 7
+    forgetting_s = 8
+    learn = 9
+    period_s = 10
+    find_period = 11
+    filter_rad_per_s = 12
+    regression_rad_per_s = 13
+    change_W = 14
+    hold_s = 15
+    shape_reference = 16
+    slow_when_oscillating = 17
+    reference_model = 18
+    model_pole_1_rad_per_s = 19
+    model_pole_2_rad_per_s = 20
+    model_pole_3_rad_per_s = 21
+    adaptation_scale = 22
+    all = 255

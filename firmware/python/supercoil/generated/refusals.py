@@ -122,6 +122,15 @@ class ProtocolMismatch(RefusalError):
 the frame is of another version of the protocol"""
 
 
+class Unsuitable(RefusalError):
+    """to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known"""
+
+    number = 14
+    name = "unsuitable"
+    meaning = """\
+to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known"""
+
+
 BY_NUMBER: dict[int, type[RefusalError]] = {
     1: WrongState,
     2: CausePersists,
@@ -136,4 +145,5 @@ BY_NUMBER: dict[int, type[RefusalError]] = {
     11: QueueFull,
     12: ClaimAgain,
     13: ProtocolMismatch,
+    14: Unsuitable,
 }

@@ -5,7 +5,7 @@ supercoild is the ordinary program with an ordinary configuration (board.toml, 1
 When power goes off, and by which means, is what the plant's witness saw, outside of the board. Prints what was
 measured; ends with 1 if any of it is wrong, 2 if the board did not do its part.
 
-    tests/hil/firmware_test.py [--track SECONDS] [--only track|captured|calls|deaths] [--architecture amd64]
+    tests/hil/firmware_test.py [--track SECONDS] [--only track|captured|calls|air|deaths] [--architecture amd64]
 """
 
 import argparse
@@ -82,6 +82,22 @@ def calls(table, run):
     table.row("it ended with", int(re.search(r"^it ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
 
 
+# The air's sensor reads it to 2 K; without it the air is that of board.toml.
+AIR = (("well", "air of 20 C", 18, 22),
+       ("hot", "40 C, above its warmest", 15, 42),
+       ("well_again", "20 C again", 18, 22),
+       ("gone", "its sensor is gone", 15, 30))
+
+
+def air(table, run):
+    """The coldest and the hottest that a cold muscle may be, as the board tells them."""
+    for name, what, coldest_C, hottest_C in AIR:
+        told = re.search(rf"^believed {name} (.*)", run.console, re.M)[1].split()
+        for which, value_C, right_C in (("coldest", told[7], coldest_C), ("hottest", told[8], hottest_C)):
+            table.row(f"{what}: {which}", float(value_C), right_C - 0.2, right_C + 0.2, "C")
+    table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
+
+
 def means(look):
     """How the heat was cut, as far as the witness sees."""
     channel = look.channels[0]
@@ -111,7 +127,7 @@ def deaths(table, run):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--track", metavar="SECONDS", type=int, default=60, help="of the board's time (default: 60)")
-    parser.add_argument("--only", choices=("track", "captured", "calls", "deaths"), help="one of the boards")
+    parser.add_argument("--only", choices=("track", "captured", "calls", "air", "deaths"), help="one of the boards")
     rig.add_architecture(parser)
     args = parser.parse_args()
     seconds = args.track
@@ -120,6 +136,7 @@ def main():
             ("track", "track", lambda t, r: track(t, r, seconds), (seconds,), {}),
             ("captured", "track", lambda t, r: track(t, r, CAPTURED_S), (CAPTURED_S, "captured"), {}),
             ("calls", "calls", calls, (100 * CALLS_S,), {}),
+            ("air", "air", air, (), {}),
             ("deaths", "deaths", deaths, (), {"kernel_options": "panic=0"})):
         if args.only not in (None, name):
             continue

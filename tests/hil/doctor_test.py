@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""supercoil doctor on the emulated board: nothing to complain of on a good one, and each of seven faults is named.
+"""supercoil doctor on the emulated board: nothing to complain of on a good one, and each of eight faults is named.
 
 Each fault has a board of its own. What is missing must be told with where it was looked for and what is there instead.
 That doctor heats nothing is what the plant's witness saw, outside of the board. Prints what was found; ends with 1 if
@@ -35,6 +35,7 @@ FAULTS = {
     "no_watchdog": ("watchdog", r"^/dev/watchdog: No such file or directory; in /sys/class/watchdog there is none",
                     {}),
     "can_default": (None, "", {}),
+    "hot_air": ("air", r"45 to 45 .*: must be 13 to 32 ", {}),
     "enable_up": ("channel 2, enable released", r"^high while nobody drives it; its pull is unknown$", {}),
 }
 # And what is told as a warning because of the fault.

@@ -27,6 +27,9 @@ TICK_MS = 10.0
 ROUND_MS = 5.0  # of the telemetry thread
 MARK_MS = 10.0
 STEP_MS = 2.0
+QUANTITIES = 15  # that MuscleRead may ask for
+CONFIGURED = {"thermal_mass_J_per_K": 0.162, "heat_transfer_W_per_K": 0.089, "stiffness_N_per_m": 16, "damping_Ns_per_m": 2,
+              "moving_mass_kg": 0.09, "cold_resistance_Ohm": 10, "position_scale": 1}
 
 
 def protocol():
@@ -92,6 +95,9 @@ def judge(table, run, dbc, log):
     table.row("    and at its end", witness.at(witness.looks(run.witness), marks["by_bus_ended"]).channels[0].power_W, 0, 0, "W")
     table.row("    the other end sees it armed", bool(re.search(r"^seen node 5: armed", run.console, re.M)), 1, 1, "")
     judge_crowded(table, run, marks, frames)
+    judge_muscle(table, frames)
+    table.row("wire open: arm tells the fault and its page",
+              "wire open: supercoil: 5 arm: fault heater_open; docs/faults/heater_open.md" in run.console, 1, 1, "")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 
 
@@ -116,6 +122,18 @@ def judge_crowded(table, run, marks, frames):
              if message.name == "Status" and node == FIRST_NODE and time > last_s - 1]
     table.row("    came back: heartbeats in a second", len(heard), 8, 12, "")
     table.row("    disarmed", str(heard[-1]["state"]) == "disarmed", 1, 1, "")
+
+
+def judge_muscle(table, frames):
+    """What the board goes by of its muscle: as board.toml and the defaults say, as nothing was identified."""
+    told = [(signals["quantity"], signals["value"]) for _, node, message, signals in frames
+            if message.name == "Muscle" and node == FIRST_NODE]
+    table.row("questions about the muscle: answered", len(told), QUANTITIES + 1, QUANTITIES + 1, "")
+    known = {str(quantity): value for quantity, value in told}
+    table.row("    each with its own quantity", len(known), len(told), len(told), "")
+    for quantity, value in CONFIGURED.items():
+        table.row(f"    {quantity}", known[quantity], 0.999 * value, 1.001 * value, "")
+    table.row("    not identified, or no such quantity: not known", sum(value != value for value in known.values()), 6, 6, "")
 
 
 def judge_python(table, run):

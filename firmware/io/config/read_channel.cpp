@@ -83,7 +83,7 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
   read_heater(section.section("heater"), context, channel.wiring.pwm, c, channel.label);
   read_limits(section.section("limits"), context, c, channel.label);
   read_muscle(section.section("muscle"), section.section("thermal"), context, c);
-  read_detectors(section.section("detectors"), context, channel.wiring.pwm, c);
+  read_detectors(section.section("detectors"), context, channel.wiring, c);
   read_control(section, context.board.step_s(), c);
   section.finish();
   return channel;

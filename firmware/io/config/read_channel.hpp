@@ -38,7 +38,7 @@ void read_limits(Section section, const BoardContext& context, ChannelSettings& 
 void read_heater(Section section, const BoardContext& context, const PwmAddress& pwm,
                  ChannelSettings& c, ChannelLabel& label);
 /// [channel.detectors]. After everything else but control.
-void read_detectors(Section section, const BoardContext& context, const PwmAddress& pwm,
+void read_detectors(Section section, const BoardContext& context, const ChannelWiring& wiring,
                     ChannelSettings& c);
 
 }  // namespace supercoil::config

@@ -33,8 +33,15 @@ class Thresholds {
   double step_s_;
 };
 
+/// Only the thread that sets a duty reads a current of the time for which the duty is known: each
+/// bus keeps its own time between two ticks.
+bool current_may_be_ahead(const ChannelWiring& wiring) {
+  const Access& duty = wiring.pwm.access;
+  return duty.buffered() && wiring.current.access.bus != duty.bus;
+}
+
 void read_heater_detectors(Section& section, Thresholds& read, const BoardContext& context,
-                           const PwmAddress& pwm, ChannelSettings& c) {
+                           const ChannelWiring& wiring, ChannelSettings& c) {
   ChannelSupervision& s = c.supervision;
   const double cold_Ohm = c.heater.cold_resistance_Ohm;
   read.number("open_min_duty", s.open_min_duty, {0.001, 0.5});
@@ -44,7 +51,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   if (s.min_resistance_Ohm >= cold_Ohm) {
     section.wrong("min_resistance_Ohm", "must be less than heater.cold_resistance_Ohm");
   }
-  read.time("short_ms", s.short_s, 1.0, {0.1, 100.0});
+  read.time("short_ms", s.short_s, current_may_be_ahead(wiring) ? 2.0 : 1.0, {0.1, 100.0});
   // 50 ms is what the way to the charge pump is promised within.
   read.time("stuck_on_ms", s.stuck_on_s, 2.0, {5.0, 50.0});
   const double full_A = context.board.supervision.min_supply_V / cold_Ohm;
@@ -59,7 +66,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   read.number("responding_min_m", s.responding_min_m, {1e-6, 1.0});
   s.proof_of_response = section.flag("proof_of_response", s.proof_of_response);
   // A buffered duty reads back as what it was until the bus's thread has written it.
-  const double lag_ticks = pwm.access.buffered() ? 5.0 : 2.0;
+  const double lag_ticks = wiring.pwm.access.buffered() ? 5.0 : 2.0;
   read.time("wrong_duty_ms", s.wrong_duty_s, lag_ticks, {1.0, 1000.0});
   read.number("resistance_ratio", s.resistance_ratio, {0.01, 2.0});
   read.time("over_power_ms", s.over_power_s, 2.0, {1.0, 1000.0});
@@ -67,7 +74,7 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
 
 }  // namespace
 
-void read_detectors(Section section, const BoardContext& context, const PwmAddress& pwm,
+void read_detectors(Section section, const BoardContext& context, const ChannelWiring& wiring,
                     ChannelSettings& c) {
   ChannelSupervision& s = c.supervision;
   Thresholds read(section, context.board.step_s());
@@ -76,7 +83,7 @@ void read_detectors(Section section, const BoardContext& context, const PwmAddre
   read.number("max_speed_m_per_s", s.max_speed_m_per_s, {1e-3, 100.0});
   read.number("disagree_K", s.disagree_K, {1.0, 200.0});
   read.number("disagree_s", s.disagree_s, {0.1, 60.0});
-  read_heater_detectors(section, read, context, pwm, c);
+  read_heater_detectors(section, read, context, wiring, c);
   read.number("saturated_s", s.saturated_s, {0.1, 3600.0});
   section.finish();
 }

@@ -146,6 +146,24 @@ TEST(BoardConfig, ThresholdsOfASlowBoardAreAFewTicksAtLeast) {
   DOUBLES_EQUAL(0.03, c.settings.channels[0].position.max_age_s, 1e-12);
 }
 
+TEST(BoardConfig, AShortMustLastTwoTicksWhereAnotherThreadReadsTheCurrent) {
+  const auto short_s = [](const BoardConfig& c) {
+    return c.settings.channels[0].supervision.short_s;
+  };
+  const std::string slow = test::small_board_with("charge_pump_decay_ms = 20",
+                                                  "charge_pump_decay_ms = 150\nrate_Hz = 100");
+  const auto with = [](std::string text, const std::string& old, const std::string& replacement) {
+    return text.replace(text.find(old), old.size(), replacement);
+  };
+  const std::string behind_a_bus = with(slow, "number = 0", "number = 0, bus = 'i2c-1'");
+  const std::string current = "input = \"voltage2\"\n";
+  DOUBLES_EQUAL(0.01, short_s(read(slow)), 1e-12);
+  DOUBLES_EQUAL(0.02, short_s(read(behind_a_bus)), 1e-12);
+  DOUBLES_EQUAL(0.01, short_s(read(with(behind_a_bus, current, current + "bus = 'i2c-1'\n"))),
+                1e-12);
+  DOUBLES_EQUAL(0.02, short_s(example("raspberry-pi-pca9685-ads1115.toml")), 1e-12);
+}
+
 TEST(BoardConfig, DescriptionNamesDetectorsThatCannotWork) {
   const std::string quiet =
       describe(read(test::small_board_with("max_m = 0.041", "max_m = 0.041\nnoise_rms_m = 0.0")));

@@ -20,7 +20,7 @@ import sys
 import threading
 import time
 
-from areas import AREAS, files_of, programs
+from areas import AREAS, files_of
 from results import Results, equivalents, report
 from sample import strata
 from workshop import Failed, Workshop, code_hash, tests_of
@@ -43,6 +43,12 @@ def arguments():
     parser.add_argument("--patience", type=float, default=300.0, metavar="SECONDS",
                         help="what no test noticed after so long has survived (default: 300)")
     parser.add_argument("--only", metavar="TEXT", default="", help="files whose path contains this")
+    parser.add_argument("--nearest", action="store_true",
+                        help="build and ask only the nearest program of each area: what it does not notice stays "
+                             "undecided")
+    parser.add_argument("--in-order", action="store_true",
+                        help="area after area, the supervisor first (default: in random order, so that what was tried "
+                             "in a part of the time is a sample as well)")
     parser.add_argument("--list", action="store_true", help="print the first mutant of each run, and try none")
     parser.add_argument("--report", action="store_true", help="print the figures of the last run, and try none")
     return parser.parse_args()
@@ -53,7 +59,10 @@ class Run:
         self.options = options
         files = [file for file in AREA_OF if options.only in file]
         self.runs, self.lines = strata(files, ROOT, options.count, options.seed)
-        self.programs = programs({AREA_OF[run[0].file] for run in self.runs})
+        self.programs_of = {area: area.programs[:1] if options.nearest else area.programs for area in AREAS}
+        areas = {AREA_OF[run[0].file] for run in self.runs}
+        self.programs = list(dict.fromkeys(program for area in AREAS if area in areas
+                                           for program in self.programs_of[area]))
         self.known = equivalents(pathlib.Path(__file__).parent / "equivalent.toml")
         FOLDER.mkdir(parents=True, exist_ok=True)
         self.results = Results(FOLDER / "results.jsonl", [code_hash(ROOT), options.seed, len(self.runs), options.only],
@@ -73,9 +82,9 @@ class Run:
 
     def try_all(self):
         todo = queue.Queue()
-        # In random order: what is tried in a part of the time is a sample as well.
         groups = list(self.by_file().values())
-        random.Random(self.options.seed).shuffle(groups)
+        if not self.options.in_order:
+            random.Random(self.options.seed).shuffle(groups)
         for group in groups:
             todo.put(group)
         workers = [threading.Thread(target=self.work, args=(i, todo)) for i in range(self.options.jobs)]
@@ -111,9 +120,11 @@ class Run:
             start = time.monotonic()
             area = AREA_OF[mutant.file]
             verdict, by = ("equivalent", "") if mutant.key() in self.known else \
-                shop.judge(mutant, area.programs, self.options.patience)
+                shop.judge(mutant, self.programs_of[area], self.options.patience)
+            if verdict == "survived" and self.options.nearest:
+                verdict = "open"
             self.results.add(stratum, mutant, area.name, verdict, by, time.monotonic() - start)
-            if verdict in ("killed", "survived"):
+            if verdict in ("killed", "survived", "open"):
                 self.tell(stratum, mutant, verdict, by, time.monotonic() - start)
                 return
 

@@ -26,10 +26,6 @@ AREAS = (
 )
 
 
-def programs(areas):
-    return list(dict.fromkeys(program for area in AREAS if area in areas for program in area.programs))
-
-
 @functools.cache
 def not_built():
     """What is for the other of libgpiod's versions."""

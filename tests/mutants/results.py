@@ -16,7 +16,8 @@ class Results:
     def __init__(self, path, of, tests, known):
         """`of` names code, seed and number of strata: results of another are set aside. Where the tests grew since, what
         they killed stays killed, what did not compile or was the same code still does or is, and what survived is to be
-        tried again. Where a line of theirs is gone, nothing stays. `known`: the equivalents."""
+        tried again. What only the nearest program was asked about is open. Where a line of theirs is gone, nothing stays.
+        `known`: the equivalents."""
         self.path = path
         self.lock = threading.Lock()
         self.rows = []
@@ -25,7 +26,7 @@ class Results:
         if before.get("of") == of and only_grew(before["tests"], tests):
             rows = [json.loads(line) for line in lines[1:] if line.endswith("}")]
             same_tests = before["tests"] == tests
-            stays = {"equivalent": lambda row: key_of(row) in known,
+            stays = {"equivalent": lambda row: key_of(row) in known, "open": lambda row: False,
                      "survived": lambda row: same_tests and key_of(row) not in known}
             self.rows = [row for row in rows if stays.get(row["verdict"], lambda row: True)(row)]
         elif lines:

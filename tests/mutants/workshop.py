@@ -17,6 +17,7 @@ from parts import parts_of
 # Without optimisation tests take ten times as long; line tables say which objects have code from which header.
 # A missing return works by luck where the compiler builds the result in place: such a mutant must not compile.
 FLAGS = "-O1 -g1 -gno-column-info -Werror=return-type"
+PRECOMPILED = ["-DBOOST_ALL_NO_LIB", "-DEIGEN_DONT_VECTORIZE", "-isystem", "/usr/include/eigen3"]
 ENVIRONMENT = {"RC_PARAMS": "seed=20261120 max_success=100 noshrink=1"}
 NOT_BUILT = ("docs/", "toolchain/", "tests/coverage/", "tests/attack/", "tests/mutants/equivalent.toml",
              "tests/mutants/mutants_test.py")
@@ -73,6 +74,7 @@ class Workshop:
         self.originals = {}  # of objects: what their code hashes to
         self.kills = collections.Counter()  # by file and part, and by part
         folder.mkdir(parents=True, exist_ok=True)
+        self.shared = folder.parent / "shared"  # by the copies: what no mutant changes
         self.lock = open(folder / "lock", "w")
         try:
             fcntl.flock(self.lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -83,7 +85,10 @@ class Workshop:
         """The copy as the tree is, built, and every part of the programs green."""
         self.copy()
         say("building the unchanged tree")
+        self.precompile()
         self.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=",
+                  f"-DCMAKE_PROJECT_supercoil_INCLUDE={self.tree / 'tests/mutants/precompiled.cmake'}",
+                  f"-DSUPERCOIL_PRECOMPILED={self.shared / 'precompiled.hpp'}",
                   f"-DCMAKE_CXX_FLAGS={FLAGS}", "-DCMAKE_UNITY_BUILD=OFF", "-DSUPERCOIL_BENCH=OFF",
                   "-DSUPERCOIL_TESTS=ON"])
         self.ninja(self.programs, check=True, jobs=jobs)
@@ -112,6 +117,11 @@ class Workshop:
 
     def copy(self):
         names = tree_files(self.root)
+        (self.shared / "control").mkdir(parents=True, exist_ok=True)
+        self.tree.mkdir(exist_ok=True)
+        if not (self.tree / "control").is_symlink():
+            shutil.rmtree(self.tree / "control", ignore_errors=True)
+            (self.tree / "control").symlink_to(self.shared / "control")
         wanted = {str(self.tree / name) for name in names}
         for path in self.tree.rglob("*") if self.tree.exists() else ():
             generated = "node_modules" in path.parts or path.is_symlink()
@@ -122,10 +132,21 @@ class Workshop:
             there.parent.mkdir(parents=True, exist_ok=True)
             if not there.exists() or there.read_bytes() != here.read_bytes():
                 shutil.copy(here, there)
+        self.control_changed = max(path.stat().st_mtime for path in (self.shared / "control").rglob("*"))
         for name in (".venv", "toolchain/page/node_modules"):
             there = self.tree / name
             if not there.exists():
                 there.symlink_to((self.root / name).resolve())
+
+    def precompile(self):
+        """The headers that no mutant changes, once for all copies: they take most of a compiler's time."""
+        here, there = self.root / "tests/mutants/precompiled.hpp", self.shared / "precompiled.hpp"
+        made = self.shared / "precompiled.hpp.gch"
+        if made.exists() and there.read_bytes() == here.read_bytes() and made.stat().st_mtime > self.control_changed:
+            return
+        shutil.copy(here, there)
+        self.run(["c++", "-x", "c++-header", "-std=c++20", "-ffp-contract=off", *FLAGS.split(), *PRECOMPILED,
+                  "-I", self.shared / "control/include", there, "-o", made])
 
     def run(self, command, check=True, **options):
         done = subprocess.run(list(map(str, command)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,

@@ -1,0 +1,18 @@
+# Included by project(): every target that uses Eigen, but control's own, begins with the precompiled headers.
+function(use_precompiled folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    get_target_property(kind ${target} TYPE)
+    if(NOT kind STREQUAL "INTERFACE_LIBRARY" AND NOT kind STREQUAL "UTILITY")
+      target_compile_options(${target} PRIVATE
+        $<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess> "$<$<COMPILE_LANGUAGE:CXX>:SHELL:-include ${SUPERCOIL_PRECOMPILED}>")
+    endif()
+  endforeach()
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(below IN LISTS folders)
+    if(NOT below MATCHES "/(control|hal|hal_linux|hil)($|/)")
+      use_precompiled(${below})
+    endif()
+  endforeach()
+endfunction()
+cmake_language(DEFER CALL use_precompiled ${CMAKE_SOURCE_DIR})

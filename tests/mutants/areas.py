@@ -15,7 +15,7 @@ class Area:
 WHOLE_FIRMWARE = ("core_tests", "config_tests", "loop_tests", "fault_matrix")
 AREAS = (
     Area("supervisor", ("firmware/core/supervisor/**/*",), WHOLE_FIRMWARE),
-    Area("board", ("firmware/core/board/*",), WHOLE_FIRMWARE),
+    Area("board", ("firmware/core/board/*",), (*WHOLE_FIRMWARE, "storage_tests")),  # which has the tests of learned
     Area("loop", ("firmware/core/loop/*",), WHOLE_FIRMWARE),
     Area("telemetry commands",
          (*(f"firmware/io/telemetry/{name}.*" for name in ("can_endpoint", "commands", "leases", "opcodes", "run_settings")),

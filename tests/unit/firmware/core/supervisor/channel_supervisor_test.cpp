@@ -252,3 +252,17 @@ TEST(ChannelSupervisor, AnExpiredCommandDoesNotConcernARestingMuscle) {
   for (int i = 0; i < 1000; ++i)
     check_fault(Fault::none, channel.step());
 }
+
+TEST(ChannelSupervisor, ANewCalibrationIsNoAnswerOfTheMuscle) {
+  for (const bool told : {false, true}) {
+    Channel channel;
+    for (int i = 0; i < 1000; ++i)
+      channel.step();
+    channel.inputs.axis.position.value += 0.002;
+    channel.inputs.axis.recalibrated = told;
+    check_fault(Fault::none, channel.step());
+    const double moved_m =
+        channel.supervisor.verdict().margin(Fault::heater_not_responding).measured;
+    DOUBLES_EQUAL(told ? 0.0 : 0.002, moved_m, 50e-6);
+  }
+}

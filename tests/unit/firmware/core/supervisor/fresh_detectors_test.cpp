@@ -34,6 +34,11 @@ TEST(FreshDetectors, HaveUsedNothing) {
   check_fresh(SensorsDisagree({30.0, 2.0}, tick_s));
   check_fresh(EnergyBudget({297.0, 60.0}, tick_s));
   check_fresh(WrongDuty(0.005, tick_s));
+  check_fresh(ResistanceDrift({0.3, 0.5}, tick_s));
+  check_fresh(Jump({0.5, 1e-4}));
+  check_fresh(OpenLoad({0.02, 1.0, 0.02}, tick_s));
+  check_fresh(StuckOn({0.05, 0.05}, tick_s));
+  check_fresh(NotResponding({20.0, 0.3, 0.001}, tick_s));
 }
 
 TEST(FreshDetectors, HaveNothingToJudge) {

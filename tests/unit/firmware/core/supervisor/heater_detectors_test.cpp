@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -134,4 +135,16 @@ TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {
   CHECK_FALSE(detector.step(100, 100));
   LONGS_EQUAL(3, ticks_until([&](int) { return detector.step(100, 90); }));
   CHECK_FALSE(detector.step(100, -1));
+}
+
+TEST(HeaterDetectors, NotRespondingJudgesEachWindowByItself) {
+  // It moved as it should in the first window, and not in the second.
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  const int ticks = ticks_until([&](int tick) {
+    const double t = tick * tick_s;
+    const double expected = 0.002 * t / 20.0;
+    return detector.step(std::min(0.002, expected), {expected, expected, expected});
+  });
+  LONGS_EQUAL(40000, ticks);
+  DOUBLES_EQUAL(0.0, detector.margin().measured, 1e-6);
 }

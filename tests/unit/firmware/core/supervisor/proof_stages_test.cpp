@@ -143,3 +143,36 @@ TEST(ProofStages, ANewCalibrationIsNotMotion) {
     LONGS_EQUAL(told, muscle.unanswered);
   }
 }
+
+TEST(ProofStages, AMotionHasAMomentToProveItselfBeforeADither) {
+  HeldMuscle muscle(paper_proof());
+  muscle.off_sensor = true;  // so that nothing but a dither could be answered
+  muscle.hotter_K = 115.0;   // half a second from the limit: a dither is due at once
+  muscle.run(0.19);
+  LONGS_EQUAL(0, muscle.dither_ticks);
+  muscle.run(0.1);
+  CHECK_COMPARE(muscle.dither_ticks, >, 0);
+}
+
+TEST(ProofStages, AMuscleLearnedAnewIsJudgedFromWhereItIs) {
+  HeldMuscle muscle(paper_proof());
+  muscle.run(20.0);
+  muscle.proof.learn({}, 1.0);
+  muscle.off_sensor = true;
+  muscle.run(3.0);
+  CHECK(muscle.unanswered);
+}
+
+// Moved too much for all of its power, and too slowly to hide what answers a dither.
+TEST(ProofStages, ASlowLoadHidesNoAnswerToADither) {
+  HeldMuscle muscle(paper_proof());
+  muscle.run(20.0);
+  muscle.min_W = 1e3;
+  for (int i = 0; i < 4000; ++i) {
+    if (i == 2000) muscle.proof.recalibrated();
+    muscle.moved_m = 100e-6 * std::sin(1.0 * 0.01 * i) + (i < 2000 ? 0.0 : 0.01);
+    muscle.run(0.01);
+  }
+  CHECK_FALSE(muscle.unanswered);
+  DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
+}

@@ -95,3 +95,19 @@ TEST(Response, IgnoresADrift) {
     last_m = fast.step(0.02 + 10e-6 * 0.01 * i);
   CHECK_COMPARE(std::abs(last_m), <, 1e-7);
 }
+
+TEST(Response, TellsMotionByItsRmsOverTheBlock) {
+  detectors::Response answer(step_noise_m);
+  for (int i = 0; i < 1000; ++i)
+    answer.step(0.0, i % 2 == 0 ? 100e-6 : -100e-6);
+  CHECK(answer.moved_m(98e-6));
+  CHECK_FALSE(answer.moved_m(102e-6));
+}
+
+TEST(Response, FoundElsewhereIsReportedWithItsMargin) {
+  detectors::ReportedMargin reported;
+  CHECK_FALSE(reported.step(false, {1e-3, 2e-3, true, true}));
+  DOUBLES_EQUAL(2.0, reported.margin().used(), 1e-12);
+  CHECK(reported.step(true, {1e-3, 4e-3, true, true}));
+  DOUBLES_EQUAL(4.0, reported.margin().used(), 1e-12);
+}

@@ -108,3 +108,10 @@ TEST(SensorDetectors, DisagreeTripsAfterItsTime) {
   CHECK(detector.step(50.0, 75.0));
   CHECK_FALSE(detector.step(50.0, 65.0));
 }
+
+TEST(SensorDetectors, JumpTakesTheFirstReadingForNoMotion) {
+  Jump detector({0.5, 1e-4});
+  CHECK_FALSE(detector.step(0.010, tick_s));
+  DOUBLES_EQUAL(0.0, detector.margin().measured, 0.0);
+  CHECK_COMPARE(detector.margin().limit, >, 0.0);
+}

@@ -72,3 +72,13 @@ TEST(SmallSignal, ThatIsStoppedIsOver) {
   measuring.stop();
   CHECK_FALSE(measuring.running());
 }
+
+TEST(SmallSignal, IsPlannedInStepsOfWholeTicksAfterFiveTimeConstants) {
+  const control::PhysicalParameters muscle;
+  for (const double other_Hz : {150.0, 1000.0}) {
+    const auto plan = plan_small_signal(paper_proof(), muscle, held_W, other_Hz);
+    DOUBLES_EQUAL(other_Hz, plan.rate_Hz, 0.0);
+    DOUBLES_EQUAL(other_Hz == 150.0 ? 2.0 / 150.0 : 0.01, plan.step_s, 1e-12);
+    DOUBLES_EQUAL(-5.0 / muscle.thermal_pole_rad_per_s(), plan.settle_s, 1e-9);
+  }
+}

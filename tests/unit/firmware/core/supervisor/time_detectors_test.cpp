@@ -69,3 +69,10 @@ TEST(TimeDetectors, AControllerIsLostAtOnceWhenItDemandsNaN) {
   CHECK(std::isinf(detector.margin().used()));
   CHECK_FALSE(detector.step(1.0, false));
 }
+
+TEST(TimeDetectors, ACounterThatNeverMovedIsFoundInTheSameTime) {
+  StalledCounter detector(0.01, tick_s);
+  for (int i = 0; i < 9; ++i)
+    CHECK_FALSE(detector.step(0));
+  CHECK(detector.step(0));
+}

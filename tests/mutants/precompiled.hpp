@@ -17,6 +17,10 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <supercoil/control/estimation/estimator.hpp>
+#include <supercoil/control/thermal/interval_observer.hpp>
+#include <supercoil/control/thermal/rise_interval_observer.hpp>
+#include <supercoil/control/tracking/controller.hpp>
 #include <thread>
 #include <tuple>
 #include <variant>
@@ -24,9 +28,5 @@
 
 #include <boost/lockfree/spsc_queue.hpp>
 #include <nlohmann/json_fwd.hpp>
-#include <supercoil/control/estimation/estimator.hpp>
-#include <supercoil/control/thermal/interval_observer.hpp>
-#include <supercoil/control/thermal/rise_interval_observer.hpp>
-#include <supercoil/control/tracking/controller.hpp>
 #include <tl/expected.hpp>
 #endif

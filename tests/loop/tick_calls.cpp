@@ -52,6 +52,20 @@ void ask_in_vain(Rig& rig, Seen& seen) {
   run(rig, 0.01, seen);
 }
 
+/// The controller that follows becomes one of each law; false when one was not taken.
+bool tune(Rig& rig, Seen& seen) {
+  rig.send(Verb::controller, 0);
+  bool taken = true;
+  for (double kind = 1.0; kind < static_cast<double>(control::controller_names.size()); ++kind) {
+    Tuner& tuner = rig.loop.channel(Rig::tested).tuner();
+    tuner.prepare(0, 0, kind);
+    rig.send(Verb::tune, 0.0);
+    run(rig, 2.0, seen);
+    taken = taken && tuner.value(TuningSet::in_use, 0, 0) == kind;
+  }
+  return taken;
+}
+
 /// A whole life: boot, calibrate, identify, every controller, hot switches, fault, reset.
 void live(Seen& seen) {
   RigSettings settings = rough_board();
@@ -78,6 +92,7 @@ void live(Seen& seen) {
     rig.send(Verb::estimator, 0);
     run(rig, 5.0, seen);
   }
+  const bool tuned = tune(rig, seen);
   rig.heat(Task::power);
   run(rig, 5.0, seen);
   rig.send(Verb::scale, rig.snapshot().position_m);
@@ -95,7 +110,7 @@ void live(Seen& seen) {
   while (rig.loop.channel(Rig::tested).take_learned_update(update))
     ++results;
   // Of calibrate, identify and scale.
-  seen.whole_life = rig.state() == State::armed && results == 3;
+  seen.whole_life = rig.state() == State::armed && results == 3 && tuned;
 }
 
 void break_everything(Seen& seen) {

@@ -50,10 +50,10 @@ void print(int place, const TunedValues& all) {
   const auto in_use = static_cast<std::size_t>(TuningSet::in_use);
   std::printf("controller %d: %s\n", place, tuning_text(kind, all.at(0)[in_use]).c_str());
   std::printf("  %-28s %12s %12s %12s %12s\n", "", "in use", "configured", "stored", "prepared");
-  for (const auto& [tunable, values] : all) {
-    const Tunable& t = control::tunables()[tunable];
+  for (const auto& one : all) {
+    const Tunable& t = control::tunables()[one.first];
     const auto text = [&](TuningSet set) {
-      return tuning_text(t, values[static_cast<std::size_t>(set)]);
+      return tuning_text(t, one.second[static_cast<std::size_t>(set)]);
     };
     const std::string configured = text(TuningSet::configured);
     const bool differs =

@@ -115,18 +115,22 @@ std::vector<SettingsProblem> contradictions(const control::ControllerSettings& s
   return problems;
 }
 
+std::string misfit_text(const control::Violation& misfit) {
+  std::ostringstream message;
+  message << "does not fit arithmetic = \"q8.24\": it is held as " << misfit.value
+          << " there, and must be " << misfit.lowest << " to " << misfit.highest;
+  return message.str();
+}
+
 std::optional<SettingsProblem> check(const control::ControllerSettings& controller,
                                      const ChannelSettings& channel, double step_s) {
   if (const auto problems = contradictions(controller); !problems.empty()) return problems.front();
-  std::ostringstream message;
   if (const auto misfit = control::check_fit(controller, step_s, channel.supervision.max_travel_m,
-                                             channel.limiter.max_W)) {
-    message << "does not fit arithmetic = \"q8.24\": it is held as " << misfit->value
-            << " there, and must be " << misfit->lowest << " to " << misfit->highest;
-    return SettingsProblem{misfit->quantity, message.str()};
-  }
+                                             channel.limiter.max_W))
+    return SettingsProblem{misfit->quantity, misfit_text(*misfit)};
   const auto margin = margin_of(controller, channel, step_s);
   if (!margin || margin->stable()) return std::nullopt;
+  std::ostringstream message;
   message << "is unstable on this muscle"
           << (control::adapts(controller.kind) ? ", even when adapted," : "") << " with "
           << 1e3 * loop_delay_s(channel, step_s)

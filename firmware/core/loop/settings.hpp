@@ -98,6 +98,9 @@ struct SettingsProblem {
 /// accepted that they fail.
 std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller);
 
+/// In words, what q8.24 cannot hold.
+std::string misfit_text(const control::Violation& misfit);
+
 /// Why a controller may not run on this channel: its own contradictions, what q8.24 cannot hold, or
 /// a loop that is unstable on the channel's muscle even when it has adapted to it.
 std::optional<SettingsProblem> check(const control::ControllerSettings& controller,

@@ -1,6 +1,6 @@
 #include "config/read_control.hpp"
 
-#include <sstream>
+#include "loop/settings.hpp"
 
 namespace supercoil::config {
 
@@ -35,11 +35,7 @@ std::optional<control::ReferenceModelSettings> read_reference_model(Section sect
 }
 
 void refuse_misfit(Section& section, const std::optional<control::Violation>& violation) {
-  if (!violation) return;
-  std::ostringstream message;
-  message << "does not fit arithmetic = \"q8.24\": it is held as " << violation->value
-          << " there, and must be " << violation->lowest << " to " << violation->highest;
-  section.wrong(violation->quantity, message.str());
+  if (violation) section.wrong(violation->quantity, misfit_text(*violation));
 }
 
 }  // namespace supercoil::config

@@ -19,8 +19,10 @@ struct Meant {
 };
 
 /// Of an opcode that is not the lease's. Opcode 0 is three verbs: kelvins above 1000, amperes below
-/// 0, volts between.
+/// 0, volts between. The controller's is two: a place above 1000 is tuned.
 Meant meant_by(const supercoil_command_t& asked) {
+  const bool tunes = asked.opcode == static_cast<std::uint8_t>(Verb::controller);
+  if (tunes && asked.value >= 1000.0F) return {Verb::tune, asked.value - 1000.0F};
   if (asked.opcode != 0) return {static_cast<Verb>(asked.opcode), asked.value};
   if (asked.value >= 1000.0F) return {Verb::compare_rise, asked.value - 1000.0F};
   if (asked.value < 0.0F) return {Verb::compare_current, -asked.value};

@@ -46,6 +46,7 @@ FRAMES = {
     + step(HOLDER, "controller", 2.0) + step(HOLDER, "estimator", 0.0),
     "compares_three_senses": CLAIMED + step(HOLDER, "compare", 12.0) + step(HOLDER, "compare", -1.5)
     + step(HOLDER, "compare", 1023.5),
+    "tunes": ARMED + step(HOLDER, "controller", 1001.0) + step(HOLDER, "store", 2.0) + step(HOLDER, "store", 3.0),
     "the_other_channel": step(STRANGER, "lease", channel=1)
     + step(STRANGER | WITH_NONCE, "lease", channel=1) + step(HOLDER, "arm", wait=20, channel=1)
     + step(HOLDER, "power", 1.0, channel=1) + step(0, "lease"),
@@ -97,7 +98,19 @@ def envelope(body):
     return (line + body).encode()
 
 
-STORED_SETS = {"body": STORED.encode(), "whole": envelope(STORED), "cut_off": envelope(STORED)[:-20]}
+TUNED = """\
+version = 2
+
+[controller_1]
+kind = 1.0
+integral_W_per_m_s = 900.0
+
+[chosen]
+controller = 1.0
+"""
+
+STORED_SETS = {"body": STORED.encode(), "whole": envelope(STORED), "cut_off": envelope(STORED)[:-20],
+               "tuned": TUNED.encode()}
 
 
 def main():

@@ -52,16 +52,18 @@ void ask_in_vain(Rig& rig, Seen& seen) {
   run(rig, 0.01, seen);
 }
 
-/// The controller that follows becomes one of each law; false when one was not taken.
+/// The controller that follows becomes one of each law; false when one was not taken. It is the one
+/// with a reference model that every law can follow.
 bool tune(Rig& rig, Seen& seen) {
-  rig.send(Verb::controller, 0);
+  constexpr std::size_t place = 2;
+  rig.send(Verb::controller, place);
   bool taken = true;
   for (double kind = 1.0; kind < static_cast<double>(control::controller_names.size()); ++kind) {
     Tuner& tuner = rig.loop.channel(Rig::tested).tuner();
-    tuner.prepare(0, 0, kind);
-    rig.send(Verb::tune, 0.0);
+    tuner.prepare(place, 0, kind);
+    rig.send(Verb::tune, place);
     run(rig, 2.0, seen);
-    taken = taken && tuner.value(TuningSet::in_use, 0, 0) == kind;
+    taken = taken && tuner.value(TuningSet::in_use, place, 0) == kind;
   }
   return taken;
 }

@@ -49,12 +49,14 @@ class Simulator:
 
 
 def join(port):
-    """A bus. python-can wants < ok > alone, and fails where it was kept from reading it for too long."""
+    """A bus. python-can wants < ok > alone, and fails where it was kept from reading it for too long; and a simulator
+    that serves as many as it may notices a moment later that one has gone."""
     for _ in range(TRIES):
         try:
             return can.Bus(interface="socketcand", host="127.0.0.1", port=port, channel="can0")
         except can.CanError as error:
             reason = error
+            time.sleep(0.2)
     raise reason
 
 

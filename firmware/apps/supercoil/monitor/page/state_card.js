@@ -48,7 +48,7 @@ const notes_text = (bits) => NOTES.filter((_, i) => (bits >> i) & 1).map((note) 
 
 export class StateCard {
   /** on_fault: called with a fault's name whose page is wanted. version: of the protocol that is understood here. */
-  constructor(node, store, on_fault, version, kind_of) {
+  constructor(node, store, on_fault, version, kind_of = () => undefined) {
     Object.assign(this, { node, store, version, fault_name: "none", kind_of });
     this.word = element("strong", { class: "word", role: "status" });
     this.means = element("span", { class: "means" });

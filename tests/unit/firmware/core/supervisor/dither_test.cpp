@@ -111,3 +111,11 @@ TEST(Dither, ThatFrictionSwallowsHoldsTheMuscleToTheSafePower) {
   CHECK(std::isinf(plan.dither.decided_s));
   DOUBLES_EQUAL(plan.safe_W, plan.provable_W, 1e-9);
 }
+
+TEST(Dither, HasTheLongestHalvesWhereThereIsTimeEnough) {
+  ProofSettings patient = paper_proof();
+  patient.trip_C = 400.0;
+  patient.position_noise_rms_m = 3e-6;
+  const ProofPlan plan = plan_proof(patient, {}, 1000.0);
+  LONGS_EQUAL(std::lround(1.2 / dither_step_s), plan.dither.half_steps);
+}

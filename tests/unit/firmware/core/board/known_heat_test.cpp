@@ -58,6 +58,18 @@ TEST(KnownThermalBounds, OfAWeighedMuscleIsItsMassOverItsTimeConstant) {
   CHECK_COMPARE(known.max_heat_transfer_W_per_K(60.0), >, known.max_heat_transfer_W_per_K(22.0));
 }
 
+TEST(KnownThermalBounds, OfATimeConstantHoldFromSevenTenthsOfItsMeanRiseToThat) {
+  const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
+  const double mean_K = 2.0 / 0.089;
+  const double least = 0.97 * 0.089 / 1.25;
+  const double most = 1.03 * 0.089 * 1.25;
+  DOUBLES_EQUAL(least, known.min_heat_transfer_W_per_K(0.701 * mean_K), 1e-9);
+  DOUBLES_EQUAL(most, known.max_heat_transfer_W_per_K(0.999 * mean_K), 1e-9);
+  // Colder it may be less, hotter more, as the cube root of the rise.
+  DOUBLES_EQUAL(least * std::cbrt(6.0 / 7.0), known.min_heat_transfer_W_per_K(0.6 * mean_K), 1e-9);
+  DOUBLES_EQUAL(most * std::cbrt(1.05), known.max_heat_transfer_W_per_K(1.05 * mean_K), 1e-9);
+}
+
 TEST(KnownThermalBounds, NeverLeavesWhatIsConfigured) {
   ThermalSettings s = weighed_muscle();
   s.mass_error_ratio = 0.5;
@@ -108,6 +120,17 @@ TEST(SteadyState, WaitsAnewWhenThePowerIsAnotherOne) {
   steady.restart();
   hold(steady, 20.0);
   CHECK(steady.read(17.0, compared_power, facts) == Refusal::not_ready);
+}
+
+TEST(SteadyState, CountsNothingOfThePowerBeforeTheLastChange) {
+  SteadyState steady = held(30.0);
+  steady.restart();
+  for (long i = std::lround(23.0 / tick_s); i > 0; --i)
+    steady.step({1.2, 1.22}, 25.0);
+  CHECK(steady.read(14.0, compared_power, facts) == Refusal::none);
+  DOUBLES_EQUAL(1.2, facts.steady_min_W, 1e-9);
+  DOUBLES_EQUAL(1.22, facts.steady_max_W, 1e-9);
+  DOUBLES_EQUAL(1.0 + 25.0 * std::exp(-5.0), facts.steady_error_K, 1e-9);
 }
 
 TEST(SteadyState, RefusesWhatTheMuscleCannotBe) {

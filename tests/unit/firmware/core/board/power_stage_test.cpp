@@ -58,3 +58,13 @@ TEST(PowerStage, GivesNothingForWhatIsNotAPositiveNumber) {
     DOUBLES_EQUAL(0.0, out.applied_W, 0.0);
   }
 }
+
+TEST(PowerStage, GivesNothingWhereNoPowerIsAllowed) {
+  PowerStage stage({4095, true});
+  for (const double max_W : {0.0, -1.0, std::nan("")}) {
+    const auto out = stage.step(1.0, 10.0, 12.0, max_W);
+    LONGS_EQUAL(0, out.step);
+    DOUBLES_EQUAL(0.0, out.duty, 0.0);
+    DOUBLES_EQUAL(0.0, out.applied_W, 0.0);
+  }
+}

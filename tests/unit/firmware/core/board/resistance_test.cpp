@@ -67,6 +67,14 @@ TEST(Resistance, TakesOverWhatAProbeMeasured) {
   DOUBLES_EQUAL(0.0, r.age_s(), 0.0);
 }
 
+TEST(Resistance, AfterAProbeIsWhatIsMeasuredNextWithoutSmoothing) {
+  Resistance r({}, tick_s);
+  r.step(0.25, 12.0, 0.25);
+  r.set(7.0);
+  CHECK(r.step(0.25, 12.0, 0.5));
+  DOUBLES_EQUAL(6.0, r.value_Ohm(), 1e-12);
+}
+
 TEST_GROUP(Probe){};
 
 TEST(Probe, MeasuresInItsSecondHalfAndEnds) {

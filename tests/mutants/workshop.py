@@ -230,7 +230,8 @@ class Workshop:
             if some and not self.ninja(some, cached=not mutated):
                 return False
         self.absent.difference_update(needed)
-        self.mutants |= targets & set(needed)
+        # All that includes the mutated file: what has no line of it may still have one of its constants.
+        self.mutants |= self.objects(self.mutated) & set(needed)
         return True
 
     def judge(self, mutant, programs, patience_s):

@@ -154,25 +154,50 @@ TEST(ProofStages, AMotionHasAMomentToProveItselfBeforeADither) {
   CHECK_COMPARE(muscle.dither_ticks, >, 0);
 }
 
-TEST(ProofStages, AMuscleLearnedAnewIsJudgedFromWhereItIs) {
-  HeldMuscle muscle(paper_proof());
-  muscle.run(20.0);
-  muscle.proof.learn({}, 1.0);
-  muscle.off_sensor = true;
-  muscle.run(3.0);
-  CHECK(muscle.unanswered);
+// Where the position is then is no motion, and proves nothing.
+TEST(ProofStages, AMuscleLearnedAnewHasNotAnsweredYet) {
+  const auto dither_begins = [](bool learned) {
+    HeldMuscle muscle(paper_proof());
+    muscle.off_sensor = true;
+    muscle.moved_m = 0.008;
+    int steps = 0;
+    for (; muscle.dither_ticks == 0 && steps < 500; ++steps) {
+      if (learned && steps == 60) muscle.proof.learn({}, 1.0);
+      muscle.run(0.01);
+    }
+    return steps;
+  };
+  CHECK_COMPARE(dither_begins(false), >, 70);
+  LONGS_EQUAL(dither_begins(false), dither_begins(true));
 }
 
-// Moved too much for all of its power, and too slowly to hide what answers a dither.
+// It moves too much for all of the power to show, and too slowly to hide what follows a dither.
 TEST(ProofStages, ASlowLoadHidesNoAnswerToADither) {
   HeldMuscle muscle(paper_proof());
   muscle.run(20.0);
   muscle.min_W = 1e3;
-  for (int i = 0; i < 4000; ++i) {
-    if (i == 2000) muscle.proof.recalibrated();
-    muscle.moved_m = 100e-6 * std::sin(1.0 * 0.01 * i) + (i < 2000 ? 0.0 : 0.01);
+  for (int i = 0; i < 1000; ++i) {
+    muscle.moved_m += 2e-6;  // 200 um/s
     muscle.run(0.01);
   }
+  CHECK_FALSE(muscle.unanswered);
+  DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
+}
+
+TEST(ProofStages, ANewCalibrationSpoilsNoAnswerToADither) {
+  HeldMuscle muscle(paper_proof());
+  muscle.run(20.0);
+  muscle.min_W = 1e3;
+  int dithered = 0;
+  for (int i = 0; i < 1000; ++i) {
+    muscle.moved_m += 2e-6;
+    if (muscle.proof.dither_W() != 0.0 && ++dithered == 10) {
+      muscle.moved_m += 0.01;
+      muscle.proof.recalibrated();
+    }
+    muscle.run(0.01);
+  }
+  CHECK_COMPARE(dithered, >, 10);
   CHECK_FALSE(muscle.unanswered);
   DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
 }

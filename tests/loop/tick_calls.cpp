@@ -58,12 +58,12 @@ bool tune(Rig& rig, Seen& seen) {
   constexpr std::size_t place = 2;
   rig.send(Verb::controller, place);
   bool taken = true;
-  for (double kind = 1.0; kind < static_cast<double>(control::controller_names.size()); ++kind) {
+  for (std::size_t kind = 1; kind < control::controller_names.size(); ++kind) {
     Tuner& tuner = rig.loop.channel(Rig::tested).tuner();
-    tuner.prepare(place, 0, kind);
+    tuner.prepare(place, 0, static_cast<double>(kind));
     rig.send(Verb::tune, place);
     run(rig, 2.0, seen);
-    taken = taken && tuner.value(TuningSet::in_use, place, 0) == kind;
+    taken = taken && tuner.value(TuningSet::in_use, place, 0) == static_cast<double>(kind);
   }
   return taken;
 }

@@ -16,7 +16,8 @@ constexpr Tunable number(std::string_view name, double lowest, double highest) {
           TunableType::number,
           lowest,
           highest,
-          [](Settings s) {
+          [](const Settings& settings) {
+            Settings s = settings;
             const double* value = Place(s);
             return value == nullptr ? NAN : *value;
           },
@@ -29,7 +30,8 @@ constexpr Tunable flag(std::string_view name) {
           TunableType::flag,
           0.0,
           1.0,
-          [](Settings s) {
+          [](const Settings& settings) {
+            Settings s = settings;
             const bool* value = Place(s);
             return value == nullptr ? NAN : static_cast<double>(*value);
           },
@@ -103,7 +105,7 @@ constexpr Tunable pole(std::string_view name) {
           TunableType::pole,
           1e-3,
           1e3,
-          [](Settings s) { return follows_model(s) ? s.model.poles_rad_per_s[I] : NAN; },
+          [](const Settings& s) { return follows_model(s) ? s.model.poles_rad_per_s[I] : NAN; },
           [](Settings& s, double value) {
             auto poles = s.model.poles_rad_per_s;
             if (std::isnan(poles[I])) poles.fill(value);
@@ -112,7 +114,7 @@ constexpr Tunable pole(std::string_view name) {
           }};
 }
 
-double model_of(Settings s) {
+double model_of(const Settings& s) {
   if (!follows_model(s)) return NAN;
   for (std::size_t i = 0; i < tunable_models.size(); ++i) {
     if (reference_model_named(tunable_models[i])->denominator == s.model.denominator)
@@ -133,7 +135,7 @@ constexpr auto in_ls = &Settings::mrac_ls;
 
 constexpr std::array<Tunable, tunable_count> all{{
     {"kind", TunableType::kind, 0.0, static_cast<double>(controller_names.size() - 1),
-     [](Settings s) { return static_cast<double>(s.kind); },
+     [](const Settings& s) { return static_cast<double>(s.kind); },
      [](Settings& s, double value) { s.kind = static_cast<Kind>(value); }},
     number<proportional>("proportional_W_per_m", 0.0, 1e7),
     number<integral>("integral_W_per_m_s", 0.0, 1e7),
@@ -158,7 +160,7 @@ constexpr std::array<Tunable, tunable_count> all{{
     pole<1>("model_pole_2_rad_per_s"),
     pole<2>("model_pole_3_rad_per_s"),
     {"adaptation_scale", TunableType::number, 1e-6, 1e6,
-     [](Settings s) { return s.kind == Kind::mrac ? s.mrac.adaptation_scale : NAN; },
+     [](const Settings& s) { return s.kind == Kind::mrac ? s.mrac.adaptation_scale : NAN; },
      [](Settings& s, double value) { s.mrac = s.mrac.scaled(value / s.mrac.adaptation_scale); }},
 }};
 

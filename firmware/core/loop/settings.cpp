@@ -79,25 +79,25 @@ const char* what_to_change(control::ControllerKind kind) {
 
 }  // namespace
 
-std::vector<SettingsProblem> contradictions(const control::ControllerSettings& s) {
+std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller) {
   using control::ControllerKind;
   std::vector<SettingsProblem> problems;
-  if (!control::supported(s.kind, s.arithmetic)) {
-    problems.push_back(
-        {"arithmetic", "must be double or float: the covariance of " +
-                           std::string(control::name_of(control::controller_names, s.kind)) +
-                           " does not fit q8.24"});
+  if (!control::supported(controller.kind, controller.arithmetic)) {
+    problems.push_back({"arithmetic", "must be double or float: the covariance of " +
+                                          std::string(control::name_of(control::controller_names,
+                                                                       controller.kind)) +
+                                          " does not fit q8.24"});
   }
-  const bool feeds_forward =
-      s.kind == ControllerKind::adaptive_ff || s.kind == ControllerKind::learned_ff;
-  const double bandwidth_rad_per_s = s.kind == ControllerKind::adaptive_ff
-                                         ? s.adaptive_ff.bandwidth_rad_per_s
-                                         : s.learned_ff.bandwidth_rad_per_s;
+  const bool feeds_forward = controller.kind == ControllerKind::adaptive_ff ||
+                             controller.kind == ControllerKind::learned_ff;
+  const double bandwidth_rad_per_s = controller.kind == ControllerKind::adaptive_ff
+                                         ? controller.adaptive_ff.bandwidth_rad_per_s
+                                         : controller.learned_ff.bandwidth_rad_per_s;
   // That of mrac_ls may be 0: it then has no PID.
   if (feeds_forward && bandwidth_rad_per_s < 0.01)
     problems.push_back({"bandwidth_rad_per_s", "must be 0.01 to 100"});
-  if (s.kind == ControllerKind::learned_ff) {
-    const control::LearnedFeedforwardSettings& l = s.learned_ff;
+  if (controller.kind == ControllerKind::learned_ff) {
+    const control::LearnedFeedforwardSettings& l = controller.learned_ff;
     if (l.period_s > 0.0 && l.period_s < 2.0) {
       problems.push_back(
           {"period_s", "must be 0 (the reference does not repeat itself) or 2 to 600"});
@@ -105,8 +105,9 @@ std::vector<SettingsProblem> contradictions(const control::ControllerSettings& s
     if (l.find_period && l.period_s > 0.0)
       problems.push_back({"find_period", "must be false where period_s is given"});
   }
-  if (s.kind == ControllerKind::mrac && !s.mrac.accept_failed_premises) {
-    for (const char* failure : control::check_premises(s.mrac, s.model).failures()) {
+  if (controller.kind == ControllerKind::mrac && !controller.mrac.accept_failed_premises) {
+    for (const char* failure :
+         control::check_premises(controller.mrac, controller.model).failures()) {
       if (failure == nullptr) continue;
       problems.push_back({"kind", std::string("premise fails: ") + failure +
                                       " (accept_failed_premises = true runs it nevertheless)"});
@@ -141,7 +142,7 @@ std::optional<SettingsProblem> check(const control::ControllerSettings& controll
 std::optional<SettingsProblem> drop_unusable_tuning(ChannelSettings& channel, double step_s) {
   if (channel.configured_controllers.empty()) return std::nullopt;
   for (const control::ControllerSettings& controller : channel.controllers) {
-    const auto problem = check(controller, channel, step_s);
+    auto problem = check(controller, channel, step_s);
     if (!problem) continue;
     channel.controllers = channel.configured_controllers;
     return problem;

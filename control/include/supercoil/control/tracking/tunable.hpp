@@ -28,7 +28,7 @@ struct Tunable {
   double lowest;  ///< allowed, ends included
   double highest;
   /// NaN: a law of this kind has no such value.
-  double (*get)(ControllerSettings settings);
+  double (*get)(const ControllerSettings& settings);
   /// Where get() is not NaN. value: in range.
   void (*set)(ControllerSettings& settings, double value);
 

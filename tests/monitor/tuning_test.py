@@ -118,6 +118,23 @@ class OnThePage(PageCase):
         self.press(page, "use")
         page.wait(lambda: "must be" in page.text(f"{CARD} .answer"), TOLD_S, "the range is told")
 
+    def test_a_model_gets_poles_of_its_own(self):
+        page = self.opened()
+        self.put(page, "reference model", "design")
+        self.put(page, "kind", "pi")
+        self.press(page, "use")
+        self.told(page, "in use")
+        self.assertEqual(self.row(page, "model pole 1 rad per s")[1], "–")
+        self.put(page, "reference model", "poles")
+        self.press(page, "use")
+        self.told(page, "reference_model = poles: in use")
+        self.put(page, "model pole 1 rad per s", "3")
+        self.press(page, "use")
+        self.told(page, "model_pole_1_rad_per_s = 3: in use")
+        self.assertEqual(self.row(page, "model pole 1 rad per s")[1], "3.00")
+        self.press(page, "as board.toml")
+        self.told(page, "as board.toml: in use")
+
     def test_a_muscle_that_follows_goes_on(self):
         page = self.opened()
         page.run("scrollTo(0, 0)")

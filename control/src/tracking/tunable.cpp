@@ -98,7 +98,6 @@ double* of(Settings& s) {
   return s.kind == Of ? &(s.*Law.*Member) : nullptr;
 }
 
-/// A model that has no real poles gets this one three times.
 template <std::size_t I>
 constexpr Tunable pole(std::string_view name) {
   return {name,
@@ -108,7 +107,6 @@ constexpr Tunable pole(std::string_view name) {
           [](const Settings& s) { return follows_model(s) ? s.model.poles_rad_per_s[I] : NAN; },
           [](Settings& s, double value) {
             auto poles = s.model.poles_rad_per_s;
-            if (std::isnan(poles[I])) poles.fill(value);
             poles[I] = value;
             s.model = poles_model(poles);
           }};
@@ -123,10 +121,14 @@ double model_of(const Settings& s) {
   return 0.0;
 }
 
-/// 0 is what is left by setting poles.
+/// 0: a model with complex poles gets three equal real ones, whose product is the same.
 void set_model(Settings& s, double value) {
-  if (value > 0.0)
+  if (value > 0.0) {
     s.model = *reference_model_named(tunable_models[static_cast<std::size_t>(value) - 1]);
+  } else if (std::isnan(s.model.poles_rad_per_s[0])) {
+    const double pole = std::cbrt(s.model.denominator[0]);
+    s.model = poles_model({pole, pole, pole});
+  }
 }
 
 using MracLs = MracLeastSquaresSettings;
@@ -161,7 +163,10 @@ constexpr std::array<Tunable, tunable_count> all{{
     pole<2>("model_pole_3_rad_per_s"),
     {"adaptation_scale", TunableType::number, 1e-6, 1e6,
      [](const Settings& s) { return s.kind == Kind::mrac ? s.mrac.adaptation_scale : NAN; },
-     [](Settings& s, double value) { s.mrac = s.mrac.scaled(value / s.mrac.adaptation_scale); }},
+     [](Settings& s, double value) {
+       s.mrac = s.mrac.scaled(value / s.mrac.adaptation_scale);
+       s.mrac.adaptation_scale = value;  // without what the division rounded
+     }},
 }};
 
 }  // namespace
@@ -179,13 +184,6 @@ const std::array<Tunable, tunable_count>& tunables() {
 std::size_t tunable_named(std::string_view name) {
   const auto found = std::ranges::find(all, name, &Tunable::name);
   return static_cast<std::size_t>(found - all.begin());
-}
-
-Tuning tuning_of(const ControllerSettings& settings) {
-  Tuning tuning;
-  for (std::size_t i = 0; i < tuning.size(); ++i)
-    tuning[i] = all[i].get(settings);
-  return tuning;
 }
 
 }  // namespace supercoil::control

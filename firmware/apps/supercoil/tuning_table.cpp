@@ -72,8 +72,8 @@ tl::expected<std::vector<TunedValues>, std::string> read_tuning(const AskTuning&
 std::string tuning_text(const Tunable& tunable, double value) {
   if (std::isnan(value)) return "-";
   const auto names = names_of(tunable);
-  const auto place = static_cast<std::size_t>(value);
-  if (place < names.size()) return names[place];
+  if (value >= 0.0 && value < static_cast<double>(names.size()))
+    return names[static_cast<std::size_t>(value)];
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.7g", value);
   return text.data();
@@ -107,7 +107,12 @@ nlohmann::ordered_json tuning_json(const std::vector<TunedValues>& controllers) 
     }
     all.push_back(told);
   }
-  return {{"controllers", all}};
+  nlohmann::ordered_json choices;
+  for (const Tunable& tunable : control::tunables()) {
+    if (const auto names = names_of(tunable); !names.empty())
+      choices[std::string(tunable.name)] = names;
+  }
+  return {{"controllers", all}, {"choices", choices}};
 }
 
 }  // namespace supercoil::operating

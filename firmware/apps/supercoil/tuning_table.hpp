@@ -32,7 +32,7 @@ std::string tuning_text(const control::Tunable& tunable, double value);
 tl::expected<double, std::string> tuning_value(const control::Tunable& tunable,
                                                const std::string& text);
 
-/// {"controllers": [{"controller": 0, "kind": {"prepared": "pi", …}, …}]}
+/// {"controllers": [{"controller": 0, "kind": {"prepared": "pi", …}, …}], "choices": {"kind": […]}}
 nlohmann::ordered_json tuning_json(const std::vector<TunedValues>& controllers);
 
 }  // namespace supercoil::operating

@@ -12,11 +12,16 @@ bool same_content(const Learned& a, const Learned& b) {
          a.tuning == b.tuning;
 }
 
-TunedController TunedController::difference(const control::Tuning& now,
-                                            const control::Tuning& configured) {
+/// One after the other: what a value is compared with depends on the law and model before it.
+TunedController TunedController::difference(const control::ControllerSettings& now,
+                                            control::ControllerSettings configured) {
   TunedController tuned;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    if (!std::isnan(now[i]) && now[i] != configured[i]) tuned.values[i] = now[i];
+  for (std::size_t i = 0; i < tuned.values.size(); ++i) {
+    const control::Tunable& tunable = control::tunables()[i];
+    const double value = tunable.get(now);
+    if (std::isnan(value) || value == tunable.get(configured)) continue;
+    tuned.values[i] = value;
+    tunable.set(configured, value);
   }
   return tuned;
 }

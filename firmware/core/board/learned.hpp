@@ -50,8 +50,9 @@ struct ThermalFacts {
 struct TunedController {
   std::array<std::optional<double>, control::tunable_count> values;  ///< empty: as configured
 
-  /// What of `now` differs from what is configured.
-  static TunedController difference(const control::Tuning& now, const control::Tuning& configured);
+  /// What makes of the configured controller the one that is now.
+  static TunedController difference(const control::ControllerSettings& now,
+                                    control::ControllerSettings configured);
   void apply_to(control::ControllerSettings& configured) const;
   friend bool operator==(const TunedController&, const TunedController&) = default;
 };

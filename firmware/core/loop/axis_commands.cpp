@@ -100,8 +100,8 @@ Reply Axis::choose_controller(double place) {
 
 /// At once; a controller that is following goes on where its predecessor leaves off.
 Reply Axis::tune(const Command& command) {
-  if (!is_place(command.value, tracking_.controllers()))
-    return no_such_place(command.value, tracking_.controllers());
+  const std::size_t places = std::min(tracking_.controllers(), stored_tuning_.controllers.size());
+  if (!is_place(command.value, places)) return no_such_place(command.value, places);
   if (command.tuned == nullptr) return Refusal::unsuitable;
   tracking_.exchange(static_cast<std::size_t>(command.value), *command.tuned,
                      mode_ == Mode::position, reference_, muscle_);

@@ -68,8 +68,8 @@ bool Tuner::prepare_from(TuningSet set, std::size_t place) {
 board::StoredTuning Tuner::tuning_in_use() const {
   board::StoredTuning tuning;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    tuning.controllers[i] = board::TunedController::difference(
-        control::tuning_of(places_[i].in_use), control::tuning_of(places_[i].configured));
+    tuning.controllers[i] =
+        board::TunedController::difference(places_[i].in_use, places_[i].configured);
   }
   return tuning;
 }
@@ -86,8 +86,10 @@ void Tuner::add_to(Command& command, const control::PhysicalParameters& muscle) 
   }
   if (command.verb != Verb::tune) return;
   problem_.clear();
+  // A NaN is no place either.
+  const bool known = command.value >= 0.0 && command.value < static_cast<double>(places_.size());
+  if (!known || built_.size() == max_built) return;
   const auto place = static_cast<std::size_t>(command.value);
-  if (!(command.value >= 0.0) || place >= places_.size() || built_.size() == max_built) return;
   channel_.muscle = muscle;
   const control::ControllerSettings& wanted = places_[place].prepared;
   if (const auto problem = check(wanted, channel_, step_s_)) {

@@ -1738,7 +1738,7 @@ struct supercoil_tuning_t {
     uint8_t set;
 
     /**
-     * That holds now, in the unit of the parameter's name. kind: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff. reference_model: 0 three real poles, 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such controller or parameter, or its law has none.
+     * That holds now, in the unit of the parameter's name. kind: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff. reference_model: 0 three real poles (of a model without them: equal ones), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such controller or parameter, or its law has none.
      *
      * Range: -
      * Scale: 1

@@ -149,6 +149,12 @@ TEST(TuningOverCan, WhatDoesNotWorkIsRefusedAndChangesNothing) {
   CHECK(rig.write(master, mrac_place, "reference_model", 1.0F) == Refusal::none);
   CHECK(rig.tune(master, mrac_place) == Refusal::unsuitable);
   CHECK(rig.tune(master, 3) == Refusal::out_of_range);
+  for (const float place : {1000.0F + 1e30F, INFINITY, NAN})
+    CHECK(rig.command(master, Verb::controller, place) == Refusal::out_of_range);
+  // The configured model of pi has no real poles.
+  CHECK(rig.write(master, pi_place, "model_pole_1_rad_per_s", 3.0F) == Refusal::out_of_range);
+  CHECK(rig.write(master, pi_place, "reference_model", 0.0F) == Refusal::none);
+  CHECK(rig.write(master, pi_place, "model_pole_1_rad_per_s", 3.0F) == Refusal::none);
   const double configured = rig.read(pi_place, "integral_W_per_m_s", TuningSet::configured);
   DOUBLES_EQUAL(configured, rig.read(pi_place, "integral_W_per_m_s", TuningSet::in_use), 0.0);
 }

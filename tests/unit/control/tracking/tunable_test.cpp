@@ -1,6 +1,7 @@
 // The values of a controller that can be changed one by one.
 #include "supercoil/control/tracking/tunable.hpp"
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -15,6 +16,14 @@ ControllerSettings of_kind(ControllerKind kind) {
   settings.kind = kind;
   settings.model = wm16_model();
   return settings;
+}
+
+using Tuning = std::array<double, tunable_count>;
+Tuning tuning_of(const ControllerSettings& settings) {
+  Tuning tuning;
+  for (std::size_t i = 0; i < tuning.size(); ++i)
+    tuning[i] = tunables()[i].get(settings);
+  return tuning;
 }
 
 /// In range, and another one.
@@ -72,11 +81,14 @@ TEST(Tunables, AModelIsANameOrThreePoles) {
   model.set(settings, 1.0);
   CHECK(settings.model.denominator == design_model().denominator);
   CHECK(std::isnan(pole_1.get(settings)));
-  pole_1.set(settings, 3.0);
-  CHECK(settings.model.denominator == poles_model({3.0, 3.0, 3.0}).denominator);
-  pole_2.set(settings, 5.0);
-  CHECK(settings.model.denominator == poles_model({3.0, 5.0, 3.0}).denominator);
+  model.set(settings, 0.0);
   DOUBLES_EQUAL(0.0, model.get(settings), 0.0);
+  DOUBLES_EQUAL(0.8, settings.model.denominator[0], 1e-12);
+  const double equal = pole_1.get(settings);
+  DOUBLES_EQUAL(std::cbrt(0.8), equal, 1e-12);
+  pole_1.set(settings, 3.0);
+  pole_2.set(settings, 5.0);
+  CHECK(settings.model.denominator == poles_model({3.0, 5.0, equal}).denominator);
   model.set(settings, 0.0);
   DOUBLES_EQUAL(5.0, pole_2.get(settings), 0.0);
 }

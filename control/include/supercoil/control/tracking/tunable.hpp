@@ -27,7 +27,7 @@ struct Tunable {
   TunableType type;
   double lowest;  ///< allowed, ends included
   double highest;
-  /// NaN: a law of this kind has no such value.
+  /// NaN: a law of this kind has no such value, or its reference model no real poles.
   double (*get)(const ControllerSettings& settings);
   /// Where get() is not NaN. value: in range.
   void (*set)(ControllerSettings& settings, double value);
@@ -36,14 +36,10 @@ struct Tunable {
 };
 
 /// The places are those of the protocol (docs/can-protocol.md): new ones come last. In this order
-/// they can be set one after the other: what there is depends on the first.
+/// they can be set one after the other: what there is depends on kind and reference_model.
 inline constexpr std::size_t tunable_count = 23;
 const std::array<Tunable, tunable_count>& tunables();
 /// tunable_count: there is none of this name.
 std::size_t tunable_named(std::string_view name);
-
-/// Of one controller, in the order of tunables(). NaN: it has no such value.
-using Tuning = std::array<double, tunable_count>;
-Tuning tuning_of(const ControllerSettings& settings);
 
 }  // namespace supercoil::control

@@ -52,8 +52,8 @@ export async function command(node, opcode, value = 0, options = {}) {
   return (await (await post("/api/command", { node, opcode, value }, options)).json()).refusal;
 }
 
-/** All values of a node's controllers: [{controller, kind: {in_use, …}, …}]. */
-export const tuning_of = async (node) => (await (await ask(`/api/tuning/${node}`)).json()).controllers;
+/** All values of a node's controllers: {controllers: [{controller, kind: {in_use, …}, …}], choices: {kind: […], …}}. */
+export const tuning_of = async (node) => (await ask(`/api/tuning/${node}`)).json();
 
 /** Changes values (texts by name), beginning with those of a set. Resolves to the refusal's name. */
 export const tune = async (node, place, from, values) =>

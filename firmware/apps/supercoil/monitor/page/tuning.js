@@ -7,8 +7,6 @@ import { command, tune, tuning_of } from "./server.js";
 const STORE = 2; // of the opcode store: keeps the tuning in use
 const CLEAR = 3; // forgets what is kept
 const SETS = ["in_use", "configured", "stored"];
-const KINDS = ["power", "pi", "pd_ff", "mrac", "mrac_ls", "adaptive_ff", "learned_ff"];
-const CHOICES = { kind: KINDS, reference_model: ["design", "eq8", "wm16"] };
 const UNSUITABLE = "unsuitable: unstable on the muscle that is known, or values that contradict each other; nothing changed";
 
 const text_of = (value) => (value === null || value === undefined ? "–" : typeof value === "number" ? significant(value) : String(value));
@@ -16,7 +14,7 @@ const text_of = (value) => (value === null || value === undefined ? "–" : type
 export class Tuning {
   /** may: {command, why}; log: is told (text, kind) of what was done. */
   constructor(node, may, log) {
-    Object.assign(this, { node, may, log, controllers: [], place: 0, inputs: new Map() });
+    Object.assign(this, { node, may, log, controllers: [], choices: {}, place: 0, inputs: new Map() });
     this.tabs = element("div", { class: "buttons", role: "group", "aria-label": "controller" });
     this.body = element("tbody");
     this.answer = element("p", { class: "answer", role: "status", "aria-label": "answer about the controllers" });
@@ -41,7 +39,7 @@ export class Tuning {
   async read() {
     this.#say("reading …");
     try {
-      this.controllers = await tuning_of(this.node);
+      Object.assign(this, await tuning_of(this.node));
       this.place = Math.min(this.place, this.controllers.length - 1);
       this.#draw();
       this.#say("");
@@ -65,11 +63,10 @@ export class Tuning {
 
   #input(name, { in_use }) {
     const attributes = { "aria-label": `new ${words(name)}`, disabled: !this.may.command || in_use === null };
-    const choices = CHOICES[name] ?? (typeof in_use === "boolean" ? ["false", "true"] : null);
+    const choices = this.choices[name];
     if (!choices) return element("input", { ...attributes, type: "text", inputmode: "decimal", value: in_use ?? "" });
-    const select = element("select", attributes, ...(choices.includes(String(in_use)) ? [] : [element("option", { selected: true }, text_of(in_use))]),
+    return element("select", attributes, ...(choices.includes(String(in_use)) ? [] : [element("option", { selected: true }, text_of(in_use))]),
       ...choices.map((choice) => element("option", { selected: choice === String(in_use) }, choice)));
-    return select;
   }
 
   /** What was written, by name. */

@@ -1,5 +1,7 @@
 #include "loop/settings.hpp"
 
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 using namespace supercoil;
@@ -56,6 +58,42 @@ TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {
   STRCMP_CONTAINS("Eq. (12)", contradictions(controller).back().message.c_str());
   controller.mrac.accept_failed_premises = true;
   CHECK(contradictions(controller).empty());
+}
+
+/// Of whatever law and model it was made, and whatever was changed underway.
+TEST(BoardSettingsCheck, WhatWasStoredMakesTheSameControllerAgain) {
+  const auto with = [](std::size_t kind, double model, double factor) {
+    control::ControllerSettings c;
+    for (std::size_t i = 0; i < control::tunable_count; ++i) {
+      const control::Tunable& t = control::tunables()[i];
+      const double value = t.get(c);
+      if (t.type == control::TunableType::kind) {
+        t.set(c, static_cast<double>(kind));
+      } else if (t.type == control::TunableType::model && !std::isnan(value)) {
+        t.set(c, model);
+        if (model == 0.0) c.model = control::poles_model({2.0, 3.0, 4.0});
+      } else if (!std::isnan(value) && t.in_range(factor * value)) {
+        t.set(c, factor * value);
+      }
+    }
+    return c;
+  };
+  const std::size_t kinds = control::controller_names.size();
+  for (std::size_t one = 0; one < kinds * 4; ++one) {
+    for (std::size_t other = 0; other < kinds * 4; ++other) {
+      for (const double factor : {0.25, 1.0}) {
+        const auto configured = with(one % kinds, static_cast<double>(one / kinds), 1.0);
+        const auto now = with(other % kinds, static_cast<double>(other / kinds), factor);
+        auto again = configured;
+        board::TunedController::difference(now, configured).apply_to(again);
+        for (const control::Tunable& t : control::tunables()) {
+          const double wanted = t.get(now);
+          const double got = t.get(again);
+          CHECK_TEXT(got == wanted || (std::isnan(got) && std::isnan(wanted)), t.name.data());
+        }
+      }
+    }
+  }
 }
 
 TEST(BoardSettingsCheck, StoredTuningThatIsUnstableIsDroppedAndNamed) {

@@ -97,6 +97,15 @@ TEST(BoardConfig, FastExampleHasAMuscleNearSkin) {
   check_says(text, "near skin: full power up to 38 °C, none from 43 °C on");
 }
 
+TEST(BoardConfig, WhatTuneHasStoredIsToldBesideItsController) {
+  BoardConfig c = read(test::small_board);
+  CHECK(describe(c).find("stored by tune") == std::string::npos);
+  auto& values = c.settings.channels[0].tuning.controllers[0].values;
+  values[control::tunable_named("bandwidth_rad_per_s")] = 6.5;
+  values[control::tunable_named("learn")] = 0.0;
+  STRCMP_CONTAINS("stored by tune: bandwidth_rad_per_s = 6.5, learn = 0", describe(c).c_str());
+}
+
 TEST(BoardConfig, SmallBoardIsCompletedByDefaults) {
   const BoardConfig c = read(test::small_board);
   const ChannelSettings& channel = c.settings.channels.at(0);

@@ -82,8 +82,10 @@ TEST(BoardSettingsCheck, WhatWasStoredMakesTheSameControllerAgain) {
   for (std::size_t one = 0; one < kinds * 4; ++one) {
     for (std::size_t other = 0; other < kinds * 4; ++other) {
       for (const double factor : {0.25, 1.0}) {
-        const auto configured = with(one % kinds, static_cast<double>(one / kinds), 1.0);
-        const auto now = with(other % kinds, static_cast<double>(other / kinds), factor);
+        const std::size_t one_model = one / kinds;
+        const std::size_t other_model = other / kinds;
+        const auto configured = with(one % kinds, static_cast<double>(one_model), 1.0);
+        const auto now = with(other % kinds, static_cast<double>(other_model), factor);
         auto again = configured;
         board::TunedController::difference(now, configured).apply_to(again);
         for (const control::Tunable& t : control::tunables()) {

@@ -155,9 +155,10 @@ TEST_GROUP(HeatThatWasRead) {
                    double measured_power_W) {
     Heat heat(settings, {}, tick_s);
     heat.set_thermal_facts(facts, compared_power);
-    for (int i = 0; i < 60'000; ++i)
+    for (int i = 0; i < 60'000; ++i) {
       heat.step(compared_power.min * measured_power_W, compared_power.max * measured_power_W,
                 measured_power_W);
+    }
     return heat;
   }
 };

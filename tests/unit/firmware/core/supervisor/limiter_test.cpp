@@ -26,6 +26,7 @@ TEST_GROUP(Limiter){};
 
 TEST(Limiter, TellsWhatAHotMuscleMayHave) {
   Limiter limiter({}, tick_s);
+  DOUBLES_EQUAL(4.5, limiter.max_W(20.0), 1e-12);
   DOUBLES_EQUAL(4.5, limiter.max_W(130.0), 1e-12);
   DOUBLES_EQUAL(2.25, limiter.max_W(145.0), 1e-12);
   DOUBLES_EQUAL(0.0, limiter.max_W(170.0), 0.0);

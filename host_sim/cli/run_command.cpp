@@ -44,7 +44,11 @@ void tell_feasibility(const Scenario& scenario, bool in_brief) {
   const BoardSettings board = firmware_of(scenario);
   const ChannelSettings& channel = board.channels[0];
   auto lines = config::describe_feasibility(channel, board);
-  if (in_brief) lines.resize(1);
+  if (in_brief) {
+    lines.resize(1);
+    for (std::string& promise : config::describe_promises(channel, board))
+      lines.push_back(std::move(promise));
+  }
   for (const std::string& line : lines)
     std::printf("muscle: %s\n", line.c_str());
   for (const std::string& line : config::advice(channel, board))

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "config/board_config.hpp"
+#include "loop/promise.hpp"
 
 namespace supercoil::config {
 
@@ -21,9 +22,16 @@ std::string describe_heat(const ChannelSettings& channel);
 std::string describe_senses(const ChannelSettings& channel, const BoardSettings& board);
 /// How much of a small motion arrives at the sensor, and up to which power that is enough.
 std::string describe_small_motions(const ChannelSettings& channel, const BoardSettings& board);
-/// What the muscle can do with these limits: how far, how fast, from when on. One line each.
+/// What the muscle can do with these limits: how far, how fast, from when on, and how closely it
+/// will follow. One line each.
 std::vector<std::string> describe_feasibility(const ChannelSettings& channel,
                                               const BoardSettings& board);
+/// The error that each controller promises, or the one that would; of a muscle that identify found
+/// to be as far from linear as it lets pass.
+std::vector<std::string> describe_promises(const ChannelSettings& channel,
+                                           const BoardSettings& board);
+/// "14 um rms on a sine of 4 to 9 mm, 6 s a period", and from what.
+std::string describe_promise(const Promise& promise, const FirstMotion& motion);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
 /// The same of every channel, each line with the channels that share it.

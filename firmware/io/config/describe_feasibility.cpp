@@ -45,6 +45,35 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
 
 }  // namespace
 
+std::string describe_promise(const Promise& promise, const FirstMotion& motion) {
+  const auto in_um = [](double metres) { return in_digits(1e6 * metres); };
+  return in_um(promise.error_m()) + " um rms on a sine of " +
+         in_digits(1e3 * (motion.middle_m - motion.amplitude_m)) + " to " +
+         in_mm(motion.middle_m + motion.amplitude_m) + ", " + in_digits(motion.period_s) +
+         " s a period (sensor " + in_um(promise.noise_m) + ", probes " + in_um(promise.probe_m) +
+         ", dither " + in_um(promise.dither_m) + ", not linear " + in_um(promise.unexplained_m) +
+         ")";
+}
+
+std::vector<std::string> describe_promises(const ChannelSettings& c, const BoardSettings& board) {
+  const FirstMotion motion = plan_first_motion(feasibility(c, board));
+  if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < c.controllers.size(); ++i) {
+    control::ControllerSettings controller = c.controllers[i];
+    const std::string_view kind = control::name_of(control::controller_names, controller.kind);
+    std::string line = "controller " + std::to_string(i);
+    if (!is_promised_for(controller)) {
+      controller.kind = control::ControllerKind::learned_ff;
+      line += " promises no error (" + std::string(kind) + "); learned_ff";
+    }
+    const Promise promise = promise_error(controller, c, board, motion, NAN);
+    lines.push_back(line + " promises, once the muscle is identified, at most " +
+                    describe_promise(promise, motion));
+  }
+  return lines;
+}
+
 std::vector<std::string> describe_feasibility(const ChannelSettings& c,
                                               const BoardSettings& board) {
   const Feasibility f = feasibility(c, board);
@@ -56,6 +85,8 @@ std::vector<std::string> describe_feasibility(const ChannelSettings& c,
                     " down from there; larger ones " +
                     (f.steps[i]->shaped ? "are shaped" : "ask for more than the muscle can do"));
   }
+  for (std::string& line : describe_promises(c, board))
+    lines.push_back(std::move(line));
   return lines;
 }
 

@@ -396,6 +396,8 @@ class Program(unittest.TestCase):
         self.assertEqual(checked.returncode, 0)
         self.assertIn("in order", checked.stdout)
         self.assertRegex(checked.stdout, r"\nmuscle: holds [\d.]+ mm for good, at [\d.]+ W")
+        self.assertRegex(checked.stdout, r"\nmuscle: controller 0 promises no error \(mrac\); learned_ff promises, once "
+                                         r"the muscle is identified, at most [\d.]+ um rms on a sine of")
         listed = self.run_program("list")
         self.assertIn("sine", listed.stdout)
         self.assertIn("printed", listed.stdout)

@@ -7,7 +7,8 @@
 
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/number_text.hpp"
-#include "apps/supercoil/setup/promise.hpp"
+#include "config/describe.hpp"
+#include "loop/promise.hpp"
 #include "modes/calibrate.hpp"
 #include "text/command_text.hpp"
 
@@ -190,15 +191,9 @@ StepResult Commission::move() {
   channel.senses = *senses;
   const Feasibility f = feasibility(channel, settings_);
   const FirstMotion motion = plan_first_motion(f);
-  const Promise promise =
-      promise_error(channel, settings_, motion, (*known)[known_unexplained_ratio]);
-  const auto in_um = [](double metres) { return in_digits(1e6 * metres); };
-  say_("promised: " + in_um(promise.error_m()) + " um rms on a sine of " +
-       in_digits(1e3 * (motion.middle_m - motion.amplitude_m)) + " to " +
-       in_digits(1e3 * (motion.middle_m + motion.amplitude_m)) + " mm, " +
-       in_digits(motion.period_s) + " s a period (sensor " + in_um(promise.noise_m) + ", probes " +
-       in_um(promise.probe_m) + ", dither " + in_um(promise.dither_m) + ", not linear " +
-       in_um(promise.unexplained_m) + ")");
+  const Promise promise = promise_error(channel.controllers.front(), channel, settings_, motion,
+                                        (*known)[known_unexplained_ratio]);
+  say_("promised: " + config::describe_promise(promise, motion));
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   double square_sum = 0.0;
   double told_s = 0.0;
@@ -222,7 +217,7 @@ StepResult Commission::move() {
   if (samples == 0) return tl::unexpected<std::string>("the board told no tracking error");
   const double error_m = std::sqrt(square_sum / samples);
   const bool kept = error_m <= promise.error_m();
-  say_("followed within " + in_um(error_m) + " um rms: the promise is " +
+  say_("followed within " + in_digits(1e6 * error_m) + " um rms: the promise is " +
        (kept ? "kept" : "not kept"));
   return Json{{"promised_m", promise.error_m()},
               {"noise_m", promise.noise_m},

@@ -262,6 +262,24 @@ offset_C = -2
   check_says(describe(c), "air 0.1");  // of bus time, in ms
 }
 
+TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
+  BoardConfig c = read(test::small_board);
+  const BoardSettings& board = c.settings;
+  ChannelSettings& channel = c.settings.channels[0];
+  channel.controllers[0].kind = control::ControllerKind::pi;
+  const auto of_pi = describe_promises(channel, board);
+  LONGS_EQUAL(1, of_pi.size());
+  check_says(of_pi[0], "controller 0 promises no error (pi); learned_ff promises, once the muscle");
+  channel.controllers[0].kind = control::ControllerKind::learned_ff;
+  const auto of_learned = describe_promises(channel, board);
+  check_says(of_learned[0], "controller 0 promises, once the muscle is identified, at most ");
+  const FirstMotion motion = plan_first_motion(feasibility(channel, board));
+  const Promise promise = promise_error(channel.controllers[0], channel, board, motion, NAN);
+  check_says(of_learned[0], describe_promise(promise, motion).c_str());
+  channel.supervision.max_travel_m = 0.0;
+  check_says(describe_promises(channel, board)[0], "no promise");
+}
+
 TEST(BoardConfig, AdviceNamesWhomItConcernsAndWhatToChange) {
   // The example's sensor ends 1 mm below its zero, where it does not see a muscle in cold air.
   check_says(describe(example("raspberry-pi-pca9685-ads1115.toml")),

@@ -1,4 +1,4 @@
-#include "apps/supercoil/setup/promise.hpp"
+#include "loop/promise.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -6,7 +6,6 @@
 #include <CppUTest/TestHarness.h>
 
 using namespace supercoil;
-using namespace supercoil::operating;
 
 TEST_GROUP(Promise) {
   BoardSettings board;
@@ -25,7 +24,7 @@ TEST_GROUP(Promise) {
   }
 
   Promise promised(double unexplained_ratio = 0.0) const {
-    return promise_error(channel, board, motion, unexplained_ratio);
+    return promise_error(channel.controllers[0], channel, board, motion, unexplained_ratio);
   }
 
   /// Of the motion, by the linear muscle: power is the position and its rate.

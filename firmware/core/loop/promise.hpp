@@ -5,7 +5,7 @@
 #include "loop/known_muscle.hpp"
 #include "loop/settings.hpp"
 
-namespace supercoil::operating {
+namespace supercoil {
 
 /// A sine below the middle of what the muscle can hold, a fifth slower than the fastest that it can
 /// follow over half of it.
@@ -30,12 +30,17 @@ struct Promise {
 
   double error_m() const;
 };
+/// It was tried for learned_ff on random muscles (docs/setup.md), and for no other law.
+constexpr bool is_promised_for(const control::ControllerSettings& controller) {
+  return controller.kind == control::ControllerKind::learned_ff;
+}
 /// channel: with what identify found in it. unexplained_ratio: of that; NaN counts as all of what
 /// identify would have let pass.
-Promise promise_error(const ChannelSettings& channel, const BoardSettings& board,
-                      const FirstMotion& motion, double unexplained_ratio);
+Promise promise_error(const control::ControllerSettings& controller, const ChannelSettings& channel,
+                      const BoardSettings& board, const FirstMotion& motion,
+                      double unexplained_ratio);
 
 /// The channel with what the board goes by now in place of what its file says.
 ChannelSettings with_known(ChannelSettings channel, const KnownMuscle& known);
 
-}  // namespace supercoil::operating
+}  // namespace supercoil

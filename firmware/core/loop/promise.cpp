@@ -1,10 +1,10 @@
-#include "apps/supercoil/setup/promise.hpp"
+#include "loop/promise.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace supercoil::operating {
+namespace supercoil {
 
 namespace {
 
@@ -50,11 +50,12 @@ double Promise::error_m() const {
   return margin * std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
 }
 
-Promise promise_error(const ChannelSettings& channel, const BoardSettings& board,
-                      const FirstMotion& motion, double unexplained_ratio) {
+Promise promise_error(const control::ControllerSettings& controller, const ChannelSettings& channel,
+                      const BoardSettings& board, const FirstMotion& motion,
+                      double unexplained_ratio) {
   Promise p;
   const control::PhysicalParameters& m = channel.muscle;
-  const double bandwidth = bandwidth_of(channel.controllers.front());
+  const double bandwidth = bandwidth_of(controller);
   const double count_m = channel.position.scaling.per_count;
   const double reading_m =
       std::hypot(channel.supervision.position_noise_rms_m, count_m / std::sqrt(12.0));
@@ -99,4 +100,4 @@ ChannelSettings with_known(ChannelSettings channel, const KnownMuscle& known) {
   return channel;
 }
 
-}  // namespace supercoil::operating
+}  // namespace supercoil

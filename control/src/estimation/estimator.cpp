@@ -1,5 +1,9 @@
 #include "supercoil/control/estimation/estimator.hpp"
 
+#include <type_traits>
+
+#include "supercoil/control/actuator/conversions.hpp"
+
 namespace supercoil::control {
 
 namespace {
@@ -7,58 +11,92 @@ namespace {
 /// How many standard deviations make least squares' bound.
 constexpr double deviations_of_bound = 3.0;
 
-const RegressionScale& scale_of(const EstimatorSettings& s) {
-  return s.kind == EstimatorKind::least_squares ? s.least_squares.scale : s.gradient.scale;
+RegressionScale scale_of(const EstimatorSettings& settings) {
+  RegressionScale scale;
+  with_chosen<Estimators>(settings, [&](auto, const auto& own) { scale = own.scale; });
+  return scale;
 }
 
-template <class Kind>
-constexpr bool is_none = std::is_same_v<std::decay_t<Kind>, std::monostate>;
-template <class Kind>
-concept Gradient = requires(const Kind& kind) {
-  kind.model();
-};
+template <class Running>
+constexpr bool is_none = std::is_same_v<std::decay_t<Running>, std::monostate>;
 
 }  // namespace
+
+void EstimatorSettings::set_nominal(const PhysicalParameters& muscle, double max_W) {
+  const RegressionScale scale{theta_from(muscle), muscle.dc_gain_m_per_W(), muscle.moving_mass_kg};
+  with_each<Estimators>(*this, [&](auto definition, auto& own) {
+    decltype(definition)::set_nominal(own, scale, max_W);
+  });
+}
+
+void GradientEstimation::check_fit(FixedPointFit& fit, const Settings& s, double step_s) {
+  constexpr double signal = FixedPointFit::signal;
+  const Theta& nominal = s.scale.nominal;
+  for (int i = 0; i < 4; ++i) {
+    fit.gain("gain", s.gain[i] / (nominal[i] * nominal[i]) * step_s);
+    fit.at_most("initial", s.initial[i] / nominal[i], signal);
+    if (s.bounds) {
+      fit.at_most("lower", s.bounds->lower[i] / nominal[i], signal);
+      fit.at_most("upper", s.bounds->upper[i] / nominal[i], signal);
+    }
+  }
+  fit.at_most("normalisation", s.normalisation, signal);
+}
 
 double relative_error_bound(const Vector<double, 5>& deviations) {
   return deviations_of_bound * deviations.head<4>().norm();
 }
 
-Estimator::Any Estimator::choose(const EstimatorSettings& s, double step_s) {
-  const bool narrow = s.arithmetic == Arithmetic::float32;
-  switch (s.kind) {
-    case EstimatorKind::none:
-      return std::monostate{};
-    case EstimatorKind::least_squares:
-      if (narrow) return LeastSquaresEstimator<float>(s.least_squares, step_s);
-      return LeastSquaresEstimator<double>(s.least_squares, step_s);
-    case EstimatorKind::gradient:
+std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W) {
+  if (settings.arithmetic != Arithmetic::q8_24) return std::nullopt;
+  FixedPointFit fit;
+  with_chosen<Estimators>(settings, [&](auto definition, const auto& own) {
+    fit.at_most("arithmetic", max_W, FixedPointFit::signal);
+    if constexpr (decltype(definition)::fixed_point)
+      decltype(definition)::check_fit(fit, own, step_s);
+  });
+  return fit.violation();
+}
+
+template <class Scalar>
+Estimator::Any Estimator::make(const EstimatorSettings& settings, double step_s) {
+  Any made;
+  with_chosen<Estimators>(settings, [&](auto definition, const auto& own) {
+    using Definition = decltype(definition);
+    if constexpr (Definition::fixed_point || std::is_floating_point_v<Scalar>) {
+      made.template emplace<Running<Definition, Scalar>>(own, step_s);
+    }
+  });
+  return made;
+}
+
+Estimator::Any Estimator::choose(const EstimatorSettings& settings, double step_s) {
+  switch (settings.arithmetic) {
+    case Arithmetic::float32:
+      return make<float>(settings, step_s);
+    case Arithmetic::q8_24:
+      return make<Q8_24>(settings, step_s);
+    case Arithmetic::float64:
       break;
   }
-  if (narrow) return GradientEstimator<float>(s.gradient, step_s);
-  if (s.arithmetic == Arithmetic::q8_24) return GradientEstimator<Q8_24>(s.gradient, step_s);
-  return GradientEstimator<double>(s.gradient, step_s);
+  return make<double>(settings, step_s);
 }
 
 Estimator::Estimator(const EstimatorSettings& settings, double step_s)
     : any_(choose(settings, step_s)),
-      to_watts_(1.0 / scale_of(settings).dc_gain_m_per_W),
-      nominal_(scale_of(settings).nominal),
+      scale_(scale_of(settings)),
+      to_watts_(1.0 / scale_.dc_gain_m_per_W),
       excitation_(settings.excitation, step_s),
       trusted_error_(settings.excitation.trusted_error) {}
 
 void Estimator::step(double position_m, double applied_power_W) {
   std::visit(
-      [&](auto& estimator) {
-        using Kind = std::decay_t<decltype(estimator)>;
-        if constexpr (!is_none<Kind>) {
-          using Scalar = typename Kind::ScalarType;
-          estimator.step(Scalar(position_m * to_watts_), Scalar(applied_power_W));
-        }
-        if constexpr (Gradient<Kind>) {
-          const auto& model = estimator.model();
-          excitation_.step(model.phi().template cast<double>(), static_cast<double>(model.z()),
-                           estimator.scaled_theta());
+      [&](auto& running) {
+        if constexpr (!is_none<decltype(running)>) {
+          using Now = std::decay_t<decltype(running)>;
+          using Scalar = typename Now::ScalarType;
+          running.estimator.step(Scalar(position_m * to_watts_), Scalar(applied_power_W));
+          Now::Of::watch(running.estimator, excitation_);
         }
       },
       any_);
@@ -66,44 +104,20 @@ void Estimator::step(double position_m, double applied_power_W) {
 
 void Estimator::restart() {
   std::visit(
-      [](auto& estimator) {
-        if constexpr (!is_none<decltype(estimator)>) estimator.restart();
+      [](auto& running) {
+        if constexpr (!is_none<decltype(running)>) running.estimator.restart();
       },
       any_);
 }
 
-template <class Scalar>
-Estimate Estimator::estimate_of(const GradientEstimator<Scalar>& estimator) const {
-  return {.theta = estimator.theta(),
-          .prediction_error_W = estimator.error(),
-          .excitation_W2s = excitation_.min_eigenvalue(),
-          .relative_error_bound = excitation_.error_bound(),
-          .trusted = excitation_.trusted(),
-          .settled = excitation_.trusted()};
-}
-
-template <class Scalar>
-Estimate Estimator::estimate_of(const LeastSquaresEstimator<Scalar>& estimator) const {
-  const auto& parameters = estimator.parameters();
-  const auto& deviations = estimator.standard_deviations();
-  const double bound = relative_error_bound(deviations);
-  return {.theta = parameters.template head<4>().cwiseProduct(nominal_),
-          .prediction_error_W = estimator.error(),
-          .relative_error_bound = bound,
-          .trusted = bound <= trusted_error_,
-          .settled = estimator.settled(),
-          .bias_W = parameters[4],
-          .deviation = deviations.template head<4>().cwiseProduct(nominal_),
-          .bias_deviation_W = deviations[4]};
-}
-
 std::optional<Estimate> Estimator::estimate() const {
   return std::visit(
-      [&](const auto& estimator) -> std::optional<Estimate> {
-        if constexpr (is_none<decltype(estimator)>) {
+      [&](const auto& running) -> std::optional<Estimate> {
+        if constexpr (is_none<decltype(running)>) {
           return std::nullopt;
         } else {
-          return estimate_of(estimator);
+          using Of = typename std::decay_t<decltype(running)>::Of;
+          return Of::estimate(running.estimator, scale_.nominal, excitation_, trusted_error_);
         }
       },
       any_);

@@ -1,47 +1,19 @@
 #include "supercoil/control/tracking/controller.hpp"
 
-#include "supercoil/control/actuator/conversions.hpp"
-
 namespace supercoil::control {
-
-void ControllerSettings::set_nominal(const PhysicalParameters& muscle, double max_W) {
-  dc_gain_m_per_W = muscle.dc_gain_m_per_W();
-  const RegressionScale scale{theta_from(muscle), dc_gain_m_per_W, muscle.moving_mass_kg};
-  shaped_for = adaptive_ff.scale = learned_ff.scale = mrac_ls.scale = scale;
-  pd_ff.feedforward_W_per_m = 1.0 / dc_gain_m_per_W;
-  if (std::isfinite(max_W)) learned_ff.max_W = max_W;
-}
 
 template <class Scalar>
 Controller::Any Controller::make(const ControllerSettings& s, double step_s) {
-  const double gain = s.dc_gain_m_per_W;
-  switch (s.kind) {
-    case ControllerKind::pi:
-      return PiFollower<Scalar>(s, Pi<Scalar>(s.pi, gain, step_s), step_s);
-    case ControllerKind::pd_ff:
-      return PdFollower<Scalar>(s, PdFeedforward<Scalar>(s.pd_ff, gain, step_s), step_s);
-    case ControllerKind::mrac:
-      return MracFollower<Scalar>(s, Mrac<Scalar>(s.mrac, step_s), step_s);
-    case ControllerKind::mrac_ls:
-      if constexpr (std::is_floating_point_v<Scalar>) {
-        return MracLeastSquaresFollower<Scalar>(
-            s, MracLeastSquares<Scalar>(s.mrac_ls, s.model, step_s), step_s);
-      } else {
-        break;
-      }
-    case ControllerKind::adaptive_ff:
-      return AdaptiveFollower<Scalar>(s, AdaptiveFeedforward<Scalar>(s.adaptive_ff, step_s),
-                                      step_s);
-    case ControllerKind::learned_ff:
-      if constexpr (std::is_floating_point_v<Scalar>) {
-        return LearnedFollower<Scalar>(s, LearnedFeedforward<Scalar>(s.learned_ff, step_s), step_s);
-      } else {
-        break;
-      }
-    case ControllerKind::power:
-      break;
-  }
-  return OpenLoopPower{};
+  Any made;
+  with_chosen<Laws>(s, [&](auto law, const auto& own) {
+    using Law = decltype(law);
+    if constexpr (Law::fixed_point || std::is_floating_point_v<Scalar>) {
+      const LawContext context{s.model, s.dc_gain_m_per_W};
+      made.emplace<Follower<Law, Scalar>>(s, Law::template make<Scalar>(own, context, step_s),
+                                          step_s);
+    }
+  });
+  return made;
 }
 
 Controller::Any Controller::choose(const ControllerSettings& settings, double step_s) {

@@ -1,5 +1,7 @@
 #include "supercoil/control/tracking/learned_feedforward.hpp"
 
+#include "supercoil/control/actuator/conversions.hpp"
+
 namespace supercoil::control {
 
 namespace {
@@ -317,5 +319,28 @@ GainValue LearnedFeedforward<Scalar>::gain(std::size_t i) const {
 
 template class LearnedFeedforward<double>;
 template class LearnedFeedforward<float>;
+
+void LearnedFeedforwardLaw::set_nominal(Settings& s, const RegressionScale& scale, double max_W) {
+  s.scale = scale;
+  if (std::isfinite(max_W)) s.max_W = max_W;
+}
+
+std::optional<FixedLaw> LearnedFeedforwardLaw::fixed_law(const Settings& s, const LawContext&,
+                                                         const PhysicalParameters& muscle) {
+  const Theta theta = theta_from(muscle);
+  return fixed_pid_law(theta,
+                       feedback_bandwidth(s.bandwidth_rad_per_s, theta, muscle.moving_mass_kg),
+                       s.derivative_filter_rad_per_s);
+}
+
+void LearnedFeedforwardLaw::add_contradictions(LawProblems& problems, const Settings& s,
+                                               const LawContext&) {
+  check_bandwidth(problems, s.bandwidth_rad_per_s);
+  if (s.period_s > 0.0 && s.period_s < 2.0) {
+    problems.add({"period_s", "must be 0 (the reference does not repeat itself) or 2 to 600"});
+  }
+  if (s.find_period && s.period_s > 0.0)
+    problems.add({"find_period", "must be false where period_s is given"});
+}
 
 }  // namespace supercoil::control

@@ -1,5 +1,7 @@
 #include "supercoil/control/tracking/mrac_matching.hpp"
 
+#include "supercoil/control/actuator/conversions.hpp"
+
 namespace supercoil::control {
 
 std::optional<MracMatching> match(const TransferFunction& plant, const MracSettings& settings,
@@ -30,6 +32,23 @@ std::optional<MracMatching> match(const TransferFunction& plant, const MracSetti
       (d1 - d2 * l[1]) / settings.alpha[0], (d0 - d2 * l[0]) / settings.alpha[1], d2,
       model.gain / plant.b3;
   return result;
+}
+
+// The laws have positions in watts at rest.
+std::optional<FixedLaw> add_matched(FixedLaw law, const MracSettings& filters,
+                                    const LawContext& context, const PhysicalParameters& muscle) {
+  TransferFunction plant = transfer_function_from(muscle);
+  plant.b3 /= context.dc_gain_m_per_W;
+  const auto matching = match(plant, filters, context.model);
+  if (!matching) return std::nullopt;
+  const MracSettings::Parameters& theta = matching->theta;
+  const std::array<double, 2>& alpha = filters.alpha;
+  const double per_m = 1.0 / context.dc_gain_m_per_W;
+  law.filtered = {filters.lambda,
+                  {theta[1] * alpha[1], theta[0] * alpha[0]},
+                  {theta[3] * alpha[1] * per_m, theta[2] * alpha[0] * per_m},
+                  theta[4] * per_m};
+  return law;
 }
 
 }  // namespace supercoil::control

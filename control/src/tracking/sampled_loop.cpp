@@ -2,6 +2,7 @@
 
 #include "supercoil/control/actuator/state_space.hpp"
 #include "supercoil/control/linear/discretize.hpp"
+#include "supercoil/control/linear/filter.hpp"
 #include "supercoil/control/linear/matrix_functions.hpp"
 
 namespace supercoil::control {

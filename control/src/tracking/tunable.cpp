@@ -10,106 +10,39 @@ namespace {
 using Settings = ControllerSettings;
 using Kind = ControllerKind;
 
-template <double* (*Place)(Settings&)>
-constexpr Tunable number(std::string_view name, double lowest, double highest) {
-  return {name,
-          TunableType::number,
-          lowest,
-          highest,
-          [](const Settings& settings) {
-            Settings s = settings;
-            const double* value = Place(s);
-            return value == nullptr ? NAN : *value;
-          },
-          [](Settings& s, double value) { *Place(s) = value; }};
-}
-
-template <bool* (*Place)(Settings&)>
-constexpr Tunable flag(std::string_view name) {
-  return {name,
-          TunableType::flag,
-          0.0,
-          1.0,
-          [](const Settings& settings) {
-            Settings s = settings;
-            const bool* value = Place(s);
-            return value == nullptr ? NAN : static_cast<double>(*value);
-          },
-          [](Settings& s, double value) { *Place(s) = value != 0.0; }};
-}
-
 constexpr bool follows_model(const Settings& s) {
   return s.kind != Kind::power;
 }
 
-double* proportional(Settings& s) {
-  if (s.kind == Kind::pd_ff) return &s.pd_ff.proportional_W_per_m;
-  return s.kind == Kind::pi ? &s.pi.proportional_W_per_m : nullptr;
-}
-double* integral(Settings& s) {
-  return s.kind == Kind::pi ? &s.pi.integral_W_per_m_s : nullptr;
-}
-double* derivative(Settings& s) {
-  return s.kind == Kind::pd_ff ? &s.pd_ff.derivative_Ws_per_m : nullptr;
-}
-double* feedforward(Settings& s) {
-  return s.kind == Kind::pd_ff ? &s.pd_ff.feedforward_W_per_m : nullptr;
-}
-double* bandwidth(Settings& s) {
-  if (s.kind == Kind::adaptive_ff) return &s.adaptive_ff.bandwidth_rad_per_s;
-  if (s.kind == Kind::learned_ff) return &s.learned_ff.bandwidth_rad_per_s;
-  return s.kind == Kind::mrac_ls ? &s.mrac_ls.bandwidth_rad_per_s : nullptr;
-}
-double* derivative_filter(Settings& s) {
-  if (s.kind == Kind::pd_ff) return &s.pd_ff.derivative_filter_rad_per_s;
-  if (s.kind == Kind::adaptive_ff) return &s.adaptive_ff.derivative_filter_rad_per_s;
-  if (s.kind == Kind::learned_ff) return &s.learned_ff.derivative_filter_rad_per_s;
-  return s.kind == Kind::mrac_ls ? &s.mrac_ls.derivative_filter_rad_per_s : nullptr;
-}
-double* follow(Settings& s) {
-  if (s.kind == Kind::adaptive_ff) return &s.adaptive_ff.follow_s;
-  if (s.kind == Kind::learned_ff) return &s.learned_ff.follow_s;
-  return s.kind == Kind::mrac_ls ? &s.mrac_ls.follow_s : nullptr;
-}
-double* forgetting(Settings& s) {
-  if (s.kind == Kind::learned_ff) return &s.learned_ff.forgetting_s;
-  return s.kind == Kind::mrac_ls ? &s.mrac_ls.forgetting_s : nullptr;
-}
-double* period(Settings& s) {
-  return s.kind == Kind::learned_ff ? &s.learned_ff.period_s : nullptr;
-}
-bool* learns(Settings& s) {
-  return s.kind == Kind::learned_ff ? &s.learned_ff.learn : nullptr;
-}
-bool* finds_period(Settings& s) {
-  return s.kind == Kind::learned_ff ? &s.learned_ff.find_period : nullptr;
-}
-bool* shapes(Settings& s) {
-  return follows_model(s) ? &s.shape_reference : nullptr;
-}
-bool* slows(Settings& s) {
-  const bool can = follows_model(s) && s.kind != Kind::mrac && s.kind != Kind::mrac_ls;
-  return can ? &s.slow_when_oscillating : nullptr;
+/// Function: takes one LawValue by its name, of the law in use, and its settings.
+template <class SomeSettings, class Function>
+void with_value(SomeSettings& settings, std::string_view name, Function function) {
+  with_chosen<Laws>(settings, [&](auto law, auto& own) {
+    for (const auto& value : decltype(law)::values) {
+      if (value.name == name) function(value, own);
+    }
+  });
 }
 
-/// Of the values of one law.
-template <Kind Of, auto Law, auto Member>
-double* of(Settings& s) {
-  return s.kind == Of ? &(s.*Law.*Member) : nullptr;
+bool slows_down(Kind kind) {
+  bool can = false;
+  with_listed<Laws>(kind, [&](auto listed) {
+    can = requires(typename decltype(listed)::Definition::template In<double> law) {
+      law.slow_down();
+    };
+  });
+  return can;
 }
 
 template <std::size_t I>
-constexpr Tunable pole(std::string_view name) {
-  return {name,
-          TunableType::pole,
-          1e-3,
-          1e3,
-          [](const Settings& s) { return follows_model(s) ? s.model.poles_rad_per_s[I] : NAN; },
-          [](Settings& s, double value) {
-            auto poles = s.model.poles_rad_per_s;
-            poles[I] = value;
-            s.model = poles_model(poles);
-          }};
+double pole_of(const Settings& s) {
+  return follows_model(s) ? s.model.poles_rad_per_s[I] : NAN;
+}
+template <std::size_t I>
+void set_pole(Settings& s, double value) {
+  auto poles = s.model.poles_rad_per_s;
+  poles[I] = value;
+  s.model = poles_model(poles);
 }
 
 double model_of(const Settings& s) {
@@ -131,45 +64,68 @@ void set_model(Settings& s, double value) {
   }
 }
 
-using MracLs = MracLeastSquaresSettings;
-constexpr Kind mrac_ls = Kind::mrac_ls;
-constexpr auto in_ls = &Settings::mrac_ls;
-
+/// Name, type, range; of what is no law's, how it is read and set.
 constexpr std::array<Tunable, tunable_count> all{{
     {"kind", TunableType::kind, 0.0, static_cast<double>(controller_names.size() - 1),
      [](const Settings& s) { return static_cast<double>(s.kind); },
      [](Settings& s, double value) { s.kind = static_cast<Kind>(value); }},
-    number<proportional>("proportional_W_per_m", 0.0, 1e7),
-    number<integral>("integral_W_per_m_s", 0.0, 1e7),
-    number<derivative>("derivative_Ws_per_m", 0.0, 1e7),
-    number<feedforward>("feedforward_W_per_m", 0.0, 1e7),
-    number<bandwidth>("bandwidth_rad_per_s", 0.0, 100.0),
-    number<derivative_filter>("derivative_filter_rad_per_s", 0.1, 1e4),
-    number<follow>("follow_s", 0.02, 3600.0),
-    number<forgetting>("forgetting_s", 1.0, 3600.0),
-    flag<learns>("learn"),
-    number<period>("period_s", 0.0, 600.0),
-    flag<finds_period>("find_period"),
-    number<of<mrac_ls, in_ls, &MracLs::filter_rad_per_s>>("filter_rad_per_s", 0.5, 100.0),
-    number<of<mrac_ls, in_ls, &MracLs::regression_rad_per_s>>("regression_rad_per_s", 0.5, 100.0),
-    number<of<mrac_ls, in_ls, &MracLs::change_W>>("change_W", 1e-6, 1e3),
-    number<of<mrac_ls, in_ls, &MracLs::hold_s>>("hold_s", 0.0, 3600.0),
-    flag<shapes>("shape_reference"),
-    flag<slows>("slow_when_oscillating"),
+    {"proportional_W_per_m", TunableType::number, 0.0, 1e7},
+    {"integral_W_per_m_s", TunableType::number, 0.0, 1e7},
+    {"derivative_Ws_per_m", TunableType::number, 0.0, 1e7},
+    {"feedforward_W_per_m", TunableType::number, 0.0, 1e7},
+    {"bandwidth_rad_per_s", TunableType::number, 0.0, 100.0},
+    {"derivative_filter_rad_per_s", TunableType::number, 0.1, 1e4},
+    {"follow_s", TunableType::number, 0.02, 3600.0},
+    {"forgetting_s", TunableType::number, 1.0, 3600.0},
+    {"learn", TunableType::flag, 0.0, 1.0},
+    {"period_s", TunableType::number, 0.0, 600.0},
+    {"find_period", TunableType::flag, 0.0, 1.0},
+    {"filter_rad_per_s", TunableType::number, 0.5, 100.0},
+    {"regression_rad_per_s", TunableType::number, 0.5, 100.0},
+    {"change_W", TunableType::number, 1e-6, 1e3},
+    {"hold_s", TunableType::number, 0.0, 3600.0},
+    {"shape_reference", TunableType::flag, 0.0, 1.0,
+     [](const Settings& s) {
+       return follows_model(s) ? static_cast<double>(s.shape_reference) : NAN;
+     },
+     [](Settings& s, double value) { s.shape_reference = value != 0.0; }},
+    {"slow_when_oscillating", TunableType::flag, 0.0, 1.0,
+     [](const Settings& s) {
+       return slows_down(s.kind) ? static_cast<double>(s.slow_when_oscillating) : NAN;
+     },
+     [](Settings& s, double value) { s.slow_when_oscillating = value != 0.0; }},
     {"reference_model", TunableType::model, 0.0, static_cast<double>(tunable_models.size()),
      model_of, set_model},
-    pole<0>("model_pole_1_rad_per_s"),
-    pole<1>("model_pole_2_rad_per_s"),
-    pole<2>("model_pole_3_rad_per_s"),
-    {"adaptation_scale", TunableType::number, 1e-6, 1e6,
-     [](const Settings& s) { return s.kind == Kind::mrac ? s.mrac.adaptation_scale : NAN; },
-     [](Settings& s, double value) {
-       s.mrac = s.mrac.scaled(value / s.mrac.adaptation_scale);
-       s.mrac.adaptation_scale = value;  // without what the division rounded
-     }},
+    {"model_pole_1_rad_per_s", TunableType::pole, 1e-3, 1e3, pole_of<0>, set_pole<0>},
+    {"model_pole_2_rad_per_s", TunableType::pole, 1e-3, 1e3, pole_of<1>, set_pole<1>},
+    {"model_pole_3_rad_per_s", TunableType::pole, 1e-3, 1e3, pole_of<2>, set_pole<2>},
+    {"adaptation_scale", TunableType::number, 1e-6, 1e6},
 }};
 
+/// What a law calls a value must stand above.
+constexpr bool all_listed() {
+  const auto listed = [](auto law) {
+    return std::ranges::all_of(decltype(law)::Definition::values, [](const auto& value) {
+      return std::ranges::find(all, value.name, &Tunable::name) != all.end();
+    });
+  };
+  return std::apply([&](auto... law) { return (listed(law) && ...); }, Laws{});
+}
+static_assert(all_listed());
+
 }  // namespace
+
+double Tunable::get(const ControllerSettings& settings) const {
+  if (of_controller != nullptr) return of_controller(settings);
+  double found = NAN;
+  with_value(settings, name, [&](const auto& value, const auto& own) { found = value.get(own); });
+  return found;
+}
+
+void Tunable::set(ControllerSettings& settings, double to) const {
+  if (set_controller != nullptr) return set_controller(settings, to);
+  with_value(settings, name, [&](const auto& value, auto& own) { value.set(own, to); });
+}
 
 bool Tunable::in_range(double value) const {
   const bool whole =

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <sstream>
 
-#include "supercoil/control/tracking/mrac_premises.hpp"
-
 namespace supercoil {
 
 namespace {
@@ -68,19 +66,7 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
   return s;
 }
 
-namespace {
-
-const char* what_to_change(control::ControllerKind kind) {
-  using control::ControllerKind;
-  if (kind == ControllerKind::mrac) return "take slower filters or a slower reference model";
-  if (kind == ControllerKind::mrac_ls) return "lower its bandwidth_rad_per_s";
-  return "lower its gains";
-}
-
-}  // namespace
-
 std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller) {
-  using control::ControllerKind;
   std::vector<SettingsProblem> problems;
   if (!control::supported(controller.kind, controller.arithmetic)) {
     problems.push_back({"arithmetic", "must be double or float: the covariance of " +
@@ -88,30 +74,10 @@ std::vector<SettingsProblem> contradictions(const control::ControllerSettings& c
                                                                        controller.kind)) +
                                           " does not fit q8.24"});
   }
-  const bool feeds_forward = controller.kind == ControllerKind::adaptive_ff ||
-                             controller.kind == ControllerKind::learned_ff;
-  const double bandwidth_rad_per_s = controller.kind == ControllerKind::adaptive_ff
-                                         ? controller.adaptive_ff.bandwidth_rad_per_s
-                                         : controller.learned_ff.bandwidth_rad_per_s;
-  // That of mrac_ls may be 0: it then has no PID.
-  if (feeds_forward && bandwidth_rad_per_s < 0.01)
-    problems.push_back({"bandwidth_rad_per_s", "must be 0.01 to 100"});
-  if (controller.kind == ControllerKind::learned_ff) {
-    const control::LearnedFeedforwardSettings& l = controller.learned_ff;
-    if (l.period_s > 0.0 && l.period_s < 2.0) {
-      problems.push_back(
-          {"period_s", "must be 0 (the reference does not repeat itself) or 2 to 600"});
-    }
-    if (l.find_period && l.period_s > 0.0)
-      problems.push_back({"find_period", "must be false where period_s is given"});
-  }
-  if (controller.kind == ControllerKind::mrac && !controller.mrac.accept_failed_premises) {
-    for (const char* failure :
-         control::check_premises(controller.mrac, controller.model).failures()) {
-      if (failure == nullptr) continue;
-      problems.push_back({"kind", std::string("premise fails: ") + failure +
-                                      " (accept_failed_premises = true runs it nevertheless)"});
-    }
+  for (const auto& [key, message, premise] : control::contradictions_of_law(controller)) {
+    problems.push_back({key, premise ? std::string("premise fails: ") + message +
+                                           " (accept_failed_premises = true runs it nevertheless)"
+                                     : std::string(message)});
   }
   return problems;
 }
@@ -131,11 +97,14 @@ std::optional<SettingsProblem> check(const control::ControllerSettings& controll
     return SettingsProblem{misfit->quantity, misfit_text(*misfit)};
   const auto margin = margin_of(controller, channel, step_s);
   if (!margin || margin->stable()) return std::nullopt;
+  std::string_view change;
+  control::with_chosen<control::Laws>(
+      controller, [&](auto law, const auto&) { change = decltype(law)::when_unstable; });
   std::ostringstream message;
   message << "is unstable on this muscle"
           << (control::adapts(controller.kind) ? ", even when adapted," : "") << " with "
-          << 1e3 * loop_delay_s(channel, step_s)
-          << " ms of delay: " << what_to_change(controller.kind) << ", or shorten the delay";
+          << 1e3 * loop_delay_s(channel, step_s) << " ms of delay: " << change
+          << ", or shorten the delay";
   return SettingsProblem{"kind", message.str()};
 }
 

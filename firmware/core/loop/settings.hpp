@@ -94,8 +94,8 @@ struct SettingsProblem {
   std::string message;
 };
 
-/// All that is wrong with a law whatever its muscle. MRAC's premises are among it, unless it was
-/// accepted that they fail.
+/// All that is wrong with a law whatever its muscle: also an arithmetic that it does not run in.
+/// MRAC's premises are among it, unless it was accepted that they fail.
 std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller);
 
 /// In words, what q8.24 cannot hold.

@@ -78,8 +78,9 @@ control::ControllerSettings read_controller(
   control::ControllerSettings c;
   c.kind = section.choice("kind", c.kind, control::controller_names);
   c.set_nominal(muscle, max_W);
-  const bool is_mrac = c.kind == ControllerKind::mrac || c.kind == ControllerKind::mrac_ls;
-  c.model = model.value_or(is_mrac ? control::wm16_model() : control::design_model());
+  // Its premises hold for this model.
+  c.model =
+      model.value_or(control::adapts(c.kind) ? control::wm16_model() : control::design_model());
   if (c.kind != ControllerKind::power)
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
   c.mrac = c.kind == ControllerKind::mrac ? read_mrac_preset(section) : *control::mrac_preset("a");

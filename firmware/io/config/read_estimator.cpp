@@ -1,7 +1,3 @@
-#include <cmath>
-
-#include "supercoil/control/actuator/conversions.hpp"
-
 #include "config/read_control.hpp"
 
 namespace supercoil::config {
@@ -56,10 +52,7 @@ control::EstimatorSettings read_estimator(Section& section,
     section.wrong("arithmetic",
                   "must be double or float: the covariance of least_squares does not fit q8.24");
   }
-  const control::RegressionScale scale{control::theta_from(muscle), muscle.dc_gain_m_per_W(),
-                                       muscle.moving_mass_kg};
-  e.gradient.scale = e.least_squares.scale = scale;
-  if (std::isfinite(max_W)) e.least_squares.max_W = max_W;
+  e.set_nominal(muscle, max_W);
   if (e.kind == control::EstimatorKind::gradient) {
     read_gradient(section, e.gradient);
     e.excitation.window_s = section.number("window_s", e.excitation.window_s, {0.1, 3600.0});

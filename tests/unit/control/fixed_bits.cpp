@@ -9,7 +9,7 @@
 #include <cstring>
 
 #include "supercoil/control/estimation/gradient.hpp"
-#include "supercoil/control/tracking/controller.hpp"
+#include "supercoil/control/tracking/model_follower.hpp"
 
 #include "unit/control/support/muscle.hpp"
 

@@ -16,7 +16,8 @@ import tempfile
 # What has other arithmetics only, or all of them, stays out.
 LIBRARY = ("actuator/conversions.cpp", "actuator/parameters.cpp", "actuator/state_space.cpp",
            "linear/discretize.cpp", "linear/matrix_exponential.cpp", "linear/polynomial.cpp",
-           "tracking/mrac_matching.cpp", "tracking/mrac_settings.cpp", "tracking/reference_model.cpp")
+           "tracking/mrac.cpp", "tracking/mrac_matching.cpp", "tracking/mrac_premises.cpp",
+           "tracking/reference_model.cpp")
 VARIANTS = [("g++", "-O0"), ("g++", "-O2"), ("clang++", "-O0"), ("clang++", "-O2")]
 
 

@@ -4,17 +4,10 @@
 #include <array>
 #include <optional>
 
+#include "supercoil/control/scalar/fixed_point_fit.hpp"
 #include "supercoil/control/scalar/scalar.hpp"
 
 namespace supercoil::control {
-
-/// A value outside what is allowed: which one, and the range (ends included).
-struct Violation {
-  const char* quantity;
-  double value;
-  double lowest;
-  double highest;
-};
 
 /// A super-coiled polymer muscle with its load, lumped (paper, Eqs. (1) and (2), Table 1).
 /// The defaults are the paper's actuator (Sec. 5.1).

@@ -4,25 +4,14 @@
 #include <optional>
 #include <variant>
 
-#include "supercoil/control/estimation/estimate.hpp"
-#include "supercoil/control/estimation/excitation.hpp"
 #include "supercoil/control/estimation/gradient.hpp"
 #include "supercoil/control/estimation/least_squares.hpp"
-#include "supercoil/control/scalar/arithmetic.hpp"
+#include "supercoil/control/scalar/kinds.hpp"
 
 namespace supercoil::control {
 
+/// The numbers go over CAN: a new one comes last.
 enum class EstimatorKind { none, gradient, least_squares };
-
-inline constexpr Names<EstimatorKind, 3> estimator_names{
-    {{"none", EstimatorKind::none},
-     {"gradient", EstimatorKind::gradient},
-     {"least_squares", EstimatorKind::least_squares}}};
-
-/// Least squares needs float or double: its covariance spans more than q8.24 does.
-constexpr bool supported(EstimatorKind kind, Arithmetic arithmetic) {
-  return kind != EstimatorKind::least_squares || arithmetic != Arithmetic::q8_24;
-}
 
 struct EstimatorSettings {
   EstimatorKind kind = EstimatorKind::gradient;
@@ -30,12 +19,28 @@ struct EstimatorSettings {
   GradientSettings gradient;
   LeastSquaresSettings least_squares;
   ExcitationMonitor::Settings excitation;
+
+  /// The muscle from which each begins. max_W: of its channel; NaN while that is not known.
+  void set_nominal(const PhysicalParameters& muscle, double max_W);
 };
 
-/// Of θ1…θ4 together, by least squares' standard deviations over nominal.
-double relative_error_bound(const Vector<double, 5>& deviations);
+template <EstimatorKind Kind, EstimatorDefinition Definition, auto Member>
+using ListedEstimator = Listed<EstimatorKind, Kind, Definition, Member>;
 
-/// What q8.24 cannot hold of the settings (see controller.hpp).
+using Estimators = std::tuple<
+    ListedEstimator<EstimatorKind::gradient, GradientEstimation, &EstimatorSettings::gradient>,
+    ListedEstimator<EstimatorKind::least_squares, LeastSquaresEstimation,
+                    &EstimatorSettings::least_squares>>;
+
+inline constexpr auto estimator_names =
+    names_of<Estimators, EstimatorKind>("none", EstimatorKind::none);
+
+/// Least squares needs float or double: its covariance spans more than q8.24 does.
+constexpr bool supported(EstimatorKind kind, Arithmetic arithmetic) {
+  return runs_in<Estimators>(kind, arithmetic);
+}
+
+/// What q8.24 cannot hold of the settings (see controller_settings.hpp).
 std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W);
 
 class Estimator {
@@ -50,18 +55,23 @@ class Estimator {
   std::optional<Estimate> estimate() const;
 
  private:
-  using Any = std::variant<std::monostate, GradientEstimator<double>, GradientEstimator<float>,
-                           GradientEstimator<Q8_24>, LeastSquaresEstimator<double>,
-                           LeastSquaresEstimator<float>>;
+  template <class Definition, class Scalar>
+  struct Running {
+    using Of = Definition;
+    using ScalarType = Scalar;
+    Running(const typename Definition::Settings& settings, double step_s)
+        : estimator(settings, step_s) {}
+
+    typename Definition::template In<Scalar> estimator;
+  };
+  using Any = VariantOf<std::monostate, Running, Estimators>::Type;
+  template <class Scalar>
+  static Any make(const EstimatorSettings& settings, double step_s);
   static Any choose(const EstimatorSettings& settings, double step_s);
-  template <class Scalar>
-  Estimate estimate_of(const GradientEstimator<Scalar>& estimator) const;
-  template <class Scalar>
-  Estimate estimate_of(const LeastSquaresEstimator<Scalar>& estimator) const;
 
   Any any_;
+  RegressionScale scale_;
   double to_watts_;
-  Theta nominal_;
   ExcitationMonitor excitation_;
   double trusted_error_;
 };

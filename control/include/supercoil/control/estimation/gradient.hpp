@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "supercoil/control/estimation/parametric_model.hpp"
+#include "supercoil/control/estimation/estimator_definition.hpp"
 #include "supercoil/control/estimation/projection.hpp"
 
 namespace supercoil::control {
@@ -79,6 +79,37 @@ class GradientEstimator {
   Vector<Accumulator<Scalar>, 4> theta_;
   std::optional<Box<Accumulator<Scalar>, 4>> bounds_;
   Scalar error_{};
+};
+
+/// Trusted, and settled, by its ExcitationMonitor.
+struct GradientEstimation {
+  using Settings = GradientSettings;
+  template <class Scalar>
+  using In = GradientEstimator<Scalar>;
+  static constexpr std::string_view name = "gradient";
+  static constexpr bool fixed_point = true;
+
+  static void set_nominal(Settings& s, const RegressionScale& scale, double /*max_W*/) {
+    s.scale = scale;
+  }
+  static void check_fit(FixedPointFit& fit, const Settings& s, double step_s);
+
+  template <class Scalar>
+  static void watch(const GradientEstimator<Scalar>& estimator, ExcitationMonitor& excitation) {
+    const auto& model = estimator.model();
+    excitation.step(model.phi().template cast<double>(), static_cast<double>(model.z()),
+                    estimator.scaled_theta());
+  }
+  template <class Scalar>
+  static Estimate estimate(const GradientEstimator<Scalar>& estimator, const Theta& /*nominal*/,
+                           const ExcitationMonitor& excitation, double /*trusted_error*/) {
+    return {.theta = estimator.theta(),
+            .prediction_error_W = estimator.error(),
+            .excitation_W2s = excitation.min_eigenvalue(),
+            .relative_error_bound = excitation.error_bound(),
+            .trusted = excitation.trusted(),
+            .settled = excitation.trusted()};
+  }
 };
 
 }  // namespace supercoil::control

@@ -9,6 +9,7 @@
 #include "supercoil/control/estimation/change_watch.hpp"
 #include "supercoil/control/estimation/estimate_accuracy.hpp"
 #include "supercoil/control/estimation/estimate_drift.hpp"
+#include "supercoil/control/estimation/estimator_definition.hpp"
 #include "supercoil/control/estimation/filtered_regression.hpp"
 #include "supercoil/control/estimation/projection.hpp"
 #include "supercoil/control/estimation/simplest_change.hpp"
@@ -328,6 +329,41 @@ class LeastSquaresEstimator {
   int selector_ = 0;    ///< of the parameters in return_unexcited()
   double scale_ = 1.0;  ///< of the counted covariance to a true one, for what is added to it
   Scalar error_{};
+};
+
+/// Of θ1…θ4 together, by least squares' standard deviations over nominal.
+double relative_error_bound(const Vector<double, 5>& deviations);
+
+/// Trusted by its standard deviations.
+struct LeastSquaresEstimation {
+  using Settings = LeastSquaresSettings;
+  template <class Scalar>
+  using In = LeastSquaresEstimator<Scalar>;
+  static constexpr std::string_view name = "least_squares";
+  static constexpr bool fixed_point = false;
+
+  static void set_nominal(Settings& s, const RegressionScale& scale, double max_W) {
+    s.scale = scale;
+    if (std::isfinite(max_W)) s.max_W = max_W;
+  }
+
+  template <class Scalar>
+  static void watch(const LeastSquaresEstimator<Scalar>&, ExcitationMonitor&) {}
+  template <class Scalar>
+  static Estimate estimate(const LeastSquaresEstimator<Scalar>& estimator, const Theta& nominal,
+                           const ExcitationMonitor&, double trusted_error) {
+    const auto& parameters = estimator.parameters();
+    const auto& deviations = estimator.standard_deviations();
+    const double bound = relative_error_bound(deviations);
+    return {.theta = parameters.template head<4>().cwiseProduct(nominal),
+            .prediction_error_W = estimator.error(),
+            .relative_error_bound = bound,
+            .trusted = bound <= trusted_error,
+            .settled = estimator.settled(),
+            .bias_W = parameters[4],
+            .deviation = deviations.template head<4>().cwiseProduct(nominal),
+            .bias_deviation_W = deviations[4]};
+  }
 };
 
 }  // namespace supercoil::control

@@ -20,6 +20,11 @@ constexpr Polynomial<A + B> multiply(const Polynomial<A>& a, const Polynomial<B>
   return product;
 }
 
+/// (s + pole)².
+constexpr Polynomial<2> squared_pole(double pole_rad_per_s) {
+  return {pole_rad_per_s * pole_rad_per_s, 2.0 * pole_rad_per_s, 1.0};
+}
+
 /// All roots strictly in the left half plane (Routh's test). A leading coefficient that is not
 /// positive, or a NaN anywhere, is not Hurwitz.
 template <std::size_t Degree>

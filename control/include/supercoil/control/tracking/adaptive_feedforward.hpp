@@ -1,10 +1,10 @@
 // Feedforward from the estimated muscle, with a fixed PID for the rest.
 #pragma once
 
+#include <array>
+
 #include "supercoil/control/estimation/estimate.hpp"
-#include "supercoil/control/estimation/parametric_model.hpp"
 #include "supercoil/control/tracking/fixed_pid.hpp"
-#include "supercoil/control/tracking/law.hpp"
 
 namespace supercoil::control {
 
@@ -119,6 +119,30 @@ class AdaptiveFeedforward {
   Parameters weights_;
   Parameters theta_;
   Parameters motion_ = Parameters::Zero();  ///< the model's, at the last tick
+};
+
+struct AdaptiveFeedforwardLaw : UsualLaw {
+  using Settings = AdaptiveFeedforwardSettings;
+  template <class Scalar>
+  using In = AdaptiveFeedforward<Scalar>;
+  static constexpr std::string_view name = "adaptive_ff";
+  static constexpr std::array values{
+      law_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
+      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s"),
+      law_value<Settings, &Settings::follow_s>("follow_s")};
+
+  template <class Scalar>
+  static AdaptiveFeedforward<Scalar> make(const Settings& s, const LawContext&, double step_s) {
+    return {s, step_s};
+  }
+  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext& context,
+                                           const PhysicalParameters& muscle);
+  static void add_contradictions(LawProblems& problems, const Settings& s, const LawContext&) {
+    check_bandwidth(problems, s.bandwidth_rad_per_s);
+  }
+  static void set_nominal(Settings& s, const RegressionScale& scale, double max_W);
+  static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext& context,
+                        double step_s, double peak_W);
 };
 
 }  // namespace supercoil::control

@@ -4,7 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "supercoil/control/tracking/controller.hpp"
+#include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/linear/polynomial.hpp"
 
 namespace supercoil::control {
 
@@ -26,14 +27,11 @@ struct FixedLaw {
   std::optional<FilteredFeedback> filtered{};
 };
 
-/// True for laws whose feedback changes while they run.
-constexpr bool adapts(ControllerKind kind) {
-  return kind == ControllerKind::mrac || kind == ControllerKind::mrac_ls;
+/// Of a FixedPid tuned for the muscle.
+inline FixedLaw fixed_pid_law(const Theta& theta, double bandwidth_rad_per_s,
+                              double filter_rad_per_s) {
+  const Theta gains = theta * bandwidth_rad_per_s;
+  return {gains[2], gains[3], gains[1], filter_rad_per_s};
 }
-
-/// With the gains that follow from a muscle; of a law that adapts, with the θ* that matches it
-/// (mrac_matching.hpp). Empty in open loop, and where no θ matches.
-std::optional<FixedLaw> fixed_law(const ControllerSettings& settings,
-                                  const PhysicalParameters& muscle);
 
 }  // namespace supercoil::control

@@ -6,7 +6,7 @@
 #include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/estimation/parametric_model.hpp"
 #include "supercoil/control/linear/filter.hpp"
-#include "supercoil/control/tracking/law.hpp"
+#include "supercoil/control/tracking/law_definition.hpp"
 
 namespace supercoil::control {
 
@@ -19,6 +19,11 @@ constexpr double damping_share = 0.36;
 inline double feedback_bandwidth(double max_rad_per_s, const Theta& theta, double moving_mass_kg) {
   const double damping_rad_per_s = theta[1] / (theta[0] * moving_mass_kg);
   return std::min(max_rad_per_s, damping_share * damping_rad_per_s);
+}
+
+/// For laws that are nothing without their FixedPid.
+inline void check_bandwidth(LawProblems& problems, double bandwidth_rad_per_s) {
+  if (!(bandwidth_rad_per_s >= 0.01)) problems.add({"bandwidth_rad_per_s", "must be 0.01 to 100"});
 }
 
 /// Kp e + Kd ė + Ki ∫e, e = xm − x, with Kp = ωc θ3, Kd = ωc θ2, Ki = ωc θ4 of the nominal muscle,
@@ -34,7 +39,7 @@ class FixedPid {
       : bandwidth_rad_per_s_(bandwidth_rad_per_s),
         dc_gain_m_per_W_(scale.dc_gain_m_per_W),
         step_s_(step_s),
-        slope_({filter_rad_per_s * filter_rad_per_s, 2.0 * filter_rad_per_s, 1.0}, step_s),
+        slope_(squared_pole(filter_rad_per_s), step_s),
         slope_gain_(filter_rad_per_s * filter_rad_per_s) {
     retune(scale.nominal);
   }

@@ -1,6 +1,8 @@
-// What every tracking law is given at a tick, and the saturation of Eq. (19). A law also publishes
-// its gains: `gains` is how many it has, gain(i) the one of them with i < gains.
+// What every tracking law is given at a tick and answers, and the saturation of Eq. (19).
 #pragma once
+
+#include <concepts>
+#include <cstddef>
 
 #include "supercoil/control/tracking/gain.hpp"
 #include "supercoil/control/tracking/reference_model.hpp"
@@ -30,6 +32,17 @@ struct LawStart {
   ModelMotion<Scalar> model;
   Scalar power{};     ///< that the muscle gets now
   bool hold = false;  ///< the law's first power is to be that one; otherwise the law's own
+};
+
+/// step() gives the wanted power in watts; gains are published, gain(i) for i < gains. A law may
+/// also have learn(Estimate), retune(Theta) and slow_down(): of a loop that oscillates.
+template <class Law, class Scalar>
+concept TrackingLaw = requires(Law law, const Law& running, const LawInput<Scalar>& input,
+                               const LawStart<Scalar>& start, std::size_t i) {
+  law.start(start);
+  { law.step(input) } -> std::same_as<Scalar>;
+  { Law::gains } -> std::convertible_to<std::size_t>;
+  { running.gain(i) } -> std::same_as<GainValue>;
 };
 
 /// The saturation of Eq. (19), in watts.

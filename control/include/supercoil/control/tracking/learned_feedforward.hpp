@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -164,5 +165,31 @@ class LearnedFeedforward {
 
 extern template class LearnedFeedforward<double>;
 extern template class LearnedFeedforward<float>;
+
+struct LearnedFeedforwardLaw : UsualLaw {
+  using Settings = LearnedFeedforwardSettings;
+  template <class Scalar>
+  using In = LearnedFeedforward<Scalar>;
+  static constexpr std::string_view name = "learned_ff";
+  static constexpr bool fixed_point = false;
+  static constexpr std::array values{
+      law_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
+      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s"),
+      law_value<Settings, &Settings::follow_s>("follow_s"),
+      law_value<Settings, &Settings::forgetting_s>("forgetting_s"),
+      law_value<Settings, &Settings::learn>("learn"),
+      law_value<Settings, &Settings::period_s>("period_s"),
+      law_value<Settings, &Settings::find_period>("find_period")};
+
+  template <class Scalar>
+  static LearnedFeedforward<Scalar> make(const Settings& s, const LawContext&, double step_s) {
+    return {s, step_s};
+  }
+  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext& context,
+                                           const PhysicalParameters& muscle);
+  static void add_contradictions(LawProblems& problems, const Settings& s,
+                                 const LawContext& context);
+  static void set_nominal(Settings& s, const RegressionScale& scale, double max_W);
+};
 
 }  // namespace supercoil::control

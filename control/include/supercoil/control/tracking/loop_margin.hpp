@@ -1,7 +1,7 @@
 // How much room a fixed law leaves on a muscle, sampled and delayed.
 #pragma once
 
-#include "supercoil/control/tracking/fixed_law.hpp"
+#include "supercoil/control/tracking/controller_settings.hpp"
 
 namespace supercoil::control {
 

@@ -1,7 +1,9 @@
 // Direct model reference adaptive control of relative degree three.
 #pragma once
 
-#include "supercoil/control/tracking/law.hpp"
+#include <array>
+
+#include "supercoil/control/tracking/law_definition.hpp"
 #include "supercoil/control/tracking/mrac_settings.hpp"
 
 namespace supercoil::control {
@@ -181,6 +183,34 @@ class Mrac {
   Wide sigma_;
   Wide r0_{};
   Wide estimated_error_{};
+};
+
+struct MracLaw : UsualLaw {
+  using Settings = MracSettings;
+  template <class Scalar>
+  using In = Mrac<Scalar>;
+  static constexpr std::string_view name = "mrac";
+  static constexpr bool adapts = true;
+  static constexpr std::string_view when_unstable =
+      "take slower filters or a slower reference model";
+  static constexpr std::array values{
+      LawValue<Settings>{"adaptation_scale", [](const Settings& s) { return s.adaptation_scale; },
+                         [](Settings& s, double value) {
+                           s = s.scaled(value / s.adaptation_scale);
+                           s.adaptation_scale = value;  // without what the division rounded
+                         }}};
+
+  template <class Scalar>
+  static Mrac<Scalar> make(const Settings& s, const LawContext&, double step_s) {
+    return {s, step_s};
+  }
+  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext& context,
+                                           const PhysicalParameters& muscle);
+  /// Premises that fail (mrac_premises.hpp).
+  static void add_contradictions(LawProblems& problems, const Settings& s,
+                                 const LawContext& context);
+  static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext& context,
+                        double step_s, double peak_W);
 };
 
 }  // namespace supercoil::control

@@ -2,13 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
-#include "supercoil/control/estimation/parametric_model.hpp"
 #include "supercoil/control/estimation/ud_covariance.hpp"
 #include "supercoil/control/tracking/fixed_pid.hpp"
-#include "supercoil/control/tracking/law.hpp"
 #include "supercoil/control/tracking/mrac_matching.hpp"
 
 namespace supercoil::control {
@@ -34,11 +33,6 @@ struct MracLeastSquaresSettings {
   double bandwidth_rad_per_s = 2.0;
   double derivative_filter_rad_per_s = 60.0;  ///< of x, twice this pole
 };
-
-/// (s + pole)².
-constexpr Polynomial<2> squared_pole(double pole_rad_per_s) {
-  return {pole_rad_per_s * pole_rad_per_s, 2.0 * pole_rad_per_s, 1.0};
-}
 
 /// λ and α of the same law with constants of its own.
 MracSettings filters_of(const MracLeastSquaresSettings& settings);
@@ -255,6 +249,34 @@ class MracLeastSquares {
   std::int64_t since_change_ = 0;
   std::int64_t changes_ = 0;
   Scalar error_square_{};
+};
+
+struct MracLeastSquaresLaw : UsualLaw {
+  using Settings = MracLeastSquaresSettings;
+  template <class Scalar>
+  using In = MracLeastSquares<Scalar>;
+  static constexpr std::string_view name = "mrac_ls";
+  static constexpr bool fixed_point = false;
+  static constexpr bool adapts = true;
+  static constexpr std::string_view when_unstable = "lower its bandwidth_rad_per_s";
+  static constexpr std::array values{
+      law_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
+      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s"),
+      law_value<Settings, &Settings::follow_s>("follow_s"),
+      law_value<Settings, &Settings::forgetting_s>("forgetting_s"),
+      law_value<Settings, &Settings::filter_rad_per_s>("filter_rad_per_s"),
+      law_value<Settings, &Settings::regression_rad_per_s>("regression_rad_per_s"),
+      law_value<Settings, &Settings::change_W>("change_W"),
+      law_value<Settings, &Settings::hold_s>("hold_s")};
+
+  template <class Scalar>
+  static MracLeastSquares<Scalar> make(const Settings& s, const LawContext& context,
+                                       double step_s) {
+    return {s, context.model, step_s};
+  }
+  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext& context,
+                                           const PhysicalParameters& muscle);
+  static void set_nominal(Settings& s, const RegressionScale& scale, double max_W);
 };
 
 }  // namespace supercoil::control

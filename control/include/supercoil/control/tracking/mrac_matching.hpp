@@ -3,9 +3,8 @@
 
 #include <optional>
 
-#include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/tracking/law_definition.hpp"
 #include "supercoil/control/tracking/mrac_settings.hpp"
-#include "supercoil/control/tracking/reference_model.hpp"
 
 namespace supercoil::control {
 
@@ -21,5 +20,9 @@ struct MracMatching {
 /// Empty when α has a zero in it or b3 is not positive.
 std::optional<MracMatching> match(const TransferFunction& plant, const MracSettings& settings,
                                   const ReferenceModelSettings& model);
+
+/// The law with the feedback by θ* added. Empty where no θ matches.
+std::optional<FixedLaw> add_matched(FixedLaw law, const MracSettings& filters,
+                                    const LawContext& context, const PhysicalParameters& muscle);
 
 }  // namespace supercoil::control

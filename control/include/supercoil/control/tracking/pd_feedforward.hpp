@@ -1,7 +1,9 @@
 // Proportional-derivative control with feedforward (Yip & Niemeyer 2017, as the paper compares it).
 #pragma once
 
-#include "supercoil/control/tracking/law.hpp"
+#include <array>
+
+#include "supercoil/control/tracking/law_definition.hpp"
 
 namespace supercoil::control {
 
@@ -18,9 +20,7 @@ class PdFeedforward {
  public:
   PdFeedforward(const PdFeedforwardSettings& settings, double dc_gain_m_per_W, double step_s)
       : settings_(settings),
-        filter_({settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s,
-                 2.0 * settings.derivative_filter_rad_per_s, 1.0},
-                step_s),
+        filter_(squared_pole(settings.derivative_filter_rad_per_s), step_s),
         filter_gain_(settings.derivative_filter_rad_per_s * settings.derivative_filter_rad_per_s),
         proportional_(to<Scalar>(settings.proportional_W_per_m * dc_gain_m_per_W)),
         derivative_(to<Scalar>(settings.derivative_Ws_per_m * dc_gain_m_per_W)),
@@ -58,6 +58,31 @@ class PdFeedforward {
   Scalar proportional_;
   Scalar derivative_;
   Scalar feedforward_;
+};
+
+struct PdFeedforwardLaw : UsualLaw {
+  using Settings = PdFeedforwardSettings;
+  template <class Scalar>
+  using In = PdFeedforward<Scalar>;
+  static constexpr std::string_view name = "pd_ff";
+  static constexpr std::array values{
+      law_value<Settings, &Settings::proportional_W_per_m>("proportional_W_per_m"),
+      law_value<Settings, &Settings::derivative_Ws_per_m>("derivative_Ws_per_m"),
+      law_value<Settings, &Settings::feedforward_W_per_m>("feedforward_W_per_m"),
+      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s")};
+
+  template <class Scalar>
+  static PdFeedforward<Scalar> make(const Settings& s, const LawContext& context, double step_s) {
+    return {s, context.dc_gain_m_per_W, step_s};
+  }
+  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext&,
+                                           const PhysicalParameters&) {
+    return FixedLaw{s.proportional_W_per_m, 0.0, s.derivative_Ws_per_m,
+                    s.derivative_filter_rad_per_s};
+  }
+  static void set_nominal(Settings& s, const RegressionScale& scale, double max_W);
+  static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext& context,
+                        double step_s, double peak_W);
 };
 
 }  // namespace supercoil::control

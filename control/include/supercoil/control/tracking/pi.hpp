@@ -1,7 +1,9 @@
 // Proportional-integral control (Sun & Zhao 2020, as the paper compares it).
 #pragma once
 
-#include "supercoil/control/tracking/law.hpp"
+#include <array>
+
+#include "supercoil/control/tracking/law_definition.hpp"
 
 namespace supercoil::control {
 
@@ -58,6 +60,27 @@ class Pi {
   Accumulator<Scalar> integral_step_;
   Accumulator<Scalar> integral_{};
   Scalar demanded_{};
+};
+
+struct PiLaw : UsualLaw {
+  using Settings = PiSettings;
+  template <class Scalar>
+  using In = Pi<Scalar>;
+  static constexpr std::string_view name = "pi";
+  static constexpr std::array values{
+      law_value<Settings, &Settings::proportional_W_per_m>("proportional_W_per_m"),
+      law_value<Settings, &Settings::integral_W_per_m_s>("integral_W_per_m_s")};
+
+  template <class Scalar>
+  static Pi<Scalar> make(const Settings& s, const LawContext& context, double step_s) {
+    return {s, context.dc_gain_m_per_W, step_s};
+  }
+  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext&,
+                                           const PhysicalParameters&) {
+    return FixedLaw{s.proportional_W_per_m, s.integral_W_per_m_s};
+  }
+  static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext& context,
+                        double step_s, double peak_W);
 };
 
 }  // namespace supercoil::control

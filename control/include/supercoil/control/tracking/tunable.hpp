@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "supercoil/control/tracking/controller.hpp"
+#include "supercoil/control/tracking/controller_settings.hpp"
 
 namespace supercoil::control {
 
@@ -27,11 +27,14 @@ struct Tunable {
   TunableType type;
   double lowest;  ///< allowed, ends included
   double highest;
-  /// NaN: a law of this kind has no such value, or its reference model no real poles.
-  double (*get)(const ControllerSettings& settings);
-  /// Where get() is not NaN. value: in range.
-  void (*set)(ControllerSettings& settings, double value);
+  /// Of a value that is the controller's; null: its law has it, or has not.
+  double (*of_controller)(const ControllerSettings& settings) = nullptr;
+  void (*set_controller)(ControllerSettings& settings, double value) = nullptr;
 
+  /// NaN: a law of this kind has no such value, or its reference model no real poles.
+  double get(const ControllerSettings& settings) const;
+  /// Where get() is not NaN. to: in range.
+  void set(ControllerSettings& settings, double to) const;
   bool in_range(double value) const;  ///< a NaN is not, nor half a flag
 };
 

@@ -1,0 +1,39 @@
+// What q8.24 can hold: signals and gains in 8 bits before the point, states in 16.
+#pragma once
+
+#include <optional>
+
+namespace supercoil::control {
+
+/// A value outside what is allowed: which one, and the range (ends included).
+struct Violation {
+  const char* quantity;
+  double value;
+  double lowest;
+  double highest;
+};
+
+/// Remembers the first quantity that fixed point could not hold.
+class FixedPointFit {
+ public:
+  static constexpr double signal = 127.0;
+  static constexpr double state = 32767.0;
+
+  /// quantity: the setting's name in configurations.
+  void at_most(const char* quantity, double value, double highest) {
+    check({quantity, value, -highest, highest});
+  }
+  /// A gain of fewer steps than this is lost in rounding.
+  void gain(const char* quantity, double value) { check({quantity, value, min_gain, signal}); }
+  const std::optional<Violation>& violation() const { return violation_; }
+
+ private:
+  static constexpr double min_gain = 16.0 / (1 << 24);
+
+  void check(const Violation& v) {
+    if (!violation_ && !(v.value >= v.lowest && v.value <= v.highest)) violation_ = v;
+  }
+  std::optional<Violation> violation_;
+};
+
+}  // namespace supercoil::control

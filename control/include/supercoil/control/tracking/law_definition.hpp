@@ -1,0 +1,109 @@
+// What each law states of itself, beside its equations: how it is named, set, made and checked.
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <type_traits>
+
+#include "supercoil/control/estimation/parametric_model.hpp"
+#include "supercoil/control/scalar/fixed_point_fit.hpp"
+#include "supercoil/control/tracking/fixed_law.hpp"
+#include "supercoil/control/tracking/law.hpp"
+
+namespace supercoil::control {
+
+/// What is wrong with a law's settings by themselves.
+struct LawProblem {
+  const char* key;  ///< the setting, by its name in configurations
+  const char* message;
+  bool premise = false;  ///< of the law's proof: it may run where that was accepted
+};
+
+class LawProblems {
+ public:
+  void add(const LawProblem& problem) {
+    if (count_ < all_.size()) all_[count_++] = problem;
+  }
+  const LawProblem* begin() const { return all_.data(); }
+  const LawProblem* end() const { return all_.data() + count_; }
+
+ private:
+  std::array<LawProblem, 8> all_{};  // MRAC has six premises
+  std::size_t count_ = 0;
+};
+
+/// What a controller gives its law beside the law's own settings.
+struct LawContext {
+  const ReferenceModelSettings& model;
+  double dc_gain_m_per_W;  ///< metres that a watt at rest, the law's unit, stands for
+};
+
+/// One of a law's settings that can be changed while it runs; its range stands in tunable.cpp.
+template <class Settings>
+struct LawValue {
+  std::string_view name;
+  double (*get)(const Settings& settings);  ///< a flag: 0 or 1
+  void (*set)(Settings& settings, double value);
+};
+
+/// Member: a double or a bool of the settings.
+template <class Settings, auto Member>
+constexpr LawValue<Settings> law_value(std::string_view name) {
+  return {name, [](const Settings& s) { return static_cast<double>(s.*Member); },
+          [](Settings& s, double value) {
+            if constexpr (std::is_same_v<decltype(Member), bool Settings::*>) {
+              s.*Member = value != 0.0;
+            } else {
+              s.*Member = value;
+            }
+          }};
+}
+
+/// What most laws state; a law's definition hides what is different.
+struct UsualLaw {
+  static constexpr bool fixed_point = true;  ///< runs in q8.24, and has check_fit()
+  static constexpr bool adapts = false;      ///< its feedback changes while it runs
+  static constexpr std::string_view when_unstable = "lower its gains";
+
+  /// scale: of the channel's muscle. max_W: its greatest power, NaN while that is not known.
+  template <class Settings>
+  static void set_nominal(Settings&, const RegressionScale& /*scale*/, double /*max_W*/) {}
+
+  /// Settings that exclude each other, and premises that fail.
+  template <class Settings>
+  static void add_contradictions(LawProblems&, const Settings&, const LawContext&) {}
+};
+
+/// check_fit(): what q8.24 cannot hold, at a step in seconds, of signals up to a peak in watts.
+template <class Definition>
+concept ChecksItsFit = requires(const typename Definition::Settings& settings,
+                                const LawContext& context, FixedPointFit& fit, double value) {
+  Definition::check_fit(fit, settings, context, value, value);
+};
+
+template <class Definition>
+concept ChecksFixedPoint = !Definition::fixed_point || ChecksItsFit<Definition>;
+
+/// In<Scalar>: the law. make(): it, for step_s > 0. fixed_law(): what it does to small errors with
+/// the gains that follow from a muscle, or with the parameters that match it; empty where none do.
+/// values: a range of LawValue.
+template <class Definition, class Law = typename Definition::template In<double>,
+          class Value = LawValue<typename Definition::Settings>>
+concept LawDefinition = TrackingLaw<Law, double> && ChecksFixedPoint<Definition> &&
+    requires(typename Definition::Settings settings, const LawContext& context,
+             const RegressionScale& scale, const PhysicalParameters& muscle, LawProblems problems,
+             double value) {
+  { Definition::name } -> std::convertible_to<std::string_view>;
+  { Definition::adapts } -> std::convertible_to<bool>;
+  { Definition::when_unstable } -> std::convertible_to<std::string_view>;
+  { *Definition::values.begin() } -> std::convertible_to<Value>;
+  { Definition::template make<double>(settings, context, value) } -> std::same_as<Law>;
+  { Definition::fixed_law(settings, context, muscle) } -> std::same_as<std::optional<FixedLaw>>;
+  Definition::add_contradictions(problems, settings, context);
+  Definition::set_nominal(settings, scale, value);
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,71 @@
+#include "supercoil/control/tracking/mrac.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "supercoil/control/tracking/mrac_matching.hpp"
+#include "supercoil/control/tracking/mrac_premises.hpp"
+
+namespace supercoil::control {
+
+MracSettings MracSettings::scaled(double factor) const {
+  MracSettings result = *this;
+  result.gain *= factor;
+  result.sigma_gain *= factor;
+  result.adaptation_scale *= factor;
+  return result;
+}
+
+std::optional<MracSettings> mrac_preset(std::string_view name) {
+  if (name == "printed") return MracSettings{};
+  if (name == "a") {
+    MracSettings a = MracSettings{}.scaled(20.0);
+    a.adaptation_scale = 1.0;
+    a.alpha = {20.0, 400.0};
+    a.lambda = {400.0, 40.0, 1.0};
+    a.damping = 1.0;
+    a.initial[5] = 0.3;
+    return a;
+  }
+  return std::nullopt;
+}
+
+std::optional<FixedLaw> MracLaw::fixed_law(const Settings& s, const LawContext& context,
+                                           const PhysicalParameters& muscle) {
+  return add_matched({}, s, context, muscle);
+}
+
+void MracLaw::add_contradictions(LawProblems& problems, const Settings& s,
+                                 const LawContext& context) {
+  if (s.accept_failed_premises) return;
+  for (const char* failure : check_premises(s, context.model).failures()) {
+    if (failure != nullptr) problems.add({"kind", failure, true});
+  }
+}
+
+void MracLaw::check_fit(FixedPointFit& fit, const Settings& s, const LawContext&, double step_s,
+                        double peak_W) {
+  constexpr double signal = FixedPointFit::signal;
+  constexpr double state = FixedPointFit::state;
+  fit.at_most("lambda", std::max(std::abs(s.lambda[0]), std::abs(s.lambda[1])), state);
+  fit.at_most("alpha", std::max(s.alpha[0], s.alpha[1]), state);
+  // The largest that ω1 and ω2 become for a signal of peak_W: at rest, and at the filter's
+  // middle.
+  fit.at_most("alpha", peak_W * std::abs(s.alpha[1] / s.lambda[0]), signal);
+  fit.at_most("alpha", peak_W * std::abs(s.alpha[0] / s.lambda[1]), signal);
+  for (const double gain : s.gain)
+    fit.gain("gain", gain * step_s);
+  for (const double value : s.initial)
+    fit.at_most("initial", value, signal);
+  fit.at_most("sigma_gain", s.sigma_gain, state);
+  fit.at_most("initial_sigma", s.initial_sigma, state);
+  fit.at_most("damping", s.damping, state);
+  if (!s.bounds) return;
+  // θ is used in 8 bits: bounds beyond them would not bound.
+  for (const double value : s.bounds->lower)
+    fit.at_most("lower", std::max(value, -signal), signal);
+  for (const double value : s.bounds->upper)
+    fit.at_most("upper", std::min(value, signal), signal);
+}
+
+}  // namespace supercoil::control

@@ -15,7 +15,7 @@ DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
 GENERATED = ["tests/can/generated/supercoil.c", "tests/can/generated/supercoil.h", "docs/can-protocol.md",
              "firmware/io/can/generated/messages.hpp",
              *(f"firmware/python/supercoil/generated/{module}.py" for module in (
-                 "__init__", "faults", "messages", "names", "refusals", "results", "version"))]
+                 "__init__", "faults", "messages", "names", "refusals", "results", "tunables", "version"))]
 NOT_AVAILABLE = "not_available"
 
 

@@ -1,10 +1,13 @@
 """Every fault and refusal that the protocol has a name for has its exception, with its page's text."""
 
+import os
 import pathlib
+import re
+import subprocess
 import unittest
 
 import supercoil
-from supercoil.generated import faults, names, refusals, results
+from supercoil.generated import faults, names, refusals, results, tunables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -31,6 +34,18 @@ class Errors(unittest.TestCase):
             self.assertEqual((kind.number, kind.name), (number, names.Refusal(number).name))
             self.assertTrue(kind.meaning)
         self.assertIn("0.025 would be obeyed", str(refusals.OutOfRange(1, "position", 0.025)))
+
+    def test_every_value_of_a_controller_may_be_what_the_board_allows(self):
+        for tunable in set(names.Tunable) - {names.Tunable.all}:
+            choices = tunables.CHOICES.get(tunable)
+            with self.subTest(tunable):
+                told = subprocess.run([os.environ["SUPERCOIL"], "tune", "1", f"{tunable}=*", "--socket", "/nowhere"],
+                                      capture_output=True, text=True).stderr
+                if choices is None:
+                    lowest, highest = re.search(r"must be (\S+) to (\S+)\n", told).groups()
+                    self.assertEqual((float(lowest), float(highest)), tunables.RANGES[tunable])
+                else:
+                    self.assertIn(f"there are: {', '.join(choices)}\n", told)
 
     def test_every_result_has_a_meaning(self):
         self.assertEqual(set(results.MEANINGS), set(names.Result))

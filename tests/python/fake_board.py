@@ -19,6 +19,8 @@ class FakeBoard:
         self.status = status
         self.bus = can.Bus(interface="virtual", channel=channel)
         self.commands = []
+        self.tuned = []
+        self.refuse_tuning = 0
         self.damage_answers = False
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -47,6 +49,15 @@ class FakeBoard:
                 frame = self.bus.recv(0.0)
 
     def _take(self, frame):
+        if frame.arbitration_id == messages.TUNING_WRITE | NODE:
+            told = codec.decode(messages.TUNING_WRITE, bytes(frame.data))
+            assert e2e.is_intact(frame.arbitration_id, bytes(frame.data))
+            self.tuned.append((told.tunable.name, told.value, told.session_low, told.counter))
+            # A read's answer and another value's come first.
+            for counter, tunable, refusal in ((0, told.tunable, 9), (told.counter, 30, 9),
+                                              (told.counter, told.tunable, self.refuse_tuning)):
+                self.send(messages.TUNING, protected=True, counter=counter, place=told.place, tunable=tunable,
+                          refusal=refusal, set=0, value=told.value)
         if frame.arbitration_id != messages.COMMAND | NODE:
             return
         told = codec.decode(messages.COMMAND, bytes(frame.data))

@@ -73,6 +73,21 @@ class Sessions(unittest.TestCase):
             with self.assertRaises(supercoil.refusals.WrongCounter):
                 muscle.rest()
 
+    def test_the_answer_to_a_tuning_write_is_known_by_its_counter_and_its_value(self):
+        board = self.board()
+        with self.muscle() as muscle:
+            for _ in range(17):  # every counter
+                muscle.prepare(follow_s=1.0)
+            self.assertNotIn(0, [counter for *_, counter in board.tuned])
+            self.assertEqual({write[:3] for write in board.tuned}, {("all", 1.0, 77), ("follow_s", 1.0, 77)})
+            board.refuse_tuning = Refusal.out_of_range
+            with self.assertRaises(supercoil.refusals.OutOfRange):
+                muscle.prepare()
+            board.damage_answers = True
+            with self.assertRaises(supercoil.NoAnswerError):
+                muscle.prepare()
+            board.damage_answers = False
+
     def test_another_masters_lease_is_respected(self):
         board = self.board(lambda *_: (Refusal.not_lease_holder, 0))
         with self.muscle() as muscle:

@@ -123,6 +123,57 @@ class OnOneBoard(unittest.TestCase):
             self.assertTrue(math.isnan(quantities[supercoil.Quantity.unexplained_ratio]))
 
     @patient
+    def test_a_controller_is_tuned_while_it_follows(self):
+        with self.muscle() as muscle:
+            muscle.tune(base="configured")
+            muscle.arm()
+            muscle.set_position(TARGET_M)
+            muscle.tune(proportional_W_per_m=1500, shape_reference=True)
+            told = muscle.tuning()
+            self.assertEqual(told["proportional_W_per_m"], (
+                "proportional_W_per_m", "W/m", 1500.0, 2000.0, 2000.0, 1500.0, (0.0, 1e7)))
+            self.assertEqual(told["shape_reference"][2:], (True, False, False, True, (False, True)))
+            self.assertEqual(told["reference_model"].in_use, "design")
+            self.assertNotIn("integral_W_per_m_s", told)
+            self.assertEqual((muscle.state, muscle.telemetry.tracking.reference_m), (State.active, TARGET_M))
+            muscle.store_tuning()
+            muscle.prepare(kind="pi", integral_W_per_m_s=900)
+            told = muscle.tuning()
+            self.assertEqual(told["proportional_W_per_m"].stored, 1500.0)
+            self.assertEqual(told["kind"][2:6], ("pd_ff", "pd_ff", "pd_ff", "pi"))
+            self.assertEqual(told["integral_W_per_m_s"][2:6], (None, None, None, 900.0))
+            muscle.take_over()
+            self.assertEqual(muscle.tuning()["kind"].in_use, "pi")
+            muscle.tune(base="configured")
+            muscle.forget_tuning()
+            for value in muscle.tuning().values():
+                self.assertEqual(value[2:6], (value.configured,) * 4)
+            self.assertEqual(muscle.state, State.active)
+
+    @patient
+    def test_what_does_not_suit_a_controller_is_refused_by_name_and_changes_nothing(self):
+        with self.muscle() as muscle:
+            before = muscle.tuning()
+            for values, error, text in (
+                    ({"proportional_W_per_n": 1.0}, ValueError, "did you mean proportional_W_per_m?"),
+                    ({"all": 1.0}, ValueError, "no value of a controller is called 'all'"),
+                    ({"kind": "mrak"}, ValueError, "did you mean mrac?"),
+                    ({"kind": 3}, ValueError, "kind = 3: must be one of power, pi"),
+                    ({"learn": "yes"}, ValueError, "must be True or False"),
+                    ({"follow_s": "1 s"}, ValueError, "must be a number"),
+                    ({"base": "config"}, ValueError, "did you mean configured?"),
+                    ({"follow_s": 0.1}, supercoil.refusals.OutOfRange, "follow_s = 0.1 is refused"),
+                    ({"proportional_W_per_m": 1e9}, supercoil.refusals.OutOfRange, r"1e\+07 would be obeyed"),
+                    ({"controller": 3}, supercoil.refusals.OutOfRange, "all = in_use is refused"),
+                    ({"kind": "mrac", "reference_model": "eq8"}, supercoil.refusals.Unsuitable, "contradicts itself")):
+                with self.subTest(values), self.assertRaisesRegex(error, text):
+                    muscle.tune(**values)
+            with self.assertRaisesRegex(ValueError, "has no controller 3"):
+                muscle.tuning(3)
+            after = muscle.tuning()
+            self.assertEqual([after[name].in_use for name in before], [value.in_use for value in before.values()])
+
+    @patient
     def test_a_program_that_says_nothing_until_its_deadline_lets_the_muscle_go(self):
         with self.muscle(deadline_s=0.5) as muscle:
             muscle.arm()

@@ -48,7 +48,7 @@ class FakeDaemon:
     def _talk(self, client):
         with client:
             while line := client.recv(200).decode():
-                answer = self.answers.get(line, "ok")
+                answer = self.answers.get(line, "nan" if line.startswith("tuning ") else "ok")
                 if line not in ("state", "status"):
                     self.lines.append(line)
                 if answer == "ok" and line.split()[1] in ("arm", "disarm", "rest", "position", "identify"):
@@ -108,6 +108,35 @@ class Local(unittest.TestCase):
                                                  Setting.sense_error_ratio: 0.021})
             with self.assertRaisesRegex(supercoil.SupercoilError, "only over CAN"):
                 muscle.change(Setting.max_power_W, 1.0)
+
+    def test_a_controller_is_tuned_and_the_boards_reason_for_a_refusal_is_told(self):
+        for of, value in (("in_use", "1500"), ("configured", "2000"), ("stored", "2000"), ("prepared", "1500")):
+            self.daemon.answers[f"tuning 2 1 proportional_W_per_m {of}"] = value
+            self.daemon.answers[f"tuning 2 1 kind {of}"] = "1"
+        with self.muscle() as muscle:
+            told = muscle.tuning(1)
+            self.assertEqual(set(told), {"kind", "proportional_W_per_m"})
+            self.assertEqual(told["kind"].in_use, "pi")
+            self.assertEqual(told["proportional_W_per_m"], (
+                "proportional_W_per_m", "W/m", 1500.0, 2000.0, 2000.0, 1500.0, (0.0, 1e7)))
+            self.daemon.lines.clear()
+            muscle.tune(1, base="configured", integral_W_per_m_s=900, proportional_W_per_m=1234.56789)
+            muscle.store_tuning()
+            muscle.forget_tuning()
+            self.assertEqual(self.daemon.lines, [
+                "prepare 2 1 all configured", "prepare 2 1 proportional_W_per_m 1234.56789",
+                "prepare 2 1 integral_W_per_m_s 900.0", "2 tune 1", "2 store tuning", "2 clear tuning"])
+            self.daemon.answers["2 tune 0"] = "refused: unsuitable: integral_W_per_m_s is unstable: at most 400"
+            with self.assertRaisesRegex(supercoil.refusals.Unsuitable, "at most 400") as raised:
+                muscle.take_over()
+            self.assertEqual(raised.exception.reason, "integral_W_per_m_s is unstable: at most 400")
+            self.daemon.answers["prepare 2 0 follow_s 0.0"] = "refused: out_of_range; 0.02 would be obeyed"
+            with self.assertRaisesRegex(supercoil.refusals.OutOfRange, "follow_s = 0.0 is refused") as raised:
+                muscle.tune(follow_s=0)
+            self.assertEqual(raised.exception.nearest, 0.02)
+            self.daemon.answers["tuning 2 0 kind prepared"] = "wrong: 'tuning' is not a command"
+            with self.assertRaisesRegex(supercoil.SupercoilError, "not a command"):
+                muscle.tuning()
 
     def test_every_command_is_one_of_the_boards_lines(self):
         with self.muscle() as muscle:

@@ -20,16 +20,21 @@ def section(page, heading):
     return found[1] if found else ""
 
 
-def table_rows(page, title):
-    """Of the table whose first column has this title: first cell -> last cell. Names in one cell share it."""
+def table_cells(page, title):
+    """Of the table whose first column has this title: first cell -> all after it. Names in one cell share them."""
     rows, inside = {}, False
     for line in page.splitlines():
-        cells = [cell.strip() for cell in line.strip("|").split(" | ")] if line.startswith("|") else []
-        if not cells:
+        cells = [cell.strip() for cell in line.strip("|").split("| ")]
+        if not line.startswith("|"):
             inside = False
         elif cells[0] == title:
             inside = True
         elif inside:
             for name in re.findall(r"`(\w+)`", cells[0]):
-                rows[name] = plain(cells[-1])
+                rows[name] = [plain(cell) for cell in cells[1:]]
     return rows
+
+
+def table_rows(page, title):
+    """The same with the last cell only."""
+    return {name: cells[-1] for name, cells in table_cells(page, title).items()}

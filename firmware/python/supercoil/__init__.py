@@ -46,6 +46,7 @@ from supercoil.muscle import Muscle
 from supercoil.recording import Recording
 from supercoil.simulation import Simulation
 from supercoil.telemetry import Telemetry
+from supercoil.tuning import Tuned
 
 if TYPE_CHECKING:
     import pandas
@@ -79,6 +80,7 @@ __all__ = [
     "State",
     "SupercoilError",
     "Telemetry",
+    "Tuned",
     "VersionMismatchError",
     "__version__",
     "cycle",

@@ -12,6 +12,10 @@ BASE_MASK = 0x7C0
 NODE_MASK = 0x03F
 # compare has one opcode for volts, amperes and kelvins: kelvins are sent as this and so many more.
 RISES_FROM = 1000.0
+# The place of a controller that takes its prepared values over is sent as controller with this much added.
+TUNES_FROM = 1000.0
+# Of store.
+FORGET, STORE, STORE_TUNING, FORGET_TUNING = 0.0, 1.0, 2.0, 3.0
 
 LAYOUTS: Mapping[int, Layout] = {layout.base: layout for layout in messages.LAYOUTS}
 BY_NAME: Mapping[str, Layout] = {layout.name: layout for layout in messages.LAYOUTS}

@@ -35,18 +35,21 @@ class UnknownFaultError(FaultError):
 
 
 class RefusalError(SupercoilError):
-    """The board refused a command. nearest: the nearest value that it would have obeyed; NaN: none, or not known."""
+    """The board refused a command. nearest: the nearest value that it would have obeyed; NaN: none, or not known.
+    reason: what the board itself says of it, by its own socket only."""
 
     number: ClassVar[int] = 0
     name: ClassVar[str] = ""
     meaning: ClassVar[str] = ""
 
-    def __init__(self, node: int, command: str, nearest: float = math.nan) -> None:
+    def __init__(self, node: int, command: str, nearest: float = math.nan, reason: str = "") -> None:
         self.node = node
         self.command = command
         self.nearest = nearest
+        self.reason = reason
         instead = "" if math.isnan(nearest) else f"; {nearest:.7g} would be obeyed"
-        super().__init__(f"node {node}: {command} is refused: {self.name}{instead} ({self.meaning})")
+        because = f": {reason}" if reason else ""
+        super().__init__(f"node {node}: {command} is refused: {self.name}{instead}{because} ({self.meaning})")
 
 
 class BusError(SupercoilError):

@@ -4,7 +4,7 @@ import contextlib
 import time
 from typing import NamedTuple
 
-from supercoil.codec import RISES_FROM
+from supercoil.codec import FORGET, RISES_FROM, STORE
 from supercoil.commands import Commands
 from supercoil.connection import HEARTBEAT_S
 from supercoil.errors import NoAnswerError, NotReachedError, OutcomeError
@@ -71,11 +71,11 @@ class Learning(Commands):
 
     async def store(self) -> None:
         """Keeps the trusted estimates for the next start."""
-        await self._obey(Opcode.store, 1.0)
+        await self._obey(Opcode.store, STORE)
 
     async def forget(self) -> None:
         """Forgets the muscle that is kept, from the next start on."""
-        await self._obey(Opcode.store, 0.0)
+        await self._obey(Opcode.store, FORGET)
 
     async def use_controller(self, place: int) -> None:
         """By its place in the configuration, from 0."""

@@ -9,14 +9,14 @@ import can
 from supercoil import codec, e2e
 from supercoil.bus import Bus
 from supercoil.errors import BusError, NoAnswerError
-from supercoil.generated import messages
-from supercoil.generated.names import Opcode, Quantity, Setting
+from supercoil.generated import messages, names
+from supercoil.generated.names import Opcode, Quantity, Setting, Tunable
 from supercoil.heartbeat import Heartbeat
 from supercoil.session import ANSWER_WITHIN_S, Session
 from supercoil.telemetry import Telemetry
 
 _HEARTBEAT = frozenset((messages.STATUS, messages.EMERGENCY, messages.FIRST_CAUSE))
-_ANSWERS = frozenset((messages.ACKNOWLEDGE, messages.SETTING, messages.REFUSED_VALUE))
+_ANSWERS = frozenset((messages.ACKNOWLEDGE, messages.SETTING, messages.TUNING, messages.REFUSED_VALUE))
 # What the event loop is woken for; all else is only kept.
 _EVENTS = _HEARTBEAT | _ANSWERS | {messages.MUSCLE}
 
@@ -32,6 +32,8 @@ class Link(Protocol):
     async def write(self, setting: Setting, value: float) -> float: ...
     async def read(self, setting: Setting) -> float: ...
     async def quantity(self, quantity: Quantity) -> float: ...
+    async def prepare(self, place: int, tunable: Tunable, value: float) -> None: ...
+    async def tuned(self, place: int, tunable: Tunable, of: names.Set) -> float: ...
     async def keep(self) -> None: ...
     async def release(self) -> None: ...
     @property
@@ -50,7 +52,7 @@ class CanLink:
         self._session = Session(node, self._send)
         self._bus: Bus | None = None
         self._loop = asyncio.get_running_loop()
-        self._read: dict[tuple[int, int], list[asyncio.Future[float]]] = {}
+        self._read: dict[tuple[int, ...], list[asyncio.Future[float]]] = {}
 
     async def open(self) -> None:
         self._bus = await Bus.join(self._address, self._options)
@@ -72,10 +74,16 @@ class CanLink:
         return await self._session.write(setting, value)
 
     async def read(self, setting: Setting) -> float:
-        return await self._ask(messages.SETTING_READ, messages.SETTING, "setting", setting)
+        return await self._ask(messages.SETTING_READ, messages.SETTING, setting=setting)
 
     async def quantity(self, quantity: Quantity) -> float:
-        return await self._ask(messages.MUSCLE_READ, messages.MUSCLE, "quantity", quantity)
+        return await self._ask(messages.MUSCLE_READ, messages.MUSCLE, quantity=quantity)
+
+    async def prepare(self, place: int, tunable: Tunable, value: float) -> None:
+        await self._session.prepare(place, tunable, value)
+
+    async def tuned(self, place: int, tunable: Tunable, of: names.Set) -> float:
+        return await self._ask(messages.TUNING_READ, messages.TUNING, place=place, tunable=tunable, set=of)
 
     async def keep(self) -> None:
         await self._session.keep()
@@ -96,17 +104,18 @@ class CanLink:
             raise BusError(f"node {self._node} is not connected")
         await self._bus.send(identifier, data)
 
-    async def _ask(self, request: int, answer: int, signal: str, value: int) -> float:
+    async def _ask(self, request: int, answer: int, **which: int) -> float:
         """Reading needs no lease, and everybody hears the answer."""
-        waiting = self._read.setdefault((answer, value), [])
+        waiting = self._read.setdefault((answer, *which.values()), [])
         told: asyncio.Future[float] = self._loop.create_future()
         waiting.append(told)
         try:
-            await self._send(request | self._node, codec.encode(codec.LAYOUTS[request], {signal: value}))
+            await self._send(request | self._node, codec.encode(codec.LAYOUTS[request], which))
             async with asyncio.timeout(ANSWER_WITHIN_S):
                 return await told
         except TimeoutError:
-            raise NoAnswerError(f"node {self._node} does not tell its {signal} {value}") from None
+            asked = ", ".join(f"{signal} {value}" for signal, value in which.items())
+            raise NoAnswerError(f"node {self._node} does not tell its {asked}") from None
         finally:
             waiting.remove(told)
 
@@ -124,11 +133,14 @@ class CanLink:
             self._session.receive(base, data)
         if base == messages.SETTING and e2e.is_intact(base | self._node, data):
             setting = codec.decode(base, data)
-            self._tell(base, setting.setting, setting.value)
+            self._tell(setting.value, base, setting.setting)
+        elif base == messages.TUNING and e2e.is_intact(base | self._node, data):
+            tuned = codec.decode(base, data)
+            self._tell(tuned.value, base, tuned.place, tuned.tunable, tuned.set)
         elif base == messages.MUSCLE and (told := codec.decode(base, data)) is not None:
-            self._tell(base, told.quantity, told.value)
+            self._tell(told.value, base, told.quantity)
 
-    def _tell(self, base: int, which: int, value: float) -> None:
-        for asked in self._read.get((base, which), ()):
+    def _tell(self, value: float, *which: int) -> None:
+        for asked in self._read.get(which, ()):
             if not asked.done():
                 asked.set_result(float(f"{value:.7g}"))  # a float of 32 bits has no more digits

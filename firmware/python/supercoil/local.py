@@ -8,8 +8,8 @@ import time
 
 from supercoil import codec
 from supercoil.errors import BusError, NoAnswerError, RefusalError, SupercoilError
-from supercoil.generated import messages, refusals
-from supercoil.generated.names import Opcode, Quantity, Refusal, Setting
+from supercoil.generated import messages, names, refusals
+from supercoil.generated.names import Opcode, Quantity, Refusal, Setting, Tunable
 from supercoil.heartbeat import Heartbeat
 from supercoil.local_text import command_line, frames_of
 from supercoil.telemetry import Telemetry
@@ -84,6 +84,21 @@ class SocketLink:
     async def quantity(self, quantity: Quantity) -> float:
         return (await self._numbers("muscle"))[quantity]
 
+    async def prepare(self, place: int, tunable: Tunable, value: float) -> None:
+        told = names.Set(int(value)).name if tunable == Tunable.all else repr(value)
+        line = f"prepare {self._channel} {place} {tunable} {told}"
+        answer = await self._ask(line)
+        if answer != "ok":
+            raise self._refused(f"{tunable} = {told}", answer)
+
+    async def tuned(self, place: int, tunable: Tunable, of: names.Set) -> float:
+        line = f"tuning {self._channel} {place} {tunable} {of}"
+        answer = await self._ask(line)
+        try:
+            return float(answer)
+        except ValueError:
+            raise self._refused(line, answer) from None
+
     async def keep(self) -> None:
         pass
 
@@ -131,10 +146,11 @@ class SocketLink:
         verdict, _, rest = answer.partition(": ")
         if verdict != "refused":
             return SupercoilError(f"channel {self._channel}: {line}: {answer}")
-        name, _, instead = rest.partition("; ")
+        name, _, reason = rest.partition(": ")
+        name, _, instead = name.partition("; ")
         refusal = Refusal.__members__.get(name, Refusal.queue_full)
         nearest = float(instead.split()[0]) if instead else math.nan
-        return refusals.BY_NUMBER.get(refusal, RefusalError)(self._channel, line, nearest)
+        return refusals.BY_NUMBER.get(refusal, RefusalError)(self._channel, line, nearest, reason)
 
     async def _look(self) -> None:
         state, status = await self._words("state"), await self._words("status")

@@ -3,11 +3,12 @@
 import math
 from collections.abc import Iterator, Mapping
 
-from supercoil.codec import RISES_FROM
+from supercoil.codec import FORGET, FORGET_TUNING, RISES_FROM, STORE, STORE_TUNING, TUNES_FROM
 from supercoil.generated import messages, results
 from supercoil.generated.names import Fault, Mode, Opcode, Parameter, Result, State
 from supercoil.generated.version import PROTOCOL_VERSION
 
+_STORE = {FORGET: "clear", STORE: "store", STORE_TUNING: "store tuning", FORGET_TUNING: "clear tuning"}
 _WITH_VALUE = (Opcode.position, Opcode.power, Opcode.scale, Opcode.controller, Opcode.estimator)
 
 
@@ -18,7 +19,9 @@ def command_line(opcode: Opcode, value: float) -> str:
             return f"compare_rise {value - RISES_FROM:.9g}"
         return f"compare_current {-value:.9g}" if value < 0.0 else f"compare_supply {value:.9g}"
     if opcode == Opcode.store:
-        return "store" if value else "clear"
+        return _STORE[value]
+    if opcode == Opcode.controller and value >= TUNES_FROM:
+        return f"tune {value - TUNES_FROM:.9g}"
     return f"{opcode} {value:.9g}" if opcode in _WITH_VALUE else str(opcode)
 
 

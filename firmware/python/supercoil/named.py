@@ -1,6 +1,8 @@
-"""Numbers that have names in the protocol."""
+"""Numbers that have names in the protocol, and names that it does not have."""
 
+import difflib
 import enum
+from collections.abc import Iterable
 from typing import Self
 
 
@@ -18,3 +20,11 @@ class Named(enum.IntEnum):
 
     def __str__(self) -> str:
         return self.name
+
+
+def unknown(what: str, name: str, known: Iterable[str]) -> ValueError:
+    """what: "message"; the error says which one was probably meant, or all."""
+    names = list(known)
+    near = difflib.get_close_matches(name, names, 1)
+    instead = f"did you mean {near[0]}?" if near else f"there are {', '.join(names)}"
+    return ValueError(f"no {what} is called {name!r}; {instead}")

@@ -5,12 +5,12 @@ import math
 import secrets
 import time
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from supercoil import codec, e2e
 from supercoil.errors import NoAnswerError, RefusalError
 from supercoil.generated import messages, refusals
-from supercoil.generated.names import Opcode, Refusal, Setting
+from supercoil.generated.names import Opcode, Refusal, Set, Setting, Tunable
 from supercoil.layout import Layout
 
 ANSWER_WITHIN_S = 0.5
@@ -27,6 +27,9 @@ _TRY_AGAIN = (Refusal.no_lease, Refusal.wrong_counter)
 
 _COMMAND = codec.LAYOUTS[messages.COMMAND]
 _SETTING_WRITE = codec.LAYOUTS[messages.SETTING_WRITE]
+_TUNING_WRITE = codec.LAYOUTS[messages.TUNING_WRITE]
+_ANSWERS = {messages.COMMAND: messages.ACKNOWLEDGE, messages.SETTING_WRITE: messages.SETTING,
+            messages.TUNING_WRITE: messages.TUNING}
 
 Send = Callable[[int, bytes], Awaitable[None]]
 
@@ -36,13 +39,6 @@ class Answer:
     refusal: Refusal
     value: float  # the session or number that was granted; of a setting, what holds
     nearest: "asyncio.Future[float] | None" = None
-
-
-@dataclass
-class _Pending:
-    what: int  # opcode or setting
-    session: int
-    answered: "asyncio.Future[Answer]" = field(default_factory=lambda: asyncio.get_running_loop().create_future())
 
 
 class Session:
@@ -58,8 +54,8 @@ class Session:
         self._claiming = asyncio.Lock()
         self._sending = asyncio.Lock()
         self._in_flight = asyncio.Semaphore(_MOST_IN_FLIGHT)
-        self._commands: dict[int, _Pending] = {}
-        self._settings: dict[int, _Pending] = {}
+        # By what the answer says it answers: message, counter, and so on.
+        self._pending: dict[tuple[int, ...], asyncio.Future[Answer]] = {}
         self._newest_refused: asyncio.Future[float] | None = None
 
     @property
@@ -79,6 +75,11 @@ class Session:
         """What holds from then on."""
         return await self._insist(f"{setting.name} = {value:.7g}", lambda: self._write(setting, value))
 
+    async def prepare(self, place: int, tunable: Tunable, value: float) -> None:
+        """A value of a controller, or with all every value of one of the sets."""
+        told = Set(int(value)).name if tunable == Tunable.all else f"{value:.7g}"
+        await self._insist(f"{tunable.name} = {told}", lambda: self._prepare(place, tunable, value))
+
     async def disarm(self) -> None:
         """Obeyed from everybody, in every version of the protocol."""
         await self._judge("disarm", await self._ask(Opcode.disarm, 0.0))
@@ -97,7 +98,7 @@ class Session:
             self._number = 0
 
     def receive(self, base: int, data: bytes) -> None:
-        """An Acknowledge, Setting or RefusedValue of the node."""
+        """An Acknowledge, Setting, Tuning or RefusedValue of the node."""
         message = codec.decode(base, data)
         if base == messages.REFUSED_VALUE and message is not None:
             if self._newest_refused is not None and not self._newest_refused.done():
@@ -105,22 +106,21 @@ class Session:
         elif message is not None and e2e.is_intact(base | self.node, data):
             self._receive_answer(base, message)
 
-    def _receive_answer(self, base: int, message: messages.Acknowledge | messages.Setting) -> None:
+    def _receive_answer(self, base: int, message: messages.Acknowledge | messages.Setting | messages.Tuning) -> None:
+        what: tuple[int, int]
         if isinstance(message, messages.Acknowledge):
-            pending = self._commands.get(message.counter)
-            mine = pending is not None and (pending.what, pending.session) == (message.opcode, message.session)
-            value = float(message.granted)
+            what, value = (message.opcode, message.session), float(message.granted)
+        elif isinstance(message, messages.Setting):
+            what, value = (message.setting, message.session_low), message.value
         else:
-            pending = self._settings.get(message.counter)
-            mine = pending is not None and (pending.what, pending.session & 0xFF) == (
-                message.setting, message.session_low)
-            value = message.value
-        if pending is None or not mine or pending.answered.done():
+            what, value = (message.place, message.tunable), message.value
+        answered = self._pending.get((base, message.counter, *what))
+        if answered is None or answered.done():
             return
         answer = Answer(message.refusal, value)
         if answer.refusal == Refusal.out_of_range:
             answer.nearest = self._newest_refused = asyncio.get_running_loop().create_future()
-        pending.answered.set_result(answer)
+        answered.set_result(answer)
 
     def _next_counter(self) -> int:
         self._counter = (self._counter + 1) % e2e.COUNTERS
@@ -129,33 +129,38 @@ class Session:
     async def _ask(self, opcode: Opcode, value: float) -> Answer:
         async with self._in_flight:
             carried = self._number or self._name
-            fields = {"opcode": opcode, "session": carried, "value": value}
-            return await self._exchange(_COMMAND, self._commands, _Pending(opcode, carried), fields)
+            return await self._exchange(_COMMAND, (opcode, carried), opcode=opcode, session=carried, value=value)
 
     async def _write(self, setting: Setting, value: float) -> Answer:
         async with self._in_flight:
-            if (self._counter + 1) % e2e.COUNTERS == 0:
-                self._next_counter()  # 0 is the counter of an answer to somebody who reads
-            fields = {"setting": setting, "session": self._number, "value": value}
-            return await self._exchange(_SETTING_WRITE, self._settings, _Pending(setting, self._number), fields)
+            return await self._exchange(_SETTING_WRITE, (setting, self._number & 0xFF), setting=setting,
+                                        session=self._number, value=value)
 
-    async def _exchange(self, layout: Layout, waiting: dict[int, _Pending], pending: _Pending,
-                        fields: dict[str, float]) -> Answer:
+    async def _prepare(self, place: int, tunable: Tunable, value: float) -> Answer:
+        async with self._in_flight:
+            return await self._exchange(_TUNING_WRITE, (place, tunable), place=place, tunable=tunable,
+                                        session_low=self._number & 0xFF, value=value)
+
+    async def _exchange(self, layout: Layout, what: tuple[int, ...], **fields: float) -> Answer:
         identifier = layout.base | self.node
-        counter = -1
+        answered: asyncio.Future[Answer] = asyncio.get_running_loop().create_future()
+        key: tuple[int, ...] = ()
         try:
             async with self._sending:  # in the order of the counters, also when the bus is busy
                 counter = self._next_counter()
-                waiting[counter] = pending
+                if counter == 0 and layout is not _COMMAND:
+                    counter = self._next_counter()  # 0 is the counter of an answer to somebody who reads
+                key = (_ANSWERS[layout.base], counter, *what)
+                self._pending[key] = answered
                 await self._send(identifier, e2e.protected(
                     identifier, codec.encode(layout, {**fields, "counter": counter})))
             async with asyncio.timeout(ANSWER_WITHIN_S):
-                return await pending.answered
+                return await answered
         except TimeoutError as error:
             raise NoAnswerError(f"node {self.node} does not answer within {ANSWER_WITHIN_S} s") from error
         finally:
-            if waiting.get(counter) is pending:
-                del waiting[counter]
+            if self._pending.get(key) is answered:
+                del self._pending[key]
 
     async def _insist(self, command: str, once: Callable[[], Awaitable[Answer]]) -> float:
         await self._hold_lease()

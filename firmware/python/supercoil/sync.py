@@ -20,6 +20,7 @@ from supercoil.portal import run
 from supercoil.recording import Recording
 from supercoil.simulation import Simulation as AsyncSimulation
 from supercoil.telemetry import Telemetry
+from supercoil.tuning import Tuned
 
 M = TypeVar("M", bound=tuple[Any, ...])
 
@@ -146,6 +147,24 @@ class Muscle:
 
     def compare_rise(self, kelvins: float) -> None:
         run(self._muscle.compare_rise(kelvins))
+
+    def tuning(self, controller: int = 0) -> dict[str, Tuned]:
+        return run(self._muscle.tuning(controller))
+
+    def tune(self, controller: int = 0, *, base: str = "in_use", **values: float | str) -> None:
+        run(self._muscle.tune(controller, base=base, **values))
+
+    def prepare(self, controller: int = 0, *, base: str = "in_use", **values: float | str) -> None:
+        run(self._muscle.prepare(controller, base=base, **values))
+
+    def take_over(self, controller: int = 0) -> None:
+        run(self._muscle.take_over(controller))
+
+    def store_tuning(self) -> None:
+        run(self._muscle.store_tuning())
+
+    def forget_tuning(self) -> None:
+        run(self._muscle.forget_tuning())
 
     def setting(self, setting: Setting) -> float:
         return run(self._muscle.setting(setting))

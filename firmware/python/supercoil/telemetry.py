@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 from supercoil import codec
 from supercoil.errors import NoAnswerError
 from supercoil.generated import messages, names
+from supercoil.named import unknown
 
 M = TypeVar("M", bound=tuple[Any, ...])
 Listener = Callable[[int, float, bytes], None]
@@ -19,7 +20,7 @@ def base_of(kind: type[Any] | str) -> int:
     """Of a message's type, or of its name."""
     if isinstance(kind, str):
         if kind not in codec.BY_NAME:
-            raise ValueError(f"{kind}: there is no such message; there are {', '.join(codec.BY_NAME)}")
+            raise unknown("message", kind, codec.BY_NAME)
         return codec.BY_NAME[kind].base
     return _BASES[kind]
 

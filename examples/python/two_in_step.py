@@ -1,7 +1,7 @@
 """Two muscles follow one sine, half a period apart: both set points go out in one call.
 
 python two_in_step.py can0,1 can0,2
-python two_in_step.py socketcand:29536,1 socketcand:29537,1 10     # seconds
+python two_in_step.py socketcand:29536,1 socketcand:29536,2 10     # seconds, of supercoil-sim ... --nodes 2
 """
 
 import asyncio

@@ -33,6 +33,7 @@ struct RunOptions {
   std::string learned;       ///< folder; empty: nothing is remembered
   std::string board;         ///< file of the firmware's configuration; empty: the scenario's own
   int channel = 1;           ///< of the board, from 1
+  int nodes = 1;             ///< boards on one bus
 };
 int run_command(const RunOptions& options);
 

@@ -40,8 +40,14 @@ void add_run(CLI::App& app, RunOptions& options) {
       "Time span FROM:TO in seconds over which the tracking error is computed [the whole run]");
   run->add_option("--every", options.every, "Ticks per row of trace.csv [1]")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
-  run->add_option("--learned", options.learned,
-                  "Folder of what the board learned: used at its start, and renewed");
+  CLI::Option* learned =
+      run->add_option("--learned", options.learned,
+                      "Folder of what the board learned: used at its start, and renewed");
+  run->add_option("--nodes", options.nodes,
+                  "Boards on one CAN bus, each with a muscle and noise of its own")
+      ->check(CLI::Range(1, 8))
+      ->capture_default_str()
+      ->excludes(learned);
   CLI::Option* board =
       run->add_option("--board", options.board,
                       "Run the firmware as this board's file configures it, over the scenario's "

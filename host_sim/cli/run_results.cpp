@@ -95,6 +95,10 @@ std::string reached(const Simulation& simulation, const Scenario& scenario) {
   return text.data();
 }
 
+std::string prefix(const RunOptions& options, const Scenario& scenario) {
+  return options.nodes > 1 ? scenario.name + ": " : "";
+}
+
 tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
                                      const Simulation& simulation, storage::LearnedStore& store,
                                      const RunOptions& options) {
@@ -130,7 +134,8 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   const Fault fault = summary.ended_in();
   if (summary.armed() && fault == Fault::none) return exit_done;
   const bool asked = arms(scenario.start);
-  std::string told = summary.armed() ? "the run ended in " : "never armed: ";
+  std::string told = prefix(options, scenario);
+  told += summary.armed() ? "the run ended in " : "never armed: ";
   if (fault != Fault::none) {
     told += "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
             "; docs/faults/" + std::string(name(fault)) + ".md";

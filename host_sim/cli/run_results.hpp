@@ -21,6 +21,9 @@ bool interrupted();
 /// How much was simulated: "12.3 s of 200 s".
 std::string reached(const Simulation& simulation, const Scenario& scenario);
 
+/// What a message about one of several nodes begins with.
+std::string prefix(const RunOptions& options, const Scenario& scenario);
+
 /// All that happened: the recorder's last file, its notes, what the board learned.
 /// The error says what could not be kept.
 tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,

@@ -57,6 +57,8 @@ class Simulation {
 
   std::int64_t tick() const { return tick_; }
   std::int64_t ticks() const { return ticks_; }
+  /// Of the last step().
+  double time_s() const { return static_cast<double>(tick_ - 1) * step_s_; }
   const Conditions& conditions() const { return *conditions_; }
   /// Empty when the scenario has no estimator.
   std::optional<control::Estimate> estimate() const { return loop_.channel(0).estimates(); }

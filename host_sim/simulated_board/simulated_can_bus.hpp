@@ -1,6 +1,7 @@
-// A CAN bus with only the board on it, and a test or a log.
+// A board's place on a CAN bus, on which are other boards, or only a test or a log.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 
@@ -10,12 +11,27 @@
 
 namespace supercoil::host_sim {
 
+/// What boards on one bus share.
+struct CanWire {
+  hal::Time free_from{};  ///< by a time that they have in common
+};
+
 /// Frames take as long as on a real bus at its worst, and as many wait as in the kernel's queue: a
-/// frame is sent, and heard, when its time has come.
+/// frame is sent, and heard, when its time has come. Boards take their turns in the order in which
+/// they ask, and not by identifiers.
 class SimulatedCanBus final : public hal::CanBus {
  public:
   /// clock: read for the time of frames; outlives the bus.
   SimulatedCanBus(const hal::Clock& clock, double bit_rate) : clock_(&clock), bit_rate_(bit_rate) {}
+  SimulatedCanBus(const SimulatedCanBus&) = delete;
+  SimulatedCanBus& operator=(const SimulatedCanBus&) = delete;
+
+  /// Before the first frame. start: by the board's clock, when the common time is 0. The wire
+  /// outlives the bus.
+  void share(CanWire& wire, hal::Time start) {
+    wire_ = &wire;
+    start_ = start;
+  }
 
   hal::Status send(const hal::CanFrame& frame) override {
     if (link == hal::CanState::down) return hal::Status::gone;
@@ -24,9 +40,10 @@ class SimulatedCanBus final : public hal::CanBus {
     while (!ends_.empty() && ends_.front() <= now)
       ends_.pop_front();
     if (refuses || ends_.size() >= queue) return hal::Status::busy;
-    const hal::Time begins = ends_.empty() ? now : ends_.back();
+    const hal::Time begins = std::max(now, wire_->free_from + start_);
     const double frame_s = telemetry::max_bits(frame.length) / bit_rate_;
     ends_.push_back(begins + hal::duration_from(frame_s));
+    wire_->free_from = ends_.back() - start_;
     hal::CanFrame heard = frame;
     heard.received = ends_.back();
     listener(heard);
@@ -59,6 +76,9 @@ class SimulatedCanBus final : public hal::CanBus {
 
   const hal::Clock* clock_;
   double bit_rate_;
+  CanWire own_;
+  CanWire* wire_ = &own_;
+  hal::Time start_{};
   std::deque<hal::Time> ends_;  ///< of frames that are on their way
   std::deque<hal::CanFrame> inbox_;
 };

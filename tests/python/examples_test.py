@@ -23,9 +23,8 @@ EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples" / "python"
 class Examples(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.simulation, cls.other = (sync.Simulation(QUICK, deadline_s=60.0).start() for _ in range(2))
+        cls.simulation = sync.Simulation(QUICK, options=("--nodes", "2"), deadline_s=60.0).start()
         cls.addClassCleanup(cls.simulation.stop)
-        cls.addClassCleanup(cls.other.stop)
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -39,8 +38,8 @@ class Examples(unittest.TestCase):
                                   text=True, timeout=DEADLINE_S)
             if "CommandTimeout" not in done.stderr:
                 break
-            for simulation in (self.simulation, self.other):
-                with sync.Muscle(simulation.address) as muscle:  # gives the lease back
+            for node in (1, 2):
+                with sync.Muscle(self.simulation.address, node) as muscle:  # gives the lease back
                     if muscle.fault != supercoil.Fault.none:
                         muscle.reset()
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -51,7 +50,7 @@ class Examples(unittest.TestCase):
                          r"^at 0\.[3-7]\d mm, \d\d °C at most\nlet go\n$")
 
     def test_two_in_step(self):
-        lines = self.run_example("two_in_step.py", f"{self.simulation.address},1", f"{self.other.address},1",
+        lines = self.run_example("two_in_step.py", f"{self.simulation.address},1", f"{self.simulation.address},2",
                                  1).splitlines()
         self.assertGreater(len(lines), 5)
         self.assertRegex(lines[-1], r"^ +\d\.\d\d s +-?\d\.\d{3} mm +-?\d\.\d{3} mm$")

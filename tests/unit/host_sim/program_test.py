@@ -1,7 +1,9 @@
 """supercoil-sim as a user or a script meets it: exit status, messages, files."""
 
+import collections
 import contextlib
 import csv
+import itertools
 import json
 import os
 import pathlib
@@ -127,6 +129,56 @@ class Program(unittest.TestCase):
             self.run_program("run", self.scenario(SHORT), "--out", name, "--no-plot")
         self.assertEqual((self.path / "a/trace.csv").read_bytes(),
                          (self.path / "b/trace.csv").read_bytes())
+
+    def test_nodes_are_boards_of_their_own_on_one_bus(self):
+        noisy = SHORT + "sensor.position.noise_rms_m = 1e-5\n"
+        for name in "ab":
+            self.run_program("run", self.scenario(noisy), "--out", name, "--nodes", 3)
+        a, b = self.path / "a", self.path / "b"
+        self.assertEqual({str(file.relative_to(a)) for file in a.rglob("*.*")}, {"can.log", *(
+            f"node-{node}/{name}" for node in (1, 2, 3) for name in ("trace.csv", "plot.svg", "summary.json"))})
+        self.assertEqual((a / "can.log").read_bytes(), (b / "can.log").read_bytes())
+        for node in (1, 2, 3):
+            # As if it were alone with a seed of its own.
+            self.run_program("run", self.scenario(noisy + f"simulation.seed = {node}\n"), "--out", f"seed-{node}")
+            trace, alone, again = ((folder / "trace.csv").read_bytes() for folder in (
+                a / f"node-{node}", self.path / f"seed-{node}", b / f"node-{node}"))
+            self.assertEqual(trace, alone)
+            self.assertEqual(trace, again)
+            summary = json.loads((a / f"node-{node}/summary.json").read_text())
+            self.assertEqual((summary["scenario"], summary["seed"]), (f"s, node {node}", node))
+        frames = re.findall(r"^\((\d+\.\d+)\) can0 (\w{3})#(\w*)$", (a / "can.log").read_text(), re.M)
+        sent = collections.Counter(int(identifier, 16) & 0x3F for _, identifier, _ in frames)
+        self.assertEqual(set(sent), {1, 2, 3})
+        self.assertLess(max(sent.values()) - min(sent.values()), 20)
+        for (before_s, *_), (time_s, _, data) in itertools.pairwise(frames):
+            shortest_s = (47 + 4 * len(data)) / 500e3  # two frames on one wire
+            self.assertGreaterEqual(float(time_s) - float(before_s), shortest_s - 2e-6)
+
+    def test_one_node_is_a_run_as_ever(self):
+        for name, options in (("a", ()), ("b", ("--nodes", 1))):
+            self.run_program("run", self.scenario(SHORT), "--out", name, *options)
+        for name in ("trace.csv", "can.log", "plot.svg"):
+            self.assertEqual((self.path / "a" / name).read_bytes(), (self.path / "b" / name).read_bytes())
+        self.assertEqual(len(list((self.path / "b").iterdir())), 4)
+
+    def test_a_node_that_failed_is_named(self):
+        done = self.run_program("run", self.scenario(SHORT + "injected_fault.stop_pressed = true\n"), "--out", "out",
+                                "--no-plot", "--no-trace", "--nodes", 2)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(re.findall(r"supercoil-sim: (s, node \d: never armed: fault 63)", done.stderr),
+                         ["s, node 1: never armed: fault 63", "s, node 2: never armed: fault 63"])
+
+    def test_as_many_nodes_as_the_bus_has_room_for(self):
+        scenario = self.scenario(SHORT)
+        for nodes in (0, 9):
+            self.check_refused(f"--nodes: Value {nodes} not in range 1 to 8", "run", scenario, "--out", "out", "--nodes",
+                               nodes)
+        self.check_refused("--learned excludes --nodes", "run", scenario, "--out", "out", "--nodes", 2, "--learned", ".")
+        board = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
+        (self.path / "board.toml").write_text(re.sub(r"first_node = \d+", "first_node = 62", board))
+        self.check_refused("--nodes 8: must be 1 to 2, as the first is node 62", "run", scenario, "--board", "board.toml",
+                           "--out", "out", "--nodes", 8)
 
     def test_every_no_trace_and_no_can(self):
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot", "--every", 10)

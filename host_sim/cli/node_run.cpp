@@ -1,0 +1,70 @@
+#include "cli/node_run.hpp"
+
+#include <cinttypes>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <utility>
+
+#include "cli/run_results.hpp"
+
+namespace supercoil::host_sim {
+
+NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& window,
+                 OutputFolder& folder)
+    : options_(&options),
+      scenario_(std::move(scenario)),
+      folder_(&folder),
+      simulation_(scenario_),
+      recorder_(folder.path().string(), 1, scenario_.rate_Hz, files_),
+      summary_(window) {
+  simulation_.record_to(recorder_);
+  if (options.real_time) return;
+  if (options.trace) trace_.emplace(folder.temporary("trace.csv"), options.every);
+  if (options.plot) plot_.emplace(scenario_);
+}
+
+TickRecord NodeRun::step() {
+  const std::int64_t tick = simulation_.tick();
+  const TickRecord record = simulation_.step();
+  summary_.add(record);
+  if (trace_ && trace_->wants(tick)) trace_->add(record, simulation_.estimate());
+  if (plot_ && plot_->wants(tick)) plot_->add(record, simulation_.estimate());
+  return record;
+}
+
+void NodeRun::warn() const {
+  const std::string node = prefix(*options_, scenario_);
+  if (summary_.not_finite_ticks() > 0) {
+    std::fprintf(stderr,
+                 "supercoil-sim: %swarning: the controller's power was NaN in %" PRId64
+                 " ticks, first at %g s; "
+                 "none was applied then\n",
+                 node.c_str(), summary_.not_finite_ticks(), summary_.first_not_finite_s());
+  }
+  if (!std::isnan(summary_.oscillated_at_s())) {
+    std::fprintf(
+        stderr,
+        "supercoil-sim: %swarning: the control loop oscillated by itself, first seen at %g s with "
+        "a period of %.2g s; docs/control.md says what to do\n",
+        node.c_str(), summary_.oscillated_at_s(), summary_.oscillation_period_s());
+  }
+}
+
+int NodeRun::conclude(double wall_s, storage::LearnedStore& store) {
+  if (!options_->real_time) warn();
+  if (const auto kept = keep(recorder_, simulation_, store, *options_); !kept)
+    return fail(exit_failed, kept.error());
+  if (trace_) {
+    if (const auto finished = trace_->finish(); !finished)
+      return fail(exit_failed, (folder_->path() / finished.error()).string());
+  }
+  if (plot_) draw_into(*folder_, plot_->figure(), "plot.svg");
+  const auto concluded =
+      host_sim::conclude(summary_, scenario_, simulation_, wall_s, *folder_, options_->quiet);
+  if (!concluded) return fail(exit_failed, concluded.error());
+  if (options_->real_time && !asks(scenario_)) return exit_done;
+  return judge(summary_, scenario_, simulation_, *options_);
+}
+
+}  // namespace supercoil::host_sim

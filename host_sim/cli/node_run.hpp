@@ -1,0 +1,45 @@
+// A scenario on one board, and what is kept of it.
+#pragma once
+
+#include <optional>
+
+#include "cli/commands.hpp"
+#include "recorder/flight_recorder.hpp"
+#include "report/output_folder.hpp"
+#include "report/run_plot.hpp"
+#include "report/trace_writer.hpp"
+#include "runner/summary.hpp"
+#include "storage/posix_files.hpp"
+#include "storage/store.hpp"
+
+namespace supercoil::host_sim {
+
+class NodeRun {
+ public:
+  /// Trace and plot are kept where the options want them, and not in real time. Options and folder
+  /// outlive it.
+  NodeRun(const RunOptions& options, Scenario scenario, const Window& window, OutputFolder& folder);
+  NodeRun(const NodeRun&) = delete;
+  NodeRun& operator=(const NodeRun&) = delete;
+
+  TickRecord step();
+  Simulation& simulation() { return simulation_; }
+  const Simulation& simulation() const { return simulation_; }
+  /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
+  int conclude(double wall_s, storage::LearnedStore& store);
+
+ private:
+  void warn() const;
+
+  const RunOptions* options_;
+  Scenario scenario_;
+  OutputFolder* folder_;
+  storage::PosixFiles files_;
+  Simulation simulation_;
+  recorder::FlightRecorder recorder_;
+  Summary summary_;
+  std::optional<TraceWriter> trace_;
+  std::optional<RunPlot> plot_;
+};
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,50 @@
+#include "cli/nodes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace supercoil::host_sim {
+
+tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options, const Scenario& scenario,
+                                              const Window& window, OutputFolder& folder) {
+  Nodes all(folder);
+  for (int i = 0; i < options.nodes; ++i) {
+    Scenario its = scenario;
+    its.seed += static_cast<std::uint64_t>(i);
+    its.can.first_node = static_cast<can::Node>(scenario.can.first_node + i);
+    OutputFolder* its_folder = &folder;
+    if (options.nodes > 1) {
+      const std::string number = std::to_string(int{its.can.first_node});
+      its.name += ", node " + number;
+      auto opened = OutputFolder::open(folder.path() / ("node-" + number));
+      if (!opened) return tl::unexpected(opened.error());
+      all.folders_.push_back(std::make_unique<OutputFolder>(std::move(*opened)));
+      its_folder = all.folders_.back().get();
+    }
+    all.nodes_.push_back(std::make_unique<NodeRun>(options, std::move(its), window, *its_folder));
+  }
+  return all;
+}
+
+void Nodes::join_bus(SharedBus::Listener listener) {
+  std::vector<Simulation*> boards;
+  for (const auto& node : nodes_)
+    boards.push_back(&node->simulation());
+  bus_ = std::make_unique<SharedBus>(std::move(boards), std::move(listener));
+}
+
+void Nodes::step() {
+  for (const auto& node : nodes_)
+    node->step();
+}
+
+int Nodes::conclude(double wall_s, storage::LearnedStore& store) {
+  int status = exit_done;
+  for (const auto& node : nodes_)
+    status = std::max(status, node->conclude(wall_s, store));
+  if (folders_.empty()) return status;
+  if (const auto done = folder_->commit(); !done) return fail(exit_failed, done.error());
+  return status;
+}
+
+}  // namespace supercoil::host_sim

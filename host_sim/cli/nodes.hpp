@@ -1,0 +1,41 @@
+// All nodes of a run: boards on one CAN bus, each with a muscle of its own, in lockstep.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "cli/node_run.hpp"
+#include "runner/shared_bus.hpp"
+
+namespace supercoil::host_sim {
+
+class Nodes {
+ public:
+  /// Results of a single node go to the folder itself, those of several to one below it for each.
+  /// The error says which folder cannot be written to. Options and folder outlive it.
+  static tl::expected<Nodes, std::string> start(const RunOptions& options, const Scenario& scenario,
+                                                const Window& window, OutputFolder& folder);
+
+  void join_bus(SharedBus::Listener listener);
+  /// After join_bus(): a frame of another program.
+  void deliver(const hal::CanFrame& frame) { bus_->deliver(frame); }
+
+  /// All are at the same tick.
+  const Simulation& first() const { return nodes_.front()->simulation(); }
+  void step();
+  /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
+  int conclude(double wall_s, storage::LearnedStore& store);
+
+ private:
+  explicit Nodes(OutputFolder& folder) : folder_(&folder) {}
+
+  OutputFolder* folder_;
+  std::vector<std::unique_ptr<OutputFolder>> folders_;  ///< of several nodes
+  std::vector<std::unique_ptr<NodeRun>> nodes_;
+  std::unique_ptr<SharedBus> bus_;
+};
+
+}  // namespace supercoil::host_sim

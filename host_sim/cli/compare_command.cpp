@@ -1,13 +1,9 @@
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/compare_results.hpp"
-#include "cli/progress.hpp"
-#include "cli/run_results.hpp"
+#include "cli/kept_runs.hpp"
 #include "compare/in_parallel.hpp"
 #include "compare/run_plan.hpp"
 #include "report/output_folder.hpp"
@@ -21,13 +17,6 @@ using compare::Results;
 compare::Key key_of(const compare::Plan& plan, const compare::Run& run) {
   const compare::Case& of = plan.cases[run.of];
   return {of.controller, of.disturbance, of.arithmetic, run.seed};
-}
-
-std::string duration(double seconds) {
-  const std::int64_t whole = std::llround(seconds);
-  constexpr std::int64_t minute = 60;
-  if (whole < 2 * minute) return std::to_string(whole) + " s";
-  return std::to_string((whole + minute / 2) / minute) + " min";
 }
 
 /// What of the plan is not among the results; an error where it is, made of something else.
@@ -48,29 +37,6 @@ tl::expected<std::vector<compare::Run>, std::string> missing(const compare::Plan
   return runs;
 }
 
-/// Carries the runs out and appends each to the file as it ends. False when it was interrupted.
-bool run_all(const compare::Plan& plan, const std::vector<compare::Run>& todo, Results& results,
-             std::ofstream& file, const CompareOptions& options) {
-  Progress progress("comparing", options.quiet);
-  std::size_t ended = 0;
-  run_plan(plan.cases, todo, compare::threads_for(options.jobs),
-           {[&](const compare::Run& run, const compare::Result& result) {
-              const compare::Key key = key_of(plan, run);
-              file << compare::to_line(key, result) << std::flush;
-              results.emplace(key, result);
-              ++ended;
-            },
-            [&] {
-              const double part = static_cast<double>(ended) / static_cast<double>(todo.size());
-              const double left_s = progress.elapsed_s() * (1.0 - part) / part;
-              progress.show(part, std::to_string(ended) + " of " + std::to_string(todo.size()) +
-                                      " runs" +
-                                      (ended > 0 ? ", " + duration(left_s) + " left" : ""));
-              return interrupted() || !file;
-            }});
-  return ended == todo.size();
-}
-
 }  // namespace
 
 int compare_command(const CompareOptions& options) {
@@ -89,30 +55,22 @@ int compare_command(const CompareOptions& options) {
   const std::filesystem::path path = folder->path() / runs_name;
   auto before = compare::read_results(path);
   if (!before) return fail(exit_wrong_input, before.error());
-  if (before->torn) {
-    std::fprintf(stderr, "supercoil-sim: %s: its last line is torn; that run is repeated\n",
-                 path.c_str());
-  }
   Results results = std::move(before->results);
   const auto todo = missing(*plan, results, path.string());
   if (!todo) return fail(exit_wrong_input, todo.error());
-  if (!options.quiet && todo->size() < plan->runs.size()) {
-    std::fprintf(stderr, "supercoil-sim: %zu of %zu runs are already in %s\n",
-                 plan->runs.size() - todo->size(), plan->runs.size(), path.c_str());
+  KeptRuns kept("comparing", {results.size(), plan->runs.size(), todo->size(), before->torn},
+                *folder, options.quiet);
+  if (const int failed = kept.begin(compare::to_file(results)); failed != exit_done) return failed;
+  if (!todo->empty()) {
+    run_plan(plan->cases, *todo, compare::threads_for(options.jobs),
+             {[&](const compare::Run& run, const compare::Result& result) {
+                const compare::Key key = key_of(*plan, run);
+                kept.add(compare::to_line(key, result));
+                results.emplace(key, result);
+              },
+              [&] { return kept.stop(); }});
   }
-  // From here on the file is whole, and grows by whole lines.
-  if (const auto kept = folder->write(runs_name, compare::to_file(results)); !kept)
-    return fail(exit_failed, kept.error());
-  if (const auto kept = folder->commit(); !kept) return fail(exit_failed, kept.error());
-  std::ofstream file(path, std::ios::binary | std::ios::app);
-  catch_interrupts();
-  const bool complete = todo->empty() || run_all(*plan, *todo, results, file, options);
-  if (!file) return fail(exit_failed, path.string() + ": cannot be written");
-  if (!complete) {
-    return fail(exit_interrupted, "interrupted; " + std::to_string(results.size()) +
-                                      " runs are kept in " + path.string() +
-                                      "; the same command goes on from there");
-  }
+  if (const int failed = kept.end(); failed != exit_done) return failed;
   return conclude_comparison(results, *folder, options);
 }
 

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "cli/kept_runs.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
 #include "compare/catalogue.hpp"

@@ -7,8 +7,6 @@
 
 namespace supercoil::host_sim {
 
-inline constexpr const char* runs_name = "runs.csv";
-
 /// Writes all files, and prints the table. Returns the program's exit status, as the others do.
 int conclude_comparison(const compare::Results& results, OutputFolder& folder,
                         const CompareOptions& options);

@@ -1,12 +1,14 @@
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
+#include "cli/kept_runs.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
 #include "compare/in_parallel.hpp"
-#include "estimators/results.hpp"
+#include "estimators/kept_outcomes.hpp"
 #include "report/output_folder.hpp"
 
 namespace supercoil::host_sim {
@@ -28,9 +30,9 @@ std::vector<Key> runs_of(std::int64_t seeds) {
   return runs;
 }
 
-Outcomes try_all(const std::vector<Key>& runs, const EstimatorsOptions& options) {
-  Progress progress("comparing estimators", options.quiet);
-  Outcomes outcomes;
+/// Carries the runs out.
+void try_all(const std::vector<Key>& runs, Outcomes& outcomes, KeptRuns& kept,
+             const EstimatorsOptions& options) {
   compare::in_parallel(
       runs.size(), compare::threads_for(options.jobs),
       [&](std::size_t number, const std::atomic<bool>& stop) -> compare::Handover {
@@ -38,15 +40,12 @@ Outcomes try_all(const std::vector<Key>& runs, const EstimatorsOptions& options)
         auto outcome = estimators::run(estimators::contenders[key.contender],
                                        estimators::trials[key.trial], key.seed, stop);
         if (!outcome) return {};
-        return [&outcomes, key, done = std::move(*outcome)] { outcomes.emplace(key, done); };
+        return [&outcomes, &kept, key, done = std::move(*outcome)] {
+          kept.add(estimators::to_line(key, done));
+          outcomes.emplace(key, done);
+        };
       },
-      [&] {
-        progress.show(
-            static_cast<double>(outcomes.size()) / static_cast<double>(runs.size()),
-            std::to_string(outcomes.size()) + " of " + std::to_string(runs.size()) + " runs");
-        return interrupted();
-      });
-  return outcomes;
+      [&] { return kept.stop(); });
 }
 
 estimators::AllBounds all_bounds() {
@@ -62,19 +61,29 @@ estimators::AllBounds all_bounds() {
 int estimators_command(const EstimatorsOptions& options) {
   auto folder = OutputFolder::open(options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
-  catch_interrupts();
-  const auto runs = runs_of(options.seeds);
-  const Outcomes outcomes = try_all(runs, options);
-  if (outcomes.size() < runs.size()) return fail(exit_interrupted, "interrupted; nothing is kept");
+  auto before = estimators::read_outcomes(folder->path() / runs_name);
+  if (!before) return fail(exit_wrong_input, before.error());
+  Outcomes outcomes = std::move(before->outcomes);
+  const auto all = runs_of(options.seeds);
+  std::vector<Key> todo;
+  std::ranges::copy_if(all, std::back_inserter(todo),
+                       [&](const Key& key) { return !outcomes.contains(key); });
+  KeptRuns kept("comparing estimators", {outcomes.size(), all.size(), todo.size(), before->torn},
+                *folder, options.quiet);
+  if (const int failed = kept.begin(estimators::to_file(outcomes)); failed != exit_done)
+    return failed;
+  if (!todo.empty()) try_all(todo, outcomes, kept, options);
+  if (const int failed = kept.end(); failed != exit_done) return failed;
   const auto bounds = all_bounds();
   const std::string markdown =
       estimators::to_markdown(outcomes, bounds, estimators::measure_costs());
   if (options.plot) draw_into(*folder, estimators::figure_of(outcomes, bounds), "estimators.svg");
-  return conclude_tables(
-      {{{"estimators.csv", estimators::to_csv(outcomes, bounds)}, {"estimators.md", markdown}},
-       markdown,
-       runs.size()},
-      *folder, options.quiet);
+  return conclude_tables({{{runs_name, estimators::to_file(outcomes)},
+                           {"estimators.csv", estimators::to_csv(outcomes, bounds)},
+                           {"estimators.md", markdown}},
+                          markdown,
+                          outcomes.size()},
+                         *folder, options.quiet);
 }
 
 }  // namespace supercoil::host_sim

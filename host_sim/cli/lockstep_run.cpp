@@ -2,8 +2,8 @@
 #include <optional>
 #include <string>
 
+#include "apps/common/progress.hpp"
 #include "cli/nodes.hpp"
-#include "cli/progress.hpp"
 #include "cli/run_results.hpp"
 #include "cli/runs.hpp"
 #include "report/can_log.hpp"

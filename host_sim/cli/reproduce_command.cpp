@@ -2,8 +2,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "apps/common/progress.hpp"
 #include "cli/commands.hpp"
-#include "cli/progress.hpp"
 #include "paper/reproduction.hpp"
 #include "report/output_folder.hpp"
 #include "report/reproduction_table.hpp"

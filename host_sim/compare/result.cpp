@@ -2,13 +2,12 @@
 
 #include <bit>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
+
+#include "compare/kept_lines.hpp"
 
 namespace supercoil::host_sim::compare {
 
@@ -26,30 +25,6 @@ std::string head() {
   return text + "\n";
 }
 
-/// The shortest text that reads back as the same value; nothing for NaN.
-std::string number(double value) {
-  if (std::isnan(value)) return {};
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  return {text.data(), end};
-}
-
-template <class Value, class... Base>
-bool read(std::string_view text, Value& value, Base... base) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base...);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (std::size_t comma = 0; comma != std::string_view::npos;) {
-    comma = line.find(',');
-    fields.push_back(line.substr(0, comma));
-    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
-  }
-  return fields;
-}
-
 std::optional<std::pair<Key, Result>> read_line(std::string_view line) {
   const auto fields = fields_of(line);
   if (fields.size() != columns) return std::nullopt;
@@ -60,8 +35,7 @@ std::optional<std::pair<Key, Result>> read_line(std::string_view line) {
   result.fault = fields[5];
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const std::string_view field = fields[key_columns + 2 + i];
-    result.values[i] = NAN;
-    right = right && (field.empty() || read(field, result.values[i]));
+    right = right && read_number(field, result.values[i]);
   }
   if (!right) return std::nullopt;
   return std::pair(std::move(key), std::move(result));
@@ -105,39 +79,19 @@ std::string to_file(const Results& results) {
 }
 
 tl::expected<ReadResults, std::string> read_results(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
   ReadResults read;
-  if (!in && !std::filesystem::exists(path)) return read;
-  const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in.good() && !in.eof()) return tl::unexpected(path.string() + ": cannot be read");
-  const std::string expected = head();
-  if (all.size() < expected.size() && expected.starts_with(all)) {
-    read.torn = !all.empty();
-    return read;
-  }
-  if (!all.starts_with(expected)) {
-    return tl::unexpected(path.string() + ":1: is not of this version: it begins \"" +
-                          all.substr(0, std::min(all.find('\n'), std::size_t{80})) +
-                          "\"; must be \"" + expected.substr(0, expected.find('\n')) + "\"");
-  }
-  std::string_view rest = std::string_view(all).substr(expected.size());
-  for (std::int64_t line = 3; !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
-    if (end == std::string_view::npos) {
-      read.torn = true;
-      break;
-    }
-    auto one = read_line(rest.substr(0, end));
-    const std::string where = path.string() + ":" + std::to_string(line) + ": ";
-    if (!one) {
-      return tl::unexpected(
-          where + "is damaged: must be " + std::to_string(columns) +
-          " fields, seed and measures numbers: " + std::string(rest.substr(0, end)));
-    }
-    const auto merged = merge(read.results, {std::move(*one)}, where);
-    if (!merged) return tl::unexpected(merged.error());
-    rest.remove_prefix(end + 1);
-  }
+  const auto torn = read_lines(
+      path, head(),
+      [&](std::string_view line, const std::string& where) -> tl::expected<void, std::string> {
+        auto one = read_line(line);
+        if (!one) {
+          return tl::unexpected(where + "is damaged: must be " + std::to_string(columns) +
+                                " fields, seed and measures numbers: " + std::string(line));
+        }
+        return merge(read.results, {std::move(*one)}, where);
+      });
+  if (!torn) return tl::unexpected(torn.error());
+  read.torn = *torn;
   return read;
 }
 

@@ -335,7 +335,7 @@ class Program(unittest.TestCase):
                                    cwd=self.path, stderr=terminal)
         os.close(terminal)
         seen = ""
-        while "s simulated" not in seen:
+        while not seen.endswith(" left"):
             seen += os.read(screen, 4096).decode()
         running.send_signal(signal.SIGINT)
         running.wait()
@@ -343,6 +343,7 @@ class Program(unittest.TestCase):
             while True:
                 seen += os.read(screen, 4096).decode()
         os.close(screen)
+        self.assertRegex(seen, r"\r\x1b\[Ks: \d+ %  \d+ s simulated, \d+ (s|min) left")
         self.assertRegex(seen, r"\r\x1b\[Ksupercoil-sim: interrupted at [^\r\n]*\r\n$")
 
     def test_a_run_in_real_time_has_the_same_exit_status_where_something_is_asked_for(self):

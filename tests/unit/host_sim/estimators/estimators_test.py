@@ -3,8 +3,10 @@
 import csv
 import os
 import pathlib
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = pathlib.Path(os.environ["SUPERCOIL_SIM"]).resolve()
@@ -26,7 +28,8 @@ class Estimators(unittest.TestCase):
         self.compare("--seeds", 1, "--no-plot", "--out", "one", "--jobs", 1)
         done = self.compare("--seeds", 1, "--no-plot", "--out", "two", "--jobs", 2)
         self.assertEqual((self.path / "one/estimators.csv").read_bytes(), (self.path / "two/estimators.csv").read_bytes())
-        self.assertEqual(sorted(file.name for file in (self.path / "one").iterdir()), ["estimators.csv", "estimators.md"])
+        self.assertEqual(sorted(file.name for file in (self.path / "one").iterdir()), ["estimators.csv", "estimators.md", "runs.csv"])
+        self.assertEqual((self.path / "one/runs.csv").read_bytes(), (self.path / "two/runs.csv").read_bytes())
         self.assertIn((self.path / "two/estimators.md").read_text(), done.stdout)
 
         with open(self.path / "one/estimators.csv") as file:
@@ -39,6 +42,37 @@ class Estimators(unittest.TestCase):
         self.assertTrue(0.1 * steady["bound"] < steady["ekf"] < 3.0 * steady["bound"], steady)
         self.assertGreater(steady["gradient"], 3.0 * steady["bound"])
         self.assertEqual(rows["nominal", "gradient", "reported_rms_percent"]["theta1"], "")
+
+    def test_it_goes_on_after_it_was_interrupted(self):
+        self.compare("--seeds", 1, "--no-plot", "--out", "whole")
+        for number, status in ((signal.SIGKILL, -9), (signal.SIGINT, 130)):
+            out = self.path / number.name
+            with subprocess.Popen([PROGRAM, "estimators", "--seeds", "1", "--no-plot", "--out", out, "--jobs", "1"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as running:
+                while not (out / "runs.csv").is_file() or (out / "runs.csv").read_text().count("\n") < 5:
+                    self.assertIsNone(running.poll(), "it ended before three runs had")
+                    time.sleep(0.001)
+                running.send_signal(number)
+                told = running.communicate(timeout=60)[1]
+            self.assertEqual(running.returncode, status, told)
+            if number == signal.SIGINT:
+                self.assertRegex(told, r"interrupted; \d+ runs are kept in .*runs.csv; the same command goes on")
+            kept = (out / "runs.csv").read_text()
+            (out / "runs.csv").write_text(kept + "nominal,gradient,7,0.1")  # torn
+            done = self.compare("--seeds", 1, "--no-plot", "--out", out)
+            self.assertIn(f"{kept.count(chr(10)) - 2} of 25 runs are already in", done.stderr)
+            self.assertIn("its last line is torn", done.stderr)
+            for name in ("estimators.csv", "runs.csv"):
+                self.assertEqual((out / name).read_bytes(), (self.path / "whole" / name).read_bytes())
+
+    def test_a_damaged_file_of_runs_is_refused_with_its_line(self):
+        self.compare("--seeds", 1, "--no-plot", "--out", "out")
+        runs = self.path / "out/runs.csv"
+        whole = runs.read_text()
+        for text, told in ((whole.replace("nominal,gradient,1,", "nominal,gradient,x,", 1), "runs.csv:3: is damaged"),
+                           (whole.replace("supercoil-sim ", "supercoil-sim 0.0", 1), "is not of this version")):
+            runs.write_text(text)
+            self.assertIn(told, self.compare("--seeds", 1, "--no-plot", "--out", "out", status=2).stderr)
 
     def test_what_is_wrong_is_said(self):
         self.assertIn("--seeds", self.compare("--seeds", 0, status=2).stderr)

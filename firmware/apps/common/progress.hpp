@@ -1,0 +1,65 @@
+// How far something is that takes its time, and how long it will take yet.
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include <unistd.h>
+
+namespace supercoil {
+
+/// "34 s", "12 min"
+inline std::string duration_text(double seconds) {
+  constexpr double minute_s = 60.0;
+  const bool short_one = seconds < 2.0 * minute_s;
+  return std::to_string(std::lround(short_one ? seconds : seconds / minute_s)) +
+         (short_one ? " s" : " min");
+}
+
+/// A line on standard error, rewritten in place, after the first two seconds. Nothing where that is
+/// not a terminal.
+class Progress {
+ public:
+  /// quiet: nothing there either.
+  Progress(std::string what, bool quiet)
+      : what_(std::move(what)), shows_(!quiet && isatty(STDERR_FILENO) == 1) {}
+  ~Progress() { end(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  Progress(Progress&&) = delete;
+  Progress& operator=(Progress&&) = delete;
+
+  /// done: 0 to 1, from which the time left follows; NaN: not known. detail: what else to say.
+  /// Cheap: looks at the clock only.
+  void show(double done, const std::string& detail) {
+    const Clock::time_point now = Clock::now();
+    if (!shows_ || now < next_) return;
+    next_ = now + std::chrono::milliseconds(200);
+    std::string text = what_ + ":";
+    if (done >= 0.0) text += " " + std::to_string(std::lround(100.0 * done)) + " %";
+    if (!detail.empty()) text += "  " + detail;
+    if (done > 0.0) text += ", " + duration_text(elapsed_s() * (1.0 - done) / done) + " left";
+    shown_ = true;
+    std::fprintf(stderr, "\r\033[K%s", text.c_str());
+    std::fflush(stderr);
+  }
+  /// Takes its line off the terminal, so that the next message has one of its own.
+  void end() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+    shown_ = false;
+  }
+  double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  bool shows_;
+  bool shown_ = false;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point next_ = start_ + std::chrono::seconds(2);
+};
+
+}  // namespace supercoil

@@ -3,6 +3,7 @@
 import asyncio
 import json
 import os
+import pty
 import re
 import subprocess
 import time
@@ -97,6 +98,43 @@ class ThreeNodes(unittest.TestCase):
             self.assertEqual(other.state, State.armed)
         told = json.loads(self.supercoil("command", "state", "--json"))["nodes"]
         self.assertEqual([one["Status"]["fault"] for one in told], ["none", "none", "command_timeout"])
+
+    def on_terminal(self, *words):
+        """What is seen until it says how long it will take yet; empty where it ended before."""
+        screen, terminal = pty.openpty()
+        running = subprocess.Popen([SUPERCOIL, "command", *words, "--can", self.address], stderr=terminal)
+        os.close(terminal)
+        seen = ""
+        try:
+            while " left" not in seen:
+                seen += os.read(screen, 4096).decode()
+        except OSError:  # the end of a terminal
+            return ""
+        finally:
+            running.terminate()
+            running.wait()
+            os.close(screen)
+        return seen
+
+    def test_on_a_terminal_what_takes_its_time_says_how_far_it_is(self):
+        for words in (("1", "identify", "--for", "600"), ("1", "power", "0.1", "--for", "100")):
+            for _ in range(TRIES):
+                self.setUp()
+                self.supercoil("command", "1", "arm")
+                if seen := self.on_terminal(*words):
+                    break
+            self.assertRegex(seen, rf"\r\x1b\[K{' '.join(words[:-2])}: \d+ %, \d+ (s|min) left")
+
+    def test_in_a_pipe_nothing_is_said_of_it(self):
+        for _ in range(TRIES):
+            self.setUp()
+            self.supercoil("command", "1", "arm")
+            # A terminal would show it from 2 s on.
+            done = subprocess.run([SUPERCOIL, "command", "1", "power", "0.1", "--for", "3", "--can", self.address],
+                                  capture_output=True, text=True, timeout=DEADLINE_S)
+            if done.returncode == 0:
+                break
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_all_are_listed(self):
         self.assertEqual([found.node for found in sync.discover(self.address)], [1, 2, 3])

@@ -55,6 +55,9 @@ class SimulatedLink final : public operating::BoardLink {
         static_cast<std::size_t>(place), control::tunable_named(name), std::stod(value));
     return answer_text(reply.refusal, reply.nearest);
   }
+  tl::expected<double, std::string> progress(const std::string&) override {
+    return static_cast<double>(simulation_.loop().channel(0).snapshot().progress);
+  }
   tl::expected<double, std::string> error_m(const std::string&) override {
     const Snapshot& s = snapshot();
     return s.mode == Mode::position ? s.position_m - s.model_m : NAN;

@@ -41,7 +41,7 @@ class Progress {
     std::string text = what_ + ":";
     if (done >= 0.0) text += " " + std::to_string(std::lround(100.0 * done)) + " %";
     if (!detail.empty()) text += "  " + detail;
-    if (done > 0.0) text += ", " + duration_text(elapsed_s() * (1.0 - done) / done) + " left";
+    if (done > 0.0) text += ", " + duration_text(left_s(done)) + " left";
     shown_ = true;
     std::fprintf(stderr, "\r\033[K%s", text.c_str());
     std::fflush(stderr);
@@ -53,11 +53,24 @@ class Progress {
   }
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
+  /// Whoever must ask for what is done need not, where it is not shown.
+  bool shows() const { return shows_; }
+
  private:
   using Clock = std::chrono::steady_clock;
+
+  /// What is done may grow by steps: meanwhile time passes.
+  double left_s(double done) {
+    if (done != done_) ends_s_ = elapsed_s() / done;
+    done_ = done;
+    return std::fmax(0.0, ends_s_ - elapsed_s());
+  }
+
   std::string what_;
   bool shows_;
   bool shown_ = false;
+  double done_ = 0.0;
+  double ends_s_ = 0.0;  ///< as it looked when done_ had changed
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_ = start_ + std::chrono::seconds(2);
 };

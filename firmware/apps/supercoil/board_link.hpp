@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <memory>
@@ -60,6 +61,8 @@ class BoardLink {
                          const std::string& value) = 0;
   /// Position less reference model, the newest; NaN while no position is followed.
   virtual tl::expected<double, std::string> error_m(const std::string& channel) = 0;
+  /// Of identify or calibrate, 0 to 1, the newest; NaN while it is not known.
+  virtual tl::expected<double, std::string> progress(const std::string& channel) = 0;
   /// Lets the board go on.
   virtual void wait(std::chrono::milliseconds time) { std::this_thread::sleep_for(time); }
   /// From whenever; grows as the board's time does.
@@ -84,6 +87,7 @@ class LocalBoardLink final : public BoardLink {
   Answer prepare(const std::string& channel, int place, const std::string& name,
                  const std::string& value) override;
   tl::expected<double, std::string> error_m(const std::string& channel) override;
+  tl::expected<double, std::string> progress(const std::string& channel) override;
 
  private:
   /// The line of a channel in the answer for all.
@@ -112,16 +116,23 @@ class CanBoardLink final : public BoardLink {
   Answer prepare(const std::string& channel, int place, const std::string& name,
                  const std::string& value) override;
   tl::expected<double, std::string> error_m(const std::string& channel) override;
+  tl::expected<double, std::string> progress(const std::string& channel) override;
 
  private:
+  /// What a node tells by itself, the newest.
+  struct Told {
+    std::unique_ptr<hal::CanBus> bus;
+    double error_m = NAN;
+    double progress = NAN;
+  };
+  tl::expected<Told*, std::string> listen(const std::string& channel);
   tl::expected<Commander*, std::string> commander(std::uint8_t node);
   /// What is told of what is heard meanwhile.
   Answer heard(const std::function<std::string(const FrameHistory&)>& tell);
 
   std::string bus_;
   std::map<std::uint8_t, std::unique_ptr<Commander>> nodes_;
-  std::map<std::uint8_t, std::unique_ptr<hal::CanBus>> tracked_;  ///< on which nodes tell it
-  std::map<std::uint8_t, double> errors_m_;
+  std::map<std::uint8_t, Told> told_;
 };
 
 /// Arms a channel and waits until its heater was measured: a command to heat is refused before.

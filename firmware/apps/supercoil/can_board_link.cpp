@@ -99,18 +99,28 @@ BoardLink::Answer CanBoardLink::prepare(const std::string& channel, int place,
   return answer_text(heard->refusal, out ? (*node)->nearest() : NAN);
 }
 
-tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {
+/// Without waiting.
+tl::expected<CanBoardLink::Told*, std::string> CanBoardLink::listen(const std::string& channel) {
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
-  if (!tracked_.contains(node)) {
-    auto bus = open_bus(bus_, {can_client::tracking_id(node)});
+  Told& told = told_[node];
+  if (!told.bus) {
+    auto bus = open_bus(bus_, {can_client::tracking_id(node), can_client::status_id(node)});
     if (!bus) return tl::unexpected(bus.error());
-    tracked_.emplace(node, std::move(*bus));
-    errors_m_[node] = NAN;
+    told.bus = std::move(*bus);
   }
-  for (hal::CanFrame frame; tracked_.at(node)->receive(frame) == hal::Status::ok;) {
-    if (const auto told = can_client::receive_error_m(node, frame)) errors_m_[node] = *told;
+  for (hal::CanFrame frame; told.bus->receive(frame) == hal::Status::ok;) {
+    if (const auto error_m = can_client::receive_error_m(node, frame)) told.error_m = *error_m;
+    if (const auto progress = can_client::receive_progress(node, frame)) told.progress = *progress;
   }
-  return errors_m_[node];
+  return &told;
+}
+
+tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {
+  return listen(channel).map([](const Told* told) { return told->error_m; });
+}
+
+tl::expected<double, std::string> CanBoardLink::progress(const std::string& channel) {
+  return listen(channel).map([](const Told* told) { return told->progress; });
 }
 
 BoardLink::Answer CanBoardLink::heard(const std::function<std::string(const FrameHistory&)>& tell) {

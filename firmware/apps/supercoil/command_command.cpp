@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/common/progress.hpp"
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
@@ -94,10 +95,19 @@ int ended(BoardLink& board, const CommandOptions& options) {
   return found ? exit_done : fail(exit_failed, line + " ended: " + ending->result + notes);
 }
 
+/// Of a mode that ends by itself what the board says, otherwise of the time.
+double done(BoardLink& board, const CommandOptions& options, double time_s) {
+  if (has_result(options)) return board.progress(options.words[0]).value_or(NAN);
+  return std::isfinite(options.hold_s) ? time_s / options.hold_s : NAN;
+}
+
 /// Until its time is over or it is interrupted; then the muscle rests.
 int hold(BoardLink& board, const CommandOptions& options) {
   watch_for_interrupts();
   const bool renews_itself = options.words.size() == 3;
+  Progress progress(joined(options.words), false);
+  // The first time takes a moment, in which a command to heat would expire.
+  if (progress.shows()) done(board, options, 0.0);
   const auto begin = Clock::now();
   auto next = begin;
   for (;;) {
@@ -107,12 +117,16 @@ int hold(BoardLink& board, const CommandOptions& options) {
         first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
     const auto answer = board.ask(line);
     const bool is_over = answer && *answer == answer_text(Refusal::wrong_state, NAN);
+    const bool goes_on = answer && *answer == "ok";
+    if (!goes_on) progress.end();
     if (is_over && !first && !renews_itself) return ended(board, options);
-    if (!answer || *answer != "ok") return concluded(options, line, answer);
+    if (!goes_on) return concluded(options, line, answer);
+    if (progress.shows()) progress.show(done(board, options, time_s), "");
     if (interrupted != 0 || time_s >= options.hold_s) break;
     next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);
     std::this_thread::sleep_until(next);
   }
+  progress.end();
   const std::string rest = options.words[0] + " rest";
   if (!has_result(options)) return ask(board, options, rest);
   const auto answer = board.ask(rest);

@@ -1,4 +1,5 @@
 // The supercoild of this board, by its socket.
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -123,6 +124,17 @@ tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& cha
   words >> skipped >> skipped >> mode >> skipped >> skipped >> model >> position;
   if (mode != mode_names[static_cast<std::size_t>(Mode::position)]) return NAN;
   return std::strtod(position.c_str(), nullptr) - std::strtod(model.c_str(), nullptr);
+}
+
+/// The word before the last two.
+tl::expected<double, std::string> LocalBoardLink::progress(const std::string& channel) {
+  const auto line = line_of("state", channel);
+  if (!line) return tl::unexpected(line.error());
+  std::istringstream words(*line);
+  std::array<std::string, 3> last;
+  for (std::string word; words >> word;)
+    last = {last[1], last[2], word};
+  return std::strtod(last[0].c_str(), nullptr);
 }
 
 }  // namespace supercoil::operating

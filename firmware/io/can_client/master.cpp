@@ -96,6 +96,11 @@ std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& pl
                     m.get<std::uint8_t>("counter")};
 }
 
+std::optional<double> receive_progress(std::uint8_t node, const hal::CanFrame& frame) {
+  if (frame.id != status_id(node) || frame.length != message::status.length) return std::nullopt;
+  return can::Reader<message::status>(frame).get("progress");
+}
+
 std::uint16_t tracking_id(std::uint8_t node) {
   return can::id_of(message::tracking, node);
 }

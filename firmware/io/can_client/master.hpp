@@ -51,6 +51,8 @@ std::uint16_t tuning_id(std::uint8_t node);
 /// Empty: no intact answer about it.
 std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& place,
                                          const hal::CanFrame& frame);
+/// Of identify and calibrate, 0 to 1, from the heartbeat. Empty: the frame does not tell.
+std::optional<double> receive_progress(std::uint8_t node, const hal::CanFrame& frame);
 /// Of what it follows, and how closely.
 std::uint16_t tracking_id(std::uint8_t node);
 /// Position less reference model; NaN: it follows none. Empty: the frame does not tell.

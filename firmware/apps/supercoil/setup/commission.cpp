@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/common/progress.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/number_text.hpp"
 #include "config/describe.hpp"
@@ -22,7 +23,6 @@ constexpr std::chrono::milliseconds renewal{100};
 constexpr std::chrono::milliseconds reference_step{20};
 /// A muscle that is cold by all bounds is armed at once; the file says how long it may take else.
 constexpr double arming_s = 5.0;
-constexpr double told_every_s = 10.0;
 /// As in firmware: calibrate waits for a cold muscle, identify judges after 1200 s.
 constexpr double max_calibrate_s = 130.0;
 constexpr double max_identify_s = 1400.0;
@@ -77,20 +77,11 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
                         (fault.empty() ? "; docs/running.md says what each result means" : fault));
 }
 
-/// Says every ten seconds that it goes on; false when it was interrupted.
-bool Commission::tell_progress(double elapsed_s, double& told_s, const std::string& what) {
-  if (elapsed_s - told_s >= told_every_s) {
-    told_s = elapsed_s;
-    say_(what + ", " + in_digits(elapsed_s) + " s");
-  }
-  return interrupted == 0;
-}
-
 /// A board that was just started waits until its muscle must be cool.
 Commission::Done Commission::arm() {
   const double max_s = arming_s + feasibility(configured_, settings_).armable_s;
   const double begin_s = board_.time_s();
-  double told_s = 0.0;
+  Progress progress("waiting until the muscle must be cool", false);
   for (;;) {
     const double elapsed_s = board_.time_s() - begin_s;
     const auto answer = operating::arm(board_, channel_);
@@ -98,21 +89,25 @@ Commission::Done Commission::arm() {
     if (*answer == "ok" || *answer == answer_text(Refusal::wrong_state, NAN)) return {};
     if (*answer != answer_text(Refusal::not_ready, NAN) || elapsed_s >= max_s)
       return tl::unexpected("arm: " + *answer);
-    if (!tell_progress(elapsed_s, told_s, "waiting until the muscle must be cool"))
-      return tl::unexpected<std::string>("interrupted");
+    progress.show(elapsed_s / max_s, "");
+    if (interrupted != 0) return tl::unexpected<std::string>("interrupted");
     board_.wait(std::chrono::seconds(1));
   }
 }
 
 Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
+  Progress progress(mode, false);
+  const auto done = [&] { return board_.progress(channel_).value_or(NAN); };
+  // The first time takes a moment, in which a command to heat would expire.
+  if (progress.shows()) done();
   if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
   const double begin_s = board_.time_s();
-  double told_s = 0.0;
   for (;;) {
     board_.wait(renewal);
     const double elapsed_s = board_.time_s() - begin_s;
     if (elapsed_s >= max_s) break;
-    if (!tell_progress(elapsed_s, told_s, mode)) {
+    if (progress.shows()) progress.show(done(), "");
+    if (interrupted != 0) {
       static_cast<void>(ask("rest"));
       return tl::unexpected(mode + ": interrupted");
     }
@@ -120,6 +115,7 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
     if (!answer) return tl::unexpected(answer.error());
     if (*answer != "ok") break;
   }
+  progress.end();
   auto ending = board_.ending(channel_);
   for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
     board_.wait(renewal);
@@ -195,8 +191,8 @@ StepResult Commission::move() {
                                         (*known)[known_unexplained_ratio]);
   say_("promised: " + config::describe_promise(promise, motion));
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
+  Progress progress("moving", false);
   double square_sum = 0.0;
-  double told_s = 0.0;
   int samples = 0;
   const double begin_s = board_.time_s();
   for (;;) {
@@ -207,11 +203,13 @@ StepResult Commission::move() {
     board_.wait(reference_step);
     const auto error_m = board_.error_m(channel_);
     if (!error_m) return tl::unexpected(error_m.error());
-    if (!tell_progress(time_s, told_s, "moving")) break;
+    progress.show(time_s / motion.end_s(), "");
+    if (interrupted != 0) break;
     if (time_s < motion.settled_s() || std::isnan(*error_m)) continue;
     square_sum += *error_m * *error_m;
     ++samples;
   }
+  progress.end();
   if (auto rests = ask("rest"); !rests) return tl::unexpected(rests.error());
   if (interrupted != 0) return tl::unexpected<std::string>("interrupted");
   if (samples == 0) return tl::unexpected<std::string>("the board told no tracking error");

@@ -45,7 +45,6 @@ class Commission {
   OrWhy run_mode(const std::string& mode, double max_s);
   /// calibrate again and again, until the muscle must be cold.
   OrWhy calibrate_when_cold();
-  bool tell_progress(double elapsed_s, double& told_s, const std::string& what);
 
   BoardLink& board_;
   std::string channel_;

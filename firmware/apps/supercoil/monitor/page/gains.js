@@ -1,6 +1,6 @@
 // What the active controller multiplies its signals by; an adaptive one changes it.
 
-import { element, place, show } from "./dom.js";
+import { element, place, scrolling, show } from "./dom.js";
 import { significant, words } from "./format.js";
 
 // "" multiplies power, position and reference in watts at rest.
@@ -16,8 +16,8 @@ export class Gains {
     this.none = element("p", { class: "hint" }, "This controller has none.");
     this.element = element("section", { class: "card full-only", "aria-label": `gains of the controller, node ${node}` },
       element("h2", {}, "Gains of the controller"), this.none,
-      element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
-        ...["gain", "value", "unit"].map((title) => element("th", { scope: "col" }, title)))), this.body));
+      scrolling(`table of the gains, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
+        ...["gain", "value", "unit"].map((title) => element("th", { scope: "col" }, title)))), this.body)));
   }
 
   update(now_s) {

@@ -8,8 +8,9 @@ const KEPT = 200;
 export class Journal {
   constructor(node, store) {
     Object.assign(this, { node, store, last: {} });
-    this.list = element("ol", { class: "journal", role: "log", "aria-label": `what happened at node ${node}`, tabindex: 0 });
-    this.element = element("section", { class: "card full-only happened" }, element("h2", {}, "What happened"), this.list);
+    this.list = element("ol");
+    this.element = element("section", { class: "card full-only happened" }, element("h2", {}, "What happened"),
+      element("div", { class: "journal", role: "log", "aria-label": `what happened at node ${node}`, tabindex: 0 }, this.list));
   }
 
   add(text, kind = "", time_s = this.store.newest_s) {

@@ -32,7 +32,7 @@ export class NodeView {
     this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
     for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
     const [readouts, parameters, gains, margins] = this.cards.map((card) => card.element);
-    this.element = element("article", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
+    this.element = element("div", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
       element("div", { class: "side" }, this.state.element, this.panel.element, this.journal.element),
       element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
         element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, gains, this.tuning.element), margins)));

@@ -1,6 +1,6 @@
 // What the board has learned of the muscle, with its trust and, of an estimator that tells them, standard deviations.
 
-import { element, show } from "./dom.js";
+import { element, scrolling, show } from "./dom.js";
 import { NONE, fixed, significant } from "./format.js";
 
 const SIGNALS = {
@@ -29,8 +29,8 @@ export class Parameters {
     }
     this.element = element("section", { class: "card full-only", "aria-label": `parameters of node ${node}` },
       element("h2", {}, "Parameters"),
-      element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
-        ...["parameter", "value", "unit", "deviation", "bound", "trust"].map((title) => element("th", { scope: "col" }, title)))), body),
+      scrolling(`table of the parameters, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
+        ...["parameter", "value", "unit", "deviation", "bound", "trust"].map((title) => element("th", { scope: "col" }, title)))), body)),
       element("p", { class: "hint" }, "Position and power tell the time constant, thermal mass over heat transfer, and neither alone: what is learned here does not narrow the temperature."));
   }
 

@@ -1,6 +1,6 @@
 // The controllers of a node with all their values: read when they are opened, changed by hand, stored.
 
-import { element, show } from "./dom.js";
+import { element, scrolling, show } from "./dom.js";
 import { significant, words } from "./format.js";
 import { command, tune, tuning_of } from "./server.js";
 
@@ -22,8 +22,8 @@ export class Tuning {
     this.element = element("details", { class: "card full-only", "aria-label": `controllers of node ${node}`, ontoggle: () => this.element.open && this.read() },
       element("summary", {}, element("h2", {}, "Controllers")), this.tabs,
       element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#use("in_use", this.#changed()); } },
-        element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
-          ...["value", "in use", "board.toml", "stored", "new"].map((title) => element("th", { scope: "col" }, title)))), this.body),
+        scrolling(`values of the controllers, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
+          ...["value", "in use", "board.toml", "stored", "new"].map((title) => element("th", { scope: "col" }, title)))), this.body)),
         element("div", { class: "buttons" }, element("button", { type: "submit", disabled: !may.command }, "use"),
           button("as board.toml", () => this.#use("configured", {})),
           button("store", () => this.#keep(STORE, "stored for the next start")),

@@ -5,9 +5,9 @@ import { element, show } from "./dom.js";
 // While the board has not told its limits: the stroke and the power of the paper's muscle.
 const USUAL = { position: 0.02, power: 4.5 };
 const MODES = {
-  position: { opcode: "position", button: "move", unit: "mm", factor: 1e3, step: 0.1, label: "Position",
+  position: { opcode: "position", button: "move", unit: "mm", factor: 1e3, steps: [0.01, 0.1, 0.5, 1, 5], step: 0.1, label: "Position",
     hint: "The controller makes the muscle follow this position." },
-  power: { opcode: "power", button: "heat", unit: "W", factor: 1, step: 0.05, label: "Power",
+  power: { opcode: "power", button: "heat", unit: "W", factor: 1, steps: [0.01, 0.05, 0.1, 0.5], step: 0.05, label: "Power",
     hint: "Open loop: the muscle gets this power, within its limits." },
   rest: { opcode: "rest", button: "rest", hint: "No power; the muscle cools and stays armed." },
   identify: { opcode: "identify", button: "identify", hint: "Excites the muscle and learns its parameters." },
@@ -17,7 +17,7 @@ const MODES = {
 export class ControlPanel {
   /** may: {command: may it, why: why not}; log: is told (text, kind) of each command. */
   constructor(manual, may, log) {
-    Object.assign(this, { manual, may, log, mode: "position", values: {}, limits: new Map() });
+    Object.assign(this, { manual, may, log, mode: "position", values: {}, steps: {}, limits: new Map() });
     const id = (name) => `${name}-${manual.node}`;
     this.arm = this.#button("arm", "arm");
     this.disarm = this.#button("disarm", "disarm");
@@ -33,9 +33,10 @@ export class ControlPanel {
     this.slider = element("input", { type: "range", "aria-label": "set-point", disabled: !may.command, value: "0",
       oninput: () => (this.number.value = this.slider.value), onchange: () => this.#go() });
     this.number.addEventListener("input", () => (this.slider.value = this.number.value));
+    this.step = element("select", { "aria-label": "step of the set-point", disabled: !may.command, onchange: () => this.#take_step() });
     this.go = element("button", { type: "submit", class: "go", disabled: !may.command });
     this.hint = element("p", { class: "hint" });
-    this.value_row = element("div", { class: "value" }, this.number_label, this.number, this.unit);
+    this.value_row = element("div", { class: "value" }, this.number_label, this.number, this.unit, this.step);
     this.answer = element("p", { class: "answer", role: "status", "aria-label": "answer of the board" });
     this.notice = element("p", { class: "notice", role: "alert", hidden: true });
     const form = element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#go(); } },
@@ -63,22 +64,37 @@ export class ControlPanel {
   #choose(mode) {
     this.values[this.mode] = this.number.value;
     this.mode = mode;
-    const { button, hint, unit, label } = MODES[mode];
+    const { button, hint, unit, label, steps, step } = MODES[mode];
     show(this.go, button);
     show(this.hint, hint);
     this.value_row.hidden = this.slider.hidden = !unit;
     if (!unit) return;
     show(this.unit, unit);
     show(this.number_label, label);
+    const chosen = this.steps[mode] ?? step;
+    this.step.replaceChildren(...steps.map((size) => element("option", { value: size, selected: size === chosen }, `± ${size}`)));
     this.#scale();
     this.number.value = this.slider.value = this.values[mode] ?? "0";
   }
 
   /** Number and slider end at the limit of the detector, where the board has told it. */
   #scale() {
-    const { factor, step, opcode } = MODES[this.mode];
+    const { factor, steps: [finest], opcode } = MODES[this.mode];
     const most = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
-    for (const input of [this.number, this.slider]) Object.assign(input, { min: 0, step, max: (Math.floor((most * factor) / step) * step).toFixed(2) });
+    for (const input of [this.number, this.slider]) Object.assign(input, { min: 0, step: this.step.value, max: (Math.floor((most * factor) / finest) * finest).toFixed(2) });
+  }
+
+  #take_step() {
+    this.steps[this.mode] = Number(this.step.value);
+    this.#scale();
+  }
+
+  /** One step up (1) or down (-1), sent at once; no further than the limits. */
+  nudge(sign) {
+    if (!this.may.command || !MODES[this.mode].unit) return;
+    const wanted = (this.number.valueAsNumber || 0) + sign * Number(this.step.value);
+    this.number.value = this.slider.value = Number(Math.min(Math.max(wanted, 0), Number(this.number.max)).toFixed(2));
+    this.#go();
   }
 
   #go() {
@@ -110,8 +126,9 @@ export class ControlPanel {
     for (const [button, state] of [[this.arm, "disarmed"], [this.reset, "fault"]])
       button.classList.toggle("next", status?.state === state);
     this.go.classList.toggle("next", status?.state === "armed");
-    const had = this.limits.size;
-    this.limits = limits;
-    if (limits.size !== had && MODES[this.mode].unit) this.#scale();
+    // The same map is filled again and again.
+    const told = limits.size !== this.limits_told;
+    Object.assign(this, { limits, limits_told: limits.size });
+    if (told && MODES[this.mode].unit) this.#scale();
   }
 }

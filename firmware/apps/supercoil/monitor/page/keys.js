@@ -1,6 +1,6 @@
 // Keys of the view. The space bar is STOP's (stop.js) and nothing else's.
 
-const TYPES = "input[type=number], select, textarea";
+const TYPES = "input[type=number], input[type=text], select, textarea";
 
 /** actions: key → function. Keys are not taken from whoever types, nor from the browser's own combinations. */
 export function listen_to_keys(actions) {

@@ -64,13 +64,13 @@ function begin(about) {
   };
   // A log is seen as a whole at first.
   if (is_log) store.addEventListener("batch", () => view.span(Math.max(1, store.newest_s - store.oldest_s)), { once: true });
-  connect_tools(view, replay, export_csv, fault_page);
+  connect_tools(view, replay, export_csv, fault_page, tabs);
   draw_forever({ store, view, replay, tabs, status, stop });
   stream.open();
   feed.fill();
 }
 
-function connect_tools(view, replay, export_csv, fault_page) {
+function connect_tools(view, replay, export_csv, fault_page, tabs) {
   const pause = by_id("pause");
   const toggle = () => (replay && view.live ? replay.toggle() : view.toggle());
   pause.addEventListener("click", toggle);
@@ -87,7 +87,10 @@ function connect_tools(view, replay, export_csv, fault_page) {
   const show_help = () => (help.open ? help.close() : help.show());
   by_id("keys").addEventListener("click", show_help);
   help.querySelector("button").addEventListener("click", () => help.close());
+  // Side by side there is no panel to see what is commanded.
+  const nudge = (sign) => tabs.visible.length === 1 && !replay && tabs.visible[0].panel.nudge(sign);
   listen_to_keys({
+    k: () => nudge(1), j: () => nudge(-1),
     p: toggle, l: () => view.follow(), End: () => view.follow(), c: export_csv, "?": show_help,
     "+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2),
     ArrowLeft: () => view.pan(-0.25), ArrowRight: () => view.pan(0.25),

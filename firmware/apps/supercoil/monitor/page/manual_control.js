@@ -29,11 +29,23 @@ export const refusal_words = (refusal) => WHY[refusal] ?? words(refusal);
 export class ManualControl extends EventTarget {
   constructor(node, timeout_s) {
     super();
-    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, release_count: 0 });
+    Object.assign(this, { node, timeout_s, holds: null, since_ms: 0, notice: "", timer: 0, asking: false, heard_ms: 0, release_count: 0, following: null });
   }
 
-  /** Resolves to {obeyed, text}. */
+  /** By hand; what is played ends. Resolves to {obeyed, text}. */
   async send(opcode, value = 0) {
+    this.dispatchEvent(new Event("taken"));
+    await this.following; // a set point that is under way must not overtake this one
+    return this.#command(opcode, value, true);
+  }
+
+  /** One set point of many. Likewise. */
+  follow(position_m) {
+    this.following = this.#command("position", position_m, this.holds !== "position");
+    return this.following;
+  }
+
+  async #command(opcode, value, begins) {
     const release_count = this.release_count;
     try {
       const refusal = await command(this.node, opcode, value);
@@ -42,14 +54,14 @@ export class ManualControl extends EventTarget {
       return { obeyed: false, text: problem.message };
     }
     // What was let go before the answer came is not held after it.
-    if (HEATS.has(opcode) && release_count === this.release_count) this.#hold(opcode);
+    if (HEATS.has(opcode) && release_count === this.release_count) this.#hold(opcode, begins);
     if (COOLS.has(opcode)) this.release_hold();
     return { obeyed: true, text: "obeyed" };
   }
 
-  #hold(opcode) {
+  #hold(opcode, begins) {
     this.holds = opcode;
-    this.since_ms = performance.now();
+    if (begins) this.since_ms = performance.now();
     this.#heard();
     this.#say("");
     this.timer ||= setInterval(() => this.#live(), ALIVE_EVERY_MS);
@@ -61,6 +73,7 @@ export class ManualControl extends EventTarget {
     clearInterval(this.timer);
     this.timer = 0;
     this.holds = null;
+    this.dispatchEvent(new Event("release"));
     this.#say(notice, alarming);
   }
 

@@ -12,6 +12,7 @@ import { PLOTS } from "./plots.js";
 import { Readouts } from "./readouts.js";
 import { StateCard } from "./state_card.js";
 import { Tuning } from "./tuning.js";
+import { WaveformCard } from "./waveform_card.js";
 
 // Beside other nodes there is room for these.
 const COMPACT_PLOTS = new Set(["Position", "Power", "Temperature"]);
@@ -24,7 +25,8 @@ export class NodeView {
     this.journal = new Journal(node, store);
     this.state = new StateCard(node, store, on_fault, about.protocol_version, (place) => this.tuning.kind_of(place));
     this.panel = new ControlPanel(this.manual, may, (text, kind) => this.journal.add(text, kind));
-    this.panel.element.hidden = about.kind === "log";
+    this.waveform = new WaveformCard(this.manual, may, (text, kind) => this.journal.add(text, kind));
+    this.panel.element.hidden = this.waveform.element.hidden = about.kind === "log";
     this.tuning = new Tuning(node, may, (text, kind) => this.journal.add(text, kind));
     this.tuning.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
@@ -33,7 +35,7 @@ export class NodeView {
     for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
     const [readouts, parameters, gains, margins] = this.cards.map((card) => card.element);
     this.element = element("div", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
-      element("div", { class: "side" }, this.state.element, this.panel.element, this.journal.element),
+      element("div", { class: "side" }, this.state.element, this.panel.element, this.waveform.element, this.journal.element),
       element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
         element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, gains, this.tuning.element), margins)));
   }
@@ -51,6 +53,7 @@ export class NodeView {
     this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();
     this.panel.update(this.status, this.margins.limits);
+    this.waveform.update(this.margins.limits);
     for (const plot of this.plots) plot.show_values();
   }
 }

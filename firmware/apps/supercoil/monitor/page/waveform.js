@@ -1,0 +1,78 @@
+// Set points as functions of time: waveforms to be played to a muscle.
+
+const MM = 1e3;
+
+/** What a shape asks for, by name: label, unit, value at first. Lengths in mm, as they are typed. */
+const OFFSET = { offset: ["offset", "mm", 8] };
+const SWING = { ...OFFSET, amplitude: ["amplitude", "mm", 2], period: ["period", "s", 10] };
+export const SHAPES = {
+  sine: SWING,
+  steps: SWING,
+  chirp: { ...SWING, last_period: ["last period", "s", 2], duration: ["duration", "s", 60] },
+  file: {},
+};
+
+/** Phase in periods of a swing whose frequency rises evenly from 1/period to 1/last_period. */
+const chirped = ({ period, last_period, duration }) => (time_s) =>
+  time_s / period + ((1 / last_period - 1 / period) * time_s ** 2) / (2 * duration);
+
+function swing({ offset, amplitude }, phase, shape) {
+  return (time_s) => (offset + amplitude * shape(phase(time_s))) / MM;
+}
+
+const sine = (phase) => Math.sin(2 * Math.PI * phase);
+const square = (phase) => (phase % 1 < 0.5 ? 1 : -1);
+
+/** {at: position in m by time in s, end_s}; values: numbers by name, as SHAPES asks for them. */
+export function waveform(shape, values) {
+  if (shape === "chirp") return { at: swing(values, chirped(values), sine), end_s: values.duration };
+  return { at: swing(values, (time_s) => time_s / values.period, shape === "sine" ? sine : square), end_s: Infinity };
+}
+
+/** What is wrong with the values, in words, or "". most_m: the channel's travel. */
+export function refuse_values(shape, values, most_m) {
+  for (const [name, [label]] of Object.entries(SHAPES[shape])) {
+    const value = values[name];
+    if (!Number.isFinite(value)) return `${label}: a number is missing`;
+    if (name !== "offset" && name !== "amplitude" && value <= 0) return `${label} must be more than 0`;
+  }
+  const low = values.offset - Math.abs(values.amplitude);
+  const high = values.offset + Math.abs(values.amplitude);
+  if (low < 0 || high > most_m * MM) {
+    return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} mm; allowed: 0 to ${(most_m * MM).toFixed(2)} mm`;
+  }
+  return "";
+}
+
+const COLUMNS = ["time_s", "position_m"];
+
+/** A file's rows as a waveform, straight between them. Throws an Error that names line and value. */
+export function waveform_of_file(text, most_m) {
+  const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(",").map((cell) => cell.trim()));
+  const places = COLUMNS.map((name) => lines[0].indexOf(name));
+  if (places.includes(-1)) throw new Error(`line 1: "${lines[0].join(",")}": the first line must name the columns time_s and position_m`);
+  const rows = [];
+  lines.forEach((cells, i) => {
+    if (i === 0 || cells.join("") === "") return;
+    const [time_s, position_m] = places.map((place, column) => {
+      const value = cells[place] === "" ? NaN : Number(cells[place]);
+      if (!Number.isFinite(value)) throw new Error(`line ${i + 1}: ${COLUMNS[column]} is "${cells[place] ?? ""}": a number is needed`);
+      return value;
+    });
+    if (rows.length > 0 && time_s <= rows.at(-1)[0]) throw new Error(`line ${i + 1}: time_s ${time_s} is not later than ${rows.at(-1)[0]} before it`);
+    if (position_m < 0 || position_m > most_m) throw new Error(`line ${i + 1}: position_m ${position_m}; allowed: 0 to ${Number(most_m.toPrecision(4))} m`);
+    rows.push([time_s, position_m]);
+  });
+  if (rows.length < 2) throw new Error(`line ${lines.length}: two rows at least are needed`);
+  return { at: between(rows), end_s: rows.at(-1)[0] - rows[0][0] };
+}
+
+function between(rows) {
+  let place = 1; // of the row at or after the time; times only grow
+  return (time_s) => {
+    const at_s = rows[0][0] + time_s;
+    while (place < rows.length - 1 && rows[place][0] < at_s) ++place;
+    const [[from_s, from_m], [to_s, to_m]] = [rows[place - 1], rows[place]];
+    return from_m + (to_m - from_m) * Math.min(1, Math.max(0, (at_s - from_s) / (to_s - from_s)));
+  };
+}

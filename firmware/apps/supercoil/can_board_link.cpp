@@ -36,9 +36,7 @@ BoardLink::Answer CanBoardLink::ask(const std::string& line) {
 
 tl::expected<Commander*, std::string> CanBoardLink::commander(std::uint8_t node) {
   if (!nodes_.contains(node)) {
-    auto bus = open_bus(bus_, {can_client::acknowledge_id(node), can_client::setting_id(node),
-                               can_client::refused_value_id(node), can_client::muscle_id(node),
-                               can_client::tuning_id(node)});
+    auto bus = open_bus(bus_, can_client::answer_ids(node));
     if (!bus) return tl::unexpected(bus.error());
     nodes_.emplace(node, std::make_unique<Commander>(std::move(*bus), node));
   }
@@ -63,13 +61,7 @@ tl::expected<board::SenseComparison, std::string> CanBoardLink::senses(const std
 tl::expected<KnownMuscle, std::string> CanBoardLink::muscle(const std::string& channel) {
   const auto node = commander(static_cast<std::uint8_t>(std::stoi(channel)));
   if (!node) return tl::unexpected(node.error());
-  KnownMuscle known;
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    const auto told = (*node)->muscle(static_cast<std::uint8_t>(i));
-    if (!told) return tl::unexpected(told.error());
-    known[i] = *told;
-  }
-  return known;
+  return (*node)->muscle();
 }
 
 tl::expected<double, std::string> CanBoardLink::tuning(const std::string& channel, int place,

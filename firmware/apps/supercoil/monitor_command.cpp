@@ -94,7 +94,7 @@ int serve_page(const MonitorOptions& options, Source& source) {
     return [name = options.source, listen] { return open_bus(name, listen); };
   };
   ManualControls controls(
-      [&](std::uint8_t node) { return open_for({can_client::acknowledge_id(node)}); });
+      [&](std::uint8_t node) { return open_for(can_client::answer_ids(node)); });
   std::unique_ptr<StopServer> stop;
   if (!source.log && !access.read_only) {
     auto started =

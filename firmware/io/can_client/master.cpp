@@ -70,6 +70,11 @@ std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
   return m.get("value");
 }
 
+std::vector<std::uint16_t> answer_ids(std::uint8_t node) {
+  return {acknowledge_id(node), setting_id(node), refused_value_id(node), muscle_id(node),
+          tuning_id(node)};
+}
+
 hal::CanFrame tuning_read(std::uint8_t node, const TunedPlace& place) {
   return can::Encoder<message::tuning_read>(node)
       .set("place", place.controller)

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "supercoil/hal/can_bus.hpp"
 
@@ -34,6 +35,8 @@ std::uint16_t muscle_id(std::uint8_t node);
 /// NaN: not known. Empty: the frame does not answer that.
 std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
                                      const hal::CanFrame& frame);
+/// Of all that a node answers when it is commanded or asked.
+std::vector<std::uint16_t> answer_ids(std::uint8_t node);
 /// One value of a node's controller.
 struct TunedPlace {
   std::uint8_t controller;

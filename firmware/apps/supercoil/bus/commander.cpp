@@ -150,12 +150,19 @@ Commander::Tuned Commander::prepare(const can_client::TunedPlace& place, double 
   });
 }
 
-tl::expected<double, std::string> Commander::muscle(std::uint8_t quantity) {
+tl::expected<KnownMuscle, std::string> Commander::muscle() {
   drain();
-  return exchange<double>(can_client::muscle_read(master_.node(), quantity),
-                          [&](const hal::CanFrame& frame) {
-                            return can_client::receive_muscle(master_.node(), quantity, frame);
-                          });
+  KnownMuscle known{};
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto quantity = static_cast<std::uint8_t>(i);
+    const auto told = exchange<double>(
+        can_client::muscle_read(master_.node(), quantity), [&](const hal::CanFrame& frame) {
+          return can_client::receive_muscle(master_.node(), quantity, frame);
+        });
+    if (!told) return tl::unexpected(told.error());
+    known[i] = *told;
+  }
+  return known;
 }
 
 void Commander::release() {

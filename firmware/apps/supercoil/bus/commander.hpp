@@ -10,6 +10,7 @@
 #include "supercoil/hal/can_bus.hpp"
 
 #include "can_client/master.hpp"
+#include "loop/known_muscle.hpp"
 
 namespace supercoil::operating {
 
@@ -32,8 +33,8 @@ class Commander {
   using Tuned = tl::expected<can_client::TunedValue, std::string>;
   Tuned read_tuning(const can_client::TunedPlace& place);
   Tuned prepare(const can_client::TunedPlace& place, double value);
-  /// A place in known_quantities; NaN: not known. Needs no lease.
-  tl::expected<double, std::string> muscle(std::uint8_t quantity);
+  /// Whatever the node goes by. Needs no lease.
+  tl::expected<KnownMuscle, std::string> muscle();
   /// Gives the lease back, if there is one.
   void release();
   /// Passes over what came meanwhile; to be called every 100 ms or so when nothing is asked.

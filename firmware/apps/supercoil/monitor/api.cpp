@@ -101,6 +101,12 @@ tl::expected<std::vector<TunedValues>, std::string> ManualControls::read_tuning(
       });
 }
 
+tl::expected<KnownMuscle, std::string> ManualControls::read_muscle(std::uint8_t node) {
+  auto bus = bus_of_(node)();
+  if (!bus) return tl::unexpected(bus.error());
+  return Commander(std::move(*bus), node).muscle();
+}
+
 void ManualControls::release_hold(const std::string& reason) {
   const std::lock_guard lock(mutex_);
   for (const auto& [node, control] : controls_)
@@ -141,6 +147,7 @@ void Api::serve_with(httplib::Server& server) {
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
   server.Get(R"(/api/tuning/(\d+))", shown([this](const auto& q, auto& a) { show_tuning(q, a); }));
+  server.Get(R"(/api/muscle/(\d+))", shown([this](const auto& q, auto& a) { show_muscle(q, a); }));
   server.Post("/api/tuning", commanded([this](const auto& q, auto& a) { tune(q, a); }));
   server.Post("/api/alive", commanded([this](const auto& q, auto& a) { alive(q, a); }));
 }
@@ -218,6 +225,18 @@ void Api::show_tuning(const Request& request, Response& response) {
   const auto controllers = controls_->read_tuning(*node);
   if (!controllers) return refuse(response, 504, controllers.error());
   response.set_content(tuning_json(*controllers).dump(), json_type);
+}
+
+void Api::show_muscle(const Request& request, Response& response) {
+  if (about_.log) return refuse(response, 404, "a log has no board to ask");
+  const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
+  if (!node) return refuse(response, 400, node.error());
+  const auto known = controls_->read_muscle(*node);
+  if (!known) return refuse(response, 504, known.error());
+  json told;
+  for (std::size_t i = 0; i < known->size(); ++i)
+    told[std::string(known_quantities[i])] = (*known)[i];
+  response.set_content(told.dump(), json_type);
 }
 
 void Api::tune(const Request& request, Response& response) {

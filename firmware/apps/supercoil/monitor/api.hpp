@@ -12,6 +12,7 @@
 #include "apps/supercoil/monitor/access.hpp"
 #include "apps/supercoil/monitor/manual_control.hpp"
 #include "apps/supercoil/tuning_table.hpp"
+#include "loop/known_muscle.hpp"
 
 namespace supercoil::operating {
 
@@ -24,6 +25,8 @@ class ManualControls {
   ManualControl& of(std::uint8_t node);
   /// All values of a node's controllers, over a connection of its own: this may take a second.
   tl::expected<std::vector<TunedValues>, std::string> read_tuning(std::uint8_t node);
+  /// What a node goes by, likewise.
+  tl::expected<KnownMuscle, std::string> read_muscle(std::uint8_t node);
   void release_hold(const std::string& reason);
 
  private:
@@ -57,6 +60,7 @@ class Api {
   void command(const Request& request, Response& response);
   void alive(const Request& request, Response& response);
   void show_tuning(const Request& request, Response& response);
+  void show_muscle(const Request& request, Response& response);
   void tune(const Request& request, Response& response);
   /// One piece of a stream; false: the reader is gone.
   bool stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost);

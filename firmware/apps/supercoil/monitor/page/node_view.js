@@ -3,6 +3,7 @@
 import { ControlPanel } from "./control_panel.js";
 import { element } from "./dom.js";
 import { Gains } from "./gains.js";
+import { Identified } from "./identified.js";
 import { ManualControl } from "./manual_control.js";
 import { Journal } from "./journal.js";
 import { Margins } from "./margins.js";
@@ -30,14 +31,14 @@ export class NodeView {
     this.tuning = new Tuning(node, may, (text, kind) => this.journal.add(text, kind));
     this.tuning.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
-    this.cards = [new Readouts(node, store), new Parameters(node, store), new Gains(node, store), this.margins];
+    this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins];
     this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
     for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
-    const [readouts, parameters, gains, margins] = this.cards.map((card) => card.element);
+    const [readouts, parameters, identified, gains, margins] = this.cards.map((card) => card.element);
     this.element = element("div", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
       element("div", { class: "side" }, this.state.element, this.panel.element, this.waveform.element, this.journal.element),
       element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
-        element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, gains, this.tuning.element), margins)));
+        element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, identified, gains, this.tuning.element), margins)));
   }
 
   draw() {

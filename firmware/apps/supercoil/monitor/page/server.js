@@ -55,6 +55,9 @@ export async function command(node, opcode, value = 0, options = {}) {
 /** All values of a node's controllers: {controllers: [{controller, kind: {in_use, …}, …}], choices: {kind: […], …}}. */
 export const tuning_of = async (node) => (await ask(`/api/tuning/${node}`)).json();
 
+/** Has a node tell all that it goes by of its muscle; the answers come with the stream, as Muscle. */
+export const ask_muscle = async (node) => void (await ask(`/api/muscle/${node}`));
+
 /** Changes values (texts by name), beginning with those of a set. Resolves to the refusal's name. */
 export const tune = async (node, place, from, values) =>
   (await (await post("/api/tuning", { node, place, from, values })).json()).refusal;

@@ -1,0 +1,83 @@
+// What a board goes by of its muscle: configured, or what identify and calibrate found. It tells when it is asked.
+
+import { element, scrolling, show } from "./dom.js";
+import { NONE, bus_time, significant } from "./format.js";
+import { ask_muscle } from "./server.js";
+
+// Muscle.quantity → what it is called and its unit; and the coefficients of the model, which follow from these.
+const QUANTITIES = {
+  thermal_mass_J_per_K: ["thermal mass", "J/K"], heat_transfer_W_per_K: ["heat transfer", "W/K"], stiffness_N_per_m: ["stiffness", "N/m"],
+  damping_Ns_per_m: ["damping", "N·s/m"], moving_mass_kg: ["moving mass", "kg"], force_per_kelvin_N_per_K: ["force per kelvin", "N/K"],
+  cold_resistance_Ohm: ["cold resistance", "Ω"], position_offset_m: ["sensor at zero", "m"], position_scale: ["position scale", ""],
+  response_ratio: ["arrives of a small motion", ""], unexplained_ratio: ["unexplained of the power", ""],
+};
+const THETA = {
+  theta1: ["θ1", "m", ({ c, force }) => c / force],
+  theta2: ["θ2", "W·s²/m", ({ c, h, d, m, force }) => (m * h + d * c) / force],
+  theta3: ["θ3", "W·s/m", ({ c, h, k, d, force }) => (c * k + d * h) / force],
+  theta4: ["θ4", "W/m", ({ h, k, force }) => (h * k) / force],
+};
+
+const percent = (ratio) => (ratio >= 0 ? `± ${significant(100 * ratio)} %` : NONE);
+
+/** When what is in use was identified: the time, "before" when it was earlier than what is remembered, null: never. */
+function identified_since(store, node, now_s) {
+  let later = null;
+  const is = (row, signal, name) => row && store.word("Status", signal, row[signal]) === name;
+  for (const row of store.table(node, "Status")?.back_from(now_s) ?? []) {
+    if (is(later, "result", "found") && is(row, "mode", "identify") && !is(row, "result", "found")) return later.time_s;
+    later = row;
+  }
+  return null;
+}
+
+export class Identified {
+  /** may_ask: there is a board. */
+  constructor(node, store, may_ask) {
+    Object.assign(this, { node, store, may_ask, rows: new Map(), problem: "" });
+    const body = element("tbody");
+    for (const [name, [title, unit]] of Object.entries({ ...THETA, ...QUANTITIES })) {
+      const cells = ["value", "deviation"].map((kind) => element("td", { class: kind }, NONE));
+      body.append(element("tr", {}, element("th", { scope: "row" }, title), cells[0], element("td", { class: "unit" }, unit), cells[1]));
+      this.rows.set(name, cells);
+    }
+    this.since = element("p", { class: "hint", role: "status" });
+    this.again = element("button", { type: "button", hidden: !may_ask, onclick: () => this.#ask() }, "ask again");
+    this.element = element("section", { class: "card full-only", "aria-label": `muscle in use, node ${node}` }, element("h2", {}, "Muscle in use"), this.since,
+      scrolling(`table of what is in use, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
+        ...["parameter", "value", "unit", "deviation"].map((title) => element("th", { scope: "col" }, title)))), body)), this.again);
+  }
+
+  async #ask() {
+    this.problem = "";
+    await ask_muscle(this.node).catch(({ message }) => (this.problem = `not known: ${message}`));
+    this.key = undefined;
+  }
+
+  /** Asked once, and whenever identify or calibrate has ended. */
+  update(now_s) {
+    const result = this.store.at(this.node, "Status", now_s)?.result;
+    if (this.may_ask && result !== undefined && result !== this.result) this.#ask();
+    this.result = result;
+    const known = {};
+    for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) known[this.store.word("Muscle", "quantity", number)] = value;
+    for (const [name, [, , of]] of Object.entries(THETA)) known[name] = of({ c: known.thermal_mass_J_per_K, h: known.heat_transfer_W_per_K,
+      k: known.stiffness_N_per_m, d: known.damping_Ns_per_m, m: known.moving_mass_kg, force: known.force_per_kelvin_N_per_K });
+    for (const [name, [value, deviation]] of this.rows) {
+      show(value, significant(known[name]));
+      show(deviation, percent(known[`${name}_deviation_ratio`]));
+    }
+    // The search goes back far: only when something has changed.
+    const key = [result, known.stiffness_N_per_m, known.theta1_deviation_ratio, this.problem, this.may_ask || Math.floor(now_s)].join();
+    if (key !== this.key) show(this.since, this.problem || this.#since(known, now_s));
+    this.key = key;
+  }
+
+  #since(known, now_s) {
+    if (known.stiffness_N_per_m === undefined) return this.may_ask ? "being asked for …" : "Nobody asked the board for it in this log.";
+    const since_s = identified_since(this.store, this.node, now_s);
+    if (since_s !== null) return `Identified; in use since ${bus_time(since_s)}.`;
+    if (known.theta1_deviation_ratio >= 0) return "Identified since the board started, before what this page has heard.";
+    return "Not identified since the board started: configured, or stored from before.";
+  }
+}

@@ -1,0 +1,66 @@
+"""The page tells what a board goes by of its muscle, and since when.
+
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+"""
+
+import unittest
+
+from modules import ModulesCase
+from page_test import PageCase
+from programs import SLACK_S
+
+CARD = "section[aria-label='muscle in use, node 1']"
+IDENTIFIED = """const { Identified } = await import("/identified.js");
+    const { protocol } = await (await fetch("/api/about")).json();
+    const number = (message, signal, name) => Number(Object.entries(protocol[message][signal].values).find(([, is]) => is === name)[0]);
+    const store = new Store(protocol, true);
+    const card = new Identified(1, store, false);
+    const hear = (time_s, message, row) =>
+        store.append({ newest_s: time_s, nodes: { 1: { [message]: { time_s: [time_s], ...Object.fromEntries(Object.entries(row).map(([name, value]) => [name, [value]])) } } } });
+    const status = (time_s, mode, result) => hear(time_s, "Status", { mode: number("Status", "mode", mode), result: number("Status", "result", result) });
+    const muscle = (time_s, values) => Object.entries(values).forEach(([name, value], i) =>
+        hear(time_s + i * 0.001, "Muscle", { quantity: number("Muscle", "quantity", name), value }));
+    const shown = (time_s) => { card.update(time_s); return card.since.textContent; };
+"""
+
+
+class Told(ModulesCase):
+    def test_since_when_is_told_by_how_identify_ended(self):
+        told = self.ask(IDENTIFIED + """const values = (deviation) => ({ stiffness_N_per_m: 16, theta1_deviation_ratio: deviation });
+            const told = [shown(0)];
+            status(1, "rest", "none"); muscle(1, values(null)); told.push(shown(2));
+            status(3, "identify", "running"); status(4, "rest", "found"); muscle(4.1, values(0.02)); status(5, "rest", "found"); told.push(shown(5));
+            status(6, "calibrate", "running"); status(7, "rest", "found"); told.push(shown(7));
+            status(8, "identify", "running"); status(9, "rest", "uncertain"); told.push(shown(9));
+            return told;""")
+        self.assertEqual(told, ["Nobody asked the board for it in this log.", "Not identified since the board started: configured, or stored from before.",
+                                "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s.", "Identified; in use since 4.0 s."])
+
+    def test_an_identification_before_the_page_is_told_as_such(self):
+        self.assertEqual(self.ask(IDENTIFIED + """status(1, "rest", "found"); muscle(1, { stiffness_N_per_m: 16, theta1_deviation_ratio: 0.02 });
+            return shown(2);"""), "Identified since the board started, before what this page has heard.")
+
+    def test_theta_follows_from_what_the_board_goes_by(self):
+        self.assertEqual(self.ask(IDENTIFIED + """muscle(1, { thermal_mass_J_per_K: 2, heat_transfer_W_per_K: 3, stiffness_N_per_m: 5, damping_Ns_per_m: 7,
+                moving_mass_kg: 11, force_per_kelvin_N_per_K: 0.5, theta2_deviation_ratio: 0.034 });
+            card.update(2);
+            return ["theta1", "theta2", "theta3", "theta4"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
+            [["4.00", "–"], ["94.0", "± 3.40 %"], ["62.0", "–"], ["30.0", "–"]])
+
+
+class OnThePage(PageCase):
+    def test_a_board_is_asked_and_answers(self):
+        page = self.page()
+        page.wait(lambda: "Not identified since the board started" in page.text(CARD), SLACK_S, "what it goes by")
+        page.wait(lambda: "–" not in page.text(f"{CARD} tbody tr:nth-child(5) td"), SLACK_S, "the first quantity")
+        self.assertEqual(page.errors(), [])
+        answer = page.run("return fetch('/api/muscle/1').then((answer) => answer.json())")
+        self.assertEqual(len(answer), 15)
+        self.assertIsNone(answer["theta1_deviation_ratio"])
+        rows = page.run(f"""return [...document.querySelectorAll("{CARD} tbody tr")].map((row) => [...row.children].map((cell) => cell.textContent))""")
+        self.assertIn(["stiffness", f"{answer['stiffness_N_per_m']:.1f}", "N/m", "–"], rows)
+        self.assertEqual(page.run("return fetch('/api/muscle/64').then(({ status }) => status)"), 400)
+
+
+if __name__ == "__main__":
+    unittest.main()

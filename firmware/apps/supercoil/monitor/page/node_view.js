@@ -7,6 +7,7 @@ import { Identified } from "./identified.js";
 import { ManualControl } from "./manual_control.js";
 import { Journal } from "./journal.js";
 import { Margins } from "./margins.js";
+import { OutcomeCard } from "./outcome_card.js";
 import { Parameters } from "./parameters.js";
 import { Plot } from "./plot.js";
 import { PLOTS } from "./plots.js";
@@ -31,12 +32,12 @@ export class NodeView {
     this.tuning = new Tuning(node, may, (text, kind) => this.journal.add(text, kind));
     this.tuning.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
-    this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins];
+    this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins, new OutcomeCard(node, store, view)];
     this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
     for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
-    const [readouts, parameters, identified, gains, margins] = this.cards.map((card) => card.element);
+    const [readouts, parameters, identified, gains, margins, outcome] = this.cards.map((card) => card.element);
     this.element = element("div", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
-      element("div", { class: "side" }, this.state.element, this.panel.element, this.waveform.element, this.journal.element),
+      element("div", { class: "side" }, this.state.element, this.panel.element, this.waveform.element, outcome, this.journal.element),
       element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
         element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, identified, gains, this.tuning.element), margins)));
   }

@@ -1,0 +1,87 @@
+// What was, in the time that is shown: limits that took power, an arming that never came, a swing that does not end.
+
+import { fixed, significant, words } from "./format.js";
+import { refusal_words } from "./manual_control.js";
+
+// A swing by itself is searched in the newest part only, while the reference stands still.
+const SWING_S = 60;
+const STILL_M = 1e-5;
+const LEAST_PERIODS = 4;
+// Of the periods' spread over their mean: noise crosses at no rhythm.
+const RHYTHM = 0.2;
+
+/** [time, value, …] of some columns of a table. */
+function* samples(table, columns, from_s, to_s) {
+  const places = columns.map((column) => table?.columns.indexOf(column));
+  for (const chunk of table?.chunks ?? []) {
+    if (chunk.last_s < from_s || chunk.first_s > to_s) continue;
+    for (let row = chunk.lower_bound(from_s); row < chunk.count && chunk.time_s[row] <= to_s; ++row)
+      yield [chunk.time_s[row], ...places.map((place) => chunk.values[place][row])];
+  }
+}
+
+const number_of = (store, message, signal, name) => Number(Object.entries(store.protocol[message]?.[signal]?.values ?? {}).find(([, is]) => is === name)?.[0]);
+
+/** "at a limit in 12.3 % of the time that it heated: maximum 10.0 %, slew 2.3 %", or "". */
+export function limits_told(store, node, { from_s, to_s }) {
+  const active = number_of(store, "Status", "state", "active");
+  const states = [...samples(store.table(node, "Status"), ["state"], from_s, to_s)];
+  const counts = new Map();
+  let all = 0;
+  let place = 0;
+  for (const [time_s, by] of samples(store.table(node, "Power"), ["limited_by"], from_s, to_s)) {
+    while (place < states.length - 1 && states[place + 1][0] <= time_s) ++place;
+    if (states[place]?.[1] !== active) continue;
+    ++all;
+    counts.set(by, (counts.get(by) ?? 0) + 1);
+  }
+  const percent = (count) => `${fixed((100 * count) / all, 1)} %`;
+  const names = [...counts].map(([by, count]) => [store.word("Power", "limited_by", by), count]).filter(([name]) => name !== "nothing").sort((a, b) => b[1] - a[1]);
+  if (names.length === 0) return "";
+  const sum = names.reduce((total, [, count]) => total + count, 0);
+  return `At a limit in ${percent(sum)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count)}`).join(", ")}.`;
+}
+
+/** Why it was never armed, or "" when it was. */
+export function never_armed_told(store, node, { from_s, to_s }) {
+  const states = [...samples(store.table(node, "Status"), ["state", "fault"], from_s, to_s)];
+  const name = (value) => store.word("Status", "state", value);
+  if (states.length === 0 || states.some(([, state]) => name(state) === "armed" || name(state) === "active")) return "";
+  const [, state, fault] = states.at(-1);
+  if (name(state) === "fault") return `Never armed: fault ${fault}, ${words(store.word("Status", "fault", fault))}.`;
+  const arm = number_of(store, "Acknowledge", "opcode", "arm");
+  const asked = [...samples(store.table(node, "Acknowledge"), ["opcode", "refusal"], from_s, to_s)].filter(([, opcode]) => opcode === arm);
+  if (asked.length === 0) return "Never armed: nobody asked for it.";
+  return `Never armed: refused, ${refusal_words(store.word("Acknowledge", "refusal", asked.at(-1)[2]))}.`;
+}
+
+/** {period_s, amplitude_m} of a swing at a steady rhythm while the reference stood still, or null. */
+export function swing_of(points) {
+  const mean_m = points.reduce((sum, [, error_m]) => sum + error_m, 0) / points.length;
+  const rms_m = Math.sqrt(points.reduce((sum, [, error_m]) => sum + (error_m - mean_m) ** 2, 0) / points.length);
+  const rises_s = [];
+  let high = null;
+  // Between both thresholds nothing is decided: noise on a swing crosses once.
+  for (const [time_s, error_m] of points) {
+    if (error_m - mean_m > rms_m / 2) {
+      if (high === false) rises_s.push(time_s);
+      high = true;
+    } else if (error_m - mean_m < -rms_m / 2) {
+      high = false;
+    }
+  }
+  const periods_s = rises_s.slice(1).map((time_s, i) => time_s - rises_s[i]);
+  if (periods_s.length < LEAST_PERIODS) return null;
+  const period_s = periods_s.reduce((sum, each_s) => sum + each_s, 0) / periods_s.length;
+  const spread_s = Math.sqrt(periods_s.reduce((sum, each_s) => sum + (each_s - period_s) ** 2, 0) / periods_s.length);
+  return spread_s < RHYTHM * period_s ? { period_s, amplitude_m: Math.SQRT2 * rms_m } : null;
+}
+
+export function swing_told(store, node, { from_s, to_s }) {
+  const all = [...samples(store.table(node, "Tracking"), ["error_m", "reference_m"], Math.max(from_s, to_s - SWING_S), to_s)];
+  // Backwards as far as the reference is what it is now; a gap ends it.
+  let first = all.length;
+  while (first > 0 && Math.abs(all[first - 1][2] - all.at(-1)[2]) < STILL_M && Number.isFinite(all[first - 1][1])) --first;
+  const swing = swing_of(all.slice(first));
+  return swing ? `It swings by itself: ± ${significant(1e6 * swing.amplitude_m)} µm, ${significant(swing.period_s)} s a period, while the reference stands still.` : "";
+}

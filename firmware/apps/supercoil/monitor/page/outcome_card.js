@@ -1,0 +1,29 @@
+// What was, in words, for the time that is shown.
+
+import { element, show } from "./dom.js";
+import { limits_told, never_armed_told, swing_told } from "./outcome.js";
+
+// It looks at all that is shown, which may be an hour.
+const EVERY_MS = 2000;
+
+export class OutcomeCard {
+  constructor(node, store, view) {
+    Object.assign(this, { node, store, view, told_ms: -Infinity });
+    this.lines = [limits_told, never_armed_told, swing_told].map((tell) => ({ tell, line: element("p") }));
+    this.none = element("p", { class: "hint" }, "Armed, at no limit, and no swing by itself.");
+    this.element = element("section", { class: "card full-only outcome", "aria-label": `what was, node ${node}` },
+      element("h2", {}, "In the time shown"), this.none, ...this.lines.map(({ line }) => line));
+    view.addEventListener("change", () => (this.told_ms = -Infinity));
+  }
+
+  update() {
+    if (performance.now() - this.told_ms < EVERY_MS || !this.element.checkVisibility()) return;
+    this.told_ms = performance.now();
+    const { range } = this.view;
+    for (const { tell, line } of this.lines) {
+      show(line, tell(this.store, this.node, range));
+      line.hidden = line.textContent === "";
+    }
+    this.none.hidden = this.lines.some(({ line }) => !line.hidden);
+  }
+}

@@ -1,0 +1,56 @@
+"""The page says in words what was in the time that it shows."""
+
+import unittest
+
+from modules import ModulesCase
+
+OUTCOME = """const { limits_told, never_armed_told, swing_told } = await import("/outcome.js");
+    const { protocol } = await (await fetch("/api/about")).json();
+    const number = (message, signal, name) => Number(Object.entries(protocol[message][signal].values).find(([, is]) => is === name)[0]);
+    const store = new Store(protocol, true);
+    const hear = (message, from_s, count, period_s, row) => {
+        const times = Array.from({ length: count }, (_, i) => from_s + i * period_s);
+        const all = times.map(row);
+        store.append({ newest_s: Math.max(times.at(-1), store.newest_s || 0), nodes: { 1: { [message]: { time_s: times,
+            ...Object.fromEntries(Object.keys(all[0]).map((name) => [name, all.map((each) => each[name])])) } } } });
+    };
+    const state = (name, fault = 0) => ({ state: number("Status", "state", name), fault });
+    const by = (name) => ({ limited_by: number("Power", "limited_by", name) });
+    const range = { from_s: 0, to_s: 100 };
+"""
+
+
+class OutcomeTest(ModulesCase):
+    def test_share_of_limits_is_of_the_time_that_it_heated(self):
+        self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, (time) => state(time < 5 ? "armed" : "active"));
+            hear("Power", 0, 500, 0.02, (time) => by(time < 5 ? "cooling" : time < 6 ? "maximum" : time < 6.5 ? "slew" : "nothing"));
+            return [limits_told(store, 1, range), limits_told(store, 1, { from_s: 7, to_s: 10 }), limits_told(store, 2, range)];"""),
+            ["At a limit in 30.0 % of the time that it heated: maximum 20.0 %, slew 10.0 %.", "", ""])
+
+    def test_why_it_was_never_armed(self):
+        self.assertEqual(self.ask(OUTCOME + """const told = [never_armed_told(store, 1, range)];
+            const heard = () => told.push(never_armed_told(store, 1, range));
+            hear("Status", 0, 10, 0.1, () => state("disarmed")); heard();
+            const answered = (opcode, refusal) => () => ({ opcode: number("Acknowledge", "opcode", opcode), refusal: number("Acknowledge", "refusal", refusal) });
+            hear("Acknowledge", 2, 1, 1, answered("arm", "not_ready")); hear("Acknowledge", 3, 1, 1, answered("position", "wrong_state")); heard();
+            hear("Status", 4, 1, 0.1, () => state("fault", number("Status", "fault", "heater_open"))); heard();
+            hear("Status", 5, 1, 0.1, () => state("armed")); heard();
+            return told;"""),
+            ["", "Never armed: nobody asked for it.", "Never armed: refused, not ready: self-test, cooling or a probe is not over yet.",
+             "Never armed: fault 20, heater open.", ""])
+
+    def test_a_swing_by_itself_is_told_with_its_period(self):
+        self.assertEqual(self.ask(OUTCOME + """let seed = 1;
+            const noise = () => ((seed = (seed * 16807) % 2147483647) / 2147483647 - 0.5) * 1e-5;
+            hear("Tracking", 0, 1000, 0.01, () => ({ error_m: noise(), reference_m: 0.008 }));
+            const told = [swing_told(store, 1, { from_s: 0, to_s: 10 })];
+            // It follows a sine: that is not by itself.
+            hear("Tracking", 20, 2000, 0.01, (time) => ({ error_m: 1e-4 * Math.sin(Math.PI * time), reference_m: 0.008 + 0.002 * Math.sin(Math.PI * time) }));
+            told.push(swing_told(store, 1, { from_s: 20, to_s: 40 }));
+            hear("Tracking", 50, 2000, 0.01, (time) => ({ error_m: 1e-4 * Math.sin(Math.PI * time) + noise(), reference_m: 0.008 }));
+            return [...told, swing_told(store, 1, { from_s: 40, to_s: 70 })];"""),
+            ["", "", "It swings by itself: ± 100 µm, 2.00 s a period, while the reference stands still."])
+
+
+if __name__ == "__main__":
+    unittest.main()

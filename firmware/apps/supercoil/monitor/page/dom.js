@@ -14,6 +14,9 @@ export function element(name, attributes = {}, ...children) {
 /** A table that scrolls sideways where it has no room, by the keyboard too. */
 export const scrolling = (label, table) => element("div", { class: "sideways", role: "region", "aria-label": label, tabindex: 0 }, table);
 
+/** A colour of style.css, as it is in light or dark. */
+export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
 /** Writes only what changed: layout is not computed anew for nothing. */
 export function show(where, text) {
   if (where.textContent !== text) where.textContent = text;

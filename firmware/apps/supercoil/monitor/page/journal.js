@@ -7,7 +7,7 @@ const KEPT = 200;
 
 export class Journal {
   constructor(node, store) {
-    Object.assign(this, { node, store, last: {} });
+    Object.assign(this, { node, store, last: {}, events: [], marks: 0 });
     this.list = element("ol");
     this.element = element("section", { class: "card full-only happened" }, element("h2", {}, "What happened"),
       element("div", { class: "journal", role: "log", "aria-label": `what happened at node ${node}`, tabindex: 0 }, this.list));
@@ -15,7 +15,14 @@ export class Journal {
 
   add(text, kind = "", time_s = this.store.newest_s) {
     this.list.prepend(element("li", { class: kind }, element("time", {}, bus_time(time_s)), ` ${text}`));
+    this.events.push({ time_s, text, kind });
+    if (this.events.length > KEPT) this.events.shift();
     while (this.list.children.length > KEPT) this.list.lastChild.remove();
+  }
+
+  /** Set by the user, who sees why. */
+  mark(time_s) {
+    this.add(`mark ${++this.marks}`, "", time_s);
   }
 
   /** Changes of state, mode and fault in a batch that has just come. */

@@ -4,15 +4,18 @@ import { csv, download } from "./csv.js";
 import { show } from "./dom.js";
 import { FaultPage } from "./fault_page.js";
 import { Feed } from "./feed.js";
-import { listen_to_keys, listen_to_wheel } from "./keys.js";
 import { NodeTabs } from "./node_tabs.js";
 import { NodeView } from "./node_view.js";
+import { OtherRun } from "./other_run.js";
+import { PlotDialog } from "./plot_dialog.js";
 import { Replay } from "./replay.js";
+import { RunBar } from "./run_bar.js";
 import { about as ask_about, token } from "./server.js";
 import { StatusLine } from "./status_line.js";
 import { Stop } from "./stop.js";
 import { Store } from "./store.js";
 import { Stream } from "./stream.js";
+import { connect_tools } from "./tools.js";
 import { View } from "./view.js";
 
 const TEXT_EVERY_MS = 100;
@@ -44,7 +47,10 @@ function begin(about) {
   };
   const feed = new Feed(store, stream, is_log, say_problem);
 
-  const add = (node) => tabs.add(new NodeView(node, store, view, about, may_command(about), (name) => fault_page.open(name)));
+  const run = new OtherRun(about.protocol);
+  new RunBar(by_id("run"), run, store, view, () => tabs.visible.map(({ node }) => node));
+  const plots = new PlotDialog(by_id("plots"), about.protocol, () => views().forEach((node) => node.lay_out_plots()));
+  const add = (node) => tabs.add(new NodeView(node, store, view, run, about, may_command(about), (name) => fault_page.open(name)));
   const views = () => [...tabs.views.values()];
   store.addEventListener("node", ({ detail }) => add(detail));
   store.addEventListener("restart", () => views().forEach((node) => node.journal.add("the source began anew")));
@@ -64,43 +70,14 @@ function begin(about) {
   };
   // A log is seen as a whole at first.
   if (is_log) store.addEventListener("batch", () => view.span(Math.max(1, store.newest_s - store.oldest_s)), { once: true });
-  connect_tools(view, replay, export_csv, fault_page, tabs);
-  draw_forever({ store, view, replay, tabs, status, stop });
+  connect_tools({ view, replay, export_csv, fault_page, tabs, plots });
+  draw_forever({ store, view, replay, run, tabs, status, stop });
   stream.open();
   feed.fill();
 }
 
-function connect_tools(view, replay, export_csv, fault_page, tabs) {
-  const pause = by_id("pause");
-  const toggle = () => (replay && view.live ? replay.toggle() : view.toggle());
-  pause.addEventListener("click", toggle);
-  pause.hidden = replay !== null;
-  by_id("csv").addEventListener("click", export_csv);
-  const spans = [...document.querySelectorAll("[name=span]")];
-  for (const radio of spans) radio.addEventListener("change", () => view.span(Number(radio.value)));
-  view.addEventListener("change", () => {
-    show(pause, view.live ? "❚❚ pause" : replay ? "▶ follow" : "▶ live");
-    pause.hidden = replay && view.live; // the replay has a button of its own
-    for (const radio of spans) radio.checked = Number(radio.value) === view.span_s;
-  });
-  const help = by_id("help");
-  const show_help = () => (help.open ? help.close() : help.show());
-  by_id("keys").addEventListener("click", show_help);
-  help.querySelector("button").addEventListener("click", () => help.close());
-  // Side by side there is no panel to see what is commanded.
-  const nudge = (sign) => tabs.visible.length === 1 && !replay && tabs.visible[0].panel.nudge(sign);
-  listen_to_keys({
-    k: () => nudge(1), j: () => nudge(-1),
-    p: toggle, l: () => view.follow(), End: () => view.follow(), c: export_csv, "?": show_help,
-    "+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2),
-    ArrowLeft: () => view.pan(-0.25), ArrowRight: () => view.pan(0.25),
-    Escape: () => (help.open ? help.close() : fault_page.dialog.open && fault_page.close()),
-  });
-  listen_to_wheel(by_id("nodes"), view);
-}
-
 /** Plots when there is something new, texts ten times a second. */
-function draw_forever({ store, view, replay, tabs, status, stop }) {
+function draw_forever({ store, view, replay, run, tabs, status, stop }) {
   let stale = true; // something new came
   let asked = true; // somebody waits for it
   let plots_ms = 0;
@@ -109,6 +86,7 @@ function draw_forever({ store, view, replay, tabs, status, stop }) {
   store.addEventListener("batch", () => (stale = true));
   view.addEventListener("change", ask);
   replay?.addEventListener("change", ask);
+  run.addEventListener("change", ask);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ask);
   const frame = (now_ms) => {
     requestAnimationFrame(frame);

@@ -10,7 +10,7 @@ import { Margins } from "./margins.js";
 import { OutcomeCard } from "./outcome_card.js";
 import { Parameters } from "./parameters.js";
 import { Plot } from "./plot.js";
-import { PLOTS } from "./plots.js";
+import { chosen_plots } from "./plot_choice.js";
 import { Readouts } from "./readouts.js";
 import { StateCard } from "./state_card.js";
 import { Tuning } from "./tuning.js";
@@ -20,9 +20,9 @@ import { WaveformCard } from "./waveform_card.js";
 const COMPACT_PLOTS = new Set(["Position", "Power", "Temperature"]);
 
 export class NodeView {
-  /** may: {command, why}; on_fault: opens the page of a fault. */
-  constructor(node, store, view, about, may, on_fault) {
-    Object.assign(this, { node, view, store });
+  /** run: an OtherRun. may: {command, why}; on_fault: opens the page of a fault. */
+  constructor(node, store, view, run, about, may, on_fault) {
+    Object.assign(this, { node, view, store, run, protocol: about.protocol });
     this.manual = new ManualControl(node, about.page_timeout_s);
     this.journal = new Journal(node, store);
     this.state = new StateCard(node, store, on_fault, about.protocol_version, (place) => this.tuning.kind_of(place));
@@ -33,13 +33,30 @@ export class NodeView {
     this.tuning.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
     this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins, new OutcomeCard(node, store, view)];
-    this.plots = PLOTS.map((spec) => new Plot(spec, node, store, view, this.margins.limits));
-    for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
+    this.plots = [];
+    this.place_of_plots = element("div", { class: "plots" });
+    this.lay_out_plots();
     const [readouts, parameters, identified, gains, margins, outcome] = this.cards.map((card) => card.element);
     this.element = element("div", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
       element("div", { class: "side" }, this.state.element, this.panel.element, this.waveform.element, outcome, this.journal.element),
-      element("div", { class: "main" }, readouts, element("div", { class: "plots" }, ...this.plots.map((plot) => plot.element)),
+      element("div", { class: "main" }, readouts, this.place_of_plots,
         element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, identified, gains, this.tuning.element), margins)));
+  }
+
+  /** Those that are chosen now. */
+  lay_out_plots() {
+    for (const plot of this.plots) plot.end();
+    this.plots = chosen_plots(this.protocol).map((spec) => new Plot(spec, this.node, this.store, this.view,
+      { limits: this.margins.limits, events: this.journal.events, run: this.run }));
+    for (const plot of this.plots) plot.element.classList.toggle("full-only", !COMPACT_PLOTS.has(plot.spec.title));
+    this.place_of_plots.replaceChildren(...this.plots.map((plot) => plot.element));
+  }
+
+  /** Where the cursor is, or at the newest that is seen. */
+  mark() {
+    const pointed = this.plots.map((plot) => plot.pointed_s).find((time_s) => time_s !== null);
+    this.journal.mark(pointed ?? this.view.range.to_s);
+    this.draw();
   }
 
   draw() {

@@ -7,6 +7,7 @@ import { refusal_words } from "./manual_control.js";
 const SWING_S = 60;
 const STILL_M = 1e-5;
 const LEAST_PERIODS = 4;
+const LEAST_SHARE = 0.0005; // else 0.0 %
 // Of the periods' spread over their mean: noise crosses at no rhythm.
 const RHYTHM = 0.2;
 
@@ -36,7 +37,7 @@ export function limits_told(store, node, { from_s, to_s }) {
     counts.set(by, (counts.get(by) ?? 0) + 1);
   }
   const percent = (count) => `${fixed((100 * count) / all, 1)} %`;
-  const names = [...counts].map(([by, count]) => [store.word("Power", "limited_by", by), count]).filter(([name]) => name !== "nothing").sort((a, b) => b[1] - a[1]);
+  const names = [...counts].map(([by, count]) => [store.word("Power", "limited_by", by), count]).filter(([name, count]) => name !== "nothing" && count / all >= LEAST_SHARE).sort((a, b) => b[1] - a[1]);
   if (names.length === 0) return "";
   const sum = names.reduce((total, [, count]) => total + count, 0);
   return `At a limit in ${percent(sum)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count)}`).join(", ")}.`;

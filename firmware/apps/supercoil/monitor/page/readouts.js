@@ -17,9 +17,9 @@ export class Readouts {
     Object.assign(this, { node, store });
     this.values = NUMBERS.map(() => element("b", {}, "–"));
     this.temperature = element("b", {}, "–");
-    const tile = (name, value, unit) => element("div", {}, element("dt", {}, name), element("dd", {}, value, element("span", {}, ` ${unit}`)));
+    const tile = (name, value, unit, kind) => element("div", { class: kind }, element("dt", {}, name), element("dd", {}, value, element("span", {}, ` ${unit}`)));
     const tiles = NUMBERS.map(([name, unit], i) => tile(name, this.values[i], unit));
-    tiles.splice(4, 0, tile("temperature", this.temperature, "°C"));
+    tiles.splice(4, 0, tile("temperature", this.temperature, "°C", "interval"));
     this.element = element("dl", { class: "readouts", "aria-label": `newest values of node ${node}` }, ...tiles);
   }
 

@@ -1,0 +1,82 @@
+// Another run, drawn pale under the one that is shown: what was shown once, or a CSV that was exported earlier.
+
+import { Store } from "./store.js";
+
+/** A batch for each node out of a CSV of csv.js; words, which no plot shows, are left out. Throws what is wrong with it. */
+export function batch_of_csv(text) {
+  const [head, ...lines] = text.replace(/^\uFEFF/, "").trimEnd().split(/\r?\n/);
+  const columns = head.split(",");
+  if (columns[0] !== "time_s" || columns[1] !== "node") throw new Error('line 1: the columns must begin with time_s,node, as in a CSV that was exported here');
+  const nodes = {};
+  let newest_s = -Infinity;
+  lines.forEach((line, i) => {
+    const cells = line.split(",");
+    const time_s = Number(cells[0]);
+    if (cells.length !== columns.length || cells[0] === "" || !(time_s >= newest_s)) throw new Error(`line ${i + 2}: ${columns.length} cells are needed, and a time_s not before that of the line above; it is "${line.slice(0, 40)}"`);
+    newest_s = time_s;
+    const messages = (nodes[cells[1]] ??= {});
+    const touched = new Set();
+    for (let c = 2; c < cells.length; ++c) {
+      if (cells[c] === "") continue;
+      const [message, signal] = columns[c].split(".");
+      const rows = (messages[message] ??= { time_s: [] });
+      if (!touched.has(message)) rows.time_s.push(time_s);
+      touched.add(message);
+      // Where there was no value before, there is none.
+      (rows[signal] ??= [])[rows.time_s.length - 1] = Number(cells[c]);
+    }
+  });
+  if (lines.length === 0) throw new Error("line 1: there are no rows below it");
+  return { newest_s, nodes };
+}
+
+/** The rows of some nodes between two times, as a batch. */
+export function batch_of_store(store, numbers, { from_s, to_s }) {
+  const nodes = {};
+  for (const number of numbers) {
+    nodes[number] = {};
+    for (const [message, table] of store.nodes.get(number) ?? []) {
+      const rows = { time_s: [], ...Object.fromEntries(table.columns.map((column) => [column, []])) };
+      for (const row of table.rows(from_s, to_s)) for (const column in rows) rows[column].push(row[column]);
+      nodes[number][message] = rows;
+    }
+  }
+  return { newest_s: to_s, nodes };
+}
+
+export class OtherRun extends EventTarget {
+  constructor(protocol) {
+    super();
+    Object.assign(this, { protocol, store: null, later_s: 0, name: "" });
+  }
+
+  /** It lies where it was at first. */
+  take(batch, name) {
+    this.store = new Store(this.protocol, true);
+    this.store.append(batch);
+    this.name = name;
+    this.#lie(0);
+  }
+
+  drop() {
+    this.store = null;
+    this.#lie(0);
+  }
+
+  /** Its begin at another time. */
+  begin_at(time_s) {
+    if (this.store) this.#lie(time_s - this.store.oldest_s);
+  }
+
+  #lie(later_s) {
+    this.later_s = later_s;
+    this.dispatchEvent(new Event("change"));
+  }
+
+  /** Of a log of one node any node's rows do. */
+  table(node, message) {
+    if (!this.store) return null;
+    const number = this.store.nodes.has(node) ? node : [...this.store.nodes.keys()][0];
+    return this.store.table(number, message);
+  }
+}

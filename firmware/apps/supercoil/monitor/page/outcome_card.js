@@ -3,8 +3,8 @@
 import { element, show } from "./dom.js";
 import { limits_told, never_armed_told, swing_told } from "./outcome.js";
 
-// It looks at all that is shown, which may be an hour.
-const EVERY_MS = 2000;
+// It looks at all that is shown: of an hour less often, so that the plots do not wait for it.
+const every_ms = (span_s) => Math.max(2000, 5 * span_s);
 
 export class OutcomeCard {
   constructor(node, store, view) {
@@ -17,7 +17,7 @@ export class OutcomeCard {
   }
 
   update() {
-    if (performance.now() - this.told_ms < EVERY_MS || !this.element.checkVisibility()) return;
+    if (performance.now() - this.told_ms < every_ms(this.view.span_s) || !this.element.checkVisibility()) return;
     this.told_ms = performance.now();
     const { range } = this.view;
     for (const { tell, line } of this.lines) {

@@ -275,7 +275,7 @@ TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
   check_says(of_learned[0], "controller 0 promises, once the muscle is identified, at most ");
   const FirstMotion motion = plan_first_motion(feasibility(channel, board));
   const Promise promise = promise_error(channel.controllers[0], channel, board, motion, NAN);
-  check_says(of_learned[0], describe_promise(promise, motion).c_str());
+  check_says(of_learned[0], describe_promise(promise, motion));
   channel.supervision.max_travel_m = 0.0;
   check_says(describe_promises(channel, board)[0], "no promise");
 }

@@ -17,7 +17,7 @@ constexpr double slower_than_fastest = 1.2;
 constexpr double min_period_s = 5.0;
 
 /// One period's error differs from the next one's.
-constexpr double margin = 1.25;
+constexpr double between_periods = 1.25;
 /// White noise of each tick through a loop of this bandwidth, and what its damping adds.
 constexpr double noise_gain = 2.5;
 /// Motion that is quicker than a drift, over the sensor's noise, which needs no dither.
@@ -47,7 +47,8 @@ FirstMotion plan_first_motion(const Feasibility& f) {
 }
 
 double Promise::error_m() const {
-  return margin * std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
+  return between_periods *
+         std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
 }
 
 Promise promise_error(const control::ControllerSettings& controller, const ChannelSettings& channel,

@@ -58,32 +58,16 @@ std::optional<Violation> check_fit(const EstimatorSettings& settings, double ste
   return fit.violation();
 }
 
-template <class Scalar>
 Estimator::Any Estimator::make(const EstimatorSettings& settings, double step_s) {
   Any made;
-  with_chosen<Estimators>(settings, [&](auto definition, const auto& own) {
-    using Definition = decltype(definition);
-    if constexpr (Definition::fixed_point || std::is_floating_point_v<Scalar>) {
-      made.template emplace<Running<Definition, Scalar>>(own, step_s);
-    }
+  with_running<Estimators>(settings, [&](auto definition, auto scalar, const auto& own) {
+    made.emplace<Running<decltype(definition), decltype(scalar)>>(own, step_s);
   });
   return made;
 }
 
-Estimator::Any Estimator::choose(const EstimatorSettings& settings, double step_s) {
-  switch (settings.arithmetic) {
-    case Arithmetic::float32:
-      return make<float>(settings, step_s);
-    case Arithmetic::q8_24:
-      return make<Q8_24>(settings, step_s);
-    case Arithmetic::float64:
-      break;
-  }
-  return make<double>(settings, step_s);
-}
-
 Estimator::Estimator(const EstimatorSettings& settings, double step_s)
-    : any_(choose(settings, step_s)),
+    : any_(make(settings, step_s)),
       scale_(scale_of(settings)),
       to_watts_(1.0 / scale_.dc_gain_m_per_W),
       excitation_(settings.excitation, step_s),

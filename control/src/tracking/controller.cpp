@@ -2,34 +2,20 @@
 
 namespace supercoil::control {
 
-template <class Scalar>
 Controller::Any Controller::make(const ControllerSettings& s, double step_s) {
   Any made;
-  with_chosen<Laws>(s, [&](auto law, const auto& own) {
+  with_running<Laws>(s, [&](auto law, auto scalar, const auto& own) {
     using Law = decltype(law);
-    if constexpr (Law::fixed_point || std::is_floating_point_v<Scalar>) {
-      const LawContext context{s.model, s.dc_gain_m_per_W};
-      made.emplace<Follower<Law, Scalar>>(s, Law::template make<Scalar>(own, context, step_s),
-                                          step_s);
-    }
+    using Scalar = decltype(scalar);
+    const LawContext context{s.model, s.dc_gain_m_per_W};
+    made.emplace<Follower<Law, Scalar>>(s, Law::template make<Scalar>(own, context, step_s),
+                                        step_s);
   });
   return made;
 }
 
-Controller::Any Controller::choose(const ControllerSettings& settings, double step_s) {
-  switch (settings.arithmetic) {
-    case Arithmetic::float32:
-      return make<float>(settings, step_s);
-    case Arithmetic::q8_24:
-      return make<Q8_24>(settings, step_s);
-    case Arithmetic::float64:
-      break;
-  }
-  return make<double>(settings, step_s);
-}
-
 Controller::Controller(const ControllerSettings& settings, double step_s)
-    : any_(choose(settings, step_s)) {
+    : any_(make(settings, step_s)) {
   if (!settings.shape_reference) return;
   const ReferenceShaper shaper(settings.model, settings.shaped_for);
   const auto shape = [&](auto& controller) {

@@ -65,9 +65,7 @@ class Estimator {
     typename Definition::template In<Scalar> estimator;
   };
   using Any = VariantOf<std::monostate, Running, Estimators>::Type;
-  template <class Scalar>
   static Any make(const EstimatorSettings& settings, double step_s);
-  static Any choose(const EstimatorSettings& settings, double step_s);
 
   Any any_;
   RegressionScale scale_;

@@ -37,6 +37,23 @@ constexpr void with_chosen(Settings& settings, Function function) {
   });
 }
 
+/// Calls function(Definition, Scalar, its own settings) for the kind and the arithmetic that the
+/// settings choose, if the kind is in the list and runs in that.
+template <class List, class Settings, class Function>
+constexpr void with_running(const Settings& settings, Function function) {
+  with_chosen<List>(settings, [&](auto definition, const auto& own) {
+    switch (settings.arithmetic) {
+      case Arithmetic::float32:
+        return function(definition, float{}, own);
+      case Arithmetic::q8_24:
+        if constexpr (decltype(definition)::fixed_point) function(definition, Q8_24{}, own);
+        return;
+      case Arithmetic::float64:
+        return function(definition, double{}, own);
+    }
+  });
+}
+
 /// Calls function(Definition, its own settings) for each of the list.
 template <class List, class Settings, class Function>
 constexpr void with_each(Settings& settings, Function function) {

@@ -1,8 +1,10 @@
 // Feedforward from the estimated muscle, with a fixed PID for the rest.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
+#include "supercoil/control/actuator/conversions.hpp"
 #include "supercoil/control/estimation/estimate.hpp"
 #include "supercoil/control/tracking/fixed_pid.hpp"
 
@@ -135,14 +137,27 @@ struct AdaptiveFeedforwardLaw : UsualLaw {
   static AdaptiveFeedforward<Scalar> make(const Settings& s, const LawContext&, double step_s) {
     return {s, step_s};
   }
-  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext& context,
-                                           const PhysicalParameters& muscle);
+  static std::optional<FixedLaw> fixed_law(const Settings& s, const LawContext&,
+                                           const PhysicalParameters& muscle) {
+    return fixed_pid_law(theta_from(muscle), s.bandwidth_rad_per_s, s.derivative_filter_rad_per_s);
+  }
   static void add_contradictions(LawProblems& problems, const Settings& s, const LawContext&) {
     check_bandwidth(problems, s.bandwidth_rad_per_s);
   }
-  static void set_nominal(Settings& s, const RegressionScale& scale, double max_W);
-  static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext& context,
-                        double step_s, double peak_W);
+  static void set_nominal(Settings& s, const RegressionScale& scale, double /*max_W*/) {
+    s.scale = scale;
+  }
+  static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext&, double step_s,
+                        double /*peak_W*/) {
+    const Theta units = s.scale.nominal * s.scale.dc_gain_m_per_W;
+    fit.at_most("bandwidth_rad_per_s", s.bandwidth_rad_per_s * std::max(units[1], units[2]),
+                FixedPointFit::signal);
+    fit.at_most("bandwidth_rad_per_s", s.bandwidth_rad_per_s * units[3] * step_s,
+                FixedPointFit::state);
+    fit.at_most("derivative_filter_rad_per_s",
+                s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s,
+                FixedPointFit::state);
+  }
 };
 
 }  // namespace supercoil::control

@@ -32,9 +32,7 @@ class Controller {
   using Follower = ModelFollower<Scalar, typename Law::template In<Scalar>>;
   using Any = VariantOf<OpenLoopPower, Follower, Laws>::Type;
 
-  template <class Scalar>
   static Any make(const ControllerSettings& settings, double step_s);
-  static Any choose(const ControllerSettings& settings, double step_s);
 
   Any any_;
 };

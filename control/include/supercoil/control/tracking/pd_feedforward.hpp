@@ -80,9 +80,19 @@ struct PdFeedforwardLaw : UsualLaw {
     return FixedLaw{s.proportional_W_per_m, 0.0, s.derivative_Ws_per_m,
                     s.derivative_filter_rad_per_s};
   }
-  static void set_nominal(Settings& s, const RegressionScale& scale, double max_W);
+  static void set_nominal(Settings& s, const RegressionScale& scale, double /*max_W*/) {
+    s.feedforward_W_per_m = 1.0 / scale.dc_gain_m_per_W;
+  }
   static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext& context,
-                        double step_s, double peak_W);
+                        double /*step_s*/, double /*peak_W*/) {
+    const double unit = context.dc_gain_m_per_W;
+    fit.at_most("proportional_W_per_m", s.proportional_W_per_m * unit, FixedPointFit::signal);
+    fit.at_most("derivative_Ws_per_m", s.derivative_Ws_per_m * unit, FixedPointFit::signal);
+    fit.at_most("feedforward_W_per_m", s.feedforward_W_per_m * unit, FixedPointFit::signal);
+    fit.at_most("derivative_filter_rad_per_s",
+                s.derivative_filter_rad_per_s * s.derivative_filter_rad_per_s,
+                FixedPointFit::state);
+  }
 };
 
 }  // namespace supercoil::control

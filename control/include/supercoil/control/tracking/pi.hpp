@@ -80,7 +80,11 @@ struct PiLaw : UsualLaw {
     return FixedLaw{s.proportional_W_per_m, s.integral_W_per_m_s};
   }
   static void check_fit(FixedPointFit& fit, const Settings& s, const LawContext& context,
-                        double step_s, double peak_W);
+                        double /*step_s*/, double /*peak_W*/) {
+    const double unit = context.dc_gain_m_per_W;
+    fit.at_most("proportional_W_per_m", s.proportional_W_per_m * unit, FixedPointFit::signal);
+    fit.at_most("integral_W_per_m_s", s.integral_W_per_m_s * unit, FixedPointFit::signal);
+  }
 };
 
 }  // namespace supercoil::control

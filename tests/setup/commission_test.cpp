@@ -1,5 +1,6 @@
 // Setup in lockstep: descriptions that are up to half wrong, muscles that nothing was tuned on.
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -34,6 +35,13 @@ TEST(Commission, AMuscleFollowsAsPromisedFromADescriptionThatIsHalfWrong) {
     CHECK(c.hottest_rise_K < 105.0);  // 130 °C, from which on power is derated
     CHECK(c.took_s <= std::max(800.0, 15.0 * muscle.time_constant_s));
   }
+}
+
+TEST(Commission, NothingIsPromisedOfALawThatWasNotTried) {
+  const Commissioned c = commission(held_out_muscle(24, error), "adaptive_ff");
+  STRCMP_EQUAL("", c.refused.c_str());
+  CHECK(std::isnan(c.promised_m));
+  CHECK(c.error_m > 0.0);
 }
 
 TEST(Commission, AMuscleThatIsNoneOfItsModelsIsRefusedWithItsReason) {

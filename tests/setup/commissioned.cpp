@@ -1,5 +1,6 @@
 #include "setup/commissioned.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include <nlohmann/json.hpp>
@@ -16,7 +17,8 @@ namespace supercoil::test {
 
 namespace {
 
-config::BoardConfig described_board(const operating::MuscleAnswers& answers) {
+config::BoardConfig described_board(const operating::MuscleAnswers& answers,
+                                    const std::string& controller) {
   using operating::Asked;
   const auto described = operating::describe_muscle(answers);
   if (!described) throw std::runtime_error(described.error());
@@ -27,6 +29,7 @@ config::BoardConfig described_board(const operating::MuscleAnswers& answers) {
     if (!changed) throw std::runtime_error(changed.error());
     text = std::move(*changed);
   }
+  text = config::with_channel_value(text, 0, "controller.kind", '"' + controller + '"').value();
   auto config = config::parse_board_config(text, "held_out.toml");
   if (!config) throw std::runtime_error(config::to_text(config.error()));
   return std::move(*config);
@@ -34,8 +37,8 @@ config::BoardConfig described_board(const operating::MuscleAnswers& answers) {
 
 }  // namespace
 
-Commissioned commission(const HeldOut& muscle) {
-  const config::BoardConfig config = described_board(muscle.answers);
+Commissioned commission(const HeldOut& muscle, const std::string& controller) {
+  const config::BoardConfig config = described_board(muscle.answers, controller);
   auto scenario = host_sim::parse_scenario(muscle.scenario, "held_out_scenario.toml");
   if (!scenario) throw std::runtime_error(config::to_text(scenario.error()));
   // Its senses were compared with a meter before, and nothing else is known.
@@ -60,9 +63,9 @@ Commissioned commission(const HeldOut& muscle) {
   if (const auto done = steps.identify(); !done) return conclude(done.error());
   const auto moved = steps.move();
   if (!moved) return conclude(moved.error());
-  c.promised_m = (*moved)["promised_m"];
-  c.probe_m = (*moved)["probe_m"];
-  c.unexplained_m = (*moved)["unexplained_m"];
+  c.promised_m = moved->value("promised_m", NAN);
+  c.probe_m = moved->value("probe_m", NAN);
+  c.unexplained_m = moved->value("unexplained_m", NAN);
   c.error_m = (*moved)["error_m"];
   c.travel_m = (1.0 / 0.4) * (*moved)["middle_m"].get<double>();
   return conclude("");

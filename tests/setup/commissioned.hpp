@@ -9,8 +9,8 @@
 namespace supercoil::test {
 
 struct Commissioned {
-  std::string refused;  ///< what setup said; empty: it came to its end
-  double promised_m = 0.0;
+  std::string refused;         ///< what setup said; empty: it came to its end
+  double promised_m = 0.0;     ///< NaN: nothing was
   double probe_m = 0.0;        ///< part of that
   double unexplained_m = 0.0;  ///< likewise
   double error_m = 0.0;
@@ -20,7 +20,7 @@ struct Commissioned {
   Fault fault = Fault::none;
 };
 
-/// Throws what a wrong test setting says.
-Commissioned commission(const HeldOut& muscle);
+/// Throws what a wrong test setting says. controller: its kind, which has learned_ff's keys.
+Commissioned commission(const HeldOut& muscle, const std::string& controller = "learned_ff");
 
 }  // namespace supercoil::test

@@ -27,12 +27,6 @@ constexpr double max_dither_m = 20e-6;
 /// The part of what the linear model does not explain that learned feedforward leaves.
 constexpr double unlearned_ratio = 0.5;
 
-double bandwidth_of(const control::ControllerSettings& c) {
-  return c.kind == control::ControllerKind::learned_ff    ? c.learned_ff.bandwidth_rad_per_s
-         : c.kind == control::ControllerKind::adaptive_ff ? c.adaptive_ff.bandwidth_rad_per_s
-                                                          : 1.0;
-}
-
 }  // namespace
 
 double FirstMotion::at(double time_s) const {
@@ -51,12 +45,12 @@ double Promise::error_m() const {
          std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
 }
 
-Promise promise_error(const control::ControllerSettings& controller, const ChannelSettings& channel,
-                      const BoardSettings& board, const FirstMotion& motion,
-                      double unexplained_ratio) {
+Promise promise_error(const control::LearnedFeedforwardSettings& law,
+                      const ChannelSettings& channel, const BoardSettings& board,
+                      const FirstMotion& motion, double unexplained_ratio) {
   Promise p;
   const control::PhysicalParameters& m = channel.muscle;
-  const double bandwidth = bandwidth_of(controller);
+  const double bandwidth = law.bandwidth_rad_per_s;
   const double count_m = channel.position.scaling.per_count;
   const double reading_m =
       std::hypot(channel.supervision.position_noise_rms_m, count_m / std::sqrt(12.0));

@@ -36,9 +36,9 @@ constexpr bool is_promised_for(const control::ControllerSettings& controller) {
 }
 /// channel: with what identify found in it. unexplained_ratio: of that; NaN counts as all of what
 /// identify would have let pass.
-Promise promise_error(const control::ControllerSettings& controller, const ChannelSettings& channel,
-                      const BoardSettings& board, const FirstMotion& motion,
-                      double unexplained_ratio);
+Promise promise_error(const control::LearnedFeedforwardSettings& law,
+                      const ChannelSettings& channel, const BoardSettings& board,
+                      const FirstMotion& motion, double unexplained_ratio);
 
 /// The channel with what the board goes by now in place of what its file says.
 ChannelSettings with_known(ChannelSettings channel, const KnownMuscle& known);

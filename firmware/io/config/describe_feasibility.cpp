@@ -60,14 +60,12 @@ std::vector<std::string> describe_promises(const ChannelSettings& c, const Board
   if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
-    control::ControllerSettings controller = c.controllers[i];
+    const control::ControllerSettings& controller = c.controllers[i];
     const std::string_view kind = control::name_of(control::controller_names, controller.kind);
     std::string line = "controller " + std::to_string(i);
-    if (!is_promised_for(controller)) {
-      controller.kind = control::ControllerKind::learned_ff;
+    if (!is_promised_for(controller))
       line += " promises no error (" + std::string(kind) + "); learned_ff";
-    }
-    const Promise promise = promise_error(controller, c, board, motion, NAN);
+    const Promise promise = promise_error(controller.learned_ff, c, board, motion, NAN);
     lines.push_back(line + " promises, once the muscle is identified, at most " +
                     describe_promise(promise, motion));
   }

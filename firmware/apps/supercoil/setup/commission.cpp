@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -187,9 +188,15 @@ StepResult Commission::move() {
   channel.senses = *senses;
   const Feasibility f = feasibility(channel, settings_);
   const FirstMotion motion = plan_first_motion(f);
-  const Promise promise = promise_error(channel.controllers.front(), channel, settings_, motion,
-                                        (*known)[known_unexplained_ratio]);
-  say_("promised: " + config::describe_promise(promise, motion));
+  const control::ControllerSettings& controller = channel.controllers.front();
+  std::optional<Promise> promise;
+  if (is_promised_for(controller)) {
+    promise = promise_error(controller.learned_ff, channel, settings_, motion,
+                            (*known)[known_unexplained_ratio]);
+    say_("promised: " + config::describe_promise(*promise, motion));
+  } else {
+    say_("no error is promised: controller 0 is not learned_ff");
+  }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   Progress progress("moving", false);
   double square_sum = 0.0;
@@ -214,19 +221,23 @@ StepResult Commission::move() {
   if (interrupted != 0) return tl::unexpected<std::string>("interrupted");
   if (samples == 0) return tl::unexpected<std::string>("the board told no tracking error");
   const double error_m = std::sqrt(square_sum / samples);
-  const bool kept = error_m <= promise.error_m();
-  say_("followed within " + in_digits(1e6 * error_m) + " um rms: the promise is " +
-       (kept ? "kept" : "not kept"));
-  return Json{{"promised_m", promise.error_m()},
-              {"noise_m", promise.noise_m},
-              {"probe_m", promise.probe_m},
-              {"dither_m", promise.dither_m},
-              {"unexplained_m", promise.unexplained_m},
-              {"error_m", error_m},
-              {"kept", kept},
-              {"middle_m", motion.middle_m},
-              {"amplitude_m", motion.amplitude_m},
-              {"period_s", motion.period_s}};
+  Json found{{"error_m", error_m},
+             {"middle_m", motion.middle_m},
+             {"amplitude_m", motion.amplitude_m},
+             {"period_s", motion.period_s}};
+  std::string told = "followed within " + in_digits(1e6 * error_m) + " um rms";
+  if (promise) {
+    const bool kept = error_m <= promise->error_m();
+    told += kept ? ": the promise is kept" : ": the promise is not kept";
+    found.update(Json{{"promised_m", promise->error_m()},
+                      {"noise_m", promise->noise_m},
+                      {"probe_m", promise->probe_m},
+                      {"dither_m", promise->dither_m},
+                      {"unexplained_m", promise->unexplained_m},
+                      {"kept", kept}});
+  }
+  say_(told);
+  return found;
 }
 
 bool Commission::kept(const Json& result) {

@@ -26,10 +26,10 @@ class Commission {
   StepResult calibrate();
   /// The muscle's parameters, beside those that are configured.
   StepResult identify();
-  /// A sine that the muscle can follow; its error beside the promised one.
+  /// A sine that the muscle can follow; its error beside the promised one, where one is promised.
   StepResult move();
 
-  /// Whether the last motion kept its promise; identify found something.
+  /// False where a promise was made and not kept.
   static bool kept(const nlohmann::ordered_json& result);
 
  private:

@@ -24,7 +24,8 @@ TEST_GROUP(Promise) {
   }
 
   Promise promised(double unexplained_ratio = 0.0) const {
-    return promise_error(channel.controllers[0], channel, board, motion, unexplained_ratio);
+    return promise_error(channel.controllers[0].learned_ff, channel, board, motion,
+                         unexplained_ratio);
   }
 
   /// Of the motion, by the linear muscle: power is the position and its rate.

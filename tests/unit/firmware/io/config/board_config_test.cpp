@@ -274,7 +274,8 @@ TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
   const auto of_learned = describe_promises(channel, board);
   check_says(of_learned[0], "controller 0 promises, once the muscle is identified, at most ");
   const FirstMotion motion = plan_first_motion(feasibility(channel, board));
-  const Promise promise = promise_error(channel.controllers[0], channel, board, motion, NAN);
+  const Promise promise =
+      promise_error(channel.controllers[0].learned_ff, channel, board, motion, NAN);
   check_says(of_learned[0], describe_promise(promise, motion));
   channel.supervision.max_travel_m = 0.0;
   check_says(describe_promises(channel, board)[0], "no promise");

@@ -1,4 +1,4 @@
-// How far something is that takes its time, and how long it will take yet.
+// How far a long task has come, and the time left.
 #pragma once
 
 #include <chrono>
@@ -53,7 +53,7 @@ class Progress {
   }
   double elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-  /// Whoever must ask for what is done need not, where it is not shown.
+  /// Where nothing is shown, nobody need find out what is done.
   bool shows() const { return shows_; }
 
  private:

@@ -3,14 +3,29 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
-#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "apps/common/state_words.hpp"
 #include "apps/supercoil/board_link.hpp"
 #include "loop/snapshot.hpp"
 
 namespace supercoil::operating {
+
+namespace {
+
+using StateWords = std::array<std::string, state_words.size()>;
+
+tl::expected<StateWords, std::string> words_of(const std::string& line) {
+  StateWords words;
+  std::istringstream text(line);
+  for (std::string& word : words) {
+    if (!(text >> word)) return tl::unexpected("state: " + line);
+  }
+  return words;
+}
+
+}  // namespace
 
 BoardLink::Answer LocalBoardLink::line_of(const std::string& request, const std::string& channel) {
   const auto lines = socket_.ask(request);
@@ -29,25 +44,21 @@ BoardLink::Answer LocalBoardLink::state_json() {
   Json channels = Json::array();
   std::istringstream text(*lines);
   for (std::string line; std::getline(text, line);) {
-    std::istringstream words(line);
+    const auto words = words_of(line);
+    if (!words) return tl::unexpected(words.error());
     Json channel;
-    std::string word;
-    words >> word;
-    channel["channel"] = std::stoi(word);
-    for (const char* key : {"state", "mode", "fault"}) {
-      words >> word;
-      channel[key] = word;
+    for (std::size_t i = 0; i < words->size(); ++i) {
+      const std::string key(state_words[i]);
+      const std::string& word = (*words)[i];
+      if (i == 0) {
+        channel[key] = std::stoi(word);
+      } else if (i >= state_first_number && i <= state_progress) {
+        const double value = std::strtod(word.c_str(), nullptr);
+        channel[key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+      } else {
+        channel[key] = i == state_notes && word == "-" ? "" : word;
+      }
     }
-    for (const char* key : {"reference", "model_m", "position_m", "applied_W", "coldest_C",
-                            "hottest_C", "progress"}) {
-      words >> word;
-      const double value = std::strtod(word.c_str(), nullptr);
-      channel[key] = std::isfinite(value) ? Json(value) : Json(nullptr);
-    }
-    words >> word;
-    channel["result"] = word;
-    words >> word;
-    channel["notes"] = word == "-" ? "" : word;
     channels.push_back(channel);
   }
   return Json{{"channels", channels}}.dump() + "\n";
@@ -64,16 +75,11 @@ tl::expected<BoardLink::Status, std::string> LocalBoardLink::status(const std::s
   return status;
 }
 
-/// The last two words of the channel's line.
 tl::expected<BoardLink::Ending, std::string> LocalBoardLink::ending(const std::string& channel) {
-  const auto line = line_of("state", channel);
-  if (!line) return tl::unexpected(line.error());
-  Ending ending;
-  std::istringstream words(*line);
-  for (std::string word; words >> word;)
-    ending = {std::exchange(ending.notes, word), word};
-  if (ending.notes == "-") ending.notes.clear();
-  return ending;
+  const auto words = line_of("state", channel).and_then(words_of);
+  if (!words) return tl::unexpected(words.error());
+  const std::string& notes = (*words)[state_notes];
+  return Ending{(*words)[state_result], notes == "-" ? "" : notes};
 }
 
 tl::expected<board::SenseComparison, std::string> LocalBoardLink::senses(
@@ -117,24 +123,17 @@ BoardLink::Answer LocalBoardLink::prepare(const std::string& channel, int place,
 }
 
 tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& channel) {
-  const auto line = line_of("state", channel);
-  if (!line) return tl::unexpected(line.error());
-  std::istringstream words(*line);
-  std::string skipped, mode, model, position;
-  words >> skipped >> skipped >> mode >> skipped >> skipped >> model >> position;
-  if (mode != mode_names[static_cast<std::size_t>(Mode::position)]) return NAN;
-  return std::strtod(position.c_str(), nullptr) - std::strtod(model.c_str(), nullptr);
+  const auto words = line_of("state", channel).and_then(words_of);
+  if (!words) return tl::unexpected(words.error());
+  if ((*words)[state_mode] != mode_names[static_cast<std::size_t>(Mode::position)]) return NAN;
+  return std::strtod((*words)[state_position].c_str(), nullptr) -
+         std::strtod((*words)[state_model].c_str(), nullptr);
 }
 
-/// The word before the last two.
 tl::expected<double, std::string> LocalBoardLink::progress(const std::string& channel) {
-  const auto line = line_of("state", channel);
-  if (!line) return tl::unexpected(line.error());
-  std::istringstream words(*line);
-  std::array<std::string, 3> last;
-  for (std::string word; words >> word;)
-    last = {last[1], last[2], word};
-  return std::strtod(last[0].c_str(), nullptr);
+  return line_of("state", channel).and_then(words_of).map([](const StateWords& words) {
+    return std::strtod(words[state_progress].c_str(), nullptr);
+  });
 }
 
 }  // namespace supercoil::operating

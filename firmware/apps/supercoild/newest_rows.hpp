@@ -17,11 +17,9 @@ class NewestRows {
   void put(const Row& row) {
     if (row.channel < rows_.size()) rows_[row.channel] = row;
   }
-  /// A line for each channel,
-  /// "1 active position none 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5 none -": channel, state, mode,
-  /// fault, reference, reference model and position in m, applied power in W, coldest and hottest
-  /// in °C, progress, and how identify or calibrate ended (ModeResult), and what else identify
-  /// has to say (IdentifyNotes, "-" for nothing).
+  /// A line for each channel, of the words that state_words.hpp names:
+  /// "1 active position none 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5 none -". The result is a
+  /// ModeResult, the notes are IdentifyNotes.
   std::string describe() const;
   /// A line for each channel, "1 armed none probing": channel, state, fault, and whether its heater
   /// is being measured ("-" if not).

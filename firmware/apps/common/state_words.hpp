@@ -1,0 +1,28 @@
+// A channel's line in the answer to "state" on the board's socket.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace supercoil {
+
+/// Its words in their order. Numbers are NaN where they are not known; notes are "-" where there
+/// are none.
+inline constexpr std::array<std::string_view, 13> state_words{
+    "channel",   "state",     "mode",      "fault",    "reference", "model_m", "position_m",
+    "applied_W", "coldest_C", "hottest_C", "progress", "result",    "notes"};
+
+/// Places of those that are looked for one by one.
+enum StatePlace : std::uint8_t {
+  state_mode = 2,
+  state_first_number = 4,
+  state_model = 5,
+  state_position = 6,
+  state_progress = 10,
+  state_result = 11,
+  state_notes = 12,
+};
+
+}  // namespace supercoil

@@ -1,0 +1,104 @@
+// What `supercoil` understands of the answers that supercoild gives on the board's socket.
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include <CppUTest/TestHarness.h>
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "apps/supercoild/local_commands.hpp"
+#include "loop/support/rig.hpp"
+#include "unit/hal_linux/support/temporary_folder.hpp"
+
+using namespace supercoil;
+using namespace supercoil::daemon;
+using operating::BoardSocket;
+using operating::LocalBoardLink;
+
+namespace {
+
+Row row_of_mode(Mode mode, ModeResult result, std::uint8_t notes) {
+  Row row{};
+  row.state = static_cast<std::uint8_t>(State::active);
+  row.mode = static_cast<std::uint8_t>(mode);
+  row.model_m = 0.010F;
+  row.position_m = 0.0125F;
+  row.hottest_C = NAN;
+  row.progress = 0.25F;
+  row.result = static_cast<std::uint8_t>(result);
+  row.identify_notes = notes;
+  return row;
+}
+
+/// Answers as the daemon's thread does, until it goes.
+class Served {
+ public:
+  explicit Served(const Row& row) : rows_(rig_.loop.channels()) {
+    rows_.put(row);
+    auto commands = LocalCommands::open(path_);
+    if (!commands) FAIL(commands.error().c_str());
+    thread_ = std::thread([this, mine = std::move(*commands)]() mutable {
+      while (!ends_)
+        mine.serve(rig_.loop, rows_, 10);
+    });
+  }
+  Served(const Served&) = delete;
+  Served& operator=(const Served&) = delete;
+  ~Served() {
+    ends_ = true;
+    thread_.join();
+  }
+
+  LocalBoardLink link() const {
+    auto socket = BoardSocket::open(path_);
+    if (!socket) FAIL(socket.error().c_str());
+    return LocalBoardLink(std::move(*socket));
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_ / "commands";
+  test::Rig rig_{test::rough_board()};
+  NewestRows rows_;
+  std::atomic<bool> ends_{false};
+  std::thread thread_;
+};
+
+}  // namespace
+
+TEST_GROUP(LocalBoardLink){};
+
+TEST(LocalBoardLink, TellsHowFarIdentifyIsAndHowItEnded) {
+  const Served board(row_of_mode(Mode::identify, ModeResult::found, 1));
+  LocalBoardLink link = board.link();
+  DOUBLES_EQUAL(0.25, link.progress("1").value(), 1e-9);
+  const auto ending = link.ending("1").value();
+  STRCMP_EQUAL("found", ending.result.c_str());
+  STRCMP_EQUAL(describe_notes(1, ",").c_str(), ending.notes.c_str());
+  CHECK(std::isnan(link.error_m("1").value()));
+  CHECK_FALSE(link.progress("7").has_value());
+}
+
+TEST(LocalBoardLink, TellsTheErrorWhileAPositionIsFollowed) {
+  const Served board(row_of_mode(Mode::position, ModeResult::none, 0));
+  LocalBoardLink link = board.link();
+  DOUBLES_EQUAL(0.0025, link.error_m("1").value(), 1e-8);
+  STRCMP_EQUAL("", link.ending("1").value().notes.c_str());
+}
+
+TEST(LocalBoardLink, TellsAllOfItAsJson) {
+  const Served board(row_of_mode(Mode::position, ModeResult::none, 0));
+  LocalBoardLink link = board.link();
+  const auto channel = nlohmann::json::parse(link.state_json().value())["channels"][0];
+  LONGS_EQUAL(13, channel.size());
+  LONGS_EQUAL(1, channel["channel"].get<int>());
+  STRCMP_EQUAL("active", channel["state"].get<std::string>().c_str());
+  STRCMP_EQUAL("position", channel["mode"].get<std::string>().c_str());
+  STRCMP_EQUAL("none", channel["fault"].get<std::string>().c_str());
+  DOUBLES_EQUAL(0.0125, channel["position_m"].get<double>(), 1e-9);
+  CHECK(channel["hottest_C"].is_null());
+  DOUBLES_EQUAL(0.25, channel["progress"].get<double>(), 1e-9);
+  STRCMP_EQUAL("none", channel["result"].get<std::string>().c_str());
+  STRCMP_EQUAL("", channel["notes"].get<std::string>().c_str());
+}

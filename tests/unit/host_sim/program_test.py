@@ -1,40 +1,19 @@
-"""supercoil-sim as a user or a script meets it: exit status, messages, files."""
+"""supercoil-sim as a user or a script meets it: what it writes and tells."""
 
 import collections
-import contextlib
 import csv
 import itertools
 import json
-import os
-import pathlib
-import pty
 import re
-import resource
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-PROGRAM = os.environ["SUPERCOIL_SIM"]
-EXAMPLES = pathlib.Path(__file__).resolve().parents[3] / "firmware/io/config/examples"
-SHORT = "simulation.duration_s = 2.0\n"
+from sim_program import EXAMPLES, PROGRAM, SHORT, ProgramCase
 
 
-class Program(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.path = pathlib.Path(self.folder.name)
-        self.addCleanup(self.folder.cleanup)
-
-    def run_program(self, *arguments, **options):
-        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
-                              cwd=self.path, timeout=300, **options)
-
-    def scenario(self, text):
-        (self.path / "s.toml").write_text(text)
-        return "s.toml"
-
+class Results(ProgramCase):
     def test_a_fault_is_told_summarised_and_recorded(self):
         text = "simulation.duration_s = 14.0\n[[event]]\nat_s = 12.0\ninjected_fault.heater_open = true\n"
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace")
@@ -94,11 +73,6 @@ class Program(unittest.TestCase):
         done = self.run_program("run", "s.toml", "--out", "third", *options)
         self.assertEqual(done.returncode, 0)
         self.assertIn("memory/learned-1.toml:", done.stderr)
-
-    def test_learned_in_a_folder_that_is_not_there_is_wrong_input(self):
-        done = self.run_program("run", self.scenario(SHORT), "--learned", "nowhere")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("nowhere", done.stderr)
 
     def test_run_writes_trace_summary_and_plot(self):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--window", "1:2")
@@ -169,50 +143,12 @@ class Program(unittest.TestCase):
         self.assertEqual(re.findall(r"supercoil-sim: (s, node \d: never armed: fault 63)", done.stderr),
                          ["s, node 1: never armed: fault 63", "s, node 2: never armed: fault 63"])
 
-    def test_as_many_nodes_as_the_bus_has_room_for(self):
-        scenario = self.scenario(SHORT)
-        for nodes in (0, 9):
-            self.check_refused(f"--nodes: Value {nodes} not in range 1 to 8", "run", scenario, "--out", "out", "--nodes",
-                               nodes)
-        self.check_refused("--learned excludes --nodes", "run", scenario, "--out", "out", "--nodes", 2, "--learned", ".")
-        board = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
-        (self.path / "board.toml").write_text(re.sub(r"first_node = \d+", "first_node = 62", board))
-        self.check_refused("--nodes 8: must be 1 to 2, as the first is node 62", "run", scenario, "--board", "board.toml",
-                           "--out", "out", "--nodes", 8)
-
     def test_every_no_trace_and_no_can(self):
         self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot", "--every", 10)
         self.assertEqual(len((self.path / "out/trace.csv").read_text().splitlines()), 201)
         self.run_program("run", self.scenario(SHORT), "--out", "none", "--no-plot", "--no-trace",
                          "--no-can")
         self.assertEqual([p.name for p in (self.path / "none").iterdir()], ["summary.json"])
-
-    def check_refused(self, message, *arguments):
-        done = self.run_program(*arguments)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn(message, done.stderr)
-        self.assertFalse((self.path / "out").exists(), "something was written")
-
-    def test_wrong_scenarios_end_with_status_2_and_write_nothing(self):
-        for text, message in [
-                ("plant.stiffnes_N_per_m = 12.0", "s.toml:1: plant.stiffnes_N_per_m = 12: "),
-                ("\nplant.moving_mass_kg = -0.09", "s.toml:2: plant.moving_mass_kg = -0.09: must be"),
-                ("plant.damping_Ns_per_m = nan", "plant.damping_Ns_per_m = nan: must be"),
-                ("simulation.duration = 3.0", "did you mean duration_s (the unit is part"),
-                ("power.max_W = 'much'", "power.max_W = 'much': must be a number"),
-                ("[plant", "s.toml:1: is not valid TOML")]:
-            with self.subTest(text):
-                self.check_refused(message, "run", self.scenario(text), "--out", "out")
-
-    def test_a_scenario_that_is_not_there(self):
-        self.check_refused("none.toml: there is no such file", "run", "none.toml", "--out", "out")
-
-    def test_an_output_folder_that_cannot_be_written(self):
-        (self.path / "file").write_text("x")
-        self.check_refused("file: ", "run", self.scenario(SHORT), "--out", "file")
-        self.check_refused("/proc/none: cannot be made", "run", self.scenario(SHORT),
-                           "--out", "/proc/none")
-        self.check_refused("/proc/none: cannot be made", "reproduce", "--out", "/proc/none")
 
     def test_a_scenarios_muscle_under_the_firmware_of_a_boards_own_file(self):
         example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
@@ -229,122 +165,6 @@ class Program(unittest.TestCase):
         steps_m = [after - before for before, after in zip(read_m, read_m[1:])]
         self.assertAlmostEqual(min(steps_m), 1.515e-6, delta=2e-9)
         self.assertGreater(len(steps_m), 100)
-
-    def test_a_board_and_a_scenario_that_do_not_go_together(self):
-        example = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
-        for text, options, told in (
-                (SHORT + "power.supply_V = 24.0\n", [], "power.supply_V = 24 is outside of the board's supply.min_V to max_V, 10.8 to 13.2"),
-                (SHORT + "[[event]]\nat_s = 1.0\ncontroller.kind = 'pi'\n", [], "event at 1 s changes [controller]"),
-                (SHORT, ["--channel", 3], "has 2")):
-            done = self.run_program("run", self.scenario(text), "--board", example, *options, "--out", "out")
-            self.assertEqual(done.returncode, 2)
-            self.assertIn(told, done.stderr)
-            self.assertFalse((self.path / "out").exists())
-        (self.path / "board.toml").write_text("[bord]\n")
-        done = self.run_program("run", self.scenario(SHORT), "--board", "board.toml")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("board.toml:1: bord", done.stderr)
-
-    def test_a_window_outside_the_run(self):
-        for window in ["1:99", "2:1", "x:y", "5"]:
-            self.check_refused("must be FROM:TO", "run", self.scenario(SHORT), "--out", "out",
-                               "--window", window)
-
-    def test_unknown_options_and_commands(self):
-        self.assertEqual(self.run_program("run").returncode, 2)
-        self.assertEqual(self.run_program("fly").returncode, 2)
-        self.assertEqual(self.run_program().returncode, 2)
-        self.assertEqual(self.run_program("run", "sine", "--evry", "3").returncode, 2)
-
-    def test_a_misspelt_name_is_told_with_the_one_that_was_meant(self):
-        self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
-        self.check_refused("'fly' is not a command; the commands are: run, reproduce, ", "fly")
-        self.check_refused("no built-in scenario has that name; did you mean sine?", "run", "sin", "--out", "out")
-        self.check_refused("no built-in scenario has that name; they are: b, bench, ", "run", "zzz", "--out", "out")
-
-    def test_a_full_disk_ends_with_status_1_and_leaves_nothing(self):
-        def small_disk():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (50000, 50000))
-        done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot",
-                                preexec_fn=small_disk, restore_signals=False)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual(done.stderr, "supercoil-sim: out/trace.csv: cannot be written: File too large\n")
-        self.assertFalse((self.path / "out").exists())
-
-    def test_a_plot_that_the_disk_does_not_hold_is_left_out(self):
-        for bytes_left, why in ((50000, "plot.svg.part.gnuplot: cannot be written"), (350000, "gnuplot could not write all of it")):
-            def small_disk():
-                resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_left, bytes_left))
-                signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            done = self.run_program("run", self.scenario("simulation.duration_s = 20.0\n"), "--out", "out", "--no-trace",
-                                    "--no-can", preexec_fn=small_disk, restore_signals=False)
-            self.assertIn(why, done.stderr)
-            self.assertEqual([file.name for file in (self.path / "out").iterdir()], ["summary.json"])
-
-    def test_a_killed_run_leaves_an_earlier_result_whole_and_the_next_run_tidies_up(self):
-        self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
-        earlier = (self.path / "out/trace.csv").read_bytes()
-        running = self.start_long_run()
-        running.kill()
-        running.communicate()
-        self.assertEqual((self.path / "out/trace.csv").read_bytes(), earlier)
-        self.run_program("run", self.scenario(SHORT), "--out", "out", "--no-plot")
-        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
-                         ["can.log", "summary.json", "trace.csv"])
-
-    def test_without_gnuplot_the_results_are_kept_and_the_picture_is_missed(self):
-        done = self.run_program("run", self.scenario(SHORT), "--out", "out",
-                                env={"PATH": "/nowhere"})
-        self.assertEqual(done.returncode, 0)
-        self.assertIn("plot.svg is not written: gnuplot is not installed", done.stderr)
-        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
-                         ["can.log", "summary.json", "trace.csv"])
-
-    def test_reproduce_without_gnuplot_still_gives_the_table(self):
-        done = self.run_program("reproduce", "--out", "out", env={"PATH": "/nowhere"})
-        self.assertEqual(done.returncode, 0)
-        self.assertIn("figure2.svg is not written: gnuplot is not installed", done.stderr)
-        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()),
-                         ["report.html", "reproduction.csv"])
-
-    def start_long_run(self):
-        """A run of minutes, once it has begun to write."""
-        self.scenario("simulation.duration_s = 20000.0\n")
-        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot"],
-                                   cwd=self.path, stderr=subprocess.PIPE, text=True)
-        part = self.path / "out/trace.csv.part"
-        while not (part.exists() and part.stat().st_size > 1000000):
-            self.assertIsNone(running.poll(), "it ended too early")
-            time.sleep(0.01)
-        return running
-
-    def test_an_interrupted_run_leaves_nothing(self):
-        for number in [signal.SIGINT, signal.SIGTERM]:
-            running = self.start_long_run()
-            running.send_signal(number)
-            errors = running.communicate()[1]
-            self.assertEqual(running.returncode, 130)
-            self.assertRegex(errors, r"^supercoil-sim: interrupted at [\d.]+ s of 20000 s; nothing of this run is kept but "
-                                     "recordings of faults\n$")
-            self.assertFalse((self.path / "out").exists())
-
-    def test_on_a_terminal_the_message_of_an_interruption_has_a_line_of_its_own(self):
-        self.scenario("simulation.duration_s = 20000.0\n")
-        screen, terminal = pty.openpty()
-        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--no-plot", "--no-trace", "--no-can"],
-                                   cwd=self.path, stderr=terminal)
-        os.close(terminal)
-        seen = ""
-        while not seen.endswith(" left"):
-            seen += os.read(screen, 4096).decode()
-        running.send_signal(signal.SIGINT)
-        running.wait()
-        with contextlib.suppress(OSError):  # the end of a terminal
-            while True:
-                seen += os.read(screen, 4096).decode()
-        os.close(screen)
-        self.assertRegex(seen, r"\r\x1b\[Ks: \d+ %  \d+ s simulated, \d+ (s|min) left")
-        self.assertRegex(seen, r"\r\x1b\[Ksupercoil-sim: interrupted at [^\r\n]*\r\n$")
 
     def test_a_run_in_real_time_has_the_same_exit_status_where_something_is_asked_for(self):
         broken = "simulation.duration_s = 1.5\ninjected_fault.heater_open = true\n"
@@ -386,16 +206,6 @@ class Program(unittest.TestCase):
         self.assertIn(f"\nended at {summary['ticks'] / 1000:g} s of 86400 s\n", told)
         self.assertIn(f"(0 to {summary['ticks'] / 1000:g} s)", told)
 
-    def test_two_runs_do_not_write_into_one_folder(self):
-        running = self.start_long_run()
-        (self.path / "short.toml").write_text(SHORT)
-        done = self.run_program("run", "short.toml", "--out", "out")
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("out: another run is writing into it", done.stderr)
-        self.assertTrue((self.path / "out/trace.csv.part").exists())
-        running.kill()
-        running.communicate()
-
     def test_a_power_that_is_no_number_is_not_silent(self):
         done = self.run_program("run", self.scenario(
             SHORT + "controller = {p0_rad_per_s = -1000.0, accept_failed_premises = true}"),
@@ -404,21 +214,6 @@ class Program(unittest.TestCase):
         summary = json.loads((self.path / "out/summary.json").read_text())
         self.assertGreater(summary["not_finite_ticks"], 0)
         self.assertIn(",nan,", (self.path / "out/trace.csv").read_text().replace("-nan", "nan"))
-
-    def test_a_full_standard_output_is_an_error(self):
-        with open("/dev/full", "w") as full:
-            done = subprocess.run([PROGRAM, "list"], stdout=full, stderr=subprocess.PIPE, text=True)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("cannot write to standard output", done.stderr)
-
-    def test_a_name_that_is_not_utf8(self):
-        name = os.fsencode(self.path) + b"/\xff.toml"
-        with open(name, "w") as file:
-            file.write(SHORT)
-        done = subprocess.run([PROGRAM, "run", name, "--out", "out", "--no-plot"], cwd=self.path,
-                              capture_output=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        json.loads((self.path / "out/summary.json").read_text())
 
     def summary_of(self, text):
         self.assertEqual(self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--quiet").returncode, 0)

@@ -16,8 +16,8 @@ inline constexpr const char* runs_name = "runs.csv";
 
 class KeptRuns {
  public:
-  /// before: runs that are kept already, of which some may be of other commands. The first all are
-  /// wanted, of which todo are missing. torn: the file's last line is.
+  /// all: runs that this command asks for; todo: those of them that are not kept yet. before: runs
+  /// that are kept, also of other commands. torn: the file's last line is incomplete.
   struct Count {
     std::size_t before;
     std::size_t all;

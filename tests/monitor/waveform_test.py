@@ -116,6 +116,18 @@ class OnThePage(PageCase):
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")
 
+    def test_a_command_by_hand_ends_it(self):
+        page = self.opened()
+        self.play(page, offset=6, amplitude=3, period=4)
+        page.run("document.activeElement.blur(); document.querySelector('.manual .value input').value = '8'")
+        ActionChains(page.driver).send_keys("k").perform()
+        page.wait(lambda: "commanded by hand" in page.text(f"{CARD} .answer"), SLACK_S, "ended")
+        page.wait(lambda: abs(page.value("reference") - 8.1) < 1e-3, SLACK_S, "a step up from 8 mm")
+        time.sleep(0.3)
+        self.assertAlmostEqual(page.value("reference"), 8.1, 3)
+        page.press_space()
+        page.wait(page.is_off, STOP_S, "off")
+
     def test_stop_ends_it_at_once_and_it_stays_ended(self):
         page = self.opened()
         page.run("performance.setResourceTimingBufferSize(100000)")

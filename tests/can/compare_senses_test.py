@@ -88,10 +88,10 @@ class CompareSenses(unittest.TestCase):
         done = self.doctor(["twelve", swapped, *answers])
         self.assertEqual(done.returncode, 0, done.stderr)
         for refused in ("twelve", swapped):
-            self.assertIn(f"'{refused}' is refused: here it must be a number from 10.8 to 13.2", done.stdout)
+            self.assertIn(f"'{refused}' is refused: it must be a number from 10.8 to 13.2", done.stdout)
         done = self.doctor(["", "-12", "1e9", *answers])
         self.assertEqual(done.returncode, 1)
-        self.assertIn("no allowed volts at the supply terminals in 3 answers", done.stderr)
+        self.assertIn("no allowed answer in 3 tries: volts at the supply terminals", done.stderr)
 
     def test_half_of_the_answers_change_nothing(self):
         done = self.doctor(right_answers()[:2])

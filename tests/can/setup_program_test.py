@@ -139,9 +139,12 @@ class SetupProgram(unittest.TestCase):
         self.assertAlmostEqual(found["position_offset_m"], 0.0, delta=1e-4)
         state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertRegex(state.stdout, "node 1: disarmed")
-        with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True) as program:
-            self.assertTrue(program.stdout.readline().startswith("identify: heats"))
+        with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+            told = [program.stdout.readline() for _ in range(3)]
+            self.assertTrue(told[0].startswith("scale: takes"))
+            self.assertIn("left; supercoil setup scale does it", told[1])
+            self.assertTrue(told[2].startswith("identify: heats"))
             time.sleep(0.5)
             program.send_signal(signal.SIGINT)
             _, error = program.communicate(timeout=DEADLINE_S)

@@ -17,6 +17,18 @@ namespace supercoil::test {
 
 namespace {
 
+/// Nobody watches, and nothing is asked.
+class Nobody final : public operating::Operator {
+ public:
+  void say(const std::string&) override {}
+  void show_progress(const std::string&, double) override {}
+  bool sees_progress() const override { return false; }
+  bool interrupted() const override { return false; }
+  OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
+    return tl::unexpected("asked: " + std::string(question.key));
+  }
+};
+
 config::BoardConfig described_board(const operating::MuscleAnswers& answers,
                                     const std::string& controller) {
   using operating::Asked;
@@ -35,22 +47,33 @@ config::BoardConfig described_board(const operating::MuscleAnswers& answers,
   return std::move(*config);
 }
 
-}  // namespace
-
-Commissioned commission(const HeldOut& muscle, const std::string& controller) {
-  const config::BoardConfig config = described_board(muscle.answers, controller);
+host_sim::Scenario scenario_of(const HeldOut& muscle, const config::BoardConfig& config,
+                               double sense_error_ratio) {
   auto scenario = host_sim::parse_scenario(muscle.scenario, "held_out_scenario.toml");
   if (!scenario) throw std::runtime_error(config::to_text(scenario.error()));
-  // Its senses were compared with a meter before, and nothing else is known.
   board::Learned compared;
   compared.has_muscle = false;
-  compared.senses = {1.0, 1.0, 0.02, 1.0};
+  compared.senses = {1.0, 1.0, sense_error_ratio, 1.0};
   if (const auto used = host_sim::use_board(*scenario, config, 0, compared); !used)
     throw std::runtime_error(used.error());
-  const BoardSettings& board = *scenario->board;
-  host_sim::Simulation simulation(*scenario);
-  SimulatedLink link(simulation, config.settings.rate_Hz);
-  operating::Commission steps(link, "1", board.channels[0], board, [](const std::string&) {});
+  return std::move(*scenario);
+}
+
+}  // namespace
+
+HeldOutBoard::HeldOutBoard(const HeldOut& muscle, const std::string& controller,
+                           double sense_error_ratio)
+    : config_(described_board(muscle.answers, controller)),
+      scenario_(scenario_of(muscle, config_, sense_error_ratio)),
+      simulation_(scenario_),
+      link_(simulation_, config_.settings.rate_Hz) {}
+
+Commissioned commission(const HeldOut& muscle, const std::string& controller) {
+  // Its senses were compared with a meter before, and nothing else is known.
+  HeldOutBoard board(muscle, controller, 0.02);
+  const SimulatedLink& link = board.link();
+  Nobody nobody;
+  operating::Commission steps = board.steps(nobody);
   Commissioned c;
   const auto conclude = [&](const std::string& refused) {
     c.refused = refused;

@@ -3,10 +3,34 @@
 
 #include <string>
 
+#include "apps/supercoil/setup/commission.hpp"
+#include "config/board_config.hpp"
+#include "scenario/scenario.hpp"
 #include "setup/held_out.hpp"
+#include "setup/simulated_link.hpp"
 #include "supervisor/fault.hpp"
 
 namespace supercoil::test {
+
+/// A board in lockstep whose file comes from the description.
+class HeldOutBoard {
+ public:
+  /// controller: its kind, which has learned_ff's keys. sense_error_ratio: of a comparison with a
+  /// meter before; 0: there was none. Throws what a wrong test setting says.
+  HeldOutBoard(const HeldOut& muscle, const std::string& controller, double sense_error_ratio);
+
+  SimulatedLink& link() { return link_; }
+  host_sim::Simulation& simulation() { return simulation_; }
+  operating::Commission steps(operating::Operator& who) {
+    return {link_, "1", scenario_.board->channels[0], *scenario_.board, who};
+  }
+
+ private:
+  config::BoardConfig config_;
+  host_sim::Scenario scenario_;
+  host_sim::Simulation simulation_;
+  SimulatedLink link_;
+};
 
 struct Commissioned {
   std::string refused;         ///< what setup said; empty: it came to its end
@@ -20,7 +44,7 @@ struct Commissioned {
   Fault fault = Fault::none;
 };
 
-/// Throws what a wrong test setting says. controller: its kind, which has learned_ff's keys.
+/// As HeldOutBoard.
 Commissioned commission(const HeldOut& muscle, const std::string& controller = "learned_ff");
 
 }  // namespace supercoil::test

@@ -6,9 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/common/progress.hpp"
-#include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/describe.hpp"
 #include "loop/promise.hpp"
 #include "modes/calibrate.hpp"
@@ -49,12 +48,19 @@ Json number(double value) {
 }  // namespace
 
 Commission::Commission(BoardLink& board, std::string channel, const ChannelSettings& configured,
-                       const BoardSettings& settings, std::function<void(const std::string&)> say)
+                       const BoardSettings& settings, Operator& who)
     : board_(board),
       channel_(std::move(channel)),
       configured_(configured),
       settings_(settings),
-      say_(std::move(say)) {}
+      who_(who) {}
+
+StepResult Commission::run(const std::string& step) {
+  if (step == "senses") return compare_senses();
+  if (step == "calibrate") return calibrate();
+  if (step == "scale") return scale();
+  return step == "identify" ? identify() : move();
+}
 
 Commission::Done Commission::ask(const std::string& command) {
   const auto answer = board_.ask(channel_ + " " + command);
@@ -82,7 +88,6 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
 Commission::Done Commission::arm() {
   const double max_s = arming_s + feasibility(configured_, settings_).armable_s;
   const double begin_s = board_.time_s();
-  Progress progress("waiting until the muscle must be cool", false);
   for (;;) {
     const double elapsed_s = board_.time_s() - begin_s;
     const auto answer = operating::arm(board_, channel_);
@@ -90,25 +95,24 @@ Commission::Done Commission::arm() {
     if (*answer == "ok" || *answer == answer_text(Refusal::wrong_state, NAN)) return {};
     if (*answer != answer_text(Refusal::not_ready, NAN) || elapsed_s >= max_s)
       return tl::unexpected("arm: " + *answer);
-    progress.show(elapsed_s / max_s, "");
-    if (interrupted != 0) return tl::unexpected<std::string>("interrupted");
+    who_.show_progress("waiting until the muscle must be cool", elapsed_s / max_s);
+    if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
     board_.wait(std::chrono::seconds(1));
   }
 }
 
 Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
-  Progress progress(mode, false);
   const auto done = [&] { return board_.progress(channel_).value_or(NAN); };
   // The first time takes a moment, in which a command to heat would expire.
-  if (progress.shows()) done();
+  if (who_.sees_progress()) done();
   if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
   const double begin_s = board_.time_s();
   for (;;) {
     board_.wait(renewal);
     const double elapsed_s = board_.time_s() - begin_s;
     if (elapsed_s >= max_s) break;
-    if (progress.shows()) progress.show(done(), "");
-    if (interrupted != 0) {
+    if (who_.sees_progress()) who_.show_progress(mode, done());
+    if (who_.interrupted()) {
       static_cast<void>(ask("rest"));
       return tl::unexpected(mode + ": interrupted");
     }
@@ -116,14 +120,13 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
     if (!answer) return tl::unexpected(answer.error());
     if (*answer != "ok") break;
   }
-  progress.end();
   auto ending = board_.ending(channel_);
   for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
     board_.wait(renewal);
     ending = board_.ending(channel_);
   }
   if (!ending) return tl::unexpected(ending.error());
-  if (!ending->notes.empty()) say_(mode + " notes: " + ending->notes);
+  if (!ending->notes.empty()) who_.say(mode + " notes: " + ending->notes);
   return ending->result;
 }
 
@@ -137,7 +140,8 @@ Commission::OrWhy Commission::calibrate_when_cold() {
     auto result = run_mode("calibrate", max_calibrate_s);
     const double left_s = cold_after_s - (board_.time_s() - begin_s);
     if (!result || *result != "not_cold" || left_s < 0.0) return result;
-    say_("not cold yet, by the bounds of its heat; in " + in_digits(left_s) + " s at the latest");
+    who_.say("not cold yet, by the bounds of its heat; in " + in_digits(left_s) +
+             " s at the latest");
   }
 }
 
@@ -149,9 +153,41 @@ StepResult Commission::calibrate() {
   if (!known) return tl::unexpected(known.error());
   const double cold_Ohm = (*known)[known_cold_resistance];
   const double offset_m = (*known)[known_position_offset];
-  say_("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there");
-  say_("cold resistance: " + beside(cold_Ohm, configured_.heater.cold_resistance_Ohm, "Ohm"));
+  who_.say("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there");
+  who_.say("cold resistance: " + beside(cold_Ohm, configured_.heater.cold_resistance_Ohm, "Ohm"));
   return Json{{"position_offset_m", number(offset_m)}, {"cold_resistance_Ohm", number(cold_Ohm)}};
+}
+
+StepResult Commission::compare_senses() {
+  const ComparisonPlan plan = plan_comparison(channel_, configured_, settings_);
+  const auto senses = operating::compare_senses(board_, plan, who_);
+  if (!senses) return tl::unexpected(senses.error());
+  who_.say("true over measured: supply " + in_digits(senses->supply_gain) + ", current " +
+           in_digits(senses->current_gain) + "; " + in_digits(100.0 * senses->error_ratio) +
+           " % may remain of each");
+  who_.say(power_bounds_text(configured_, settings_, *senses));
+  return Json{{"supply_gain", senses->supply_gain},
+              {"current_gain", senses->current_gain},
+              {"error_ratio", senses->error_ratio}};
+}
+
+StepResult Commission::scale() {
+  const double max_mm = 1e3 * configured_.supervision.max_travel_m;
+  const auto place_mm = who_.ask(
+      {"place_mm",
+       "Hold the muscle's end at a place that a ruler shows. How far is it from rest, towards "
+       "shorter, in mm",
+       {0.001 * max_mm, max_mm},
+       NAN},
+      [] { return Done(); });
+  if (!place_mm) return tl::unexpected(place_mm.error());
+  if (auto taken = ask("scale " + number_text(1e-3 * *place_mm, 9)); !taken)
+    return tl::unexpected(taken.error());
+  const auto known = board_.muscle(channel_);
+  if (!known) return tl::unexpected(known.error());
+  const double scale = (*known)[known_position_scale];
+  who_.say("scale of the position: " + beside(scale, configured_.calibration.position_scale, ""));
+  return Json{{"position_scale", number(scale)}};
 }
 
 StepResult Commission::identify() {
@@ -167,15 +203,15 @@ StepResult Commission::identify() {
     found[range.name] = number((*known)[i]);
     constexpr double float_rounding_ratio = 1e-6;
     if (std::abs((*known)[i] / configured - 1.0) > float_rounding_ratio)
-      say_(std::string(range.name) + ": " + beside((*known)[i], configured, ""));
+      who_.say(std::string(range.name) + ": " + beside((*known)[i], configured, ""));
   }
   for (std::size_t i = known_theta1_deviation; i < known->size(); ++i)
     found[std::string(known_quantities[i])] = number((*known)[i]);
   const auto percent = [&](std::size_t i) { return in_digits(100.0 * (*known)[i]); };
   constexpr std::size_t first = known_theta1_deviation;
-  say_("standard deviation of theta1 to theta4: " + percent(first) + ", " + percent(first + 1) +
-       ", " + percent(first + 2) + ", " + percent(first + 3) +
-       " %; unexplained by the linear model: " + percent(known_unexplained_ratio) + " %");
+  who_.say("standard deviation of theta1 to theta4: " + percent(first) + ", " + percent(first + 1) +
+           ", " + percent(first + 2) + ", " + percent(first + 3) +
+           " %; unexplained by the linear model: " + percent(known_unexplained_ratio) + " %");
   return found;
 }
 
@@ -193,12 +229,11 @@ StepResult Commission::move() {
   if (is_promised_for(controller)) {
     promise = promise_error(controller.learned_ff, channel, settings_, motion,
                             (*known)[known_unexplained_ratio]);
-    say_("promised: " + config::describe_promise(*promise, motion));
+    who_.say("promised: " + config::describe_promise(*promise, motion));
   } else {
-    say_("no error is promised: controller 0 is not learned_ff");
+    who_.say("no error is promised: controller 0 is not learned_ff");
   }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
-  Progress progress("moving", false);
   double square_sum = 0.0;
   int samples = 0;
   const double begin_s = board_.time_s();
@@ -210,15 +245,14 @@ StepResult Commission::move() {
     board_.wait(reference_step);
     const auto error_m = board_.error_m(channel_);
     if (!error_m) return tl::unexpected(error_m.error());
-    progress.show(time_s / motion.end_s(), "");
-    if (interrupted != 0) break;
+    who_.show_progress("moving", time_s / motion.end_s());
+    if (who_.interrupted()) break;
     if (time_s < motion.settled_s() || std::isnan(*error_m)) continue;
     square_sum += *error_m * *error_m;
     ++samples;
   }
-  progress.end();
   if (auto rests = ask("rest"); !rests) return tl::unexpected(rests.error());
-  if (interrupted != 0) return tl::unexpected<std::string>("interrupted");
+  if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
   if (samples == 0) return tl::unexpected<std::string>("the board told no tracking error");
   const double error_m = std::sqrt(square_sum / samples);
   Json found{{"error_m", error_m},
@@ -236,7 +270,7 @@ StepResult Commission::move() {
                       {"unexplained_m", promise->unexplained_m},
                       {"kept", kept}});
   }
-  say_(told);
+  who_.say(told);
   return found;
 }
 

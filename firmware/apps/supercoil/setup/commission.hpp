@@ -1,13 +1,13 @@
 // The steps by which a muscle on a running board comes to follow.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 #include <tl/expected.hpp>
 
 #include "apps/supercoil/board_link.hpp"
+#include "apps/supercoil/setup/operator.hpp"
 #include "loop/settings.hpp"
 
 namespace supercoil::operating {
@@ -18,12 +18,19 @@ using StepResult = tl::expected<nlohmann::ordered_json, std::string>;
 class Commission {
  public:
   /// channel: as in a line of a command. configured: as the board's file has it, of this channel.
-  /// say: a line for whoever watches. All outlive it.
+  /// All outlive it.
   Commission(BoardLink& board, std::string channel, const ChannelSettings& configured,
-             const BoardSettings& settings, std::function<void(const std::string&)> say);
+             const BoardSettings& settings, Operator& who);
 
+  /// One of setup_steps that needs a running board, by its name.
+  StepResult run(const std::string& step);
+
+  /// The senses of voltage and current, by a meter.
+  StepResult compare_senses();
   /// Zero and resistance of the cold muscle.
   StepResult calibrate();
+  /// The position sensor's scale, by a second known place.
+  StepResult scale();
   /// The muscle's parameters, beside those that are configured.
   StepResult identify();
   /// A sine that the muscle can follow; its error beside the promised one, where one is promised.
@@ -33,7 +40,7 @@ class Commission {
   static bool kept(const nlohmann::ordered_json& result);
 
  private:
-  using Done = tl::expected<void, std::string>;
+  using Done = Operator::Done;
   using OrWhy = tl::expected<std::string, std::string>;
 
   Done ask(const std::string& command);
@@ -50,7 +57,7 @@ class Commission {
   std::string channel_;
   const ChannelSettings& configured_;
   const BoardSettings& settings_;
-  std::function<void(const std::string&)> say_;
+  Operator& who_;
 };
 
 }  // namespace supercoil::operating

@@ -4,6 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <tl/expected.hpp>
 
+#include "apps/supercoil/setup/operator.hpp"
 #include "apps/supercoil/setup/options.hpp"
 
 namespace supercoil::operating {
@@ -14,7 +15,7 @@ std::string kept_config(const std::string& config);
 /// Asks what the script does not answer, unless there is one; writes the file only if it is in
 /// order then. The error is whole lines.
 tl::expected<nlohmann::ordered_json, std::string> describe_step(const SetupOptions& options,
-                                                                std::FILE* out);
+                                                                Operator& who);
 
 /// The file as it was, and no record. The error says what could not be done.
 tl::expected<void, std::string> undo_setup(const SetupOptions& options);

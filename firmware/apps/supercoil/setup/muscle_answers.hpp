@@ -4,24 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <tl/expected.hpp>
 
-#include "config/section.hpp"
+#include "apps/supercoil/setup/operator.hpp"
 
 namespace supercoil::operating {
-
-/// One thing that is asked. NaN in an answer: not known.
-struct Question {
-  std::string_view key;
-  std::string_view text;  ///< with its unit
-  config::Range allowed;
-  double fallback;  ///< NaN: there is none, it must be answered
-};
 
 enum class Asked : std::size_t {
   cold_resistance_Ohm,
@@ -62,6 +52,7 @@ inline constexpr std::array<Question, 12> questions{{
     {"uncertainty_percent", "By how much may these answers be wrong, in %", {1.0, 60.0}, 50.0},
 }};
 
+/// NaN: not known.
 class MuscleAnswers {
  public:
   MuscleAnswers() { values_.fill(NAN); }

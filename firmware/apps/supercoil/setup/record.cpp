@@ -34,6 +34,19 @@ bool SetupRecord::has(const std::string& step) const {
   return document_.contains(channel_) && document_[channel_].contains(step);
 }
 
+bool SetupRecord::is_past(const std::string& step) const {
+  bool after = false;
+  for (const SetupStep& known : setup_steps) {
+    if (after && has(std::string(known.name))) return true;
+    after = after || known.name == step;
+  }
+  return false;
+}
+
+Json SetupRecord::found(const std::string& step) const {
+  return has(step) ? document_[channel_][step] : Json();
+}
+
 tl::expected<void, std::string> SetupRecord::add(const std::string& step, const Json& found) {
   document_["schema_version"] = 1;
   Json& channel = document_[channel_];

@@ -17,6 +17,10 @@ class SetupRecord {
   static std::string path_of(const std::string& config) { return config + ".setup.json"; }
 
   bool has(const std::string& step) const;
+  /// A step behind this one is done.
+  bool is_past(const std::string& step) const;
+  /// What a step found; null: it was not done.
+  nlohmann::ordered_json found(const std::string& step) const;
   /// Written at once, whole. What follows the step is to be done anew.
   tl::expected<void, std::string> add(const std::string& step, const nlohmann::ordered_json& found);
 

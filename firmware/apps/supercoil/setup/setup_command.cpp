@@ -5,15 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
-#include "apps/supercoil/setup/commission.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
 #include "apps/supercoil/setup/options.hpp"
 #include "apps/supercoil/setup/record.hpp"
+#include "apps/supercoil/setup/setup_board.hpp"
 #include "apps/supercoil/setup/steps.hpp"
-#include "config/board_config.hpp"
+#include "apps/supercoil/setup/terminal_operator.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::operating {
@@ -28,66 +27,24 @@ std::vector<std::string> step_names() {
   return names;
 }
 
+/// Without a name: what comes after all that is done.
 bool wanted(const SetupStep& step, const SetupOptions& options, const SetupRecord& record) {
   const std::string name(step.name);
-  if (options.steps.empty()) return !record.has(name);
+  if (options.steps.empty()) return !record.has(name) && !record.is_past(name);
   return std::ranges::find(options.steps, name) != options.steps.end();
 }
 
-/// The steps that need a running board, one after the other.
-class Board {
- public:
-  Board(const SetupOptions& options, std::FILE* out) : options_(options), out_(out) {}
-  Board(const Board&) = delete;
-  Board& operator=(const Board&) = delete;
-  /// However it ends, the muscle gets no power.
-  ~Board() {
-    if (link_) static_cast<void>(link_->ask(address() + " disarm"));
-  }
-
-  StepResult run(const std::string& step) {
-    if (auto ready = open(); !ready) return tl::unexpected(ready.error());
-    const auto index = static_cast<std::size_t>(options_.channel) - 1;
-    Commission commission(*link_, address(), config_->settings.channels[index], config_->settings,
-                          [this](const std::string& line) {
-                            std::fprintf(out_, "  %s\n", line.c_str());
-                            std::fflush(out_);
-                          });
-    if (step == "calibrate") return commission.calibrate();
-    return step == "identify" ? commission.identify() : commission.move();
-  }
-
- private:
-  tl::expected<void, std::string> open() {
-    if (link_) return {};
-    auto config = config::read_board_config(options_.config);
-    if (!config) return tl::unexpected(config::to_text(config.error()));
-    const auto channels = static_cast<int>(config->settings.channels.size());
-    if (options_.channel > channels) {
-      return tl::unexpected(options_.config + " has no channel " +
-                            std::to_string(options_.channel) + ", but " + std::to_string(channels));
-    }
-    auto link = open_link(options_.can, options_.socket);
-    if (!link) {
-      return tl::unexpected(link.error() + "; start the board with " + options_.config +
-                            " first (supercoild --config, or supercoil-sim run bench --board)");
-    }
-    config_ = std::move(*config);
-    link_ = std::move(*link);
-    return {};
-  }
-
-  /// On a bus channels are nodes.
-  std::string address() const {
-    const int first = options_.can.empty() || !config_->can ? 1 : config_->can->first_node;
-    return std::to_string(first + options_.channel - 1);
-  }
-
-  const SetupOptions& options_;
-  std::FILE* out_;
-  std::optional<config::BoardConfig> config_;
-  std::unique_ptr<BoardLink> link_;
-};
+/// An optional step is asked for; where nobody answers, it is left.
+bool takes(const SetupStep& step, const SetupOptions& options, Operator& who) {
+  if (!step.optional || !options.steps.empty()) return true;
+  const bool unattended = !options.script.empty();
+  const auto now = unattended ? Operator::OrWhy(0.0)
+                              : who.ask({step.name, "1: now, 0: leave it", {0.0, 1.0}, 0.0},
+                                        [] { return Operator::Done(); });
+  if (now && *now > 0.0) return true;
+  if (!who.interrupted()) who.say("left; supercoil setup " + std::string(step.name) + " does it");
+  return false;
+}
 
 int concluded(const SetupOptions& options, const Json& results, int status,
               const std::string& error) {
@@ -100,7 +57,8 @@ int concluded(const SetupOptions& options, const Json& results, int status,
 }
 
 int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) {
-  Board board(options, out);
+  TerminalOperator terminal(out);
+  SetupBoard board(options, terminal);
   Json results = Json::object();
   int status = exit_done;
   for (const SetupStep& step : setup_steps) {
@@ -108,8 +66,12 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     const std::string name(step.name);
     std::fprintf(out, "%s: %s\n", name.c_str(), std::string(step.does).c_str());
     std::fflush(out);
+    if (!takes(step, options, terminal)) {
+      if (terminal.interrupted()) return concluded(options, results, exit_failed, "interrupted");
+      continue;
+    }
     const bool describes = name == "describe";
-    const StepResult found = describes ? describe_step(options, out) : board.run(name);
+    const StepResult found = describes ? describe_step(options, terminal) : board.run(name);
     if (!found) {
       const int why = describes ? exit_wrong_input : exit_failed;
       if (!describes) return concluded(options, results, why, name + ": " + found.error());
@@ -138,10 +100,12 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   CLI::App* setup = app.add_subcommand(
       "setup",
       "From a muscle of your own to one that follows, step by step: describe it in a bench's "
-      "units, calibrate, identify, move. What is done is remembered beside the board's file");
+      "units, compare its senses, calibrate, identify, move. What is done is remembered beside the "
+      "board's file");
   setup
       ->add_option("STEP", o.steps,
-                   "describe, calibrate, identify or move, also again [all that are not done]")
+                   "describe, senses, calibrate, scale, identify or move, also again [all that are "
+                   "not done]")
       ->check(CLI::Validator(
           [](const std::string& given) {
             const auto names = step_names();

@@ -9,15 +9,21 @@ namespace supercoil::operating {
 struct SetupStep {
   std::string_view name;
   std::string_view does;  ///< said before it begins
+  bool optional = false;  ///< may be left
 };
 
-inline constexpr std::array<SetupStep, 4> setup_steps{{
+inline constexpr std::array<SetupStep, 6> setup_steps{{
     {"describe",
      "writes what is known of the muscle, with its bounds and a controller, into the board's "
      "file; heats nothing"},
+    {"senses",
+     "compares the senses of supply and current with a meter: heats it with a small steady power, "
+     "and asks four questions; until then it gets less power than it could",
+     true},
     {"calibrate",
      "takes the zero and the resistance of the cold muscle; heats it for 50 ms; seconds, up to two "
      "minutes if it must cool"},
+    {"scale", "takes the scale of the position from a second known place; heats nothing", true},
     {"identify",
      "heats and lets cool nine times, up to 0.85 of its reach; a minute for a quick muscle, up to "
      "25 minutes for one with a time constant of a minute"},

@@ -1,0 +1,52 @@
+// Who watches a step of setup: sees what it finds, answers what it asks, and may end it.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "config/section.hpp"
+
+namespace supercoil::operating {
+
+/// One thing that is asked.
+struct Question {
+  std::string_view key;
+  std::string_view text;  ///< with its unit
+  config::Range allowed;
+  double fallback;  ///< what an empty answer means; NaN: it must be answered
+};
+
+class Operator {
+ public:
+  using Done = tl::expected<void, std::string>;
+  using OrWhy = tl::expected<double, std::string>;
+
+  /// How often a question that waits lets the rest go on.
+  static constexpr std::chrono::milliseconds look_every{100};
+
+  Operator() = default;
+  Operator(const Operator&) = delete;
+  Operator& operator=(const Operator&) = delete;
+  virtual ~Operator() = default;
+
+  /// What was done or found, as a line.
+  virtual void say(const std::string& line) = 0;
+  /// How far something has come, 0 to 1; NaN: not known. Cheap.
+  virtual void show_progress(const std::string& what, double done) = 0;
+  /// Where it is not shown, nobody need find out how far something is.
+  virtual bool sees_progress() const = 0;
+  /// The step is to end.
+  virtual bool interrupted() const = 0;
+  /// Waits for an answer in the allowed range. meanwhile: called every look_every; an error of it
+  /// ends the waiting. The error: why there is no answer.
+  virtual OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) = 0;
+};
+
+/// "0.1 to 10000"
+std::string range_text(const config::Range& range);
+
+}  // namespace supercoil::operating

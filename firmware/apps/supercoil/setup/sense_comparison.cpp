@@ -1,0 +1,137 @@
+#include "apps/supercoil/setup/sense_comparison.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "apps/supercoil/number_text.hpp"
+#include "board/meter_comparison.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using board::MeterComparison;
+/// The error: why it ended.
+template <class Value>
+using OrEnded = tl::expected<Value, std::string>;
+
+constexpr std::chrono::milliseconds heat_renewal{100};
+constexpr std::chrono::milliseconds probing{300};
+/// The board asks for a second at a steady power; a meter needs some time as well.
+constexpr std::chrono::milliseconds settling{2500};
+constexpr double max_question_s = 300.0;
+
+std::string shown(double value) {
+  return number_text(value, 3);
+}
+
+/// Arms and heats one channel, and makes it cold again however this ends.
+class Heated {
+ public:
+  Heated(BoardLink& board, std::string channel, Operator& who)
+      : board_(&board), channel_(std::move(channel)), who_(&who) {}
+  Heated(const Heated&) = delete;
+  Heated& operator=(const Heated&) = delete;
+  ~Heated() {
+    static_cast<void>(ask("rest"));
+    if (const auto off = ask("disarm"); !off) who_->say("the muscle may be hot: " + off.error());
+  }
+
+  OrEnded<void> ask(const std::string& what) {
+    const auto answer = board_->ask(channel_ + " " + what);
+    if (!answer) return tl::unexpected(answer.error());
+    if (*answer != "ok") return tl::unexpected(what + ": " + *answer);
+    return {};
+  }
+  OrEnded<void> heat(double power_W) {
+    if (who_->interrupted()) return tl::unexpected<std::string>("interrupted");
+    return ask("power " + shown(power_W));
+  }
+  OrEnded<void> hold(double power_W, std::chrono::milliseconds time) {
+    for (auto held = std::chrono::milliseconds(0); held < time; held += heat_renewal) {
+      if (auto heated = heat(power_W); !heated) return heated;
+      board_->wait(heat_renewal);
+    }
+    return {};
+  }
+  double time_s() const { return board_->time_s(); }
+
+ private:
+  BoardLink* board_;
+  std::string channel_;
+  Operator* who_;
+};
+
+OrEnded<void> tell(Heated& heated, const std::string& verb, double value) {
+  auto taken = heated.ask(verb + " " + number_text(value, 9));
+  if (taken) return taken;
+  return tl::unexpected(taken.error() +
+                        ". This reading and the others do not fit one another, the senses or the "
+                        "configured resistance; the board has forgotten them and uses what it used "
+                        "before");
+}
+
+/// The questions at one power.
+OrEnded<void> compare_at(double power_W, const ComparisonPlan& plan, Heated& heated,
+                         Operator& who) {
+  who.say("channel " + plan.channel + " gets " + shown(power_W) + " W");
+  if (auto held = heated.hold(power_W, settling); !held) return held;
+  double asked_s = heated.time_s();
+  const auto goes_on = [&]() -> OrEnded<void> {
+    if (heated.time_s() - asked_s > max_question_s)
+      return tl::unexpected<std::string>("no answer within 5 minutes");
+    return heated.heat(power_W);
+  };
+  const auto meter_V =
+      who.ask({"supply_V", "volts at the supply terminals", plan.supply_V, NAN}, goes_on);
+  if (!meter_V) return tl::unexpected(meter_V.error());
+  if (auto taken = tell(heated, "compare_supply", *meter_V); !taken) return taken;
+  // The measured power is the product of both senses, and each may be off by its gain.
+  const double reported_A = power_W / *meter_V;
+  asked_s = heated.time_s();
+  const std::string question = "amperes in the line of channel " + plan.channel;
+  const config::Range allowed{reported_A * MeterComparison::min_gain * MeterComparison::min_gain,
+                              reported_A * MeterComparison::max_gain * MeterComparison::max_gain};
+  const auto meter_A = who.ask({"current_A", question, allowed, NAN}, goes_on);
+  if (!meter_A) return tl::unexpected(meter_A.error());
+  return tell(heated, "compare_current", *meter_A);
+}
+
+}  // namespace
+
+ComparisonPlan plan_comparison(std::string channel, ChannelSettings settings,
+                               const BoardSettings& board) {
+  settings.senses = {};
+  const double unseen = power_bounds(settings, board).true_over_measured().max;
+  const double rise_K = settings.limiter.derate_from_C - settings.thermal.air.warmest_C;
+  const double true_W = rise_K * 0.25 * settings.thermal.bounds.min_transfer_W_per_K;
+  return {std::move(channel),
+          std::min(settings.limiter.max_W, std::max(0.0, true_W) / unseen),
+          {board.supervision.min_supply_V, board.supervision.max_supply_V}};
+}
+
+OrEnded<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
+                                               Operator& who) {
+  Heated heated(board, plan.channel, who);
+  if (const auto armed = heated.ask("arm"); !armed) return tl::unexpected(armed.error());
+  // The probe of arming refuses to be disturbed.
+  board.wait(probing);
+  for (const double part : {0.5, 1.0}) {
+    if (const auto asked = compare_at(part * plan.power_W, plan, heated, who); !asked)
+      return tl::unexpected(asked.error());
+  }
+  auto found = board.senses(plan.channel);
+  if (found && !found->compared())
+    return tl::unexpected<std::string>("the board has no comparison");
+  return found;
+}
+
+std::string power_bounds_text(ChannelSettings settings, const BoardSettings& board,
+                              const board::SenseComparison& senses) {
+  settings.senses = senses;
+  const auto ratio = power_bounds(settings, board).true_over_measured();
+  return "the true power is " + shown(ratio.min) + " to " + shown(ratio.max) +
+         " times the measured power; calibrate and identify this channel again";
+}
+
+}  // namespace supercoil::operating

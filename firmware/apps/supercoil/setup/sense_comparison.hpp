@@ -1,0 +1,36 @@
+// Leads a person with a meter through the comparison that the running firmware makes. All that
+// protects is there; this only asks.
+#pragma once
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "apps/supercoil/setup/operator.hpp"
+#include "loop/settings.hpp"
+
+namespace supercoil::operating {
+
+struct ComparisonPlan {
+  std::string channel;  ///< as in a line of a command
+  double power_W = 0.0;
+  config::Range supply_V{0.0, 60.0};
+};
+
+/// With the steady power that leaves full power allowed in the warmest air, were the muscle cooled
+/// by a quarter of the least that is configured and the senses as wrong as nobody would notice.
+ComparisonPlan plan_comparison(std::string channel, ChannelSettings settings,
+                               const BoardSettings& board);
+
+/// Arms the channel, heats it with half of that power and then all of it, and asks two questions at
+/// each; it is disarmed however this ends. The error: why it ended.
+tl::expected<board::SenseComparison, std::string> compare_senses(BoardLink& board,
+                                                                 const ComparisonPlan& plan,
+                                                                 Operator& who);
+
+/// "the true power is 0.97 to 1.03 times the measured power; …"
+std::string power_bounds_text(ChannelSettings settings, const BoardSettings& board,
+                              const board::SenseComparison& senses);
+
+}  // namespace supercoil::operating

@@ -1,0 +1,45 @@
+#include "apps/supercoil/setup/setup_board.hpp"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace supercoil::operating {
+
+SetupBoard::~SetupBoard() {
+  if (link_) static_cast<void>(link_->ask(address() + " disarm"));
+}
+
+StepResult SetupBoard::run(const std::string& step) {
+  if (auto ready = open(); !ready) return tl::unexpected(ready.error());
+  const auto index = static_cast<std::size_t>(options_.channel) - 1;
+  Commission commission(*link_, address(), config_->settings.channels[index], config_->settings,
+                        who_);
+  return commission.run(step);
+}
+
+tl::expected<void, std::string> SetupBoard::open() {
+  if (link_) return {};
+  auto config = config::read_board_config(options_.config);
+  if (!config) return tl::unexpected(config::to_text(config.error()));
+  const auto channels = static_cast<int>(config->settings.channels.size());
+  if (options_.channel > channels) {
+    return tl::unexpected(options_.config + " has no channel " + std::to_string(options_.channel) +
+                          ", but " + std::to_string(channels));
+  }
+  auto link = open_link(options_.can, options_.socket);
+  if (!link) {
+    return tl::unexpected(link.error() + "; start the board with " + options_.config +
+                          " first (supercoild --config, or supercoil-sim run bench --board)");
+  }
+  config_ = std::move(*config);
+  link_ = std::move(*link);
+  return {};
+}
+
+std::string SetupBoard::address() const {
+  const int first = options_.can.empty() || !config_->can ? 1 : config_->can->first_node;
+  return std::to_string(first + options_.channel - 1);
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,39 @@
+// The running board that setup leads to, by the file that it was started with.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/supercoil/board_link.hpp"
+#include "apps/supercoil/setup/commission.hpp"
+#include "apps/supercoil/setup/operator.hpp"
+#include "apps/supercoil/setup/options.hpp"
+#include "config/board_config.hpp"
+
+namespace supercoil::operating {
+
+class SetupBoard {
+ public:
+  /// Both outlive it.
+  SetupBoard(const SetupOptions& options, Operator& who) : options_(options), who_(who) {}
+  SetupBoard(const SetupBoard&) = delete;
+  SetupBoard& operator=(const SetupBoard&) = delete;
+  /// However it ends, the muscle gets no power.
+  ~SetupBoard();
+
+  /// A step of setup_steps, all but the first. The board is looked for when it is first needed.
+  StepResult run(const std::string& step);
+
+ private:
+  tl::expected<void, std::string> open();
+  /// On a bus channels are nodes.
+  std::string address() const;
+
+  const SetupOptions& options_;
+  Operator& who_;
+  std::optional<config::BoardConfig> config_;
+  std::unique_ptr<BoardLink> link_;
+};
+
+}  // namespace supercoil::operating

@@ -1,0 +1,74 @@
+#include "apps/supercoil/setup/terminal_operator.hpp"
+
+#include <charconv>
+#include <chrono>
+#include <cmath>
+
+#include "apps/supercoil/interrupted.hpp"
+#include "apps/supercoil/number_text.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+constexpr int max_tries = 3;
+
+}  // namespace
+
+std::string range_text(const config::Range& range) {
+  return number_text(range.lowest, 5) + " to " + number_text(range.highest, 5);
+}
+
+void TerminalOperator::say(const std::string& line) {
+  progress_.reset();
+  std::fprintf(out_, "  %s\n", line.c_str());
+  std::fflush(out_);
+}
+
+void TerminalOperator::show_progress(const std::string& what, double done) {
+  if (!progress_ || progress_of_ != what) {
+    progress_.reset();
+    progress_.emplace(what, false);
+    progress_of_ = what;
+  }
+  progress_->show(done, "");
+}
+
+bool TerminalOperator::interrupted() const {
+  return operating::interrupted != 0;
+}
+
+tl::expected<std::string, std::string> TerminalOperator::next_line(
+    const std::function<Done()>& meanwhile) {
+  for (;;) {
+    if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
+    if (auto line = answers_.wait(look_every)) return *line;
+    // Ctrl-C may come with the end of the answers.
+    if (interrupted()) return tl::unexpected<std::string>("interrupted");
+    if (answers_.ended()) return tl::unexpected<std::string>("nobody answers");
+  }
+}
+
+TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
+                                              const std::function<Done()>& meanwhile) {
+  progress_.reset();
+  const std::string range = range_text(q.allowed);
+  for (int i = 0; i < max_tries; ++i) {
+    std::fprintf(out_, "%s (%s)%s: ", std::string(q.text).c_str(), range.c_str(),
+                 std::isnan(q.fallback) ? "" : (" [" + number_text(q.fallback, 9) + "]").c_str());
+    std::fflush(out_);
+    const auto line = next_line(meanwhile);
+    if (!line) return tl::unexpected(line.error());
+    if (line->empty() && !std::isnan(q.fallback)) return q.fallback;
+    double value = 0.0;
+    const char* end = line->data() + line->size();
+    const auto read = std::from_chars(line->data(), end, value);
+    const bool is_number = read.ec == std::errc{} && read.ptr == end;
+    if (is_number && value >= q.allowed.lowest && value <= q.allowed.highest) return value;
+    std::fprintf(out_, "'%s' is refused: it must be a number from %s\n", line->c_str(),
+                 range.c_str());
+  }
+  return tl::unexpected("no allowed answer in 3 tries: " + std::string(q.text));
+}
+
+}  // namespace supercoil::operating

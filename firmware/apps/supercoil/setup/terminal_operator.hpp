@@ -1,0 +1,35 @@
+// Setup on a terminal: lines, questions, Ctrl-C.
+#pragma once
+
+#include <cstdio>
+#include <optional>
+
+#include <unistd.h>
+
+#include "apps/common/progress.hpp"
+#include "apps/supercoil/answer_lines.hpp"
+#include "apps/supercoil/setup/operator.hpp"
+
+namespace supercoil::operating {
+
+class TerminalOperator final : public Operator {
+ public:
+  explicit TerminalOperator(std::FILE* out) : out_(out) {}
+
+  void say(const std::string& line) override;
+  void show_progress(const std::string& what, double done) override;
+  bool sees_progress() const override { return isatty(STDERR_FILENO) == 1; }
+  bool interrupted() const override;
+  /// Three tries.
+  OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
+
+ private:
+  tl::expected<std::string, std::string> next_line(const std::function<Done()>& meanwhile);
+
+  std::FILE* out_;
+  AnswerLines answers_{STDIN_FILENO};
+  std::string progress_of_;
+  std::optional<Progress> progress_;
+};
+
+}  // namespace supercoil::operating

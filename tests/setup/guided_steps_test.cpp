@@ -1,0 +1,132 @@
+// The steps of setup that ask: senses by a meter, the position's scale by a ruler, in lockstep.
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+#include <nlohmann/json.hpp>
+
+#include "setup/commissioned.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+using operating::Question;
+
+namespace {
+
+constexpr double supply_V = 12.0;
+
+/// Who has a meter and a ruler, reads them for a second, and tells what they show.
+class Person final : public operating::Operator {
+ public:
+  explicit Person(SimulatedLink& link) : link_(link) {}
+
+  void say(const std::string& line) override {
+    std::sscanf(line.c_str(), "channel 1 gets %lf W", &power_W_);
+    told_ += line + "\n";
+  }
+  void show_progress(const std::string&, double) override {}
+  bool sees_progress() const override { return false; }
+  bool interrupted() const override { return tired; }
+  OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override {
+    for (int i = 0; i < reads_looks; ++i) {
+      if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
+      link_.wait(look_every);
+    }
+    if (question.key == "supply_V") return supply_V;
+    if (question.key == "place_mm") return place_mm;
+    const double slip = currents_read_++ == 1 ? second_reading_ratio : 1.0;
+    return slip * power_W_ / supply_V;
+  }
+
+  const std::string& told() const { return told_; }
+
+  double second_reading_ratio = 1.0;  ///< of amperes, told over shown
+  double place_mm = NAN;
+  int reads_looks = 10;
+  bool tired = false;
+
+ private:
+  SimulatedLink& link_;
+  double power_W_ = 0.0;
+  int currents_read_ = 0;
+  std::string told_;
+};
+
+HeldOut pulled_by(double force_N) {
+  HeldOut muscle = held_out_muscle(24, 0.3);
+  muscle.scenario += "[[event]]\nat_s = 90.0\nplant.load_N = " + std::to_string(force_N) + "\n";
+  return muscle;
+}
+
+}  // namespace
+
+TEST_GROUP(GuidedSteps){};
+
+TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  Person person(board.link());
+  const auto found = board.steps(person).compare_senses();
+  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  DOUBLES_EQUAL(1.0, (*found)["supply_gain"].get<double>(), 0.01);
+  DOUBLES_EQUAL(1.0, (*found)["current_gain"].get<double>(), 0.02);
+  CHECK((*found)["error_ratio"].get<double>() < 0.06);
+  STRCMP_CONTAINS("the true power is 0.9", person.told().c_str());
+  STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+}
+
+TEST(GuidedSteps, AReadingThatContradictsTheOthersChangesNothing) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  Person person(board.link());
+  person.second_reading_ratio = 1.25;
+  const auto found = board.steps(person).compare_senses();
+  CHECK(!found);
+  STRCMP_CONTAINS("do not fit one another", found.error().c_str());
+  CHECK(!board.link().senses("1")->compared());
+  STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+}
+
+TEST(GuidedSteps, NobodyIsWaitedForLongerThanFiveMinutesWhileTheMuscleIsHeated) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  Person person(board.link());
+  person.reads_looks = 10000;
+  const auto found = board.steps(person).compare_senses();
+  CHECK(!found);
+  STRCMP_EQUAL("no answer within 5 minutes", found.error().c_str());
+  CHECK(board.link().time_s() < 330.0);
+  STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+}
+
+TEST(GuidedSteps, WhoeverIsTiredOfItEndsTheHeating) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  Person person(board.link());
+  person.tired = true;
+  const auto found = board.steps(person).compare_senses();
+  STRCMP_EQUAL("interrupted", found.error().c_str());
+  STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+}
+
+TEST(GuidedSteps, ASecondKnownPlaceGivesThePositionsScale) {
+  HeldOutBoard board(pulled_by(-0.03), "learned_ff", 0.02);
+  Person person(board.link());
+  operating::Commission steps = board.steps(person);
+  CHECK(steps.calibrate().has_value());
+  board.link().wait(std::chrono::seconds(120));
+  const double shown_m = board.simulation().loop().channel(0).snapshot().position_m;
+  CHECK(shown_m > 1e-4);
+  person.place_mm = 1e3 * 1.1 * shown_m;
+  const auto found = steps.scale();
+  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  DOUBLES_EQUAL(1.1, (*found)["position_scale"].get<double>(), 0.02);
+  STRCMP_CONTAINS("scale of the position: ", person.told().c_str());
+}
+
+TEST(GuidedSteps, APlaceThatNoSensorCouldBeSoWrongAboutIsRefused) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
+  Person person(board.link());
+  person.place_mm = 5.0;  // the muscle rests at its zero
+  const auto found = board.steps(person).scale();
+  CHECK(!found);
+  STRCMP_CONTAINS("scale 0.005: refused: out_of_range", found.error().c_str());
+}

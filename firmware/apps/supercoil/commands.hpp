@@ -91,6 +91,8 @@ struct MonitorOptions {
   bool text = false;        ///< on the terminal; no page
   double keep_s = 3600.0;   ///< how much a page that is opened later still sees
   double bit_rate = 500e3;  ///< of the bus, for its load
+  std::string setup;        ///< a board's file, through whose setup the page leads; empty: none
+  int channel = 1;          ///< of that file, from 1
 };
 int monitor_command(const MonitorOptions& options);
 

@@ -193,13 +193,27 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
                    "Address to listen on, e.g. 0.0.0.0 for all: viewing then needs the token too")
       ->type_name("ADDRESS")
       ->capture_default_str();
-  monitor->add_flag("--read-only", options.read_only, "Nobody may command");
-  monitor->add_flag("--text", options.text, "Show it on this terminal; serve no page");
+  CLI::Option* read_only =
+      monitor->add_flag("--read-only", options.read_only, "Nobody may command");
+  CLI::Option* text =
+      monitor->add_flag("--text", options.text, "Show it on this terminal; serve no page");
   monitor->add_option("--keep", options.keep_s, "Seconds that a page opened later still sees")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   monitor->add_option("--bit-rate", options.bit_rate, "Of the bus in bit/s, to work out its load")
       ->check(CLI::Range(1e4, 1e6))
+      ->capture_default_str();
+  CLI::Option* setup =
+      monitor
+          ->add_option("--setup", options.setup,
+                       "The page leads through the setup of this board's file, as supercoil setup")
+          ->type_name("FILE")
+          ->check(CLI::ExistingFile)
+          ->excludes(read_only)
+          ->excludes(text);
+  monitor->add_option("--channel", options.channel, "Of that file, from 1")
+      ->check(CLI::Range(1, 16))
+      ->needs(setup)
       ->capture_default_str();
 }
 

@@ -14,6 +14,7 @@
 #include "apps/supercoil/monitor/api.hpp"
 #include "apps/supercoil/monitor/server_thread.hpp"
 #include "apps/supercoil/monitor/stop.hpp"
+#include "apps/supercoil/setup/setup_api.hpp"
 
 namespace supercoil::operating {
 
@@ -95,17 +96,28 @@ int serve_page(const MonitorOptions& options, Source& source) {
   };
   ManualControls controls(
       [&](std::uint8_t node) { return open_for(can_client::answer_ids(node)); });
+  std::unique_ptr<SetupSession> setup;
+  if (!options.setup.empty()) {
+    SetupOptions asked;
+    asked.config = options.setup;
+    asked.channel = options.channel;
+    asked.can = options.source;
+    setup = std::make_unique<SetupSession>(asked, [&] { controls.release_hold("setup heats"); });
+  }
   std::unique_ptr<StopServer> stop;
   if (!source.log && !access.read_only) {
-    auto started =
-        StopServer::start(access, open_for({can_client::acknowledge_id(1)}), *source.frame_history,
-                          [&] { controls.release_hold("stopped"); });
+    auto started = StopServer::start(access, open_for({can_client::acknowledge_id(1)}),
+                                     *source.frame_history, [&] {
+                                       controls.release_hold("stopped");
+                                       if (setup) setup->end("STOP");
+                                     });
     if (!started) return fail(exit_failed, started.error());
     stop = std::move(*started);
   }
   Api api(access, *source.frame_history, controls,
-          {options.source, source.log, stop ? stop->port() : 0});
+          {options.source, source.log, stop ? stop->port() : 0, setup != nullptr});
   api.serve_with(server);
+  if (setup) serve_setup(server, access, *setup);
   const bool token = !source.log && !access.read_only;
   std::printf("http://%s:%d/%s%s\n", access.host.c_str(), access.port,
               token || !access.loopback ? "#token=" : "",
@@ -123,6 +135,8 @@ int serve_page(const MonitorOptions& options, Source& source) {
 int monitor_command(const MonitorOptions& options) {
   auto source = open_source(options);
   if (!source) return fail(exit_wrong_input, source.error());
+  if (!options.setup.empty() && source->log)
+    return fail(exit_wrong_input, options.source + " is a log: --setup needs a board on a bus");
   watch_for_interrupts();
   if (!options.text) return serve_page(options, *source);
   return show_on_terminal(*source->frame_history, source->log, [] { return interrupted != 0; });

@@ -3,6 +3,9 @@
 #include <array>
 #include <cstdio>
 #include <random>
+#include <utility>
+
+#include <nlohmann/json.hpp>
 
 namespace supercoil::operating {
 
@@ -64,6 +67,32 @@ bool is_same_origin(const Access& access, const httplib::Request& request) {
   const std::string origin = request.get_header_value("Origin");
   const std::string scheme = "http://";
   return origin.starts_with(scheme) && names_us(access, origin.substr(scheme.size()), access.port);
+}
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  response.status = status;
+  answer_json(response, nlohmann::json{{"error", why}}.dump());
+}
+
+void answer_json(httplib::Response& response, const std::string& json) {
+  // With a parameter, so that the library does not take it for a type to compress.
+  response.set_content(json, "application/json; charset=utf-8");
+}
+
+httplib::Server::Handler shown(const Access& access, httplib::Server::Handler handler) {
+  return [&access, handler = std::move(handler)](const auto& request, auto& response) {
+    const std::string refused = refuse_to_show(access, request);
+    if (!refused.empty()) return refuse(response, 403, refused);
+    handler(request, response);
+  };
+}
+
+httplib::Server::Handler commanded(const Access& access, httplib::Server::Handler handler) {
+  return [&access, handler = std::move(handler)](const auto& request, auto& response) {
+    const std::string refused = refuse_to_command(access, request);
+    if (!refused.empty()) return refuse(response, 403, refused);
+    handler(request, response);
+  };
 }
 
 std::string refuse_to_show(const Access& access, const httplib::Request& request) {

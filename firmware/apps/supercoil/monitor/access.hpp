@@ -31,6 +31,15 @@ bool has_token(const Access& access, const httplib::Request& request);
 /// The page that sent it is ours.
 bool is_same_origin(const Access& access, const httplib::Request& request);
 
+/// {"error": why} with a status.
+void refuse(httplib::Response& response, int status, const std::string& why);
+/// {…}, uncompressed: the library's Brotli needs 5 s for 2 MB.
+void answer_json(httplib::Response& response, const std::string& json);
+/// The handler for those who may look, and for those who may command; others are refused with 403.
+/// access outlives it.
+httplib::Server::Handler shown(const Access& access, httplib::Server::Handler handler);
+httplib::Server::Handler commanded(const Access& access, httplib::Server::Handler handler);
+
 /// Why it is refused; empty: it is not.
 std::string refuse_to_show(const Access& access, const httplib::Request& request);
 std::string refuse_to_command(const Access& access, const httplib::Request& request);

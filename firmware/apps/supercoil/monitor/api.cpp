@@ -19,16 +19,8 @@ namespace {
 
 using nlohmann::json;
 
-/// With a parameter, so that the library does not take it for a type to compress: its Brotli needs
-/// 5 s for 2 MB.
-constexpr const char* json_type = "application/json; charset=utf-8";
 constexpr auto stream_every = std::chrono::milliseconds(50);
 constexpr int beat_after = 20;  // quiet pieces: a second
-
-void refuse(httplib::Response& response, int status, const std::string& why) {
-  response.status = status;
-  response.set_content(json{{"error", why}}.dump(), json_type);
-}
 
 /// Seconds of a query; the fallback when there are none.
 std::optional<hal::Time> time_of(const httplib::Request& request, const std::string& name,
@@ -122,19 +114,11 @@ Api::Api(Access access, const FrameHistory& frame_history, ManualControls& contr
 void Api::serve_with(httplib::Server& server) {
   add_headers(server, access_, about_.stop_port);
   serve_files(server);
-  const auto shown = [this](auto handler) {
-    return [this, handler](const Request& request, Response& response) {
-      const std::string refused = refuse_to_show(access_, request);
-      if (!refused.empty()) return refuse(response, 403, refused);
-      handler(request, response);
-    };
-  };
-  const auto commanded = [this](auto handler) {
-    return [this, handler](const Request& request, Response& response) {
-      const std::string refused =
-          about_.log ? "a log cannot be commanded" : refuse_to_command(access_, request);
-      if (!refused.empty()) return refuse(response, 403, refused);
-      handler(request, response);
+  const auto shown = [this](auto handler) { return operating::shown(access_, handler); };
+  const auto commanded = [this](httplib::Server::Handler handler) -> httplib::Server::Handler {
+    if (!about_.log) return operating::commanded(access_, std::move(handler));
+    return [](const Request&, Response& response) {
+      refuse(response, 403, "a log cannot be commanded");
     };
   };
   server.Get("/api/about", shown([this](const auto& q, auto& a) { about(q, a); }));
@@ -162,18 +146,18 @@ void Api::about(const Request& request, Response& response) const {
       {"read_only", access_.read_only},
       {"may_command", may},
       {"stop_port", about_.stop_port},
+      {"setup", about_.setup},
       {"page_timeout_s", std::chrono::duration<double>(ManualControl::page_timeout).count()},
       {"protocol", json::parse(protocol_json())},
       {"protocol_version", telemetry::protocol_version}};
-  response.set_content(told.dump(), json_type);
+  answer_json(response, told.dump());
 }
 
 void Api::history(const Request& request, Response& response) const {
   const auto from = time_of(request, "from_s", hal::Time::zero());
   const auto to = time_of(request, "to_s", hal::Time::max());
   if (!from || !to) return refuse(response, 400, "from_s and to_s must be seconds");
-  response.set_content(to_batch(frame_history_->between(*from, *to), frame_history_->figures()),
-                       json_type);
+  answer_json(response, to_batch(frame_history_->between(*from, *to), frame_history_->figures()));
 }
 
 bool Api::stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost) {
@@ -215,7 +199,7 @@ void Api::command(const Request& request, Response& response) {
   if (!order) return refuse(response, 400, order.error());
   const auto answer = controls_->of(order->node).ask(order->verb, order->value);
   if (!answer) return refuse(response, 504, answer.error());
-  response.set_content(json{{"refusal", name(*answer)}}.dump(), json_type);
+  answer_json(response, json{{"refusal", name(*answer)}}.dump());
 }
 
 void Api::show_tuning(const Request& request, Response& response) {
@@ -224,7 +208,7 @@ void Api::show_tuning(const Request& request, Response& response) {
   if (!node) return refuse(response, 400, node.error());
   const auto controllers = controls_->read_tuning(*node);
   if (!controllers) return refuse(response, 504, controllers.error());
-  response.set_content(tuning_json(*controllers).dump(), json_type);
+  answer_json(response, tuning_json(*controllers).dump());
 }
 
 void Api::show_muscle(const Request& request, Response& response) {
@@ -236,7 +220,7 @@ void Api::show_muscle(const Request& request, Response& response) {
   json told;
   for (std::size_t i = 0; i < known->size(); ++i)
     told[std::string(known_quantities[i])] = (*known)[i];
-  response.set_content(told.dump(), json_type);
+  answer_json(response, told.dump());
 }
 
 void Api::tune(const Request& request, Response& response) {
@@ -244,7 +228,7 @@ void Api::tune(const Request& request, Response& response) {
   if (!asked) return refuse(response, 400, asked.error());
   const auto answer = operating::tune(controls_->of(asked->node), *asked);
   if (!answer) return refuse(response, 504, answer.error());
-  response.set_content(json{{"refusal", name(*answer)}}.dump(), json_type);
+  answer_json(response, json{{"refusal", name(*answer)}}.dump());
 }
 
 void Api::alive(const Request& request, Response& response) {
@@ -253,7 +237,7 @@ void Api::alive(const Request& request, Response& response) {
   const ManualControl::Holding holding = controls_->of(*node).alive();
   json told{{"holding", holding.holding}};
   if (!holding.holding) told["reason"] = holding.reason;
-  response.set_content(told.dump(), json_type);
+  answer_json(response, told.dump());
 }
 
 }  // namespace supercoil::operating

@@ -41,7 +41,8 @@ class Api {
   struct About {
     std::string source;  ///< as the user named it
     bool log = false;
-    int stop_port = 0;  ///< 0: nothing can be commanded
+    int stop_port = 0;   ///< 0: nothing can be commanded
+    bool setup = false;  ///< it leads through setup as well
   };
 
   Api(Access access, const FrameHistory& frame_history, ManualControls& controls, About about);

@@ -10,6 +10,7 @@ import { OtherRun } from "./other_run.js";
 import { PlotDialog } from "./plot_dialog.js";
 import { Replay } from "./replay.js";
 import { RunBar } from "./run_bar.js";
+import { Setup } from "./setup.js";
 import { about as ask_about, token } from "./server.js";
 import { StatusLine } from "./status_line.js";
 import { Stop } from "./stop.js";
@@ -70,7 +71,8 @@ function begin(about) {
   };
   // A log is seen as a whole at first.
   if (is_log) store.addEventListener("batch", () => view.span(Math.max(1, store.newest_s - store.oldest_s)), { once: true });
-  connect_tools({ view, replay, export_csv, fault_page, tabs, plots });
+  const setup = about.setup ? new Setup(by_id("setup"), by_id("open-setup"), store) : null;
+  connect_tools({ view, replay, export_csv, fault_page, tabs, plots, setup });
   draw_forever({ store, view, replay, run, tabs, status, stop });
   stream.open();
   feed.fill();

@@ -62,6 +62,12 @@ export const ask_muscle = async (node) => void (await ask(`/api/muscle/${node}`)
 export const tune = async (node, place, from, values) =>
   (await (await post("/api/tuning", { node, place, from, values })).json()).refusal;
 
+/** Where setup is: SetupSession's state. */
+export const setup_state = async () => (await ask("/api/setup")).json();
+
+/** asked: {do: "begin", step}, {do: "answer", text}, {do: "end"} or {do: "undo"}. Resolves to the state after it. */
+export const ask_setup = async (asked) => (await post("/api/setup", asked)).json();
+
 /** STOP's other way: an ordinary command, with a deadline. */
 export const disarm_within = (limit_ms, node) => within(limit_ms, (options) => command(node, "disarm", 0, options));
 

@@ -5,7 +5,7 @@ import { listen_to_keys, listen_to_wheel } from "./keys.js";
 
 const by_id = (id) => document.getElementById(id);
 
-export function connect_tools({ view, replay, export_csv, fault_page, tabs, plots }) {
+export function connect_tools({ view, replay, export_csv, fault_page, tabs, plots, setup }) {
   const pause = by_id("pause");
   const toggle = () => (replay && view.live ? replay.toggle() : view.toggle());
   pause.addEventListener("click", toggle);
@@ -30,7 +30,7 @@ export function connect_tools({ view, replay, export_csv, fault_page, tabs, plot
     p: toggle, l: () => view.follow(), End: () => view.follow(), c: export_csv, "?": show_help,
     "+": () => view.zoom(0.5), "=": () => view.zoom(0.5), "-": () => view.zoom(2),
     ArrowLeft: () => view.pan(-0.25), ArrowRight: () => view.pan(0.25),
-    Escape: () => (help.open ? help.close() : plots.dialog.open ? plots.dialog.close() : fault_page.dialog.open && fault_page.close()),
+    Escape: () => (help.open ? help.close() : plots.dialog.open ? plots.dialog.close() : setup?.dialog.open ? setup.dialog.close() : fault_page.dialog.open && fault_page.close()),
   });
   listen_to_wheel(by_id("nodes"), view);
 }

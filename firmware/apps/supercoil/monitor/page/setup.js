@@ -1,0 +1,127 @@
+// Setup, step by step: what each does is said before it begins, what it found stays to be seen. The steps run in the
+// monitor; this shows where they are, asks, and answers.
+
+import { element, show } from "./dom.js";
+import { significant, words } from "./format.js";
+import { ask_setup, setup_state } from "./server.js";
+
+const LOOK_EVERY_MS = 400;
+
+const text_of = (value) => (value === null ? "–" : typeof value === "number" ? significant(value) : String(value));
+
+export class Setup {
+  /** opener: the button that opens it. store: while the bus tells something, so that a hidden page is not put to sleep. */
+  constructor(dialog, opener, store) {
+    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0 });
+    const [close, undo] = dialog.querySelectorAll(":scope > button");
+    const [what, answer] = dialog.querySelectorAll(":scope > p");
+    Object.assign(this, { undo, what, answer, list: dialog.querySelector("ol") });
+    opener.hidden = false;
+    opener.addEventListener("click", () => (dialog.open ? dialog.close() : this.open()));
+    close.addEventListener("click", () => dialog.close());
+    undo.addEventListener("click", () => this.#ask({ do: "undo" }, "the file is as it was before setup"));
+    const look = () => (dialog.open || this.state?.running) && this.look();
+    setInterval(look, LOOK_EVERY_MS);
+    store.addEventListener("batch", look);
+  }
+
+  open() {
+    this.dialog.show();
+    this.look();
+  }
+
+  async look() {
+    if (performance.now() - this.looked_ms < LOOK_EVERY_MS) return;
+    this.looked_ms = performance.now();
+    try {
+      this.#take(await setup_state());
+    } catch (problem) {
+      this.#say(problem.message, true);
+    }
+  }
+
+  async #ask(asked, done = "") {
+    try {
+      this.#take(await ask_setup(asked));
+      this.#say(done);
+    } catch (problem) {
+      this.#say(problem.message, true);
+    }
+  }
+
+  #say(text, refused = false) {
+    show(this.answer, text);
+    this.answer.classList.toggle("refused", refused);
+  }
+
+  #take(state) {
+    const text = JSON.stringify(state);
+    const { progress, ...rest } = state;
+    const shape = JSON.stringify(rest);
+    this.state = state;
+    if (shape !== this.shape) this.#draw();
+    else if (text !== this.shown) this.#draw_progress();
+    Object.assign(this, { shape, shown: text });
+  }
+
+  #draw() {
+    const { file, channel, steps, running, last } = this.state;
+    this.what.title = file;
+    show(this.what, `Channel ${channel} of ${file.split("/").pop()}. STOP ends a step at once; so does closing this page.`);
+    this.undo.disabled = running !== null;
+    const next = steps.findIndex(({ found, optional }, place) => place > steps.findLastIndex((step) => step.found !== null) && !optional && found === null);
+    this.list.replaceChildren(...steps.map((step, place) => {
+      const runs = step.name === running;
+      return element("li", { class: runs ? "runs" : place === next ? "next" : "", "aria-current": runs ? "step" : null },
+        element("h3", {}, step.name, step.optional ? " (may be left)" : ""), element("p", {}, step.does),
+        this.#found(step),
+        ...(step.name === last ? this.#what_happens(runs) : []),
+        runs ? element("button", { type: "button", onclick: () => this.#ask({ do: "end" }) }, `end ${step.name}`)
+          : element("button", { type: "button", disabled: running !== null, onclick: () => this.#ask({ do: "begin", step: step.name }) },
+            step.found === null ? `begin ${step.name}` : `${step.name} again`));
+    }));
+    this.#draw_progress();
+    this.list.querySelector("input")?.focus();
+    this.list.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
+  }
+
+  /** A table of what a step found. */
+  #found({ name, found }) {
+    if (found === null) return "";
+    return element("details", {}, element("summary", {}, "done; what it found"),
+      element("table", { "aria-label": `found by ${name}` }, ...Object.entries(found).map(([key, value]) =>
+        element("tr", {}, element("th", { scope: "row", title: key }, words(key)), element("td", {}, text_of(value))))));
+  }
+
+  #what_happens(runs) {
+    const { lines, question, error, kept, steps, last } = this.state;
+    const told = lines.map((line) => element("li", {}, line));
+    const parts = [element("div", { class: "lines", role: "log", "aria-label": "what setup tells", tabindex: 0 }, element("ul", {}, ...told))];
+    if (runs) {
+      this.progress = element("progress", { max: 1, "aria-label": "progress of the step" });
+      this.progress_text = element("span");
+      parts.push(element("p", { class: "progress" }, this.progress, this.progress_text));
+    }
+    if (question) parts.push(this.#question(question));
+    if (error) parts.push(element("p", { class: "answer refused", role: "alert" }, error));
+    else if (!runs && !kept) parts.push(element("p", { class: "answer refused", role: "alert" }, "The promise was not kept."));
+    else if (!runs && last === steps[0].name) parts.push(element("p", { class: "answer" }, "The file is complete: start the board with it, then go on with the next step."));
+    return parts;
+  }
+
+  #question({ key, text, range, fallback }) {
+    const input = element("input", { type: "text", inputmode: "decimal", id: `setup-${key}`, placeholder: fallback ?? "", autocomplete: "off" });
+    return element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#ask({ do: "answer", text: input.value.trim() }); } },
+      element("label", { for: input.id }, text), element("p", { class: "hint" }, `${range}${fallback === null ? "" : `; nothing means ${fallback}`}`),
+      input, " ", element("button", { type: "submit" }, "next"));
+  }
+
+  #draw_progress() {
+    const { running, progress, question } = this.state;
+    if (!running || !this.progress) return;
+    this.progress.parentElement.hidden = question !== null;
+    if (progress?.done == null) this.progress.removeAttribute("value");
+    else this.progress.value = progress.done;
+    show(this.progress_text, progress ? ` ${words(progress.what)}${progress.done == null ? "" : `, ${Math.round(100 * progress.done)} %`}` : "");
+  }
+}

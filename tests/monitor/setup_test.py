@@ -1,0 +1,262 @@
+"""The page leads from a muscle to one that follows, in a real browser, over a simulated board that runs in real time.
+
+    setup_test.py                the tests
+    setup_test.py --pictures     takes the pictures of docs/setup.md instead
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+"""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import accessibility_test
+from page_test import PICTURES, Page, TRIES
+from programs import BIN, ROOT, SLACK_S, SUPERCOIL, Program, command, monitor
+from selenium.webdriver.common.keys import Keys
+
+EXAMPLE = ROOT / "firmware" / "io" / "config" / "examples" / "raspberry-pi-pwm-ads1115.toml"
+SIMULATOR = os.environ.get("SUPERCOIL_SIM", BIN / "supercoil-sim")
+SUPPLY_V = 12.0
+# Of the paper's muscle.
+ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "stretch_mm": 55, "heated_W": 2.0,
+           "heated_mm": 13, "half_cooling_s": 1.3, "thread_g": 0.1, "heated_K": 0, "max_W": 4.5, "max_travel_mm": 25,
+           "uncertainty_percent": 30}
+STEPS = ("describe", "senses", "calibrate", "scale", "identify", "move")
+STEP_S = 240.0
+
+
+class Wizard(Page):
+    """The page's dialog of setup, as a person uses it."""
+
+    def step(self, name):
+        return self.run(f"""const step = [...document.querySelectorAll("#setup > ol > li")][{STEPS.index(name)}];
+            return {{ text: step.textContent, found: step.querySelector("table")?.textContent ?? "",
+                      problem: step.querySelector("[role=alert]")?.textContent ?? "", runs: step.classList.contains("runs"),
+                      lines: [...step.querySelectorAll(".lines li")].map((li) => li.textContent) }}""")
+
+    def press(self, text):
+        self.run(f"""[...document.querySelectorAll("#setup button")].find((b) => b.textContent === "{text}").click()""")
+
+    def begin(self, name):
+        again = self.step(name)["found"] != ""
+        self.press(f"{name} again" if again else f"begin {name}")
+        self.wait(lambda: self.step(name)["runs"] or self.over(name), SLACK_S, f"{name} begins")
+
+    def over(self, name):
+        step = self.step(name)
+        return not step["runs"] and (step["found"] or step["problem"])
+
+    def ended(self, name, patience_s=STEP_S):
+        self.wait(lambda: self.over(name), patience_s, f"{name} ends")
+        return self.step(name)
+
+    def asked(self):
+        """The key of what is asked now."""
+        return self.run("""return document.querySelector("#setup form input")?.id.slice(6) ?? "" """)
+
+    def answer(self, key, value):
+        self.wait(lambda: self.asked() == key, SLACK_S, f"{key} is asked")
+        self.find("#setup form input").send_keys(str(value), Keys.ENTER)
+
+    def describe(self):
+        self.begin("describe")
+        for key, value in ANSWERS.items():
+            self.answer(key, value)
+        return self.ended("describe", SLACK_S)
+
+
+class SetupCase(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = pathlib.Path(folder.name) / "board.toml"
+        # Room for a muscle that rests lower in the coldest air than where its zero was taken.
+        self.text = EXAMPLE.read_text().replace("min_m = -0.001", "min_m = -0.012")
+        self.file.write_text(self.text)
+        self.boards = []
+
+    def start_board(self, port=0):
+        """With the file as it is now; its senses were never compared with a meter."""
+        board = Program([SIMULATOR, "run", "bench", "--board", self.file, "--real-time", "--can", f"socketcand:{port}"],
+                        r"serving can0 on 127\.0\.0\.1:(\d+)")
+        self.addCleanup(board.stop)
+        return board
+
+    def wizard(self, source, width=1440):
+        self.monitor = monitor(source, "--setup", self.file)
+        self.addCleanup(self.monitor.stop)
+        page = Wizard(width=width)
+        self.addCleanup(page.__exit__)
+        page.open(self.monitor.found[0])
+        page.click("#open-setup")
+        page.wait(lambda: page.text("#setup h3") == "describe", SLACK_S, "the steps are shown")
+        return page
+
+    def described(self):
+        """A board that runs with a complete file, and the page."""
+        done = subprocess.run([SUPERCOIL, "setup", "--config", self.file, "--script", self.script()], capture_output=True,
+                              text=True, timeout=60)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        board = self.start_board()
+        self.source = f"socketcand:{board.found[1]}"
+        return self.wizard(self.source)
+
+    def script(self):
+        path = self.file.with_name("answers.toml")
+        path.write_text("[muscle]\n" + "".join(f"{key} = {value}\n" for key, value in ANSWERS.items()))
+        return path
+
+    def record(self):
+        return json.loads(self.file.with_name("board.toml.setup.json").read_text())["channel-1"]
+
+    def run_step(self, page, name, after_begin=lambda: None):
+        """Again where the machine stalls so long that a command expires, as it has to."""
+        for _ in range(TRIES):
+            command(self.source, "1", "reset")
+            page.begin(name)
+            after_begin()
+            step = page.ended(name)
+            if not step["problem"]:
+                return step
+            print(f"{name}: {step['problem']}")
+        raise AssertionError(f"{name} did not end well in {TRIES} tries")
+
+
+class SetupTest(SetupCase):
+    def test_from_a_muscle_to_one_that_follows(self):
+        self.follow_all_steps(lambda page, name: None)
+
+    def follow_all_steps(self, see):
+        board = self.start_board()
+        port = board.found[1]
+        self.source = f"socketcand:{port}"
+        page = self.wizard(self.source)
+        page.begin("describe")
+        page.wait(page.asked, SLACK_S, "a question")
+        see(page, "question")
+        page.press("end describe")
+        page.ended("describe", SLACK_S)
+        described = page.describe()
+        self.assertIn("muscle.stiffness", described["found"])
+        self.assertIn("stiffness_N_per_m = 17.84", self.file.read_text())
+        self.assertIn("start the board with it", described["text"])
+        board.stop()
+        self.start_board(port)
+
+        def compare():
+            for _ in range(2):
+                page.answer("supply_V", SUPPLY_V)
+                page.wait(lambda: page.asked() == "current_A", SLACK_S, "amperes are asked")
+                power_W = float(re.search(r"gets ([\d.]+) W", page.step("senses")["lines"][-2])[1])
+                see(page, "senses")
+                page.answer("current_A", f"{power_W / SUPPLY_V:.5f}")
+                page.wait(lambda: page.asked() != "current_A", SLACK_S, "the amperes are taken")
+
+        see(page, "described")
+        senses = self.run_step(page, "senses", compare)
+        self.assertIn("the true power is 0.9", " ".join(senses["lines"]))
+        calibrated = self.run_step(page, "calibrate")
+        self.assertRegex(" ".join(calibrated["lines"]), r"cold resistance: (9\.9|10)\S* Ohm \(configured: 10, ")
+        identified = self.run_step(page, "identify", lambda: see(page, "identify"))
+        self.assertRegex(" ".join(identified["lines"]), r"stiffness_N_per_m: \S+ \(configured: 17\.84, ")
+        moved = self.run_step(page, "move")
+        self.assertRegex(" ".join(moved["lines"]), "promised: .*followed within .* um rms: the promise is kept")
+        see(page, "moved")
+        self.assertEqual(set(self.record()), {"describe", "senses", "calibrate", "identify", "move"})
+        state = command(self.source, "state").stdout
+        self.assertRegex(state, "node 1: disarmed")
+        self.assertEqual(page.errors(), [])
+
+    def test_a_wrong_answer_is_refused_with_its_range_and_asked_again(self):
+        page = self.wizard(f"socketcand:{self.start_board().found[1]}")
+        page.begin("describe")
+        page.answer("cold_resistance_Ohm", "10 Ohm")
+        page.wait(lambda: "'10 Ohm' is refused: it must be a number from 0.1 to 10000" in page.text("#setup > .answer"), SLACK_S, "refused")
+        self.assertEqual(page.asked(), "cold_resistance_Ohm")
+        page.press("end describe")
+        step = page.ended("describe", SLACK_S)
+        self.assertEqual(step["problem"], "interrupted: ended on the page")
+        self.assertEqual(self.file.read_text(), self.text)
+
+    def test_it_is_for_everybody(self):
+        page = self.described()
+        page.begin("describe")
+        page.wait(page.asked, SLACK_S, "a question")
+        page.run(accessibility_test.AXE)
+        for width, height, scheme in ((1440, 1000, "light"), (1440, 1000, "dark"), (390, 844, "light")):
+            accessibility_test.AccessibilityTest.settle(self, page, width, height, scheme, width < 600)
+            with self.subTest(width=width, scheme=scheme):
+                self.assertEqual(page.driver.execute_async_script(accessibility_test.AUDIT, "#setup"), [])
+                self.assertLessEqual(page.run("return document.querySelector('#setup').scrollWidth - document.querySelector('#setup').clientWidth"), 0)
+
+    def test_undo_puts_the_file_back(self):
+        page = self.described()
+        self.assertNotEqual(self.file.read_text(), self.text)
+        page.press("undo all of it")
+        page.wait(lambda: "as it was before setup" in page.text("#setup > .answer"), SLACK_S, "undone")
+        self.assertEqual(self.file.read_text(), self.text)
+        self.assertEqual(page.step("describe")["found"], "")
+
+    def test_stop_ends_a_step_and_disarms(self):
+        page = self.described()
+        page.begin("calibrate")
+        page.ended("calibrate")
+        page.begin("identify")
+        page.wait(lambda: page.state() == "active" or page.over("identify"), SLACK_S, "heats")
+        page.click("#stop")
+        step = page.ended("identify", 3 * SLACK_S)
+        self.assertIn("STOP", step["problem"])
+        self.assertRegex(command(self.source, "state").stdout, "node 1: disarmed")
+        self.assertNotIn("identify", self.record())
+
+    def test_without_a_page_that_watches_a_step_ends(self):
+        page = self.described()
+        page.begin("identify")
+        page.wait(lambda: page.state() == "active" or page.over("identify"), SLACK_S, "heats")
+        page.driver.get("about:blank")
+        time.sleep(12.0)
+        self.assertRegex(command(self.source, "state").stdout, "node 1: disarmed")
+        page.open(self.monitor.found[0] if self.monitor.found[2] else self.monitor.found[1])
+        page.click("#open-setup")
+        page.wait(lambda: page.step("identify")["problem"] != "", SLACK_S, "told")
+        self.assertIn("interrupted", page.step("identify")["problem"])
+
+    def test_what_setup_cannot_be_for_is_told_at_the_start(self):
+        for words, told in ((("--setup", "missing.toml"), "missing.toml"),
+                            (("--setup", self.file, "--read-only"), "--read-only excludes --setup"),
+                            (("--channel", "2"), "--channel requires --setup")):
+            done = subprocess.run([SUPERCOIL, "monitor", "socketcand:29536", *words], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(told, done.stderr)
+        log = self.file.with_name("can.log")
+        log.write_text("(1.000000) can0 101#00\n")
+        done = subprocess.run([SUPERCOIL, "monitor", log, "--setup", self.file], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is a log: --setup needs a board on a bus", done.stderr)
+
+
+class Pictures(SetupTest):
+    """The sequence of docs/setup.md; no test finds it by itself."""
+
+    def runTest(self):
+        def see(page, name):
+            page.screen(1120, 860)
+            time.sleep(20.0 if name == "identify" else 1.0)
+            page.driver.save_screenshot(str(PICTURES / f"setup-{name}.png"))
+
+        self.follow_all_steps(see)
+
+
+if __name__ == "__main__":
+    if "--pictures" in sys.argv:
+        unittest.TextTestRunner(verbosity=2).run(Pictures())
+    else:
+        unittest.main(verbosity=2, defaultTest="SetupTest")

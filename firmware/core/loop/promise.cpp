@@ -16,8 +16,9 @@ constexpr double slower_than_fastest = 1.2;
 /// Quicker ones show nothing that this does not, and a person sees it.
 constexpr double min_period_s = 5.0;
 
-/// One period's error differs from the next one's.
-constexpr double between_periods = 1.25;
+/// One period's error differs from the next one's, and motion from that of identify: of 200 muscles
+/// (tests/setup/setup_study.cpp, 1 to 200) 98 % stay below.
+constexpr double allowance = 1.5;
 /// White noise of each tick through a loop of this bandwidth, and what its damping adds.
 constexpr double noise_gain = 2.5;
 /// Motion that is quicker than a drift, over the sensor's noise, which needs no dither.
@@ -41,8 +42,7 @@ FirstMotion plan_first_motion(const Feasibility& f) {
 }
 
 double Promise::error_m() const {
-  return between_periods *
-         std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
+  return allowance * std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
 }
 
 Promise promise_error(const control::LearnedFeedforwardSettings& law,

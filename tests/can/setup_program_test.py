@@ -139,6 +139,11 @@ class SetupProgram(unittest.TestCase):
         self.assertAlmostEqual(found["position_offset_m"], 0.0, delta=1e-4)
         state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertRegex(state.stdout, "node 1: disarmed")
+        # It hangs at its zero: no scale makes 5 mm of that.
+        done = self.setup_program("scale", "--can", bus, input="5\n")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("towards shorter, in mm (0.025 to 25): ", done.stdout)
+        self.assertIn("scale: scale 0.005: refused: out_of_range", done.stderr)
         with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
             told = [program.stdout.readline() for _ in range(3)]

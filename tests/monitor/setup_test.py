@@ -207,8 +207,7 @@ class SetupTest(SetupCase):
 
     def test_stop_ends_a_step_and_disarms(self):
         page = self.described()
-        page.begin("calibrate")
-        page.ended("calibrate")
+        self.run_step(page, "calibrate")
         page.begin("identify")
         page.wait(lambda: page.state() == "active" or page.over("identify"), SLACK_S, "heats")
         page.click("#stop")
@@ -219,6 +218,7 @@ class SetupTest(SetupCase):
 
     def test_without_a_page_that_watches_a_step_ends(self):
         page = self.described()
+        self.run_step(page, "calibrate")
         page.begin("identify")
         page.wait(lambda: page.state() == "active" or page.over("identify"), SLACK_S, "heats")
         page.driver.get("about:blank")
@@ -227,7 +227,7 @@ class SetupTest(SetupCase):
         page.open(self.monitor.found[0] if self.monitor.found[2] else self.monitor.found[1])
         page.click("#open-setup")
         page.wait(lambda: page.step("identify")["problem"] != "", SLACK_S, "told")
-        self.assertIn("interrupted", page.step("identify")["problem"])
+        self.assertIn("interrupted: no page watched it", page.step("identify")["problem"])
 
     def test_what_setup_cannot_be_for_is_told_at_the_start(self):
         for words, told in ((("--setup", "missing.toml"), "missing.toml"),

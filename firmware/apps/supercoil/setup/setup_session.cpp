@@ -132,6 +132,7 @@ void SetupSession::Page::conclude(const StepResult& found) {
     kept_ = Commission::kept(*found);
   } else {
     error_ = without_line_end(found.error());
+    if (ending_.empty() && Clock::now() - alive_ > page_timeout) ending_ = "no page watched it";
     if (!ending_.empty()) error_ += ": " + ending_;
   }
 }

@@ -2,7 +2,7 @@
 
 #include <CppUTest/TestHarness.h>
 
-using namespace supercoil::config;
+using namespace supercoil;
 
 TEST_GROUP(Nearest){};
 

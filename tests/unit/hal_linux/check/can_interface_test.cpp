@@ -3,12 +3,14 @@
 #include <linux/can/netlink.h>
 #include <linux/if_link.h>
 #include <linux/rtnetlink.h>
+#include <net/if.h>
 
 #include <CppUTest/TestHarness.h>
 
 #include "supercoil/hal_linux/checks.hpp"
 
 #include "unit/hal_linux/check/told.hpp"
+#include "unit/hal_linux/support/system_calls.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
 
 using namespace supercoil;
@@ -123,4 +125,27 @@ TEST(CheckCanLink, FindsTheBitRateInTheKernelsAnswer) {
       static_cast<void>(bit_rate_in(damaged));
     }
   }
+}
+
+TEST(CheckCanLink, AsksTheKernelForTheBitRateOfThisInterface) {
+  set_netlink([](const Bytes& question) {
+    nlmsghdr header{};
+    ifinfomsg link{};
+    CHECK(question.size() >= sizeof(header) + sizeof(link));
+    std::memcpy(&header, question.data(), sizeof(header));
+    std::memcpy(&link, question.data() + sizeof(header), sizeof(link));
+    UNSIGNED_LONGS_EQUAL(question.size(), header.nlmsg_len);
+    LONGS_EQUAL(RTM_GETLINK, header.nlmsg_type);
+    // Without this the kernel answers nothing.
+    CHECK((header.nlmsg_flags & NLM_F_REQUEST) != 0);
+    LONGS_EQUAL(if_nametoindex("lo"), link.ifi_index);
+    return can_at(250000);
+  });
+  // Every machine has this one; a bit rate it has only here.
+  const auto rate = can_bit_rate("lo");
+  CHECK(rate.has_value());
+  UNSIGNED_LONGS_EQUAL(250000, *rate);
+  set_netlink([](const Bytes&) { return answer({}); });
+  CHECK_FALSE(can_bit_rate("lo").has_value());
+  reset_calls();
 }

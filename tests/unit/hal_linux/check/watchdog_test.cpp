@@ -79,3 +79,16 @@ TEST(CheckWatchdog, SaysThatItIsNotKnown) {
   root.write(first + "dev", "10:131\n");
   check_finding("warning", "/dev/null is there; ", "CONFIG_WATCHDOG_SYSFS", found(device));
 }
+
+TEST(CheckWatchdog, KnowsTheFirstOneByItsOtherName) {
+  // /dev/watchdog has numbers of its own, which no folder shows.
+  root.write(first + "dev", "250:0\n");
+  set_device(10, 130);
+  check_finding("ok", "/dev/null is watchdog0 'i6300ESB timer'", "", found(device));
+  set_device(250, 0);
+  check_finding("ok", "/dev/null is watchdog0 'i6300ESB timer'", "", found(device));
+  for (const auto& [major, minor] : {std::pair(10U, 131U), {11U, 130U}, {250U, 1U}}) {
+    set_device(major, minor);
+    check_finding("warning", "does not tell what it is", "wdctl", found(device));
+  }
+}

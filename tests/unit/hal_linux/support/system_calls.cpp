@@ -1,5 +1,6 @@
 #include "unit/hal_linux/support/system_calls.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdarg>
@@ -11,6 +12,9 @@
 
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 namespace supercoil::test {
@@ -28,6 +32,9 @@ struct State {
   std::list<Waiting> waiting;
   Driver driver;
   Control control;
+  Netlink netlink;
+  std::vector<std::byte> netlink_answer;
+  dev_t device = 0;
 };
 
 State& state() {
@@ -80,11 +87,21 @@ void set_control(Control control) {
   state().control = std::move(control);
 }
 
+void set_netlink(Netlink netlink) {
+  state().netlink = std::move(netlink);
+}
+
+void set_device(unsigned major, unsigned minor) {
+  state().device = ::gnu_dev_makedev(major, minor);
+}
+
 void reset_calls() {
   const std::lock_guard guard(state().lock);
   state().waiting.clear();
   state().driver = nullptr;
   state().control = nullptr;
+  state().netlink = nullptr;
+  state().device = 0;
 }
 
 }  // namespace supercoil::test
@@ -119,6 +136,9 @@ int errno_instead(Call call, const Real& real) {
 extern "C" {
 int __real_open(const char* path, int flags, ...);
 int __real_access(const char* path, int mode);
+int __real_stat(const char* path, struct stat* about);
+ssize_t __real_send(int socket, const void* data, std::size_t size, int flags);
+ssize_t __real_recv(int socket, void* data, std::size_t size, int flags);
 ssize_t __real_pread(int file, void* data, std::size_t size, off_t offset);
 ssize_t __real_pwrite(int file, const void* data, std::size_t size, off_t offset);
 ssize_t __real_read(int file, void* data, std::size_t size);
@@ -160,6 +180,26 @@ int __wrap_ioctl(int file, unsigned long request, void* argument) {
     const auto& control = supercoil::test::state().control;
     return as_libc(control ? control(request, argument) : -ENOTTY);
   }));
+}
+int __wrap_stat(const char* path, struct stat* about) {
+  const int done = __real_stat(path, about);
+  const dev_t device = supercoil::test::state().device;
+  if (done == 0 && device != 0 && S_ISCHR(about->st_mode)) about->st_rdev = device;
+  return done;
+}
+ssize_t __wrap_send(int socket, const void* data, std::size_t size, int flags) {
+  auto& state = supercoil::test::state();
+  if (!state.netlink) return __real_send(socket, data, size, flags);
+  const auto* const bytes = static_cast<const std::byte*>(data);
+  state.netlink_answer = state.netlink({bytes, bytes + size});
+  return static_cast<ssize_t>(size);
+}
+ssize_t __wrap_recv(int socket, void* data, std::size_t size, int flags) {
+  auto& state = supercoil::test::state();
+  if (!state.netlink) return __real_recv(socket, data, size, flags);
+  const std::size_t bytes = std::min(size, state.netlink_answer.size());
+  std::copy_n(state.netlink_answer.begin(), bytes, static_cast<std::byte*>(data));
+  return static_cast<ssize_t>(bytes);
 }
 int __wrap_clock_nanosleep(clockid_t clock, int flags, const timespec* until, timespec* left) {
   return errno_instead(Call::clock_nanosleep,

@@ -2,9 +2,11 @@
 // test through here; the code itself knows nothing of it.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <sys/types.h>
 
@@ -44,6 +46,13 @@ void set_driver(Driver driver);
 /// Gets every ioctl: number of the request and its argument.
 using Control = std::function<long(unsigned long request, void* argument)>;
 void set_control(Control control);
+
+/// Like the kernel at the other end of a netlink socket: what it answers to a message.
+using Netlink = std::function<std::vector<std::byte>(const std::vector<std::byte>& question)>;
+void set_netlink(Netlink netlink);
+
+/// Every device that is looked at has these numbers; its own when both are 0.
+void set_device(unsigned major, unsigned minor);
 
 /// Forgets all of it.
 void reset_calls();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <CppUTest/TestHarness.h>
 
@@ -127,5 +128,21 @@ TEST(Descriptor, PassesOnWhyACallFailed) {
     check_status(status_of(error), write_start(file, "1", 1));
     fail_next(Call::write, "/file", error);
     check_status(status_of(error), write_next(file, "1", 1));
+  }
+}
+
+TEST(Descriptor, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
+  // A service may be started without standard input: then the first file that it opens is number 0.
+  const int input = ::dup(0);
+  next(Call::open, "/file", [] { return 0; });
+  {
+    const auto file = open_file(folder / "file", O_RDONLY);
+    CHECK(file.has_value());
+    CHECK(file->is_open());
+    LONGS_EQUAL(0, file->number());
+  }
+  if (input >= 0) {
+    ::dup2(input, 0);
+    ::close(input);
   }
 }

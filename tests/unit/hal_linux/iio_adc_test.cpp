@@ -144,3 +144,18 @@ TEST(IioAdc, TellsBetweenWhichCountsItsValuesLie) {
   CHECK_FALSE(count_range(place("../voltage0")).has_value());
   CHECK_FALSE(count_range({"i2c-1/1-0050", "voltage0", tree / "bus"}).has_value());
 }
+
+TEST(IioAdc, GivesNoCountsWithAFailure) {
+  const auto adc = opened();
+  fail_next(Call::pread, "_raw", EIO);
+  LONGS_EQUAL(0, adc->latest().counts);
+  tree.write(raw, "2147483648\n");
+  LONGS_EQUAL(0, adc->latest().counts);
+}
+
+TEST(IioAdc, SaysThatThereAreNoConverters) {
+  ConverterLocation where = place();
+  where.root = "/nowhere";
+  STRCMP_EQUAL("cannot look into /nowhere: No such file or directory", answer(where).c_str());
+  CHECK_FALSE(count_range(where).has_value());
+}

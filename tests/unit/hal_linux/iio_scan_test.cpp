@@ -128,3 +128,11 @@ TEST(IioScan, CallsAPartOfAScanAnError) {
     CHECK(again->input(0).latest().status == hal::Status::io_error);
   }
 }
+
+TEST(IioScan, KeepsSixtyFourScansUnlessTold) {
+  ScanLocation place = board.place();
+  place.length = ScanLocation{}.length;
+  const auto scan_ = hal_linux::IioScan::open(place);
+  CHECK(scan_.has_value());
+  STRCMP_EQUAL("64\n", board.attribute("buffer/length").c_str());
+}

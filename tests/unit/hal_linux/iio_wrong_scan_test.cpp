@@ -95,3 +95,9 @@ TEST(IioWrongScan, OfADeviceWithoutBuffer) {
   board.tree.remove(board.device + "/buffer");
   STRCMP_CONTAINS("buffer/enable: No such file or directory", answer(board.place()).c_str());
 }
+
+TEST(IioWrongScan, CannotBeEnabledOnceItIsSetUp) {
+  next(Call::pwrite, "/buffer/enable", [] { return 1; });
+  fail_next(Call::pwrite, "/buffer/enable", EINVAL);
+  STRCMP_CONTAINS("buffer/enable: Invalid argument", answer(board.place()).c_str());
+}

@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <string>
 
+#include <sys/resource.h>
+
 #include <CppUTest/TestHarness.h>
 
 #include "supercoil/hal_linux/thread.hpp"
@@ -129,4 +131,31 @@ TEST(Realtime, AThreadsStackThatIsTooSmallIsAnError) {
   const auto thread = Thread::start({"small", 0, -1, 1}, [] {});
   STRCMP_EQUAL("cannot start the thread 'small' with 1 bytes of stack: Invalid argument",
                thread.error().text.c_str());
+}
+
+TEST(Realtime, TellsTheLimitThatThisProgramHas) {
+  rlimit limit{};
+  LONGS_EQUAL(0, ::getrlimit(RLIMIT_MEMLOCK, &limit));
+  const std::string bytes =
+      limit.rlim_cur == RLIM_INFINITY ? "unlimited" : std::to_string(limit.rlim_cur);
+  fail_next(Call::mlockall, "", ENOMEM);
+  check_failed(lock_memory(), "the limit of locked memory is " + bytes + " bytes");
+}
+
+TEST(Realtime, AsksForThePriorityThatIsWanted) {
+  SetupStep step;
+  int priority = 0;
+  {
+    const auto thread = Thread::start({"first"}, [&] {
+      step = set_fifo_priority(::pthread_self(), 1);
+      sched_param now{};
+      int policy = 0;
+      ::pthread_getschedparam(::pthread_self(), &policy, &now);
+      priority = now.sched_priority;
+    });
+    CHECK(thread.has_value());
+  }
+  // Not every program may have it, but 1 is one that there is.
+  CHECK(step.reason.find("Invalid argument") == std::string::npos);
+  if (step.worked) LONGS_EQUAL(1, priority);
 }

@@ -70,3 +70,17 @@ TEST(CheckRivals, TakesNoHarmFromWhatEndsMeanwhile) {
   CHECK_FALSE(parse_thread_stat(") 1 (").has_value());
   CHECK_FALSE(parse_thread_stat("5 (x) S a b c d e f g").has_value());
 }
+
+TEST(CheckRivals, CountsAProgramOnceThatProcHasUnderTwoNames) {
+  root.write("proc/300/task/301/stat", stat("pulse", of_user, 90, SCHED_FIFO));
+  root.link("proc/thread-self", "proc/300");
+  check_finding("warning", "pulse (90) above priority 80", "chrt", found());
+}
+
+TEST(CheckRivals, AreComparedWithPriority80UnlessTold) {
+  root.write("proc/300/task/300/stat", stat("as loud", of_user, 80, SCHED_FIFO));
+  root.write("proc/300/task/301/stat", stat("louder", of_user, 81, SCHED_FIFO));
+  Told told;
+  check_competing_threads(machine, {}, told.sink());
+  check_finding("warning", "louder (81) above priority 80", "chrt", told.findings.front());
+}

@@ -1,3 +1,5 @@
+#include <sys/utsname.h>
+
 #include <CppUTest/TestHarness.h>
 
 #include "supercoil/hal_linux/checks.hpp"
@@ -84,4 +86,24 @@ TEST(CheckKernel, AsksForTheLoopsOwnProcessor) {
   check_finding("ok", "isolated 1,3", "", processors(1));
   check_finding("warning", "isolated 1,3", "isolcpus=2", processors(2));
   check_finding("problem", "4 does not run", "another --cpu", processors(4));
+}
+
+TEST(CheckKernel, NamesDebiansRealTimeKernelForThisProcessor) {
+  utsname machine_here{};
+  LONGS_EQUAL(0, ::uname(&machine_here));
+  const std::string architecture(&machine_here.machine[0]);
+  std::string package = "linux-image-rt-… (apt-cache search linux-image-rt)";
+  for (const auto& [of, name] : {std::pair("x86_64", "linux-image-rt-amd64"),
+                                 {"aarch64", "linux-image-rt-arm64"},
+                                 {"armv7l", "linux-image-rt-armmp"},
+                                 {"i686", "linux-image-rt-686-pae"}}) {
+    if (architecture == of) package = name;
+  }
+  root.write("sys/kernel/realtime", "0\n");
+  check_finding("warning", "not a real-time kernel", "on Debian " + package + ":", kernel());
+}
+
+TEST(CheckKernel, LeavesTheLoopAnyProcessorUnlessTold) {
+  check_finding("ok", "running 0-3", "",
+                only([&](const hal::FindingSink& sink) { check_processors(machine, {}, sink); }));
 }

@@ -69,3 +69,12 @@ TEST(DamagedFile, KeepsTheFirstEightDamagedFilesAndTheLatest) {
   STRCMP_EQUAL("damaged 12", text_of(path + ".damaged-9").c_str());
   CHECK_FALSE(disk.names.contains(path + ".damaged-10"));
 }
+
+TEST(DamagedFile, ThatIsTheOnlyOneIsAnErrorAndNotNothing) {
+  save(1);
+  text_of(path).clear();
+  const auto loaded = store.load();
+  CHECK_FALSE(loaded.has_value());
+  STRCMP_EQUAL("/d/learned-3.toml: is empty; /d/learned-3.toml.previous: is not there",
+               loaded.error().c_str());
+}

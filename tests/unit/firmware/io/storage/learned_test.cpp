@@ -69,6 +69,11 @@ TEST(Learned, NothingBeyondWhatAMuscleAndItsSensesCanBeIsAllowed) {
     const auto field = std::find_if(fields.begin(), fields.end(),
                                     [&](const Field& f) { return f.key == credible.key; });
     CHECK(field != fields.end());
+    for (const double end : {credible.low, credible.high}) {
+      board::Learned set;
+      field->of(set) = end;
+      CHECK_FALSE_TEXT(check(set).has_value(), std::string(credible.key).c_str());
+    }
     const double slack = 1e-6 * credible.high;
     for (const double value : {credible.low - slack, credible.high + slack}) {
       board::Learned set;

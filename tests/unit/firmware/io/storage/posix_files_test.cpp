@@ -1,9 +1,12 @@
 #include "storage/posix_files.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <string>
+#include <thread>
 
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -87,4 +90,52 @@ TEST(PosixFiles, ReportAFullDisk) {
                written.error().text.c_str());
   CHECK(files.close(full).has_value());
   LONGS_EQUAL(EBADF, files.close(full).error().code);
+}
+
+TEST(PosixFiles, MayHaveTheNumberOfAnInputThatThisProgramHasNot) {
+  put("x", "content");
+  // A service may be started without standard input: then the first file that it opens is number 0.
+  const int input = ::dup(0);
+  ::close(0);
+  const auto content = files.read(path("x"), 100);
+  const bool left_open = ::fcntl(0, F_GETFD) >= 0;
+  if (input >= 0) {
+    ::dup2(input, 0);
+    ::close(input);
+  }
+  CHECK(content.has_value());
+  STRCMP_EQUAL("content", content->c_str());
+  CHECK_FALSE(left_open);
+}
+
+TEST(PosixFiles, GoOnWithWhatASignalInterrupts) {
+  // A pipe that is full makes a write wait, as a slow disk does.
+  int ends[2] = {};
+  LONGS_EQUAL(0, ::pipe2(ends, O_CLOEXEC));
+  ::fcntl(ends[1], F_SETPIPE_SZ, 4096);
+  struct sigaction seen {};
+  struct sigaction before {};
+  seen.sa_handler = [](int) {};  // without SA_RESTART: the call is interrupted
+  ::sigaction(SIGUSR1, &seen, &before);
+  const std::string content(3 * 4096, 'x');
+  std::string read;
+  std::thread reader([&, writer = ::pthread_self()] {
+    for (int i = 0; i < 5; ++i) {
+      ::usleep(5000);
+      ::pthread_kill(writer, SIGUSR1);
+    }
+    char bytes[4096];
+    for (ssize_t count = 1; count > 0 && read.size() < content.size();) {
+      count = ::read(ends[0], bytes, sizeof bytes);
+      if (count > 0) read.append(bytes, static_cast<std::size_t>(count));
+    }
+  });
+  const NewFile pipe{ends[1], "pipe"};
+  const auto written = files.write(pipe, content);
+  CHECK(files.close(pipe).has_value());
+  reader.join();
+  ::close(ends[0]);
+  ::sigaction(SIGUSR1, &before, nullptr);
+  CHECK_TEXT(written.has_value(), written ? "" : written.error().text.c_str());
+  CHECK(read == content);
 }

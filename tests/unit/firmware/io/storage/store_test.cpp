@@ -175,3 +175,30 @@ TEST(LearnedStore, ChannelsDoNotMeet) {
   CHECK(other.save(nth_set(2)).has_value());
   check_loaded(Source::current, 1);
 }
+
+TEST(LearnedStore, MakesSureOfTheFolderWhenItCouldNotForget) {
+  const int calls = [] {
+    Disk trial;
+    SimulatedFiles counted(trial);
+    LearnedStore whole("/d", 3, counted);
+    for (const int n : {1, 2})
+      static_cast<void>(whole.save(nth_set(n)));
+    const int before = counted.calls();
+    static_cast<void>(whole.load());
+    return before + counted.calls() - before;
+  }();
+  // The first call that fails from here on is the folder's, once the previous set is gone.
+  int failed = 0;
+  for (int at = calls; at < calls + 20; ++at) {
+    Disk trial;
+    SimulatedFiles failing(trial, {at, EIO, false, false});
+    LearnedStore unsure("/d", 3, failing);
+    for (const int n : {1, 2})
+      CHECK(unsure.save(nth_set(n)).has_value());
+    if (unsure.forget().has_value() || !trial.names.contains(path)) continue;
+    ++failed;
+    CHECK(unsure.save(nth_set(2)).has_value());
+    LONGS_EQUAL(1, trial.survivors().size());
+  }
+  CHECK(failed > 0);
+}

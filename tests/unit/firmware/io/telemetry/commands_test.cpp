@@ -369,3 +369,11 @@ TEST(CanCommands, TheChecksumIsThatOfTheProfile) {
   master.session = 0xBEEF;
   LONGS_EQUAL(0xE7, master.frame(Verb::position, 0.012F).data[0]);
 }
+
+TEST(CanCommands, NoNonceIsGoodBeforeOneWasTold) {
+  // Also not in the first second of the board's clock.
+  Leases fresh{settings.lease_s, 1, [] { return 0x1234U; }};
+  CHECK(fresh.claim(0, 1, 1.0, 0, hal::Time(0)) == Refusal::claim_again);
+  LONGS_EQUAL(0x1234, fresh.nonce(0));
+  LONGS_EQUAL(0, fresh.session(0));
+}

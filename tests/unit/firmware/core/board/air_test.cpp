@@ -94,3 +94,9 @@ TEST(Air, HoldsTheTruthOfEveryMuscleWithinTheBounds) {
     }
   }
 }
+
+TEST(Air, LiesBetween15And25DegreesWhereNothingElseIsConfigured) {
+  const Air indoors({}, air_bounds, tick_s);
+  DOUBLES_EQUAL(25.0, indoors.warmest_C(), 0.0);
+  DOUBLES_EQUAL(15.0, indoors.coldest_C(), 0.0);
+}

@@ -115,3 +115,16 @@ TEST(HotEnd, OfAReadingIsHotterWherePowerIsAssumedInsteadOfSensed) {
   // Of what the senses tell the reading knows the error; assumed power may be all true.
   CHECK_COMPARE(hottest_K(false), >, 1.3 * hottest_K(true));
 }
+
+TEST(HotEnd, OfAReadingBeginsWhereTheMuscleWasKnownToBeBefore) {
+  Heat heat(settings, {}, tick_s);
+  for (int i = 0; i < 60'000; ++i)
+    heat.step(1.9, 2.1, 2.0);
+  const double before_K = heat.hottest_K();
+  heat.set_thermal_facts(read_at_2_W(), {0.96, 1.04});
+  DOUBLES_EQUAL(before_K, heat.hottest_K(), 1e-9);
+  // Not at the heat of the boot, which is long over: that would take longer to cool.
+  for (int i = 0; i < 6'000; ++i)
+    heat.step(1.9, 2.1, 2.0);
+  CHECK_COMPARE(heat.hottest_K(), <, 0.5 * (before_K + 25.0));
+}

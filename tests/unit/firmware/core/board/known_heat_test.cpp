@@ -88,6 +88,39 @@ TEST(KnownThermalBounds, NeverLeavesWhatIsConfigured) {
   }
 }
 
+TEST(KnownThermalBounds, InMeasuredPowerAreDividedByWhatTheTruePowerIsOverIt) {
+  const KnownThermalBounds known = known_thermal_bounds(weighed_muscle(), found_of_paper());
+  ThermalFacts facts = found_of_paper();
+  facts.steady_rise_K = 17.0;
+  facts.steady_error_K = 1.0;
+  facts.steady_min_W = 1.5;
+  facts.steady_max_W = 1.6;
+  const KnownThermalBounds read =
+      known_thermal_bounds_by_reading(weighed_muscle(), facts, compared_power);
+  const double most = compared_power.max;
+  const double least = compared_power.min;
+  DOUBLES_EQUAL(known.bounds.min_mass_J_per_K / most, read.bounds.min_mass_J_per_K, 1e-12);
+  DOUBLES_EQUAL(known.bounds.max_mass_J_per_K / least, read.bounds.max_mass_J_per_K, 1e-12);
+  DOUBLES_EQUAL(known.bounds.min_transfer_W_per_K / most, read.bounds.min_transfer_W_per_K, 1e-12);
+  DOUBLES_EQUAL(known.bounds.max_transfer_W_per_K / least, read.bounds.max_transfer_W_per_K, 1e-12);
+  LONGS_EQUAL(2, read.count);
+  DOUBLES_EQUAL(known.spans[0].min_W_per_K / most, read.spans[0].min_W_per_K, 1e-12);
+  DOUBLES_EQUAL(known.spans[0].max_W_per_K / least, read.spans[0].max_W_per_K, 1e-12);
+  // The reading itself is in measured power already.
+  DOUBLES_EQUAL(1.5 / 18.0, read.spans[1].min_W_per_K, 1e-12);
+  DOUBLES_EQUAL(1.6 / 16.0, read.spans[1].max_W_per_K, 1e-12);
+}
+
+TEST(KnownThermalBounds, OfAReadingThatIsForgottenNothingIsLeft) {
+  ThermalFacts facts = found_of_paper();
+  facts.steady_rise_K = 17.0;
+  facts.steady_error_K = 1.0;
+  facts.steady_min_W = 1.5;
+  facts.steady_max_W = 1.6;
+  facts.clear_reading();
+  CHECK(facts == found_of_paper());
+}
+
 TEST_GROUP(SteadyState) {
   ThermalSettings settings;
   ThermalFacts facts;
@@ -145,6 +178,17 @@ TEST(SteadyState, RefusesWhatTheMuscleCannotBe) {
   const SteadyState known = held(30.0);
   CHECK(known.read(10.0, compared_power, facts) == Refusal::out_of_range);
   CHECK(known.read(17.0, compared_power, facts) == Refusal::none);
+}
+
+TEST(SteadyState, AllowsForWhatTheSensesErrByBeforeItRefuses) {
+  const SteadyState steady = held(30.0);
+  const double error_K = 1.0 + 40.0 * std::exp(-5.0);
+  const double lowest_K = 1.5 * compared_power.min / 0.18 - error_K;
+  const double highest_K = 1.51 * compared_power.max / 0.045 + error_K;
+  for (const double rise_K : {lowest_K + 0.01, highest_K - 0.01})
+    CHECK(steady.read(rise_K, compared_power, facts) == Refusal::none);
+  for (const double rise_K : {lowest_K - 0.01, highest_K + 0.01})
+    CHECK(steady.read(rise_K, compared_power, facts) == Refusal::out_of_range);
 }
 
 TEST_GROUP(HeatThatWasRead) {

@@ -47,3 +47,10 @@ TEST(Measurement, WithAnErrorIsAbsentAndSaysWhy) {
   CHECK_FALSE(m.present);
   CHECK(m.status == hal::Status::gone);
 }
+
+TEST(Measurement, ThatWasNeverMadeIsAbsent) {
+  const Measured m;
+  CHECK_FALSE(m.present);
+  CHECK(m.status == hal::Status::not_ready);
+  DOUBLES_EQUAL(0.0, m.value, 0.0);
+}

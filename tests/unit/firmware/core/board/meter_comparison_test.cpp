@@ -207,3 +207,24 @@ TEST(MeterComparison, TooCoarseASenseIsRefused) {
   check(Refusal::out_of_range, amperes(line_A()));
   CHECK_FALSE(comparison.found().has_value());
 }
+
+TEST(MeterComparison, WaitsForASteadySecondFromItsFirstTickOn) {
+  duty = 0.1;
+  for (int i = 0; i < 999; ++i)
+    comparison.step(duty, supply_told * supply_V, current_told * line_A());
+  check(Refusal::not_ready, volts(supply_V));
+  comparison.step(duty, supply_told * supply_V, current_told * line_A());
+  check(Refusal::none, volts(supply_V));
+}
+
+TEST(MeterComparison, FollowsTheSensesAsSlowlyAsAMetersDisplay) {
+  supply_told = current_told = 1.0;
+  for (const double d : {0.1, 0.2}) {
+    hold(d, 3.0);
+    // A time constant of half a second later 63 % of a change are there.
+    for (int i = 0; i < 500; ++i)
+      comparison.step(duty, 0.99 * supply_V, line_A());
+    read_both();
+  }
+  DOUBLES_EQUAL(1.0 / (1.0 - 0.01 * (1.0 - std::exp(-1.0))), comparison.found()->supply_gain, 1e-5);
+}

@@ -115,3 +115,12 @@ TEST(PowerBounds, WithoutAReadingAreTheGreatestPower) {
     DOUBLES_EQUAL(0.0, bounds.step(0.5, 12.0, absent, {cold_Ohm, cold_Ohm}).min, 0.0);
   }
 }
+
+TEST(PowerBounds, OfSensesThatWereNotComparedHaveTheLeastThatTheDutyCanGive) {
+  // The sense tells of more current than the duty can make: the duty has the lower end.
+  const auto power_W = PowerBounds(settings()).step(0.3, 12.0, present(0.5), {cold_Ohm, cold_Ohm});
+  DOUBLES_EQUAL(0.3 * 10.8 * 10.8 / (1.3 * cold_Ohm), power_W.min, 1e-9);
+  // And where it tells of less, the sense, less what may be noise.
+  const auto less_W = PowerBounds(settings()).step(0.3, 12.0, present(0.31), {cold_Ohm, cold_Ohm});
+  DOUBLES_EQUAL(10.8 * 0.3 * (10.8 / 12.0) / 1.3, less_W.min, 1e-9);
+}

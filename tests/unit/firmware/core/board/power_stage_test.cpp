@@ -68,3 +68,13 @@ TEST(PowerStage, GivesNothingWhereNoPowerIsAllowed) {
     DOUBLES_EQUAL(0.0, out.applied_W, 0.0);
   }
 }
+
+TEST(PowerStage, OwesNothingAfterAReset) {
+  PowerStage fresh({255, true});
+  PowerStage used({255, true});
+  for (int i = 0; i < 3; ++i)
+    static_cast<void>(used.step(1.0, 10.0, 12.0, 1e3));
+  used.reset();
+  for (int i = 0; i < 20; ++i)
+    LONGS_EQUAL(fresh.step(1.0, 10.0, 12.0, 1e3).step, used.step(1.0, 10.0, 12.0, 1e3).step);
+}

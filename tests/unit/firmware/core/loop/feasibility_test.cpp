@@ -152,3 +152,13 @@ TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
   channel.supervision.min_position_m = -0.0020;
   CHECK_FALSE(found().rest_seen);
 }
+
+TEST(Feasibility, TheGreatestPowerIsWhatTheLowestSupplyGives) {
+  channel.supervision.proof_of_response = false;
+  board.supervision.min_supply_V = 10.0;
+  board.supervision.max_supply_V = 14.0;
+  channel.heater.cold_resistance_Ohm = 50.0;
+  DOUBLES_EQUAL(10.0 * 10.0 / 50.0, found().max_W, 1e-12);
+  channel.heater.cold_resistance_Ohm = 10.0;
+  DOUBLES_EQUAL(channel.limiter.max_W, found().max_W, 0.0);
+}

@@ -113,3 +113,23 @@ TEST(Promise, WhatTheBoardGoesByReplacesTheFilesMuscle) {
   known.back() = NAN;
   CHECK_FALSE(with_known(channel, known).muscle_identified);
 }
+
+TEST(Promise, AProbeDoesNotCountInALongMotionThatIsNeverCold) {
+  motion.period_s = 60.0;
+  motion.middle_m = 6e-3;
+  motion.amplitude_m = 0.4e-3;
+  DOUBLES_EQUAL(0.0, promised().probe_m, 0.0);
+  // Cold for half of the time: that is longer than it takes to probe again, or not.
+  const double probe_W = 0.02 * 13.2 * 13.2 / channel.heater.cold_resistance_Ohm;
+  motion.middle_m = probe_W * channel.muscle.dc_gain_m_per_W();
+  motion.period_s = 2.0 * channel.heater.probe_every_s + 0.1;
+  CHECK(promised().probe_m > 0.0);
+  motion.period_s = 2.0 * channel.heater.probe_every_s - 0.1;
+  DOUBLES_EQUAL(0.0, promised().probe_m, 0.0);
+}
+
+TEST(Promise, TheFirstMotionIsJudgedOverOnePeriodOnceTwoHavePassed) {
+  motion.period_s = 8.0;
+  DOUBLES_EQUAL(16.0, motion.settled_s(), 0.0);
+  DOUBLES_EQUAL(24.0, motion.end_s(), 0.0);
+}

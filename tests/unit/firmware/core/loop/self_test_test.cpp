@@ -117,3 +117,39 @@ TEST(SelfTest, FailsWhereAPulseIsTooShortToBeMeasured) {
     test.step(true, 0.0, idle_A);
   CHECK(test.outcome() == SelfTest::Outcome::pump_does_not_open);
 }
+
+TEST(SelfTest, TakesItsTimeFromTheFirstTickOn) {
+  SelfTest test({0.02}, tick_s);
+  int ticks = 0;
+  for (; !test.passed(); ++ticks)
+    test.step(true, 0.0, idle_A);
+  DOUBLES_EQUAL(0.02 + 3.0 * 0.05 + 2.0 * 0.03, test.duration_s(), 1e-12);
+  DOUBLES_EQUAL(test.duration_s(), ticks * tick_s, 2e-3);
+}
+
+TEST(SelfTest, ThatHasFailedLeavesEveryLineLow) {
+  for (const bool pump_is_stuck : {true, false}) {
+    SelfTest test({0.02}, tick_s);
+    while (!test.failed()) {
+      const SelfTest::Lines lines = test.lines();
+      const bool flows = lines.pulse && (pump_is_stuck ? lines.enable : lines.heartbeat);
+      test.step(true, flows ? 1.2 : 0.0, idle_A);
+    }
+    const SelfTest::Lines lines = test.lines();
+    CHECK_FALSE(lines.heartbeat || lines.enable || lines.pulse);
+  }
+}
+
+/// The mean over the second half of a pulse counts, wherever in it the noise is.
+TEST(SelfTest, IsNotDecidedByTheLastReadingOfAPulse) {
+  for (const bool only_last : {true, false}) {
+    SelfTest test({0.02}, tick_s);
+    int in_pulse = 0;
+    while (!test.passed() && !test.failed()) {
+      in_pulse = test.lines().pulse ? in_pulse + 1 : 0;
+      const bool last = in_pulse == 30;
+      test.step(true, in_pulse > 0 && last == only_last ? 0.024 : 0.0, idle_A);
+    }
+    CHECK_EQUAL(only_last, test.passed());
+  }
+}

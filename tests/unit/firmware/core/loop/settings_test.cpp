@@ -123,3 +123,85 @@ TEST(BoardSettingsCheck, TheLoopsDelayIsATickAndTheHeaters) {
   channel.heater.delay_s = 0.004;
   DOUBLES_EQUAL(0.005, loop_delay_s(channel, 0.001), 1e-15);
 }
+
+TEST_GROUP(AppliedSettings) {
+  BoardSettings board;
+  ChannelSettings& channel = board.channels[0];
+  board::Learned learned;
+
+  void setup() override {
+    learned.muscle.stiffness_N_per_m = 14.0;
+    learned.calibration = {0.001, 1.25, 9.5};
+    learned.senses = {1.02, 0.98, 0.03, 1.7e9};
+    learned.heat.time_constant_s = 1.75;
+    learned.response_ratio = 0.5;
+    learned.tuning.estimator = 1.0;
+  }
+};
+
+TEST(AppliedSettings, WhatWasLearnedTakesThePlaceOfWhatIsConfigured) {
+  apply_learned(channel, learned);
+  CHECK(channel.has_muscle && channel.muscle_identified);
+  CHECK(channel.muscle == learned.muscle);
+  CHECK(channel.calibration == learned.calibration);
+  CHECK(channel.senses == learned.senses);
+  CHECK(channel.heat == learned.heat);
+  CHECK(channel.tuning == learned.tuning);
+  DOUBLES_EQUAL(0.5, channel.response_ratio, 0.0);
+}
+
+TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
+  learned.has_muscle = false;
+  const ChannelSettings before = channel;
+  apply_learned(channel, learned);
+  CHECK_FALSE(channel.has_muscle || channel.muscle_identified);
+  CHECK(channel.muscle == before.muscle);
+  CHECK(channel.calibration == before.calibration);
+  DOUBLES_EQUAL(0.0, channel.response_ratio, 0.0);
+  CHECK(channel.senses == learned.senses);
+  CHECK(channel.heat == learned.heat);
+  CHECK(channel.tuning == learned.tuning);
+}
+
+TEST(AppliedSettings, AMuscleThatIsStoredAsConfiguredWasNotIdentified) {
+  learned.muscle = channel.muscle;
+  apply_learned(channel, learned);
+  CHECK_TRUE(channel.has_muscle);
+  CHECK_FALSE(channel.muscle_identified);
+}
+
+TEST(AppliedSettings, BoundsOfPowerKnowOfTheComparisonOfTheSenses) {
+  CHECK_FALSE(power_bounds(channel, board).compared());
+  channel.senses.error_ratio = 0.02;
+  CHECK_TRUE(power_bounds(channel, board).compared());
+  DOUBLES_EQUAL(1.02 * 1.02, power_bounds(channel, board).true_over_measured().max, 1e-12);
+  channel.thermal.min_power_ratio = 0.9;
+  channel.thermal.max_power_ratio = 1.1;
+  DOUBLES_EQUAL(1.02 * 1.02 * 1.1, power_bounds(channel, board).true_over_measured().max, 1e-12);
+  DOUBLES_EQUAL(0.98 * 0.98 * 0.9, power_bounds(channel, board).true_over_measured().min, 1e-12);
+}
+
+TEST(AppliedSettings, TheProofRestsOnWhatIsConfiguredOfTheChannel) {
+  channel.supervision.proof_of_response = false;
+  channel.limiter.max_W = 3.5;
+  channel.limiter.derate_from_C = 110.0;
+  channel.supervision.trip_C = 150.0;
+  channel.supervision.position_noise_rms_m = 7e-6;
+  channel.supervision.responding_min_m = 0.004;
+  channel.position.scaling.per_count = -2e-6;
+  channel.thermal.boot_rise_K = 99.0;
+  channel.senses.error_ratio = 0.02;
+  ProofSettings s = proof_settings(channel, board);
+  CHECK_FALSE(s.wanted);
+  DOUBLES_EQUAL(3.5, s.max_W, 0.0);
+  DOUBLES_EQUAL(110.0, s.derate_from_C, 0.0);
+  DOUBLES_EQUAL(150.0, s.trip_C, 0.0);
+  DOUBLES_EQUAL(7e-6, s.position_noise_rms_m, 0.0);
+  DOUBLES_EQUAL(0.004, s.obvious_m, 0.0);
+  DOUBLES_EQUAL(2e-6, s.count_m, 0.0);
+  DOUBLES_EQUAL(99.0, s.thermal.boot_rise_K, 0.0);
+  DOUBLES_EQUAL(1.02 * 1.02, s.max_power_ratio, 1e-12);
+  DOUBLES_EQUAL(1.0, s.response_ratio, 0.0);
+  channel.response_ratio = 0.5;
+  DOUBLES_EQUAL(0.5, proof_settings(channel, board).response_ratio, 0.0);
+}

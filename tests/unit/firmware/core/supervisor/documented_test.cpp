@@ -162,3 +162,15 @@ TEST(Documented, LimitsOfPowerAndTemperatureAreTheDefaults) {
   check_says("command_timeout", "full power (%g W)", s.max_W);
   DOUBLES_EQUAL(0.0, s.min_W, 0.0);
 }
+
+TEST(Documented, VerbsHaveTheNumbersOfTheProtocol) {
+  const auto rows = first_table_after("## Names of opcode", "can-protocol.md");
+  const std::vector<Verb> verbs{Verb::arm,       Verb::disarm, Verb::reset,      Verb::position,
+                                Verb::power,     Verb::renew,  Verb::rest,       Verb::identify,
+                                Verb::calibrate, Verb::scale,  Verb::controller, Verb::estimator,
+                                Verb::store};
+  for (std::size_t i = 0; i < verbs.size(); ++i) {
+    LONGS_EQUAL(std::stol(rows.at(i + 1).at(0)), static_cast<long>(verbs[i]));
+    STRCMP_EQUAL(rows[i + 1].at(1).c_str(), std::string(name(verbs[i])).c_str());
+  }
+}

@@ -1,0 +1,110 @@
+// What of a controller's values is prepared, in use, configured and stored.
+#include "loop/tuner.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "unit/firmware/core/support/tick.hpp"
+
+using namespace supercoil;
+using supercoil::test::tick_s;
+
+TEST_GROUP(Tuner) {
+  const std::size_t integral = control::tunable_named("integral_W_per_m_s");
+  ChannelSettings channel;
+  control::PhysicalParameters muscle;
+  double configured = 0.0;
+
+  void setup() override {
+    channel.controllers[0].kind = control::ControllerKind::pi;
+    configured = channel.controllers[0].pi.integral_W_per_m_s;
+  }
+  static Command command(Verb verb, double value) {
+    return {0, verb, value};
+  }
+};
+
+TEST(Tuner, KnowsNothingOfWhatThereIsNot) {
+  supercoil::Tuner tuner(channel, tick_s);
+  for (const TuningSet set :
+       {TuningSet::prepared, TuningSet::in_use, TuningSet::configured, TuningSet::stored}) {
+    DOUBLES_EQUAL(configured, tuner.value(set, 0, integral), 0.0);
+    CHECK(std::isnan(tuner.value(set, 1, integral)));
+    CHECK(std::isnan(tuner.value(set, 0, control::tunable_count)));
+    CHECK_FALSE(tuner.prepare_from(set, 1));
+  }
+  CHECK(tuner.prepare(1, integral, 800.0).refusal == Refusal::out_of_range);
+}
+
+TEST(Tuner, StoredAreTheValuesOfTheNextStart) {
+  channel.tuning.controllers[0].values[integral] = 800.0;
+  supercoil::Tuner tuner(channel, tick_s);
+  DOUBLES_EQUAL(800.0, tuner.value(TuningSet::stored, 0, integral), 0.0);
+  DOUBLES_EQUAL(configured, tuner.value(TuningSet::configured, 0, integral), 0.0);
+  CHECK(tuner.prepare_from(TuningSet::stored, 0));
+  DOUBLES_EQUAL(800.0, tuner.value(TuningSet::prepared, 0, integral), 0.0);
+  DOUBLES_EQUAL(configured, tuner.value(TuningSet::in_use, 0, integral), 0.0);
+}
+
+TEST(Tuner, WhatTheLoopTookIsInUseAndIsWhatIsStored) {
+  supercoil::Tuner tuner(channel, tick_s);
+  CHECK(tuner.prepare(0, integral, 800.0).refusal == Refusal::none);
+  DOUBLES_EQUAL(800.0, tuner.value(TuningSet::prepared, 0, integral), 0.0);
+  for (const Refusal refusal : {Refusal::busy, Refusal::none}) {
+    Command tune = command(Verb::tune, 0.0);
+    tuner.add_to(tune, muscle);
+    CHECK(tune.tuned != nullptr);
+    DOUBLES_EQUAL(configured, tuner.value(TuningSet::in_use, 0, integral), 0.0);
+    tuner.conclude({tune, refusal});
+  }
+  DOUBLES_EQUAL(800.0, tuner.value(TuningSet::in_use, 0, integral), 0.0);
+
+  Command store = command(Verb::store, store_tuning);
+  tuner.add_to(store, muscle);
+  CHECK(store.tuning != nullptr);
+  for (std::size_t i = 0; i < control::tunable_count; ++i)
+    CHECK_EQUAL(i == integral, store.tuning->controllers[0].values[i].has_value());
+  DOUBLES_EQUAL(800.0, *store.tuning->controllers[0].values[integral], 0.0);
+  // Nothing more is stored before the loop has answered.
+  Command meanwhile = command(Verb::store, clear_tuning);
+  tuner.add_to(meanwhile, muscle);
+  CHECK(meanwhile.tuning == nullptr);
+  DOUBLES_EQUAL(configured, tuner.value(TuningSet::stored, 0, integral), 0.0);
+  tuner.conclude({store, Refusal::none});
+  DOUBLES_EQUAL(800.0, tuner.value(TuningSet::stored, 0, integral), 0.0);
+}
+
+TEST(Tuner, WhatIsClearedIsStoredNoMoreOnceTheLoopHasDoneIt) {
+  channel.tuning.controllers[0].values[integral] = 800.0;
+  supercoil::Tuner tuner(channel, tick_s);
+  for (const Refusal refusal : {Refusal::queue_full, Refusal::none}) {
+    DOUBLES_EQUAL(800.0, tuner.value(TuningSet::stored, 0, integral), 0.0);
+    Command clear = command(Verb::store, clear_tuning);
+    tuner.add_to(clear, muscle);
+    CHECK(clear.tuning != nullptr && *clear.tuning == board::StoredTuning{});
+    tuner.conclude({clear, refusal});
+  }
+  DOUBLES_EQUAL(configured, tuner.value(TuningSet::stored, 0, integral), 0.0);
+  // What stores or forgets the muscle has nothing to do with it.
+  for (const double muscles : {0.0, 1.0}) {
+    Command other = command(Verb::store, muscles);
+    tuner.add_to(other, muscle);
+    CHECK(other.tuning == nullptr);
+  }
+  LONGS_EQUAL(2, static_cast<int>(store_tuning));
+  LONGS_EQUAL(3, static_cast<int>(clear_tuning));
+}
+
+TEST(Tuner, JudgesASetByTheMuscleThatIsKnownNow) {
+  supercoil::Tuner tuner(channel, tick_s);
+  control::PhysicalParameters strong = muscle;
+  strong.force_per_kelvin_N_per_K *= 100.0;
+  Command tune = command(Verb::tune, 0.0);
+  tuner.add_to(tune, strong);
+  CHECK(tune.tuned == nullptr);
+  STRCMP_CONTAINS("unstable", tuner.problem().c_str());
+  tuner.add_to(tune, muscle);
+  CHECK(tune.tuned != nullptr);
+  STRCMP_EQUAL("", tuner.problem().c_str());
+}

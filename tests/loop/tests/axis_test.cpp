@@ -1,0 +1,146 @@
+// What an axis is asked for, what it tells of it, and what it keeps.
+#include <cmath>
+#include <optional>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+TEST_GROUP(Axis) {
+  RigSettings settings = rough_board();
+  std::optional<Rig> rig_;
+
+  Rig& rig() {
+    if (!rig_) {
+      rig_.emplace(settings);
+      rig_->boot();
+      rig_->arm();
+      rig_->run(0.2);
+    }
+    return *rig_;
+  }
+  Refusal answer_to(Verb verb, double value = 0.0) {
+    rig().last_refusal = Refusal::none;
+    rig().send(verb, value);
+    rig().tick();
+    return rig().last_refusal;
+  }
+  void hold(double power_W, double time_s) {
+    for (double end_s = rig().time_s() + time_s; rig().time_s() < end_s;) {
+      rig().send(Verb::power, power_W);
+      rig().run(0.05);
+    }
+  }
+  board::LearnedUpdate update() {
+    board::LearnedUpdate update;
+    CHECK_TRUE(rig().loop.channel(0).take_learned_update(update));
+    return update;
+  }
+};
+
+TEST(Axis, TellsOfFrictionWhereLessThanHalfOfASmallMotionArrives) {
+  for (const double ratio : {0.0, 0.3, 0.7, 1.2}) {
+    settings.firmware.channels[0].response_ratio = ratio;
+    Rig each(settings);
+    each.run_ticks(2);
+    CHECK_EQUAL(ratio == 0.3, (each.snapshot().identify_notes & note_friction) != 0);
+  }
+}
+
+TEST(Axis, IsAtRestWhenItIsDisarmed) {
+  rig().heat(Task::position);
+  rig().run(1.0);
+  CHECK(rig().snapshot().mode == Mode::position);
+  CHECK(rig().snapshot().reference > 0.0);
+  rig().task = Task::nothing;
+  CHECK(answer_to(Verb::disarm) == Refusal::none);
+  CHECK(rig().snapshot().mode == Mode::rest);
+  DOUBLES_EQUAL(0.0, rig().snapshot().reference, 0.0);
+}
+
+TEST(Axis, SaysThatAModeRunsAndThatItWasInterrupted) {
+  for (const auto& [task, mode] :
+       {std::pair{Task::identify, Mode::identify}, std::pair{Task::calibrate, Mode::calibrate}}) {
+    rig().heat(task);
+    rig().run(0.5);
+    CHECK(rig().snapshot().mode == mode);
+    CHECK(rig().snapshot().result == ModeResult::running);
+    DOUBLES_EQUAL(0.0, rig().snapshot().reference, 0.0);
+    rig().task = Task::nothing;
+    CHECK(answer_to(Verb::rest) == Refusal::none);
+    CHECK(rig().snapshot().mode == Mode::rest);
+    CHECK(rig().snapshot().result == ModeResult::interrupted);
+  }
+}
+
+TEST(Axis, UsesTheControllerThatIsChosen) {
+  LONGS_EQUAL(0, rig().snapshot().controller);
+  CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
+  LONGS_EQUAL(2, rig().snapshot().controller);
+  rig().heat(Task::position);
+  CHECK(answer_to(Verb::controller, 1.0) == Refusal::none);
+  LONGS_EQUAL(1, rig().snapshot().controller);
+  CHECK(answer_to(Verb::controller, 3.0) == Refusal::out_of_range);
+  LONGS_EQUAL(1, rig().snapshot().controller);
+}
+
+TEST(Axis, KeepsWhatItFoundWithWhatIsStoredLater) {
+  hold(2.0, 4.0);
+  CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
+  const auto scaled = update();
+  CHECK(scaled.has_value() && scaled->has_muscle);
+  DOUBLES_EQUAL(1.1, scaled->calibration.position_scale, 0.01);
+  // A scale is no jump of the sensor.
+  hold(2.0, 3.0);
+  CHECK(rig().fault() == Fault::none);
+  CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
+  CHECK(answer_to(Verb::store, store_tuning) == Refusal::none);
+  const auto stored = update();
+  CHECK(stored.has_value() && stored->has_muscle);
+  CHECK(stored->calibration == scaled->calibration);
+  DOUBLES_EQUAL(2.0, stored->tuning.controller.value_or(-1.0), 0.0);
+  DOUBLES_EQUAL(0.0, stored->tuning.estimator.value_or(-1.0), 0.0);
+  CHECK(answer_to(Verb::store, clear_tuning) == Refusal::none);
+  CHECK(update()->tuning == board::StoredTuning{});
+}
+
+TEST(Axis, BeginsWithTheControllerThatWasStored) {
+  for (const auto& [stored, chosen] : {std::pair{1.0, 1}, std::pair{2.0, 2}, std::pair{3.0, 0}}) {
+    settings.firmware.channels[0].tuning.controller = stored;
+    Rig each(settings);
+    each.run_ticks(1);
+    LONGS_EQUAL(chosen, each.snapshot().controller);
+  }
+}
+
+TEST(Axis, ForgetsTheHeatThatWasReadWithTheMuscle) {
+  ChannelSettings& channel = settings.firmware.channels[0];
+  channel.senses.error_ratio = 0.02;
+  channel.heat = {0.0, 0.0, 1.5 / 0.089, 1.0, 1.5, 1.5};
+  const auto width_K = [&] { return rig().snapshot().hottest_C - rig().snapshot().coldest_C; };
+  hold(1.5, 25.0);
+  const double narrow_K = width_K();
+  CHECK(answer_to(Verb::store, 0.0) == Refusal::none);
+  CHECK_FALSE(update().has_value());
+  hold(1.5, 10.0);
+  CHECK_COMPARE(width_K(), >, 3.0 * narrow_K);
+  CHECK_FALSE(rig().interval_missed);
+}
+
+/// The power from before the rest is no power to go on with.
+TEST(Axis, TakesOverRightAfterItsStartWithoutAJump) {
+  rig().heat(Task::position);
+  rig().run(10.0);
+  rig().task = Task::nothing;
+  CHECK(answer_to(Verb::rest) == Refusal::none);
+  rig().run(5.0);
+  CHECK(answer_to(Verb::position, 0.010) == Refusal::none);
+  for (int i = 0; i < 3; ++i)
+    CHECK(answer_to(Verb::position, 0.010) == Refusal::none);
+  const double before_W = rig().snapshot().demanded_W;
+  CHECK(answer_to(Verb::controller, 1.0) == Refusal::none);
+  DOUBLES_EQUAL(before_W, rig().snapshot().demanded_W, 0.3);
+}

@@ -1,0 +1,90 @@
+#include "loop/heater.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+TEST_GROUP(Heater) {
+  RigSettings settings = rough_board();
+
+  static void arm(Rig & rig) {
+    rig.boot();
+    rig.arm();
+    rig.run(0.2);
+    CHECK(rig.state() == State::armed);
+  }
+  static void hold(Rig & rig, double power_W, double time_s) {
+    for (double end_s = rig.time_s() + time_s; rig.time_s() < end_s;) {
+      rig.send(Verb::power, power_W);
+      rig.run(0.05);
+    }
+  }
+};
+
+TEST(Heater, TellsByWhichGainsItCorrectsItsSensesAndNotSinceWhen) {
+  CHECK(Rig(settings).loop.channel(0).senses() == board::SenseComparison{});
+  settings.firmware.channels[0].senses = {1.02, 0.98, 0.03, 1.7e9};
+  const board::SenseComparison without_date{1.02, 0.98, 0.03, 0.0};
+  CHECK(Rig(settings).loop.channel(0).senses() == without_date);
+}
+
+TEST(Heater, TellsHowOldItsResistanceIs) {
+  Rig rig(settings);
+  arm(rig);
+  const double age_s = rig.snapshot().resistance_age_s;
+  CHECK_COMPARE(age_s, <, 0.2);
+  rig.run(1.0);
+  DOUBLES_EQUAL(age_s + 1.0, rig.snapshot().resistance_age_s, 1e-6);
+  CHECK(rig.state() == State::armed);
+}
+
+TEST(Heater, AResistanceOfAMuscleThatHasCooledSinceIsNotJudged) {
+  ChannelSettings& channel = settings.firmware.channels[0];
+  channel.supervision.resistance_ratio = 0.05;
+  channel.heater.probe_every_s = 60.0;
+  Rig rig(settings);
+  arm(rig);
+  hold(rig, 4.5, 10.0);
+  CHECK_COMPARE(rig.snapshot().resistance_Ohm, >, 10.8);
+  hold(rig, 0.0, 14.0);
+  CHECK(rig.fault() == Fault::none);
+  CHECK_COMPARE(rig.snapshot().resistance_Ohm, >, 10.8);
+}
+
+TEST(Heater, ASensorMustShowItsNoiseOnlyWhereTheMuscleMayBeWarm) {
+  for (const auto& [boot_rise_K, fault] :
+       {std::pair{3.0, Fault::none}, std::pair{20.0, Fault::sensor_frozen}}) {
+    for (ChannelSettings& channel : settings.firmware.channels)
+      channel.thermal.boot_rise_K = boot_rise_K;
+    Rig rig(settings);
+    rig.run(0.5);
+    rig.muscle().position.set({.frozen = true});
+    rig.run(1.5);
+    CHECK(rig.fault() == fault);
+  }
+}
+
+/// What rounding took from a duty is given in the next tick, but not after a rest.
+TEST(Heater, OwesNothingOfTheLastPowerAfterARest) {
+  settings.board.supply.noise_rms = 0.0;
+  settings.board.channels[0].current.noise_rms = 0.0;
+  Rig rig(settings);
+  arm(rig);
+  for (int i = 0; i < 20; ++i) {
+    const double power_W = 1.0 + 0.0131 * i;
+    rig.send(Verb::power, power_W);
+    rig.tick();
+    const Snapshot& s = rig.snapshot();
+    const double exact = power_W * s.resistance_Ohm / (s.supply_V * s.supply_V) * 4095.0;
+    DOUBLES_EQUAL(std::floor(exact + 0.5), s.duty * 4095.0, 1e-6);
+    rig.run_ticks(7);
+    rig.send(Verb::rest);
+    rig.run_ticks(2);
+    CHECK(rig.state() == State::armed);
+  }
+}

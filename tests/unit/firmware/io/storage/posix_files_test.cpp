@@ -117,7 +117,7 @@ TEST(PosixFiles, GoOnWithWhatASignalInterrupts) {
   struct sigaction before {};
   seen.sa_handler = [](int) {};  // without SA_RESTART: the call is interrupted
   ::sigaction(SIGUSR1, &seen, &before);
-  const std::string content(3 * 4096, 'x');
+  const std::string content(12'288, 'x');
   std::string read;
   std::thread reader([&, writer = ::pthread_self()] {
     for (int i = 0; i < 5; ++i) {

@@ -12,7 +12,7 @@ const text_of = (value) => (value === null ? "–" : typeof value === "number" ?
 export class Setup {
   /** opener: the button that opens it. store: while the bus tells something, so that a hidden page is not put to sleep. */
   constructor(dialog, opener, store) {
-    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0 });
+    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, asked: 0 });
     const [close, undo] = dialog.querySelectorAll(":scope > button");
     const [what, answer] = dialog.querySelectorAll(":scope > p");
     Object.assign(this, { undo, what, answer, list: dialog.querySelector("ol") });
@@ -33,14 +33,18 @@ export class Setup {
   async look() {
     if (performance.now() - this.looked_ms < LOOK_EVERY_MS) return;
     this.looked_ms = performance.now();
+    const { asked } = this;
     try {
-      this.#take(await setup_state());
+      const state = await setup_state();
+      // What was true before something was asked for is not shown after it.
+      if (asked === this.asked) this.#take(state);
     } catch (problem) {
       this.#say(problem.message, true);
     }
   }
 
   async #ask(asked, done = "") {
+    this.asked++;
     try {
       this.#take(await ask_setup(asked));
       this.#say(done);
@@ -70,6 +74,7 @@ export class Setup {
     show(this.what, `Channel ${channel} of ${file.split("/").pop()}. STOP ends a step at once; so does closing this page.`);
     this.undo.disabled = running !== null;
     const next = steps.findIndex(({ found, optional }, place) => place > steps.findLastIndex((step) => step.found !== null) && !optional && found === null);
+    const typed = this.list.querySelector("input");
     this.list.replaceChildren(...steps.map((step, place) => {
       const runs = step.name === running;
       return element("li", { class: runs ? "runs" : place === next ? "next" : "", "aria-current": runs ? "step" : null },
@@ -81,7 +86,9 @@ export class Setup {
             step.found === null ? `begin ${step.name}` : `${step.name} again`));
     }));
     this.#draw_progress();
-    this.list.querySelector("input")?.focus();
+    const input = this.list.querySelector("input");
+    if (input && input.id === typed?.id) input.value = typed.value;
+    input?.focus();
     this.list.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
   }
 

@@ -90,6 +90,7 @@ class Workshop:
                   f"-DCMAKE_PROJECT_supercoil_INCLUDE={self.tree / 'tests/mutants/precompiled.cmake'}",
                   f"-DSUPERCOIL_PRECOMPILED={self.shared / 'precompiled.hpp'}",
                   f"-DCMAKE_CXX_FLAGS={FLAGS}", "-DCMAKE_UNITY_BUILD=OFF", "-DSUPERCOIL_BENCH=OFF",
+                  "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON",
                   "-DSUPERCOIL_TESTS=ON"])
         self.ninja(self.programs, check=True, jobs=jobs)
         self.read_dependencies()

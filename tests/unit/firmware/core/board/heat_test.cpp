@@ -128,3 +128,14 @@ TEST(HotEnd, OfAReadingBeginsWhereTheMuscleWasKnownToBeBefore) {
     heat.step(1.9, 2.1, 2.0);
   CHECK_COMPARE(heat.hottest_K(), <, 0.5 * (before_K + 25.0));
 }
+
+TEST(HotEnd, OfAReadingNarrowsWithinASecondThoughTheBootWasHotter) {
+  Heat heat(settings, {}, tick_s);
+  for (int i = 0; i < 60'000; ++i)
+    heat.step(1.9, 2.1, 2.0);
+  const double before_K = heat.hottest_K();
+  heat.set_thermal_facts(read_at_2_W(), {0.96, 1.04});
+  for (int i = 0; i < 1000; ++i)
+    heat.step(1.9, 2.1, 2.0);
+  CHECK_COMPARE(heat.hottest_K(), <, before_K - 4.0);
+}

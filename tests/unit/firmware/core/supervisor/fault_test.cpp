@@ -39,3 +39,45 @@ TEST(Faults, NoneAndUnknownNumbersHaveNoDescription) {
   CHECK_FALSE(info(static_cast<Fault>(99)).has_value());
   CHECK(name(Fault::none) == "none");
 }
+
+TEST(Faults, HaveTheNumbersThatTheyHadFromTheBeginning) {
+  struct Numbered {
+    Fault fault;
+    int number;
+  };
+  for (const auto& [fault, number] : {Numbered{Fault::none, 0},
+                                      {Fault::sensor_out_of_range, 10},
+                                      {Fault::sensor_stale, 11},
+                                      {Fault::sensor_frozen, 12},
+                                      {Fault::sensor_jump, 13},
+                                      {Fault::sensors_disagree, 14},
+                                      {Fault::heater_open, 20},
+                                      {Fault::heater_short, 21},
+                                      {Fault::heater_stuck_on, 22},
+                                      {Fault::heater_not_responding, 23},
+                                      {Fault::duty_wrong, 24},
+                                      {Fault::line_failed, 25},
+                                      {Fault::over_temperature, 30},
+                                      {Fault::over_travel, 31},
+                                      {Fault::energy_budget_exceeded, 32},
+                                      {Fault::resistance_drift, 33},
+                                      {Fault::under_voltage, 40},
+                                      {Fault::over_voltage, 41},
+                                      {Fault::power_limit_exceeded, 42},
+                                      {Fault::overrun, 50},
+                                      {Fault::tick_late, 51},
+                                      {Fault::telemetry_dead, 52},
+                                      {Fault::command_timeout, 60},
+                                      {Fault::command_damaged, 61},
+                                      {Fault::command_not_allowed, 62},
+                                      {Fault::emergency_stop, 63},
+                                      {Fault::bus_off, 70},
+                                      {Fault::bus_error_passive, 71},
+                                      {Fault::node_conflict, 72},
+                                      {Fault::configuration_invalid, 80},
+                                      {Fault::controller_invalid, 81},
+                                      {Fault::self_test_failed, 82}}) {
+    LONGS_EQUAL(number, static_cast<int>(fault));
+    CHECK_EQUAL(number != 0, info(fault).has_value());
+  }
+}

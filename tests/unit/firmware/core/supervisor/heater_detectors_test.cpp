@@ -148,3 +148,8 @@ TEST(HeaterDetectors, NotRespondingJudgesEachWindowByItself) {
   LONGS_EQUAL(40000, ticks);
   DOUBLES_EQUAL(0.0, detector.margin().measured, 1e-6);
 }
+
+TEST(HeaterDetectors, StuckOnAllowsFor50MillisecondsUnlessTold) {
+  StuckOn detector({.max_A = 0.02}, tick_s);
+  LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, 0.4); }));
+}

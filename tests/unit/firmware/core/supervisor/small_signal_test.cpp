@@ -2,6 +2,7 @@
 #include "supervisor/small_signal.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include <CppUTest/TestHarness.h>
@@ -81,4 +82,24 @@ TEST(SmallSignal, IsPlannedInStepsOfWholeTicksAfterFiveTimeConstants) {
     DOUBLES_EQUAL(other_Hz == 150.0 ? 2.0 / 150.0 : 0.01, plan.step_s, 1e-12);
     DOUBLES_EQUAL(-5.0 / muscle.thermal_pole_rad_per_s(), plan.settle_s, 1e-9);
   }
+}
+
+/// Where nothing settles and nothing is noisy, from the very first step on.
+TEST(SmallSignal, OfTheModelsOwnMotionIsWhole) {
+  const control::PhysicalParameters muscle;
+  auto plan = plan_small_signal(paper_proof(), muscle, held_W, rate_Hz);
+  plan.settle_s = plan.hold_W = 0.0;
+  SmallSignal measuring;
+  measuring.start(plan, ExpectedMotion(muscle, plan.step_s));
+  ExpectedMotion motion(muscle, plan.step_s);
+  const long ticks = std::lround(rate_Hz * plan.step_s);
+  double power_W = 0.0;
+  for (int step = 0; measuring.running() && step < 10'000; ++step) {
+    const double position_m = motion.step(power_W);
+    for (long i = 0; i < ticks; ++i)
+      measuring.step(position_m, power_W);
+    power_W = measuring.power_W();
+  }
+  CHECK_FALSE(measuring.running());
+  DOUBLES_EQUAL(1.0, measuring.response_ratio(), 1e-9);
 }

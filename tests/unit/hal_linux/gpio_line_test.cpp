@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <string>
 
+#include <malloc.h>
+
 #include <CppUTest/TestHarness.h>
 
 #include "unit/hal_linux/support/gpio_kernel.hpp"
@@ -157,4 +159,13 @@ TEST(GpioLine, IsLookedAtWhileNobodyDrivesIt) {
   line.consumer = "fan";
   const auto held = read_undriven({"pinctrl-bcm2711", "GPIO5"}, dev.path());
   STRCMP_CONTAINS("which 'fan' holds", held.error().text.c_str());
+}
+
+TEST(GpioLine, KeepsNoMemoryOfChipsThatWereLookedAt) {
+  const auto look = [&] { STRCMP_CONTAINS("no chip", answer("pinctrl-rp1", "GPIO5").c_str()); };
+  look();
+  const auto before = ::mallinfo2().uordblks;
+  for (int i = 0; i < 1000; ++i)
+    look();
+  CHECK(::mallinfo2().uordblks < before + 4096);
 }

@@ -144,3 +144,68 @@ TEST(Axis, TakesOverRightAfterItsStartWithoutAJump) {
   CHECK(answer_to(Verb::controller, 1.0) == Refusal::none);
   DOUBLES_EQUAL(before_W, rig().snapshot().demanded_W, 0.3);
 }
+
+TEST(Axis, KeepsAReadingWithThePowerThatItsSensesTold) {
+  settings.firmware.channels[0].senses.error_ratio = 0.02;
+  hold(1.5, 24.0);
+  CHECK(answer_to(Verb::compare_rise, rig().muscle().plant().temperature_rise_K()) ==
+        Refusal::none);
+  const auto read = update();
+  DOUBLES_EQUAL(1.5, read->heat.steady_min_W, 0.04);
+  DOUBLES_EQUAL(1.5, read->heat.steady_max_W, 0.04);
+}
+
+/// A time constant is that of the heat, whatever else identify makes of the muscle.
+TEST(Axis, KeepsTheTimeConstantOfAMuscleThatIsNotTheConfiguredOne) {
+  ChannelSettings& channel = settings.firmware.channels[0];
+  channel.muscle.stiffness_N_per_m = 200.0;
+  channel.thermal.mass_error_ratio = 0.03;
+  channel.heater.temperature_coefficient_per_K = 0.0;  // else both temperatures would disagree
+  rig().heat(Task::identify);
+  rig().run(61.0);
+  CHECK(rig().snapshot().result == ModeResult::implausible);
+  const auto found = update();
+  CHECK_FALSE(found->has_muscle);
+  DOUBLES_EQUAL(0.162 / 0.089, found->heat.time_constant_s, 0.05);
+}
+
+/// Else a muscle that hangs loose would look as if it had moved.
+TEST(Axis, ANewZeroIsNoMotionOfTheMuscle) {
+  settings.firmware.channels[0].supervision.proof_of_response = false;
+  settings.firmware.channels[0].heater.temperature_coefficient_per_K = 0.0;
+  for (const double waited_s : {0.0, 4.0, 8.0, 12.0}) {
+    rig_.emplace(settings);
+    rig().muscle().position.set({.offset = 0.003});
+    rig().boot();
+    rig().arm();
+    rig().run(0.2 + waited_s);
+    rig().heat(Task::calibrate);
+    CHECK(rig().run_until([&] { return rig().state() == State::armed; }, 60.0));
+    DOUBLES_EQUAL(0.003, update()->calibration.position_offset_m, 1e-4);
+    rig().run(0.1);
+    rig().muscle().faults.slack = true;
+    rig().heat(Task::power);
+    rig().run(19.7);
+    CHECK(rig().fault() == Fault::none);
+    rig().run(0.4);
+    CHECK(rig().fault() == Fault::heater_not_responding);
+  }
+}
+
+/// A dither that the sensor's noise hides is not waited for.
+TEST(Axis, MeasuresNoSmallMotionsWhereNoiseHidesThem) {
+  const auto identified_s = [&](double noise_rms_m) {
+    settings.firmware.channels[0].supervision.position_noise_rms_m = noise_rms_m;
+    settings.board.channels[0].position.noise_rms = noise_rms_m;
+    rig_.reset();
+    rig().heat(Task::identify);
+    const double begun_s = rig().time_s();
+    CHECK(rig().run_until([&] { return rig().state() == State::armed; }, 90.0));
+    CHECK(rig().snapshot().result == ModeResult::found);
+    const bool measured = update()->response_ratio > 0.0;
+    CHECK_EQUAL(noise_rms_m < 1e-4, measured);
+    return rig().time_s() - begun_s;
+  };
+  // Five time constants to come to rest, and four seconds at least.
+  CHECK_COMPARE(identified_s(10e-6) - identified_s(500e-6), >, 5.0 * 0.162 / 0.089 + 3.0);
+}

@@ -41,3 +41,20 @@ TEST(Loop, TakesAsManyCommandsAsItsRingHoldsAndNoMore) {
     ++taken;
   LONGS_EQUAL(256, taken);
 }
+
+/// Behind noise a probe's current could hide: nothing is proven.
+TEST(Loop, DoesNotPassItsSelfTestWithASenseThatIsAllNoise) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RigSettings noisy = rough_board();
+    noisy.board.seed = seed;
+    noisy.board.channels.resize(1);
+    noisy.firmware.channels.resize(1);
+    noisy.board.channels[0].current.noise_rms = 0.08;
+    host_sim::SimulatedBoard board(noisy.board);
+    supercoil::Loop loop(noisy.firmware, board.devices());
+    Executive executive(loop, board, noisy.firmware.rate_Hz);
+    for (int i = 0; i < 1000; ++i)
+      executive.run_tick();
+    CHECK_FALSE(loop.self_test().passed());
+  }
+}

@@ -257,3 +257,13 @@ TEST(Codec, RefusesInvalidToml) {
   STRCMP_CONTAINS("is not valid TOML: ", answer(sealed_with("= 16.0", "= = 16.0")).c_str());
   STRCMP_CONTAINS("is not valid TOML: ", answer(sealed_with("[calibration]", "[muscle]")).c_str());
 }
+
+TEST(Codec, SmallMotionsAreThoseOfAMuscleAndNotStoredWithoutOne) {
+  board::Learned set = full_set();
+  set.has_muscle = false;
+  CHECK(encode(set).find("small_motions") == std::string::npos);
+  const auto read = decode(encode(set));
+  CHECK(read.has_value());
+  CHECK_FALSE(read->has_muscle);
+  DOUBLES_EQUAL(0.0, read->response_ratio, 0.0);
+}

@@ -209,3 +209,24 @@ TEST(Axis, MeasuresNoSmallMotionsWhereNoiseHidesThem) {
   // Five time constants to come to rest, and four seconds at least.
   CHECK_COMPARE(identified_s(10e-6) - identified_s(500e-6), >, 5.0 * 0.162 / 0.089 + 3.0);
 }
+
+/// Bounds that make a muscle cool faster than it does make it colder than it is.
+TEST(Axis, BelievesAMuscleHotterOnceItIsSeenToCoolSlowly) {
+  ChannelSettings& channel = settings.firmware.channels[0];
+  channel.thermal.bounds.min_transfer_W_per_K = 0.100;  // the muscle has 0.089
+  channel.heater.temperature_coefficient_per_K = 0.0;   // else both temperatures would disagree
+  channel.estimators[0].kind = control::EstimatorKind::least_squares;
+  channel.estimators[0].set_nominal(channel.muscle, channel.limiter.max_W);
+  const auto rise_K = [&](double trusted_error) {
+    channel.estimators[0].excitation.trusted_error = trusted_error;
+    rig_.reset();
+    rig().heat(Task::power);
+    rig().run(15.0);
+    rig().task = Task::nothing;
+    hold(2.0, 15.0);
+    CHECK(rig().fault() == Fault::none);
+    CHECK_EQUAL(trusted_error > 0.0, rig().snapshot().trusted);
+    return rig().snapshot().hottest_C - channel.thermal.air.warmest_C;
+  };
+  DOUBLES_EQUAL(0.100 / 0.089, rise_K(100.0) / rise_K(0.0), 0.03);
+}

@@ -60,7 +60,7 @@ void Axis::sample(hal::Time now) {
   board::Measured& position = inputs_.position;
   board::measure(sample, input.scaling, now, input.max_age_s, position);
   inputs_.sensor_m = position.value;
-  position.value = (position.value - calibration_.position_offset_m) * calibration_.position_scale;
+  position.value = calibrated(inputs_.sensor_m);
   const bool fresh = position.present && sample.taken != position_taken_;
   inputs_.position_elapsed_s = fresh ? hal::seconds(sample.taken - position_taken_) : 0.0;
   if (fresh) position_taken_ = sample.taken;

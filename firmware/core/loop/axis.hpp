@@ -82,6 +82,10 @@ class Axis {
   bool take_learned_update(board::LearnedUpdate& update) { return learned_updates_.pop(update); }
 
  private:
+  /// What a reading of the sensor is by the present calibration.
+  double calibrated(double sensor_m) const {
+    return (sensor_m - calibration_.position_offset_m) * calibration_.position_scale;
+  }
   void prove(std::int64_t periods);
   void learn_heat();
   LimitedBy limited_by() const;

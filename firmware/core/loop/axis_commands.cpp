@@ -122,7 +122,11 @@ Reply Axis::scale(double true_m) {
   if (!inputs_.position.present) return Refusal::not_ready;
   board::Calibration found = calibration_;
   found.position_scale *= true_m / measured_m;
-  return true_m > 0.0 ? refusal_of(keep(muscle_, found)) : Refusal::out_of_range;
+  if (!(true_m > 0.0)) return Refusal::out_of_range;
+  const Refusal refusal = refusal_of(keep(muscle_, found));
+  // What this tick is judged by, or the new scale would look like motion in the next one.
+  inputs_.position.value = calibrated(inputs_.sensor_m);
+  return refusal;
 }
 
 /// Averages what the senses tell while a power is held, and waits for steady heat.

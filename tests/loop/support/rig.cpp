@@ -153,6 +153,20 @@ bool Rig::run_until(const std::function<bool()>& holds, double max_s) {
   return true;
 }
 
+Refusal Rig::answer_to(Verb verb, double value) {
+  last_refusal = Refusal::none;
+  send(verb, value);
+  tick();
+  return last_refusal;
+}
+
+void Rig::hold_power(double power_W, double time_s) {
+  for (double end_s = this->time_s() + time_s; this->time_s() < end_s;) {
+    send(Verb::power, power_W);
+    run(0.05);
+  }
+}
+
 void Rig::boot() {
   run_until([&] { return loop.self_test().passed() || loop.self_test().failed(); }, 2.0);
   // Until then the muscle may be hot from before, and nothing is armed.

@@ -47,6 +47,10 @@ class Rig {
   void start_neighbour();
 
   void send(Verb verb, double value = 0.0) { loop.send({tested, verb, value}); }
+  /// Sends it, and runs the tick that answers. Not for a rig that sends by itself (task).
+  Refusal answer_to(Verb verb, double value = 0.0);
+  /// Commands it for so long, again before it expires.
+  void hold_power(double power_W, double time_s);
   State state() const { return loop.channel(tested).state().state(); }
   Fault fault() const { return loop.channel(tested).state().first_cause(); }
   const Snapshot& snapshot() const { return loop.channel(tested).snapshot(); }

@@ -23,16 +23,7 @@ TEST_GROUP(Axis) {
     return *rig_;
   }
   Refusal answer_to(Verb verb, double value = 0.0) {
-    rig().last_refusal = Refusal::none;
-    rig().send(verb, value);
-    rig().tick();
-    return rig().last_refusal;
-  }
-  void hold(double power_W, double time_s) {
-    for (double end_s = rig().time_s() + time_s; rig().time_s() < end_s;) {
-      rig().send(Verb::power, power_W);
-      rig().run(0.05);
-    }
+    return rig().answer_to(verb, value);
   }
   board::LearnedUpdate update() {
     board::LearnedUpdate update;
@@ -88,13 +79,13 @@ TEST(Axis, UsesTheControllerThatIsChosen) {
 }
 
 TEST(Axis, KeepsWhatItFoundWithWhatIsStoredLater) {
-  hold(2.0, 4.0);
+  rig().hold_power(2.0, 4.0);
   CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
   const auto scaled = update();
   CHECK(scaled.has_value() && scaled->has_muscle);
   DOUBLES_EQUAL(1.1, scaled->calibration.position_scale, 0.01);
   // A scale is no jump of the sensor.
-  hold(2.0, 3.0);
+  rig().hold_power(2.0, 3.0);
   CHECK(rig().fault() == Fault::none);
   CHECK(answer_to(Verb::controller, 2.0) == Refusal::none);
   CHECK(answer_to(Verb::store, store_tuning) == Refusal::none);
@@ -121,11 +112,11 @@ TEST(Axis, ForgetsTheHeatThatWasReadWithTheMuscle) {
   channel.senses.error_ratio = 0.02;
   channel.heat = {0.0, 0.0, 1.5 / 0.089, 1.0, 1.5, 1.5};
   const auto width_K = [&] { return rig().snapshot().hottest_C - rig().snapshot().coldest_C; };
-  hold(1.5, 25.0);
+  rig().hold_power(1.5, 25.0);
   const double narrow_K = width_K();
   CHECK(answer_to(Verb::store, 0.0) == Refusal::none);
   CHECK_FALSE(update().has_value());
-  hold(1.5, 10.0);
+  rig().hold_power(1.5, 10.0);
   CHECK_COMPARE(width_K(), >, 3.0 * narrow_K);
   CHECK_FALSE(rig().interval_missed);
 }
@@ -147,7 +138,7 @@ TEST(Axis, TakesOverRightAfterItsStartWithoutAJump) {
 
 TEST(Axis, KeepsAReadingWithThePowerThatItsSensesTold) {
   settings.firmware.channels[0].senses.error_ratio = 0.02;
-  hold(1.5, 24.0);
+  rig().hold_power(1.5, 24.0);
   CHECK(answer_to(Verb::compare_rise, rig().muscle().plant().temperature_rise_K()) ==
         Refusal::none);
   const auto read = update();
@@ -223,10 +214,28 @@ TEST(Axis, BelievesAMuscleHotterOnceItIsSeenToCoolSlowly) {
     rig().heat(Task::power);
     rig().run(15.0);
     rig().task = Task::nothing;
-    hold(2.0, 15.0);
+    rig().hold_power(2.0, 15.0);
     CHECK(rig().fault() == Fault::none);
     CHECK_EQUAL(trusted_error > 0.0, rig().snapshot().trusted);
     return rig().snapshot().hottest_C - channel.thermal.air.warmest_C;
   };
   DOUBLES_EQUAL(0.100 / 0.089, rise_K(100.0) / rise_K(0.0), 0.03);
+}
+
+/// Else a muscle that hangs loose would look as if it had moved.
+TEST(Axis, ANewScaleIsNoMotionOfTheMuscle) {
+  settings.firmware.channels[0].supervision.proof_of_response = false;
+  for (const double waited_s : {1.0, 5.0, 9.0, 13.0}) {
+    rig_.reset();
+    rig().heat(Task::power);
+    rig().run(8.0 + waited_s);
+    rig().muscle().faults.slack = true;
+    rig().send(Verb::scale, 1.3 * rig().snapshot().position_m);
+    rig().tick();
+    CHECK(update()->has_muscle);
+    rig().run(19.5);
+    CHECK(rig().fault() == Fault::none);
+    rig().run(1.0);
+    CHECK(rig().fault() == Fault::heater_not_responding);
+  }
 }

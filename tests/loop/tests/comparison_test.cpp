@@ -44,16 +44,10 @@ TEST_GROUP(Comparison) {
     rig.run(0.1);
   }
   void hold(double power_W, double time_s = 2.5) {
-    for (double end_s = rig.time_s() + time_s; rig.time_s() < end_s;) {
-      rig.send(Verb::power, power_W);
-      rig.run(0.05);
-    }
+    rig.hold_power(power_W, time_s);
   }
   Refusal ask(Verb verb, double value) {
-    rig.last_refusal = Refusal::none;
-    rig.send(verb, value);
-    rig.run_ticks(1);
-    return rig.last_refusal;
+    return rig.answer_to(verb, value);
   }
   /// The mean of what flows, as a meter in the line shows it.
   double line_A() {

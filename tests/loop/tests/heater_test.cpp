@@ -18,12 +18,6 @@ TEST_GROUP(Heater) {
     rig.run(0.2);
     CHECK(rig.state() == State::armed);
   }
-  static void hold(Rig & rig, double power_W, double time_s) {
-    for (double end_s = rig.time_s() + time_s; rig.time_s() < end_s;) {
-      rig.send(Verb::power, power_W);
-      rig.run(0.05);
-    }
-  }
 };
 
 TEST(Heater, TellsByWhichGainsItCorrectsItsSensesAndNotSinceWhen) {
@@ -49,9 +43,9 @@ TEST(Heater, AResistanceOfAMuscleThatHasCooledSinceIsNotJudged) {
   channel.heater.probe_every_s = 60.0;
   Rig rig(settings);
   arm(rig);
-  hold(rig, 4.5, 10.0);
+  rig.hold_power(4.5, 10.0);
   CHECK_COMPARE(rig.snapshot().resistance_Ohm, >, 10.8);
-  hold(rig, 0.0, 14.0);
+  rig.hold_power(0.0, 14.0);
   CHECK(rig.fault() == Fault::none);
   CHECK_COMPARE(rig.snapshot().resistance_Ohm, >, 10.8);
 }

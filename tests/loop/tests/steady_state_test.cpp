@@ -26,17 +26,8 @@ TEST_GROUP(SteadyHeatRead) {
     }
     return *rig_;
   }
-  void hold(double power_W, double time_s) {
-    for (double end_s = rig().time_s() + time_s; rig().time_s() < end_s;) {
-      rig().send(Verb::power, power_W);
-      rig().run(0.05);
-    }
-  }
   Refusal read(double rise_K) {
-    rig().last_refusal = Refusal::none;
-    rig().send(Verb::compare_rise, rise_K);
-    rig().run_ticks(1);
-    return rig().last_refusal;
+    return rig().answer_to(Verb::compare_rise, rise_K);
   }
   void check(Refusal expected, Refusal refusal) {
     STRCMP_EQUAL(std::string(name(expected)).c_str(), std::string(name(refusal)).c_str());
@@ -55,17 +46,17 @@ TEST_GROUP(SteadyHeatRead) {
 };
 
 TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
-  hold(1.5, 24.0);
+  rig().hold_power(1.5, 24.0);
   const double wide_K = width_K();
   check(Refusal::none, read(true_rise_K() + 0.9));
   const auto kept = update();
   CHECK(kept.has_value());
   CHECK(kept->heat.has_reading());
   CHECK_FALSE(kept->has_muscle);
-  hold(1.5, 20.0);
+  rig().hold_power(1.5, 20.0);
   CHECK_COMPARE(width_K(), <, 0.25 * wide_K);
   for (const double power_W : {4.0, 0.3, 2.0, 0.0}) {
-    hold(power_W, 8.0);
+    rig().hold_power(power_W, 8.0);
     CHECK_FALSE(rig().interval_missed);
   }
   CHECK(rig().fault() == Fault::none);
@@ -73,44 +64,44 @@ TEST(SteadyHeatRead, NarrowsTheIntervalAndIsKept) {
   // And at the next start.
   settings.firmware.channels[0].heat = kept->heat;
   rig_.reset();
-  hold(1.5, 30.0);
+  rig().hold_power(1.5, 30.0);
   CHECK_COMPARE(width_K(), <, 0.25 * wide_K);
   CHECK_FALSE(rig().interval_missed);
 }
 
 TEST(SteadyHeatRead, IsRefusedWhereTheMuscleMayNotBeInSteadyHeat) {
   check(Refusal::wrong_state, read(20.0));
-  hold(1.0, 24.0);
-  hold(1.5, 20.0);
+  rig().hold_power(1.0, 24.0);
+  rig().hold_power(1.5, 20.0);
   check(Refusal::not_ready, read(true_rise_K()));
-  hold(1.5, 4.0);
+  rig().hold_power(1.5, 4.0);
   check(Refusal::out_of_range, read(3.0 * true_rise_K()));
   check(Refusal::wrong_state, read(0.0));
   const double wide_K = width_K();
-  hold(1.5, 5.0);
+  rig().hold_power(1.5, 5.0);
   DOUBLES_EQUAL(wide_K, width_K(), 0.2);
   CHECK_FALSE(update().has_value());
 }
 
 TEST(SteadyHeatRead, NeedsComparedSenses) {
   settings.firmware.channels[0].senses = {};
-  hold(1.5, 26.0);
+  rig().hold_power(1.5, 26.0);
   check(Refusal::not_ready, read(true_rise_K()));
 }
 
 TEST(SteadyHeatRead, IsForgottenOnDemandAndWithTheComparisonOfTheSenses) {
   for (const Verb verb : {Verb::compare_rise, Verb::compare_supply, Verb::store}) {
     rig_.reset();
-    hold(1.5, 24.0);
+    rig().hold_power(1.5, 24.0);
     const double wide_K = width_K();
     check(Refusal::none, read(true_rise_K()));
-    hold(1.5, 10.0);
+    rig().hold_power(1.5, 10.0);
     CHECK_COMPARE(width_K(), <, 0.25 * wide_K);
     rig().send(Verb::rest);
     rig().run(0.1);
     rig().send(verb, 0.0);
     rig().run(0.1);
-    hold(1.5, 25.0);
+    rig().hold_power(1.5, 25.0);
     CHECK_COMPARE(width_K(), >, 0.95 * wide_K);
     CHECK_FALSE(rig().interval_missed);
   }
@@ -128,7 +119,7 @@ TEST(SteadyHeatRead, AWeighedMassAndIdentifyGiveTheHeatTransfer) {
     CHECK((found.has_value() && found->heat.has_time_constant()) == weighed);
     if (weighed) DOUBLES_EQUAL(0.162 / 0.089, found->heat.time_constant_s, 0.03);
     rig().task = test::Task::nothing;
-    hold(1.5, 25.0);
+    rig().hold_power(1.5, 25.0);
     const double max_K = 1.04 * 1.5 / 0.089 * 1.25 / 0.97;
     CHECK((rig().snapshot().hottest_C - 25.0 < max_K + 1.0) == weighed);
     CHECK_FALSE(rig().interval_missed);

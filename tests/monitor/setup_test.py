@@ -186,6 +186,33 @@ class SetupTest(SetupCase):
         self.assertEqual(step["problem"], "interrupted: ended on the page")
         self.assertEqual(self.file.read_text(), self.text)
 
+    def test_an_answer_that_comes_late_takes_nothing_that_was_typed(self):
+        page = self.wizard(f"socketcand:{self.start_board().found[1]}")
+        # What the page asked for before the step began is answered after the question is there.
+        page.run("""const now = window.fetch;
+            window.fetch = async (...request) => {
+              const answer = await now(...request);
+              if (request[0] === "/api/setup" && !window.late) {
+                window.late = true;
+                await new Promise((go_on) => setTimeout(go_on, 4000));
+              }
+              return answer;
+            };""")
+        page.wait(lambda: page.run("return window.late === true"), SLACK_S, "the page asks")
+        page.begin("describe")
+        page.wait(page.asked, SLACK_S, "a question")
+        page.find("#setup form input").send_keys("12")
+        time.sleep(5.0)
+        self.assertEqual(page.find("#setup form input").get_attribute("value"), "12")
+
+    def test_what_moves_the_muscle_by_hand_is_released_when_a_step_begins(self):
+        page = self.described()
+        page.click("#open-setup")
+        page.bring_to(3.0)
+        page.click("#open-setup")
+        page.begin("scale")
+        page.wait(lambda: "setup took over" in page.text(".manual .notice"), SLACK_S, "the page says who has the muscle")
+
     def test_it_is_for_everybody(self):
         page = self.described()
         page.begin("describe")

@@ -1,7 +1,7 @@
 // The steps of setup that ask: senses by a meter, the position's scale by a ruler, in lockstep.
 #include <cmath>
 #include <cstdio>
-#include <map>
+#include <functional>
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -62,7 +62,21 @@ HeldOut pulled_by(double force_N) {
 
 }  // namespace
 
-TEST_GROUP(GuidedSteps){};
+TEST_GROUP(GuidedSteps){
+    /// A comparison that comes to nothing; returns when, in s.
+    static double ends_with(const char* why, const std::function<void(Person&)>& change){
+        HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+Person person(board.link());
+change(person);
+const auto found = board.steps(person).compare_senses();
+CHECK_FALSE(found.has_value());
+STRCMP_CONTAINS(why, found.error().c_str());
+CHECK_FALSE(board.link().senses("1")->compared());
+STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+return board.link().time_s();
+}
+}
+;
 
 TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
@@ -77,34 +91,16 @@ TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
 }
 
 TEST(GuidedSteps, AReadingThatContradictsTheOthersChangesNothing) {
-  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
-  Person person(board.link());
-  person.second_reading_ratio = 1.25;
-  const auto found = board.steps(person).compare_senses();
-  CHECK(!found);
-  STRCMP_CONTAINS("do not fit one another", found.error().c_str());
-  CHECK(!board.link().senses("1")->compared());
-  STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+  ends_with("do not fit one another", [](Person& person) { person.second_reading_ratio = 1.25; });
 }
 
 TEST(GuidedSteps, NobodyIsWaitedForLongerThanFiveMinutesWhileTheMuscleIsHeated) {
-  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
-  Person person(board.link());
-  person.reads_looks = 10000;
-  const auto found = board.steps(person).compare_senses();
-  CHECK(!found);
-  STRCMP_EQUAL("no answer within 5 minutes", found.error().c_str());
-  CHECK(board.link().time_s() < 330.0);
-  STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+  CHECK(ends_with("no answer within 5 minutes",
+                  [](Person& person) { person.reads_looks = 10000; }) < 330.0);
 }
 
 TEST(GuidedSteps, WhoeverIsTiredOfItEndsTheHeating) {
-  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
-  Person person(board.link());
-  person.tired = true;
-  const auto found = board.steps(person).compare_senses();
-  STRCMP_EQUAL("interrupted", found.error().c_str());
-  STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+  CHECK(ends_with("interrupted", [](Person& person) { person.tired = true; }) < 30.0);
 }
 
 TEST(GuidedSteps, ASecondKnownPlaceGivesThePositionsScale) {

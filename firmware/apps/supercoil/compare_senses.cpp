@@ -39,9 +39,7 @@ int concluded(const tl::expected<board::SenseComparison, std::string>& found,
   }
   if (!found) return fail(exit_failed, found.error());
   if (!json) {
-    std::printf("true over measured: supply %.4f, current %.4f; %s %% may remain of each\n%s\n",
-                found->supply_gain, found->current_gain,
-                number_text(100.0 * found->error_ratio, 3).c_str(), bounds.c_str());
+    std::printf("%s\n%s\n", describe_comparison(*found).c_str(), bounds.c_str());
   }
   return exit_done;
 }

@@ -14,7 +14,7 @@
 #include "apps/supercoil/monitor/api.hpp"
 #include "apps/supercoil/monitor/server_thread.hpp"
 #include "apps/supercoil/monitor/stop.hpp"
-#include "apps/supercoil/setup/setup_api.hpp"
+#include "apps/supercoil/setup/setup_session.hpp"
 
 namespace supercoil::operating {
 
@@ -102,7 +102,8 @@ int serve_page(const MonitorOptions& options, Source& source) {
     asked.config = options.setup;
     asked.channel = options.channel;
     asked.can = options.source;
-    setup = std::make_unique<SetupSession>(asked, [&] { controls.release_hold("setup heats"); });
+    setup =
+        std::make_unique<SetupSession>(asked, [&] { controls.release_hold("setup took over"); });
   }
   std::unique_ptr<StopServer> stop;
   if (!source.log && !access.read_only) {
@@ -117,7 +118,7 @@ int serve_page(const MonitorOptions& options, Source& source) {
   Api api(access, *source.frame_history, controls,
           {options.source, source.log, stop ? stop->port() : 0, setup != nullptr});
   api.serve_with(server);
-  if (setup) serve_setup(server, access, *setup);
+  if (setup) setup->serve_with(server, access);
   const bool token = !source.log && !access.read_only;
   std::printf("http://%s:%d/%s%s\n", access.host.c_str(), access.port,
               token || !access.loopback ? "#token=" : "",

@@ -162,9 +162,7 @@ StepResult Commission::compare_senses() {
   const ComparisonPlan plan = plan_comparison(channel_, configured_, settings_);
   const auto senses = operating::compare_senses(board_, plan, who_);
   if (!senses) return tl::unexpected(senses.error());
-  who_.say("true over measured: supply " + in_digits(senses->supply_gain) + ", current " +
-           in_digits(senses->current_gain) + "; " + in_digits(100.0 * senses->error_ratio) +
-           " % may remain of each");
+  who_.say(describe_comparison(*senses));
   who_.say(power_bounds_text(configured_, settings_, *senses));
   return Json{{"supply_gain", senses->supply_gain},
               {"current_gain", senses->current_gain},

@@ -48,5 +48,7 @@ class Operator {
 
 /// "0.1 to 10000"
 std::string range_text(const config::Range& range);
+/// The error: why it is no answer, with what is allowed.
+Operator::OrWhy read_answer(const Question& question, const std::string& text);
 
 }  // namespace supercoil::operating

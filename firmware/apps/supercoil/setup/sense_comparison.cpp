@@ -126,6 +126,12 @@ OrEnded<board::SenseComparison> compare_senses(BoardLink& board, const Compariso
   return found;
 }
 
+std::string describe_comparison(const board::SenseComparison& found) {
+  return "true over measured: supply " + number_text(found.supply_gain, 4) + ", current " +
+         number_text(found.current_gain, 4) + "; " + shown(100.0 * found.error_ratio) +
+         " % may remain of each";
+}
+
 std::string power_bounds_text(ChannelSettings settings, const BoardSettings& board,
                               const board::SenseComparison& senses) {
   settings.senses = senses;

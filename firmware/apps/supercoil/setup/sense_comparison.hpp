@@ -29,6 +29,8 @@ tl::expected<board::SenseComparison, std::string> compare_senses(BoardLink& boar
                                                                  const ComparisonPlan& plan,
                                                                  Operator& who);
 
+/// "true over measured: supply 1, current 0.98; 2 % may remain of each"
+std::string describe_comparison(const board::SenseComparison& found);
 /// "the true power is 0.97 to 1.03 times the measured power; …"
 std::string power_bounds_text(ChannelSettings settings, const BoardSettings& board,
                               const board::SenseComparison& senses);

@@ -1,25 +1,23 @@
 // Setup as a page leads through it: one step at a time, in a thread of its own.
 #pragma once
 
-#include <chrono>
 #include <functional>
-#include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <tl/expected.hpp>
 
+#include "apps/supercoil/monitor/access.hpp"
 #include "apps/supercoil/setup/options.hpp"
+#include "apps/supercoil/setup/page_operator.hpp"
 
 namespace supercoil::operating {
 
 /// Safe from any thread.
 class SetupSession {
  public:
-  using Done = tl::expected<void, std::string>;
-  /// After so long without a page that watches, the step ends: nobody sees the muscle.
-  static constexpr std::chrono::seconds page_timeout{10};
-
   /// options: config, channel and can. before: called before a step begins.
   SetupSession(SetupOptions options, std::function<void()> before);
   SetupSession(const SetupSession&) = delete;
@@ -27,29 +25,31 @@ class SetupSession {
   /// Ends the step that is under way, and waits for it.
   ~SetupSession();
 
-  /// {file, channel, steps: [{name, does, optional, found}], running, lines, progress, question,
-  /// error, kept}: what a page shows. running is null where no step is under way; lines, error and
-  /// kept are of the last one.
-  nlohmann::ordered_json state() const;
-  /// The error: why it was not begun.
-  Done begin(const std::string& step);
-  /// Of the question that is asked now. The error: what is allowed.
-  Done answer(const std::string& text);
+  /// GET /api/setup: state(); whoever may command watches by it. POST /api/setup {"do": "begin",
+  /// "step": …}, {"do": "answer", "text": …}, {"do": "end"} or {"do": "undo"}: the state after it,
+  /// or {"error": …}. It and access outlive the server.
+  void serve_with(httplib::Server& server, const Access& access);
   /// The step ends, and the muscle is disarmed. Does not wait for it.
-  void end(const std::string& why);
-  /// The file as it was before setup.
-  Done undo();
-  /// A page watches.
-  void alive();
+  void end(const std::string& why) { page_.end(why); }
 
  private:
-  class Page;
+  /// The error: why it was not done.
+  using Done = Operator::Done;
 
-  void run(const std::string& step);
+  /// {file, channel, steps: [{name, does, optional, found}], running, last, lines, progress,
+  /// question, error, kept}: what a page shows. running is null where no step is under way; lines,
+  /// error and kept are of the last one.
+  nlohmann::ordered_json state() const;
+  Done obey(const nlohmann::ordered_json& asked);
+  Done begin(const std::string& step);
+  Done undo();
+  StepResult run(const std::string& step);
 
   SetupOptions options_;
   std::function<void()> before_;
-  std::unique_ptr<Page> page_;
+  PageOperator page_;
+  std::mutex beginning_;  ///< a step, or undo
+  std::thread thread_;    ///< of the last step
 };
 
 }  // namespace supercoil::operating

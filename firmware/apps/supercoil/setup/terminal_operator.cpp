@@ -1,7 +1,5 @@
 #include "apps/supercoil/setup/terminal_operator.hpp"
 
-#include <charconv>
-#include <chrono>
 #include <cmath>
 
 #include "apps/supercoil/interrupted.hpp"
@@ -14,10 +12,6 @@ namespace {
 constexpr int max_tries = 3;
 
 }  // namespace
-
-std::string range_text(const config::Range& range) {
-  return number_text(range.lowest, 5) + " to " + number_text(range.highest, 5);
-}
 
 void TerminalOperator::say(const std::string& line) {
   progress_.reset();
@@ -52,21 +46,15 @@ tl::expected<std::string, std::string> TerminalOperator::next_line(
 TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
                                               const std::function<Done()>& meanwhile) {
   progress_.reset();
-  const std::string range = range_text(q.allowed);
   for (int i = 0; i < max_tries; ++i) {
-    std::fprintf(out_, "%s (%s)%s: ", std::string(q.text).c_str(), range.c_str(),
+    std::fprintf(out_, "%s (%s)%s: ", std::string(q.text).c_str(), range_text(q.allowed).c_str(),
                  std::isnan(q.fallback) ? "" : (" [" + number_text(q.fallback, 9) + "]").c_str());
     std::fflush(out_);
     const auto line = next_line(meanwhile);
     if (!line) return tl::unexpected(line.error());
-    if (line->empty() && !std::isnan(q.fallback)) return q.fallback;
-    double value = 0.0;
-    const char* end = line->data() + line->size();
-    const auto read = std::from_chars(line->data(), end, value);
-    const bool is_number = read.ec == std::errc{} && read.ptr == end;
-    if (is_number && value >= q.allowed.lowest && value <= q.allowed.highest) return value;
-    std::fprintf(out_, "'%s' is refused: it must be a number from %s\n", line->c_str(),
-                 range.c_str());
+    const OrWhy value = read_answer(q, *line);
+    if (value) return value;
+    std::fprintf(out_, "%s\n", value.error().c_str());
   }
   return tl::unexpected("no allowed answer in 3 tries: " + std::string(q.text));
 }

@@ -59,13 +59,12 @@ export class Setup {
   }
 
   #take(state) {
-    const text = JSON.stringify(state);
-    const { progress, ...rest } = state;
-    const shape = JSON.stringify(rest);
     this.state = state;
-    if (shape !== this.shape) this.#draw();
-    else if (text !== this.shown) this.#draw_progress();
-    Object.assign(this, { shape, shown: text });
+    // All but the progress is drawn anew only when it changed: somebody may be typing.
+    const shown = JSON.stringify({ ...state, progress: null });
+    if (shown !== this.shown) this.#draw();
+    this.shown = shown;
+    this.#draw_progress();
   }
 
   #draw() {
@@ -73,8 +72,8 @@ export class Setup {
     this.what.title = file;
     show(this.what, `Channel ${channel} of ${file.split("/").pop()}. STOP ends a step at once; so does closing this page.`);
     this.undo.disabled = running !== null;
-    const next = steps.findIndex(({ found, optional }, place) => place > steps.findLastIndex((step) => step.found !== null) && !optional && found === null);
-    const typed = this.list.querySelector("input");
+    const done = steps.findLastIndex(({ found }) => found !== null);
+    const next = steps.findIndex(({ optional }, place) => place > done && !optional);
     this.list.replaceChildren(...steps.map((step, place) => {
       const runs = step.name === running;
       return element("li", { class: runs ? "runs" : place === next ? "next" : "", "aria-current": runs ? "step" : null },
@@ -85,10 +84,7 @@ export class Setup {
           : element("button", { type: "button", disabled: running !== null, onclick: () => this.#ask({ do: "begin", step: step.name }) },
             step.found === null ? `begin ${step.name}` : `${step.name} again`));
     }));
-    this.#draw_progress();
-    const input = this.list.querySelector("input");
-    if (input && input.id === typed?.id) input.value = typed.value;
-    input?.focus();
+    this.list.querySelector("input")?.focus();
     this.list.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
   }
 

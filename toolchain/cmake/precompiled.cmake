@@ -1,5 +1,5 @@
-# Headers that most files include, parsed once: a third of the time that a build takes. What a file forgets to include
-# is found by clang-tidy and by the debug preset, which do without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
+# Headers that most files include, parsed once for all. What a file forgets to include is found by clang-tidy and by the
+# debug preset, which do without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
 file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "" @ONLY)
 add_library(supercoil_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(supercoil_precompiled PRIVATE supercoil_control supercoil_options)

@@ -52,7 +52,7 @@ TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
     std::fflush(out_);
     const auto line = next_line(meanwhile);
     if (!line) return tl::unexpected(line.error());
-    const OrWhy value = read_answer(q, *line);
+    OrWhy value = read_answer(q, *line);
     if (value) return value;
     std::fprintf(out_, "%s\n", value.error().c_str());
   }

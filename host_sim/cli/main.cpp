@@ -11,6 +11,7 @@
 
 #include "apps/common/commands.hpp"
 #include "cli/commands.hpp"
+#include "text/program_version.hpp"
 
 namespace {
 
@@ -142,7 +143,7 @@ void add_estimators(CLI::App& app, EstimatorsOptions& options) {
 int run_program(int count, char** arguments) {
   CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.",
                "supercoil-sim"};
-  app.set_version_flag("--version", SUPERCOIL_VERSION);
+  app.set_version_flag("--version", std::string(program_version()));
   app.require_subcommand(1);
   RunOptions run;
   ReproduceOptions reproduce;

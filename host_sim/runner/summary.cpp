@@ -4,6 +4,8 @@
 
 #include "supercoil/control/actuator/conversions.hpp"
 
+#include "text/program_version.hpp"
+
 namespace supercoil::host_sim {
 
 namespace {
@@ -64,7 +66,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   const bool measured = tracking_.count() > 0;
   ordered_json json;
   json["schema_version"] = schema_version;
-  json["program_version"] = SUPERCOIL_VERSION;
+  json["program_version"] = program_version();
   json["scenario"] = scenario.name;
   json["scenario_crc32"] = scenario.crc32;
   json["seed"] = scenario.seed;

@@ -1,7 +1,7 @@
 # Headers that most files include, parsed once for all. What a file forgets to include is found by clang-tidy and by the
 # debug preset, which do without (CMAKE_DISABLE_PRECOMPILE_HEADERS).
-file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/precompiled.cpp CONTENT "" @ONLY)
-add_library(supercoil_precompiled OBJECT ${CMAKE_BINARY_DIR}/precompiled.cpp)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/precompiled.cpp CONTENT "" @ONLY)
+add_library(supercoil_precompiled OBJECT ${PROJECT_BINARY_DIR}/precompiled.cpp)
 target_link_libraries(supercoil_precompiled PRIVATE supercoil_control supercoil_options)
 target_precompile_headers(supercoil_precompiled PRIVATE
   <algorithm> <array> <atomic> <chrono> <cmath> <condition_variable> <filesystem> <fstream> <functional> <map> <memory>
@@ -29,3 +29,16 @@ function(supercoil_use_precompiled folder)
     supercoil_use_precompiled(${below})
   endforeach()
 endfunction()
+
+set(folders firmware/io firmware/apps identification)
+if(SUPERCOIL_SIMULATOR)
+  list(APPEND folders host_sim)
+endif()
+if(SUPERCOIL_TESTS)
+  foreach(tests unit/control unit/firmware unit/host_sim unit/identification loop can attack setup)
+    list(APPEND folders tests/${tests})
+  endforeach()
+endif()
+foreach(folder IN LISTS folders)
+  supercoil_use_precompiled(${folder})
+endforeach()

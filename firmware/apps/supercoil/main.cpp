@@ -12,6 +12,7 @@
 #include "apps/supercoil/identify/options.hpp"
 #include "apps/supercoil/setup/options.hpp"
 #include "telemetry/frames.hpp"
+#include "text/program_version.hpp"
 
 namespace {
 
@@ -229,7 +230,7 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
 
 int run_program(int count, char** arguments) {
   CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
-  app.set_version_flag("--version", SUPERCOIL_VERSION);
+  app.set_version_flag("--version", std::string(program_version()));
   app.require_subcommand(1);
   LogOptions log;
   add_log(app, log);

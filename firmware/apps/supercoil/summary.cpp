@@ -46,6 +46,7 @@ void print_fault(Lines& lines, const recorder::Recording& recording) {
   }
   lines.add("  when: %.6f s after the board's clock began (as a rule, its start)",
             static_cast<double>(h.fault_time_ns) / 1e9);
+  if (!h.program.empty()) lines.add("  recorded by: supercoil %s", h.program.c_str());
 }
 
 /// Ticks that are further apart than one and a half periods have lost rows, or were left out.

@@ -9,6 +9,7 @@
 #include "apps/common/exit_status.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
+#include "text/program_version.hpp"
 
 namespace {
 
@@ -43,7 +44,7 @@ int run_program(int count, char** arguments) {
       "The firmware of a board that drives super-coiled polymer muscles.\n"
       "Drives the board until SIGTERM, SIGINT or SIGHUP, which cool first. It starts disarmed.",
       "supercoild"};
-  app.set_version_flag("--version", SUPERCOIL_VERSION);
+  app.set_version_flag("--version", std::string(program_version()));
   std::string file;
   daemon::RunOptions options;
   CLI::Option* check = app.add_option("--check", file,

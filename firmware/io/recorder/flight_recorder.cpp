@@ -8,6 +8,7 @@
 #include "recorder/names.hpp"
 #include "recorder/recording.hpp"
 #include "storage/crc32.hpp"
+#include "text/program_version.hpp"
 
 namespace supercoil::recorder {
 
@@ -106,6 +107,7 @@ bool FlightRecorder::write(const Job& job, bool last_try) {
   header.fault_name = fault_name(job.cause.fault);
   header.fault_channel = job.cause.channel;
   header.fault_time_ns = fault_ns;
+  header.program = program_version();
   header.rows_crc32 = storage::crc32(found.first, found.second);
   const std::string start = encode(header);
   const auto written =

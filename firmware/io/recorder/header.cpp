@@ -96,6 +96,7 @@ std::string encode(const Header& h) {
       "\"\nfault_channel = " + text_of(h.fault_channel + 1) +
       "\nfault_time_ns = " + text_of(h.fault_time_ns) + "\nrows_CRC32 = \"" +
       hexadecimal(h.rows_crc32) + "\"\n";
+  if (!h.program.empty()) rest += "program = \"" + h.program + "\"\n";
   rest.resize(header_bytes - first_line("").size() - 1, ' ');
   rest += '\n';
   return first_line(rest) + rest;
@@ -136,6 +137,7 @@ tl::expected<Header, HeaderError> decode_header(std::string_view start) {
   h.fault_channel = reader.number<int>("fault_channel", 1, 16) - 1;
   h.fault_time_ns = reader.number<std::int64_t>("fault_time_ns", INT64_MIN, INT64_MAX);
   h.rows_crc32 = reader.crc("rows_CRC32");
+  if (!value_of(start, "program").empty()) h.program = std::string(reader.quoted("program"));
   if (!reader.wrong().empty())
     return tl::unexpected(HeaderError{"has a header that cannot be: " + reader.wrong(), false});
   if (row_bytes != sizeof(Row)) {

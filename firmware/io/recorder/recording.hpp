@@ -31,6 +31,7 @@ struct Header {
   int fault_channel = 0;   ///< from 0
   std::int64_t fault_time_ns = 0;
   std::uint32_t rows_crc32 = 0;
+  std::string program;  ///< version that wrote the file; empty: older than that was written
 
   bool operator==(const Header&) const = default;
 };
@@ -50,7 +51,8 @@ struct Recording {
   }
 };
 
-/// The first header_bytes of a file. fault_name must be letters, digits and '_', at most 40.
+/// The first header_bytes of a file. fault_name must be letters, digits and '_', at most 40;
+/// program letters, digits, '.' and '+', at most 40.
 std::string encode(const Header& header);
 
 enum class Damaged { refuse, read };

@@ -12,6 +12,7 @@
 #include "apps/supercoil/monitor/command_request.hpp"
 #include "apps/supercoil/monitor/tuning_request.hpp"
 #include "telemetry/opcodes.hpp"
+#include "text/program_version.hpp"
 
 namespace supercoil::operating {
 
@@ -140,7 +141,7 @@ void Api::about(const Request& request, Response& response) const {
   // A request for data has no Origin that could be asked for.
   const bool may = !about_.log && !access_.read_only && has_token(access_, request);
   const json told{
-      {"version", SUPERCOIL_VERSION},
+      {"version", program_version()},
       {"source", about_.source},
       {"kind", about_.log ? "log" : "live"},
       {"read_only", access_.read_only},

@@ -35,6 +35,7 @@ function may_command(about) {
 function begin(about) {
   const is_log = about.kind === "log";
   show(by_id("source"), about.source);
+  by_id("source").title = `supercoil ${about.version}`;
   const store = new Store(about.protocol, is_log);
   const stream = new Stream();
   const replay = is_log ? new Replay(by_id("replay"), store) : null;

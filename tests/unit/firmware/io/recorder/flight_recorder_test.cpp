@@ -1,6 +1,7 @@
 // What is recorded, and when.
 #include <CppUTest/TestHarness.h>
 
+#include "text/program_version.hpp"
 #include "unit/firmware/io/recorder/support/recorder_on_a_disk.hpp"
 
 using namespace supercoil;
@@ -31,6 +32,7 @@ TEST(FlightRecorder, WritesTenSecondsBeforeAndOneSecondAfterTheFault) {
   STRCMP_EQUAL("over_temperature", written.header.fault_name.c_str());
   LONGS_EQUAL(1, written.header.fault_channel);
   CHECK(written.header.fault_time_ns == 20 * second_ns);
+  CHECK(written.header.program == program_version());
   STRCMP_EQUAL("/d/flight-1.scfr: over_temperature (30) of channel 2 is recorded\n",
                notes().c_str());
   STRCMP_EQUAL("", notes().c_str());

@@ -54,7 +54,18 @@ TEST(Recording, IsReadAsItWasWritten) {
   LONGS_EQUAL(1, read->header.fault_channel);
   CHECK(read->header.fault_time_ns == 5 * second_ns);
   CHECK(bytes_of(read->rows) == bytes_of(rows));
+  STRCMP_EQUAL("", read->header.program.c_str());
   STRCMP_EQUAL("", read->damage.c_str());
+}
+
+TEST(Recording, SaysWhichProgramWroteItWhereThatIsKnown) {
+  recorder::Header header = decode(file, Damaged::refuse)->header;
+  header.program = "0.2.0+git20261122.150233.2780ebf";
+  file.replace(0, header_bytes, encode(header));
+  const auto read = decode(file, Damaged::refuse);
+  CHECK(read.has_value());
+  STRCMP_EQUAL("0.2.0+git20261122.150233.2780ebf", read->header.program.c_str());
+  STRCMP_CONTAINS("program = 0.2", error(with("\"0.2.0", "0.2.0")).c_str());
 }
 
 TEST(Recording, FieldsStandWhereTheDocumentationSays) {
@@ -113,6 +124,7 @@ TEST(Recording, TheLongestHeaderFits) {
   header.fault_channel = 15;
   header.fault_time_ns = INT64_MIN;
   header.rows_crc32 = 0xFFFFFFFF;
+  header.program = std::string(40, '9');
   const std::string text = encode(header);
   LONGS_EQUAL(header_bytes, text.size());
   STRCMP_EQUAL("is cut off: 0 of 4294967295 rows are there", error(text).c_str());

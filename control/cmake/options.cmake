@@ -1,4 +1,4 @@
-# What every target of supercoil is compiled with.
+# What every target of supercoil is compiled with. It stands beside control, which other projects add without the rest.
 option(SUPERCOIL_WARNINGS_ARE_ERRORS "What the presets set" OFF)
 
 # -O3, which is CMake's, takes a quarter longer to compile, and a simulation the same time.

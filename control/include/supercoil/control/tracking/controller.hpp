@@ -24,7 +24,7 @@ class Controller {
   void learn(const Estimate& estimate);
   /// Of its reference model, in metres; zero in open loop.
   ModelMotion<double> motion() const;
-  /// One of its gains: turn is the part of a full turn, in 2⁻³², at which this one comes round.
+  /// One of its gains: selector is the part of a full turn, in 2⁻³², at which this one comes round.
   GainValue gain(std::uint32_t selector) const;
 
  private:

@@ -27,6 +27,16 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs/ DESTINATION ${documents} PATTERN m
 install(FILES ${PROJECT_SOURCE_DIR}/examples/python/move_muscle.py ${PROJECT_SOURCE_DIR}/firmware/io/can/supercoil.dbc
         DESTINATION ${documents}/examples)
 
+# Debian's zsh looks below /usr in another folder than below /usr/local.
+set(zsh_folder site-functions)
+if(CMAKE_INSTALL_PREFIX STREQUAL /usr)
+  set(zsh_folder vendor-completions)
+endif()
+set(completion ${PROJECT_SOURCE_DIR}/firmware/apps/completion)
+install(DIRECTORY ${completion}/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+install(DIRECTORY ${completion}/zsh/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/${zsh_folder})
+install(DIRECTORY ${completion}/fish/ DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+
 # Files that the administrator may change: dpkg keeps what was changed. No board.toml among them: what is wired to a
 # board, no default can know, and without it the service does not start.
 file(GLOB boards CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/firmware/io/config/examples/*.toml)
@@ -61,7 +71,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION electronics)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS systemd)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "udev, gnuplot-nox | gnuplot")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "can-utils, gpiod, python3-can, python3-cantools")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "can-utils, gpiod, python3-can")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/conffiles
     ${package_files}/postinst ${package_files}/prerm ${package_files}/postrm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)

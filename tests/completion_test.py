@@ -1,0 +1,104 @@
+"""Completion in bash, zsh and fish: it is what --help says now, and each shell offers it.
+
+    completion_test.py PROGRAMS      the folder of the built programs
+"""
+
+import os
+import pathlib
+import pty
+import select
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+KEPT = ROOT / "firmware/apps/completion"
+PROGRAMS = sys.argv.pop(1)
+# What is typed, and what must be among what is offered; "" where a file's name must be.
+OFFERED = (
+    (["supercoil", "do"], ["doctor"]),
+    (["supercoil", "--ver"], ["--version"]),
+    (["supercoil", "tune", "1", "--from", "con"], ["configured"]),
+    (["supercoil", "command", "1", "cali"], ["calibrate"]),
+    (["supercoil", "log", "--sum"], ["--summary"]),
+    (["supercoil-sim", "run", "first"], ["first-motion"]),
+    (["supercoil-sim", "run", "sine", "--real"], ["--real-time"]),
+    (["supercoil-sim", "run", "my-"], ["my-muscle.toml"]),
+    (["supercoild", "--lat"], ["--latency"]),
+    (["supercoild", "--config", "my-"], ["my-muscle.toml"]),
+)
+
+
+class Completion(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="supercoil-completion-")
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+        (self.path / "my-muscle.toml").touch()
+
+    def test_is_what_the_programs_say(self):
+        subprocess.run([ROOT / "toolchain/generate-completion", PROGRAMS, self.path], check=True)
+        for kept in KEPT.glob("*/*"):
+            name = kept.relative_to(KEPT)
+            self.assertEqual(kept.read_text(), (self.path / name).read_text(), f"{name}: run toolchain/generate-completion")
+
+    def test_bash(self):
+        """As its completion calls the function; and without a word from it, bash looks for files."""
+        for words, wanted in OFFERED:
+            with self.subTest(" ".join(words)):
+                script = (f"source {KEPT}/bash/{words[0]}; COMP_WORDS=({shlex.join(words)}); COMP_CWORD={len(words) - 1}; "
+                          f"_{words[0].replace('-', '_')}; [ ${{#COMPREPLY[@]}} -gt 0 ] || mapfile -t COMPREPLY < <(compgen -f -- {words[-1]}); "
+                          'printf "%s\\n" "${COMPREPLY[@]}"')
+                self.assertEqual(self.offered_by("bash", "--norc", "-c", script), wanted)
+
+    def test_bash_after_an_equals_sign(self):
+        script = (f"source {KEPT}/bash/supercoil; COMP_WORDS=(supercoil tune 1 --from =); COMP_CWORD=4; _supercoil; "
+                  'printf "%s\\n" "${COMPREPLY[@]}"')
+        self.assertEqual(self.offered_by("bash", "--norc", "-c", script), ["in_use", "configured", "stored", "prepared"])
+
+    def test_fish(self):
+        for words, wanted in OFFERED:
+            with self.subTest(" ".join(words)):
+                script = f"source {KEPT}/fish/{words[0]}.fish; complete -C {shlex.quote(' '.join(words))}"
+                offered = [line.split("\t")[0] for line in self.offered_by("fish", "--no-config", "-c", script)]
+                self.assertEqual(offered, wanted)
+
+    def offered_by(self, *command):
+        done = subprocess.run(command, cwd=self.path, check=True, capture_output=True, text=True, timeout=60,
+                              env={"PATH": os.environ["PATH"], "HOME": str(self.path)})
+        self.assertEqual(done.stderr, "")
+        return done.stdout.splitlines()
+
+    def test_zsh(self):
+        """On a terminal, as there is no other way: a key completes the line, and writes it to a file."""
+        child, terminal = pty.fork()
+        if child == 0:
+            os.chdir(self.path)
+            os.execvpe("zsh", ["zsh", "-f", "-i"], {"PATH": os.environ["PATH"], "HOME": str(self.path), "TERM": "xterm"})
+        self.addCleanup(os.close, terminal)
+        told = self.path / "line"
+        self.type(terminal, f"fpath=({KEPT}/zsh $fpath); autoload -Uz compinit; compinit -u -D; "
+                  f"complete-and-tell() {{ zle complete-word; print -r -- $BUFFER >{told}.new; mv {told}.new {told} }}; "
+                  "zle -N complete-and-tell; bindkey '^T' complete-and-tell; touch ready\n", self.path / "ready")
+        for words, wanted in OFFERED:
+            with self.subTest(" ".join(words)):
+                self.type(terminal, " ".join(words) + "\x14", told)
+                line = told.read_text().split()
+                told.unlink()
+                self.type(terminal, "\x15")  # a line of its own for the next
+                self.assertEqual(line, [*words[:-1], wanted[0]])
+
+    def type(self, terminal, text, until_there=None, patience_s=60.0):
+        os.write(terminal, text.encode())
+        end = time.monotonic() + patience_s
+        while until_there and not until_there.exists():
+            self.assertLess(time.monotonic(), end, f"{text!r} had no answer")
+            if select.select([terminal], [], [], 0.02)[0]:
+                os.read(terminal, 4096)  # or it would wait for somebody who reads
+
+
+if __name__ == "__main__":
+    unittest.main()

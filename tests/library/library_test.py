@@ -119,7 +119,7 @@ class Library(unittest.TestCase):
         unit = (prefix / "lib/systemd/system/supercoild.service").read_text()
         self.assertEqual(re.findall(r"^Exec\w+=(\S+)", unit, re.M), [f"{prefix}/bin/supercoild"] * 2)
         self.assertIn(f"file://{prefix}/share/doc/supercoil/running.md", unit)
-        release = re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        release = re.search(r"supercoil VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
         for program in ("supercoil", "supercoild", "supercoil-sim"):
             self.assertRegex(run(prefix / "bin" / program, "--version"),
                              rf"^{re.escape(release)}(\+git\d{{8}}\.\d{{6}}\.[0-9a-f]{{7,}})?\n$")

@@ -55,6 +55,16 @@ class Log(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         return list(csv.DictReader(done.stdout.splitlines()))
 
+    def test_a_time_keeps_its_microseconds(self):
+        """After a month, too: the board's clock in an Emergency has 48 bits."""
+        emergency = cantools.database.load_file(DBC).get_message_by_name("Emergency")
+        data = emergency.encode({"fault": 30, "state": 3, "board_time_s": 2592000.123457})
+        (self.path / "month.log").write_text(f"(2592000.125000) can0 081#{data.hex().upper()}\n")
+        told = {row["signal"]: row["value"] for row in self.rows("month.log")}
+        self.assertEqual(told["board_time_s"], "2592000.123457")
+        wide, = self.rows("month.log", "--message", "Emergency")
+        self.assertEqual((wide["time_s"], wide["board_time_s"]), ("2592000.125000", "2592000.123457"))
+
     def test_every_value_is_the_one_that_cantools_reads(self):
         rows = iter(self.rows("can.log"))
         count = 0

@@ -17,9 +17,9 @@ FILES = {"/": PAGE / "index.html", "/uplot.js": UPLOT / "uPlot.iife.min.js", "/u
 TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
 NODES = (1, 2, 3, 4)
 DATABASE = cantools.database.load_file(ROOT / "firmware" / "io" / "can" / "supercoil.dbc")
-PROTOCOL = {message.name: {signal.name: {"unit": signal.unit or "", "values": {
-    str(number): str(name) for number, name in (signal.choices or {}).items()}} for signal in message.signals}
-    for message in DATABASE.messages}
+PROTOCOL = {message.name: {signal.name: {"unit": signal.unit or "", "digits": 8 if signal.is_float or signal.length <= 24 else 15,
+                                         "values": {str(number): str(name) for number, name in (signal.choices or {}).items()}}
+                           for signal in message.signals} for message in DATABASE.messages}
 PARAMETERS = len(PROTOCOL["Estimate"]["parameter"]["values"])
 CONSTANT = {"state": 2, "mode": 1, "fault": 0, "leased": 1, "protocol_version": 3, "error_bound": 0.1}
 

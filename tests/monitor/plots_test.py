@@ -39,6 +39,13 @@ class RunOfCsv(ModulesCase):
             return [values(run.table(2, "Measurement")), values(run.table(7, "Measurement")), values(kept.table(2, "Measurement")), kept.later_s];"""),
             [[[1, 0.001], [3, 0.003]], [[1, 0.001], [3, 0.003]], [[2, None], [3, 0.003]], 99.5])
 
+    def test_a_time_in_a_csv_keeps_its_microseconds(self):
+        self.assertEqual(self.ask(self.TOOLS + """const { protocol } = await (await fetch("/api/about")).json();
+            const store = new Store(protocol, true);
+            store.append({ newest_s: 3, nodes: { 1: { Emergency: { time_s: [3], fault: [30], state: [3], board_time_s: [2592000.123457] } } } });
+            return (await (await csv(store, [1], { from_s: 0, to_s: 9 })).text()).split("\\n")[1];"""),
+            "3.000000,1,over_temperature,fault,2592000.123457")
+
     def test_what_is_no_such_csv_is_told_by_its_line(self):
         told = self.ask(self.TOOLS + """const why = (text) => { try { batch_of_csv(text); return ""; } catch ({ message }) { return message; } };
             const head = "time_s,node,Measurement.position_m\\n";

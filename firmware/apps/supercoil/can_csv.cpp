@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/supercoil/number_text.hpp"
 #include "can/codec.hpp"
 
 namespace supercoil::operating {
@@ -16,17 +17,11 @@ using can::SignalInfo;
 /// Written in pieces of about this size.
 constexpr std::size_t piece_bytes = 1U << 16U;
 
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
-}
-
 /// With its name if it has one; empty: not available.
 std::string value_text(const SignalInfo& signal, double value) {
   const std::string_view name = can::value_name(signal, value);
   if (!name.empty()) return std::string(name);
-  return std::isnan(value) ? "" : number(value);
+  return std::isnan(value) ? "" : number_text(value, can::significant_digits(signal));
 }
 
 std::string row_begin(const Decoded& decoded, hal::Time time) {

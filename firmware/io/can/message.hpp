@@ -35,6 +35,12 @@ struct SignalInfo {
   std::span<const ValueName> names;
 };
 
+/// In which every value of the signal can be written and read back. A scaled one in 15, which show
+/// nothing of the product's rounding; nine are all that a float has.
+constexpr int significant_digits(const SignalInfo& signal) {
+  return signal.raw == Raw::floating ? 9 : 15;
+}
+
 struct MessageInfo {
   std::string_view name;
   std::uint16_t base;   ///< identifier less node

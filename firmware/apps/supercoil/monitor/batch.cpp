@@ -24,13 +24,12 @@ struct Columns {
 
 using Key = std::pair<std::uint8_t, const can::MessageInfo*>;
 
-void add_number(std::string& text, double value) {
+void add_number(std::string& text, double value, int precision) {
   if (!std::isfinite(value)) {
     text += "null,";
     return;
   }
   std::array<char, 40> digits{};
-  constexpr int precision = 9;  // a float's
   const auto end =
       std::to_chars(digits.begin(), digits.end(), value, std::chars_format::general, precision);
   text.append(digits.begin(), end.ptr);
@@ -57,14 +56,24 @@ void close(std::string& text) {
 }
 
 std::string figures_json(const BusFigures& bus) {
+  constexpr int digits = 6;
   std::string text = "{\"load\":";
-  add_number(text, bus.load);
+  add_number(text, bus.load, digits);
   text += "\"frames_per_s\":";
-  add_number(text, bus.frames_per_s);
+  add_number(text, bus.frames_per_s, digits);
   text += "\"foreign_per_s\":";
-  add_number(text, bus.foreign_per_s);
+  add_number(text, bus.foreign_per_s, digits);
   text.back() = '}';
   return text;
+}
+
+/// The page keeps an hour of each signal: in single precision what that can hold.
+constexpr int single_bits = 24;
+constexpr int single_digits = 8;
+
+int digits_on_page(const can::SignalInfo& signal) {
+  const bool single = signal.raw == can::Raw::floating || signal.length <= single_bits;
+  return single ? single_digits : can::significant_digits(signal);
 }
 
 }  // namespace
@@ -77,7 +86,8 @@ std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures&
     Columns& columns = all[{decoded->node, decoded->message}];
     add_time(columns.time_s, frame.received);
     for (std::size_t i = 0; i < decoded->message->signals.size(); ++i)
-      add_number(columns.values.at(i), decoded->values.at(i));
+      add_number(columns.values.at(i), decoded->values.at(i),
+                 can::significant_digits(decoded->message->signals[i]));
   }
   std::string text = "{";
   if (!frames.empty()) {
@@ -109,6 +119,7 @@ std::string protocol_json() {
     for (const can::SignalInfo& signal : message.signals) {
       auto& told = all[std::string(message.name)][std::string(signal.name)];
       told["unit"] = signal.unit;
+      told["digits"] = digits_on_page(signal);
       for (const can::ValueName& value : signal.names)
         told["values"][std::to_string(value.raw)] = value.name;
     }

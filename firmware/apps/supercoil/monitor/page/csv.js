@@ -7,14 +7,13 @@ function header(store, messages) {
   const columns = [];
   for (const message of messages)
     for (const signal of store.protocol[message] ? Object.keys(store.protocol[message]) : [])
-      if (signal !== "time_s") columns.push({ message, signal, values: store.protocol[message][signal].values });
+      if (signal !== "time_s") columns.push({ message, signal, ...store.protocol[message][signal] });
   return columns;
 }
 
-function text(value, values) {
+function text(value, { values, digits }) {
   if (Number.isNaN(value)) return "";
-  // Eight digits are what a single-precision number holds.
-  return values?.[value] ?? String(Number(value.toPrecision(8)));
+  return values?.[value] ?? String(Number(value.toPrecision(digits)));
 }
 
 /** All frames of the nodes between two times, merged in their order. Yields text, piece by piece. */
@@ -29,7 +28,7 @@ function* lines(store, nodes, from_s, to_s) {
   let left = streams.filter(advance);
   while (left.length > 0) {
     const next = left.reduce((first, other) => (other.row.time_s < first.row.time_s ? other : first));
-    const cells = columns.map(({ message, signal, values }) => (message === next.message ? text(next.row[signal], values) : ""));
+    const cells = columns.map((column) => (column.message === next.message ? text(next.row[column.signal], column) : ""));
     yield `${next.row.time_s.toFixed(6)},${next.node},${cells.join(",")}\n`;
     if (!advance(next)) left = left.filter((stream) => stream !== next);
   }

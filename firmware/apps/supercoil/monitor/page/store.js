@@ -3,6 +3,8 @@
 import { Table } from "./table.js";
 
 const HOUR_S = 3600;
+// What a Float32Array holds of a number.
+const SINGLE_DIGITS = 8;
 // A source that starts anew begins at an earlier time; frames of one source never differ by so much.
 const RESTART_S = 1;
 
@@ -73,7 +75,8 @@ export class Store extends EventTarget {
     const messages = this.nodes.get(number);
     if (!messages.has(message)) {
       const signals = Object.keys(this.protocol[message] ?? rows).filter((name) => name !== "time_s");
-      messages.set(message, new Table(signals, this.keep_s));
+      const precise = signals.some((name) => this.protocol[message]?.[name].digits > SINGLE_DIGITS);
+      messages.set(message, new Table(signals, this.keep_s, precise ? Float64Array : Float32Array));
     }
     return messages.get(message);
   }

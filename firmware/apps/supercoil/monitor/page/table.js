@@ -9,13 +9,13 @@ const CHUNK_ROWS = 64 * BLOCK;
 const PERIOD_ROWS = 10;
 
 class Chunk {
-  constructor(columns, rows) {
+  constructor(columns, rows, Numbers) {
     this.count = 0;
     this.time_s = new Float64Array(rows);
-    this.values = columns.map(() => new Float32Array(rows));
+    this.values = columns.map(() => new Numbers(rows));
     const blocks = Math.ceil(rows / BLOCK);
-    this.low = columns.map(() => new Float32Array(blocks).fill(NaN));
-    this.high = columns.map(() => new Float32Array(blocks).fill(NaN));
+    this.low = columns.map(() => new Numbers(blocks).fill(NaN));
+    this.high = columns.map(() => new Numbers(blocks).fill(NaN));
   }
 
   get full() {
@@ -68,10 +68,14 @@ const lesser = (value, least) => (Number.isNaN(value) || least < value ? least :
 const greater = (value, greatest) => (Number.isNaN(value) || greatest > value ? greatest : value);
 
 export class Table {
-  /** keep_s: rows older than this before the newest are dropped, chunk by chunk. */
-  constructor(columns, keep_s) {
+  /**
+   * keep_s: rows older than this before the newest are dropped, chunk by chunk. Numbers: the typed array that holds what the
+   * columns are.
+   */
+  constructor(columns, keep_s, Numbers = Float32Array) {
     this.columns = columns;
     this.keep_s = keep_s;
+    this.Numbers = Numbers;
     this.chunks = [];
   }
 
@@ -101,7 +105,7 @@ export class Table {
     let row = 0;
     if (!this.empty) while (row < rows && batch.time_s[row] <= this.last_s) ++row;
     while (row < rows) {
-      if (this.empty || this.chunks.at(-1).full) this.chunks.push(new Chunk(this.columns, CHUNK_ROWS));
+      if (this.empty || this.chunks.at(-1).full) this.chunks.push(new Chunk(this.columns, CHUNK_ROWS, this.Numbers));
       row = this.chunks.at(-1).append(batch, this.columns, row, rows);
     }
     while (this.chunks.length > 1 && this.chunks[0].last_s < this.last_s - this.keep_s) this.chunks.shift();
@@ -112,7 +116,7 @@ export class Table {
     let rows = batch.time_s.length;
     if (!this.empty) while (rows > 0 && batch.time_s[rows - 1] >= this.first_s) --rows;
     if (rows === 0) return;
-    const chunk = new Chunk(this.columns, rows);
+    const chunk = new Chunk(this.columns, rows, this.Numbers);
     chunk.append(batch, this.columns, 0, rows);
     this.chunks.unshift(chunk);
   }

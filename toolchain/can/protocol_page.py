@@ -4,17 +4,25 @@ import sys
 
 import cantools
 
+from protocol_session import SESSION, session
+
 INTRODUCTION = """\
 # CAN protocol
 
 Generated from `firmware/io/can/supercoil.dbc` by `toolchain/generate-can`; [can.md](can.md) says how to use it.
 
-Version {version}. An identifier is base + node, node 1 to 63; each channel of a board is a node. The DBC describes
-node 1.
+Version {version}. Classical CAN with identifiers of 11 bits, at the bit rate on which all of the bus agree (500 kbit/s is usual).
+An identifier is base + node, node 1 to 63; each channel of a board is a node. The DBC describes node 1.
 
-All signals are little-endian (Intel). *Raw* is what the bits say: i signed, u unsigned, a float is IEEE 754 of 32 bits.
-Raw times scale is the value. *n/a* is the raw value that says: not available; a float says it with NaN. What lies
-outside of a range is sent as its nearest end.
+All signals are little-endian (Intel): bit n is bit n mod 8, counted from the lowest, of byte n / 8, and a signal's lowest bit
+comes first. *Raw* is what the bits say: i signed (two's complement), u unsigned, a float is IEEE 754 of 32 bits. Raw times scale
+is the value. *n/a* is the raw value that says: not available; a float says it with NaN. What lies outside of a range is sent as
+its nearest end.
+
+A board passes over frames of other identifiers, of 29 bits, of CAN FD, and remote ones. A protected message
+([Command](#command), [SettingWrite](#settingwrite), [TuningWrite](#tuningwrite)) of another length than its own is damaged, as one
+with a wrong checksum is: not obeyed, not answered, and counted towards the fault command_damaged. Of the others such a frame is passed
+over. [A session](#a-session) shows how all of it comes together.
 
 | identifier | message | from | every | bytes |
 |---|---|---|---|---|
@@ -95,6 +103,8 @@ def page(database):
         anchor = message.name.lower()
         yield (f"| 0x{message.frame_id - 1:03X} + node | [{message.name}](#{anchor}) | {message.senders[0]} | "
                f"{period(message)} | {message.length} |")
+    yield SESSION.rstrip("\n")
+    yield from session(database)
     for message in database.messages:
         yield from describe_message(message)
     yield from describe_names(database)

@@ -46,6 +46,22 @@ constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }
 
+/// A verb without a value is refused with any other than 0: who sends one means something that this
+/// firmware does not know. But for disarm, which is obeyed however it comes.
+constexpr bool takes(Verb verb, double value) {
+  switch (verb) {
+    case Verb::arm:
+    case Verb::reset:
+    case Verb::renew:
+    case Verb::rest:
+    case Verb::identify:
+    case Verb::calibrate:
+      return value == 0.0;
+    default:
+      return true;
+  }
+}
+
 /// Values of Verb::store for the tuning.
 inline constexpr double store_tuning = 2.0;
 inline constexpr double clear_tuning = 3.0;

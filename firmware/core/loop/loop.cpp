@@ -109,7 +109,9 @@ void Loop::obey() {
   Command command;
   for (int i = 0; i < max_commands_per_tick && commands_.pop(command); ++i) {
     Answer answer{command, Refusal::no_such_channel};
-    if (command.channel < channels_.size()) {
+    if (!takes(command.verb, command.value)) {
+      answer = {command, Refusal::out_of_range, 0.0};
+    } else if (command.channel < channels_.size()) {
       if (command.verb == Verb::reset) reset_board();
       Channel& channel = *channels_[command.channel];
       answer = channel.answer(command, now_);

@@ -910,7 +910,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to the place: this controller gets its prepared values, at once and without a jump, while it is at work too. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0.
+     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to the place: this controller gets its prepared values, at once and without a jump, while it is at work too. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0, and out_of_range with another value, but for disarm.
      *
      * Range: -
      * Scale: 1

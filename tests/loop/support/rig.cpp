@@ -119,7 +119,10 @@ void Rig::tick() {
   Answer answer;
   while (loop.answer(answer)) {
     if (answer.command.channel == neighbour) continue;
-    if (answer.refusal != Refusal::none) last_refusal = answer.refusal;
+    if (answer.refusal != Refusal::none) {
+      last_refusal = answer.refusal;
+      last_nearest = answer.nearest;
+    }
     if (answer.command.verb == Verb::reset) answer_to_reset = answer.refusal;
   }
   watch_heat();

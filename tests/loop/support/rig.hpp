@@ -59,6 +59,7 @@ class Rig {
   double period_s() const { return period_s_; }
   /// Of the last command to any but the neighbour that was not obeyed.
   Refusal last_refusal = Refusal::none;
+  double last_nearest = NAN;  ///< of that answer
   /// The answer to the tested channel's last reset.
   Refusal answer_to_reset = Refusal::none;
 

@@ -83,7 +83,7 @@ TEST(Commands, AreRefusedInAStateThatDoesNotAllowThem) {
   rig.boot();
   for (const Verb verb :
        {Verb::position, Verb::power, Verb::identify, Verb::renew, Verb::rest, Verb::reset}) {
-    CHECK(answer_to(verb, 0.01) == Refusal::wrong_state);
+    CHECK(answer_to(verb, takes(verb, 0.01) ? 0.01 : 0.0) == Refusal::wrong_state);
     answer_to(Verb::disarm);
   }
 }
@@ -100,6 +100,34 @@ TEST(Commands, WithAValueThatIsNoneOrOutOfRangeAreRefused) {
   // Of a muscle at rest it would be a scale of a thousand.
   CHECK(answer_to(Verb::scale, 0.5) == Refusal::out_of_range);
   CHECK(rig.state() == State::armed);
+}
+
+TEST(Commands, WithAValueThatMeansNothingAreRefused) {
+  rig.boot();
+  for (const Verb verb :
+       {Verb::arm, Verb::reset, Verb::renew, Verb::rest, Verb::identify, Verb::calibrate}) {
+    for (const double value : {1.0, -1e-6, std::nan("")}) {
+      CHECK_TEXT(answer_to(verb, value) == Refusal::out_of_range, std::string(name(verb)).c_str());
+      DOUBLES_EQUAL(0.0, rig.last_nearest, 0.0);
+    }
+  }
+  CHECK(rig.state() == State::disarmed);
+  arm();
+  CHECK(answer_to(Verb::disarm, 1.0) == Refusal::none);
+  CHECK(rig.state() == State::disarmed);
+}
+
+TEST(Commands, AResetWithAValueResetsNoBoard) {
+  rig.boot();
+  rig.board.set_supply_V(5.0);
+  rig.run(0.1);
+  CHECK(rig.loop.board_fault() == Fault::under_voltage);
+  rig.board.set_supply_V(12.0);
+  rig.run(0.1);
+  CHECK(answer_to(Verb::reset, 1.0) == Refusal::out_of_range);
+  CHECK(rig.loop.board_fault() == Fault::under_voltage);
+  CHECK(answer_to(Verb::reset) == Refusal::none);
+  CHECK(rig.loop.board_fault() == Fault::none);
 }
 
 TEST(Commands, ToAChannelThatIsNotThereAreRefused) {

@@ -51,12 +51,12 @@ a probe measures the heater, or another mode runs that has to end first: rest en
 
 
 class OutOfRange(RefusalError):
-    """no such setting or place, a value outside of its range, or rates that the bus has no room for. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
+    """no such setting or place, a value outside of its range or any but 0 where none is defined, or rates that the bus has no room for. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
 
     number = 6
     name = "out_of_range"
     meaning = """\
-no such setting or place, a value outside of its range, or rates that the bus has no room for. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
+no such setting or place, a value outside of its range or any but 0 where none is defined, or rates that the bus has no room for. RefusedValue, right after the answer, has the refused value and the nearest that would have been obeyed"""
 
 
 class NoSuchChannel(RefusalError):

@@ -1,0 +1,77 @@
+"""The session in docs/can-protocol.md, its frames encoded by cantools from the DBC."""
+
+SESSION = """
+## A session
+
+A master moves the muscle of node 1 to 10 mm and lets it go. `session` of the claim (0x1234 here) is any number of its own; 0xBEEF and
+0x5A17 stand for what the board chooses at random. An answer comes within some ms; none within 100 ms was lost: send the command
+again as a new one, with the next counter.
+
+| from | what | identifier | bytes |
+|---|---|---|---|
+"""
+
+RULES = """
+- **Counter.** Each answer repeats its command's. The claim that is granted sets it: the next command has one more, modulo 16, and so
+  on, whatever was refused in between. A frame may skip up to 3.
+- **Checksum.** CRC-8H2F: polynomial 0x2F, start 0xFF, final XOR 0xFF, nothing reflected; of the ASCII text `123456789` it is 0xDF. Over
+  all bytes but the first, then the data id, which is the low byte of the identifier: 0x01 for Command and 0x41 for Acknowledge
+  of node 1, 0x02 and 0x42 of node 2.
+- **Lease.** A number of claim_again is good for one claim within `lease_ms` (1 s). A lease ends so long after its last command of
+  the right session and counter, with the board's start, and by `lease` with value -1.
+- **Expiry.** What heats ends as the fault command_timeout when neither it nor `renew` came for `command.timeout_ms` (250 ms): send
+  one of them every 50 ms. Both times are keys of the board's file.
+- **Values.** `position`: from minus to plus the channel's `limits.max_travel_m`, from rest. `power`: any finite number; below 0 the
+  muscle gets none, above `limits.max_W` it gets that. What is beyond is refused with `out_of_range`, as is NaN, and as is any value but 0 of
+  `arm`, `reset`, `renew`, `rest`, `identify`, `calibrate`; RefusedValue then has the nearest that would be obeyed, and the channel goes on as
+  before.
+- **Stop.** `disarm` with value 0 is obeyed from everybody, with any session and counter; the checksum must be right. With another
+  value it needs the lease, as other commands do.
+"""
+
+MASTER, NONCE, GRANTED = 0x1234, 0xBEEF, 0x5A17
+
+
+def crc8(data):
+    crc = 0xFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = (crc << 1 ^ 0x2F if crc & 0x80 else crc << 1) & 0xFF
+    return crc ^ 0xFF
+
+
+def row(sender, what, message, **signals):
+    data = message.encode({"crc": 0, **signals})
+    data = bytes([crc8(data[1:] + bytes([message.frame_id & 0xFF]))]) + data[1:]
+    return f"| {sender} | {what} | 0x{message.frame_id:03X} | `{data.hex(' ').upper()}` |"
+
+
+def session(database):
+    command, acknowledge = (database.get_message_by_name(name) for name in ("Command", "Acknowledge"))
+
+    def asks(what, counter, opcode, value=0.0, session=GRANTED):
+        return row("master", what, command, counter=counter, opcode=opcode, session=session, value=value)
+
+    def answers(what, counter, opcode, refusal="none", session=GRANTED, granted=0):
+        return row("board", what, acknowledge, counter=counter, opcode=opcode, session=session, refusal=refusal, granted=granted)
+
+    yield asks("`lease` 0: claims", 1, "lease", session=MASTER)
+    yield answers("`claim_again`, with 0xBEEF in `granted`", 1, "lease", "claim_again", MASTER, NONCE)
+    yield asks("`lease` 48879 (0xBEEF): claims with it", 2, "lease", float(NONCE), MASTER)
+    yield answers("`none`, with the session in `granted`", 2, "lease", session=MASTER, granted=GRANTED)
+    yield asks("`arm`: the heater is probed", 3, "arm")
+    yield answers("`none`", 3, "arm")
+    yield asks("`position` 0.01", 4, "position", 0.01)
+    yield answers("`busy`: the probe takes up to 50 ms, so ask again", 4, "position", "busy")
+    yield asks("`position` 0.01", 5, "position", 0.01)
+    yield answers("`none`: it moves", 5, "position")
+    yield asks("`renew`, every 50 ms", 6, "renew")
+    yield answers("`none`", 6, "renew")
+    yield asks("`rest`: armed, without power", 7, "rest")
+    yield answers("`none`", 7, "rest")
+    yield asks("`disarm`", 8, "disarm")
+    yield answers("`none`", 8, "disarm")
+    yield asks("`lease` -1: gives it back", 9, "lease", -1.0)
+    yield answers("`none`", 9, "lease")
+    yield RULES.rstrip("\n")

@@ -54,3 +54,32 @@ TEST(Light, BlinksFastInAFault) {
   CHECK(rig.loop.board_fault() == Fault::emergency_stop);
   LONGS_EQUAL(20, edges());
 }
+
+/// Where it hangs behind a slow driver, a write costs the tick its time.
+TEST(Light, IsWrittenOnlyWhenItChanges) {
+  class CountedLight final : public hal::DigitalOutput {
+   public:
+    hal::Status set(bool high) override {
+      lit = high;
+      ++writes;
+      return hal::Status::ok;
+    }
+    bool lit = true;
+    int writes = 0;
+  } light;
+  const RigSettings settings = rough_board();
+  host_sim::SimulatedBoard board(settings.board);
+  board::Devices devices = board.devices();
+  devices.light = &light;
+  Loop loop(settings.firmware, devices);
+  Executive executive(loop, board, settings.firmware.rate_Hz);
+  // Whatever it showed before is put out by the first tick.
+  for (int i = 0; i < 300; ++i)
+    executive.run_tick();
+  CHECK_FALSE(light.lit);
+  LONGS_EQUAL(1, light.writes);
+  board.stop_circuit.level.high = false;
+  for (int i = 0; i < 2000; ++i)
+    executive.run_tick();
+  LONGS_EQUAL(21, light.writes);
+}

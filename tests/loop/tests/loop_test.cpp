@@ -58,3 +58,95 @@ TEST(Loop, DoesNotPassItsSelfTestWithASenseThatIsAllNoise) {
     CHECK_FALSE(loop.self_test().passed());
   }
 }
+
+TEST(Loop, FeedsTheWatchdogOnceInEveryTickWhateverTheBoardDoes) {
+  Rig rig(settings);
+  const auto feeds_in = [&](int ticks) {
+    const std::int64_t before = rig.board.watchdog.fed;
+    rig.run_ticks(ticks);
+    return static_cast<long>(rig.board.watchdog.fed - before);
+  };
+  LONGS_EQUAL(100, feeds_in(100));
+  rig.boot();
+  rig.board.stop_circuit.level.high = false;
+  LONGS_EQUAL(100, feeds_in(100));
+  CHECK(rig.loop.board_fault() == Fault::emergency_stop);
+}
+
+TEST(Loop, NeedsNeitherAWatchdogNorALight) {
+  host_sim::SimulatedBoard board(settings.board);
+  board::Devices devices = board.devices();
+  devices.watchdog = nullptr;
+  devices.light = nullptr;
+  supercoil::Loop loop(settings.firmware, devices);
+  Executive executive(loop, board, settings.firmware.rate_Hz);
+  for (int i = 0; i < 1000; ++i)
+    executive.run_tick();
+  CHECK(loop.self_test().passed());
+  LONGS_EQUAL(0, board.watchdog.fed);
+  UNSIGNED_LONGS_EQUAL(0, board.light.edges());
+}
+
+/// The loop never answers it: nobody may wait for that.
+TEST(Loop, WhatItsRingDoesNotTakeIsOverForTheTuner) {
+  Rig rig(settings);
+  while (rig.loop.send({Rig::tested, Verb::disarm}))
+    continue;
+  CHECK_FALSE(rig.loop.send({Rig::tested, Verb::store, store_tuning}));
+  rig.run_ticks(10);
+  CHECK(rig.answer_to(Verb::store, store_tuning) == Refusal::none);
+}
+
+TEST(Loop, AnswersWithTheCommandAsItWasGiven) {
+  Rig rig(settings);
+  const Command given{Rig::neighbour, Verb::position, 0.0125, Source::can, 4711};
+  CHECK(rig.loop.send(given));
+  rig.executive.run_tick();
+  Answer answer;
+  CHECK(rig.loop.answer(answer));
+  LONGS_EQUAL(Rig::neighbour, answer.command.channel);
+  CHECK(answer.command.verb == Verb::position && answer.command.source == Source::can);
+  DOUBLES_EQUAL(0.0125, answer.command.value, 0.0);
+  UNSIGNED_LONGS_EQUAL(4711, answer.command.id);
+  CHECK(answer.refusal == Refusal::wrong_state);
+  CHECK_FALSE(rig.loop.answer(answer));
+}
+
+/// Until it is taken: the largest of its kind.
+TEST(Loop, TellsHowLateItWokeAndHowLongItTook) {
+  Rig rig(settings);
+  CHECK(rig.loop.timing().late_ns == LoopTiming::none);
+  CHECK(rig.loop.timing().execution_ns == LoopTiming::none);
+  rig.run_ticks(10);
+  LONGS_EQUAL(0, rig.loop.timing().late_ns);
+  LONGS_EQUAL(0, rig.loop.timing().execution_ns);
+  rig.board.oversleep(0.2e-3);
+  rig.board.lose_in_tick(0.3e-3);
+  rig.run_ticks(1);
+  DOUBLES_EQUAL(0.2e-3, hal::seconds(rig.loop.last_tick().late), 1e-6);
+  DOUBLES_EQUAL(0.3e-3, hal::seconds(rig.loop.last_tick().execution), 1e-6);
+  rig.run_ticks(10);
+  LONGS_EQUAL(0, rig.loop.last_tick().late.count());
+  DOUBLES_EQUAL(0.2e6, static_cast<double>(rig.loop.timing().late_ns), 1e3);
+  DOUBLES_EQUAL(0.3e6, static_cast<double>(rig.loop.timing().execution_ns), 1e3);
+  LONGS_EQUAL(0, rig.loop.overruns());
+  UNSIGNED_LONGS_EQUAL(0, rig.loop.timing().overruns);
+}
+
+TEST(Loop, CountsTheRowsThatNobodyTakes) {
+  host_sim::SimulatedBoard board(settings.board);
+  supercoil::Loop loop(settings.firmware, board.devices());
+  Executive executive(loop, board, settings.firmware.rate_Hz);
+  // A row of each of two channels a tick, and room for a second.
+  for (int i = 0; i < 1000; ++i)
+    executive.run_tick();
+  UNSIGNED_LONGS_EQUAL(0, loop.timing().lost_rows);
+  executive.run_tick();
+  executive.run_tick();
+  UNSIGNED_LONGS_EQUAL(4, loop.timing().lost_rows);
+  Row row;
+  for (int i = 0; i < 4; ++i)
+    CHECK(loop.take(row));
+  executive.run_tick();
+  UNSIGNED_LONGS_EQUAL(4, loop.timing().lost_rows);
+}

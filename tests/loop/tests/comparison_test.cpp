@@ -281,3 +281,16 @@ TEST(Comparison, IsMadeOverCanToo) {
   DOUBLES_EQUAL(1.0 / supply_gain, found->senses.supply_gain, 0.005);
   DOUBLES_EQUAL(1.0 / current_gain, found->senses.current_gain, 0.02);
 }
+
+/// What compared senses calibrated is told again as they tell it when they are not compared.
+TEST(Comparison, ThatIsForgottenTakesItsResistanceWithIt) {
+  settings.firmware.channels[0].senses = {1.0 / supply_gain, 1.0 / current_gain, 0.03, 0.0};
+  settings.firmware.channels[0].calibration.cold_resistance_Ohm = 10.4;
+  settings.firmware.channels[0].has_muscle = true;
+  test::Rig compared(settings);
+  compared.boot();
+  check(Refusal::none, compared.answer_to(Verb::compare_supply, 0.0));
+  board::LearnedUpdate found;
+  CHECK(compared.loop.channel(0).take_learned_update(found));
+  DOUBLES_EQUAL(10.4 * supply_gain / current_gain, found->calibration.cold_resistance_Ohm, 1e-9);
+}

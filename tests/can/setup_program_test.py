@@ -79,6 +79,7 @@ class SetupProgram(unittest.TestCase):
         self.assert_refused(self.setup_program(*self.script(load_g=None, stretch_mm=None)),
                             "muscle.load_g: is missing: Weight that it lifts", "muscle.stretch_mm: is missing")
         self.assert_refused(self.setup_program(*self.script(load_g=0)), "muscle.load_g = 0", "0.1 to 1e+06")
+        self.assert_refused(self.setup_program(*self.script(take_gains=2)), "muscle.take_gains = 2", "0 to 1")
         self.assert_refused(self.setup_program(*self.script(lode_g=3)), "muscle.lode_g", "did you mean load_g?")
         self.assert_refused(self.setup_program(*self.script(thread_g=0)), "thread_g or heated_K must be known")
         self.assert_refused(self.setup_program("--script", "missing.toml"), "missing.toml")
@@ -156,6 +157,41 @@ class SetupProgram(unittest.TestCase):
         self.assertEqual(program.returncode, 1)
         self.assertIn("identify: ", error)
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "calibrate"})
+
+    def test_the_recommended_controller_is_taken_by_whom_or_what_answers(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        def bandwidth(*change):
+            done = subprocess.run([SUPERCOIL, "tune", "1", *change, "--json", *bus], capture_output=True, text=True, timeout=DEADLINE_S)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            told = json.loads(done.stdout)["controllers"][0]["bandwidth_rad_per_s"]
+            return round(told["in_use"], 2), round(told["stored"], 2)
+
+        def gains(told, *arguments, **options):
+            done = self.setup_program("gains", *bus, *arguments, **options)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(told, done.stdout)
+            return done.stdout
+
+        slow = ("bandwidth_rad_per_s=3", "--store")
+        self.assertEqual(bandwidth(*slow), (3.0, 3.0))
+        told = gains("kept as it is", stdin=subprocess.DEVNULL)
+        self.assertRegex(told, r"in use: controller 0, learned_ff: bandwidth_rad_per_s = 3, .*reference_model = design")
+        self.assertRegex(told, r"with it: margin 0\.\d+, holds if no parameter is off by more than \d+ %; promises at most \d+")
+        self.assertRegex(told, r"recommended for this muscle: .*bandwidth_rad_per_s = 7\.8\d+ }: .*, 1\.88 s, in units of")
+        self.assertIn("keep the one in use (0 to 1) [1]: ", told)
+        gains("kept as it is", *self.script(take_gains=0))
+        self.assertEqual(bandwidth(), (3.0, 3.0))
+        gains("taken over, and stored", *self.script())
+        self.assertEqual(bandwidth(), (7.88, 7.88))
+        gains("it is in use already: nothing changes", stdin=subprocess.DEVNULL)
+        bandwidth(*slow)
+        gains("taken over, and stored", input="1\n")
+        self.assertEqual(bandwidth(), (7.88, 7.88))
+        self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "gains"})
 
 
 if __name__ == "__main__":

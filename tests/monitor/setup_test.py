@@ -27,7 +27,7 @@ SUPPLY_V = 12.0
 ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "stretch_mm": 55, "heated_W": 2.0,
            "heated_mm": 13, "half_cooling_s": 1.3, "thread_g": 0.1, "heated_K": 0, "max_W": 4.5, "max_travel_mm": 25,
            "uncertainty_percent": 30}
-STEPS = ("describe", "senses", "calibrate", "scale", "identify", "move")
+STEPS = ("describe", "senses", "calibrate", "scale", "identify", "gains", "move")
 STEP_S = 240.0
 
 
@@ -167,10 +167,20 @@ class SetupTest(SetupCase):
         self.assertRegex(" ".join(calibrated["lines"]), r"cold resistance: (9\.9|10)\S* Ohm \(configured: 10, ")
         identified = self.run_step(page, "identify", lambda: see(page, "identify"))
         self.assertRegex(" ".join(identified["lines"]), r"stiffness_N_per_m: \S+ \(configured: 17\.84, ")
+        tuned = subprocess.run([SUPERCOIL, "tune", "1", "bandwidth_rad_per_s=3", "--can", self.source], capture_output=True, timeout=SLACK_S)
+        self.assertEqual(tuned.returncode, 0)
+
+        def take():
+            page.wait(lambda: page.asked() == "take_gains", SLACK_S, "whether to take the recommended controller")
+            see(page, "gains")
+            page.answer("take_gains", 1)
+
+        gains = self.run_step(page, "gains", take)
+        self.assertRegex(" ".join(gains["lines"]), "bandwidth_rad_per_s = 3, .*recommended for this muscle: .*taken over, and stored")
         moved = self.run_step(page, "move")
         self.assertRegex(" ".join(moved["lines"]), "promised: .*followed within .* um rms: the promise is kept")
         see(page, "moved")
-        self.assertEqual(set(self.record()), {"describe", "senses", "calibrate", "identify", "move"})
+        self.assertEqual(set(self.record()), {"describe", "senses", "calibrate", "identify", "gains", "move"})
         state = command(self.source, "state").stdout
         self.assertRegex(state, "node 1: disarmed")
         self.assertEqual(page.errors(), [])

@@ -21,8 +21,10 @@ class HeldOutBoard {
 
   SimulatedLink& link() { return link_; }
   host_sim::Simulation& simulation() { return simulation_; }
+  const BoardSettings& settings() const { return *scenario_.board; }
+  const ChannelSettings& channel() const { return settings().channels[0]; }
   operating::Commission steps(operating::Operator& who) {
-    return {link_, "1", scenario_.board->channels[0], *scenario_.board, who};
+    return {link_, "1", channel(), settings(), who};
   }
 
  private:

@@ -1,4 +1,5 @@
-// The steps of setup that ask: senses by a meter, the position's scale by a ruler, in lockstep.
+// The steps of setup that ask: senses by a meter, the position's scale by a ruler, whether to take
+// another controller; in lockstep.
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -7,6 +8,7 @@
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/supercoil/setup/gains_step.hpp"
 #include "setup/commissioned.hpp"
 
 using namespace supercoil;
@@ -30,9 +32,14 @@ class Person final : public operating::Operator {
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return tired; }
   OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override {
+    ++asked;
     for (int i = 0; i < reads_looks; ++i) {
       if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
       link_.wait(look_every);
+    }
+    if (question.key == "take_gains") {
+      if (tired) return tl::unexpected<std::string>("interrupted");
+      return gains;
     }
     if (question.key == "supply_V") return supply_V;
     if (question.key == "place_mm") return place_mm;
@@ -44,7 +51,9 @@ class Person final : public operating::Operator {
 
   double second_reading_ratio = 1.0;  ///< of amperes, told over shown
   double place_mm = NAN;
+  double gains = NAN;  ///< 1: takes what is recommended
   int reads_looks = 10;
+  int asked = 0;
   bool tired = false;
 
  private:
@@ -59,6 +68,14 @@ HeldOut pulled_by(double force_N) {
   muscle.scenario += "[[event]]\nat_s = 90.0\nplant.load_N = " + std::to_string(force_N) + "\n";
   return muscle;
 }
+
+/// Of controller 0 on the board, by its name.
+double tuned(HeldOutBoard& board, std::string_view name, TuningSet set) {
+  return board.link().tuning("1", 0, control::tunable_named(name), set).value();
+}
+
+constexpr auto adaptive_ff = static_cast<double>(control::ControllerKind::adaptive_ff);
+constexpr auto learned_ff = static_cast<double>(control::ControllerKind::learned_ff);
 
 }  // namespace
 
@@ -125,4 +142,68 @@ TEST(GuidedSteps, APlaceThatNoSensorCouldBeSoWrongAboutIsRefused) {
   const auto found = board.steps(person).scale();
   CHECK(!found);
   STRCMP_CONTAINS("scale 0.005: refused: out_of_range", found.error().c_str());
+}
+
+TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "adaptive_ff", 0.02);
+  Person person(board.link());
+  person.gains = 1.0;
+  operating::Commission steps = board.steps(person);
+  CHECK(steps.calibrate().has_value());
+  CHECK(steps.identify().has_value());
+  const auto found = steps.gains();
+  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  CHECK((*found)["taken"].get<bool>());
+  CHECK((*found)["in_use_promised_m"].is_null());
+  const double bandwidth = (*found)["recommended_bandwidth_rad_per_s"];
+  const double found_tau_s = (*board.link().muscle("1"))[0] / (*board.link().muscle("1"))[1];
+  DOUBLES_EQUAL(8.0 / std::sqrt(std::fmax(1.0, found_tau_s / 1.82)), bandwidth, 1e-9);
+  for (const TuningSet set : {TuningSet::in_use, TuningSet::stored}) {
+    DOUBLES_EQUAL(learned_ff, tuned(board, "kind", set), 0.0);
+    DOUBLES_EQUAL(1.0, tuned(board, "shape_reference", set), 0.0);
+    DOUBLES_EQUAL(bandwidth, tuned(board, "bandwidth_rad_per_s", set), 1e-9);
+  }
+  STRCMP_CONTAINS("promises no error", person.told().c_str());
+  STRCMP_CONTAINS("no parameter is off by more than", person.told().c_str());
+  const auto moved = steps.move();
+  STRCMP_EQUAL("", moved ? "" : moved.error().c_str());
+  DOUBLES_EQUAL((*found)["recommended_promised_m"].get<double>(), moved->value("promised_m", NAN),
+                1e-12);
+  CHECK(moved->value("kept", false));
+}
+
+TEST(GuidedSteps, AControllerThatIsKeptStaysAsItIs) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "adaptive_ff", 0.02);
+  Person person(board.link());
+  person.gains = 0.0;
+  const auto found = board.steps(person).gains();
+  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  CHECK_FALSE((*found)["taken"].get<bool>());
+  STRCMP_CONTAINS("kept as it is", person.told().c_str());
+  person.tired = true;
+  STRCMP_EQUAL("interrupted", board.steps(person).gains().error().c_str());
+  for (const TuningSet set : {TuningSet::in_use, TuningSet::stored})
+    DOUBLES_EQUAL(adaptive_ff, tuned(board, "kind", set), 0.0);
+}
+
+TEST(GuidedSteps, NobodyIsAskedAboutAControllerThatSuitsAlready) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
+  Person person(board.link());
+  const auto found = board.steps(person).gains();
+  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  CHECK_FALSE((*found)["taken"].get<bool>());
+  LONGS_EQUAL(0, person.asked);
+  STRCMP_CONTAINS("it is in use already", person.told().c_str());
+}
+
+TEST(GuidedSteps, ARecommendedControllerThatCannotRunIsNotOffered) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.02);
+  Person person(board.link());
+  auto now = operating::channel_now(board.link(), "1", board.channel());
+  now->settings.controllers.front().kind = control::ControllerKind::pi;
+  now->settings.controllers.front().arithmetic = control::Arithmetic::q8_24;
+  const auto found = operating::choose_gains(board.link(), "1", *now, board.settings(), person);
+  CHECK_FALSE((*found)["taken"].get<bool>());
+  LONGS_EQUAL(0, person.asked);
+  STRCMP_CONTAINS("it cannot run here: arithmetic must be double or float", person.told().c_str());
 }

@@ -51,8 +51,13 @@ class SimulatedLink final : public operating::BoardLink {
   }
   Answer prepare(const std::string&, int place, const std::string& name,
                  const std::string& value) override {
-    const Reply reply = simulation_.loop().channel(0).tuner().prepare(
-        static_cast<std::size_t>(place), control::tunable_named(name), std::stod(value));
+    Tuner& tuner = simulation_.loop().channel(0).tuner();
+    const auto at = static_cast<std::size_t>(place);
+    if (name == "all") {
+      const auto set = std::ranges::find(tuning_set_names, value) - tuning_set_names.begin();
+      return tuner.prepare_from(static_cast<TuningSet>(set), at) ? "ok" : "refused: out_of_range";
+    }
+    const Reply reply = tuner.prepare(at, control::tunable_named(name), std::stod(value));
     return answer_text(reply.refusal, reply.nearest);
   }
   tl::expected<double, std::string> progress(const std::string&) override {

@@ -1,15 +1,13 @@
 // supercoil tune: a controller's values, read, changed and stored on a running board.
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/board_link.hpp"
+#include "apps/supercoil/change_tuning.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/tuning_table.hpp"
-#include "text/command_text.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::operating {
@@ -17,18 +15,12 @@ namespace supercoil::operating {
 namespace {
 
 using control::Tunable;
-using OrWhy = tl::expected<void, std::string>;
 
-struct Assignment {
-  std::size_t tunable;
-  double value;
-};
-
-tl::expected<std::vector<Assignment>, std::string> parse(const std::vector<std::string>& words) {
+tl::expected<std::vector<TuningChange>, std::string> parse(const std::vector<std::string>& words) {
   std::vector<std::string> known;
   for (const Tunable& tunable : control::tunables())
     known.emplace_back(tunable.name);
-  std::vector<Assignment> all;
+  std::vector<TuningChange> all;
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) return tl::unexpected(word + ": write NAME=VALUE");
@@ -41,7 +33,7 @@ tl::expected<std::vector<Assignment>, std::string> parse(const std::vector<std::
     all.push_back({tunable, *value});
   }
   // What there is depends on the kind, and the poles on the model: as in tunables().
-  std::ranges::stable_sort(all, {}, &Assignment::tunable);
+  std::ranges::stable_sort(all, {}, &TuningChange::tunable);
   return all;
 }
 
@@ -64,73 +56,39 @@ void print(int place, const TunedValues& all) {
   }
 }
 
-class Tuning {
- public:
-  Tuning(BoardLink& board, const TuneOptions& options) : board_(&board), options_(&options) {}
-
-  OrWhy change(const std::vector<Assignment>& assignments) {
-    if (auto begun = prepare("all", options_->from); !begun) return begun;
-    for (const Assignment& one : assignments) {
-      const Tunable& tunable = control::tunables()[one.tunable];
-      std::array<char, 32> text{};
-      std::snprintf(text.data(), text.size(), "%.17g", one.value);
-      if (auto done = prepare(std::string(tunable.name), text.data()); !done) return done;
-    }
-    return options_->only_prepare ? OrWhy{}
-                                  : ask(channel() + " tune " + std::to_string(options_->place));
-  }
-  OrWhy ask(const std::string& line) { return judge(line, board_->ask(line)); }
-
-  /// All controllers.
-  OrWhy tell() {
-    const auto controllers = read_tuning([this](int place, std::size_t tunable, TuningSet set) {
-      return board_->tuning(channel(), place, tunable, set);
-    });
-    if (!controllers) return tl::unexpected(controllers.error());
-    if (options_->json) {
-      std::printf("%s\n", tuning_json(*controllers).dump().c_str());
-      return {};
-    }
-    int place = 0;
-    for (const TunedValues& controller : *controllers)
-      print(place++, controller);
+/// All controllers.
+TuningDone tell(BoardLink& board, const std::string& channel, bool json) {
+  const auto controllers = read_tuning([&](int place, std::size_t tunable, TuningSet set) {
+    return board.tuning(channel, place, tunable, set);
+  });
+  if (!controllers) return tl::unexpected(controllers.error());
+  if (json) {
+    std::printf("%s\n", tuning_json(*controllers).dump().c_str());
     return {};
   }
-
- private:
-  std::string channel() const { return std::to_string(options_->channel); }
-  OrWhy prepare(const std::string& name, const std::string& value) {
-    return judge(name + " = " + value, board_->prepare(channel(), options_->place, name, value));
-  }
-  static OrWhy judge(const std::string& what, const BoardLink::Answer& answer) {
-    if (!answer) return tl::unexpected(answer.error());
-    if (*answer == "ok") return {};
-    const bool unsuitable = *answer == answer_text(Refusal::unsuitable, NAN);
-    return tl::unexpected(what + ": " + *answer +
-                          (unsuitable ? ": unstable on the muscle that is known, or values that "
-                                        "contradict each other; nothing changed"
-                                      : ""));
-  }
-
-  BoardLink* board_;
-  const TuneOptions* options_;
-};
+  int place = 0;
+  for (const TunedValues& controller : *controllers)
+    print(place++, controller);
+  return {};
+}
 
 }  // namespace
 
 int tune_command(const TuneOptions& options) {
-  const auto assignments = parse(options.assignments);
-  if (!assignments) return refuse(options.json, exit_wrong_input, assignments.error());
+  const auto changes = parse(options.assignments);
+  if (!changes) return refuse(options.json, exit_wrong_input, changes.error());
   const auto board = open_link(options.can, options.socket);
   if (!board) return refuse(options.json, exit_failed, board.error());
-  Tuning tuning(**board, options);
-  OrWhy done;
-  const bool changes = !assignments->empty() || options.from != "in_use";
-  if (changes) done = tuning.change(*assignments);
   const std::string channel = std::to_string(options.channel);
-  if (done && options.store) done = tuning.ask(channel + " store tuning");
-  if (done && options.clear) done = tuning.ask(channel + " clear tuning");
-  if (done) done = tuning.tell();
+  TuningDone done;
+  if (!changes->empty() || options.from != "in_use") {
+    done = prepare_tuning(**board, channel, options.place, options.from, *changes);
+    if (done && !options.only_prepare)
+      done = ask_for_tuning(**board, channel + " tune " + std::to_string(options.place));
+  }
+  if (done && options.store) done = ask_for_tuning(**board, channel + " store tuning");
+  if (done && options.clear) done = ask_for_tuning(**board, channel + " clear tuning");
+  if (done) done = tell(**board, channel, options.json);
   return done ? exit_done : refuse(options.json, exit_failed, done.error());
 }
 

@@ -16,6 +16,10 @@ std::string describe(const BoardConfig& config);
 
 /// Its parts.
 std::string describe_channel(const BoardConfig& config, std::size_t index);
+/// The room that a controller leaves on the channel's muscle, and how far that may be off; empty:
+/// it works in open loop.
+std::string describe_margin(const control::ControllerSettings& controller,
+                            const ChannelSettings& channel, double step_s);
 /// What narrows the bounds of the muscle's heat, and what would.
 std::string describe_heat(const ChannelSettings& channel);
 /// How far the true power may be from the measured one, and since which comparison with a meter.

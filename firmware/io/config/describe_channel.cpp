@@ -58,18 +58,6 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
       << std::nearbyint(c.thermal.air.warmest_C + c.thermal.boot_rise_K) << " °C at boot\n";
 }
 
-void describe_margin(std::ostream& out, const control::ControllerSettings& controller,
-                     const ChannelSettings& c, double step_s) {
-  const auto law = control::fixed_law(controller, c.muscle);
-  const auto margin = margin_of(controller, c, step_s);
-  if (!law || !margin) return;
-  const double span = control::tolerated_span(*law, c.muscle, step_s, loop_delay_s(c, step_s));
-  const bool adapts = control::adapts(controller.kind);
-  out << (adapts ? ", once adapted margin " : ", margin ")
-      << std::nearbyint(100.0 * margin->modulus) / 100.0 << ", holds if no parameter "
-      << (adapts ? "moves" : "is off") << " by more than " << std::nearbyint(100.0 * span) << " %";
-}
-
 /// What differs from the file, by name.
 void describe_tuning(std::ostream& out, const board::TunedController& tuned) {
   const char* before = "\n              stored by tune: ";
@@ -89,7 +77,8 @@ void describe_control(std::ostream& out, const ChannelSettings& c, double step_s
     if (k.kind != control::ControllerKind::power) {
       out << " in " << control::name_of(control::arithmetic_names, k.arithmetic);
     }
-    describe_margin(out, k, c, step_s);
+    if (const std::string margin = describe_margin(k, c, step_s); !margin.empty())
+      out << ", " << margin;
     if (i < c.tuning.controllers.size()) describe_tuning(out, c.tuning.controllers[i]);
   }
   out << "\n  estimators  ";
@@ -104,6 +93,20 @@ void describe_control(std::ostream& out, const ChannelSettings& c, double step_s
 }
 
 }  // namespace
+
+std::string describe_margin(const control::ControllerSettings& controller, const ChannelSettings& c,
+                            double step_s) {
+  const auto law = control::fixed_law(controller, c.muscle);
+  const auto margin = margin_of(controller, c, step_s);
+  if (!law || !margin) return "";
+  const double span = control::tolerated_span(*law, c.muscle, step_s, loop_delay_s(c, step_s));
+  const bool adapts = control::adapts(controller.kind);
+  std::ostringstream out;
+  out << (adapts ? "once adapted margin " : "margin ")
+      << std::nearbyint(100.0 * margin->modulus) / 100.0 << ", holds if no parameter "
+      << (adapts ? "moves" : "is off") << " by more than " << std::nearbyint(100.0 * span) << " %";
+  return out.str();
+}
 
 std::string describe_heat(const ChannelSettings& c) {
   const board::ThermalSettings& t = c.thermal;

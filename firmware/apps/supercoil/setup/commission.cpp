@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/setup/channel_now.hpp"
+#include "apps/supercoil/setup/gains_step.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/describe.hpp"
-#include "loop/promise.hpp"
 #include "modes/calibrate.hpp"
 #include "text/command_text.hpp"
 
@@ -59,7 +59,8 @@ StepResult Commission::run(const std::string& step) {
   if (step == "senses") return compare_senses();
   if (step == "calibrate") return calibrate();
   if (step == "scale") return scale();
-  return step == "identify" ? identify() : move();
+  if (step == "identify") return identify();
+  return step == "gains" ? gains() : move();
 }
 
 Commission::Done Commission::ask(const std::string& command) {
@@ -213,24 +214,19 @@ StepResult Commission::identify() {
   return found;
 }
 
+StepResult Commission::gains() {
+  const auto now = channel_now(board_, channel_, configured_);
+  if (!now) return tl::unexpected(now.error());
+  return choose_gains(board_, channel_, *now, settings_, who_);
+}
+
 StepResult Commission::move() {
-  const auto known = board_.muscle(channel_);
-  if (!known) return tl::unexpected(known.error());
-  const auto senses = board_.senses(channel_);
-  if (!senses) return tl::unexpected(senses.error());
-  ChannelSettings channel = with_known(configured_, *known);
-  channel.senses = *senses;
-  const Feasibility f = feasibility(channel, settings_);
-  const FirstMotion motion = plan_first_motion(f);
-  const control::ControllerSettings& controller = channel.controllers.front();
-  std::optional<Promise> promise;
-  if (is_promised_for(controller)) {
-    promise = promise_error(controller.learned_ff, channel, settings_, motion,
-                            (*known)[known_unexplained_ratio]);
-    who_.say("promised: " + config::describe_promise(*promise, motion));
-  } else {
-    who_.say("no error is promised: controller 0 is not learned_ff");
-  }
+  const auto now = channel_now(board_, channel_, configured_);
+  if (!now) return tl::unexpected(now.error());
+  const FirstMotion motion = plan_first_motion(feasibility(now->settings, settings_));
+  const auto promise = now->promise(now->settings.controllers.front(), settings_, motion);
+  who_.say(promise ? "promised: " + config::describe_promise(*promise, motion)
+                   : "no error is promised: controller 0 is not learned_ff");
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   double square_sum = 0.0;
   int samples = 0;

@@ -33,6 +33,8 @@ class Commission {
   StepResult scale();
   /// The muscle's parameters, beside those that are configured.
   StepResult identify();
+  /// The controller in use beside the recommended one, which is taken over if that is wanted.
+  StepResult gains();
   /// A sine that the muscle can follow; its error beside the promised one, where one is promised.
   StepResult move();
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/setup/recommended_controller.hpp"
 
 namespace supercoil::operating {
 
@@ -18,8 +19,6 @@ constexpr double gravity_m_per_s2 = 9.81;
 constexpr double specific_heat_J_per_gK = 1.65;
 /// A swing that dies away within one period, as most muscles with a hanging load do.
 constexpr double usual_damping_ratio = 0.7;
-/// Of the paper's muscle, for which the controllers' defaults are.
-constexpr double usual_time_constant_s = 1.82;
 
 /// What follows from answers has no more digits than they; an answer keeps its own.
 constexpr int digits_that_follow = 4;
@@ -133,18 +132,9 @@ tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers
   keep("heater.cold_resistance_Ohm", a.of(Asked::cold_resistance_Ohm));
   keep("limits.max_W", a.of(Asked::max_W));
   keep("limits.max_travel_m", 1e-3 * a.of(Asked::max_travel_mm));
-  d.entries.push_back(recommended_controller(d.muscle));
+  const RecommendedController controller = recommended_controller(d.muscle);
+  d.entries.push_back({"controller", controller.literal(), controller.reason});
   return d;
-}
-
-Entry recommended_controller(const PhysicalParameters& muscle) {
-  // A slow muscle's feedback need not be fast: with the default its noise and its friction show.
-  const double tau_s = -1.0 / muscle.thermal_pole_rad_per_s();
-  const double bandwidth = 8.0 / std::sqrt(std::max(1.0, tau_s / usual_time_constant_s));
-  return {"controller",
-          "{ kind = \"learned_ff\", shape_reference = true, bandwidth_rad_per_s = " +
-              number_text(bandwidth, digits_that_follow) + " }",
-          "follows closest, and asks for no motion that the muscle cannot make"};
 }
 
 }  // namespace supercoil::operating

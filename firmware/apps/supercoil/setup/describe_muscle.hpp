@@ -29,8 +29,4 @@ struct MuscleDescription {
 /// says which answers contradict each other, or what no muscle of thread has.
 tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& answers);
 
-/// A controller that suits a muscle of which so much is known: the closest by docs/control.md, as
-/// the literal of a [[channel]]'s `controller`.
-Entry recommended_controller(const control::PhysicalParameters& muscle);
-
 }  // namespace supercoil::operating

@@ -76,9 +76,9 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
   MuscleAnswers answers;
   if (!options.script.empty()) {
-    const auto read = read_answers(options.script);
+    const auto read = read_script(options.script);
     if (!read) return tl::unexpected(read.error());
-    answers = *read;
+    answers = read->muscle;
   }
   const auto completed = complete(answers, options, who);
   if (!completed) return tl::unexpected(completed.error());

@@ -4,10 +4,10 @@
 
 namespace supercoil::operating {
 
-tl::expected<MuscleAnswers, std::string> read_answers(const std::string& path) {
+tl::expected<Script, std::string> read_script(const std::string& path) {
   config::Diagnostics diagnostics(path);
   const std::string text = config::read_text(path, diagnostics);
-  MuscleAnswers answers;
+  Script script;
   if (diagnostics.empty()) {
     const toml::table document = config::parse(text, diagnostics);
     config::Section root(&document, "", diagnostics);
@@ -16,16 +16,17 @@ tl::expected<MuscleAnswers, std::string> read_answers(const std::string& path) {
       const Question& q = questions[i];
       // An absent key is known nevertheless: to be meant by a misspelt one.
       if (muscle.has(q.key)) {
-        answers.set(i, muscle.number(q.key, NAN, q.allowed));
+        script.muscle.set(i, muscle.number(q.key, NAN, q.allowed));
       } else {
         muscle.allow({q.key});
       }
     }
+    script.take_gains = muscle.number(take_gains.key, take_gains.fallback, take_gains.allowed);
     muscle.finish();
     root.finish();
   }
   if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
-  return answers;
+  return script;
 }
 
 }  // namespace supercoil::operating

@@ -65,7 +65,18 @@ class MuscleAnswers {
   std::array<double, questions.size()> values_{};
 };
 
-/// The table [muscle] of a file. A key that it lacks is not answered. The error is whole lines.
-tl::expected<MuscleAnswers, std::string> read_answers(const std::string& path);
+/// Of the step gains, which comes when the muscle was found.
+inline constexpr Question take_gains{
+    "take_gains",
+    "1: take over the recommended controller, 0: keep the one in use",
+    {0.0, 1.0},
+    1.0};
+
+struct Script {
+  MuscleAnswers muscle;  ///< a key that is not there is not answered
+  double take_gains = operating::take_gains.fallback;
+};
+/// The table [muscle] of a file. The error is whole lines.
+tl::expected<Script, std::string> read_script(const std::string& path);
 
 }  // namespace supercoil::operating

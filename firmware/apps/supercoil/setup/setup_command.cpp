@@ -8,6 +8,7 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
+#include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/options.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/setup_board.hpp"
@@ -34,9 +35,9 @@ bool wanted(const SetupStep& step, const SetupOptions& options, const SetupRecor
   return std::ranges::find(options.steps, name) != options.steps.end();
 }
 
-/// An optional step is asked for; where nobody answers, it is left.
+/// A step that needs a person is asked for; where nobody answers, it is left.
 bool takes(const SetupStep& step, const SetupOptions& options, Operator& who) {
-  if (!step.optional || !options.steps.empty()) return true;
+  if (!step.needs_person || !options.steps.empty()) return true;
   const bool unattended = !options.script.empty();
   const auto now = unattended ? Operator::OrWhy(0.0)
                               : who.ask({step.name, "1: now, 0: leave it", {0.0, 1.0}, 0.0},
@@ -44,6 +45,11 @@ bool takes(const SetupStep& step, const SetupOptions& options, Operator& who) {
   if (now && *now > 0.0) return true;
   if (!who.interrupted()) who.say("left; supercoil setup " + std::string(step.name) + " does it");
   return false;
+}
+
+std::string without_line_end(std::string lines) {
+  if (!lines.empty() && lines.back() == '\n') lines.pop_back();
+  return lines;
 }
 
 int concluded(const SetupOptions& options, const Json& results, int status,
@@ -58,6 +64,12 @@ int concluded(const SetupOptions& options, const Json& results, int status,
 
 int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) {
   TerminalOperator terminal(out);
+  if (!options.script.empty()) {
+    const auto script = read_script(options.script);
+    if (!script)
+      return concluded(options, Json::object(), exit_wrong_input, without_line_end(script.error()));
+    terminal.answer(take_gains.key, script->take_gains);
+  }
   SetupBoard board(options, terminal);
   Json results = Json::object();
   int status = exit_done;
@@ -75,9 +87,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     if (!found) {
       const int why = describes ? exit_wrong_input : exit_failed;
       if (!describes) return concluded(options, results, why, name + ": " + found.error());
-      std::string lines = found.error();
-      if (!lines.empty() && lines.back() == '\n') lines.pop_back();
-      return concluded(options, results, why, lines);
+      return concluded(options, results, why, without_line_end(found.error()));
     }
     results[name] = *found;
     if (auto kept = record.add(name, *found); !kept)
@@ -100,12 +110,12 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   CLI::App* setup = app.add_subcommand(
       "setup",
       "From a muscle of your own to one that follows, step by step: describe it in a bench's "
-      "units, compare its senses, calibrate, identify, move. What is done is remembered beside the "
-      "board's file");
+      "units, compare its senses, calibrate, identify, choose gains, move. What is done is "
+      "remembered beside the board's file");
   setup
       ->add_option("STEP", o.steps,
-                   "describe, senses, calibrate, scale, identify or move, also again [all that are "
-                   "not done]")
+                   "describe, senses, calibrate, scale, identify, gains or move, also again [all "
+                   "that are not done]")
       ->check(CLI::Validator(
           [](const std::string& given) {
             const auto names = step_names();

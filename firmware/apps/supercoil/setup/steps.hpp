@@ -8,25 +8,31 @@ namespace supercoil::operating {
 
 struct SetupStep {
   std::string_view name;
-  std::string_view does;  ///< said before it begins
-  bool optional = false;  ///< may be left
+  std::string_view does;      ///< said before it begins
+  bool optional = false;      ///< may be left
+  bool needs_person = false;  ///< who is asked first whether it is to be left; a script leaves it
 };
 
-inline constexpr std::array<SetupStep, 6> setup_steps{{
+inline constexpr std::array<SetupStep, 7> setup_steps{{
     {"describe",
      "writes what is known of the muscle, with its bounds and a controller, into the board's "
      "file; heats nothing"},
     {"senses",
      "compares the senses of supply and current with a meter: heats it with a small steady power, "
      "and asks four questions; until then it gets less power than it could",
-     true},
+     true, true},
     {"calibrate",
      "takes the zero and the resistance of the cold muscle; heats it for 50 ms; seconds, up to two "
      "minutes if it must cool"},
-    {"scale", "takes the scale of the position from a second known place; heats nothing", true},
+    {"scale", "takes the scale of the position from a second known place; heats nothing", true,
+     true},
     {"identify",
      "heats and lets cool nine times, up to 0.85 of its reach; a minute for a quick muscle, up to "
      "25 minutes for one with a time constant of a minute"},
+    {"gains",
+     "compares the controller in use with the one that suits the muscle that was found, and takes "
+     "that one over if it differs and you want it; heats nothing",
+     true},
     {"move",
      "follows a slow sine over a third of the travel, three periods; compares the error "
      "with the promised one"},

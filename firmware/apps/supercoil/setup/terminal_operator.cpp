@@ -46,6 +46,10 @@ tl::expected<std::string, std::string> TerminalOperator::next_line(
 TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
                                               const std::function<Done()>& meanwhile) {
   progress_.reset();
+  if (const auto known = answered_.find(q.key); known != answered_.end()) {
+    say(std::string(q.text) + ": " + number_text(known->second, 9));
+    return known->second;
+  }
   for (int i = 0; i < max_tries; ++i) {
     std::fprintf(out_, "%s (%s)%s: ", std::string(q.text).c_str(), range_text(q.allowed).c_str(),
                  std::isnan(q.fallback) ? "" : (" [" + number_text(q.fallback, 9) + "]").c_str());

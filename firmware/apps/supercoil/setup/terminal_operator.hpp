@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdio>
+#include <map>
 #include <optional>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -20,6 +22,8 @@ class TerminalOperator final : public Operator {
   void show_progress(const std::string& what, double done) override;
   bool sees_progress() const override { return isatty(STDERR_FILENO) == 1; }
   bool interrupted() const override;
+  /// By a script: this is not asked any more.
+  void answer(std::string_view key, double value) { answered_.emplace(key, value); }
   /// Three tries.
   OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
 
@@ -27,6 +31,7 @@ class TerminalOperator final : public Operator {
   tl::expected<std::string, std::string> next_line(const std::function<Done()>& meanwhile);
 
   std::FILE* out_;
+  std::map<std::string_view, double> answered_;
   AnswerLines answers_{STDIN_FILENO};
   std::string progress_of_;
   std::optional<Progress> progress_;

@@ -5,6 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "apps/supercoil/setup/recommended_controller.hpp"
+
 using namespace supercoil::operating;
 
 namespace {
@@ -97,9 +99,30 @@ TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
 
 TEST(DescribeMuscle, ASlowMuscleGetsALowerBandwidth) {
   supercoil::control::PhysicalParameters muscle;
-  STRCMP_CONTAINS("bandwidth_rad_per_s = 8 }", recommended_controller(muscle).literal.c_str());
+  const std::string usual = recommended_controller(muscle).literal();
+  STRCMP_EQUAL("{ kind = \"learned_ff\", shape_reference = true, bandwidth_rad_per_s = 8 }",
+               usual.c_str());
   muscle.thermal_mass_J_per_K *= 4.0;
-  STRCMP_CONTAINS("bandwidth_rad_per_s = 4", recommended_controller(muscle).literal.c_str());
+  const RecommendedController slow = recommended_controller(muscle);
+  DOUBLES_EQUAL(4.0, slow.bandwidth_rad_per_s, 2e-3);
+  STRCMP_CONTAINS("8 rad/s over the root of its time constant, 7.28 s, in units of",
+                  slow.reason.c_str());
   muscle.thermal_mass_J_per_K /= 100.0;
-  STRCMP_CONTAINS("bandwidth_rad_per_s = 8 }", recommended_controller(muscle).literal.c_str());
+  DOUBLES_EQUAL(8.0, recommended_controller(muscle).bandwidth_rad_per_s, 0.0);
+}
+
+TEST(DescribeMuscle, AControllerDiffersByItsLawItsShapingOrATenthOfItsBandwidth) {
+  const RecommendedController suits = recommended_controller({});
+  supercoil::control::ControllerSettings controller = suits.in_place_of({});
+  CHECK_FALSE(suits.differs_from(controller));
+  controller.learned_ff.bandwidth_rad_per_s *= 1.09;
+  CHECK_FALSE(suits.differs_from(controller));
+  controller.learned_ff.bandwidth_rad_per_s *= 1.02;
+  CHECK_TRUE(suits.differs_from(controller));
+  controller = suits.in_place_of({});
+  controller.shape_reference = false;
+  CHECK_TRUE(suits.differs_from(controller));
+  controller = suits.in_place_of({});
+  controller.kind = supercoil::control::ControllerKind::adaptive_ff;
+  CHECK_TRUE(suits.differs_from(controller));
 }

@@ -1,0 +1,29 @@
+// Changes a controller of a running board: prepared value by value, then taken over.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+
+namespace supercoil::operating {
+
+struct TuningChange {
+  std::size_t tunable;  ///< place in control::tunables()
+  double value;
+};
+
+/// The error: what was refused, and why.
+using TuningDone = tl::expected<void, std::string>;
+
+/// from: the set that is changed, of tuning_set_names. changes: in the order of
+/// control::tunables().
+TuningDone prepare_tuning(BoardLink& board, const std::string& channel, int place,
+                          const std::string& from, const std::vector<TuningChange>& changes);
+/// A line that takes over, stores or forgets: "1 tune 0", "1 store tuning", "1 clear tuning".
+TuningDone ask_for_tuning(BoardLink& board, const std::string& line);
+
+}  // namespace supercoil::operating

@@ -1,0 +1,30 @@
+#include "apps/supercoil/setup/channel_now.hpp"
+
+namespace supercoil::operating {
+
+std::optional<Promise> ChannelNow::promise(const control::ControllerSettings& controller,
+                                           const BoardSettings& board,
+                                           const FirstMotion& motion) const {
+  if (!is_promised_for(controller)) return std::nullopt;
+  return promise_error(controller.learned_ff, settings, board, motion, unexplained_ratio);
+}
+
+tl::expected<ChannelNow, std::string> channel_now(BoardLink& board, const std::string& channel,
+                                                  const ChannelSettings& configured) {
+  const auto known = board.muscle(channel);
+  if (!known) return tl::unexpected(known.error());
+  const auto senses = board.senses(channel);
+  if (!senses) return tl::unexpected(senses.error());
+  board::TunedController in_use;
+  for (std::size_t i = 0; i < in_use.values.size(); ++i) {
+    const auto value = board.tuning(channel, 0, i, TuningSet::in_use);
+    if (!value) return tl::unexpected(value.error());
+    if (!std::isnan(*value)) in_use.values[i] = *value;
+  }
+  ChannelNow now{with_known(configured, *known), (*known)[known_unexplained_ratio]};
+  now.settings.senses = *senses;
+  in_use.apply_to(now.settings.controllers.front());
+  return now;
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,30 @@
+// A channel as its board goes by it now: what it found, and what it was tuned to.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "loop/promise.hpp"
+#include "loop/settings.hpp"
+
+namespace supercoil::operating {
+
+struct ChannelNow {
+  /// With the muscle and the senses that are known. Its first controller is as it is in use.
+  ChannelSettings settings;
+  double unexplained_ratio = NAN;  ///< by identify; NaN: it found nothing since the start
+
+  /// Of a controller in the place of the first; empty: its law promises none.
+  std::optional<Promise> promise(const control::ControllerSettings& controller,
+                                 const BoardSettings& board, const FirstMotion& motion) const;
+};
+
+/// channel: as in a line of a command. configured: as the board's file has it.
+tl::expected<ChannelNow, std::string> channel_now(BoardLink& board, const std::string& channel,
+                                                  const ChannelSettings& configured);
+
+}  // namespace supercoil::operating

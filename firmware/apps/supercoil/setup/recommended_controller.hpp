@@ -1,0 +1,26 @@
+// Which controller suits a muscle: one rule for a file that is completed and for a board that runs.
+#pragma once
+
+#include <string>
+
+#include "supercoil/control/actuator/parameters.hpp"
+#include "supercoil/control/tracking/controller_settings.hpp"
+
+namespace supercoil::operating {
+
+/// learned_ff with shape_reference: the closest by docs/control.md.
+struct RecommendedController {
+  double bandwidth_rad_per_s = 0.0;
+  std::string reason;
+
+  /// Of a [[channel]]'s `controller`.
+  std::string literal() const;
+  /// Whatever else a controller has, it keeps.
+  control::ControllerSettings in_place_of(control::ControllerSettings controller) const;
+  /// Another law or shaping, or a bandwidth that is more than a tenth off.
+  bool differs_from(const control::ControllerSettings& controller) const;
+};
+
+RecommendedController recommended_controller(const control::PhysicalParameters& muscle);
+
+}  // namespace supercoil::operating

@@ -13,7 +13,7 @@ using control::ControllerKind;
 using control::ControllerSettings;
 
 constexpr ControllerKind recommended_kind = ControllerKind::learned_ff;
-constexpr double most_bandwidth_rad_per_s = 8.0;
+constexpr double max_bandwidth_rad_per_s = 8.0;
 /// Of the paper's muscle, for which the controllers' defaults are.
 constexpr double usual_time_constant_s = 1.82;
 constexpr double telling_bandwidth_ratio = 0.1;
@@ -51,9 +51,9 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
       slowness > 1.0
           ? " over the root of its time constant, " + own + ", in units of the paper's " + usual
           : ", as its time constant, " + own + ", does not exceed the paper's " + usual;
-  return {most_bandwidth_rad_per_s / std::sqrt(slowness),
+  return {max_bandwidth_rad_per_s / std::sqrt(slowness),
           "follows closest, and asks for no motion that the muscle cannot make; " +
-              number_text(most_bandwidth_rad_per_s, 3) + " rad/s" + why};
+              number_text(max_bandwidth_rad_per_s, 3) + " rad/s" + why};
 }
 
 }  // namespace supercoil::operating

@@ -720,7 +720,8 @@ The muscle has contracted further than it may."""
 
 The muscle has contracted further than it may.
 
-**Detected** at once, by a single reading: the calibrated position is above 35 mm, or is NaN (`max_travel_m`).
+**Detected** at once, by a single reading: the calibrated position is above the channel's `max_travel_m`, or is NaN. (In a scenario
+without a board's file it is 0.999 of the position sensor's range: 39.96 mm of 40.)
 Readings that the sensor cannot give are no positions: they are [sensor_out_of_range](sensor_out_of_range.md). A
 position command beyond it is refused before it can lead here (refusal: out of range).
 
@@ -732,7 +733,7 @@ position command beyond it is refused before it can lead here (refusal: out of r
 - an overshoot of a badly tuned controller
 - the load fell off, or broke
 - a wrong zero or scale: `scale` with the wrong length, `calibrate` of a muscle that hangs on something
-- one wild reading between 35 and 42 mm: nothing is forgiven here, as it is in [sensor_jump](sensor_jump.md)
+- one wild reading between `max_travel_m` and the end of the sensor's range: nothing is forgiven here, as it is in [sensor_jump](sensor_jump.md)
 
 ## Remedy
 
@@ -743,7 +744,7 @@ position command beyond it is refused before it can lead here (refusal: out of r
 
 ## Margin
 
-In metres: the position, of 0.035. A reference of 20 mm gives used 0.57. Negative positions give a negative number.
+In metres: the position, of `max_travel_m`. With 0.035 a reference of 20 mm gives used 0.57. Negative positions give a negative number.
 
 ## Not detected
 

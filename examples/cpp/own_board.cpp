@@ -1,10 +1,10 @@
-// The firmware's loop over a board of one's own: the interfaces of supercoil/hal, here with a muscle behind them that is
-// computed. On a real board each call goes to the device instead, and wait_until() sleeps.
+// The firmware's loop over a board of one's own: the interfaces of supercoil/hal, here with a
+// muscle behind them that is computed. On a real board each call goes to the device instead, and
+// wait_until() sleeps.
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <random>
-
 #include <supercoil/control/actuator/state_space.hpp>
 #include <supercoil/control/linear/discretize.hpp>
 
@@ -75,7 +75,8 @@ class Board final : public hal::Clock {
     heartbeat_.changed = false;
     const bool on = enable_.level && pumped_s_ < 0.015;
     current_A_ = on ? pwm_.set_to * supply_V / (pwm_.steps() * resistance_Ohm) : 0.0;
-    x_ = muscle_.transition * x_ + muscle_.held * control::Vector<double, 2>(supply_V * current_A_, 0.0);
+    x_ = muscle_.transition * x_ +
+         muscle_.held * control::Vector<double, 2>(supply_V * current_A_, 0.0);
     time_ += hal::duration_from(step_s);
     convert();
   }
@@ -89,7 +90,8 @@ class Board final : public hal::Clock {
   }
 
   const control::ActuatorStateSpace model_ = control::state_space({});
-  const control::ZeroOrderHold<3, 2> muscle_ = control::zero_order_hold<3, 2>(model_.a, model_.b, step_s);
+  const control::ZeroOrderHold<3, 2> muscle_ =
+      control::zero_order_hold<3, 2>(model_.a, model_.b, step_s);
   control::Vector<double, 3> x_ = control::Vector<double, 3>::Zero();
   std::minstd_rand random_;
   std::normal_distribution<double> noise_um_{0.0, 10.0};
@@ -116,6 +118,12 @@ BoardSettings settings() {
   return board;
 }
 
+void tell(int time_s, const Channel& channel, const Row& row) {
+  std::printf("%3d s  %-9s %7.3f mm %5.2f W\n", time_s,
+              std::string(name(channel.state().state())).c_str(), 1e3 * row.position_m,
+              row.applied_W);
+}
+
 }  // namespace
 
 int main() {
@@ -134,14 +142,15 @@ int main() {
     loop->health().telemetry_heartbeats.fetch_add(1);
     Row row;
     while (loop->take(row)) {
-      if (tick % 5000 == 0)
-        std::printf("%3d s  %-9s %7.3f mm %5.2f W\n", tick / 1000, std::string(name(channel.state().state())).c_str(),
-                    1e3 * row.position_m, row.applied_W);
+      if (tick % 5000 == 0) tell(tick / 1000, channel, row);
     }
     Answer answer;
-    while (loop->answer(answer))
-      if (answer.refusal != Refusal::none)
-        std::printf("%s: %s\n", std::string(name(answer.command.verb)).c_str(), std::string(name(answer.refusal)).c_str());
+    while (loop->answer(answer)) {
+      if (answer.refusal != Refusal::none) {
+        std::printf("%s: %s\n", std::string(name(answer.command.verb)).c_str(),
+                    std::string(name(answer.refusal)).c_str());
+      }
+    }
     // An operator: arms once the muscle must be cold, and renews where it is to be.
     if (tick == 30'000) loop->send({.verb = Verb::arm});
     if (tick > 31'000 && tick % 50 == 0)

@@ -1,7 +1,6 @@
 // A muscle follows a sine, with the control library alone: no board, no files, no clock.
 #include <cmath>
 #include <cstdio>
-
 #include <supercoil/control/actuator/state_space.hpp>
 #include <supercoil/control/linear/discretize.hpp>
 #include <supercoil/control/tracking/controller.hpp>
@@ -25,7 +24,8 @@ int main() {
         {.reference_m = reference_m, .position_m = x[1], .applied_power_W = power_W});
     power_W = PowerRange{}.clip(out.demanded_power_W);
     x = held.transition * x + held.held * Vector<double, 2>(power_W, 0.0);
-    if (tick % 5000 == 0) std::printf("%4.0f s %6.3f mm %5.2f W\n", tick * step_s, 1e3 * x[1], power_W);
+    if (tick % 5000 == 0)
+      std::printf("%4.0f s %6.3f mm %5.2f W\n", tick * step_s, 1e3 * x[1], power_W);
     if (tick >= 30'000) squares_m2 += (x[1] - out.model_m) * (x[1] - out.model_m);
   }
   std::printf("position - reference model: %.2f um rms\n", 1e6 * std::sqrt(squares_m2 / 30'000));

@@ -6,7 +6,8 @@ bool PlantEffects::any() const {
   return convection_ratio != 0.0 || radiation_ratio != 0.0 || draught_ratio != 1.0 ||
          air_change_K != 0.0 || force_ratio != 1.0 || hysteresis_ratio != 0.0 ||
          softening_ratio != 0.0 || creep_ratio != 0.0 || lonely_stroke_m != 0.0 ||
-         friction_ratio != 0.0 || ageing_ratio != 0.0 || water_ratio != 0.0 || end_stop_m > -10.0;
+         friction_ratio != 0.0 || ageing_ratio != 0.0 || water_ratio != 0.0 || end_stop_m > -10.0 ||
+         ceiling_m < 10.0;
 }
 
 std::optional<control::Violation> check(const PlantEffects& effects) {

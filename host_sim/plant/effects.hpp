@@ -64,6 +64,7 @@ struct PlantEffects {
   double drying_s = 300.0;
 
   double end_stop_m = -10.0;  ///< the load cannot sink below it
+  double ceiling_m = 10.0;    ///< the load cannot rise above it
 
   int substeps = 4;  ///< of the mechanics, in each step of heat
 
@@ -80,7 +81,7 @@ struct EffectRange {
   double min;
   double max;
 };
-inline constexpr std::array<EffectRange, 32> effect_ranges{{
+inline constexpr std::array<EffectRange, 33> effect_ranges{{
     {"convection_ratio", &PlantEffects::convection_ratio, 0.0, 1.0},
     {"radiation_ratio", &PlantEffects::radiation_ratio, 0.0, 1.0},
     {"heat_transfer_at_K", &PlantEffects::heat_transfer_at_K, 1.0, 300.0},
@@ -113,6 +114,7 @@ inline constexpr std::array<EffectRange, 32> effect_ranges{{
     {"drying_K", &PlantEffects::drying_K, 1.0, 300.0},
     {"drying_s", &PlantEffects::drying_s, 0.1, 1e6},
     {"end_stop_m", &PlantEffects::end_stop_m, -10.0, 0.0},
+    {"ceiling_m", &PlantEffects::ceiling_m, 0.0, 10.0},
 }};
 
 /// The first number that is out of its range, or does not go with another one.

@@ -26,6 +26,7 @@ void NonlinearPlant::set(const control::PhysicalParameters& parameters,
   substeps_ = effects.substeps;
   per_substep_ = 1.0 / substeps_;
   end_stop_m_ = effects.end_stop_m;
+  ceiling_m_ = effects.ceiling_m;
   heat_.set(parameters, effects, slow_step_s_);
   hysteresis_.set(effects);
   force_.set(parameters, effects);
@@ -98,6 +99,7 @@ void NonlinearPlant::move(const Drive& drive) {
     motion =
         friction_.on() ? friction_.step(motion, part, mechanics_) : mechanics_.step(motion, part);
     if (motion.position_m < end_stop_m_) motion = {end_stop_m_, 0.0};
+    if (motion.position_m > ceiling_m_) motion = {ceiling_m_, 0.0};
     part.stiffness_N_per_m = part.stiffness_end_N_per_m;
     part.stiffness_end_N_per_m += stiffness_step;
     part.force_N = part.force_end_N;

@@ -63,6 +63,7 @@ class NonlinearPlant {
   int substeps_ = 4;
   double per_substep_ = 0.25;
   double end_stop_m_ = -10.0;
+  double ceiling_m_ = 10.0;
   HeatTransfer heat_;
   PlayHysteresis hysteresis_;
   ForceCurve force_;

@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -147,10 +148,12 @@ class SetupProgram(unittest.TestCase):
         self.assertIn("scale: scale 0.005: refused: out_of_range", done.stderr)
         with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
-            told = [program.stdout.readline() for _ in range(3)]
+            told = [program.stdout.readline() for _ in range(5)]
             self.assertTrue(told[0].startswith("scale: takes"))
             self.assertIn("left; supercoil setup scale does it", told[1])
-            self.assertTrue(told[2].startswith("identify: heats"))
+            self.assertTrue(told[2].startswith("limits: finds"))
+            self.assertIn("left; supercoil setup limits does it", told[3])
+            self.assertTrue(told[4].startswith("identify: heats"))
             time.sleep(0.5)
             program.send_signal(signal.SIGINT)
             _, error = program.communicate(timeout=DEADLINE_S)
@@ -192,6 +195,40 @@ class SetupProgram(unittest.TestCase):
         gains("taken over, and stored", input="1\n")
         self.assertEqual(bandwidth(), (7.88, 7.88))
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "gains"})
+
+    def test_a_limit_that_is_answered_goes_into_the_boards_file(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        before = self.board.read_text()
+        self.assertIn("max_travel_m = 0.025", before)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = f"socketcand:{simulator.port}"
+
+        def answer_at_4_mm():
+            subprocess.run([SUPERCOIL, "command", "1", "reset", "--can", bus], capture_output=True, timeout=DEADLINE_S)
+            with subprocess.Popen([SUPERCOIL, "setup", "limits", "--config", self.board, "--can", bus], stdin=subprocess.PIPE,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+                for line in program.stdout:
+                    position = re.search(r"([\d.]+) mm at [\d.]+ W", line)
+                    if position and float(position[1]) > 4.0:
+                        break
+                told, error = program.communicate("1\n", timeout=DEADLINE_S)
+            return program.returncode, told, error
+
+        for _ in range(TRIES):
+            status, told, error = answer_at_4_mm()
+            if not any(why in error for why in STARVED):
+                break
+        self.assertEqual(status, 0, error)
+        limit = re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", told)
+        self.assertGreater(float(limit[1]), 3.5)
+        written = f"max_travel_m = {1e-3 * float(limit[1]):.4g}"
+        self.assertIn(written, self.board.read_text())
+        self.assertEqual(self.board.read_text().replace(written, "max_travel_m = 0.025"), before)
+        self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
+        self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "limits"})
+        state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertRegex(state.stdout, "node 1: disarmed")
 
 
 if __name__ == "__main__":

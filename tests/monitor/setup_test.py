@@ -27,7 +27,7 @@ SUPPLY_V = 12.0
 ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "stretch_mm": 55, "heated_W": 2.0,
            "heated_mm": 13, "half_cooling_s": 1.3, "thread_g": 0.1, "heated_K": 0, "max_W": 4.5, "max_travel_mm": 25,
            "uncertainty_percent": 30}
-STEPS = ("describe", "senses", "calibrate", "scale", "identify", "gains", "move")
+STEPS = ("describe", "senses", "calibrate", "scale", "limits", "identify", "gains", "move")
 STEP_S = 240.0
 
 
@@ -165,6 +165,22 @@ class SetupTest(SetupCase):
         self.assertIn("the true power is 0.9", " ".join(senses["lines"]))
         calibrated = self.run_step(page, "calibrate")
         self.assertRegex(" ".join(calibrated["lines"]), r"cold resistance: (9\.9|10)\S* Ohm \(configured: 10, ")
+
+        def answer_at_8_mm():
+            page.wait(lambda: any(float(at) > 8.0 for at in re.findall(r"([\d.]+) mm at", " ".join(page.step("limits")["lines"]))),
+                      STEP_S, "it pulls")
+            see(page, "limits")
+            # Each line draws the question anew, so that an element that was found may be gone when it is used.
+            page.run("""document.querySelector("#setup form input").value = "1" """)
+            lines = len(page.step("limits")["lines"])
+            page.wait(lambda: len(page.step("limits")["lines"]) > lines, STEP_S, "another line")
+            self.assertEqual(page.run("""return document.querySelector("#setup form input").value"""), "1")
+            page.press("next")
+
+        limits = self.run_step(page, "limits", answer_at_8_mm)
+        limit = re.search(r"let go at [\d.]+ mm limit: ([\d.]+) mm \(configured: 25 mm\)", " ".join(limits["lines"]))
+        self.assertIn(f"max_travel_m = {1e-3 * float(limit[1]):.4g}", self.file.read_text())
+        self.assertIn("start the board with it", limits["text"])
         identified = self.run_step(page, "identify", lambda: see(page, "identify"))
         self.assertRegex(" ".join(identified["lines"]), r"stiffness_N_per_m: \S+ \(configured: 17\.84, ")
         tuned = subprocess.run([SUPERCOIL, "tune", "1", "bandwidth_rad_per_s=3", "--can", self.source], capture_output=True, timeout=SLACK_S)
@@ -180,7 +196,7 @@ class SetupTest(SetupCase):
         moved = self.run_step(page, "move")
         self.assertRegex(" ".join(moved["lines"]), "promised: .*followed within .* um rms: the promise is kept")
         see(page, "moved")
-        self.assertEqual(set(self.record()), {"describe", "senses", "calibrate", "identify", "gains", "move"})
+        self.assertEqual(set(self.record()), {"describe", "senses", "calibrate", "limits", "identify", "gains", "move"})
         state = command(self.source, "state").stdout
         self.assertRegex(state, "node 1: disarmed")
         self.assertEqual(page.errors(), [])

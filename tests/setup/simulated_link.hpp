@@ -63,6 +63,9 @@ class SimulatedLink final : public operating::BoardLink {
   tl::expected<double, std::string> progress(const std::string&) override {
     return static_cast<double>(simulation_.loop().channel(0).snapshot().progress);
   }
+  tl::expected<double, std::string> position_m(const std::string&) override {
+    return static_cast<double>(snapshot().position_m);
+  }
   tl::expected<double, std::string> error_m(const std::string&) override {
     const Snapshot& s = snapshot();
     return s.mode == Mode::position ? s.position_m - s.model_m : NAN;

@@ -61,6 +61,8 @@ class BoardLink {
                          const std::string& value) = 0;
   /// Position less reference model, the newest; NaN while no position is followed.
   virtual tl::expected<double, std::string> error_m(const std::string& channel) = 0;
+  /// From rest, the newest; NaN: the sensor tells nothing.
+  virtual tl::expected<double, std::string> position_m(const std::string& channel) = 0;
   /// Of identify or calibrate, 0 to 1, the newest; NaN while it is not known.
   virtual tl::expected<double, std::string> progress(const std::string& channel) = 0;
   /// Lets the board go on.
@@ -87,6 +89,7 @@ class LocalBoardLink final : public BoardLink {
   Answer prepare(const std::string& channel, int place, const std::string& name,
                  const std::string& value) override;
   tl::expected<double, std::string> error_m(const std::string& channel) override;
+  tl::expected<double, std::string> position_m(const std::string& channel) override;
   tl::expected<double, std::string> progress(const std::string& channel) override;
 
  private:
@@ -116,6 +119,7 @@ class CanBoardLink final : public BoardLink {
   Answer prepare(const std::string& channel, int place, const std::string& name,
                  const std::string& value) override;
   tl::expected<double, std::string> error_m(const std::string& channel) override;
+  tl::expected<double, std::string> position_m(const std::string& channel) override;
   tl::expected<double, std::string> progress(const std::string& channel) override;
 
  private:
@@ -123,6 +127,7 @@ class CanBoardLink final : public BoardLink {
   struct Told {
     std::unique_ptr<hal::CanBus> bus;
     double error_m = NAN;
+    double position_m = NAN;
     double progress = NAN;
   };
   tl::expected<Told*, std::string> listen(const std::string& channel);

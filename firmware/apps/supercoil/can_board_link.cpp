@@ -96,12 +96,15 @@ tl::expected<CanBoardLink::Told*, std::string> CanBoardLink::listen(const std::s
   const auto node = static_cast<std::uint8_t>(std::stoi(channel));
   Told& told = told_[node];
   if (!told.bus) {
-    auto bus = open_bus(bus_, {can_client::tracking_id(node), can_client::status_id(node)});
+    auto bus = open_bus(bus_, {can_client::tracking_id(node), can_client::measurement_id(node),
+                               can_client::status_id(node)});
     if (!bus) return tl::unexpected(bus.error());
     told.bus = std::move(*bus);
   }
   for (hal::CanFrame frame; told.bus->receive(frame) == hal::Status::ok;) {
     if (const auto error_m = can_client::receive_error_m(node, frame)) told.error_m = *error_m;
+    if (const auto position_m = can_client::receive_position_m(node, frame))
+      told.position_m = *position_m;
     if (const auto progress = can_client::receive_progress(node, frame)) told.progress = *progress;
   }
   return &told;
@@ -109,6 +112,10 @@ tl::expected<CanBoardLink::Told*, std::string> CanBoardLink::listen(const std::s
 
 tl::expected<double, std::string> CanBoardLink::error_m(const std::string& channel) {
   return listen(channel).map([](const Told* told) { return told->error_m; });
+}
+
+tl::expected<double, std::string> CanBoardLink::position_m(const std::string& channel) {
+  return listen(channel).map([](const Told* told) { return told->position_m; });
 }
 
 tl::expected<double, std::string> CanBoardLink::progress(const std::string& channel) {

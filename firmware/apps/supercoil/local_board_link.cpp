@@ -130,6 +130,12 @@ tl::expected<double, std::string> LocalBoardLink::error_m(const std::string& cha
          std::strtod((*words)[state_model].c_str(), nullptr);
 }
 
+tl::expected<double, std::string> LocalBoardLink::position_m(const std::string& channel) {
+  return line_of("state", channel).and_then(words_of).map([](const StateWords& words) {
+    return std::strtod(words[state_position].c_str(), nullptr);
+  });
+}
+
 tl::expected<double, std::string> LocalBoardLink::progress(const std::string& channel) {
   return line_of("state", channel).and_then(words_of).map([](const StateWords& words) {
     return std::strtod(words[state_progress].c_str(), nullptr);

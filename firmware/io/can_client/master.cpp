@@ -106,6 +106,16 @@ std::optional<double> receive_progress(std::uint8_t node, const hal::CanFrame& f
   return can::Reader<message::status>(frame).get("progress");
 }
 
+std::uint16_t measurement_id(std::uint8_t node) {
+  return can::id_of(message::measurement, node);
+}
+
+std::optional<double> receive_position_m(std::uint8_t node, const hal::CanFrame& frame) {
+  if (frame.id != measurement_id(node) || frame.length != message::measurement.length)
+    return std::nullopt;
+  return can::Reader<message::measurement>(frame).get("position_m");
+}
+
 std::uint16_t tracking_id(std::uint8_t node) {
   return can::id_of(message::tracking, node);
 }

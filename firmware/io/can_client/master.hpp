@@ -56,6 +56,10 @@ std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& pl
                                          const hal::CanFrame& frame);
 /// Of identify and calibrate, 0 to 1, from the heartbeat. Empty: the frame does not tell.
 std::optional<double> receive_progress(std::uint8_t node, const hal::CanFrame& frame);
+/// Of its position and resistance.
+std::uint16_t measurement_id(std::uint8_t node);
+/// NaN: no fresh reading. Empty: the frame does not tell.
+std::optional<double> receive_position_m(std::uint8_t node, const hal::CanFrame& frame);
 /// Of what it follows, and how closely.
 std::uint16_t tracking_id(std::uint8_t node);
 /// Position less reference model; NaN: it follows none. Empty: the frame does not tell.

@@ -8,6 +8,7 @@
 #include "apps/supercoil/number_text.hpp"
 #include "apps/supercoil/setup/channel_now.hpp"
 #include "apps/supercoil/setup/gains_step.hpp"
+#include "apps/supercoil/setup/limits_step.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/describe.hpp"
 #include "modes/calibrate.hpp"
@@ -59,6 +60,7 @@ StepResult Commission::run(const std::string& step) {
   if (step == "senses") return compare_senses();
   if (step == "calibrate") return calibrate();
   if (step == "scale") return scale();
+  if (step == "limits") return limits();
   if (step == "identify") return identify();
   return step == "gains" ? gains() : move();
 }
@@ -187,6 +189,15 @@ StepResult Commission::scale() {
   const double scale = (*known)[known_position_scale];
   who_.say("scale of the position: " + beside(scale, configured_.calibration.position_scale, ""));
   return Json{{"position_scale", number(scale)}};
+}
+
+StepResult Commission::limits() {
+  const auto now = channel_now(board_, channel_, configured_);
+  if (!now) return tl::unexpected(now.error());
+  if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
+  auto found = find_travel_limit(board_, channel_, *now, settings_, who_);
+  if (!found) return tl::unexpected(found.error() + present_fault());
+  return found;
 }
 
 StepResult Commission::identify() {

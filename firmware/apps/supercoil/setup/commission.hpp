@@ -31,6 +31,8 @@ class Commission {
   StepResult calibrate();
   /// The position sensor's scale, by a second known place.
   StepResult scale();
+  /// How far it may move, by who watches a slow pull.
+  StepResult limits();
   /// The muscle's parameters, beside those that are configured.
   StepResult identify();
   /// The controller in use beside the recommended one, which is taken over if that is wanted.

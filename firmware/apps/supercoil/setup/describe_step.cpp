@@ -1,18 +1,12 @@
 #include "apps/supercoil/setup/describe_step.hpp"
 
-#include <filesystem>
-#include <system_error>
-
 #include <nlohmann/json.hpp>
 
-#include "apps/supercoil/number_text.hpp"
-#include "apps/supercoil/output_file.hpp"
+#include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
-#include "apps/supercoil/setup/record.hpp"
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
-#include "config/edit_toml.hpp"
 #include "config/toml_file.hpp"
 
 namespace supercoil::operating {
@@ -52,28 +46,11 @@ bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
   return node != nullptr && node->is_array();
 }
 
-Or<std::string> edited(std::string text, const SetupOptions& options, std::vector<Entry>& entries) {
-  const auto channel = static_cast<std::size_t>(options.channel) - 1;
-  std::erase_if(entries, [&](const Entry& entry) { return stays(entry, text, channel); });
-  for (const Entry& entry : entries) {
-    auto changed = config::with_channel_value(text, channel, entry.path, entry.literal);
-    if (!changed) return tl::unexpected(options.config + ": " + changed.error() + "\n");
-    text = std::move(*changed);
-  }
-  return text;
-}
-
 }  // namespace
 
-std::string kept_config(const std::string& config) {
-  return config + ".before-setup";
-}
-
 Or<Json> describe_step(const SetupOptions& options, Operator& who) {
-  config::Diagnostics diagnostics(options.config);
-  const std::string text = config::read_text(options.config, diagnostics);
-  if (diagnostics.empty()) config::parse(text, diagnostics);
-  if (!diagnostics.empty()) return tl::unexpected(config::to_text(diagnostics.problems()));
+  const auto text = read_board_text(options.config);
+  if (!text) return tl::unexpected(text.error());
   MuscleAnswers answers;
   if (!options.script.empty()) {
     const auto read = read_script(options.script);
@@ -84,41 +61,21 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   if (!completed) return tl::unexpected(completed.error());
   auto described = describe_muscle(*completed);
   if (!described) return tl::unexpected(described.error() + "\n");
-  const auto changed = edited(text, options, described->entries);
-  if (!changed) return tl::unexpected(changed.error());
-  const auto config = config::parse_board_config(*changed, options.config);
-  if (!config) return tl::unexpected(config::to_text(config.error()));
-
-  std::error_code ignored;
-  if (!std::filesystem::exists(kept_config(options.config), ignored)) {
-    if (auto kept = write_whole(kept_config(options.config), text); !kept)
-      return tl::unexpected(kept.error() + "\n");
-  }
-  if (auto written = write_whole(options.config, *changed); !written)
-    return tl::unexpected(written.error() + "\n");
+  const auto index = static_cast<std::size_t>(options.channel) - 1;
+  std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, *text, index); });
+  const auto config = write_entries(options, *text, described->entries);
+  if (!config) return tl::unexpected(config.error());
   Json found;
   for (const Entry& entry : described->entries) {
     who.say(entry.path + " = " + entry.literal + "  (" + entry.reason + ")");
     found[entry.path] = entry.literal;
   }
-  const auto index = static_cast<std::size_t>(options.channel) - 1;
   for (const std::string& line :
        config::describe_feasibility(config->settings.channels[index], config->settings))
     who.say(line);
   for (const std::string& line : config::advice(*config))
     who.say("advice: " + line);
   return found;
-}
-
-tl::expected<void, std::string> undo_setup(const SetupOptions& options) {
-  const std::string kept = kept_config(options.config);
-  std::error_code error;
-  if (!std::filesystem::exists(kept, error))
-    return tl::unexpected(kept + ": is not there: setup has changed nothing");
-  std::filesystem::rename(kept, options.config, error);
-  if (error) return tl::unexpected(kept + ": " + error.message());
-  std::filesystem::remove(SetupRecord::path_of(options.config), error);
-  return {};
 }
 
 }  // namespace supercoil::operating

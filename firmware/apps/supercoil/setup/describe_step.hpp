@@ -9,15 +9,9 @@
 
 namespace supercoil::operating {
 
-/// The file as it was before setup changed it first.
-std::string kept_config(const std::string& config);
-
 /// Asks what the script does not answer, unless there is one; writes the file only if it is in
 /// order then. The error is whole lines.
 tl::expected<nlohmann::ordered_json, std::string> describe_step(const SetupOptions& options,
                                                                 Operator& who);
-
-/// The file as it was, and no record. The error says what could not be done.
-tl::expected<void, std::string> undo_setup(const SetupOptions& options);
 
 }  // namespace supercoil::operating

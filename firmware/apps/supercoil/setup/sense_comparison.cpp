@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/setup/heated.hpp"
 #include "board/meter_comparison.hpp"
 
 namespace supercoil::operating {
@@ -15,7 +16,6 @@ using board::MeterComparison;
 template <class Value>
 using OrEnded = tl::expected<Value, std::string>;
 
-constexpr std::chrono::milliseconds heat_renewal{100};
 constexpr std::chrono::milliseconds probing{300};
 /// The board asks for a second at a steady power; a meter needs some time as well.
 constexpr std::chrono::milliseconds settling{2500};
@@ -24,43 +24,6 @@ constexpr double max_question_s = 300.0;
 std::string shown(double value) {
   return number_text(value, 3);
 }
-
-/// Arms and heats one channel, and makes it cold again however this ends.
-class Heated {
- public:
-  Heated(BoardLink& board, std::string channel, Operator& who)
-      : board_(&board), channel_(std::move(channel)), who_(&who) {}
-  Heated(const Heated&) = delete;
-  Heated& operator=(const Heated&) = delete;
-  ~Heated() {
-    static_cast<void>(ask("rest"));
-    if (const auto off = ask("disarm"); !off) who_->say("the muscle may be hot: " + off.error());
-  }
-
-  OrEnded<void> ask(const std::string& what) {
-    const auto answer = board_->ask(channel_ + " " + what);
-    if (!answer) return tl::unexpected(answer.error());
-    if (*answer != "ok") return tl::unexpected(what + ": " + *answer);
-    return {};
-  }
-  OrEnded<void> heat(double power_W) {
-    if (who_->interrupted()) return tl::unexpected<std::string>("interrupted");
-    return ask("power " + shown(power_W));
-  }
-  OrEnded<void> hold(double power_W, std::chrono::milliseconds time) {
-    for (auto held = std::chrono::milliseconds(0); held < time; held += heat_renewal) {
-      if (auto heated = heat(power_W); !heated) return heated;
-      board_->wait(heat_renewal);
-    }
-    return {};
-  }
-  double time_s() const { return board_->time_s(); }
-
- private:
-  BoardLink* board_;
-  std::string channel_;
-  Operator* who_;
-};
 
 OrEnded<void> tell(Heated& heated, const std::string& verb, double value) {
   auto taken = heated.ask(verb + " " + number_text(value, 9));

@@ -4,6 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/supercoil/setup/board_file.hpp"
+#include "apps/supercoil/setup/limits_step.hpp"
+
 namespace supercoil::operating {
 
 SetupBoard::~SetupBoard() {
@@ -15,7 +18,14 @@ StepResult SetupBoard::run(const std::string& step) {
   const auto index = static_cast<std::size_t>(options_.channel) - 1;
   Commission commission(*link_, address(), config_->settings.channels[index], config_->settings,
                         who_);
-  return commission.run(step);
+  auto found = commission.run(step);
+  if (!found || !found->contains(travel_key)) return found;
+  const auto text = read_board_text(options_.config);
+  if (!text) return tl::unexpected(text.error());
+  const auto written = write_entries(
+      options_, *text, {{travel_key, (*found)[travel_key].get<std::string>(), "limits"}});
+  if (!written) return tl::unexpected(written.error());
+  return found;
 }
 
 tl::expected<void, std::string> SetupBoard::open() {

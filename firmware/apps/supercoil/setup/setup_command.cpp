@@ -7,7 +7,9 @@
 
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
+#include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
+#include "apps/supercoil/setup/limits_step.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/options.hpp"
 #include "apps/supercoil/setup/record.hpp"
@@ -94,9 +96,9 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
       return concluded(options, results, exit_failed, kept.error());
     if (!Commission::kept(*found)) status = exit_failed;
     // The board must run with the file as it is now.
-    if (describes && options.steps.empty()) {
-      std::fprintf(out, "%s is complete: start the board with it, and run setup again to go on\n",
-                   options.config.c_str());
+    if (found->contains(travel_key) && options.steps.empty()) {
+      std::fprintf(out, "%s is %s: start the board with it, and run setup again to go on\n",
+                   options.config.c_str(), describes ? "complete" : "changed");
       break;
     }
   }
@@ -110,12 +112,13 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   CLI::App* setup = app.add_subcommand(
       "setup",
       "From a muscle of your own to one that follows, step by step: describe it in a bench's "
-      "units, compare its senses, calibrate, identify, choose gains, move. What is done is "
-      "remembered beside the board's file");
+      "units, compare its senses, calibrate, find limits, identify, choose gains, move. "
+      "What is done is remembered beside the board's file");
   setup
-      ->add_option("STEP", o.steps,
-                   "describe, senses, calibrate, scale, identify, gains or move, also again [all "
-                   "that are not done]")
+      ->add_option(
+          "STEP", o.steps,
+          "describe, senses, calibrate, scale, limits, identify, gains or move, also again "
+          "[all that are not done]")
       ->check(CLI::Validator(
           [](const std::string& given) {
             const auto names = step_names();

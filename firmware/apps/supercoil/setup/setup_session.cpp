@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/setup_board.hpp"

@@ -13,7 +13,7 @@ struct SetupStep {
   bool needs_person = false;  ///< who is asked first whether it is to be left; a script leaves it
 };
 
-inline constexpr std::array<SetupStep, 7> setup_steps{{
+inline constexpr std::array<SetupStep, 8> setup_steps{{
     {"describe",
      "writes what is known of the muscle, with its bounds and a controller, into the board's "
      "file; heats nothing"},
@@ -26,6 +26,11 @@ inline constexpr std::array<SetupStep, 7> setup_steps{{
      "minutes if it must cool"},
     {"scale", "takes the scale of the position from a second known place; heats nothing", true,
      true},
+    {"limits",
+     "finds how far it may move: pulls with a power that rises slowly until you say that its end "
+     "has "
+     "come as far as it may, or touches something; makes the file's limit smaller, never larger",
+     true, true},
     {"identify",
      "heats and lets cool nine times, up to 0.85 of its reach; a minute for a quick muscle, up to "
      "25 minutes for one with a time constant of a minute"},

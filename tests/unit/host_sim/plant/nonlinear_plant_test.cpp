@@ -139,6 +139,19 @@ TEST(NonlinearPlant, RestsOnItsEndStop) {
   CHECK_COMPARE(plant.position_m(), >, 0.005);
 }
 
+TEST(NonlinearPlant, RisesToItsCeilingAndSinksFromIt) {
+  PlantEffects effects;
+  effects.ceiling_m = 0.003;
+  NonlinearPlant plant({}, effects, tick_s);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(1.0);
+  DOUBLES_EQUAL(0.003, plant.position_m(), 0.0);
+  DOUBLES_EQUAL(0.0, plant.velocity_m_per_s(), 0.0);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(0.0);
+  CHECK_COMPARE(plant.position_m(), <, 0.0005);
+}
+
 TEST(NonlinearPlant, TakesCoarseTicksAsWellAsFineOnes) {
   NonlinearPlant fine({}, test::real_muscle(), 1e-3);
   NonlinearPlant coarse({}, test::real_muscle(), 1e-2);

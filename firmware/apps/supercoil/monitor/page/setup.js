@@ -74,6 +74,7 @@ export class Setup {
     this.undo.disabled = running !== null;
     const done = steps.findLastIndex(({ found }) => found !== null);
     const next = steps.findIndex(({ optional }, place) => place > done && !optional);
+    const before = this.list.querySelector("form input");
     this.list.replaceChildren(...steps.map((step, place) => {
       const runs = step.name === running;
       return element("li", { class: runs ? "runs" : place === next ? "next" : "", "aria-current": runs ? "step" : null },
@@ -84,7 +85,10 @@ export class Setup {
           : element("button", { type: "button", disabled: running !== null, onclick: () => this.#ask({ do: "begin", step: step.name }) },
             step.found === null ? `begin ${step.name}` : `${step.name} again`));
     }));
-    this.list.querySelector("input")?.focus();
+    const input = this.list.querySelector("form input");
+    // Lines may come while somebody types.
+    if (input && input.id === before?.id) input.value = before.value;
+    input?.focus();
     this.list.querySelector("[aria-current]")?.scrollIntoView({ block: "nearest" });
   }
 
@@ -98,6 +102,7 @@ export class Setup {
 
   #what_happens(runs) {
     const { lines, question, error, kept, steps, last } = this.state;
+    const found = steps.find(({ name }) => name === last)?.found;
     const told = lines.map((line) => element("li", {}, line));
     const parts = [element("div", { class: "lines", role: "log", "aria-label": "what setup tells", tabindex: 0 }, element("ul", {}, ...told))];
     if (runs) {
@@ -108,7 +113,8 @@ export class Setup {
     if (question) parts.push(this.#question(question));
     if (error) parts.push(element("p", { class: "answer refused", role: "alert" }, error));
     else if (!runs && !kept) parts.push(element("p", { class: "answer refused", role: "alert" }, "The promise was not kept."));
-    else if (!runs && last === steps[0].name) parts.push(element("p", { class: "answer" }, "The file is complete: start the board with it, then go on with the next step."));
+    // Both steps that write the file write this limit.
+    else if (!runs && found?.["limits.max_travel_m"]) parts.push(element("p", { class: "answer" }, "The file was changed: start the board with it, then go on with the next step."));
     return parts;
   }
 

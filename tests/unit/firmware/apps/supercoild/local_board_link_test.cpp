@@ -77,6 +77,7 @@ TEST(LocalBoardLink, TellsHowFarIdentifyIsAndHowItEnded) {
   STRCMP_EQUAL("found", ending.result.c_str());
   STRCMP_EQUAL(describe_notes(1, ",").c_str(), ending.notes.c_str());
   CHECK(std::isnan(link.error_m("1").value()));
+  DOUBLES_EQUAL(0.0125, link.position_m("1").value(), 1e-8);
   CHECK_FALSE(link.progress("7").has_value());
 }
 

@@ -1,0 +1,39 @@
+#include "apps/supercoil/setup/heated.hpp"
+
+#include "apps/supercoil/number_text.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+constexpr std::chrono::milliseconds heat_renewal{100};
+constexpr int power_digits = 3;
+
+}  // namespace
+
+Heated::~Heated() {
+  static_cast<void>(ask("rest"));
+  if (const auto off = ask("disarm"); !off) who_.say("the muscle may be hot: " + off.error());
+}
+
+Heated::Done Heated::ask(const std::string& what) {
+  const auto answer = board_.ask(channel_ + " " + what);
+  if (!answer) return tl::unexpected(answer.error());
+  if (*answer != "ok") return tl::unexpected(what + ": " + *answer);
+  return {};
+}
+
+Heated::Done Heated::heat(double power_W) {
+  if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
+  return ask("power " + number_text(power_W, power_digits));
+}
+
+Heated::Done Heated::hold(double power_W, std::chrono::milliseconds time) {
+  for (auto held = std::chrono::milliseconds(0); held < time; held += heat_renewal) {
+    if (auto heated = heat(power_W); !heated) return heated;
+    board_.wait(heat_renewal);
+  }
+  return {};
+}
+
+}  // namespace supercoil::operating

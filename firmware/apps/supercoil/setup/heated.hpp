@@ -1,0 +1,39 @@
+// A muscle that is heated while a person is asked.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/board_link.hpp"
+#include "apps/supercoil/setup/operator.hpp"
+
+namespace supercoil::operating {
+
+/// Makes one channel cold again however its step ends.
+class Heated {
+ public:
+  /// Of a command that was not obeyed, or of a person who ended it.
+  using Done = Operator::Done;
+
+  /// All outlive it.
+  Heated(BoardLink& board, const std::string& channel, Operator& who)
+      : board_(board), channel_(channel), who_(who) {}
+  Heated(const Heated&) = delete;
+  Heated& operator=(const Heated&) = delete;
+  ~Heated();
+
+  Done ask(const std::string& what);
+  /// Renews it as well: a command to heat expires.
+  Done heat(double power_W);
+  Done hold(double power_W, std::chrono::milliseconds time);
+  double time_s() const { return board_.time_s(); }
+
+ private:
+  BoardLink& board_;
+  const std::string& channel_;
+  Operator& who_;
+};
+
+}  // namespace supercoil::operating

@@ -1,0 +1,154 @@
+#include "apps/supercoil/setup/limits_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/setup/heated.hpp"
+#include "apps/supercoil/setup/stall_watch.hpp"
+#include "loop/feasibility.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Then the end lags behind its power by a twentieth of the way.
+constexpr double time_constants_to_rise = 20.0;
+constexpr double time_constants_to_settle = 5.0;
+constexpr double min_rise_s = 30.0;
+/// Of the rising power, for each comparison by StallWatch.
+constexpr double stall_step_ratio = 0.04;
+/// Beyond the configured travel the board sees a fault.
+constexpr double stop_ratio = 0.97;
+constexpr double told_every_ratio = 0.05;
+
+/// That the limit keeps from where the end was.
+constexpr double min_distance_m = 0.5e-3;
+constexpr double distance_ratio = 0.02;
+constexpr double min_limit_m = 1e-3;
+constexpr double min_limit_noises = 2.0;
+
+constexpr double first_position_s = 1.0;
+constexpr int digits = 4;
+
+constexpr Question at_limit{
+    "at_limit",
+    "1: its end has come as far as it may, or touches something; 0: let go, and change nothing",
+    {0.0, 1.0},
+    1.0};
+
+enum class Ending { answered, left, touched, at_travel, at_power };
+
+std::string in_mm(double metres) {
+  return number_text(1e3 * metres, digits) + " mm";
+}
+
+struct SlowPull {
+  double top_W;
+  double rise_s;
+  double settle_s;
+  double stop_m;
+
+  double power_W(double time_s) const { return top_W * std::min(1.0, time_s / rise_s); }
+};
+
+SlowPull plan_slow_pull(const ChannelSettings& channel, const BoardSettings& board) {
+  const double tau_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
+  // With more, the board itself would take power away sooner or later, and the end stop rising.
+  return {feasibility(channel, board).held_W, std::max(min_rise_s, time_constants_to_rise * tau_s),
+          time_constants_to_settle * tau_s, stop_ratio * channel.supervision.max_travel_m};
+}
+
+struct Pulled {
+  double position_m;
+  Ending ending;
+};
+
+tl::expected<Pulled, std::string> pull_slowly(BoardLink& board, const std::string& channel,
+                                              const SlowPull& plan, double noise_m, Operator& who) {
+  Heated heated(board, channel, who);
+  StallWatch stall(stall_step_ratio * plan.top_W, noise_m);
+  Pulled pulled{NAN, Ending::answered};
+  double told_m = 0.0;
+  const double begin_s = heated.time_s();
+  const auto end = [&](Ending why) -> Operator::Done {
+    pulled.ending = why;
+    return tl::unexpected<std::string>("ended");
+  };
+  const auto look = [&]() -> Operator::Done {
+    const double time_s = heated.time_s() - begin_s;
+    const double power_W = plan.power_W(time_s);
+    if (auto heats = heated.heat(power_W); !heats) return heats;
+    const auto position_m = board.position_m(channel);
+    if (!position_m) return tl::unexpected(position_m.error());
+    pulled.position_m = *position_m;
+    if (std::isnan(*position_m)) {
+      if (time_s < first_position_s) return {};
+      return tl::unexpected<std::string>("the board tells no position");
+    }
+    if (*position_m >= told_m + told_every_ratio * plan.stop_m) {
+      told_m = *position_m;
+      who.say(in_mm(told_m) + " at " + number_text(power_W, 3) + " W");
+    }
+    if (*position_m >= plan.stop_m) return end(Ending::at_travel);
+    if (stall.step(power_W, *position_m)) return end(Ending::touched);
+    return time_s < plan.rise_s + plan.settle_s ? Operator::Done() : end(Ending::at_power);
+  };
+  const auto answer = who.ask(at_limit, look);
+  if (answer && *answer == 0.0) pulled.ending = Ending::left;
+  if (!answer && pulled.ending == Ending::answered) return tl::unexpected(answer.error());
+  return pulled;
+}
+
+StepResult limit_at(double position_m, const ChannelSettings& channel, Operator& who) {
+  const double limit_m = position_m - std::max(min_distance_m, distance_ratio * position_m);
+  const double least_m =
+      std::max(min_limit_m, min_limit_noises * channel.supervision.position_noise_rms_m);
+  if (!(limit_m >= least_m)) {
+    return tl::unexpected("a limit of " + in_mm(limit_m) + " leaves no travel, less than " +
+                          in_mm(least_m) + "; nothing changed");
+  }
+  // It pulled less far than what is configured: this is smaller.
+  who.say("limit: " + in_mm(limit_m) + " (configured: " + in_mm(channel.supervision.max_travel_m) +
+          ")");
+  return Json{{"position_m", position_m}, {travel_key, number_text(limit_m, digits)}};
+}
+
+}  // namespace
+
+StepResult find_travel_limit(BoardLink& board, const std::string& channel, const ChannelNow& now,
+                             const BoardSettings& settings, Operator& who) {
+  const ChannelSettings& configured = now.settings;
+  const SlowPull plan = plan_slow_pull(configured, settings);
+  who.say("pulls with a power that rises to " + number_text(plan.top_W, 3) + " W in " +
+          number_text(plan.rise_s, 3) + " s, and lets go when you answer, when its end rises no " +
+          "more, or at " + in_mm(plan.stop_m));
+  const auto pulled =
+      pull_slowly(board, channel, plan, configured.supervision.position_noise_rms_m, who);
+  if (!pulled) return tl::unexpected(pulled.error());
+  const std::string where = in_mm(pulled->position_m);
+  switch (pulled->ending) {
+    case Ending::left:
+      who.say("let go at " + where + "; the limit stays");
+      return Json{{"position_m", pulled->position_m}};
+    case Ending::at_travel:
+      who.say("came to " + where + " and touched nothing: the limit stays");
+      return Json{{"position_m", pulled->position_m}};
+    case Ending::at_power:
+      who.say("comes to " + where +
+              " with all power that it may have for good, and touched nothing: the limit stays");
+      return Json{{"position_m", pulled->position_m}};
+    case Ending::touched:
+      who.say("it seems to touch something at " + where);
+      break;
+    case Ending::answered:
+      who.say("let go at " + where);
+  }
+  return limit_at(pulled->position_m, configured, who);
+}
+
+}  // namespace supercoil::operating

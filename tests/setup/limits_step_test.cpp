@@ -1,0 +1,134 @@
+// The step of setup that finds how far a muscle may move, in lockstep.
+#include "apps/supercoil/setup/limits_step.hpp"
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+#include <nlohmann/json.hpp>
+
+#include "setup/commissioned.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+using operating::Question;
+using operating::travel_key;
+
+namespace {
+
+/// Who watches the muscle's end, and answers when it is somewhere.
+class Watcher final : public operating::Operator {
+ public:
+  explicit Watcher(HeldOutBoard& board) : board_(board) {}
+
+  void say(const std::string& line) override { told += line + "\n"; }
+  void show_progress(const std::string&, double) override {}
+  bool sees_progress() const override { return false; }
+  bool interrupted() const override { return truth_m() > tired_at_m; }
+  OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override {
+    CHECK_TRUE(question.key == "at_limit");
+    while (truth_m() < answers_at_m) {
+      if (auto goes_on = meanwhile(); !goes_on) return tl::unexpected(goes_on.error());
+      board_.link().wait(look_every);
+    }
+    return answer;
+  }
+  double truth_m() const { return board_.simulation().plant().position_m(); }
+
+  double answers_at_m = INFINITY;
+  double answer = 1.0;
+  double tired_at_m = INFINITY;
+  std::string told;
+
+ private:
+  HeldOutBoard& board_;
+};
+
+/// effect: a line of the scenario's [plant].
+HeldOut muscle_with(unsigned seed, const std::string& effect) {
+  HeldOut muscle = held_out_muscle(seed, 0.3);
+  muscle.scenario += effect + "\n";
+  return muscle;
+}
+
+double limit_m(const operating::StepResult& found) {
+  CHECK(found && found->contains(travel_key));
+  return std::stod((*found)[travel_key].get<std::string>());
+}
+
+}  // namespace
+
+TEST_GROUP(LimitsStep) {
+  std::optional<HeldOutBoard> board;
+  std::optional<Watcher> watcher;
+
+  operating::StepResult found(const HeldOut& muscle, double answers_at_m, double answer = 1.0) {
+    board.emplace(muscle, "learned_ff", 0.02);
+    watcher.emplace(*board);
+    watcher->answers_at_m = answers_at_m;
+    watcher->answer = answer;
+    return ended();
+  }
+  operating::StepResult ended() {
+    auto steps = board->steps(*watcher);
+    auto found = steps.limits();
+    STRCMP_EQUAL("disarmed", board->link().status("1")->state.c_str());
+    CHECK(board->link().fault() == Fault::none);
+    return found;
+  }
+};
+
+TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
+  const auto limits = found(held_out_muscle(24, 0.3), 0.002);
+  STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+  DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
+  CHECK(limit_m(limits) < board->channel().supervision.max_travel_m);
+  STRCMP_CONTAINS("pulls with a power that rises to ", watcher->told.c_str());
+  STRCMP_CONTAINS("limit: 1.4", watcher->told.c_str());
+  board->link().wait(std::chrono::seconds(1));
+  CHECK(watcher->truth_m() < 0.0019);
+}
+
+TEST(LimitsStep, AMuscleThatTouchesSomethingIsLetGoByItself) {
+  for (const unsigned seed : {24U, 37U, 66U, 45U, 73U}) {
+    const auto limits = found(muscle_with(seed, "ceiling_m = 0.002"), INFINITY);
+    STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+    STRCMP_CONTAINS("it seems to touch something at ", watcher->told.c_str());
+    DOUBLES_EQUAL(0.0015, limit_m(limits), 1e-4);
+  }
+}
+
+TEST(LimitsStep, NothingIsTouchedByAMuscleThatSlowsDownOnItsWay) {
+  const HeldOut cooled_better_when_hot = muscle_with(24, "convection_ratio = 1.0");
+  for (const HeldOut& muscle : {cooled_better_when_hot, held_out_muscle(37, 0.3),
+                                held_out_muscle(45, 0.3), held_out_muscle(73, 0.3)}) {
+    const auto limits = found(muscle, INFINITY);
+    STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+    CHECK_FALSE(limits->contains(travel_key));
+    STRCMP_CONTAINS("touched nothing: the limit stays", watcher->told.c_str());
+  }
+}
+
+TEST(LimitsStep, APlaceThatLeavesNoTravelIsRefused) {
+  const auto limits = found(held_out_muscle(24, 0.3), 0.0012);
+  CHECK_FALSE(limits.has_value());
+  STRCMP_CONTAINS("leaves no travel, less than 1 mm; nothing changed", limits.error().c_str());
+}
+
+TEST(LimitsStep, WhoLetsGoWithoutALimitChangesNothing) {
+  const auto limits = found(held_out_muscle(24, 0.3), 0.002, 0.0);
+  CHECK(limits.has_value() && !limits->contains(travel_key));
+  STRCMP_CONTAINS("let go at 1.9", watcher->told.c_str());
+}
+
+TEST(LimitsStep, AnInterruptionEndsTheHeating) {
+  board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
+  watcher.emplace(*board);
+  watcher->tired_at_m = 0.002;
+  const auto limits = ended();
+  CHECK_FALSE(limits.has_value());
+  STRCMP_CONTAINS("interrupted", limits.error().c_str());
+  board->link().wait(std::chrono::seconds(1));
+  CHECK(watcher->truth_m() < 0.0019);
+}

@@ -720,8 +720,8 @@ The muscle has contracted further than it may."""
 
 The muscle has contracted further than it may.
 
-**Detected** at once, by a single reading: the calibrated position is above the channel's `max_travel_m`, or is NaN. (In a scenario
-without a board's file it is 0.999 of the position sensor's range: 39.96 mm of 40.)
+**Detected** at once, by a single reading: the calibrated position is above 35 mm, or what else the channel's `max_travel_m` says, or is
+NaN. (In a scenario without a board's file that is 0.999 of the position sensor's range: 39.96 mm of 40.)
 Readings that the sensor cannot give are no positions: they are [sensor_out_of_range](sensor_out_of_range.md). A
 position command beyond it is refused before it can lead here (refusal: out of range).
 

@@ -30,6 +30,8 @@ constexpr double told_every_ratio = 0.05;
 constexpr double min_distance_m = 0.5e-3;
 constexpr double distance_ratio = 0.02;
 constexpr double min_limit_m = 1e-3;
+/// So that what is told and what is written are the same in few digits.
+constexpr double limit_step_m = 1e-5;
 constexpr double min_limit_noises = 2.0;
 
 constexpr double first_position_s = 1.0;
@@ -105,7 +107,8 @@ tl::expected<Pulled, std::string> pull_slowly(BoardLink& board, const std::strin
 }
 
 StepResult limit_at(double position_m, const ChannelSettings& channel, Operator& who) {
-  const double limit_m = position_m - std::max(min_distance_m, distance_ratio * position_m);
+  const double kept_m = position_m - std::max(min_distance_m, distance_ratio * position_m);
+  const double limit_m = limit_step_m * std::floor(kept_m / limit_step_m);
   const double least_m =
       std::max(min_limit_m, min_limit_noises * channel.supervision.position_noise_rms_m);
   if (!(limit_m >= least_m)) {

@@ -85,9 +85,10 @@ std::string to_batch(const std::vector<hal::CanFrame>& frames, const BusFigures&
     if (!decoded) continue;
     Columns& columns = all[{decoded->node, decoded->message}];
     add_time(columns.time_s, frame.received);
-    for (std::size_t i = 0; i < decoded->message->signals.size(); ++i)
+    for (std::size_t i = 0; i < decoded->message->signals.size(); ++i) {
       add_number(columns.values.at(i), decoded->values.at(i),
                  can::significant_digits(decoded->message->signals[i]));
+    }
   }
   std::string text = "{";
   if (!frames.empty()) {

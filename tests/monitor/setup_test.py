@@ -35,7 +35,7 @@ class Wizard(Page):
     """The page's dialog of setup, as a person uses it."""
 
     def step(self, name):
-        return self.run(f"""const step = [...document.querySelectorAll("#setup > ol > li")][{STEPS.index(name)}];
+        return self.run(f"""const step = [...document.querySelectorAll("#setup > ol > li")][{STEPS.index(name)}] ?? document.createElement("li");
             return {{ text: step.textContent, found: step.querySelector("table")?.textContent ?? "",
                       problem: step.querySelector("[role=alert]")?.textContent ?? "", runs: step.classList.contains("runs"),
                       lines: [...step.querySelectorAll(".lines li")].map((li) => li.textContent) }}""")

@@ -17,7 +17,7 @@ constexpr std::size_t key_columns = 4;
 constexpr std::size_t columns = key_columns + 2 + measures.size();
 
 std::string head() {
-  std::string text = "# supercoil-sim " SUPERCOIL_VERSION
+  std::string text = "# supercoil-sim " SUPERCOIL_RELEASE
                      " compare, a line a run; inf: no longer followed, or never settled\n"
                      "controller,disturbance,arithmetic,seed,definition,fault";
   for (const Measure& measure : measures)

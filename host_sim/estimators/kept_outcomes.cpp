@@ -25,7 +25,7 @@ std::size_t columns() {
 }
 
 std::string head() {
-  return "# supercoil-sim " SUPERCOIL_VERSION
+  return "# supercoil-sim " SUPERCOIL_RELEASE
          " estimators, a line a run; inf: never settled; empty: not told\n"
          "trial,estimator,seed: then theta1 to theta4 of each: to_5_percent_s, to_1_percent_s, "
          "back_to_5_percent_s, steady_rms, reported_rms, squares of the plotted errors\n";

@@ -164,7 +164,9 @@ class FromThePageAlone(unittest.TestCase):
             self.assertEqual((told["value"], told["nearest"]), (1.0, 0.0))
         # Until it must be cold from before.
         if self.ask_until(master, "arm", 0.0, {"not_ready"}, lambda refusal: refusal == "none"):
-            there = lambda _: abs(master.hear(MEASUREMENT)["position_m"] - 0.005) < 2e-4
+            def there(_):
+                return abs(master.hear(MEASUREMENT)["position_m"] - 0.005) < 2e-4
+
             return self.ask_until(master, "position", 0.005, {"none", "busy"}, there) and master.ask("rest")[0] == "none"
         return False
 

@@ -8,7 +8,7 @@
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
 
-#include "apps/supercoil/setup/gains_step.hpp"
+#include "apps/supercoil/setup/channel_steps.hpp"
 #include "setup/commissioned.hpp"
 
 using namespace supercoil;

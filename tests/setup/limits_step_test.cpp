@@ -1,6 +1,4 @@
 // The step of setup that finds how far a muscle may move, in lockstep.
-#include "apps/supercoil/setup/limits_step.hpp"
-
 #include <cmath>
 #include <optional>
 #include <string>
@@ -8,6 +6,8 @@
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/stall_watch.hpp"
 #include "setup/commissioned.hpp"
 
 using namespace supercoil;
@@ -131,4 +131,24 @@ TEST(LimitsStep, AnInterruptionEndsTheHeating) {
   STRCMP_CONTAINS("interrupted", limits.error().c_str());
   board->link().wait(std::chrono::seconds(1));
   CHECK(watcher->truth_m() < 0.0019);
+}
+
+/// Of equal steps of power, of which the later ones bring `ratio` of what the first ones did.
+TEST(LimitsStep, AStallIsWhatBringsLessThanAFifth) {
+  constexpr double noise_m = 10e-6;
+  const auto stalls = [](double ratio, double first_m) {
+    operating::StallWatch watch(0.1, noise_m);
+    double position_m = 0.0;
+    for (int step = 0; step < 20; ++step) {
+      if (watch.step(0.1 * step + 1e-9, position_m)) return true;
+      position_m += step < 10 ? first_m : ratio * first_m;
+    }
+    return false;
+  };
+  CHECK_TRUE(stalls(0.0, 1e-3));
+  CHECK_TRUE(stalls(0.15, 1e-3));
+  CHECK_FALSE(stalls(0.25, 1e-3));
+  CHECK_FALSE(stalls(0.5, 1e-3));
+  // Steps that the noise could be tell nothing.
+  CHECK_FALSE(stalls(0.0, 5.0 * noise_m));
 }

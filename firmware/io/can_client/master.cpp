@@ -22,6 +22,14 @@ std::optional<Refusal> refusal_in(double number) {
   return static_cast<Refusal>(number);
 }
 
+/// Of this node's message; empty: the frame is another one.
+template <const can::MessageInfo& message>
+std::optional<double> receive(std::uint8_t node, const hal::CanFrame& frame,
+                              can::SignalOf<message> signal) {
+  if (frame.id != can::id_of(message, node) || frame.length != message.length) return std::nullopt;
+  return can::Reader<message>(frame).get(signal);
+}
+
 }  // namespace
 
 std::uint16_t acknowledge_id(std::uint8_t node) {
@@ -37,9 +45,7 @@ std::uint16_t refused_value_id(std::uint8_t node) {
 }
 
 std::optional<double> receive_nearest(std::uint8_t node, const hal::CanFrame& frame) {
-  if (frame.id != refused_value_id(node) || frame.length != message::refused_value.length)
-    return std::nullopt;
-  return can::Reader<message::refused_value>(frame).get("nearest");
+  return receive<message::refused_value>(node, frame, "nearest");
 }
 
 std::uint16_t status_id(std::uint8_t node) {
@@ -102,8 +108,7 @@ std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& pl
 }
 
 std::optional<double> receive_progress(std::uint8_t node, const hal::CanFrame& frame) {
-  if (frame.id != status_id(node) || frame.length != message::status.length) return std::nullopt;
-  return can::Reader<message::status>(frame).get("progress");
+  return receive<message::status>(node, frame, "progress");
 }
 
 std::uint16_t measurement_id(std::uint8_t node) {
@@ -111,9 +116,7 @@ std::uint16_t measurement_id(std::uint8_t node) {
 }
 
 std::optional<double> receive_position_m(std::uint8_t node, const hal::CanFrame& frame) {
-  if (frame.id != measurement_id(node) || frame.length != message::measurement.length)
-    return std::nullopt;
-  return can::Reader<message::measurement>(frame).get("position_m");
+  return receive<message::measurement>(node, frame, "position_m");
 }
 
 std::uint16_t tracking_id(std::uint8_t node) {
@@ -121,9 +124,7 @@ std::uint16_t tracking_id(std::uint8_t node) {
 }
 
 std::optional<double> receive_error_m(std::uint8_t node, const hal::CanFrame& frame) {
-  if (frame.id != tracking_id(node) || frame.length != message::tracking.length)
-    return std::nullopt;
-  return can::Reader<message::tracking>(frame).get("error_m");
+  return receive<message::tracking>(node, frame, "error_m");
 }
 
 std::uint8_t Master::next_counter() {

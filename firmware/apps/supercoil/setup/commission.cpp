@@ -7,8 +7,7 @@
 
 #include "apps/supercoil/number_text.hpp"
 #include "apps/supercoil/setup/channel_now.hpp"
-#include "apps/supercoil/setup/gains_step.hpp"
-#include "apps/supercoil/setup/limits_step.hpp"
+#include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/describe.hpp"
 #include "modes/calibrate.hpp"

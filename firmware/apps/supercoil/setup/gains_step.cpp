@@ -1,10 +1,9 @@
-#include "apps/supercoil/setup/gains_step.hpp"
-
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/change_tuning.hpp"
+#include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/recommended_controller.hpp"
 #include "apps/supercoil/tuning_table.hpp"

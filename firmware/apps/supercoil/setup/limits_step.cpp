@@ -1,11 +1,10 @@
-#include "apps/supercoil/setup/limits_step.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/number_text.hpp"
+#include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/heated.hpp"
 #include "apps/supercoil/setup/stall_watch.hpp"
 #include "loop/feasibility.hpp"

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/setup/board_file.hpp"
-#include "apps/supercoil/setup/limits_step.hpp"
+#include "apps/supercoil/setup/channel_steps.hpp"
 
 namespace supercoil::operating {
 

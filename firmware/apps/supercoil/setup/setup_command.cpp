@@ -8,8 +8,8 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/setup/board_file.hpp"
+#include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
-#include "apps/supercoil/setup/limits_step.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/options.hpp"
 #include "apps/supercoil/setup/record.hpp"
@@ -49,13 +49,9 @@ bool takes(const SetupStep& step, const SetupOptions& options, Operator& who) {
   return false;
 }
 
-std::string without_line_end(std::string lines) {
-  if (!lines.empty() && lines.back() == '\n') lines.pop_back();
-  return lines;
-}
-
-int concluded(const SetupOptions& options, const Json& results, int status,
-              const std::string& error) {
+int concluded(const SetupOptions& options, const Json& results, int status, std::string error) {
+  // What is wrong with a file is whole lines.
+  if (error.ends_with('\n')) error.pop_back();
   if (options.json) {
     Json told{{"steps", results}};
     if (!error.empty()) told["error"] = error;
@@ -68,8 +64,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   TerminalOperator terminal(out);
   if (!options.script.empty()) {
     const auto script = read_script(options.script);
-    if (!script)
-      return concluded(options, Json::object(), exit_wrong_input, without_line_end(script.error()));
+    if (!script) return concluded(options, Json::object(), exit_wrong_input, script.error());
     terminal.answer(take_gains.key, script->take_gains);
   }
   SetupBoard board(options, terminal);
@@ -89,7 +84,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     if (!found) {
       const int why = describes ? exit_wrong_input : exit_failed;
       if (!describes) return concluded(options, results, why, name + ": " + found.error());
-      return concluded(options, results, why, without_line_end(found.error()));
+      return concluded(options, results, why, found.error());
     }
     results[name] = *found;
     if (auto kept = record.add(name, *found); !kept)

@@ -109,15 +109,22 @@ double Commander::nearest() {
   return NAN;
 }
 
+template <class Heard>
+tl::expected<Heard, std::string> Commander::read_value(
+    const hal::CanFrame& frame,
+    const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear) {
+  auto heard = exchange(frame, hear);
+  return heard ? heard : exchange(frame, hear);
+}
+
 Commander::Setting Commander::read(std::uint8_t setting) {
   drain();
-  return exchange<can_client::Master::Setting>(can_client::setting_read(master_.node(), setting),
-                                               [&](const hal::CanFrame& frame) {
-                                                 auto heard = master_.receive_setting(frame, false);
-                                                 if (heard && heard->setting != setting)
-                                                   heard.reset();
-                                                 return heard;
-                                               });
+  return read_value<can_client::Master::Setting>(
+      can_client::setting_read(master_.node(), setting), [&](const hal::CanFrame& frame) {
+        auto heard = master_.receive_setting(frame, false);
+        if (heard && heard->setting != setting) heard.reset();
+        return heard;
+      });
 }
 
 Commander::Setting Commander::write(std::uint8_t setting, double value) {
@@ -133,7 +140,7 @@ Commander::Setting Commander::write(std::uint8_t setting, double value) {
 
 Commander::Tuned Commander::read_tuning(const can_client::TunedPlace& place) {
   drain();
-  return exchange<can_client::TunedValue>(
+  return read_value<can_client::TunedValue>(
       can_client::tuning_read(master_.node(), place), [&](const hal::CanFrame& frame) {
         return can_client::receive_tuning(master_.node(), place, frame);
       });
@@ -155,7 +162,7 @@ tl::expected<KnownMuscle, std::string> Commander::muscle() {
   KnownMuscle known{};
   for (std::size_t i = 0; i < known.size(); ++i) {
     const auto quantity = static_cast<std::uint8_t>(i);
-    const auto told = exchange<double>(
+    const auto told = read_value<double>(
         can_client::muscle_read(master_.node(), quantity), [&](const hal::CanFrame& frame) {
           return can_client::receive_muscle(master_.node(), quantity, frame);
         });

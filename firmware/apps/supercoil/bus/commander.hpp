@@ -50,6 +50,11 @@ class Commander {
       const hal::CanFrame& frame,
       const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
   Answer exchange(const hal::CanFrame& frame);
+  /// A question that changes nothing is asked once more when it, or its answer, was lost.
+  template <class Heard>
+  tl::expected<Heard, std::string> read_value(
+      const hal::CanFrame& frame,
+      const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
   /// Refusal::none: the lease is held.
   Answer claim();
   Answer command(Verb verb, double value);

@@ -1,0 +1,64 @@
+// What is asked of a node over a bus that loses frames.
+#include "apps/supercoil/bus/commander.hpp"
+
+#include <deque>
+
+#include <CppUTest/TestHarness.h>
+
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
+
+using namespace supercoil;
+using operating::Commander;
+
+namespace {
+
+constexpr std::uint8_t node = 3;
+
+/// A board behind it tells 0.5 of whatever is asked of its muscle; the first questions are lost.
+class LossyBus final : public hal::CanBus {
+ public:
+  explicit LossyBus(int lost) : lost_(lost) {}
+
+  hal::Status send(const hal::CanFrame& frame) override {
+    if (--lost_ >= 0) return hal::Status::ok;
+    const can::Reader<can::message::muscle_read> asked(frame);
+    answers_.push_back(can::Encoder<can::message::muscle>(node)
+                           .set("quantity", asked.get<std::uint8_t>("quantity"))
+                           .set("value", 0.5)
+                           .frame());
+    return hal::Status::ok;
+  }
+  hal::Status receive(hal::CanFrame& frame) override {
+    if (answers_.empty()) return hal::Status::not_ready;
+    frame = answers_.front();
+    answers_.pop_front();
+    return hal::Status::ok;
+  }
+  hal::CanState state() const override { return hal::CanState::active; }
+
+ private:
+  int lost_;
+  std::deque<hal::CanFrame> answers_;
+};
+
+tl::expected<KnownMuscle, std::string> asked(int lost) {
+  return Commander(std::make_unique<LossyBus>(lost), node).muscle();
+}
+
+}  // namespace
+
+TEST_GROUP(Commander){};
+
+TEST(Commander, AsksOnceMoreWhenAQuestionWasLost) {
+  const auto known = asked(1);
+  CHECK(known.has_value());
+  for (const double value : *known)
+    DOUBLES_EQUAL(0.5, value, 0.0);
+}
+
+TEST(Commander, SaysThatNobodyAnswers) {
+  const auto known = asked(2);
+  CHECK_FALSE(known.has_value());
+  STRCMP_CONTAINS("no answer from node 3", known.error().c_str());
+}

@@ -35,17 +35,22 @@ class Errors(unittest.TestCase):
             self.assertTrue(kind.meaning)
         self.assertIn("0.025 would be obeyed", str(refusals.OutOfRange(1, "position", 0.025)))
 
-    def test_every_value_of_a_controller_may_be_what_the_board_allows(self):
-        for tunable in set(names.Tunable) - {names.Tunable.all}:
-            choices = tunables.CHOICES.get(tunable)
-            with self.subTest(tunable):
-                told = subprocess.run([os.environ["SUPERCOIL"], "tune", "1", f"{tunable}=*", "--socket", "/nowhere"],
-                                      capture_output=True, text=True).stderr
-                if choices is None:
-                    lowest, highest = re.search(r"must be (\S+) to (\S+)\n", told).groups()
+    def test_every_value_may_be_what_the_board_allows(self):
+        def told(name, *options):
+            return subprocess.run([os.environ["SUPERCOIL"], "tune", "1", f"{name}=*", "--socket", "/nowhere", *options],
+                                  capture_output=True, text=True).stderr
+
+        for units, choices, options in (
+                (tunables.CONTROLLER_UNITS, tunables.CONTROLLER_CHOICES, ()),
+                (tunables.ESTIMATOR_UNITS, tunables.ESTIMATOR_CHOICES, ("--estimator", "0"))):
+            self.assertIn(f"there are: {', '.join(map(str, units))}\n", told("all", *options))
+            for tunable in units:
+                with self.subTest(tunable, options=options):
+                    if tunable in choices:
+                        self.assertIn(f"there are: {', '.join(choices[tunable])}\n", told(tunable, *options))
+                        continue
+                    lowest, highest = re.search(r"must be (\S+) to (\S+)\n", told(tunable, *options)).groups()
                     self.assertEqual((float(lowest), float(highest)), tunables.RANGES[tunable])
-                else:
-                    self.assertIn(f"there are: {', '.join(choices)}\n", told)
 
     def test_every_result_has_a_meaning(self):
         self.assertEqual(set(results.MEANINGS), set(names.Result))

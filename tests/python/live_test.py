@@ -77,9 +77,12 @@ class OnOneBoard(unittest.TestCase):
                 self.assertEqual((muscle.state, muscle.telemetry.status.probing), (State.armed, False))
                 await muscle.move_to(TARGET_M)
                 self.assertTrue(position_is(muscle, TARGET_M))
-                await muscle.hold(0.6)  # more than twice what a command lasts
+                powers_W = []
+                for _ in range(6):  # together more than twice what a command lasts
+                    await muscle.hold(0.1)
+                    powers_W.append(muscle.telemetry.power.applied_W)
                 self.assertEqual((muscle.state, muscle.telemetry.status.mode), (State.active, supercoil.Mode.position))
-                self.assertGreater(muscle.telemetry.power.applied_W, 0.01)
+                self.assertGreater(max(powers_W), 0.01)  # the sensor's noise moves each of them
                 self.assertEqual(muscle.telemetry.tracking.reference_m, TARGET_M)
         asyncio.run(experiment())
         self.observe(lambda m: m.state == State.disarmed and not m.telemetry.status.leased)
@@ -149,6 +152,28 @@ class OnOneBoard(unittest.TestCase):
             for value in muscle.tuning().values():
                 self.assertEqual(value[2:6], (value.configured,) * 4)
             self.assertEqual(muscle.state, State.active)
+
+    @patient
+    def test_an_estimator_is_tuned(self):
+        with self.muscle() as muscle:
+            before = muscle.tuning(estimator=0)
+            self.assertEqual(before["kind"][2:], ("none",) * 4 + (("none", "gradient", "least_squares"),))
+            muscle.tune(estimator=0, kind="least_squares", forgetting_s=20, trusted_error=0.1)
+            told = muscle.tuning(estimator=0)
+            self.assertEqual(told["forgetting_s"], ("forgetting_s", "s", 20.0, None, None, 20.0, (1.0, 3600.0)))
+            self.assertEqual(told["trusted_error"].in_use, 0.1)
+            self.assertNotIn("window_s", {name for name, value in told.items() if value.in_use is not None})
+            muscle.tune(estimator=0, base="configured")
+            self.assertEqual(muscle.tuning(estimator=0)["kind"].in_use, "none")
+            for values, error, text in (
+                    ({"bandwidth_rad_per_s": 1.0}, ValueError, "no value of an estimator is called"),
+                    ({"kind": "pi"}, ValueError, "no kind is called 'pi'"),
+                    ({"forgetting_s": 20}, supercoil.refusals.OutOfRange, "forgetting_s = 20 is refused"),
+                    ({"controller": 1}, ValueError, "tune one of them")):
+                with self.subTest(values), self.assertRaisesRegex(error, text):
+                    muscle.tune(estimator=0, **values)
+            with self.assertRaisesRegex(ValueError, "has no estimator 3"):
+                muscle.tuning(estimator=3)
 
     @patient
     def test_what_does_not_suit_a_controller_is_refused_by_name_and_changes_nothing(self):

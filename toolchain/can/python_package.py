@@ -136,25 +136,30 @@ def results_module(database, repository):
 
 
 def tunables_module(database, repository):
-    rows = table_cells((repository / "docs" / "tuning.md").read_text(), "value")
+    page = (repository / "docs" / "tuning.md").read_text()
+    of = {"CONTROLLER": table_cells(page, "value of a controller"), "ESTIMATOR": table_cells(page, "value of an estimator")}
     yield HEAD.format(source="docs/tuning.md")
-    yield '"""What the values of a controller may be."""\n'
+    yield '"""What the values of controllers and estimators may be."""\n'
     yield "from supercoil.generated.names import Tunable"
-    units, ranges, choices = [], [], []
-    for _, name in sorted(tables(database)["tunable"].items()):
-        if name == "all":
-            continue
-        if name not in rows:
-            sys.exit(f"docs/tuning.md: the table of values has no row for {name}")
-        unit, may_be = rows[name]
-        units.append(f'    Tunable.{name}: "{unit}",')
-        if ends := re.fullmatch(r"(\S+) to (\S+)", may_be):
-            ranges.append(f"    Tunable.{name}: ({float(ends[1])}, {float(ends[2])}),")
-        else:
-            choices.append(f"    Tunable.{name}: {tuple(may_be.split(', '))},".replace("'", '"'))
-    yield from ("\nUNITS = {", *units, "}")
-    yield from ("\n# Lowest and highest.", "RANGES = {", *ranges, "}")
-    yield from ("\n# A value is sent as its place among them.", "CHOICES = {", *choices, "}")
+    tunables = [name for _, name in sorted(tables(database)["tunable"].items()) if name != "all"]
+    ranges = {}
+    for what, rows in of.items():
+        units, choices = [], []
+        for name in (name for name in tunables if name in rows):
+            unit, may_be = rows[name]
+            units.append(f'    Tunable.{name}: "{unit}",')
+            if ends := re.fullmatch(r"(\S+) to (\S+)", may_be):
+                told = f"({float(ends[1])}, {float(ends[2])})"
+                if ranges.setdefault(name, told) != told:
+                    sys.exit(f"docs/tuning.md: two ranges of {name}")
+            else:
+                choices.append(f"    Tunable.{name}: {tuple(may_be.split(', '))},".replace("'", '"'))
+        yield from (f"\n{what}_UNITS = {{", *units, "}")
+        yield from ("\n# A value is sent as its place among them.", f"{what}_CHOICES = {{", *choices, "}")
+    yield from ("\n# Lowest and highest.", "RANGES = {", *(f"    Tunable.{name}: {told}," for name, told in ranges.items()), "}")
+    for name in tunables:
+        if not any(name in rows for rows in of.values()):
+            sys.exit(f"docs/tuning.md: no table of values has a row for {name}")
 
 
 def version_module(database, repository):

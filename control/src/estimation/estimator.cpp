@@ -29,6 +29,11 @@ void EstimatorSettings::set_nominal(const PhysicalParameters& muscle, double max
   });
 }
 
+void EstimatorSettings::begin_at(const PhysicalParameters& muscle) {
+  const Theta theta = theta_from(muscle);
+  with_each<Estimators>(*this, [&](auto, auto& own) { own.initial = theta; });
+}
+
 void GradientEstimation::check_fit(FixedPointFit& fit, const Settings& s, double step_s) {
   constexpr double signal = FixedPointFit::signal;
   const Theta& nominal = s.scale.nominal;

@@ -9,19 +9,38 @@ namespace {
 
 using Settings = ControllerSettings;
 using Kind = ControllerKind;
+using Law = Tunable::Access<ControllerSettings>;
+using Estimation = Tunable::Access<EstimatorSettings>;
 
 constexpr bool follows_model(const Settings& s) {
   return s.kind != Kind::power;
 }
 
-/// Function: takes one LawValue by its name, of the law in use, and its settings.
-template <class SomeSettings, class Function>
+/// Function: takes one SettingValue by its name, of the law or estimator in use, and its settings.
+template <class List, class SomeSettings, class Function>
 void with_value(SomeSettings& settings, std::string_view name, Function function) {
-  with_chosen<Laws>(settings, [&](auto law, auto& own) {
-    for (const auto& value : decltype(law)::values) {
+  with_chosen<List>(settings, [&](auto definition, auto& own) {
+    for (const auto& value : decltype(definition)::values) {
       if (value.name == name) function(value, own);
     }
   });
+}
+
+template <class List, class SomeSettings>
+double get_value(const Tunable::Access<SomeSettings>& common, const SomeSettings& settings,
+                 std::string_view name) {
+  if (common.get != nullptr) return common.get(settings);
+  double found = NAN;
+  with_value<List>(settings, name,
+                   [&](const auto& value, const auto& own) { found = value.get(own); });
+  return found;
+}
+
+template <class List, class SomeSettings>
+void set_value(const Tunable::Access<SomeSettings>& common, SomeSettings& settings,
+               std::string_view name, double to) {
+  if (common.set != nullptr) return common.set(settings, to);
+  with_value<List>(settings, name, [&](const auto& value, auto& own) { value.set(own, to); });
 }
 
 bool slows_down(Kind kind) {
@@ -64,11 +83,40 @@ void set_model(Settings& s, double value) {
   }
 }
 
-/// Name, type, range; of what is no law's, how it is read and set.
+/// Of what is no law's: how it is read and set.
+constexpr Law common_kind{[](const Settings& s) { return static_cast<double>(s.kind); },
+                          [](Settings& s, double value) { s.kind = static_cast<Kind>(value); }};
+constexpr Law common_shaping{[](const Settings& s) {
+                               return follows_model(s) ? static_cast<double>(s.shape_reference)
+                                                       : NAN;
+                             },
+                             [](Settings& s, double value) { s.shape_reference = value != 0.0; }};
+constexpr Law common_slowing{
+    [](const Settings& s) {
+      return slows_down(s.kind) ? static_cast<double>(s.slow_when_oscillating) : NAN;
+    },
+    [](Settings& s, double value) { s.slow_when_oscillating = value != 0.0; }};
+
+/// Of what is no estimator's.
+constexpr Estimation common_estimator_kind{
+    [](const EstimatorSettings& s) { return static_cast<double>(s.kind); },
+    [](EstimatorSettings& s, double value) { s.kind = static_cast<EstimatorKind>(value); }};
+constexpr Estimation common_window{
+    [](const EstimatorSettings& s) {
+      return s.kind == EstimatorKind::gradient ? s.excitation.window_s : NAN;
+    },
+    [](EstimatorSettings& s, double value) { s.excitation.window_s = value; }};
+constexpr Estimation common_trusted_error{
+    [](const EstimatorSettings& s) {
+      return s.kind == EstimatorKind::none ? NAN : s.excitation.trusted_error;
+    },
+    [](EstimatorSettings& s, double value) { s.excitation.trusted_error = value; }};
+
+constexpr double most_kinds =
+    static_cast<double>(std::max(controller_names.size(), estimator_names.size()));
+
 constexpr std::array<Tunable, tunable_count> all{{
-    {"kind", TunableType::kind, 0.0, static_cast<double>(controller_names.size() - 1),
-     [](const Settings& s) { return static_cast<double>(s.kind); },
-     [](Settings& s, double value) { s.kind = static_cast<Kind>(value); }},
+    {"kind", TunableType::kind, 0.0, most_kinds - 1.0, common_kind, common_estimator_kind},
     {"proportional_W_per_m", TunableType::number, 0.0, 1e7},
     {"integral_W_per_m_s", TunableType::number, 0.0, 1e7},
     {"derivative_Ws_per_m", TunableType::number, 0.0, 1e7},
@@ -84,52 +132,76 @@ constexpr std::array<Tunable, tunable_count> all{{
     {"regression_rad_per_s", TunableType::number, 0.5, 100.0},
     {"change_W", TunableType::number, 1e-6, 1e3},
     {"hold_s", TunableType::number, 0.0, 3600.0},
-    {"shape_reference", TunableType::flag, 0.0, 1.0,
-     [](const Settings& s) {
-       return follows_model(s) ? static_cast<double>(s.shape_reference) : NAN;
-     },
-     [](Settings& s, double value) { s.shape_reference = value != 0.0; }},
-    {"slow_when_oscillating", TunableType::flag, 0.0, 1.0,
-     [](const Settings& s) {
-       return slows_down(s.kind) ? static_cast<double>(s.slow_when_oscillating) : NAN;
-     },
-     [](Settings& s, double value) { s.slow_when_oscillating = value != 0.0; }},
+    {"shape_reference", TunableType::flag, 0.0, 1.0, common_shaping},
+    {"slow_when_oscillating", TunableType::flag, 0.0, 1.0, common_slowing},
     {"reference_model", TunableType::model, 0.0, static_cast<double>(tunable_models.size()),
-     model_of, set_model},
-    {"model_pole_1_rad_per_s", TunableType::pole, 1e-3, 1e3, pole_of<0>, set_pole<0>},
-    {"model_pole_2_rad_per_s", TunableType::pole, 1e-3, 1e3, pole_of<1>, set_pole<1>},
-    {"model_pole_3_rad_per_s", TunableType::pole, 1e-3, 1e3, pole_of<2>, set_pole<2>},
+     Law{model_of, set_model}},
+    {"model_pole_1_rad_per_s", TunableType::pole, 1e-3, 1e3, Law{pole_of<0>, set_pole<0>}},
+    {"model_pole_2_rad_per_s", TunableType::pole, 1e-3, 1e3, Law{pole_of<1>, set_pole<1>}},
+    {"model_pole_3_rad_per_s", TunableType::pole, 1e-3, 1e3, Law{pole_of<2>, set_pole<2>}},
     {"adaptation_scale", TunableType::number, 1e-6, 1e6},
+    {"gain_1", TunableType::gain, 1e-6, 1e12},
+    {"gain_2", TunableType::gain, 1e-6, 1e12},
+    {"gain_3", TunableType::gain, 1e-6, 1e12},
+    {"gain_4", TunableType::gain, 1e-6, 1e12},
+    {"normalisation", TunableType::number, 0.0, 1e6},
+    {"window_s", TunableType::number, 0.1, 3600.0, Law{}, common_window},
+    {"min_ratio", TunableType::number, 1e-3, 1.0},
+    {"max_ratio", TunableType::number, 1.0, 1e3},
+    {"max_bias_W", TunableType::number, 0.0, 1e3},
+    {"position_noise_m", TunableType::number, 1e-9, 1e-2},
+    {"trusted_error", TunableType::number, 1e-6, 1e3, Law{}, common_trusted_error},
 }};
 
-/// What a law calls a value must stand above.
+/// What a law or an estimator calls a value must stand above.
+template <class List>
 constexpr bool all_listed() {
-  const auto listed = [](auto law) {
-    return std::ranges::all_of(decltype(law)::Definition::values, [](const auto& value) {
+  const auto listed = [](auto one) {
+    return std::ranges::all_of(decltype(one)::Definition::values, [](const auto& value) {
       return std::ranges::find(all, value.name, &Tunable::name) != all.end();
     });
   };
-  return std::apply([&](auto... law) { return (listed(law) && ...); }, Laws{});
+  return std::apply([&](auto... one) { return (listed(one) && ...); }, List{});
 }
-static_assert(all_listed());
+static_assert(all_listed<Laws>() && all_listed<Estimators>());
+
+template <class List>
+bool some_have(std::string_view name) {
+  const auto has = [&](auto one) {
+    const auto& values = decltype(one)::Definition::values;
+    return std::ranges::any_of(values, [&](const auto& value) { return value.name == name; });
+  };
+  return std::apply([&](auto... one) { return (has(one) || ...); }, List{});
+}
 
 }  // namespace
 
 double Tunable::get(const ControllerSettings& settings) const {
-  if (of_controller != nullptr) return of_controller(settings);
-  double found = NAN;
-  with_value(settings, name, [&](const auto& value, const auto& own) { found = value.get(own); });
-  return found;
+  return get_value<Laws>(of_controller, settings, name);
+}
+
+double Tunable::get(const EstimatorSettings& settings) const {
+  return get_value<Estimators>(of_estimator, settings, name);
 }
 
 void Tunable::set(ControllerSettings& settings, double to) const {
-  if (set_controller != nullptr) return set_controller(settings, to);
-  with_value(settings, name, [&](const auto& value, auto& own) { value.set(own, to); });
+  set_value<Laws>(of_controller, settings, name, to);
+}
+
+void Tunable::set(EstimatorSettings& settings, double to) const {
+  set_value<Estimators>(of_estimator, settings, name, to);
+}
+
+bool Tunable::controllers_have() const {
+  return of_controller.get != nullptr || some_have<Laws>(name);
+}
+
+bool Tunable::estimators_have() const {
+  return of_estimator.get != nullptr || some_have<Estimators>(name);
 }
 
 bool Tunable::in_range(double value) const {
-  const bool whole =
-      type == TunableType::number || type == TunableType::pole || value == std::floor(value);
+  const bool whole = is_number() || value == std::floor(value);
   return value >= lowest && value <= highest && whole;
 }
 

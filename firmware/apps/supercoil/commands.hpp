@@ -57,7 +57,8 @@ struct TuneOptions {
   std::string can;  ///< a bus; empty: the board on which this runs
   std::string socket = "/run/supercoil/commands";
   int channel = 1;
-  int place = 0;                         ///< of the controller
+  int controller = 0;                    ///< its place
+  std::optional<int> estimator;          ///< its place: that is tuned instead
   std::vector<std::string> assignments;  ///< NAME=VALUE
   std::string from = "in_use";           ///< the set that is changed
   bool only_prepare = false;

@@ -104,18 +104,24 @@ void add_setting(CLI::App& app, SettingOptions& options) {
 void add_tune(CLI::App& app, TuneOptions& options) {
   CLI::App* tune = app.add_subcommand(
       "tune",
-      "Show or change the values of a channel's controllers while the board runs: gains, reference "
-      "model, shaping, the law itself. A controller that is at work takes them over without a "
-      "jump");
+      "Show or change the values of a channel's controllers and estimators while the board runs: "
+      "gains, reference model, shaping, the law itself. A controller that is at work takes them "
+      "over without a jump; an estimator begins anew");
   tune->add_option("CHANNEL", options.channel, "From 1; over CAN its node")
       ->required()
       ->check(CLI::Range(1, can::max_nodes));
   tune->add_option("NAME=VALUE", options.assignments,
                    "e.g. bandwidth_rad_per_s=6 or kind=pi [show all]")
       ->type_name("");
-  tune->add_option("--controller", options.place, "Its place in the configuration, from 0")
+  CLI::Option* controller =
+      tune->add_option("--controller", options.controller,
+                       "Change this one: its place in the configuration, from 0")
+          ->check(CLI::Range(0, 3))
+          ->capture_default_str();
+  tune->add_option("--estimator", options.estimator,
+                   "Change this estimator instead: its place in the configuration, from 0")
       ->check(CLI::Range(0, 3))
-      ->capture_default_str();
+      ->excludes(controller);
   tune->add_option("--from", options.from,
                    "What is changed: the values in_use, configured (the way back), stored or "
                    "prepared before")

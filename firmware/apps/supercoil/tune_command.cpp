@@ -1,4 +1,5 @@
-// supercoil tune: a controller's values, read, changed and stored on a running board.
+// supercoil tune: values of controllers and estimators, read, changed and stored on a running
+// board.
 #include <algorithm>
 #include <cstdio>
 
@@ -16,19 +17,18 @@ namespace {
 
 using control::Tunable;
 
-tl::expected<std::vector<TuningChange>, std::string> parse(const std::vector<std::string>& words) {
-  std::vector<std::string> known;
-  for (const Tunable& tunable : control::tunables())
-    known.emplace_back(tunable.name);
+tl::expected<std::vector<TuningChange>, std::string> parse(Tuned what,
+                                                           const std::vector<std::string>& words) {
+  const std::vector<std::string> known = tunable_names(what);
   std::vector<TuningChange> all;
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos) return tl::unexpected(word + ": write NAME=VALUE");
     const std::string name = word.substr(0, equals);
-    const std::size_t tunable = control::tunable_named(name);
-    if (tunable == control::tunable_count)
+    if (std::ranges::find(known, name) == known.end())
       return tl::unexpected(name + " cannot be tuned; " + meant_or_all(name, known, "there are"));
-    const auto value = tuning_value(control::tunables()[tunable], word.substr(equals + 1));
+    const std::size_t tunable = control::tunable_named(name);
+    const auto value = tuning_value(what, control::tunables()[tunable], word.substr(equals + 1));
     if (!value) return tl::unexpected(value.error());
     all.push_back({tunable, *value});
   }
@@ -37,15 +37,16 @@ tl::expected<std::vector<TuningChange>, std::string> parse(const std::vector<std
   return all;
 }
 
-void print(int place, const TunedValues& all) {
+void print(Tuned what, std::size_t place, const TunedValues& all) {
   const Tunable& kind = control::tunables()[0];
   const auto in_use = static_cast<std::size_t>(TuningSet::in_use);
-  std::printf("controller %d: %s\n", place, tuning_text(kind, all.at(0)[in_use]).c_str());
+  std::printf("%s %zu: %s\n", name(what).data(), place,
+              tuning_text(what, kind, all.at(0)[in_use]).c_str());
   std::printf("  %-28s %12s %12s %12s %12s\n", "", "in use", "configured", "stored", "prepared");
   for (const auto& one : all) {
     const Tunable& t = control::tunables()[one.first];
     const auto text = [&](TuningSet set) {
-      return tuning_text(t, one.second[static_cast<std::size_t>(set)]);
+      return tuning_text(what, t, one.second[static_cast<std::size_t>(set)]);
     };
     const std::string configured = text(TuningSet::configured);
     const bool differs =
@@ -56,35 +57,39 @@ void print(int place, const TunedValues& all) {
   }
 }
 
-/// All controllers.
+/// All controllers and estimators.
 TuningDone tell(BoardLink& board, const std::string& channel, bool json) {
-  const auto controllers = read_tuning([&](int place, std::size_t tunable, TuningSet set) {
+  const auto tuning = read_tuning([&](int place, std::size_t tunable, TuningSet set) {
     return board.tuning(channel, place, tunable, set);
   });
-  if (!controllers) return tl::unexpected(controllers.error());
+  if (!tuning) return tl::unexpected(tuning.error());
   if (json) {
-    std::printf("%s\n", tuning_json(*controllers).dump().c_str());
+    std::printf("%s\n", tuning_json(*tuning).dump().c_str());
     return {};
   }
-  int place = 0;
-  for (const TunedValues& controller : *controllers)
-    print(place++, controller);
+  for (std::size_t i = 0; i < tuning->controllers.size(); ++i)
+    print(Tuned::controller, i, tuning->controllers[i]);
+  for (std::size_t i = 0; i < tuning->estimators.size(); ++i)
+    print(Tuned::estimator, i, tuning->estimators[i]);
   return {};
 }
 
 }  // namespace
 
 int tune_command(const TuneOptions& options) {
-  const auto changes = parse(options.assignments);
+  const Tuned what = options.estimator ? Tuned::estimator : Tuned::controller;
+  const auto changes = parse(what, options.assignments);
   if (!changes) return refuse(options.json, exit_wrong_input, changes.error());
   const auto board = open_link(options.can, options.socket);
   if (!board) return refuse(options.json, exit_failed, board.error());
   const std::string channel = std::to_string(options.channel);
+  const int place =
+      place_of(what, static_cast<std::size_t>(options.estimator.value_or(options.controller)));
   TuningDone done;
   if (!changes->empty() || options.from != "in_use") {
-    done = prepare_tuning(**board, channel, options.place, options.from, *changes);
+    done = prepare_tuning(**board, channel, place, options.from, *changes);
     if (done && !options.only_prepare)
-      done = ask_for_tuning(**board, channel + " tune " + std::to_string(options.place));
+      done = ask_for_tuning(**board, channel + " tune " + std::to_string(place));
   }
   if (done && options.store) done = ask_for_tuning(**board, channel + " store tuning");
   if (done && options.clear) done = ask_for_tuning(**board, channel + " clear tuning");

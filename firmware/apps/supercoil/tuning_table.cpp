@@ -4,8 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-
-#include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "text/nearest.hpp"
 
@@ -16,11 +15,14 @@ namespace {
 using control::Tunable;
 using control::TunableType;
 
-std::vector<std::string> names_of(const Tunable& tunable) {
+std::vector<std::string> names_of(Tuned what, const Tunable& tunable) {
   std::vector<std::string> names;
-  if (tunable.type == TunableType::kind) {
-    for (const auto& [name, kind] : control::controller_names)
+  const auto add = [&](const auto& kinds) {
+    for (const auto& [name, kind] : kinds)
       names.emplace_back(name);
+  };
+  if (tunable.type == TunableType::kind) {
+    what == Tuned::controller ? add(control::controller_names) : add(control::estimator_names);
   } else if (tunable.type == TunableType::model) {
     names.emplace_back("poles");
     names.insert(names.end(), control::tunable_models.begin(), control::tunable_models.end());
@@ -30,48 +32,115 @@ std::vector<std::string> names_of(const Tunable& tunable) {
   return names;
 }
 
-nlohmann::ordered_json as_json(const Tunable& tunable, double value) {
+nlohmann::ordered_json as_json(Tuned what, const Tunable& tunable, double value) {
   if (std::isnan(value)) return nullptr;
   if (tunable.type == TunableType::flag) return value != 0.0;
-  if (names_of(tunable).empty()) return value;
-  return tuning_text(tunable, value);
+  if (names_of(what, tunable).empty()) return value;
+  return tuning_text(what, tunable, value);
 }
 
-/// Empty: there is no such controller.
-tl::expected<TunedValues, std::string> read_controller(int place, const AskTuning& ask) {
-  TunedValues controller;
+/// Not of what it cannot have: every value is four questions.
+bool may_have(Tuned what, const Tunable& tunable) {
+  return what == Tuned::controller ? tunable.controllers_have() : tunable.estimators_have();
+}
+
+/// Empty: there is none at this place.
+tl::expected<TunedValues, std::string> read_place(Tuned what, std::size_t place,
+                                                  const AskTuning& ask) {
+  TunedValues told;
   for (std::size_t i = 0; i < control::tunable_count; ++i) {
+    if (!may_have(what, control::tunables()[i])) continue;
     TunableValues values{};
     for (std::size_t set = 0; set < values.size(); ++set) {
-      const auto value = ask(place, i, static_cast<TuningSet>(set));
+      const auto value = ask(place_of(what, place), i, static_cast<TuningSet>(set));
       if (!value) return tl::unexpected(value.error());
       values[set] = *value;
     }
     const bool has = !std::ranges::all_of(values, [](double value) { return std::isnan(value); });
-    if (has) controller.emplace(i, values);
-    if (controller.empty()) break;
+    if (has) told.emplace(i, values);
+    if (told.empty()) break;
   }
-  return controller;
+  return told;
+}
+
+tl::expected<std::vector<TunedValues>, std::string> read_places(Tuned what, std::size_t places,
+                                                                const AskTuning& ask) {
+  std::vector<TunedValues> all;
+  for (std::size_t place = 0; place < places; ++place) {
+    auto told = read_place(what, place, ask);
+    if (!told) return tl::unexpected(told.error());
+    if (told->empty()) break;
+    all.push_back(std::move(*told));
+  }
+  return all;
+}
+
+nlohmann::ordered_json places_json(Tuned what, const std::vector<TunedValues>& all) {
+  nlohmann::ordered_json told = nlohmann::ordered_json::array();
+  for (const TunedValues& one : all) {
+    nlohmann::ordered_json values{{name(what), told.size()}};
+    for (const auto& [place, of_sets] : one) {
+      const Tunable& tunable = control::tunables()[place];
+      nlohmann::ordered_json sets;
+      for (std::size_t set = 0; set < of_sets.size(); ++set)
+        sets[std::string(tuning_set_names[set])] = as_json(what, tunable, of_sets[set]);
+      values[std::string(tunable.name)] = sets;
+    }
+    told.push_back(values);
+  }
+  return told;
+}
+
+nlohmann::ordered_json choices_json(Tuned what) {
+  nlohmann::ordered_json choices;
+  for (const Tunable& tunable : control::tunables()) {
+    if (const auto names = names_of(what, tunable); may_have(what, tunable) && !names.empty())
+      choices[std::string(tunable.name)] = names;
+  }
+  return choices;
 }
 
 }  // namespace
 
-tl::expected<std::vector<TunedValues>, std::string> read_tuning(const AskTuning& ask) {
-  constexpr int places = 4;
-  std::vector<TunedValues> controllers;
-  for (int place = 0; place < places; ++place) {
-    auto controller = read_controller(place, ask);
-    if (!controller) return tl::unexpected(controller.error());
-    if (controller->empty()) break;
-    controllers.push_back(std::move(*controller));
-  }
-  if (controllers.empty()) return tl::unexpected<std::string>("this board cannot be tuned");
-  return controllers;
+tl::expected<TunedChannel, std::string> read_tuning(const AskTuning& ask) {
+  const board::StoredTuning tuned;
+  auto controllers = read_places(Tuned::controller, tuned.controllers.size(), ask);
+  if (!controllers) return tl::unexpected(controllers.error());
+  if (controllers->empty()) return tl::unexpected<std::string>("this board cannot be tuned");
+  auto estimators = read_places(Tuned::estimator, tuned.estimators.size(), ask);
+  if (!estimators) return tl::unexpected(estimators.error());
+  return TunedChannel{std::move(*controllers), std::move(*estimators)};
 }
 
-std::string tuning_text(const Tunable& tunable, double value) {
+tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& ask) {
+  constexpr std::size_t kind = 0;
+  const board::StoredTuning tuned;
+  nlohmann::ordered_json told;
+  for (const auto& [what, key, places] :
+       {std::tuple{Tuned::controller, "controllers", tuned.controllers.size()},
+        std::tuple{Tuned::estimator, "estimators", tuned.estimators.size()}}) {
+    told[key] = nlohmann::ordered_json::array();
+    for (std::size_t place = 0; place < places; ++place) {
+      const auto value = ask(place_of(what, place), kind, TuningSet::in_use);
+      if (!value) return tl::unexpected(value.error());
+      if (std::isnan(*value)) break;
+      told[key].push_back(tuning_text(what, control::tunables()[kind], *value));
+    }
+  }
+  return told;
+}
+
+std::vector<std::string> tunable_names(Tuned what) {
+  std::vector<std::string> names;
+  for (const Tunable& tunable : control::tunables()) {
+    if (may_have(what, tunable)) names.emplace_back(tunable.name);
+  }
+  return names;
+}
+
+std::string tuning_text(Tuned what, const Tunable& tunable, double value) {
   if (std::isnan(value)) return "-";
-  const auto names = names_of(tunable);
+  const auto names = names_of(what, tunable);
   if (value >= 0.0 && value < static_cast<double>(names.size()))
     return names[static_cast<std::size_t>(value)];
   std::array<char, 32> text{};
@@ -79,8 +148,9 @@ std::string tuning_text(const Tunable& tunable, double value) {
   return text.data();
 }
 
-tl::expected<double, std::string> tuning_value(const Tunable& tunable, const std::string& text) {
-  const auto names = names_of(tunable);
+tl::expected<double, std::string> tuning_value(Tuned what, const Tunable& tunable,
+                                               const std::string& text) {
+  const auto names = names_of(what, tunable);
   const auto named = std::ranges::find(names, text);
   if (named != names.end()) return static_cast<double>(named - names.begin());
   double value = NAN;
@@ -94,25 +164,12 @@ tl::expected<double, std::string> tuning_value(const Tunable& tunable, const std
       (names.empty() ? std::string(range.data()) : meant_or_all(text, names, "there are")));
 }
 
-nlohmann::ordered_json tuning_json(const std::vector<TunedValues>& controllers) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  for (const TunedValues& controller : controllers) {
-    nlohmann::ordered_json told{{"controller", all.size()}};
-    for (const auto& [place, values] : controller) {
-      const Tunable& tunable = control::tunables()[place];
-      nlohmann::ordered_json sets;
-      for (std::size_t set = 0; set < values.size(); ++set)
-        sets[std::string(tuning_set_names[set])] = as_json(tunable, values[set]);
-      told[std::string(tunable.name)] = sets;
-    }
-    all.push_back(told);
-  }
-  nlohmann::ordered_json choices;
-  for (const Tunable& tunable : control::tunables()) {
-    if (const auto names = names_of(tunable); !names.empty())
-      choices[std::string(tunable.name)] = names;
-  }
-  return {{"controllers", all}, {"choices", choices}};
+nlohmann::ordered_json tuning_json(const TunedChannel& channel) {
+  return {{"controllers", places_json(Tuned::controller, channel.controllers)},
+          {"estimators", places_json(Tuned::estimator, channel.estimators)},
+          {"choices",
+           {{"controllers", choices_json(Tuned::controller)},
+            {"estimators", choices_json(Tuned::estimator)}}}};
 }
 
 }  // namespace supercoil::operating

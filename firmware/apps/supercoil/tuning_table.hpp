@@ -1,38 +1,62 @@
-// A board's controllers with all their values, as text and JSON, for `tune` and the page.
+// A board's controllers and estimators with all their values, as text and JSON, for `tune` and the
+// page.
 #pragma once
 
 #include <array>
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 #include <tl/expected.hpp>
 
 #include "loop/tuner.hpp"
 
 namespace supercoil::operating {
 
+/// What can be tuned.
+enum class Tuned : std::uint8_t { controller, estimator };
+constexpr std::string_view name(Tuned what) {
+  return what == Tuned::controller ? "controller" : "estimator";
+}
+/// As Tuner counts. place: among its like.
+constexpr int place_of(Tuned what, std::size_t place) {
+  return static_cast<int>(what == Tuned::controller ? place : first_estimator_place + place);
+}
+
 /// Of one tunable, in each set.
 using TunableValues = std::array<double, tuning_set_names.size()>;
-/// By place in control::tunables(); those that the controller has in some set.
+/// By place in control::tunables(); those that it has in some set.
 using TunedValues = std::map<std::size_t, TunableValues>;
 
-/// Asks the board for one value.
+/// By their places.
+struct TunedChannel {
+  std::vector<TunedValues> controllers;
+  std::vector<TunedValues> estimators;  ///< empty: of a board that is older than their tuning
+};
+
+/// Asks the board for one value; place: as Tuner has it.
 using AskTuning =
     std::function<tl::expected<double, std::string>(int place, std::size_t tunable, TuningSet set)>;
 
-/// By the controllers' places. The error: no answer, or a board that cannot be tuned.
-tl::expected<std::vector<TunedValues>, std::string> read_tuning(const AskTuning& ask);
+/// The error: no answer, or a board that cannot be tuned.
+tl::expected<TunedChannel, std::string> read_tuning(const AskTuning& ask);
+/// {"controllers": ["mrac", …], "estimators": ["gradient", …]}: their kinds in use only, by their
+/// places. The error: no answer.
+tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& ask);
+/// The names of all that it may have.
+std::vector<std::string> tunable_names(Tuned what);
 
 /// By its name where it has one; "-": there is none.
-std::string tuning_text(const control::Tunable& tunable, double value);
+std::string tuning_text(Tuned what, const control::Tunable& tunable, double value);
 /// A number or a name; the error says what is allowed.
-tl::expected<double, std::string> tuning_value(const control::Tunable& tunable,
+tl::expected<double, std::string> tuning_value(Tuned what, const control::Tunable& tunable,
                                                const std::string& text);
 
-/// {"controllers": [{"controller": 0, "kind": {"prepared": "pi", …}, …}], "choices": {"kind": […]}}
-nlohmann::ordered_json tuning_json(const std::vector<TunedValues>& controllers);
+/// {"controllers": [{"controller": 0, "kind": {"prepared": "pi", …}, …}], "estimators":
+/// [{"estimator": 0, …}], "choices": {"controllers": {"kind": […], …}, "estimators": {…}}}
+nlohmann::ordered_json tuning_json(const TunedChannel& channel);
 
 }  // namespace supercoil::operating

@@ -12,35 +12,16 @@ bool same_content(const Learned& a, const Learned& b) {
          a.tuning == b.tuning;
 }
 
-/// One after the other: what a value is compared with depends on the law and model before it.
-TunedController TunedController::difference(const control::ControllerSettings& now,
-                                            control::ControllerSettings configured) {
-  TunedController tuned;
-  for (std::size_t i = 0; i < tuned.values.size(); ++i) {
-    const control::Tunable& tunable = control::tunables()[i];
-    const double value = tunable.get(now);
-    if (std::isnan(value) || value == tunable.get(configured)) continue;
-    tuned.values[i] = value;
-    tunable.set(configured, value);
-  }
-  return tuned;
-}
-
-void TunedController::apply_to(control::ControllerSettings& configured) const {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const control::Tunable& tunable = control::tunables()[i];
-    if (values[i] && !std::isnan(tunable.get(configured))) tunable.set(configured, *values[i]);
-  }
-}
-
 namespace {
 
 std::optional<control::Violation> check(const StoredTuning& tuning) {
-  for (const TunedController& controller : tuning.controllers) {
-    for (std::size_t i = 0; i < controller.values.size(); ++i) {
-      const control::Tunable& t = control::tunables()[i];
-      if (controller.values[i] && !t.in_range(*controller.values[i]))
-        return control::Violation{t.name.data(), *controller.values[i], t.lowest, t.highest};
+  for (const auto* all : {&tuning.controllers, &tuning.estimators}) {
+    for (const StoredValues& stored : *all) {
+      for (std::size_t i = 0; i < stored.values.size(); ++i) {
+        const control::Tunable& t = control::tunables()[i];
+        if (stored.values[i] && !t.in_range(*stored.values[i]))
+          return control::Violation{t.name.data(), *stored.values[i], t.lowest, t.highest};
+      }
     }
   }
   constexpr double last_place = 255.0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -46,20 +47,62 @@ struct ThermalFacts {
   friend bool operator==(const ThermalFacts&, const ThermalFacts&) = default;
 };
 
-/// What was changed of one controller on the running board, and stored.
-struct TunedController {
-  std::array<std::optional<double>, control::tunable_count> values;  ///< empty: as configured
+/// A std::optional<double> of half the size, as every channel keeps thousands in locked memory.
+/// What is put in is no NaN.
+class OptionalNumber {
+ public:
+  OptionalNumber() = default;
+  OptionalNumber(double number) : number_(number) {}
+  bool has_value() const { return !std::isnan(number_); }
+  explicit operator bool() const { return has_value(); }
+  double operator*() const { return number_; }
+  friend bool operator==(const OptionalNumber& a, const OptionalNumber& b) {
+    return a.number_ == b.number_ || (!a.has_value() && !b.has_value());
+  }
 
-  /// What makes of the configured controller the one that is now.
-  static TunedController difference(const control::ControllerSettings& now,
-                                    control::ControllerSettings configured);
-  void apply_to(control::ControllerSettings& configured) const;
-  friend bool operator==(const TunedController&, const TunedController&) = default;
+ private:
+  double number_ = NAN;
 };
+
+/// What was changed of one controller or estimator on the running board, and stored.
+struct StoredValues {
+  std::array<OptionalNumber, control::tunable_count> values;  ///< empty: as configured
+
+  /// What makes of the configured one the one that is now. Settings: control::ControllerSettings or
+  /// EstimatorSettings.
+  template <class Settings>
+  static StoredValues difference(const Settings& now, Settings configured);
+  template <class Settings>
+  void apply_to(Settings& configured) const;
+  friend bool operator==(const StoredValues&, const StoredValues&) = default;
+};
+
+/// One after the other: what a value is compared with depends on the kind and model before it.
+template <class Settings>
+StoredValues StoredValues::difference(const Settings& now, Settings configured) {
+  StoredValues stored;
+  for (std::size_t i = 0; i < stored.values.size(); ++i) {
+    const control::Tunable& tunable = control::tunables()[i];
+    const double value = tunable.get(now);
+    if (std::isnan(value) || value == tunable.get(configured)) continue;
+    stored.values[i] = value;
+    tunable.set(configured, value);
+  }
+  return stored;
+}
+
+template <class Settings>
+void StoredValues::apply_to(Settings& configured) const {
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const control::Tunable& tunable = control::tunables()[i];
+    if (values[i] && !std::isnan(tunable.get(configured))) tunable.set(configured, *values[i]);
+  }
+}
 
 struct StoredTuning {
   /// By their place; those behind cannot be tuned.
-  std::array<TunedController, 4> controllers;
+  std::array<StoredValues, 4> controllers;
+  std::array<StoredValues, 4> estimators;
   std::optional<double> controller;  ///< place of the one that is chosen at the start
   std::optional<double> estimator;   ///< likewise
 

@@ -98,13 +98,25 @@ Reply Axis::choose_controller(double place) {
   return Refusal::none;
 }
 
-/// At once; a controller that is following goes on where its predecessor leaves off.
+/// At once; a controller that is following goes on where its predecessor leaves off, an estimator
+/// begins.
 Reply Axis::tune(const Command& command) {
-  const std::size_t places = std::min(tracking_.controllers(), stored_tuning_.controllers.size());
-  if (!is_place(command.value, places)) return no_such_place(command.value, places);
-  if (command.tuned == nullptr) return Refusal::unsuitable;
-  tracking_.exchange(static_cast<std::size_t>(command.value), *command.tuned,
-                     mode_ == Mode::position, reference_, muscle_);
+  const bool estimator = command.value >= static_cast<double>(first_estimator_place);
+  const auto first = estimator ? static_cast<double>(first_estimator_place) : 0.0;
+  const std::size_t places =
+      estimator ? std::min(estimation_.estimators(), stored_tuning_.estimators.size())
+                : std::min(tracking_.controllers(), stored_tuning_.controllers.size());
+  const double place = command.value - first;
+  if (!is_place(place, places))
+    return {Refusal::out_of_range, first + no_such_place(place, places).nearest};
+  const auto at = static_cast<std::size_t>(place);
+  if (command.tuned_estimator != nullptr) {
+    estimation_.exchange(at, *command.tuned_estimator);
+  } else if (command.tuned_controller != nullptr) {
+    tracking_.exchange(at, *command.tuned_controller, mode_ == Mode::position, reference_, muscle_);
+  } else {
+    return Refusal::unsuitable;
+  }
   return Refusal::none;
 }
 

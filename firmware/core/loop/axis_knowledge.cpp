@@ -99,7 +99,7 @@ Refusal Axis::store(const Command& command) {
   return muscle ? refusal_of(keep(*muscle, calibration_)) : Refusal::out_of_range;
 }
 
-/// The controllers' values, and which are chosen; to clear, neither.
+/// The values of controllers and estimators, and which are chosen; to clear, neither.
 Refusal Axis::keep_tuning(const Command& command) {
   if (command.tuning == nullptr) return Refusal::busy;
   board::Learned learned = known();

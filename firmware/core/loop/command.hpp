@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string_view>
 
+#include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
 
 #include "board/learned.hpp"
@@ -29,13 +31,13 @@ enum class Verb : std::uint8_t {
   controller = 11,      ///< value: place in the configuration
   estimator = 12,       ///< value: place in the configuration
   store = 13,           ///< value: 1 keeps the trusted estimates for the next start, 0 forgets the
-                        ///< muscle that is kept; 2 keeps the controllers' tuning that is in
-                        ///< use, and which are chosen; 3 forgets that
+                        ///< muscle that is kept; 2 keeps the tuning that is in use, and which
+                        ///< controller and estimator are chosen; 3 forgets that
   compare_supply = 14,  ///< value: what a meter shows at the supply, in V; 0 forgets the comparison
   compare_current = 15,  ///< value: what a meter shows in the channel's line, in A
   compare_rise = 16,  ///< value: how much warmer than the air a thermometer shows the muscle, in K;
                       ///< 0 forgets what was read
-  tune = 17,          ///< value: place of a controller that gets its prepared values (Tuner)
+  tune = 17,          ///< value: place of what gets its prepared values (Tuner)
 };
 
 inline constexpr std::array<std::string_view, 18> verb_names{
@@ -62,6 +64,9 @@ constexpr bool takes(Verb verb, double value) {
   }
 }
 
+/// Places of what is tuned: a controller's is its own, an estimator's has this much added.
+inline constexpr std::size_t first_estimator_place = 8;
+
 /// Values of Verb::store for the tuning.
 inline constexpr double store_tuning = 2.0;
 inline constexpr double clear_tuning = 3.0;
@@ -79,7 +84,9 @@ struct Command {
   Source source = Source::local;
   std::uint32_t id = 0;  ///< chosen by whoever asks; the answer has it
   // From the Tuner, which owns them until the answer.
-  control::Controller* tuned = nullptr;         ///< of `tune`: exchanged for the one in use
+  // Of `tune`: one of them, exchanged for the one in use.
+  control::Controller* tuned_controller = nullptr;
+  control::Estimator* tuned_estimator = nullptr;
   const board::StoredTuning* tuning = nullptr;  ///< of `store`
 };
 

@@ -1,6 +1,7 @@
 #include "loop/estimation.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "supercoil/control/actuator/conversions.hpp"
 
@@ -25,6 +26,11 @@ void Estimation::choose(std::size_t place) {
   chosen_ = place;
   restart();
   estimate_ = estimators_[chosen_].estimate();
+}
+
+void Estimation::exchange(std::size_t place, control::Estimator& estimator) {
+  std::swap(estimators_[place], estimator);
+  if (place == chosen_) choose(place);
 }
 
 void Estimation::step(double position_m, double applied_W) {

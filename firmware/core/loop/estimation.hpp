@@ -19,6 +19,8 @@ class Estimation {
 
   std::size_t estimators() const { return estimators_.size(); }
   void choose(std::size_t place);
+  /// The one at this place becomes another, which begins, and the other way round.
+  void exchange(std::size_t place, control::Estimator& estimator);
   std::size_t chosen() const { return chosen_; }
   /// The muscle was not driven for a while.
   void restart() { estimators_[chosen_].restart(); }

@@ -8,13 +8,35 @@ namespace supercoil {
 
 namespace {
 
+template <class Settings, std::size_t Places>
+void apply_values(const std::array<board::StoredValues, Places>& stored, std::vector<Settings>& all,
+                  std::vector<Settings>& configured) {
+  configured = all;
+  for (std::size_t place = 0; place < std::min(all.size(), Places); ++place)
+    stored[place].apply_to(all[place]);
+}
+
 void apply_tuning(ChannelSettings& channel, const board::StoredTuning& tuning) {
   channel.tuning = tuning;
   if (tuning == board::StoredTuning{}) return;
-  channel.configured_controllers = channel.controllers;
-  const std::size_t places = std::min(channel.controllers.size(), tuning.controllers.size());
-  for (std::size_t place = 0; place < places; ++place)
-    tuning.controllers[place].apply_to(channel.controllers[place]);
+  apply_values(tuning.controllers, channel.controllers, channel.configured_controllers);
+  apply_values(tuning.estimators, channel.estimators, channel.configured_estimators);
+}
+
+template <class Settings>
+std::optional<SettingsProblem> first_problem(const std::vector<Settings>& all,
+                                             const ChannelSettings& channel, double step_s) {
+  for (const Settings& one : all) {
+    if (auto problem = check(one, channel, step_s)) return problem;
+  }
+  return std::nullopt;
+}
+
+/// As a message calls it.
+template <class Kind, class Names>
+SettingsProblem unsupported(Kind kind, const Names& names) {
+  return {"arithmetic", "must be double or float: the covariance of " +
+                            std::string(control::name_of(names, kind)) + " does not fit q8.24"};
 }
 
 }  // namespace
@@ -68,12 +90,8 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
 
 std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller) {
   std::vector<SettingsProblem> problems;
-  if (!control::supported(controller.kind, controller.arithmetic)) {
-    problems.push_back({"arithmetic", "must be double or float: the covariance of " +
-                                          std::string(control::name_of(control::controller_names,
-                                                                       controller.kind)) +
-                                          " does not fit q8.24"});
-  }
+  if (!control::supported(controller.kind, controller.arithmetic))
+    problems.push_back(unsupported(controller.kind, control::controller_names));
   for (const auto& [key, message, premise] : control::contradictions_of_law(controller)) {
     problems.push_back({key, premise ? std::string("premise fails: ") + message +
                                            " (accept_failed_premises = true runs it nevertheless)"
@@ -108,15 +126,25 @@ std::optional<SettingsProblem> check(const control::ControllerSettings& controll
   return SettingsProblem{"kind", message.str()};
 }
 
+std::optional<SettingsProblem> check(const control::EstimatorSettings& estimator,
+                                     const ChannelSettings& channel, double step_s) {
+  if (static_cast<std::size_t>(estimator.kind) >= control::estimator_names.size())
+    return SettingsProblem{"kind", "is no estimator's"};
+  if (!control::supported(estimator.kind, estimator.arithmetic))
+    return unsupported(estimator.kind, control::estimator_names);
+  const auto misfit = control::check_fit(estimator, step_s, channel.limiter.max_W);
+  if (!misfit) return std::nullopt;
+  return SettingsProblem{misfit->quantity, misfit_text(*misfit)};
+}
+
 std::optional<SettingsProblem> drop_unusable_tuning(ChannelSettings& channel, double step_s) {
   if (channel.configured_controllers.empty()) return std::nullopt;
-  for (const control::ControllerSettings& controller : channel.controllers) {
-    auto problem = check(controller, channel, step_s);
-    if (!problem) continue;
-    channel.controllers = channel.configured_controllers;
-    return problem;
-  }
-  return std::nullopt;
+  auto problem = first_problem(channel.controllers, channel, step_s);
+  if (!problem) problem = first_problem(channel.estimators, channel, step_s);
+  if (!problem) return std::nullopt;
+  channel.controllers = channel.configured_controllers;
+  channel.estimators = channel.configured_estimators;
+  return problem;
 }
 
 std::optional<SettingsProblem> check(const BoardSettings& settings) {

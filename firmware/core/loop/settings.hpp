@@ -55,9 +55,10 @@ struct ChannelSettings {
   ChannelSupervision supervision;
   /// At least one of each; commands choose among them by their place.
   std::vector<control::ControllerSettings> controllers{1};
+  std::vector<control::EstimatorSettings> estimators{1};
   /// Without what is stored of their tuning; empty: as they are.
   std::vector<control::ControllerSettings> configured_controllers;
-  std::vector<control::EstimatorSettings> estimators{1};
+  std::vector<control::EstimatorSettings> configured_estimators;
 };
 
 struct BoardSettings {
@@ -106,8 +107,13 @@ std::string misfit_text(const control::Violation& misfit);
 std::optional<SettingsProblem> check(const control::ControllerSettings& controller,
                                      const ChannelSettings& channel, double step_s);
 
+/// Why an estimator may not run on this channel: an arithmetic that it does not run in, or what
+/// that cannot hold.
+std::optional<SettingsProblem> check(const control::EstimatorSettings& estimator,
+                                     const ChannelSettings& channel, double step_s);
+
 /// Stored tuning that may not run on this channel any more, for the first reason that is told: its
-/// controllers are as configured then.
+/// controllers and estimators are as configured then.
 std::optional<SettingsProblem> drop_unusable_tuning(ChannelSettings& channel, double step_s);
 
 /// What makes settings unusable whoever wrote them; empty when they may run. (Ranges of single

@@ -1,8 +1,10 @@
-// How the controllers of a channel are tuned while the board runs.
+// How the controllers and estimators of a channel are tuned while the board runs.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "supercoil/control/tracking/tunable.hpp"
@@ -12,7 +14,7 @@
 
 namespace supercoil {
 
-/// Which values of a controller: the numbers are those of the protocol.
+/// Which values of a controller or estimator: the numbers are those of the protocol.
 enum class TuningSet : std::uint8_t {
   prepared = 0,    ///< changed one by one; used from the next `tune` on
   in_use = 1,      ///< by the loop
@@ -28,7 +30,7 @@ class Tuner {
  public:
   Tuner(const ChannelSettings& channel, double step_s);
 
-  /// NaN: no such place, parameter (of control::tunables()) or set, or a law without this value.
+  /// NaN: no such place, parameter (of control::tunables()) or set, or a kind without this value.
   double value(TuningSet set, std::size_t place, std::size_t parameter) const;
   /// Changes one value of the prepared set.
   Reply prepare(std::size_t place, std::size_t parameter, double value);
@@ -43,25 +45,44 @@ class Tuner {
   const std::string& problem() const { return problem_; }
 
  private:
+  template <class Settings>
+  struct Place {
+    Settings configured;
+    Settings in_use;
+    Settings prepared;
+
+    static std::vector<Place> all_of(const std::vector<Settings>& in_use,
+                                     const std::vector<Settings>& configured, std::size_t at_most);
+    Settings of(TuningSet set, const board::StoredValues& stored) const;
+  };
+  template <class Settings, class Running>
   struct Built {
     std::size_t place;
-    control::ControllerSettings settings;
-    control::Controller controller;
+    Settings settings;
+    Running running;
   };
-  struct Place {
-    control::ControllerSettings configured;
-    control::ControllerSettings in_use;
-    control::ControllerSettings prepared;
-  };
-  const control::ControllerSettings* settings_of(TuningSet set, std::size_t place) const;
-  control::ControllerSettings stored(std::size_t place) const;
+  template <class Settings, class Running>
+  using AllBuilt = std::vector<std::unique_ptr<Built<Settings, Running>>>;
+
+  /// Calls function(Place, StoredValues of it); false: there is no such place.
+  template <class Self, class Function>
+  static bool at(Self& self, std::size_t place, Function function);
+  void build(std::size_t place, Command& command);
+  template <class Settings>
+  bool suits(const Settings& wanted);
+  template <class Settings, class Running>
+  static void conclude(AllBuilt<Settings, Running>& built, std::vector<Place<Settings>>& places,
+                       const Running* tuned, bool taken);
   board::StoredTuning tuning_in_use() const;
 
   ChannelSettings channel_;
   double step_s_;
-  std::vector<Place> places_;
-  std::vector<std::unique_ptr<Built>> built_;  ///< that the loop has not answered yet
   board::StoredTuning stored_;
+  std::vector<Place<control::ControllerSettings>> controllers_;
+  std::vector<Place<control::EstimatorSettings>> estimators_;
+  // What the loop has not answered yet.
+  AllBuilt<control::ControllerSettings, control::Controller> built_controllers_;
+  AllBuilt<control::EstimatorSettings, control::Estimator> built_estimators_;
   board::StoredTuning to_store_;
   bool storing_ = false;  ///< the loop may be reading to_store_
   std::string problem_;

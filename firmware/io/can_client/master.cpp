@@ -83,7 +83,7 @@ std::vector<std::uint16_t> answer_ids(std::uint8_t node) {
 
 hal::CanFrame tuning_read(std::uint8_t node, const TunedPlace& place) {
   return can::Encoder<message::tuning_read>(node)
-      .set("place", place.controller)
+      .set("place", place.place)
       .set("set", static_cast<double>(place.set))
       .set("tunable", place.tunable)
       .frame();
@@ -98,7 +98,7 @@ std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& pl
   if (frame.id != tuning_id(node) || !e2e::intact(frame, message::tuning.length))
     return std::nullopt;
   const can::Reader<message::tuning> m(frame);
-  const bool asked_for = m.get<std::uint8_t>("place") == place.controller &&
+  const bool asked_for = m.get<std::uint8_t>("place") == place.place &&
                          m.get<std::uint8_t>("tunable") == place.tunable &&
                          m.get<std::uint8_t>("set") == static_cast<std::uint8_t>(place.set);
   const auto refusal = refusal_in(m.get("refusal"));
@@ -171,7 +171,7 @@ hal::CanFrame Master::tuning_write(const TunedPlace& place, double value) {
   asked_as_ = session_;
   return can::Encoder<message::tuning_write>(node_)
       .set("counter", next_counter())
-      .set("place", place.controller)
+      .set("place", place.place)
       .set("tunable", place.tunable)
       .set("session_low", session_ & 0xFFU)
       .set("value", value)

@@ -37,9 +37,9 @@ std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
                                      const hal::CanFrame& frame);
 /// Of all that a node answers when it is commanded or asked.
 std::vector<std::uint16_t> answer_ids(std::uint8_t node);
-/// One value of a node's controller.
+/// One value of a node's controller or estimator.
 struct TunedPlace {
-  std::uint8_t controller;
+  std::uint8_t place;    ///< as Tuner counts
   std::uint8_t tunable;  ///< place in control::tunables()
   TuningSet set;
 };

@@ -59,7 +59,7 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
 }
 
 /// What differs from the file, by name.
-void describe_tuning(std::ostream& out, const board::TunedController& tuned) {
+void describe_tuning(std::ostream& out, const board::StoredValues& tuned) {
   const char* before = "\n              stored by tune: ";
   for (std::size_t i = 0; i < tuned.values.size(); ++i) {
     if (!tuned.values[i]) continue;
@@ -84,10 +84,12 @@ void describe_control(std::ostream& out, const ChannelSettings& c, double step_s
   out << "\n  estimators  ";
   for (std::size_t i = 0; i < c.estimators.size(); ++i) {
     const control::EstimatorSettings& e = c.estimators[i];
-    out << (i == 0 ? "" : ", ") << i << ": " << control::name_of(control::estimator_names, e.kind);
+    out << (i == 0 ? "" : "\n              ") << i << ": "
+        << control::name_of(control::estimator_names, e.kind);
     if (e.kind != control::EstimatorKind::none) {
       out << " in " << control::name_of(control::arithmetic_names, e.arithmetic);
     }
+    if (i < c.tuning.estimators.size()) describe_tuning(out, c.tuning.estimators[i]);
   }
   out << "\n";
 }

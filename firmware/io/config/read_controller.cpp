@@ -1,8 +1,5 @@
-#include <cmath>
-
-#include "supercoil/control/tracking/tunable.hpp"
-
 #include "config/read_control.hpp"
+#include "config/read_tunables.hpp"
 #include "loop/settings.hpp"
 
 namespace supercoil::config {
@@ -53,20 +50,6 @@ MracSettings read_mrac_preset(Section& section) {
     names += (names.empty() ? "" : ", ") + std::string(name);
   section.wrong("preset", "must be one of: " + names);
   return {};
-}
-
-/// All but kind and reference model, which are read apart.
-void read_tunables(Section& section, control::ControllerSettings& c) {
-  using control::TunableType;
-  for (const control::Tunable& t : control::tunables()) {
-    const double fallback = t.get(c);
-    if (std::isnan(fallback)) continue;
-    if (t.type == TunableType::number) {
-      t.set(c, section.number(t.name, fallback, {t.lowest, t.highest}));
-    } else if (t.type == TunableType::flag) {
-      t.set(c, section.flag(t.name, fallback != 0.0) ? 1.0 : 0.0);
-    }
-  }
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "config/read_control.hpp"
+#include "config/read_tunables.hpp"
 
 namespace supercoil::config {
 
@@ -11,8 +12,10 @@ control::Theta read_four(Section& section, const char* key, const control::Theta
   return control::Theta{list[0], list[1], list[2], list[3]};
 }
 
+/// Those that are lists.
 void read_gradient(Section& section, control::GradientSettings& g) {
-  g.gain = read_four(section, "gain", g.gain, {1e-6, 1e12});
+  const control::Tunable& gain = control::tunables()[control::tunable_named("gain_1")];
+  g.gain = read_four(section, "gain", g.gain, {gain.lowest, gain.highest});
   g.initial = read_four(section, "initial", g.initial, {-1e9, 1e9});
   if (section.has("lower") || section.has("upper")) {
     g.bounds =
@@ -25,16 +28,6 @@ void read_gradient(Section& section, control::GradientSettings& g) {
     section.numbers("lower", {}, {0.0, 0.0}, 0, 0);
     section.numbers("upper", {}, {0.0, 0.0}, 0, 0);
   }
-  g.normalisation = section.number("normalisation", g.normalisation, {0.0, 1e6});
-}
-
-void read_least_squares(Section& section, control::LeastSquaresSettings& s) {
-  s.initial = read_four(section, "initial", s.scale.nominal, {0.0, 1e9});
-  s.forgetting_s = section.number("forgetting_s", s.forgetting_s, {1.0, 3600.0});
-  s.min_ratio = section.number("min_ratio", s.min_ratio, {1e-3, 1.0});
-  s.max_ratio = section.number("max_ratio", s.max_ratio, {1.0, 1e3});
-  s.max_bias_W = section.number("max_bias_W", s.max_bias_W, {0.0, 1e3});
-  s.position_noise_m = section.number("position_noise_m", s.position_noise_m, {1e-9, 1e-2});
 }
 
 }  // namespace
@@ -55,12 +48,11 @@ control::EstimatorSettings read_estimator(Section& section,
   e.set_nominal(muscle, max_W);
   if (e.kind == control::EstimatorKind::gradient) {
     read_gradient(section, e.gradient);
-    e.excitation.window_s = section.number("window_s", e.excitation.window_s, {0.1, 3600.0});
   } else {
-    read_least_squares(section, e.least_squares);
+    auto& initial = e.least_squares.initial;
+    initial = read_four(section, "initial", e.least_squares.scale.nominal, {0.0, 1e9});
   }
-  e.excitation.trusted_error =
-      section.number("trusted_error", e.excitation.trusted_error, {1e-6, 1e3});
+  read_tunables(section, e);
   section.finish();
   return e;
 }

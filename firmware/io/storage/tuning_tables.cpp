@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view chosen = "chosen";
 
-std::string table_of(std::size_t place) {
-  return "controller_" + std::to_string(place);
+std::string table_of(std::string_view of, std::size_t place) {
+  return std::string(of) + "_" + std::to_string(place);
 }
 
 std::string line(std::string_view key, double value) {
@@ -26,8 +26,15 @@ auto places(Tuning& tuning) {
                     std::pair{std::string_view("estimator"), &tuning.estimator}};
 }
 
+template <class Tuning>
+auto tables(Tuning& tuning) {
+  return std::array{std::pair{std::string_view("controller"), &tuning.controllers},
+                    std::pair{std::string_view("estimator"), &tuning.estimators}};
+}
+
+template <class Optional>
 std::optional<std::string> read_value(const toml::table& table, std::string_view name,
-                                      std::string_view key, std::optional<double>& value) {
+                                      std::string_view key, Optional& value) {
   const toml::node* node = table.get(key);
   if (node == nullptr) return std::nullopt;
   double number = 0.0;
@@ -41,13 +48,15 @@ std::optional<std::string> read_value(const toml::table& table, std::string_view
 
 std::string encode_tuning(const board::StoredTuning& tuning) {
   std::string text;
-  for (std::size_t place = 0; place < tuning.controllers.size(); ++place) {
-    std::string lines;
-    const auto& values = tuning.controllers[place].values;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (values[i]) lines += line(control::tunables()[i].name, *values[i]);
+  for (const auto& [of, all] : tables(tuning)) {
+    for (std::size_t place = 0; place < all->size(); ++place) {
+      std::string lines;
+      const auto& values = (*all)[place].values;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (values[i]) lines += line(control::tunables()[i].name, *values[i]);
+      }
+      if (!lines.empty()) text += "\n[" + table_of(of, place) + "]\n" + lines;
     }
-    if (!lines.empty()) text += "\n[" + table_of(place) + "]\n" + lines;
   }
   std::string lines;
   for (const auto& [key, place] : places(tuning)) {
@@ -58,23 +67,31 @@ std::string encode_tuning(const board::StoredTuning& tuning) {
 
 bool is_tuning_table(std::string_view table) {
   bool found = table == chosen;
-  for (std::size_t place = 0; place < board::StoredTuning{}.controllers.size(); ++place)
-    found = found || table == table_of(place);
+  const board::StoredTuning none;
+  for (const auto& [of, all] : tables(none)) {
+    for (std::size_t place = 0; place < all->size(); ++place)
+      found = found || table == table_of(of, place);
+  }
   return found;
 }
 
 bool is_tuning_key(std::string_view table, std::string_view key) {
   if (table == chosen) return key == "controller" || key == "estimator";
-  return is_tuning_table(table) && control::tunable_named(key) < control::tunable_count;
+  const std::size_t tunable = control::tunable_named(key);
+  if (!is_tuning_table(table) || tunable == control::tunable_count) return false;
+  return table.starts_with("controller") ? control::tunables()[tunable].controllers_have()
+                                         : control::tunables()[tunable].estimators_have();
 }
 
 std::optional<std::string> read_tuning(const toml::table& file, board::StoredTuning& tuning) {
-  for (std::size_t place = 0; place < tuning.controllers.size(); ++place) {
-    const std::string name = table_of(place);
-    const toml::table* table = file[name].as_table();
-    for (std::size_t i = 0; table != nullptr && i < control::tunable_count; ++i) {
-      auto& value = tuning.controllers[place].values[i];
-      if (auto wrong = read_value(*table, name, control::tunables()[i].name, value)) return wrong;
+  for (const auto& [of, all] : tables(tuning)) {
+    for (std::size_t place = 0; place < all->size(); ++place) {
+      const std::string name = table_of(of, place);
+      const toml::table* table = file[name].as_table();
+      for (std::size_t i = 0; table != nullptr && i < control::tunable_count; ++i) {
+        auto& value = (*all)[place].values[i];
+        if (auto wrong = read_value(*table, name, control::tunables()[i].name, value)) return wrong;
+      }
     }
   }
   const toml::table* table = file[chosen].as_table();

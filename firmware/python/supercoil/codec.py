@@ -14,6 +14,8 @@ NODE_MASK = 0x03F
 RISES_FROM = 1000.0
 # The place of a controller that takes its prepared values over is sent as controller with this much added.
 TUNES_FROM = 1000.0
+# Places of what is tuned: controllers' from 0, estimators' from here.
+FIRST_ESTIMATOR = 8
 # Of store.
 FORGET, STORE, STORE_TUNING, FORGET_TUNING = 0.0, 1.0, 2.0, 3.0
 

@@ -148,17 +148,19 @@ class Muscle:
     def compare_rise(self, kelvins: float) -> None:
         run(self._muscle.compare_rise(kelvins))
 
-    def tuning(self, controller: int = 0) -> dict[str, Tuned]:
-        return run(self._muscle.tuning(controller))
+    def tuning(self, controller: int = 0, *, estimator: int | None = None) -> dict[str, Tuned]:
+        return run(self._muscle.tuning(controller, estimator=estimator))
 
-    def tune(self, controller: int = 0, *, base: str = "in_use", **values: float | str) -> None:
-        run(self._muscle.tune(controller, base=base, **values))
+    def tune(self, controller: int = 0, *, estimator: int | None = None, base: str = "in_use",
+             **values: float | str) -> None:
+        run(self._muscle.tune(controller, estimator=estimator, base=base, **values))
 
-    def prepare(self, controller: int = 0, *, base: str = "in_use", **values: float | str) -> None:
-        run(self._muscle.prepare(controller, base=base, **values))
+    def prepare(self, controller: int = 0, *, estimator: int | None = None, base: str = "in_use",
+                **values: float | str) -> None:
+        run(self._muscle.prepare(controller, estimator=estimator, base=base, **values))
 
-    def take_over(self, controller: int = 0) -> None:
-        run(self._muscle.take_over(controller))
+    def take_over(self, controller: int = 0, *, estimator: int | None = None) -> None:
+        run(self._muscle.take_over(controller, estimator=estimator))
 
     def store_tuning(self) -> None:
         run(self._muscle.store_tuning())

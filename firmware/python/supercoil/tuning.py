@@ -1,11 +1,12 @@
-"""The values of a controller, changed while the board runs (docs/tuning.md)."""
+"""The values of controllers and estimators, changed while the board runs (docs/tuning.md)."""
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
-from supercoil.codec import FORGET_TUNING, STORE_TUNING, TUNES_FROM
+from supercoil.codec import FIRST_ESTIMATOR, FORGET_TUNING, STORE_TUNING, TUNES_FROM
+from supercoil.generated import tunables
 from supercoil.generated.names import Opcode, Set, Tunable
-from supercoil.generated.tunables import CHOICES, RANGES, UNITS
 from supercoil.learning import Learning
 from supercoil.named import unknown
 
@@ -14,7 +15,7 @@ _FLAG = ("false", "true")
 
 
 class Tuned(NamedTuple):
-    """One value of a controller, in each set; None: it has none there."""
+    """One value of a controller or estimator, in each set; None: it has none there."""
 
     name: str
     unit: str
@@ -25,10 +26,29 @@ class Tuned(NamedTuple):
     range: tuple[Value, ...]  # lowest and highest; of a flag or a name all that it may be
 
 
-def _value_of(tunable: Tunable, told: float) -> Value:
+class _Place(NamedTuple):
+    """Of what is tuned: as the protocol counts, and what there may be."""
+
+    name: str
+    kind: str
+    number: int
+    units: Mapping[Tunable, str]
+    choices: Mapping[Tunable, tuple[str, ...]]
+
+
+def _place_of(controller: int, estimator: int | None) -> _Place:
+    if estimator is None:
+        return _Place(f"controller {controller}", "a controller", controller, tunables.CONTROLLER_UNITS,
+                      tunables.CONTROLLER_CHOICES)
+    if controller != 0:
+        raise ValueError("controller and estimator: tune one of them")
+    return _Place(f"estimator {estimator}", "an estimator", FIRST_ESTIMATOR + estimator, tunables.ESTIMATOR_UNITS,
+                  tunables.ESTIMATOR_CHOICES)
+
+
+def _value_of(choices: tuple[str, ...] | None, told: float) -> Value:
     if math.isnan(told):
         return None
-    choices = CHOICES.get(tunable)
     if choices is None:
         return told
     place = int(told)
@@ -37,8 +57,7 @@ def _value_of(tunable: Tunable, told: float) -> Value:
     return choices[place] if place < len(choices) else str(place)  # of a newer board
 
 
-def _number_of(tunable: Tunable, value: float | str) -> float:
-    choices = CHOICES.get(tunable)
+def _number_of(tunable: Tunable, choices: tuple[str, ...] | None, value: float | str) -> float:
     if isinstance(value, str):
         if choices is None or choices == _FLAG:
             raise ValueError(f"{tunable} = {value!r}: must be {'a number' if choices is None else 'True or False'}")
@@ -50,10 +69,10 @@ def _number_of(tunable: Tunable, value: float | str) -> float:
     return float(value)
 
 
-def _tunable_of(name: str) -> Tunable:
-    if name in Tunable.__members__ and Tunable[name] in UNITS:
+def _tunable_of(place: _Place, name: str) -> Tunable:
+    if name in Tunable.__members__ and Tunable[name] in place.units:
         return Tunable[name]
-    raise unknown("value of a controller", name, map(str, UNITS))
+    raise unknown(f"value of {place.kind}", name, map(str, place.units))
 
 
 def _set_of(name: str) -> Set:
@@ -63,39 +82,48 @@ def _set_of(name: str) -> Set:
 
 
 class Tuning(Learning):
-    async def tuning(self, controller: int = 0) -> dict[str, Tuned]:
-        """All that this controller has, by name. controller: its place in the configuration, from 0."""
+    async def tuning(self, controller: int = 0, *, estimator: int | None = None) -> dict[str, Tuned]:
+        """All that this controller has, by name; or this estimator. Both: places in the configuration, from 0."""
+        place = _place_of(controller, estimator)
         told = {}
-        for tunable, unit in UNITS.items():
+        for tunable, unit in place.units.items():
+            choices = place.choices.get(tunable)
             values = {}
             for each in Set:
                 self._kept.alive()
-                values[each.name] = _value_of(tunable, await self._link.tuned(controller, tunable, each))
+                values[each.name] = _value_of(choices, await self._link.tuned(place.number, tunable, each))
             if any(value is not None for value in values.values()):
-                choices = CHOICES.get(tunable)
-                allowed = RANGES[tunable] if choices is None else (False, True) if choices == _FLAG else choices
+                allowed: tuple[Value, ...] = choices or tunables.RANGES[tunable]
+                if choices == _FLAG:
+                    allowed = (False, True)
                 told[str(tunable)] = Tuned(str(tunable), unit, range=allowed, **values)
             if not told:
-                raise ValueError(f"node {self.node} has no controller {controller} that can be tuned")
+                raise ValueError(f"node {self.node} has no {place.name} that can be tuned")
         return told
 
-    async def tune(self, controller: int = 0, *, base: str = "in_use", **values: float | str) -> None:
-        """Used from now on, without a jump of the power. base: the set that the values are changed in; "configured" is
-        the way back. What is refused changes nothing that is in use."""
-        await self.prepare(controller, base=base, **values)
-        await self.take_over(controller)
+    async def tune(self, controller: int = 0, *, estimator: int | None = None, base: str = "in_use",
+                   **values: float | str) -> None:
+        """Used from now on: by a controller without a jump of the power; an estimator begins anew. base: the set that
+        the values are changed in; "configured" is the way back. What is refused changes nothing that is in use."""
+        await self.prepare(controller, estimator=estimator, base=base, **values)
+        await self.take_over(controller, estimator=estimator)
 
-    async def prepare(self, controller: int = 0, *, base: str = "in_use", **values: float | str) -> None:
+    async def prepare(self, controller: int = 0, *, estimator: int | None = None, base: str = "in_use",
+                      **values: float | str) -> None:
         """The same for a later take_over(): nothing changes yet."""
-        wanted = {(tunable := _tunable_of(name)): _number_of(tunable, value) for name, value in values.items()}
+        place = _place_of(controller, estimator)
+        wanted = {}
+        for name, value in values.items():
+            tunable = _tunable_of(place, name)
+            wanted[tunable] = _number_of(tunable, place.choices.get(tunable), value)
         self._kept.alive()
-        await self._link.prepare(controller, Tunable.all, _set_of(base))
+        await self._link.prepare(place.number, Tunable.all, _set_of(base))
         for tunable in sorted(wanted):  # what there is depends on the kind, and the poles on the model
-            await self._link.prepare(controller, tunable, wanted[tunable])
+            await self._link.prepare(place.number, tunable, wanted[tunable])
 
-    async def take_over(self, controller: int = 0) -> None:
+    async def take_over(self, controller: int = 0, *, estimator: int | None = None) -> None:
         """Uses what was prepared."""
-        await self._obey(Opcode.controller, TUNES_FROM + controller)
+        await self._obey(Opcode.controller, TUNES_FROM + _place_of(controller, estimator).number)
 
     async def store_tuning(self) -> None:
         """Keeps what is in use, and which controller and estimator are chosen, for the next start."""

@@ -434,12 +434,12 @@ double supercoil_tuning_read_place_decode(uint8_t value)
 
 bool supercoil_tuning_read_place_is_in_range(uint8_t value)
 {
-    return (value <= 3u);
+    return (value <= 11u);
 }
 
 bool supercoil_tuning_read_place_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 3.0));
+    return ((value >= 0.0) && (value <= 11.0));
 }
 
 uint8_t supercoil_tuning_read_set_encode(double value)
@@ -3445,12 +3445,12 @@ double supercoil_tuning_place_decode(uint8_t value)
 
 bool supercoil_tuning_place_is_in_range(uint8_t value)
 {
-    return (value <= 3u);
+    return (value <= 11u);
 }
 
 bool supercoil_tuning_place_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 3.0));
+    return ((value >= 0.0) && (value <= 11.0));
 }
 
 uint8_t supercoil_tuning_tunable_encode(double value)
@@ -4049,12 +4049,12 @@ double supercoil_tuning_write_place_decode(uint8_t value)
 
 bool supercoil_tuning_write_place_is_in_range(uint8_t value)
 {
-    return (value <= 3u);
+    return (value <= 11u);
 }
 
 bool supercoil_tuning_write_place_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 3.0));
+    return ((value >= 0.0) && (value <= 11.0));
 }
 
 uint8_t supercoil_tuning_write_tunable_encode(double value)

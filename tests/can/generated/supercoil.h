@@ -202,6 +202,17 @@ extern "C" {
 #define SUPERCOIL_TUNING_READ_TUNABLE_MODEL_POLE_2_RAD_PER_S_CHOICE (20u)
 #define SUPERCOIL_TUNING_READ_TUNABLE_MODEL_POLE_3_RAD_PER_S_CHOICE (21u)
 #define SUPERCOIL_TUNING_READ_TUNABLE_ADAPTATION_SCALE_CHOICE (22u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_GAIN_1_CHOICE (23u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_GAIN_2_CHOICE (24u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_GAIN_3_CHOICE (25u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_GAIN_4_CHOICE (26u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_NORMALISATION_CHOICE (27u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_WINDOW_S_CHOICE (28u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_MIN_RATIO_CHOICE (29u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_MAX_RATIO_CHOICE (30u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_MAX_BIAS_W_CHOICE (31u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_POSITION_NOISE_M_CHOICE (32u)
+#define SUPERCOIL_TUNING_READ_TUNABLE_TRUSTED_ERROR_CHOICE (33u)
 #define SUPERCOIL_TUNING_READ_TUNABLE_ALL_CHOICE (255u)
 
 #define SUPERCOIL_COMMAND_OPCODE_COMPARE_CHOICE (0u)
@@ -514,6 +525,17 @@ extern "C" {
 #define SUPERCOIL_TUNING_TUNABLE_MODEL_POLE_2_RAD_PER_S_CHOICE (20u)
 #define SUPERCOIL_TUNING_TUNABLE_MODEL_POLE_3_RAD_PER_S_CHOICE (21u)
 #define SUPERCOIL_TUNING_TUNABLE_ADAPTATION_SCALE_CHOICE (22u)
+#define SUPERCOIL_TUNING_TUNABLE_GAIN_1_CHOICE (23u)
+#define SUPERCOIL_TUNING_TUNABLE_GAIN_2_CHOICE (24u)
+#define SUPERCOIL_TUNING_TUNABLE_GAIN_3_CHOICE (25u)
+#define SUPERCOIL_TUNING_TUNABLE_GAIN_4_CHOICE (26u)
+#define SUPERCOIL_TUNING_TUNABLE_NORMALISATION_CHOICE (27u)
+#define SUPERCOIL_TUNING_TUNABLE_WINDOW_S_CHOICE (28u)
+#define SUPERCOIL_TUNING_TUNABLE_MIN_RATIO_CHOICE (29u)
+#define SUPERCOIL_TUNING_TUNABLE_MAX_RATIO_CHOICE (30u)
+#define SUPERCOIL_TUNING_TUNABLE_MAX_BIAS_W_CHOICE (31u)
+#define SUPERCOIL_TUNING_TUNABLE_POSITION_NOISE_M_CHOICE (32u)
+#define SUPERCOIL_TUNING_TUNABLE_TRUSTED_ERROR_CHOICE (33u)
 #define SUPERCOIL_TUNING_TUNABLE_ALL_CHOICE (255u)
 
 #define SUPERCOIL_TUNING_REFUSAL_NONE_CHOICE (0u)
@@ -627,6 +649,17 @@ extern "C" {
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_MODEL_POLE_2_RAD_PER_S_CHOICE (20u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_MODEL_POLE_3_RAD_PER_S_CHOICE (21u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_ADAPTATION_SCALE_CHOICE (22u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_GAIN_1_CHOICE (23u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_GAIN_2_CHOICE (24u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_GAIN_3_CHOICE (25u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_GAIN_4_CHOICE (26u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_NORMALISATION_CHOICE (27u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_WINDOW_S_CHOICE (28u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_MIN_RATIO_CHOICE (29u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_MAX_RATIO_CHOICE (30u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_MAX_BIAS_W_CHOICE (31u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_POSITION_NOISE_M_CHOICE (32u)
+#define SUPERCOIL_TUNING_WRITE_TUNABLE_TRUSTED_ERROR_CHOICE (33u)
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_ALL_CHOICE (255u)
 
 /* Frame Names. */
@@ -838,9 +871,9 @@ struct supercoil_first_cause_t {
  */
 struct supercoil_tuning_read_t {
     /**
-     * Of the controller in the configuration, from 0.
+     * In the configuration: of a controller from 0, of an estimator from 8. Boards older than supercoil 0.2.0 have no estimators here.
      *
-     * Range: 0..3 (0..3 -)
+     * Range: 0..11 (0..11 -)
      * Scale: 1
      * Offset: 0
      */
@@ -910,7 +943,7 @@ struct supercoil_command_t {
     uint16_t session;
 
     /**
-     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to the place: this controller gets its prepared values, at once and without a jump, while it is at work too. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0, and out_of_range with another value, but for disarm.
+     * lease: 0 claims, or keeps the lease whose session it carries; the number that claim_again told takes the lease; -1 gives it back. position and scale: m. power: W. controller and estimator: place in the configuration. store: 1 keeps the trusted estimates for the next start, 0 forgets the muscle that is kept, 2 keeps the tuning in use and which controller and estimator are chosen, 3 forgets both. controller with 1000 added to a place as in TuningRead: what is there gets its prepared values, at once; a controller that is at work without a jump, an estimator begins anew. compare: what a meter shows, volts at the supply's terminals as they are, amperes in the channel's line negative, or 1000 and how many K warmer than the air a thermometer shows the muscle; 0 forgets the comparison, 1000 the thermometer's. All others: 0, and out_of_range with another value, but for disarm.
      *
      * Range: -
      * Scale: 1
@@ -1704,7 +1737,7 @@ struct supercoil_tuning_t {
     /**
      * Of the read or write.
      *
-     * Range: 0..3 (0..3 -)
+     * Range: 0..11 (0..11 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1738,7 +1771,7 @@ struct supercoil_tuning_t {
     uint8_t set;
 
     /**
-     * That holds now, in the unit of the parameter's name. kind: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff. reference_model: 0 three real poles (of a model without them: equal ones), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such controller or parameter, or its law has none.
+     * That holds now, in the unit of the parameter's name. kind of a controller: 0 power, 1 pi, 2 pd_ff, 3 mrac, 4 mrac_ls, 5 adaptive_ff, 6 learned_ff; of an estimator: 0 none, 1 gradient, 2 least_squares. reference_model: 0 three real poles (of a model without them: equal ones), 1 design, 2 eq8, 3 wm16. learn, find_period, shape_reference, slow_when_oscillating: 0 or 1. NaN: there is no such place or parameter, or one of this kind has none.
      *
      * Range: -
      * Scale: 1
@@ -1903,7 +1936,7 @@ struct supercoil_status_t {
 /**
  * Signals in message TuningWrite.
  *
- * Prepares one value of a controller of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite.
+ * Prepares one value of a controller or estimator of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite.
  *
  * All signal values are as on the CAN bus.
  */
@@ -1927,9 +1960,9 @@ struct supercoil_tuning_write_t {
     uint8_t counter;
 
     /**
-     * Of the controller in the configuration, from 0.
+     * As in TuningRead.
      *
-     * Range: 0..3 (0..3 -)
+     * Range: 0..11 (0..11 -)
      * Scale: 1
      * Offset: 0
      */

@@ -1,7 +1,9 @@
-// Controllers are tuned while the board runs: over CAN, without a jump, and kept.
+// Controllers and estimators are tuned while the board runs: over CAN, without a jump, and kept.
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
+
+#include "supercoil/control/actuator/conversions.hpp"
 
 #include "loop/support/can_rig.hpp"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr std::uint8_t pi_place = 0;
 constexpr std::uint8_t mrac_place = 2;
+constexpr auto estimator_place = static_cast<std::uint8_t>(first_estimator_place);
 
 std::uint8_t tunable(const char* name) {
   return static_cast<std::uint8_t>(control::tunable_named(name));
@@ -203,4 +206,43 @@ TEST(TuningOverCan, WhatIsStoredIsUsedAtTheNextStart) {
   DOUBLES_EQUAL(configured, value(TuningSet::stored), 0.0);
   DOUBLES_EQUAL(700.0, value(TuningSet::in_use), 0.0);
   CHECK(next.stored().tuning == board::StoredTuning{});
+}
+
+TEST(TuningOverCan, AnEstimatorBeginsAnewWithItsNewValues) {
+  rig.start(master);
+  follow(30.0);
+  const auto theta = [&] { return rig.loop.channel(0).snapshot().theta; };
+  const control::Theta learned = theta();
+  CHECK(rig.write(master, estimator_place, "trusted_error", 0.05F) == Refusal::none);
+  CHECK(rig.write(master, estimator_place, "proportional_W_per_m", 1.0F) == Refusal::out_of_range);
+  CHECK(rig.write(master, estimator_place + 1, "trusted_error", 0.05F) == Refusal::out_of_range);
+  CHECK(rig.tune(master, estimator_place + 1) == Refusal::out_of_range);
+  CHECK(theta() != learned);  // it goes on learning
+  CHECK(rig.tune(master, estimator_place) == Refusal::none);
+  const control::PhysicalParameters known = rough_board().firmware.channels[0].muscle;
+  const control::Theta begins = control::theta_from(known);
+  for (int i = 0; i < 4; ++i)
+    DOUBLES_EQUAL(1.0, theta()[i] / begins[i], 0.05);
+  CHECK((learned - begins).cwiseQuotient(begins).cwiseAbs().maxCoeff() > 0.05);
+  // The muscle is followed all the while.
+  follow(5.0);
+  DOUBLES_EQUAL(0.012, rig.loop.channel(0).snapshot().position_m, 5e-4);
+
+  CHECK(rig.command(master, Verb::store, static_cast<float>(store_tuning)) == Refusal::none);
+  const board::Learned learned_set = rig.stored();
+  ChannelSettings channel = rough_board().firmware.channels[0];
+  apply_learned(channel, learned_set);
+  DOUBLES_EQUAL(0.05, channel.estimators[0].excitation.trusted_error, 0.0);
+  LONGS_EQUAL(1, channel.configured_estimators.size());
+}
+
+TEST(TuningOverCan, AnEstimatorBecomesAnother) {
+  rig.run(1.0);
+  rig.claim(master);
+  CHECK(rig.write(master, estimator_place, "kind", 2.0F) == Refusal::none);
+  CHECK(rig.write(master, estimator_place, "forgetting_s", 12.5F) == Refusal::none);
+  CHECK(rig.tune(master, estimator_place) == Refusal::none);
+  DOUBLES_EQUAL(12.5, rig.read(estimator_place, "forgetting_s", TuningSet::in_use), 0.0);
+  CHECK(std::isnan(rig.read(estimator_place, "window_s", TuningSet::in_use)));
+  DOUBLES_EQUAL(1.0, rig.read(estimator_place, "kind", TuningSet::configured), 0.0);
 }

@@ -81,17 +81,28 @@ ManualControl& ManualControls::of(std::uint8_t node) {
   return *control;
 }
 
-tl::expected<std::vector<TunedValues>, std::string> ManualControls::read_tuning(std::uint8_t node) {
+tl::expected<AskTuning, std::string> ManualControls::ask_tuning(std::uint8_t node) {
   auto bus = bus_of_(node)();
   if (!bus) return tl::unexpected(bus.error());
-  Commander reader(std::move(*bus), node);
-  return operating::read_tuning(
-      [&](int place, std::size_t tunable, TuningSet set) -> tl::expected<double, std::string> {
-        const auto heard = reader.read_tuning(
-            {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(tunable), set});
-        if (!heard) return tl::unexpected(heard.error());
-        return heard->value;
-      });
+  return [reader = std::make_shared<Commander>(std::move(*bus), node)](
+             int place, std::size_t tunable, TuningSet set) -> tl::expected<double, std::string> {
+    const auto heard = reader->read_tuning(
+        {static_cast<std::uint8_t>(place), static_cast<std::uint8_t>(tunable), set});
+    if (!heard) return tl::unexpected(heard.error());
+    return heard->value;
+  };
+}
+
+tl::expected<TunedChannel, std::string> ManualControls::read_tuning(std::uint8_t node) {
+  const auto ask = ask_tuning(node);
+  if (!ask) return tl::unexpected(ask.error());
+  return operating::read_tuning(*ask);
+}
+
+tl::expected<nlohmann::ordered_json, std::string> ManualControls::read_kinds(std::uint8_t node) {
+  const auto ask = ask_tuning(node);
+  if (!ask) return tl::unexpected(ask.error());
+  return operating::read_kinds(*ask);
 }
 
 tl::expected<KnownMuscle, std::string> ManualControls::read_muscle(std::uint8_t node) {
@@ -132,6 +143,7 @@ void Api::serve_with(httplib::Server& server) {
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
   server.Get(R"(/api/tuning/(\d+))", shown([this](const auto& q, auto& a) { show_tuning(q, a); }));
+  server.Get(R"(/api/kinds/(\d+))", shown([this](const auto& q, auto& a) { show_kinds(q, a); }));
   server.Get(R"(/api/muscle/(\d+))", shown([this](const auto& q, auto& a) { show_muscle(q, a); }));
   server.Post("/api/tuning", commanded([this](const auto& q, auto& a) { tune(q, a); }));
   server.Post("/api/alive", commanded([this](const auto& q, auto& a) { alive(q, a); }));
@@ -207,9 +219,18 @@ void Api::show_tuning(const Request& request, Response& response) {
   if (about_.log) return refuse(response, 404, "a log has no board to ask");
   const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
   if (!node) return refuse(response, 400, node.error());
-  const auto controllers = controls_->read_tuning(*node);
-  if (!controllers) return refuse(response, 504, controllers.error());
-  answer_json(response, tuning_json(*controllers).dump());
+  const auto tuning = controls_->read_tuning(*node);
+  if (!tuning) return refuse(response, 504, tuning.error());
+  answer_json(response, tuning_json(*tuning).dump());
+}
+
+void Api::show_kinds(const Request& request, Response& response) {
+  if (about_.log) return refuse(response, 404, "a log has no board to ask");
+  const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
+  if (!node) return refuse(response, 400, node.error());
+  const auto kinds = controls_->read_kinds(*node);
+  if (!kinds) return refuse(response, 504, kinds.error());
+  answer_json(response, kinds->dump());
 }
 
 void Api::show_muscle(const Request& request, Response& response) {

@@ -23,13 +23,19 @@ class ManualControls {
       : bus_of_(std::move(bus_of)) {}
 
   ManualControl& of(std::uint8_t node);
-  /// All values of a node's controllers, over a connection of its own: this may take a second.
-  tl::expected<std::vector<TunedValues>, std::string> read_tuning(std::uint8_t node);
+  /// All values of a node's controllers and estimators, over a connection of its own: this may take
+  /// seconds.
+  tl::expected<TunedChannel, std::string> read_tuning(std::uint8_t node);
+  /// Their kinds only, which is quick.
+  tl::expected<nlohmann::ordered_json, std::string> read_kinds(std::uint8_t node);
   /// What a node goes by, likewise.
   tl::expected<KnownMuscle, std::string> read_muscle(std::uint8_t node);
   void release_hold(const std::string& reason);
 
  private:
+  /// For one question after the other.
+  tl::expected<AskTuning, std::string> ask_tuning(std::uint8_t node);
+
   std::function<ManualControl::OpenBus(std::uint8_t)> bus_of_;
   std::mutex mutex_;
   std::map<std::uint8_t, std::unique_ptr<ManualControl>> controls_;
@@ -61,6 +67,7 @@ class Api {
   void command(const Request& request, Response& response);
   void alive(const Request& request, Response& response);
   void show_tuning(const Request& request, Response& response);
+  void show_kinds(const Request& request, Response& response);
   void show_muscle(const Request& request, Response& response);
   void tune(const Request& request, Response& response);
   /// One piece of a stream; false: the reader is gone.

@@ -14,13 +14,16 @@ namespace {
 
 using nlohmann::json;
 
-tl::expected<std::vector<TuningRequest::Value>, std::string> values_of(const json& given) {
+tl::expected<std::vector<TuningRequest::Value>, std::string> values_of(Tuned what,
+                                                                       const json& given) {
+  const std::vector<std::string> known = tunable_names(what);
   std::vector<TuningRequest::Value> values;
   for (const auto& [name, text] : given.items()) {
     const std::size_t tunable = control::tunable_named(name);
-    if (tunable == control::tunable_count) return tl::unexpected("'" + name + "' cannot be tuned");
+    if (std::ranges::find(known, name) == known.end())
+      return tl::unexpected("'" + name + "' cannot be tuned");
     if (!text.is_string()) return tl::unexpected("the value of " + name + " must be text");
-    const auto value = tuning_value(control::tunables()[tunable], text.get<std::string>());
+    const auto value = tuning_value(what, control::tunables()[tunable], text.get<std::string>());
     if (!value) return tl::unexpected(value.error());
     values.push_back({static_cast<std::uint8_t>(tunable), *value});
   }
@@ -35,8 +38,12 @@ tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string&
   if (!node) return tl::unexpected(node.error());
   const json read = json::parse(text);
   const auto place = read.find("place");
-  if (place == read.end() || !place->is_number_integer() || *place < 0 || *place > 3)
-    return tl::unexpected<std::string>("place must be 0 to 3");
+  constexpr int estimators = first_estimator_place;
+  if (place == read.end() || !place->is_number_integer() || *place < 0 || *place > estimators + 3 ||
+      (*place > 3 && *place < estimators))
+    return tl::unexpected<std::string>(
+        "place must be 0 to 3 (a controller) or 8 to 11 (an estimator)");
+  const Tuned what = *place < estimators ? Tuned::controller : Tuned::estimator;
   const auto from = read.find("from");
   const auto set = from != read.end() && from->is_string()
                        ? std::ranges::find(tuning_set_names, from->get<std::string>())
@@ -45,7 +52,7 @@ tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string&
     return tl::unexpected<std::string>("from must be prepared, in_use, configured or stored");
   const json given = read.value("values", json::object());
   if (!given.is_object()) return tl::unexpected<std::string>("values must be an object");
-  auto values = values_of(given);
+  auto values = values_of(what, given);
   if (!values) return tl::unexpected(values.error());
   return TuningRequest{*node, place->get<std::uint8_t>(),
                        static_cast<TuningSet>(set - tuning_set_names.begin()), std::move(*values)};

@@ -1,4 +1,4 @@
-// What a page asks of a node's controllers, and how it is done.
+// What a page asks of a node's controllers and estimators, and how it is done.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace supercoil::operating {
 
 struct TuningRequest {
   std::uint8_t node;   ///< 1 to 63
-  std::uint8_t place;  ///< of the controller, 0 to 3
+  std::uint8_t place;  ///< as Tuner counts: 0 to 3 a controller, 8 to 11 an estimator
   TuningSet from;      ///< the set that is changed
   struct Value {
     std::uint8_t tunable;

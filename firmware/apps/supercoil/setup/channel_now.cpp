@@ -15,8 +15,9 @@ tl::expected<ChannelNow, std::string> channel_now(BoardLink& board, const std::s
   if (!known) return tl::unexpected(known.error());
   const auto senses = board.senses(channel);
   if (!senses) return tl::unexpected(senses.error());
-  board::TunedController in_use;
+  board::StoredValues in_use;
   for (std::size_t i = 0; i < in_use.values.size(); ++i) {
+    if (!control::tunables()[i].controllers_have()) continue;
     const auto value = board.tuning(channel, 0, i, TuningSet::in_use);
     if (!value) return tl::unexpected(value.error());
     if (!std::isnan(*value)) in_use.values[i] = *value;

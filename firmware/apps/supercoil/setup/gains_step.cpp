@@ -30,7 +30,8 @@ std::string values_text(const ControllerSettings& controller) {
     const bool told =
         tunable.type != TunableType::kind && !(named && tunable.type == TunableType::pole);
     if (!told || std::isnan(value)) continue;
-    text += before + std::string(tunable.name) + " = " + tuning_text(tunable, value);
+    text +=
+        before + std::string(tunable.name) + " = " + tuning_text(Tuned::controller, tunable, value);
     before = ", ";
   }
   return text;
@@ -53,7 +54,7 @@ Json promised(const std::optional<Promise>& promise) {
 TuningDone take_over(BoardLink& board, const std::string& channel, const ControllerSettings& in_use,
                      const ControllerSettings& recommended) {
   std::vector<TuningChange> changes;
-  const auto values = board::TunedController::difference(recommended, in_use).values;
+  const auto values = board::StoredValues::difference(recommended, in_use).values;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (values[i]) changes.push_back({i, *values[i]});
   }

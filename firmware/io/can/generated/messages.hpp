@@ -196,7 +196,7 @@ inline constexpr std::array<ValueName, 4> names_of_state{{
     {3, "fault"},
 }};
 
-inline constexpr std::array<ValueName, 24> names_of_tunable{{
+inline constexpr std::array<ValueName, 35> names_of_tunable{{
     {0, "kind"},
     {1, "proportional_W_per_m"},
     {2, "integral_W_per_m_s"},
@@ -220,6 +220,17 @@ inline constexpr std::array<ValueName, 24> names_of_tunable{{
     {20, "model_pole_2_rad_per_s"},
     {21, "model_pole_3_rad_per_s"},
     {22, "adaptation_scale"},
+    {23, "gain_1"},
+    {24, "gain_2"},
+    {25, "gain_3"},
+    {26, "gain_4"},
+    {27, "normalisation"},
+    {28, "window_s"},
+    {29, "min_ratio"},
+    {30, "max_ratio"},
+    {31, "max_bias_W"},
+    {32, "position_noise_m"},
+    {33, "trusted_error"},
     {255, "all"},
 }};
 

@@ -250,7 +250,7 @@ class Status(NamedTuple):
 
 
 class TuningWrite(NamedTuple):
-    """Prepares one value of a controller of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
+    """Prepares one value of a controller or estimator of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int

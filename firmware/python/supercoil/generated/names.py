@@ -220,4 +220,15 @@ class Tunable(Named):
     model_pole_2_rad_per_s = 20
     model_pole_3_rad_per_s = 21
     adaptation_scale = 22
+    gain_1 = 23
+    gain_2 = 24
+    gain_3 = 25
+    gain_4 = 26
+    normalisation = 27
+    window_s = 28
+    min_ratio = 29
+    max_ratio = 30
+    max_bias_W = 31
+    position_noise_m = 32
+    trusted_error = 33
     all = 255

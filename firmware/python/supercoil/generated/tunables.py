@@ -1,10 +1,10 @@
 # Generated from docs/tuning.md by toolchain/generate-can. Do not edit.
 
-"""What the values of a controller may be."""
+"""What the values of controllers and estimators may be."""
 
 from supercoil.generated.names import Tunable
 
-UNITS = {
+CONTROLLER_UNITS = {
     Tunable.kind: "",
     Tunable.proportional_W_per_m: "W/m",
     Tunable.integral_W_per_m_s: "W/(m s)",
@@ -30,6 +30,37 @@ UNITS = {
     Tunable.adaptation_scale: "",
 }
 
+# A value is sent as its place among them.
+CONTROLLER_CHOICES = {
+    Tunable.kind: ("power", "pi", "pd_ff", "mrac", "mrac_ls", "adaptive_ff", "learned_ff"),
+    Tunable.learn: ("false", "true"),
+    Tunable.find_period: ("false", "true"),
+    Tunable.shape_reference: ("false", "true"),
+    Tunable.slow_when_oscillating: ("false", "true"),
+    Tunable.reference_model: ("poles", "design", "eq8", "wm16"),
+}
+
+ESTIMATOR_UNITS = {
+    Tunable.kind: "",
+    Tunable.forgetting_s: "s",
+    Tunable.gain_1: "",
+    Tunable.gain_2: "",
+    Tunable.gain_3: "",
+    Tunable.gain_4: "",
+    Tunable.normalisation: "",
+    Tunable.window_s: "s",
+    Tunable.min_ratio: "",
+    Tunable.max_ratio: "",
+    Tunable.max_bias_W: "W",
+    Tunable.position_noise_m: "m",
+    Tunable.trusted_error: "",
+}
+
+# A value is sent as its place among them.
+ESTIMATOR_CHOICES = {
+    Tunable.kind: ("none", "gradient", "least_squares"),
+}
+
 # Lowest and highest.
 RANGES = {
     Tunable.proportional_W_per_m: (0.0, 10000000.0),
@@ -49,14 +80,15 @@ RANGES = {
     Tunable.model_pole_2_rad_per_s: (0.001, 1000.0),
     Tunable.model_pole_3_rad_per_s: (0.001, 1000.0),
     Tunable.adaptation_scale: (1e-06, 1000000.0),
-}
-
-# A value is sent as its place among them.
-CHOICES = {
-    Tunable.kind: ("power", "pi", "pd_ff", "mrac", "mrac_ls", "adaptive_ff", "learned_ff"),
-    Tunable.learn: ("false", "true"),
-    Tunable.find_period: ("false", "true"),
-    Tunable.shape_reference: ("false", "true"),
-    Tunable.slow_when_oscillating: ("false", "true"),
-    Tunable.reference_model: ("poles", "design", "eq8", "wm16"),
+    Tunable.gain_1: (1e-06, 1000000000000.0),
+    Tunable.gain_2: (1e-06, 1000000000000.0),
+    Tunable.gain_3: (1e-06, 1000000000000.0),
+    Tunable.gain_4: (1e-06, 1000000000000.0),
+    Tunable.normalisation: (0.0, 1000000.0),
+    Tunable.window_s: (0.1, 3600.0),
+    Tunable.min_ratio: (0.001, 1.0),
+    Tunable.max_ratio: (1.0, 1000.0),
+    Tunable.max_bias_W: (0.0, 1000.0),
+    Tunable.position_noise_m: (1e-09, 0.01),
+    Tunable.trusted_error: (1e-06, 1000.0),
 }

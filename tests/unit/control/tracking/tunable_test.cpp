@@ -1,4 +1,4 @@
-// The values of a controller that can be changed one by one.
+// The values of controllers and estimators that can be changed one by one.
 #include "supercoil/control/tracking/tunable.hpp"
 
 #include <array>
@@ -18,8 +18,15 @@ ControllerSettings of_kind(ControllerKind kind) {
   return settings;
 }
 
+EstimatorSettings of_kind(EstimatorKind kind) {
+  EstimatorSettings settings;
+  settings.kind = kind;
+  return settings;
+}
+
 using Tuning = std::array<double, tunable_count>;
-Tuning tuning_of(const ControllerSettings& settings) {
+template <class Settings>
+Tuning tuning_of(const Settings& settings) {
   Tuning tuning;
   for (std::size_t i = 0; i < tuning.size(); ++i)
     tuning[i] = tunables()[i].get(settings);
@@ -28,40 +35,72 @@ Tuning tuning_of(const ControllerSettings& settings) {
 
 /// In range, and another one.
 double another(const Tunable& tunable, double value) {
-  if (tunable.type != TunableType::number && tunable.type != TunableType::pole)
-    return value == tunable.highest ? tunable.highest - 1.0 : value + 1.0;
+  if (!tunable.is_number()) return value == tunable.highest ? tunable.highest - 1.0 : value + 1.0;
   return value * 1.5 <= tunable.highest && value > 0.0 ? value * 1.5 : tunable.highest;
+}
+
+/// False: these settings have no such value.
+template <class Settings>
+bool changes_alone(const Settings& before, std::size_t i, std::string_view name) {
+  const Tunable& tunable = tunables()[i];
+  if (std::isnan(tunable.get(before))) return false;
+  Settings after = before;
+  const double value = another(tunable, tunable.get(before));
+  tunable.set(after, value);
+  Tuning expected = tuning_of(before);
+  expected[i] = value;
+  if (tunable.type == TunableType::pole) expected[tunable_named("reference_model")] = 0.0;
+  const Tuning found = tuning_of(after);
+  for (std::size_t k = 0; k < tunable_count; ++k) {
+    const bool same = found[k] == expected[k] || (std::isnan(found[k]) && std::isnan(expected[k]));
+    CHECK_TEXT(same, (std::string(name) + ": " + std::string(tunables()[k].name)).c_str());
+  }
+  return true;
+}
+
+std::size_t listed(bool (Tunable::*have)() const) {
+  std::size_t count = 0;
+  for (const Tunable& tunable : tunables())
+    count += (tunable.*have)() ? 1 : 0;
+  return count;
 }
 
 }  // namespace
 
 TEST_GROUP(Tunables){};
 
-TEST(Tunables, EachIsReadBackAndChangesNoOtherValue) {
+TEST(Tunables, EachOfAControllerIsReadBackAndChangesNoOtherValue) {
   std::set<std::size_t> seen;
   for (const auto& [name, kind] : controller_names) {
     // The law itself decides which others there are, and the model has the poles.
+    const std::size_t model = tunable_named("reference_model");
     for (std::size_t i = 1; i < tunable_count; ++i) {
-      const Tunable& tunable = tunables()[i];
-      const ControllerSettings before = of_kind(kind);
-      if (tunable.type == TunableType::model || std::isnan(tunable.get(before))) continue;
-      seen.insert(i);
-      ControllerSettings after = before;
-      const double value = another(tunable, tunable.get(before));
-      tunable.set(after, value);
-      Tuning expected = tuning_of(before);
-      expected[i] = value;
-      if (tunable.type == TunableType::pole) expected[tunable_named("reference_model")] = 0.0;
-      const Tuning found = tuning_of(after);
-      for (std::size_t k = 0; k < tunable_count; ++k) {
-        const bool same =
-            found[k] == expected[k] || (std::isnan(found[k]) && std::isnan(expected[k]));
-        CHECK_TEXT(same, (std::string(name) + ": " + std::string(tunables()[k].name)).c_str());
-      }
+      if (i != model && changes_alone(of_kind(kind), i, name)) seen.insert(i);
     }
   }
-  // But kind and reference_model: every name belongs to some law.
-  LONGS_EQUAL(tunable_count - 2, seen.size());
+  // But kind and reference_model: every name that is listed as a law's is one's.
+  LONGS_EQUAL(2 + seen.size(), listed(&Tunable::controllers_have));
+}
+
+TEST(Tunables, EachOfAnEstimatorIsReadBackAndChangesNoOtherValue) {
+  std::set<std::size_t> seen;
+  for (const auto& [name, kind] : estimator_names) {
+    for (std::size_t i = 1; i < tunable_count; ++i) {
+      if (changes_alone(of_kind(kind), i, name)) seen.insert(i);
+    }
+  }
+  LONGS_EQUAL(1 + seen.size(), listed(&Tunable::estimators_have));
+}
+
+TEST(Tunables, BothHaveAKindThatIsSetFirst) {
+  EstimatorSettings estimator;
+  tunables()[0].set(estimator, 2.0);
+  CHECK(estimator.kind == EstimatorKind::least_squares);
+  STRCMP_EQUAL("kind", tunables()[0].name.data());
+  CHECK(tunables()[0].controllers_have() && tunables()[0].estimators_have());
+  const Tunable& window = tunables()[tunable_named("window_s")];
+  CHECK(std::isnan(window.get(estimator)));
+  CHECK(std::isnan(tunables()[tunable_named("trusted_error")].get(of_kind(EstimatorKind::none))));
 }
 
 TEST(Tunables, OpenLoopHasItsKindOnly) {

@@ -22,6 +22,8 @@ struct EstimatorSettings {
 
   /// The muscle from which each begins. max_W: of its channel; NaN while that is not known.
   void set_nominal(const PhysicalParameters& muscle, double max_W);
+  /// Each begins at this muscle's θ; its nominal one, the scale, stays.
+  void begin_at(const PhysicalParameters& muscle);
 };
 
 template <EstimatorKind Kind, EstimatorDefinition Definition, auto Member>

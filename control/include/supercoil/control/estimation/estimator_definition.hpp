@@ -8,6 +8,7 @@
 #include "supercoil/control/estimation/excitation.hpp"
 #include "supercoil/control/estimation/parametric_model.hpp"
 #include "supercoil/control/scalar/fixed_point_fit.hpp"
+#include "supercoil/control/scalar/setting_value.hpp"
 
 namespace supercoil::control {
 
@@ -21,8 +22,9 @@ concept ParameterEstimator = requires(Running running, Scalar scalar) {
 /// In<Scalar>: the estimator, made of its settings and step_s. watch(): each tick after step(), for
 /// those whose trust hangs on excitation. estimate(): what it tells, and whether that is trusted,
 /// by the nominal θ and the greatest relative error. set_nominal(): max_W is NaN while not known.
-/// Where it runs in fixed_point, check_fit(fit, settings, step_s).
-template <class Definition, class Running = typename Definition::template In<double>>
+/// values: a range of SettingValue. Where it runs in fixed_point, check_fit(fit, settings, step_s).
+template <class Definition, class Running = typename Definition::template In<double>,
+          class Value = SettingValue<typename Definition::Settings>>
 concept EstimatorDefinition = ParameterEstimator<Running, double> &&
     requires(typename Definition::Settings settings, const Running& running,
              ExcitationMonitor excitation, const RegressionScale& scale, const Theta& nominal,
@@ -30,6 +32,7 @@ concept EstimatorDefinition = ParameterEstimator<Running, double> &&
   { Definition::name } -> std::convertible_to<std::string_view>;
   { Definition::fixed_point } -> std::convertible_to<bool>;
   Definition::set_nominal(settings, scale, value);
+  { *Definition::values.begin() } -> std::convertible_to<Value>;
   Definition::watch(running, excitation);
   { Definition::estimate(running, nominal, excitation, value) } -> std::same_as<Estimate>;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
@@ -341,6 +342,12 @@ struct LeastSquaresEstimation {
   using In = LeastSquaresEstimator<Scalar>;
   static constexpr std::string_view name = "least_squares";
   static constexpr bool fixed_point = false;
+  static constexpr std::array values{
+      setting_value<Settings, &Settings::forgetting_s>("forgetting_s"),
+      setting_value<Settings, &Settings::min_ratio>("min_ratio"),
+      setting_value<Settings, &Settings::max_ratio>("max_ratio"),
+      setting_value<Settings, &Settings::max_bias_W>("max_bias_W"),
+      setting_value<Settings, &Settings::position_noise_m>("position_noise_m")};
 
   static void set_nominal(Settings& s, const RegressionScale& scale, double max_W) {
     s.scale = scale;

@@ -129,9 +129,10 @@ struct AdaptiveFeedforwardLaw : UsualLaw {
   using In = AdaptiveFeedforward<Scalar>;
   static constexpr std::string_view name = "adaptive_ff";
   static constexpr std::array values{
-      law_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
-      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s"),
-      law_value<Settings, &Settings::follow_s>("follow_s")};
+      setting_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
+      setting_value<Settings, &Settings::derivative_filter_rad_per_s>(
+          "derivative_filter_rad_per_s"),
+      setting_value<Settings, &Settings::follow_s>("follow_s")};
 
   template <class Scalar>
   static AdaptiveFeedforward<Scalar> make(const Settings& s, const LawContext&, double step_s) {

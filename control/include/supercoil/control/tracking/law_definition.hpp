@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
-#include <type_traits>
 
 #include "supercoil/control/estimation/parametric_model.hpp"
 #include "supercoil/control/scalar/fixed_point_fit.hpp"
+#include "supercoil/control/scalar/setting_value.hpp"
 #include "supercoil/control/tracking/fixed_law.hpp"
 #include "supercoil/control/tracking/law.hpp"
 
@@ -41,27 +41,6 @@ struct LawContext {
   double dc_gain_m_per_W;  ///< metres that a watt at rest, the law's unit, stands for
 };
 
-/// One of a law's settings that can be changed while it runs; its range stands in tunable.cpp.
-template <class Settings>
-struct LawValue {
-  std::string_view name;
-  double (*get)(const Settings& settings);  ///< a flag: 0 or 1
-  void (*set)(Settings& settings, double value);
-};
-
-/// Member: a double or a bool of the settings.
-template <class Settings, auto Member>
-constexpr LawValue<Settings> law_value(std::string_view name) {
-  return {name, [](const Settings& s) { return static_cast<double>(s.*Member); },
-          [](Settings& s, double value) {
-            if constexpr (std::is_same_v<decltype(Member), bool Settings::*>) {
-              s.*Member = value != 0.0;
-            } else {
-              s.*Member = value;
-            }
-          }};
-}
-
 /// What most laws state; a law's definition hides what is different.
 struct UsualLaw {
   static constexpr bool fixed_point = true;  ///< runs in q8.24, and has check_fit()
@@ -89,9 +68,9 @@ concept ChecksFixedPoint = !Definition::fixed_point || ChecksItsFit<Definition>;
 
 /// In<Scalar>: the law. make(): it, for step_s > 0. fixed_law(): what it does to small errors with
 /// the gains that follow from a muscle, or with the parameters that match it; empty where none do.
-/// values: a range of LawValue.
+/// values: a range of SettingValue.
 template <class Definition, class Law = typename Definition::template In<double>,
-          class Value = LawValue<typename Definition::Settings>>
+          class Value = SettingValue<typename Definition::Settings>>
 concept LawDefinition = TrackingLaw<Law, double> && ChecksFixedPoint<Definition> &&
     requires(typename Definition::Settings settings, const LawContext& context,
              const RegressionScale& scale, const PhysicalParameters& muscle, LawProblems problems,

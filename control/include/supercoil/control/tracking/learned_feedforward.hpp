@@ -173,13 +173,14 @@ struct LearnedFeedforwardLaw : UsualLaw {
   static constexpr std::string_view name = "learned_ff";
   static constexpr bool fixed_point = false;
   static constexpr std::array values{
-      law_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
-      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s"),
-      law_value<Settings, &Settings::follow_s>("follow_s"),
-      law_value<Settings, &Settings::forgetting_s>("forgetting_s"),
-      law_value<Settings, &Settings::learn>("learn"),
-      law_value<Settings, &Settings::period_s>("period_s"),
-      law_value<Settings, &Settings::find_period>("find_period")};
+      setting_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
+      setting_value<Settings, &Settings::derivative_filter_rad_per_s>(
+          "derivative_filter_rad_per_s"),
+      setting_value<Settings, &Settings::follow_s>("follow_s"),
+      setting_value<Settings, &Settings::forgetting_s>("forgetting_s"),
+      setting_value<Settings, &Settings::learn>("learn"),
+      setting_value<Settings, &Settings::period_s>("period_s"),
+      setting_value<Settings, &Settings::find_period>("find_period")};
 
   template <class Scalar>
   static LearnedFeedforward<Scalar> make(const Settings& s, const LawContext&, double step_s) {

@@ -193,12 +193,12 @@ struct MracLaw : UsualLaw {
   static constexpr bool adapts = true;
   static constexpr std::string_view when_unstable =
       "take slower filters or a slower reference model";
-  static constexpr std::array values{
-      LawValue<Settings>{"adaptation_scale", [](const Settings& s) { return s.adaptation_scale; },
-                         [](Settings& s, double value) {
-                           s = s.scaled(value / s.adaptation_scale);
-                           s.adaptation_scale = value;  // without what the division rounded
-                         }}};
+  static constexpr std::array values{SettingValue<Settings>{
+      "adaptation_scale", [](const Settings& s) { return s.adaptation_scale; },
+      [](Settings& s, double value) {
+        s = s.scaled(value / s.adaptation_scale);
+        s.adaptation_scale = value;  // without what the division rounded
+      }}};
 
   template <class Scalar>
   static Mrac<Scalar> make(const Settings& s, const LawContext&, double step_s) {

@@ -260,14 +260,15 @@ struct MracLeastSquaresLaw : UsualLaw {
   static constexpr bool adapts = true;
   static constexpr std::string_view when_unstable = "lower its bandwidth_rad_per_s";
   static constexpr std::array values{
-      law_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
-      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s"),
-      law_value<Settings, &Settings::follow_s>("follow_s"),
-      law_value<Settings, &Settings::forgetting_s>("forgetting_s"),
-      law_value<Settings, &Settings::filter_rad_per_s>("filter_rad_per_s"),
-      law_value<Settings, &Settings::regression_rad_per_s>("regression_rad_per_s"),
-      law_value<Settings, &Settings::change_W>("change_W"),
-      law_value<Settings, &Settings::hold_s>("hold_s")};
+      setting_value<Settings, &Settings::bandwidth_rad_per_s>("bandwidth_rad_per_s"),
+      setting_value<Settings, &Settings::derivative_filter_rad_per_s>(
+          "derivative_filter_rad_per_s"),
+      setting_value<Settings, &Settings::follow_s>("follow_s"),
+      setting_value<Settings, &Settings::forgetting_s>("forgetting_s"),
+      setting_value<Settings, &Settings::filter_rad_per_s>("filter_rad_per_s"),
+      setting_value<Settings, &Settings::regression_rad_per_s>("regression_rad_per_s"),
+      setting_value<Settings, &Settings::change_W>("change_W"),
+      setting_value<Settings, &Settings::hold_s>("hold_s")};
 
   template <class Scalar>
   static MracLeastSquares<Scalar> make(const Settings& s, const LawContext& context,

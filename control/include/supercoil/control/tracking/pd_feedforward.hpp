@@ -66,10 +66,11 @@ struct PdFeedforwardLaw : UsualLaw {
   using In = PdFeedforward<Scalar>;
   static constexpr std::string_view name = "pd_ff";
   static constexpr std::array values{
-      law_value<Settings, &Settings::proportional_W_per_m>("proportional_W_per_m"),
-      law_value<Settings, &Settings::derivative_Ws_per_m>("derivative_Ws_per_m"),
-      law_value<Settings, &Settings::feedforward_W_per_m>("feedforward_W_per_m"),
-      law_value<Settings, &Settings::derivative_filter_rad_per_s>("derivative_filter_rad_per_s")};
+      setting_value<Settings, &Settings::proportional_W_per_m>("proportional_W_per_m"),
+      setting_value<Settings, &Settings::derivative_Ws_per_m>("derivative_Ws_per_m"),
+      setting_value<Settings, &Settings::feedforward_W_per_m>("feedforward_W_per_m"),
+      setting_value<Settings, &Settings::derivative_filter_rad_per_s>(
+          "derivative_filter_rad_per_s")};
 
   template <class Scalar>
   static PdFeedforward<Scalar> make(const Settings& s, const LawContext& context, double step_s) {

@@ -68,8 +68,8 @@ struct PiLaw : UsualLaw {
   using In = Pi<Scalar>;
   static constexpr std::string_view name = "pi";
   static constexpr std::array values{
-      law_value<Settings, &Settings::proportional_W_per_m>("proportional_W_per_m"),
-      law_value<Settings, &Settings::integral_W_per_m_s>("integral_W_per_m_s")};
+      setting_value<Settings, &Settings::proportional_W_per_m>("proportional_W_per_m"),
+      setting_value<Settings, &Settings::integral_W_per_m_s>("integral_W_per_m_s")};
 
   template <class Scalar>
   static Pi<Scalar> make(const Settings& s, const LawContext& context, double step_s) {

@@ -68,6 +68,7 @@ export class NodeView {
     const now_s = this.view.now_s();
     const limits = this.margins.limits.size;
     this.status = this.state.update(now_s);
+    if (!this.tuning.element.hidden) this.tuning.follow(this.status);
     for (const card of this.cards) card.update(now_s);
     this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();

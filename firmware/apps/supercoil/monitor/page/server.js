@@ -52,8 +52,11 @@ export async function command(node, opcode, value = 0, options = {}) {
   return (await (await post("/api/command", { node, opcode, value }, options)).json()).refusal;
 }
 
-/** All values of a node's controllers: {controllers: [{controller, kind: {in_use, …}, …}], choices: {kind: […], …}}. */
+/** All values of a node: {controllers: [{controller, kind: {in_use, …}, …}], estimators: [{estimator, …}], choices: {controllers: {kind: […], …}, estimators}}. */
 export const tuning_of = async (node) => (await ask(`/api/tuning/${node}`)).json();
+
+/** The kinds in use of a node: {controllers: ["mrac", …], estimators: […]}. */
+export const kinds_of = async (node) => (await ask(`/api/kinds/${node}`)).json();
 
 /** Has a node tell all that it goes by of its muscle; the answers come with the stream, as Muscle. */
 export const ask_muscle = async (node) => void (await ask(`/api/muscle/${node}`));

@@ -79,14 +79,14 @@ export class StateCard {
     const row = this.store.at(this.node, "Status", now_s);
     const name = (signal) => this.store.word("Status", signal, row[signal]);
     const silent_s = row ? now_s - row.time_s + this.store.silent_s : Infinity;
-    const status = row && { state: silent_s > SILENT_S ? "silent" : name("state"), mode: name("mode"), fault: name("fault"), time_s: row.time_s };
+    const status = row && { state: silent_s > SILENT_S ? "silent" : name("state"), mode: name("mode"), fault: name("fault"), controller: row.controller, time_s: row.time_s };
     const state = status?.state ?? "silent";
     this.element.dataset.state = state;
     show(this.word, state);
     show(this.means, state in MEANS ? `${MEANS[state]}; ${how_hot(state, this.#hottest_C(now_s))}`
       : row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : "its heartbeat was never heard");
     const facts = row
-      ? [name("mode"), `${this.kind_of(row.controller) ?? `no. ${row.controller}`}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
+      ? [name("mode"), `${this.kind_of(row.controller) ?? `number ${row.controller}`}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
         row.limited || name("limited_by") === "cooling" ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
       : ["–", "–", "–", "–"];
     this.values.forEach((value, i) => show(value, facts[i]));

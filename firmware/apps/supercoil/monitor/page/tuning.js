@@ -1,11 +1,12 @@
-// The controllers of a node with all their values: read when they are opened, changed by hand, stored.
+// The controllers and estimators of a node with all their values: read when they are opened, changed by hand, stored.
 
 import { element, scrolling, show } from "./dom.js";
 import { significant, words } from "./format.js";
-import { command, tune, tuning_of } from "./server.js";
+import { command, kinds_of, tune, tuning_of } from "./server.js";
 
 const STORE = 2; // of the opcode store: keeps the tuning in use
 const CLEAR = 3; // forgets what is kept
+const FIRST_ESTIMATOR = 8; // of the places, where controllers begin at 0
 const SETS = ["in_use", "configured", "stored"];
 const UNSUITABLE = "unsuitable: unstable on the muscle that is known, or values that contradict each other; nothing changed";
 
@@ -14,13 +15,13 @@ const text_of = (value) => (value === null || value === undefined ? "–" : type
 export class Tuning {
   /** may: {command, why}; log: is told (text, kind) of what was done. */
   constructor(node, may, log) {
-    Object.assign(this, { node, may, log, controllers: [], choices: {}, place: 0, inputs: new Map() });
-    this.tabs = element("div", { class: "buttons", role: "group", "aria-label": "controller" });
+    Object.assign(this, { node, may, log, all: [], kinds: null, known_at: "", shown: 0, inputs: new Map() });
+    this.tabs = element("div", { class: "buttons", role: "group", "aria-label": "controllers and estimators" });
     this.body = element("tbody");
     this.answer = element("p", { class: "answer", role: "status", "aria-label": "answer about the controllers" });
     const button = (text, act) => element("button", { type: "button", disabled: !may.command, onclick: act }, text);
     this.element = element("details", { class: "card full-only", "aria-label": `controllers of node ${node}`, ontoggle: () => this.element.open && this.read() },
-      element("summary", {}, element("h2", {}, "Controllers")), this.tabs,
+      element("summary", {}, element("h2", {}, "Controllers and estimators")), this.tabs,
       element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#use("in_use", this.#changed()); } },
         scrolling(`values of the controllers, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
           ...["value", "in use", "board.toml", "stored", "new"].map((title) => element("th", { scope: "col" }, title)))), this.body)),
@@ -33,14 +34,25 @@ export class Tuning {
 
   /** The law at a place, by its name; undefined while it is not known. */
   kind_of(place) {
-    return this.controllers[place]?.kind.in_use;
+    return this.kinds?.controllers[place];
+  }
+
+  /** Kinds are asked for again when what is at work may have changed: others tune as well. */
+  follow(status) {
+    const now = status && status.state !== "silent" ? `${status.state} ${status.mode} ${status.controller}` : "";
+    if (now === this.known_at) return;
+    this.known_at = now;
+    if (now) kinds_of(this.node).then((kinds) => { this.kinds = kinds; }, () => { this.kinds = null; });
   }
 
   async read() {
     this.#say("reading …");
     try {
-      Object.assign(this, await tuning_of(this.node));
-      this.place = Math.min(this.place, this.controllers.length - 1);
+      const { controllers, estimators, choices } = await tuning_of(this.node);
+      this.all = [...controllers.map((values, place) => ({ what: "controller", number: place, place, values, choices: choices.controllers })),
+        ...estimators.map((values, number) => ({ what: "estimator", number, place: FIRST_ESTIMATOR + number, values, choices: choices.estimators }))];
+      this.kinds = { controllers: controllers.map(({ kind }) => kind.in_use) };
+      this.shown = Math.min(this.shown, this.all.length - 1);
       this.#draw();
       this.#say("");
     } catch (problem) {
@@ -49,11 +61,12 @@ export class Tuning {
   }
 
   #draw() {
-    this.tabs.replaceChildren(...this.controllers.map(({ kind }, place) => element("button", { type: "button",
-      "aria-pressed": String(place === this.place), onclick: () => { this.place = place; this.#draw(); } }, `${place}: ${kind.in_use}`)));
+    this.tabs.replaceChildren(...this.all.map(({ what, number, values }, at) => element("button", { type: "button",
+      "aria-pressed": String(at === this.shown), onclick: () => { this.shown = at; this.#draw(); } }, `${what} ${number}: ${values.kind.in_use}`)));
     this.inputs.clear();
-    this.body.replaceChildren(...Object.entries(this.controllers[this.place] ?? {}).filter(([name]) => name !== "controller").map(([name, sets]) => {
-      const input = this.#input(name, sets);
+    const { what, values, choices } = this.all[this.shown];
+    this.body.replaceChildren(...Object.entries(values).filter(([name]) => name !== what).map(([name, sets]) => {
+      const input = this.#input(name, sets, choices[name]);
       this.inputs.set(name, { input, was: input.value });
       const differs = SETS.some((set) => sets[set] !== sets.configured);
       return element("tr", { class: differs ? "differs" : "" }, element("th", { scope: "row", title: name }, (differs ? "✱ " : "") + words(name)),
@@ -61,9 +74,8 @@ export class Tuning {
     }));
   }
 
-  #input(name, { in_use }) {
+  #input(name, { in_use }, choices) {
     const attributes = { "aria-label": `new ${words(name)}`, disabled: !this.may.command || in_use === null };
-    const choices = this.choices[name];
     if (!choices) return element("input", { ...attributes, type: "text", inputmode: "decimal", value: in_use ?? "" });
     return element("select", attributes, ...(choices.includes(String(in_use)) ? [] : [element("option", { selected: true }, text_of(in_use))]),
       ...choices.map((choice) => element("option", { selected: choice === String(in_use) }, choice)));
@@ -76,11 +88,13 @@ export class Tuning {
 
   async #use(from, values) {
     const what = Object.entries(values).map(([name, value]) => `${name} = ${value}`).join(", ") || (from === "configured" ? "as board.toml" : "no change");
-    await this.#do(`controller ${this.place}: ${what}`, () => tune(this.node, this.place, from, values), "in use");
+    if (this.all.length === 0) return this.#say("the values are not read yet", true);
+    const { what: of, number, place } = this.all[this.shown];
+    await this.#do(`${of} ${number}: ${what}`, () => tune(this.node, place, from, values), "in use");
   }
 
   async #keep(value, done) {
-    await this.#do("controllers", () => command(this.node, "store", value), done);
+    await this.#do("tuning", () => command(this.node, "store", value), done);
   }
 
   async #do(what, act, done) {

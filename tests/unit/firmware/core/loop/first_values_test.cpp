@@ -81,7 +81,8 @@ TEST(FirstValues, OfACommandAskForNothing) {
   CHECK(command.verb == Verb::none && command.source == Source::local);
   DOUBLES_EQUAL(0.0, command.value, 0.0);
   UNSIGNED_LONGS_EQUAL(0, command.id);
-  CHECK(command.tuned == nullptr && command.tuning == nullptr);
+  CHECK(command.tuned_controller == nullptr && command.tuned_estimator == nullptr);
+  CHECK(command.tuning == nullptr);
   const Answer answer;
   CHECK(answer.refusal == Refusal::none);
   CHECK(std::isnan(answer.nearest));

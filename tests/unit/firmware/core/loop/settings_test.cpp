@@ -87,7 +87,7 @@ TEST(BoardSettingsCheck, WhatWasStoredMakesTheSameControllerAgain) {
         const auto configured = with(one % kinds, static_cast<double>(one_model), 1.0);
         const auto now = with(other % kinds, static_cast<double>(other_model), factor);
         auto again = configured;
-        board::TunedController::difference(now, configured).apply_to(again);
+        board::StoredValues::difference(now, configured).apply_to(again);
         for (const control::Tunable& t : control::tunables()) {
           const double wanted = t.get(now);
           const double got = t.get(again);
@@ -116,6 +116,27 @@ TEST(BoardSettingsCheck, StoredTuningThatIsUnstableIsDroppedAndNamed) {
   CHECK(problem.has_value());
   STRCMP_CONTAINS("unstable", problem->message.c_str());
   DOUBLES_EQUAL(1100.0, channel.controllers[0].pi.integral_W_per_m_s, 0.0);
+}
+
+TEST(BoardSettingsCheck, StoredTuningOfAnEstimatorThatCannotRunIsDroppedAndNamed) {
+  ChannelSettings channel;
+  channel.estimators[0].arithmetic = control::Arithmetic::q8_24;
+  channel.estimators[0].gradient.normalisation = 0.5;
+  board::Learned learned;
+  learned.has_muscle = false;
+  auto& values = learned.tuning.estimators[0].values;
+  values[control::tunable_named("normalisation")] = 0.75;
+  apply_learned(channel, learned);
+  CHECK_FALSE(drop_unusable_tuning(channel, 1e-3).has_value());
+  DOUBLES_EQUAL(0.75, channel.estimators[0].gradient.normalisation, 0.0);
+  channel.estimators = channel.configured_estimators;
+  values[control::tunable_named("normalisation")] = 1e6;
+  apply_learned(channel, learned);
+  const auto problem = drop_unusable_tuning(channel, 1e-3);
+  CHECK(problem.has_value());
+  STRCMP_EQUAL("normalisation", problem->key.c_str());
+  STRCMP_CONTAINS("does not fit", problem->message.c_str());
+  DOUBLES_EQUAL(0.5, channel.estimators[0].gradient.normalisation, 0.0);
 }
 
 TEST(BoardSettingsCheck, TheLoopsDelayIsATickAndTheHeaters) {

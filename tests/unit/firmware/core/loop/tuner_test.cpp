@@ -1,9 +1,12 @@
-// What of a controller's values is prepared, in use, configured and stored.
+// What of a controller's or an estimator's values is prepared, in use, configured and stored.
 #include "loop/tuner.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <CppUTest/TestHarness.h>
+
+#include "supercoil/control/actuator/conversions.hpp"
 
 #include "unit/firmware/core/support/tick.hpp"
 
@@ -54,7 +57,7 @@ TEST(Tuner, WhatTheLoopTookIsInUseAndIsWhatIsStored) {
   for (const Refusal refusal : {Refusal::busy, Refusal::none}) {
     Command tune = command(Verb::tune, 0.0);
     tuner.add_to(tune, muscle);
-    CHECK(tune.tuned != nullptr);
+    CHECK(tune.tuned_controller != nullptr);
     DOUBLES_EQUAL(configured, tuner.value(TuningSet::in_use, 0, integral), 0.0);
     tuner.conclude({tune, refusal});
   }
@@ -103,9 +106,62 @@ TEST(Tuner, JudgesASetByTheMuscleThatIsKnownNow) {
   strong.force_per_kelvin_N_per_K *= 100.0;
   Command tune = command(Verb::tune, 0.0);
   tuner.add_to(tune, strong);
-  CHECK(tune.tuned == nullptr);
+  CHECK(tune.tuned_controller == nullptr);
   STRCMP_CONTAINS("unstable", tuner.problem().c_str());
   tuner.add_to(tune, muscle);
-  CHECK(tune.tuned != nullptr);
+  CHECK(tune.tuned_controller != nullptr);
   STRCMP_EQUAL("", tuner.problem().c_str());
+}
+
+TEST(Tuner, AnEstimatorBeginsAtTheMuscleThatIsKnownNow) {
+  const std::size_t trusted = control::tunable_named("trusted_error");
+  const std::size_t place = first_estimator_place;
+  supercoil::Tuner tuner(channel, tick_s);
+  CHECK(std::isnan(tuner.value(TuningSet::in_use, place + 1, trusted)));
+  CHECK(std::isnan(tuner.value(TuningSet::in_use, place - 1, trusted)));
+  CHECK(std::isnan(tuner.value(TuningSet::in_use, place, integral)));
+  CHECK(std::isnan(tuner.value(TuningSet::in_use, 0, trusted)));
+  CHECK(tuner.prepare(place, trusted, 0.1).refusal == Refusal::none);
+  control::PhysicalParameters known = muscle;
+  known.stiffness_N_per_m *= 1.25;
+  Command tune = command(Verb::tune, place);
+  tuner.add_to(tune, known);
+  CHECK(tune.tuned_controller == nullptr);
+  CHECK(tune.tuned_estimator != nullptr);
+  if (tune.tuned_estimator == nullptr) return;
+  const control::Theta begins = tune.tuned_estimator->estimate()->theta;
+  const control::Theta wanted = control::theta_from(known);
+  for (int i = 0; i < 4; ++i)
+    DOUBLES_EQUAL(1.0, begins[i] / wanted[i], 1e-12);
+  tuner.conclude({tune, Refusal::busy});
+  DOUBLES_EQUAL(0.2, tuner.value(TuningSet::in_use, place, trusted), 0.0);
+  tuner.add_to(tune, known);
+  tuner.conclude({tune, Refusal::none});
+  DOUBLES_EQUAL(0.1, tuner.value(TuningSet::in_use, place, trusted), 0.0);
+  // Where it begins is no value of it.
+  CHECK(tuner.prepare_from(TuningSet::configured, place));
+  DOUBLES_EQUAL(0.2, tuner.value(TuningSet::prepared, place, trusted), 0.0);
+
+  Command store = command(Verb::store, store_tuning);
+  tuner.add_to(store, muscle);
+  for (std::size_t i = 0; i < control::tunable_count; ++i)
+    CHECK_EQUAL(i == trusted, store.tuning->estimators[0].values[i].has_value());
+  tuner.conclude({store, Refusal::none});
+  DOUBLES_EQUAL(0.1, tuner.value(TuningSet::stored, place, trusted), 0.0);
+}
+
+TEST(Tuner, AnEstimatorThatCannotRunIsRefused) {
+  const std::size_t kind = control::tunable_named("kind");
+  const std::size_t place = first_estimator_place;
+  channel.estimators[0].arithmetic = control::Arithmetic::q8_24;
+  supercoil::Tuner tuner(channel, tick_s);
+  for (const auto& [wanted, why] :
+       {std::pair{2.0, "must be double or float"}, std::pair{3.0, "is no estimator's"}}) {
+    CHECK(tuner.prepare(place, kind, wanted).refusal == Refusal::none);
+    Command tune = command(Verb::tune, place);
+    tuner.add_to(tune, muscle);
+    CHECK(tune.tuned_estimator == nullptr);
+    STRCMP_CONTAINS(why, tuner.problem().c_str());
+  }
+  CHECK(tuner.prepare(place, kind, 7.0).refusal == Refusal::out_of_range);
 }

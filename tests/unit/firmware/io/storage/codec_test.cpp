@@ -49,8 +49,11 @@ TEST(Codec, TuningIsReadBack) {
     board::Learned set = full_set();
     set.has_muscle = has_muscle;
     for (std::size_t place = 0; place < set.tuning.controllers.size(); ++place) {
-      for (std::size_t i = place; i < control::tunable_count; i += 3)
-        set.tuning.controllers[place].values[i] = control::tunables()[i].highest;
+      for (std::size_t i = place; i < control::tunable_count; i += 3) {
+        const control::Tunable& tunable = control::tunables()[i];
+        if (tunable.controllers_have()) set.tuning.controllers[place].values[i] = tunable.highest;
+        if (tunable.estimators_have()) set.tuning.estimators[place].values[i] = tunable.lowest;
+      }
     }
     set.tuning.controller = 3.0;
     const auto read = decode(encode(set));
@@ -72,6 +75,12 @@ TEST(Codec, WrongTuningIsNamed) {
                with("\n[controller_1]\ngain = 1.0\n"));
   check_answer("has a key that this firmware does not know: controller_4",
                with("\n[controller_4]\nlearn = 1.0\n"));
+  check_answer("has a key that this firmware does not know: controller_1.min_ratio",
+               with("\n[controller_1]\nmin_ratio = 0.5\n"));
+  check_answer("has a key that this firmware does not know: estimator_1.learn",
+               with("\n[estimator_1]\nlearn = 1.0\n"));
+  check_answer("min_ratio = 2 is out of range: must be 0.001 to 1",
+               with("\n[estimator_1]\nmin_ratio = 2.0\n"));
   check_answer("controller_3.follow_s is not a number",
                with("\n[controller_3]\nfollow_s = true\n"));
   check_answer("estimator = 0.5 is out of range: must be 0 to 255",

@@ -1,0 +1,31 @@
+// Single values of settings, by name.
+#pragma once
+
+#include <string_view>
+#include <type_traits>
+
+namespace supercoil::control {
+
+/// One of a law's or an estimator's settings that can be changed while it runs; its range stands in
+/// tunable.cpp.
+template <class Settings>
+struct SettingValue {
+  std::string_view name;
+  double (*get)(const Settings& settings);  ///< a flag: 0 or 1
+  void (*set)(Settings& settings, double value);
+};
+
+/// Member: a double or a bool of the settings.
+template <class Settings, auto Member>
+constexpr SettingValue<Settings> setting_value(std::string_view name) {
+  return {name, [](const Settings& s) { return static_cast<double>(s.*Member); },
+          [](Settings& s, double value) {
+            if constexpr (std::is_same_v<decltype(Member), bool Settings::*>) {
+              s.*Member = value != 0.0;
+            } else {
+              s.*Member = value;
+            }
+          }};
+}
+
+}  // namespace supercoil::control

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "modes/result.hpp"
 
@@ -23,6 +24,7 @@ class Calibrate {
   explicit Calibrate(const Settings& settings) : settings_(settings) {}
 
   void start() { *this = Calibrate(settings_); }
+  /// Grows with time as evenly as the muscle cools exponentially: what is left can be told from it.
   float progress() const { return progress_; }
   double zero_m() const { return sum_m_ / static_cast<double>(count_); }
   double cold_resistance_Ohm() const { return resistance_Ohm_; }
@@ -32,17 +34,19 @@ class Calibrate {
 
   /// One tick of waiting and averaging.
   ModeResult step(double hottest_K, double position_m, double step_s) {
+    if (elapsed_s_ == 0.0) begins_K_ = hottest_K;
     elapsed_s_ += step_s;
     if (count_ == 0 && hottest_K > settings_.cold_K) {
-      progress_ = 0.5F * static_cast<float>(elapsed_s_ / settings_.max_wait_s);
+      show_progress(cooling_s(hottest_K));
       return elapsed_s_ > settings_.max_wait_s ? ModeResult::not_cold : ModeResult::running;
     }
+    if (count_ == 0) cold_after_s_ = elapsed_s_ - step_s;
     const auto ticks = static_cast<std::int64_t>(settings_.mean_s / step_s);
     const std::int64_t half = ticks / 2;
     if (count_ < half) first_half_m_ += position_m;
     sum_m_ += position_m;
     ++count_;
-    progress_ = 0.5F + 0.4F * static_cast<float>(count_) / static_cast<float>(ticks);
+    show_progress(cold_after_s_);
     if (count_ < ticks) return ModeResult::running;
     const double first_m = first_half_m_ / static_cast<double>(half);
     knows_zero_ = std::abs(first_m - zero_m()) <= settings_.max_motion_m;
@@ -59,8 +63,22 @@ class Calibrate {
   }
 
  private:
+  /// From the start until it must be cold, by how far it has cooled: infinity while it has not.
+  double cooling_s(double hottest_K) const {
+    const double cooled = std::log(begins_K_ / hottest_K) / std::log(begins_K_ / settings_.cold_K);
+    return cooled > 0.0 ? std::fmin(elapsed_s_ / cooled, settings_.max_wait_s)
+                        : std::numeric_limits<double>::infinity();
+  }
+  void show_progress(double cooling_s) {
+    constexpr float before_probe = 0.99F;
+    const auto done = static_cast<float>(elapsed_s_ / (cooling_s + settings_.mean_s));
+    progress_ = std::fmax(progress_, before_probe * std::fmin(done, 1.0F));
+  }
+
   Settings settings_;
+  double begins_K_ = 0.0;
   double elapsed_s_ = 0.0;
+  double cold_after_s_ = 0.0;
   double sum_m_ = 0.0;
   double first_half_m_ = 0.0;
   std::int64_t count_ = 0;

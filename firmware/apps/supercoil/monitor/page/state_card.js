@@ -6,6 +6,9 @@ import { UNITS } from "./margins.js";
 
 // A heartbeat comes every 100 ms.
 const SILENT_S = 1;
+// Before this has been seen of a mode, nobody knows how long the rest takes.
+const ENOUGH_S = 2;
+const ENOUGH_DONE = 0.03;
 const MEANS = {
   disarmed: "off, cannot heat",
   armed: "off, ready to heat",
@@ -74,6 +77,15 @@ export class StateCard {
       element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.unproven, this.oscillated, this.fault, this.progress, this.result, this.facts);
   }
 
+  /** By how fast it went since it was first seen. */
+  #time_left(mode, { time_s, progress }) {
+    const { seen } = this;
+    if (!seen || seen.mode !== mode || progress < seen.progress) this.seen = { mode, time_s, progress };
+    const passed_s = time_s - this.seen.time_s;
+    const done = progress - this.seen.progress;
+    return passed_s < ENOUGH_S || done < ENOUGH_DONE ? "" : `, ${duration(passed_s * (1 - progress) / done + 1)} left`;
+  }
+
   /** Returns the status in words, or null while there is none. */
   update(now_s) {
     const row = this.store.at(this.node, "Status", now_s);
@@ -100,9 +112,10 @@ export class StateCard {
     }
     const shows = status && (status.mode === "identify" || status.mode === "calibrate") && Number.isFinite(row.progress);
     this.progress.hidden = !shows;
+    if (!shows) this.seen = null;
     if (shows) {
       this.bar.value = row.progress;
-      show(this.percent, `${status.mode}: ${fixed(100 * row.progress, 0)} %`);
+      show(this.percent, `${status.mode}: ${fixed(100 * row.progress, 0)} %${this.#time_left(status.mode, row)}`);
     }
     const result = status && !shows ? name("result") : "none";
     this.result.hidden = !(result in RESULTS);

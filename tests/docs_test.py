@@ -1,7 +1,8 @@
 """The documentation of faults matches firmware/core/supervisor/fault.{hpp,cpp}, and links lead somewhere.
 
 Every fault has a page of its name, headed by its number, and a row in docs/faults/README.md with its number, group and
-scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not.
+scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not. The list of
+all pages, which is the site's navigation, has each page of docs/ once.
 """
 
 import pathlib
@@ -18,6 +19,7 @@ ROW = re.compile(r"^\|\s*(\d+)\s*\|\s*\[(\w+)\](?:\([^)]*\))?\s*\|\s*(\w+)\s*\|\
 CODE = re.compile(r"^```.*?^```|`[^`\n]*`", re.M | re.S)
 INLINE_LINK = re.compile(r"\[[^\]]*\]\(\s*<?([^)\s>]+)")
 LINK_DEFINITION = re.compile(r"^\[([^\]]+)\]:\s*(\S+)", re.M)
+LIST_ITEM = re.compile(r"^- \[[^\]]+\]\(([^)#]+)\)", re.M)
 HEADING = re.compile(r"^#+\s+(.*?)\s*$", re.M)
 
 
@@ -93,7 +95,16 @@ def problems_of_links():
                     yield f"docs/faults/README.md: the row of {name} leads nowhere"
 
 
+def problems_of_navigation():
+    listed = LIST_ITEM.findall((ROOT / "docs" / "README.md").read_text())
+    pages = {page.name for page in (ROOT / "docs").glob("*.md")} | {"faults/README.md", "../CHANGELOG.md"}
+    for page in sorted(pages - {"README.md", *listed}):
+        yield f"docs/README.md: {page} is not listed"
+    for page in sorted({page for page in listed if listed.count(page) > 1}):
+        yield f"docs/README.md: {page} is listed more than once"
+
+
 if __name__ == "__main__":
-    found = [*problems_of_faults(), *problems_of_links()]
-    print("\n".join(found) or "every fault has its page and its row, and every link leads to a file")
+    found = [*problems_of_faults(), *problems_of_links(), *problems_of_navigation()]
+    print("\n".join(found) or "every fault has its page and its row, every page is listed, every link leads to a file")
     sys.exit(bool(found))

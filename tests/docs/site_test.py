@@ -1,0 +1,158 @@
+"""The documentation's site, built by toolchain/docs and read in a real browser.
+
+Every page of docs/ is reached from the start page, no link or anchor is dead, the search finds, nothing is asked of
+another machine, and on a phone's screen no page scrolls sideways.
+"""
+
+import functools
+import html.parser
+import http.server
+import pathlib
+import posixpath
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import urllib.parse
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "monitor"))
+from browser import Browser  # noqa: E402
+
+SHOWN_S = 10.0
+PHONE = (360, 760)
+# The theme's column of text scrolls in place of the page.
+BEYOND = """return Math.max(...[document.documentElement, ...document.querySelectorAll(".content")]
+    .map((box) => box.scrollWidth - box.clientWidth))"""
+
+
+class Page(html.parser.HTMLParser):
+    """What a page leads to and loads, and what may be led to in it."""
+
+    def __init__(self, file):
+        super().__init__()
+        self.links, self.anchors = [], set()
+        self.feed(file.read_text())
+
+    def handle_starttag(self, _tag, attributes):
+        for name, value in attributes:
+            if name in ("href", "src") and value:
+                self.links.append(value)
+            elif name == "id":
+                self.anchors.add(value)
+
+
+class QuietHandler(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+def serve(folder):
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(QuietHandler, directory=folder))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    return server
+
+
+def resolved(page, link):
+    """(file in the site, anchor), or None where the link leaves it."""
+    parts = urllib.parse.urlsplit(link)
+    if parts.scheme or parts.netloc:
+        return None
+    path = urllib.parse.unquote(parts.path)
+    return posixpath.normpath(posixpath.join(posixpath.dirname(page), path)) if path else page, parts.fragment
+
+
+class SiteTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        out = cls.enterClassContext(tempfile.TemporaryDirectory())
+        built = subprocess.run([ROOT / "toolchain" / "docs", "--out", out], capture_output=True, text=True)
+        if built.returncode:
+            raise AssertionError(f"toolchain/docs failed:\n{built.stdout}{built.stderr}")
+        cls.site = pathlib.Path(out, "html")
+        cls.pages = {file.relative_to(cls.site).as_posix(): Page(file) for file in cls.site.rglob("*.html")}
+        cls.server = serve(cls.site)
+        cls.addClassCleanup(cls.server.server_close)
+        cls.addClassCleanup(cls.server.shutdown)
+        cls.address = f"http://127.0.0.1:{cls.server.server_port}/"
+        cls.browser = cls.enterClassContext(Browser())
+
+    def open(self, page):
+        self.browser.driver.get(self.address + page)
+
+    def shown(self, selector):
+        return self.browser.driver.find_elements("css selector", selector)
+
+    def wait(self, condition, what):
+        end = time.monotonic() + SHOWN_S
+        while not condition():
+            self.assertLess(time.monotonic(), end, f"not there in time: {what}")
+            time.sleep(0.05)
+
+    def test_every_source_is_a_page_and_is_reached_from_the_start_page(self):
+        sources = [file.relative_to(ROOT).with_suffix(".html").as_posix() for file in (ROOT / "docs").rglob("*.md")]
+        self.assertGreater(len(sources), 60)
+        reached, ahead = set(), ["index.html"]
+        while ahead:
+            page = ahead.pop()
+            if page in reached or page not in self.pages:
+                continue
+            reached.add(page)
+            ahead += [target[0] for link in self.pages[page].links if (target := resolved(page, link))]
+        self.assertEqual(sorted(set(sources) - reached), [])
+
+    def test_no_link_and_no_anchor_is_dead(self):
+        dead = []
+        for page, parsed in self.pages.items():
+            for link in parsed.links:
+                target = resolved(page, link)
+                if not target:
+                    continue
+                file, anchor = target
+                if not (self.site / file).is_file():
+                    dead.append(f"{page}: {link}: no such file")
+                elif anchor and file in self.pages and anchor not in self.pages[file].anchors:
+                    dead.append(f"{page}: {link}: no such anchor")
+        self.assertEqual(dead, [], "\n" + "\n".join(dead))
+
+    def test_nothing_is_asked_of_another_machine(self):
+        for page in ("", "docs/paper.html", "docs/safety.html"):
+            self.open(page)
+        self.wait(lambda: self.shown(".drawn-diagram svg"), "the diagram")
+        asked = [url for url in self.browser.requests() if not url.startswith(("data:", "blob:", "chrome:"))]
+        self.assertGreater(len(asked), 10)
+        self.assertEqual([url for url in asked if not url.startswith(self.address)], [])
+        self.assertEqual(self.browser.errors(), [])
+
+    def test_the_search_finds_a_fault(self):
+        self.open("")
+        field = self.browser.find(".sidebar-search")
+        field.send_keys("over_temperature")
+        field.submit()
+        self.wait(lambda: any(link.get_attribute("href").split("?")[0].endswith("docs/faults/over_temperature.html")
+                              for link in self.shown(".search a")), "over_temperature among what was found")
+
+    def test_light_and_dark_follow_the_system(self):
+        seen = set()
+        for scheme in ("light", "dark"):
+            self.browser.colours(scheme)
+            self.open("docs/safety.html")
+            seen.add(self.browser.run("return getComputedStyle(document.body).backgroundColor"))
+        self.assertEqual(len(seen), 2)
+
+    def test_no_page_scrolls_sideways_on_a_phone(self):
+        self.browser.screen(*PHONE, mobile=True)
+        self.addCleanup(self.browser.cdp, "Emulation.clearDeviceMetricsOverride")
+        wide = {}
+        for page in sorted(self.pages):
+            self.open(page)
+            beyond = self.browser.run(BEYOND)
+            if beyond > 0:
+                wide[page] = beyond
+        self.assertEqual(wide, {}, "pixels beyond the screen")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,35 @@
+"""How Sphinx makes a site of README.md, CHANGELOG.md and docs/, which a Git host shows as they are: toolchain/docs."""
+
+import pathlib
+import re
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(HERE))
+
+project = "supercoil"
+author = "supercoil's contributors"
+release = re.search(r"project\(supercoil VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+html_title = f"supercoil {release}"
+
+extensions = ["myst_parser", "site_parts"]
+root_doc = "README"
+include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/faults/*.md"]
+exclude_patterns = sorted(entry.name for entry in ROOT.iterdir() if entry.is_dir() and entry.name != "docs")
+
+# Links, headings' anchors and formulas are a Git host's.
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 6
+myst_fence_as_directive = ["mermaid"]
+myst_dmath_allow_space = False
+myst_dmath_double_inline = False
+html_math_renderer = "mathml"
+
+html_theme = "furo"
+html_static_path = ["site.css", "diagrams.js", "node_modules/@mermaid-js/tiny/dist/mermaid.tiny.js"]
+html_css_files = ["site.css"]
+html_favicon = "icon.svg"
+html_copy_source = False
+html_show_sourcelink = False
+html_show_copyright = False

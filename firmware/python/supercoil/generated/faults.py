@@ -1182,7 +1182,7 @@ In seconds: how long the counter has stood, of 0.5 s.
 
 - A thread that turns its counter and does nothing else.
 - Lost telemetry: rows that found no room are counted (`LoopTiming::lost_rows`) and told in the log, which is no fault.
-- In this build there is no telemetry thread. The simulation's runner turns the counter at each tick.
+- In the simulation there is no telemetry thread: its runner turns the counter at each tick.
 """
 
 
@@ -1418,7 +1418,7 @@ scope is therefore `channel`, but no channel is spared. It does not occupy the b
 stuck switch or any other fault of the board stops the heartbeat as ever. While it lasts no self-test begins and no
 fault of the board can be reset.
 
-In this build nothing is on a bus: its state is not reported, which stays "active".
+`supercoild` reports the state of the interface in `[can]`; without `[can]`, and in the simulation, it stays "active".
 
 ## Likely causes
 
@@ -1471,7 +1471,7 @@ found earlier, as its own fault.
 **Reaction:** as for bus_off: every channel cold, and the heartbeat goes on. While it lasts no self-test begins and no
 fault of the board can be reset.
 
-In this build nothing is on a bus, so this fault cannot appear.
+Without `[can]` in the configuration, and in the simulation, this fault cannot appear.
 
 ## Likely causes
 
@@ -1573,7 +1573,8 @@ The configuration is not the one that the firmware was started with: it changed 
 **Reaction:** every channel cold, heartbeat off.
 
 Settings that are wrong from the beginning do not lead here: `check()` names what is wrong, and the program that starts the
-firmware must refuse to. In this build the configuration is not monitored, so this fault cannot appear.
+firmware must refuse to. `supercoild` does not watch its file, so there this fault
+cannot appear: it is for programs of your own that run the loop.
 
 ## Likely causes
 

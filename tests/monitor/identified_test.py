@@ -45,7 +45,14 @@ class Told(ModulesCase):
                 moving_mass_kg: 11, force_per_kelvin_N_per_K: 0.5, theta2_deviation_ratio: 0.034 });
             card.update(2);
             return ["theta1", "theta2", "theta3", "theta4"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
-            [["4.00", "–"], ["94.0", "± 3.40 %"], ["62.0", "–"], ["30.0", "–"]])
+            [["4.00", "–", "–"], ["94.0", "± 3.40 %", "–"], ["62.0", "–", "–"], ["30.0", "–", "–"]])
+
+    def test_what_the_file_says_stands_beside_it(self):
+        self.assertEqual(self.ask(IDENTIFIED + """muscle(1, { stiffness_N_per_m: 5, configured_stiffness_N_per_m: 16, cold_resistance_Ohm: 9, configured_cold_resistance_Ohm: 10,
+                configured_thermal_mass_J_per_K: 2, configured_force_per_kelvin_N_per_K: 0.5 });
+            card.update(2);
+            return ["stiffness_N_per_m", "cold_resistance_Ohm", "theta1"].map((name) => card.rows.get(name).map((cell) => cell.textContent));"""),
+            [["5.00", "–", "16.0"], ["9.00", "–", "10.0"], ["–", "–", "4.00"]])
 
 
 class OnThePage(PageCase):
@@ -55,10 +62,11 @@ class OnThePage(PageCase):
         page.wait(lambda: "–" not in page.text(f"{CARD} tbody tr:nth-child(5) td"), SLACK_S, "the first quantity")
         self.assertEqual(page.errors(), [])
         answer = page.run("return fetch('/api/muscle/1').then((answer) => answer.json())")
-        self.assertEqual(len(answer), 15)
+        self.assertEqual(len(answer), 22)
         self.assertIsNone(answer["theta1_deviation_ratio"])
         rows = page.run(f"""return [...document.querySelectorAll("{CARD} tbody tr")].map((row) => [...row.children].map((cell) => cell.textContent))""")
-        self.assertIn(["stiffness", f"{answer['stiffness_N_per_m']:.1f}", "N/m", "–"], rows)
+        self.assertIn(["stiffness", f"{answer['stiffness_N_per_m']:.1f}", "N/m", "–", f"{answer['configured_stiffness_N_per_m']:.1f}"], rows)
+        self.assertIn(["sensor at zero", "0", "m", "–", "–"], rows)
         self.assertEqual(page.run("return fetch('/api/muscle/64').then(({ status }) => status)"), 400)
 
 

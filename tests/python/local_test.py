@@ -1,5 +1,6 @@
 """The board's own socket, against a server that speaks as firmware/apps/supercoild/local_commands.cpp does."""
 
+import math
 import pathlib
 import re
 import socket
@@ -104,6 +105,7 @@ class Local(unittest.TestCase):
         with self.muscle() as muscle:
             self.assertEqual(muscle.identify(), (supercoil.Result.found, ("theta2_uncertain", "friction")))
             self.assertEqual(muscle.quantities()[supercoil.Quantity.moving_mass_kg], 4.0)
+            self.assertTrue(math.isnan(muscle.quantities()[supercoil.Quantity.configured_moving_mass_kg]))  # an older board
             self.assertEqual(muscle.settings(), {Setting.supply_gain: 1.02, Setting.current_gain: 0.985,
                                                  Setting.sense_error_ratio: 0.021})
             with self.assertRaisesRegex(supercoil.SupercoilError, "only over CAN"):

@@ -96,12 +96,12 @@ tl::expected<KnownMuscle, std::string> LocalBoardLink::muscle(const std::string&
   const auto line = line_of("muscle", channel);
   if (!line) return tl::unexpected(line.error());
   KnownMuscle known;
+  known.fill(NAN);  // what an older board does not tell
   std::istringstream words(line->substr(channel.size()));
-  for (double& value : known) {
-    std::string word;
-    if (!(words >> word)) return tl::unexpected("muscle: " + *line);
-    value = std::strtod(word.c_str(), nullptr);  // streams do not read nan
-  }
+  std::size_t told = 0;
+  for (std::string word; told < known.size() && words >> word; ++told)
+    known[told] = std::strtod(word.c_str(), nullptr);  // streams do not read nan
+  if (told <= known_unexplained_ratio) return tl::unexpected("muscle: " + *line);
   return known;
 }
 

@@ -49,6 +49,7 @@ void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
   if (!channel.has_muscle) return;
   // Calibrating alone stores the muscle as the file has it: that is no identification.
   channel.muscle_identified = !(learned.muscle == channel.muscle);
+  channel.configured_muscle = channel.muscle;
   channel.muscle = learned.muscle;
   channel.calibration = learned.calibration;
   channel.response_ratio = learned.response_ratio;

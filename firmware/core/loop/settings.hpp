@@ -41,13 +41,14 @@ struct HeaterSettings {
 
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
-  bool has_muscle = false;             ///< it and the calibration were learned before
-  bool muscle_identified = false;      ///< it was identified: not only believed
-  board::Calibration calibration;      ///< its cold resistance is HeaterSettings' when not learned
-  board::SenseComparison senses;       ///< with a meter, as stored
-  board::ThermalFacts heat;            ///< found out before, as stored
-  double response_ratio = 0.0;         ///< likewise, of small motions; 0: not measured
-  board::StoredTuning tuning;          ///< as stored; controllers have it already
+  std::optional<control::PhysicalParameters> configured_muscle;  ///< empty: it is muscle
+  bool has_muscle = false;         ///< it and the calibration were learned before
+  bool muscle_identified = false;  ///< it was identified: not only believed
+  board::Calibration calibration;  ///< its cold resistance is HeaterSettings' when not learned
+  board::SenseComparison senses;   ///< with a meter, as stored
+  board::ThermalFacts heat;        ///< found out before, as stored
+  double response_ratio = 0.0;     ///< likewise, of small motions; 0: not measured
+  board::StoredTuning tuning;      ///< as stored; controllers have it already
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;

@@ -82,7 +82,9 @@ class SocketLink:
         return (await self._numbers("senses"))[_SENSES.index(setting)]
 
     async def quantity(self, quantity: Quantity) -> float:
-        return (await self._numbers("muscle"))[quantity]
+        """NaN also where the board is older than the quantity."""
+        told = await self._numbers("muscle")
+        return told[quantity] if quantity < len(told) else math.nan
 
     async def prepare(self, place: int, tunable: Tunable, value: float) -> None:
         told = names.Set(int(value)).name if tunable == Tunable.all else repr(value)

@@ -421,6 +421,13 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_QUANTITY_THETA3_DEVIATION_RATIO_CHOICE (12u)
 #define SUPERCOIL_MUSCLE_QUANTITY_THETA4_DEVIATION_RATIO_CHOICE (13u)
 #define SUPERCOIL_MUSCLE_QUANTITY_UNEXPLAINED_RATIO_CHOICE (14u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_THERMAL_MASS_J_PER_K_CHOICE (15u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_HEAT_TRANSFER_W_PER_K_CHOICE (16u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_STIFFNESS_N_PER_M_CHOICE (17u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_DAMPING_NS_PER_M_CHOICE (18u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_MOVING_MASS_KG_CHOICE (19u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_FORCE_PER_KELVIN_N_PER_K_CHOICE (20u)
+#define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_COLD_RESISTANCE_OHM_CHOICE (21u)
 
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -501,6 +508,13 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA3_DEVIATION_RATIO_CHOICE (12u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_THETA4_DEVIATION_RATIO_CHOICE (13u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_UNEXPLAINED_RATIO_CHOICE (14u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_THERMAL_MASS_J_PER_K_CHOICE (15u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_HEAT_TRANSFER_W_PER_K_CHOICE (16u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_STIFFNESS_N_PER_M_CHOICE (17u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_DAMPING_NS_PER_M_CHOICE (18u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_MOVING_MASS_KG_CHOICE (19u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_FORCE_PER_KELVIN_N_PER_K_CHOICE (20u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_COLD_RESISTANCE_OHM_CHOICE (21u)
 
 #define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
@@ -1539,14 +1553,14 @@ struct supercoil_muscle_t {
     /**
      * Which one.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..21 (0..21 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. configured: by the board's file, whatever was found since. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -1701,7 +1715,7 @@ struct supercoil_muscle_read_t {
     /**
      * Which one.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..21 (0..21 -)
      * Scale: 1
      * Offset: 0
      */

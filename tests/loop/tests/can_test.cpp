@@ -77,6 +77,7 @@ TEST(OverCan, WhatTheBoardKnowsOfItsMuscleIsTold) {
   DOUBLES_EQUAL(channel.muscle.force_per_kelvin_N_per_K, rig.muscle(5), 1e-6);
   DOUBLES_EQUAL(channel.calibration.cold_resistance_Ohm, rig.muscle(known_cold_resistance), 1e-6);
   CHECK(std::isnan(rig.muscle(known_unexplained_ratio)));
+  DOUBLES_EQUAL(channel.muscle.thermal_mass_J_per_K, rig.muscle(known_configured), 1e-6);
   CHECK(std::isnan(rig.muscle(known_quantities.size())));
   CHECK(std::isnan(rig.muscle(255)));
   rig.run(15.0);
@@ -91,6 +92,8 @@ TEST(OverCan, WhatTheBoardKnowsOfItsMuscleIsTold) {
   const double found_Ohm = rig.muscle(known_cold_resistance);
   DOUBLES_EQUAL(channel.calibration.cold_resistance_Ohm, found_Ohm, 0.5);
   CHECK(found_Ohm != channel.calibration.cold_resistance_Ohm);
+  // The file's stands beside it.
+  DOUBLES_EQUAL(channel.heater.cold_resistance_Ohm, rig.muscle(known_quantities.size() - 1), 1e-6);
 }
 
 TEST(OverCan, ARefusedValueComesWithTheNearestAcceptedOne) {

@@ -1,6 +1,7 @@
 #include "apps/supercoil/monitor/tuning_request.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -31,6 +32,15 @@ tl::expected<std::vector<TuningRequest::Value>, std::string> values_of(Tuned wha
   return values;
 }
 
+std::optional<Tuned> tuned_at(const json& place) {
+  constexpr int places = 4;
+  constexpr int first_estimator = first_estimator_place;
+  if (!place.is_number_integer()) return std::nullopt;
+  if (place >= 0 && place < places) return Tuned::controller;
+  if (place >= first_estimator && place < first_estimator + places) return Tuned::estimator;
+  return std::nullopt;
+}
+
 }  // namespace
 
 tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string& text) {
@@ -38,12 +48,10 @@ tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string&
   if (!node) return tl::unexpected(node.error());
   const json read = json::parse(text);
   const auto place = read.find("place");
-  constexpr int estimators = first_estimator_place;
-  if (place == read.end() || !place->is_number_integer() || *place < 0 || *place > estimators + 3 ||
-      (*place > 3 && *place < estimators))
+  const auto what = place != read.end() ? tuned_at(*place) : std::nullopt;
+  if (!what)
     return tl::unexpected<std::string>(
-        "place must be 0 to 3 (a controller) or 8 to 11 (an estimator)");
-  const Tuned what = *place < estimators ? Tuned::controller : Tuned::estimator;
+        "place must be 0 to 3 (a controller), 8 to 11 (an estimator)");
   const auto from = read.find("from");
   const auto set = from != read.end() && from->is_string()
                        ? std::ranges::find(tuning_set_names, from->get<std::string>())
@@ -52,7 +60,7 @@ tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string&
     return tl::unexpected<std::string>("from must be prepared, in_use, configured or stored");
   const json given = read.value("values", json::object());
   if (!given.is_object()) return tl::unexpected<std::string>("values must be an object");
-  auto values = values_of(what, given);
+  auto values = values_of(*what, given);
   if (!values) return tl::unexpected(values.error());
   return TuningRequest{*node, place->get<std::uint8_t>(),
                        static_cast<TuningSet>(set - tuning_set_names.begin()), std::move(*values)};

@@ -214,7 +214,7 @@ StepResult Commission::identify() {
     if (std::abs((*known)[i] / configured - 1.0) > float_rounding_ratio)
       who_.say(std::string(range.name) + ": " + beside((*known)[i], configured, ""));
   }
-  for (std::size_t i = known_theta1_deviation; i < known->size(); ++i)
+  for (std::size_t i = known_theta1_deviation; i <= known_unexplained_ratio; ++i)
     found[std::string(known_quantities[i])] = number((*known)[i]);
   const auto percent = [&](std::size_t i) { return in_digits(100.0 * (*known)[i]); };
   constexpr std::size_t first = known_theta1_deviation;

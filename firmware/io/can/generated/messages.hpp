@@ -114,7 +114,7 @@ inline constexpr std::array<ValueName, 14> names_of_parameter{{
     {13, "bias_deviation"},
 }};
 
-inline constexpr std::array<ValueName, 15> names_of_quantity{{
+inline constexpr std::array<ValueName, 22> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
     {2, "stiffness_N_per_m"},
@@ -130,6 +130,13 @@ inline constexpr std::array<ValueName, 15> names_of_quantity{{
     {12, "theta3_deviation_ratio"},
     {13, "theta4_deviation_ratio"},
     {14, "unexplained_ratio"},
+    {15, "configured_thermal_mass_J_per_K"},
+    {16, "configured_heat_transfer_W_per_K"},
+    {17, "configured_stiffness_N_per_m"},
+    {18, "configured_damping_Ns_per_m"},
+    {19, "configured_moving_mass_kg"},
+    {20, "configured_force_per_kelvin_N_per_K"},
+    {21, "configured_cold_resistance_Ohm"},
 }};
 
 inline constexpr std::array<ValueName, 15> names_of_refusal{{

@@ -130,6 +130,13 @@ class Quantity(Named):
     theta3_deviation_ratio = 12
     theta4_deviation_ratio = 13
     unexplained_ratio = 14
+    configured_thermal_mass_J_per_K = 15
+    configured_heat_transfer_W_per_K = 16
+    configured_stiffness_N_per_m = 17
+    configured_damping_Ns_per_m = 18
+    configured_moving_mass_kg = 19
+    configured_force_per_kelvin_N_per_K = 20
+    configured_cold_resistance_Ohm = 21
 
 
 class Refusal(Named):

@@ -37,15 +37,15 @@ export class Identified {
     Object.assign(this, { node, store, may_ask, rows: new Map(), problem: "" });
     const body = element("tbody");
     for (const [name, [title, unit]] of Object.entries({ ...THETA, ...QUANTITIES })) {
-      const cells = ["value", "deviation"].map((kind) => element("td", { class: kind }, NONE));
-      body.append(element("tr", {}, element("th", { scope: "row" }, title), cells[0], element("td", { class: "unit" }, unit), cells[1]));
+      const cells = ["value", "deviation", "value"].map((kind) => element("td", { class: kind }, NONE));
+      body.append(element("tr", {}, element("th", { scope: "row" }, title), cells[0], element("td", { class: "unit" }, unit), ...cells.slice(1)));
       this.rows.set(name, cells);
     }
     this.since = element("p", { class: "hint", role: "status" });
     this.again = element("button", { type: "button", hidden: !may_ask, onclick: () => this.#ask() }, "ask again");
     this.element = element("section", { class: "card full-only", "aria-label": `muscle in use, node ${node}` }, element("h2", {}, "Muscle in use"), this.since,
       scrolling(`table of what is in use, node ${node}`, element("table", { class: "parameters" }, element("thead", {}, element("tr", {},
-        ...["parameter", "value", "unit", "deviation"].map((title) => element("th", { scope: "col" }, title)))), body)), this.again);
+        ...["parameter", "in use", "unit", "deviation", "board.toml"].map((title) => element("th", { scope: "col" }, title)))), body)), this.again);
   }
 
   async #ask() {
@@ -61,11 +61,15 @@ export class Identified {
     this.result = result;
     const known = {};
     for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s)) known[this.store.word("Muscle", "quantity", number)] = value;
-    for (const [name, [, , of]] of Object.entries(THETA)) known[name] = of({ c: known.thermal_mass_J_per_K, h: known.heat_transfer_W_per_K,
-      k: known.stiffness_N_per_m, d: known.damping_Ns_per_m, m: known.moving_mass_kg, force: known.force_per_kelvin_N_per_K });
-    for (const [name, [value, deviation]] of this.rows) {
+    for (const by of ["", "configured_"]) {
+      const physical = { c: known[`${by}thermal_mass_J_per_K`], h: known[`${by}heat_transfer_W_per_K`], k: known[`${by}stiffness_N_per_m`],
+        d: known[`${by}damping_Ns_per_m`], m: known[`${by}moving_mass_kg`], force: known[`${by}force_per_kelvin_N_per_K`] };
+      for (const [name, [, , of]] of Object.entries(THETA)) known[`${by}${name}`] = of(physical);
+    }
+    for (const [name, [value, deviation, configured]] of this.rows) {
       show(value, significant(known[name]));
       show(deviation, percent(known[`${name}_deviation_ratio`]));
+      show(configured, significant(known[`configured_${name}`]));
     }
     // The search goes back far: only when something has changed.
     const key = [result, known.stiffness_N_per_m, known.theta1_deviation_ratio, this.problem, this.may_ask || Math.floor(now_s)].join();

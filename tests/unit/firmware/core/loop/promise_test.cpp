@@ -110,7 +110,7 @@ TEST(Promise, WhatTheBoardGoesByReplacesTheFilesMuscle) {
   DOUBLES_EQUAL(9.0, now.calibration.position_scale, 0.0);
   DOUBLES_EQUAL(10.0, now.response_ratio, 0.0);
   CHECK_TRUE(now.muscle_identified);
-  known.back() = NAN;
+  known[known_unexplained_ratio] = NAN;
   CHECK_FALSE(with_known(channel, known).muscle_identified);
 }
 

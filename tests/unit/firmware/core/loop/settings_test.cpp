@@ -161,7 +161,9 @@ TEST_GROUP(AppliedSettings) {
 };
 
 TEST(AppliedSettings, WhatWasLearnedTakesThePlaceOfWhatIsConfigured) {
+  const control::PhysicalParameters configured = channel.muscle;
   apply_learned(channel, learned);
+  CHECK(channel.configured_muscle == configured);
   CHECK(channel.has_muscle && channel.muscle_identified);
   CHECK(channel.muscle == learned.muscle);
   CHECK(channel.calibration == learned.calibration);
@@ -176,7 +178,7 @@ TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
   const ChannelSettings before = channel;
   apply_learned(channel, learned);
   CHECK_FALSE(channel.has_muscle || channel.muscle_identified);
-  CHECK(channel.muscle == before.muscle);
+  CHECK(channel.muscle == before.muscle && !channel.configured_muscle.has_value());
   CHECK(channel.calibration == before.calibration);
   DOUBLES_EQUAL(0.0, channel.response_ratio, 0.0);
   CHECK(channel.senses == learned.senses);

@@ -104,8 +104,9 @@ class Local(unittest.TestCase):
     def test_what_is_learned_and_known_is_told(self):
         with self.muscle() as muscle:
             self.assertEqual(muscle.identify(), (supercoil.Result.found, ("theta2_uncertain", "friction")))
-            self.assertEqual(muscle.quantities()[supercoil.Quantity.moving_mass_kg], 4.0)
-            self.assertTrue(math.isnan(muscle.quantities()[supercoil.Quantity.configured_moving_mass_kg]))  # an older board
+            told = muscle.quantities()
+            self.assertEqual(told[supercoil.Quantity.moving_mass_kg], 4.0)
+            self.assertTrue(math.isnan(told[supercoil.Quantity.configured_moving_mass_kg]))  # of an older board
             self.assertEqual(muscle.settings(), {Setting.supply_gain: 1.02, Setting.current_gain: 0.985,
                                                  Setting.sense_error_ratio: 0.021})
             with self.assertRaisesRegex(supercoil.SupercoilError, "only over CAN"):

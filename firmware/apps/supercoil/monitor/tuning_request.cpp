@@ -49,9 +49,7 @@ tl::expected<TuningRequest, std::string> parse_tuning_request(const std::string&
   const json read = json::parse(text);
   const auto place = read.find("place");
   const auto what = place != read.end() ? tuned_at(*place) : std::nullopt;
-  if (!what)
-    return tl::unexpected<std::string>(
-        "place must be 0 to 3 (a controller), 8 to 11 (an estimator)");
+  if (!what) return tl::unexpected<std::string>("place must be 0 to 3, or from 8 an estimator's");
   const auto from = read.find("from");
   const auto set = from != read.end() && from->is_string()
                        ? std::ranges::find(tuning_set_names, from->get<std::string>())

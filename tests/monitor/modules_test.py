@@ -51,6 +51,19 @@ class ModulesTest(ModulesCase):
         self.assertEqual(self.ask("""const { decimals_of } = await import("/format.js");
             return [2.5, 0.25, 0.1, 0.5, 1, 5, 10, 100, 0.001, 0.025].map(decimals_of);"""), [1, 2, 1, 1, 0, 0, 0, 0, 3, 3])
 
+    def test_the_time_that_is_left_is_told_once_it_can_be(self):
+        self.assertEqual(self.ask(CARD + """const number = (signal, name) => Number(Object.entries(protocol.Status[signal].values).find(([, is]) => is === name)[0]);
+            const shown = (time_s, mode, progress) => {
+                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [number("state", "active")],
+                    mode: [number("mode", mode)], progress: [progress], result: [number("result", "running")], protocol_version: [protocol_version] } } } });
+                card.update(time_s);
+                return card.percent.textContent;
+            };
+            return [shown(10, "identify", 0.1), shown(11, "identify", 0.2), shown(14, "identify", 0.3), shown(20, "identify", 0.6),
+                shown(21, "calibrate", 0.5), shown(31, "calibrate", 0.51), shown(41, "calibrate", 0.88), shown(42, "calibrate", 0.0)];"""),
+            ["identify: 10 %", "identify: 20 %", "identify: 30 %, 15 s left", "identify: 60 %, 9 s left",
+             "calibrate: 50 %", "calibrate: 51 %", "calibrate: 88 %, 7 s left", "calibrate: 0 %"])
+
     def test_state_says_how_hot_a_muscle_may_be_and_never_that_it_is_cold(self):
         told = self.ask("""const { StateCard } = await import("/state_card.js");
             const { protocol, protocol_version } = await (await fetch("/api/about")).json();

@@ -95,7 +95,6 @@ class Page(Browser):
             self.click("input[value=identify] + span")
             self.click(".go")
             self.wait(lambda: self.state() == "active", 10.0, "identifies")
-            self.wait(lambda: "left" in self.text(".state .progress") or self.state() != "active", IDENTIFIES_S, "what is left is told")
             self.wait(lambda: self.state() != "active", IDENTIFIES_S, "has identified")
             if self.state() == "armed":
                 return

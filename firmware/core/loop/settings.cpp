@@ -32,11 +32,12 @@ std::optional<SettingsProblem> first_problem(const std::vector<Settings>& all,
   return std::nullopt;
 }
 
-/// As a message calls it.
-template <class Kind, class Names>
-SettingsProblem unsupported(Kind kind, const Names& names) {
-  return {"arithmetic", "must be double or float: the covariance of " +
-                            std::string(control::name_of(names, kind)) + " does not fit q8.24"};
+template <class Settings, class Names>
+std::vector<SettingsProblem> problems_of_arithmetic(const Settings& settings, const Names& names) {
+  if (control::supported(settings.kind, settings.arithmetic)) return {};
+  return {{"arithmetic", "must be double or float: the covariance of " +
+                             std::string(control::name_of(names, settings.kind)) +
+                             " does not fit q8.24"}};
 }
 
 }  // namespace
@@ -90,15 +91,19 @@ ProofSettings proof_settings(const ChannelSettings& c, const BoardSettings& boar
 }
 
 std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller) {
-  std::vector<SettingsProblem> problems;
-  if (!control::supported(controller.kind, controller.arithmetic))
-    problems.push_back(unsupported(controller.kind, control::controller_names));
+  auto problems = problems_of_arithmetic(controller, control::controller_names);
   for (const auto& [key, message, premise] : control::contradictions_of_law(controller)) {
     problems.push_back({key, premise ? std::string("premise fails: ") + message +
                                            " (accept_failed_premises = true runs it nevertheless)"
                                      : std::string(message)});
   }
   return problems;
+}
+
+std::vector<SettingsProblem> contradictions(const control::EstimatorSettings& estimator) {
+  if (static_cast<std::size_t>(estimator.kind) >= control::estimator_names.size())
+    return {{"kind", "is no estimator's"}};
+  return problems_of_arithmetic(estimator, control::estimator_names);
 }
 
 std::string misfit_text(const control::Violation& misfit) {
@@ -129,10 +134,7 @@ std::optional<SettingsProblem> check(const control::ControllerSettings& controll
 
 std::optional<SettingsProblem> check(const control::EstimatorSettings& estimator,
                                      const ChannelSettings& channel, double step_s) {
-  if (static_cast<std::size_t>(estimator.kind) >= control::estimator_names.size())
-    return SettingsProblem{"kind", "is no estimator's"};
-  if (!control::supported(estimator.kind, estimator.arithmetic))
-    return unsupported(estimator.kind, control::estimator_names);
+  if (const auto problems = contradictions(estimator); !problems.empty()) return problems.front();
   const auto misfit = control::check_fit(estimator, step_s, channel.limiter.max_W);
   if (!misfit) return std::nullopt;
   return SettingsProblem{misfit->quantity, misfit_text(*misfit)};

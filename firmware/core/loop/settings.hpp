@@ -99,6 +99,8 @@ struct SettingsProblem {
 /// All that is wrong with a law whatever its muscle: also an arithmetic that it does not run in.
 /// MRAC's premises are among it, unless it was accepted that they fail.
 std::vector<SettingsProblem> contradictions(const control::ControllerSettings& controller);
+/// Of an estimator: no kind that there is, or an arithmetic that it does not run in.
+std::vector<SettingsProblem> contradictions(const control::EstimatorSettings& estimator);
 
 /// In words, what q8.24 cannot hold.
 std::string misfit_text(const control::Violation& misfit);
@@ -108,8 +110,7 @@ std::string misfit_text(const control::Violation& misfit);
 std::optional<SettingsProblem> check(const control::ControllerSettings& controller,
                                      const ChannelSettings& channel, double step_s);
 
-/// Why an estimator may not run on this channel: an arithmetic that it does not run in, or what
-/// that cannot hold.
+/// Why an estimator may not run on this channel: its own contradictions, or what q8.24 cannot hold.
 std::optional<SettingsProblem> check(const control::EstimatorSettings& estimator,
                                      const ChannelSettings& channel, double step_s);
 

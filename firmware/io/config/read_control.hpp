@@ -2,10 +2,12 @@
 // muscle, reference models, controllers, estimators.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
+#include "supercoil/control/tracking/tunable.hpp"
 
 #include "config/section.hpp"
 
@@ -27,6 +29,22 @@ control::ControllerSettings read_controller(
 /// Finishes the section. max_W: of the channel; NaN while that is missing.
 control::EstimatorSettings read_estimator(Section& section,
                                           const control::PhysicalParameters& muscle, double max_W);
+
+/// The single values of a controller or an estimator, but for kinds, reference models and gains,
+/// which are read apart. settings: whose kind is known.
+template <class Settings>
+void read_tunables(Section& section, Settings& settings) {
+  using control::TunableType;
+  for (const control::Tunable& t : control::tunables()) {
+    const double fallback = t.get(settings);
+    if (std::isnan(fallback)) continue;
+    if (t.type == TunableType::number) {
+      t.set(settings, section.number(t.name, fallback, {t.lowest, t.highest}));
+    } else if (t.type == TunableType::flag) {
+      t.set(settings, section.flag(t.name, fallback != 0.0) ? 1.0 : 0.0);
+    }
+  }
+}
 
 /// Notes what q8.24 cannot hold (see control::check_fit).
 void refuse_misfit(Section& section, const std::optional<control::Violation>& violation);

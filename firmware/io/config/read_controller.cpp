@@ -1,5 +1,4 @@
 #include "config/read_control.hpp"
-#include "config/read_tunables.hpp"
 #include "loop/settings.hpp"
 
 namespace supercoil::config {

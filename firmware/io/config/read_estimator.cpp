@@ -1,5 +1,5 @@
 #include "config/read_control.hpp"
-#include "config/read_tunables.hpp"
+#include "loop/settings.hpp"
 
 namespace supercoil::config {
 
@@ -41,10 +41,8 @@ control::EstimatorSettings read_estimator(Section& section,
     return e;
   }
   e.arithmetic = section.choice("arithmetic", e.arithmetic, control::arithmetic_names);
-  if (!control::supported(e.kind, e.arithmetic)) {
-    section.wrong("arithmetic",
-                  "must be double or float: the covariance of least_squares does not fit q8.24");
-  }
+  for (const SettingsProblem& problem : contradictions(e))
+    section.wrong(problem.key, problem.message);
   e.set_nominal(muscle, max_W);
   if (e.kind == control::EstimatorKind::gradient) {
     read_gradient(section, e.gradient);

@@ -72,6 +72,13 @@ void serve_files(httplib::Server& server) {
   }
 }
 
+json muscle_json(const KnownMuscle& known) {
+  json told;
+  for (std::size_t i = 0; i < known.size(); ++i)
+    told[std::string(known_quantities[i])] = known[i];
+  return told;
+}
+
 }  // namespace
 
 ManualControl& ManualControls::of(std::uint8_t node) {
@@ -123,6 +130,16 @@ Api::Api(Access access, const FrameHistory& frame_history, ManualControls& contr
       controls_(&controls),
       about_(std::move(about)) {}
 
+template <class Read>
+void Api::tell_of_node(const Request& request, Response& response, Read read) {
+  if (about_.log) return refuse(response, 404, "a log has no board to ask");
+  const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
+  if (!node) return refuse(response, 400, node.error());
+  const auto told = read(*node);
+  if (!told) return refuse(response, 504, told.error());
+  answer_json(response, told->dump());
+}
+
 void Api::serve_with(httplib::Server& server) {
   add_headers(server, access_, about_.stop_port);
   serve_files(server);
@@ -142,9 +159,18 @@ void Api::serve_with(httplib::Server& server) {
     answer_with(response, *text, "text/markdown; charset=utf-8");
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
-  server.Get(R"(/api/tuning/(\d+))", shown([this](const auto& q, auto& a) { show_tuning(q, a); }));
-  server.Get(R"(/api/kinds/(\d+))", shown([this](const auto& q, auto& a) { show_kinds(q, a); }));
-  server.Get(R"(/api/muscle/(\d+))", shown([this](const auto& q, auto& a) { show_muscle(q, a); }));
+  const auto told = [this](auto read) {
+    return operating::shown(access_,
+                            [this, read](const auto& q, auto& a) { tell_of_node(q, a, read); });
+  };
+  server.Get(R"(/api/tuning/(\d+))", told([this](std::uint8_t node) {
+               return controls_->read_tuning(node).map(tuning_json);
+             }));
+  server.Get(R"(/api/kinds/(\d+))",
+             told([this](std::uint8_t node) { return controls_->read_kinds(node); }));
+  server.Get(R"(/api/muscle/(\d+))", told([this](std::uint8_t node) {
+               return controls_->read_muscle(node).map(muscle_json);
+             }));
   server.Post("/api/tuning", commanded([this](const auto& q, auto& a) { tune(q, a); }));
   server.Post("/api/alive", commanded([this](const auto& q, auto& a) { alive(q, a); }));
 }
@@ -213,36 +239,6 @@ void Api::command(const Request& request, Response& response) {
   const auto answer = controls_->of(order->node).ask(order->verb, order->value);
   if (!answer) return refuse(response, 504, answer.error());
   answer_json(response, json{{"refusal", name(*answer)}}.dump());
-}
-
-void Api::show_tuning(const Request& request, Response& response) {
-  if (about_.log) return refuse(response, 404, "a log has no board to ask");
-  const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
-  if (!node) return refuse(response, 400, node.error());
-  const auto tuning = controls_->read_tuning(*node);
-  if (!tuning) return refuse(response, 504, tuning.error());
-  answer_json(response, tuning_json(*tuning).dump());
-}
-
-void Api::show_kinds(const Request& request, Response& response) {
-  if (about_.log) return refuse(response, 404, "a log has no board to ask");
-  const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
-  if (!node) return refuse(response, 400, node.error());
-  const auto kinds = controls_->read_kinds(*node);
-  if (!kinds) return refuse(response, 504, kinds.error());
-  answer_json(response, kinds->dump());
-}
-
-void Api::show_muscle(const Request& request, Response& response) {
-  if (about_.log) return refuse(response, 404, "a log has no board to ask");
-  const auto node = parse_node("{\"node\":" + request.matches[1].str() + "}");
-  if (!node) return refuse(response, 400, node.error());
-  const auto known = controls_->read_muscle(*node);
-  if (!known) return refuse(response, 504, known.error());
-  json told;
-  for (std::size_t i = 0; i < known->size(); ++i)
-    told[std::string(known_quantities[i])] = (*known)[i];
-  answer_json(response, told.dump());
 }
 
 void Api::tune(const Request& request, Response& response) {

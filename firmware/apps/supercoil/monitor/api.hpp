@@ -66,9 +66,9 @@ class Api {
   void stream(const Request& request, Response& response);
   void command(const Request& request, Response& response);
   void alive(const Request& request, Response& response);
-  void show_tuning(const Request& request, Response& response);
-  void show_kinds(const Request& request, Response& response);
-  void show_muscle(const Request& request, Response& response);
+  /// read(node): what the board answers, as JSON. The node is in the address.
+  template <class Read>
+  void tell_of_node(const Request& request, Response& response, Read read);
   void tune(const Request& request, Response& response);
   /// One piece of a stream; false: the reader is gone.
   bool stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost);

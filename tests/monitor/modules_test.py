@@ -61,8 +61,8 @@ class ModulesTest(ModulesCase):
             };
             return [shown(10, "identify", 0.1), shown(11, "identify", 0.2), shown(14, "identify", 0.3), shown(20, "identify", 0.6),
                 shown(21, "calibrate", 0.5), shown(31, "calibrate", 0.51), shown(41, "calibrate", 0.88), shown(42, "calibrate", 0.0)];"""),
-            ["identify: 10 %", "identify: 20 %", "identify: 30 %, 15 s left", "identify: 60 %, 9 s left",
-             "calibrate: 50 %", "calibrate: 51 %", "calibrate: 88 %, 7 s left", "calibrate: 0 %"])
+            ["identify: 10 %", "identify: 20 %", "identify: 30 %, 14 s left", "identify: 60 %, 8 s left",
+             "calibrate: 50 %", "calibrate: 51 %", "calibrate: 88 %, 6 s left", "calibrate: 0 %"])
 
     def test_state_says_how_hot_a_muscle_may_be_and_never_that_it_is_cold(self):
         told = self.ask("""const { StateCard } = await import("/state_card.js");

@@ -83,7 +83,7 @@ export class StateCard {
     if (!seen || seen.mode !== mode || progress < seen.progress) this.seen = { mode, time_s, progress };
     const passed_s = time_s - this.seen.time_s;
     const done = progress - this.seen.progress;
-    return passed_s < ENOUGH_S || done < ENOUGH_DONE ? "" : `, ${duration(passed_s * (1 - progress) / done + 1)} left`;
+    return passed_s < ENOUGH_S || done < ENOUGH_DONE ? "" : `, ${duration(Math.round(passed_s * (1 - progress) / done))} left`;
   }
 
   /** Returns the status in words, or null while there is none. */

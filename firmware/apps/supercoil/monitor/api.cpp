@@ -160,8 +160,9 @@ void Api::serve_with(httplib::Server& server) {
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
   const auto told = [this](auto read) {
-    return operating::shown(access_,
-                            [this, read](const auto& q, auto& a) { tell_of_node(q, a, read); });
+    // this-> as clang 14 otherwise takes the captured this for unused.
+    return operating::shown(
+        access_, [this, read](const auto& q, auto& a) { this->tell_of_node(q, a, read); });
   };
   server.Get(R"(/api/tuning/(\d+))", told([this](std::uint8_t node) {
                return controls_->read_tuning(node).map(tuning_json);

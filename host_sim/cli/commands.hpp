@@ -64,6 +64,19 @@ struct EstimatorsOptions {
 };
 int estimators_command(const EstimatorsOptions& options);
 
+struct CampaignOptions {
+  std::string study;
+  std::int64_t runs = 0;  ///< 0: as the study says
+  compare::Shard shard;
+  std::vector<std::string> merge;  ///< runs.csv of several; nothing is run then
+  std::string out;                 ///< empty: supercoil-out/campaign-NAME
+  int jobs = 0;                    ///< 0: as many as there are processors
+  bool plot = true;
+  bool quiet = false;
+  bool list = false;  ///< only says which studies there are
+};
+int campaign_command(const CampaignOptions& options);
+
 int list_command();
 
 }  // namespace supercoil::host_sim

@@ -33,6 +33,8 @@ class KeptRuns {
   void add(const std::string& line);
   /// Shows how far it is; true: give up.
   bool stop();
+  /// What has ended is all that was wanted.
+  void enough() { count_.todo = ended_; }
   /// The program's exit status; a message where not all have ended.
   int end();
 

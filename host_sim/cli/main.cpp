@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/commands.hpp"
+#include "campaign/study.hpp"
 #include "cli/commands.hpp"
 #include "text/program_version.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 using namespace supercoil;
 using namespace supercoil::host_sim;
+using supercoil::host_sim::campaign::max_runs;
 
 /// "socketcand:PORT"
 std::uint16_t port_of(const std::string& where) {
@@ -127,6 +129,30 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   compare->add_flag("--list", options.list, "Say what there is to compare");
 }
 
+void add_campaign(CLI::App& app, CampaignOptions& options) {
+  CLI::App* campaign =
+      app.add_subcommand("campaign", "Run a study over many random muscles; goes on where it was");
+  campaign->add_option("STUDY", options.study, "A TOML file, or a name of --list");
+  campaign->add_option("--runs", options.runs, "Runs, in place of what the study says")
+      ->check(CLI::Range(std::int64_t{1}, max_runs));
+  campaign->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
+      ->check(CLI::Range(1, 1024));
+  campaign->add_option("--out", options.out,
+                       "Folder for the results [supercoil-out/campaign-NAME]");
+  CLI::Option* shard = campaign->add_option_function<std::string>(
+      "--shard", [&](const std::string& text) { options.shard = shard_of(text); },
+      "I/N: only the I-th of N parts of all runs");
+  shard->type_name("PART");
+  campaign
+      ->add_option("--merge", options.merge,
+                   "Run nothing: make the tables of several parts' runs.csv")
+      ->type_name("FILES")
+      ->excludes(shard);
+  campaign->add_flag("!--no-plot", options.plot, "Write no campaign.svg");
+  campaign->add_flag("--quiet", options.quiet, "Print nothing but errors");
+  campaign->add_flag("--list", options.list, "Say which studies and quantities there are");
+}
+
 void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   CLI::App* estimators = app.add_subcommand(
       "estimators", "Compare estimators on the same data over many seeds, beside what is possible");
@@ -148,10 +174,12 @@ int run_program(int count, char** arguments) {
   RunOptions run;
   ReproduceOptions reproduce;
   CompareOptions compare;
+  CampaignOptions campaign;
   EstimatorsOptions estimators;
   add_run(app, run);
   add_reproduce(app, reproduce);
   add_compare(app, compare);
+  add_campaign(app, campaign);
   add_estimators(app, estimators);
   app.add_subcommand("list", "List built-in scenarios, presets and reference models");
   if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
@@ -165,6 +193,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("run")) return run_command(run);
   if (app.got_subcommand("reproduce")) return reproduce_command(reproduce);
   if (app.got_subcommand("compare")) return compare_command(compare);
+  if (app.got_subcommand("campaign")) return campaign_command(campaign);
   if (app.got_subcommand("estimators")) return estimators_command(estimators);
   return list_command();
 }

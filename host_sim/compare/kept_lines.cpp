@@ -41,7 +41,8 @@ tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
   if (!all.starts_with(head)) {
     return tl::unexpected(path.string() + ":1: is not of this version: it begins \"" +
                           all.substr(0, std::min(all.find('\n'), std::size_t{80})) +
-                          "\"; must be \"" + head.substr(0, head.find('\n')) + "\"");
+                          "\"; must be \"" + head.substr(0, head.find('\n')) +
+                          "\". Choose another --out, or delete it");
   }
   std::string_view rest = std::string_view(all).substr(head.size());
   for (auto line = 1 + std::ranges::count(head, '\n'); !rest.empty(); ++line) {

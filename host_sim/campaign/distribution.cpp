@@ -1,0 +1,52 @@
+#include "campaign/distribution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/normal.hpp>
+
+namespace supercoil::host_sim::campaign {
+
+double normal_quantile(double probability) {
+  return boost::math::quantile(boost::math::normal(), probability);
+}
+
+double normal_probability(double quantile) {
+  return boost::math::cdf(boost::math::normal(), quantile);
+}
+
+namespace {
+
+double cut_normal(const Distribution& d, double probability) {
+  const auto below = [&](double value) {
+    return std::isfinite(value) ? normal_probability((value - d.first) / d.second)
+                                : (value > 0.0 ? 1.0 : 0.0);
+  };
+  const double low = below(d.min);
+  const double wanted = low + probability * (below(d.max) - low);
+  // Rounding may take a probability in a far tail to its end.
+  constexpr double least = std::numeric_limits<double>::min();
+  constexpr double most = 1.0 - std::numeric_limits<double>::epsilon() / 2.0;
+  const double value = d.first + d.second * normal_quantile(std::clamp(wanted, least, most));
+  return std::clamp(value, d.min, d.max);
+}
+
+}  // namespace
+
+double Distribution::at(double probability) const {
+  switch (kind) {
+    case Kind::uniform:
+      return first + probability * (second - first);
+    case Kind::log_uniform:
+      return first * std::pow(second / first, probability);
+    case Kind::normal:
+      return cut_normal(*this, probability);
+    case Kind::list:
+      return std::floor(probability * static_cast<double>(values));
+    case Kind::constant:
+      break;
+  }
+  return first;
+}
+
+}  // namespace supercoil::host_sim::campaign

@@ -1,0 +1,87 @@
+#include "campaign/outcome.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "runner/simulation.hpp"
+#include "supervisor/fault.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+namespace {
+
+constexpr std::int64_t look_every_ticks = 4096;
+
+/// 1 where it says no to what was asked; NaN where nothing was.
+double not_found(const Scenario& scenario, const Simulation& simulation) {
+  const auto asks = [](OperatorAction action) {
+    return action == OperatorAction::identify || action == OperatorAction::calibrate;
+  };
+  const bool asked =
+      asks(scenario.start.action) || std::ranges::any_of(scenario.events, [&](const Event& event) {
+        return asks(event.conditions.action);
+      });
+  if (!asked) return NAN;
+  return simulation.learned() ? 0.0 : 1.0;
+}
+
+/// Of what identify found, by one property of a muscle; NaN where it found none.
+template <class Property>
+double found_error_ratio(const Simulation& simulation, Property property) {
+  const auto& learned = simulation.learned();
+  if (!learned) return NAN;
+  return std::abs(property(learned->muscle) / property(simulation.conditions().plant.parameters) -
+                  1.0);
+}
+
+}  // namespace
+
+std::optional<std::size_t> find_quantity(std::string_view name) {
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    if (quantity(i).name == name) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
+                                const std::atomic<bool>& stop) {
+  Simulation simulation(scenario);
+  compare::Meters meters(scenario);
+  Summary summary(window);
+  double hottest_rise_K = 0.0;
+  double hottest_C = -INFINITY;
+  while (!simulation.done()) {
+    if (simulation.tick() % look_every_ticks == 0 && stop) return std::nullopt;
+    const TickRecord record = simulation.step();
+    meters.add(record);
+    summary.add(record);
+    hottest_rise_K = std::fmax(hottest_rise_K, record.temperature_rise_K);
+    hottest_C =
+        std::fmax(hottest_C, record.temperature_rise_K + simulation.conditions().ambient.air_C);
+  }
+  const bool followed = summary.tracking().count() > 0;
+  Outcome outcome;
+  if (!summary.faults().empty()) outcome.fault = name(summary.faults().front().fault);
+  const auto measured = meters.values();
+  const std::array<double, run_quantities.size()> others{
+      followed ? summary.tracking().rms() : NAN,
+      followed ? summary.tracking().largest() : NAN,
+      hottest_rise_K,
+      hottest_C,
+      static_cast<double>(summary.outside_interval_ticks()),
+      static_cast<double>(summary.faults().size()),
+      summary.armed() ? 0.0 : 1.0,
+      std::isnan(summary.oscillated_at_s()) ? 0.0 : 1.0,
+      summary.infeasible_ratio(),
+      not_found(scenario, simulation),
+      found_error_ratio(simulation, [](const auto& muscle) { return muscle.dc_gain_m_per_W(); }),
+      found_error_ratio(simulation,
+                        [](const auto& muscle) { return muscle.thermal_pole_rad_per_s(); }),
+  };
+  const auto rest = std::ranges::copy(measured, outcome.values.begin()).out;
+  std::ranges::copy(others, rest);
+  return outcome;
+}
+
+}  // namespace supercoil::host_sim::campaign

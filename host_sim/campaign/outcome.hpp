@@ -1,0 +1,59 @@
+// What a run of a study came to.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "compare/measure.hpp"
+#include "runner/summary.hpp"
+#include "scenario/scenario.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+struct Quantity {
+  std::string_view name;  ///< its unit is the last part
+  std::string_view meaning;
+};
+
+/// After compare's measures: what else a run is judged by.
+inline constexpr std::array<Quantity, 12> run_quantities{{
+    {"tracking_rms_m", "error against the reference model within the window"},
+    {"tracking_max_m", "the largest of it"},
+    {"hottest_rise_K", "the muscle's true temperature above the air, the highest"},
+    {"hottest_C", "the muscle's true temperature, the highest"},
+    {"outside_interval_ticks", "at which it was not within the firmware's bounds"},
+    {"faults", "that latched"},
+    {"not_armed", "1: the muscle never was"},
+    {"oscillated", "1: the controller saw its loop oscillate"},
+    {"infeasible_ratio", "of the ticks that followed a position: the muscle could not"},
+    {"not_found", "1: identify or calibrate found nothing"},
+    {"gain_error_ratio", "of the metres per watt that identify found"},
+    {"cooling_error_ratio", "of the thermal pole that identify found"},
+}};
+
+inline constexpr std::size_t quantity_count = compare::measures.size() + run_quantities.size();
+constexpr Quantity quantity(std::size_t number) {
+  constexpr std::size_t first = compare::measures.size();
+  return number < first
+             ? Quantity{compare::measures[number].name, compare::measures[number].meaning}
+             : run_quantities[number - first];
+}
+/// By its name.
+std::optional<std::size_t> find_quantity(std::string_view name);
+
+struct Outcome {
+  std::string refused;  ///< why such a scenario cannot be, without comma; empty: it ran
+  std::string fault;    ///< the first; empty without
+  /// As `quantity` has them. NaN: the run has none such. Infinite: no longer followed, or never
+  /// settled.
+  std::array<double, quantity_count> values{};
+};
+
+/// Runs it; empty when it was given up because of stop.
+std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
+                                const std::atomic<bool>& stop);
+
+}  // namespace supercoil::host_sim::campaign

@@ -1,0 +1,128 @@
+#include "campaign/plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace supercoil::host_sim::campaign {
+
+namespace {
+
+/// More points would only make the file larger.
+constexpr std::size_t max_points = 1000;
+
+struct Point {
+  std::size_t run;
+  double value;
+};
+
+std::vector<Point> finite_values(const Outcomes& outcomes, std::size_t contender,
+                                 std::size_t quantity) {
+  std::vector<Point> points;
+  for (const auto& [key, outcome] : outcomes) {
+    const double value = outcome.values.at(quantity);
+    if (key.contender == contender && outcome.refused.empty() && std::isfinite(value))
+      points.push_back({key.run, value});
+  }
+  return points;
+}
+
+std::string label_of(const Study& study, std::size_t contender) {
+  return study.contenders[contender].name;
+}
+
+/// Share of all runs at or below a value; runs without a finite one never are.
+Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
+                   const Outcomes& outcomes, std::size_t goal) {
+  const Goal& of = study.goals[goal];
+  Panel panel;
+  panel.title = std::string(quantity(of.quantity).name) + ": runs at or below";
+  panel.x_label = std::string(quantity(of.quantity).name);
+  panel.y_label = "%";
+  panel.y_low = 0.0;
+  panel.y_high = 100.0;
+  double largest = of.max;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    std::vector<Point> points = finite_values(outcomes, i, of.quantity);
+    std::ranges::sort(points, {}, &Point::value);
+    const auto runs = static_cast<double>(table[i].failures.runs);
+    Curve curve{label_of(study, i), {}, {}, false, static_cast<int>(i), {}};
+    const std::size_t every = points.size() / max_points + 1;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      if (k % every != 0 && k + 1 != points.size()) continue;
+      curve.x.push_back(points[k].value);
+      curve.y.push_back(100.0 * static_cast<double>(k + 1) / runs);
+    }
+    // A few runs far out would press all others into a corner.
+    if (!points.empty()) {
+      largest = std::max(largest, points[points.size() * 98 / 100].value);
+      panel.curves.push_back(std::move(curve));
+    }
+  }
+  panel.curves.push_back(
+      {"goal", {of.max, of.max}, {0.0, 100.0}, true, static_cast<int>(table.size()), {}});
+  panel.x_high = 1.05 * largest;
+  return panel;
+}
+
+/// The draw that the goal's quantity follows most, whoever controls.
+std::size_t deciding(const std::vector<ContenderRow>& table, std::size_t goal) {
+  std::size_t draw = 0;
+  double most = -1.0;
+  for (const ContenderRow& row : table) {
+    const auto& decides = row.goals[goal].decides;
+    for (std::size_t i = 0; i < decides.size(); ++i) {
+      if (!(std::abs(decides[i]) > most)) continue;
+      most = std::abs(decides[i]);
+      draw = i;
+    }
+  }
+  return draw;
+}
+
+Panel scatter(const Study& study, const Draws& draws, const std::vector<ContenderRow>& table,
+              const Outcomes& outcomes, std::size_t goal) {
+  const std::size_t draw = deciding(table, goal);
+  const std::size_t number = study.goals[goal].quantity;
+  Panel panel;
+  panel.title = "what it goes with most: " + study.draws[draw].name;
+  panel.x_label = study.draws[draw].name;
+  panel.y_label = std::string(quantity(number).name);
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const std::vector<Point> points = finite_values(outcomes, i, number);
+    Curve curve{label_of(study, i), {}, {}, false, static_cast<int>(i), {}};
+    const std::size_t every = points.size() / max_points + 1;
+    for (std::size_t k = 0; k < points.size(); k += every) {
+      curve.x.push_back(draws.of_run(points[k].run)[draw]);
+      curve.y.push_back(points[k].value);
+    }
+    curve.bars_to = curve.y;
+    if (!points.empty()) panel.curves.push_back(std::move(curve));
+  }
+  return panel;
+}
+
+bool varies(const std::vector<ContenderRow>& table, std::size_t goal) {
+  return std::ranges::any_of(table, [&](const ContenderRow& row) {
+    return row.goals[goal].worst > row.goals[goal].median;
+  });
+}
+
+}  // namespace
+
+Figure figure_of(const Study& study, const Draws& draws, const Outcomes& outcomes,
+                 const std::vector<ContenderRow>& table) {
+  Figure figure;
+  figure.columns = 2;
+  figure.width_px = 1200;
+  figure.panel_height_px = 320;
+  for (std::size_t goal = 0; goal < study.goals.size(); ++goal) {
+    if (!varies(table, goal)) continue;
+    figure.panels.push_back(distribution(study, table, outcomes, goal));
+    if (!study.draws.empty()) figure.panels.push_back(scatter(study, draws, table, outcomes, goal));
+  }
+  return figure;
+}
+
+}  // namespace supercoil::host_sim::campaign

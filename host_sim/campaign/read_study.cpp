@@ -1,0 +1,272 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "campaign/outcome.hpp"
+#include "campaign/study.hpp"
+#include "config/section.hpp"
+#include "config/toml_file.hpp"
+#include "scenario/read_scenario.hpp"
+#include "storage/crc32.hpp"
+#include "text/nearest.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+namespace {
+
+using config::Diagnostics;
+using config::Section;
+
+constexpr config::Range any{-1e300, 1e300};
+/// What would break a line of runs.csv.
+constexpr std::string_view separators = ",\"\n\r|";
+
+/// A list of names that are not empty, or one.
+std::vector<std::string> texts(Section& section, const std::string& key) {
+  section.allow({key});
+  std::vector<std::string> found;
+  if (!section.has(key)) return found;
+  const toml::node& node = *section.table()->get(key);
+  const auto add = [&](const toml::node& one) {
+    const auto text = one.value_exact<std::string>();
+    if (!text || text->empty()) return section.wrong(key, "must be a name or a list of names");
+    found.push_back(*text);
+  };
+  if (const toml::array* list = node.as_array()) {
+    for (const toml::node& one : *list)
+      add(one);
+  } else {
+    add(node);
+  }
+  return found;
+}
+
+/// "[a, b]", the second above the first.
+void read_ends(Section& section, const std::string& key, double lowest, Distribution& into) {
+  const auto ends = section.numbers(key, {1.0, 2.0}, {lowest, any.highest}, 2, 2);
+  into.first = ends[0];
+  into.second = ends[1];
+  if (!(ends[0] < ends[1])) section.wrong(key, "the second must be above the first");
+}
+
+void read_normal(Section& section, Distribution& into) {
+  const auto given = section.numbers("normal", {0.0, 1.0}, any, 2, 2);
+  into.first = given[0];
+  into.second = given[1];
+  into.min = section.number("min", into.min, {-INFINITY, any.highest});
+  into.max = section.number("max", into.max, {any.lowest, INFINITY});
+  if (!(into.second > 0.0)) section.wrong("normal", "the standard deviation must be above 0");
+  if (!(into.min < into.max)) section.wrong("min", "must be below max");
+}
+
+toml::array read_list(Section& section, Distribution& into) {
+  section.allow({"list"});
+  const toml::array* list = section.table()->get_as<toml::array>("list");
+  const auto is_value = [](const toml::node& one) {
+    if (const auto text = one.value_exact<std::string>())
+      return text->find_first_of(separators) == std::string::npos;
+    return one.is_number() || one.is_boolean();
+  };
+  if (list == nullptr || list->empty() || !std::all_of(list->begin(), list->end(), is_value)) {
+    section.wrong("list", "must be a list of numbers, true, false, or texts without comma");
+    return {};
+  }
+  into.values = list->size();
+  return *list;
+}
+
+/// Of the keys that name a distribution, exactly one must be there.
+void read_distribution(Section& section, Draw& draw) {
+  using Kind = Distribution::Kind;
+  static constexpr control::Names<Kind, 5> kinds{{{"constant", Kind::constant},
+                                                  {"uniform", Kind::uniform},
+                                                  {"log_uniform", Kind::log_uniform},
+                                                  {"normal", Kind::normal},
+                                                  {"list", Kind::list}}};
+  std::string found;
+  for (const auto& [name, kind] : kinds) {
+    if (!section.has(name)) continue;
+    if (!found.empty()) section.wrong(name, "there is " + found + " already; one of them");
+    found = name;
+    draw.distribution.kind = kind;
+  }
+  switch (draw.distribution.kind) {
+    case Kind::uniform:
+      return read_ends(section, "uniform", any.lowest, draw.distribution);
+    case Kind::log_uniform:
+      return read_ends(section, "log_uniform", 1e-300, draw.distribution);
+    case Kind::normal:
+      return read_normal(section, draw.distribution);
+    case Kind::list:
+      draw.values = read_list(section, draw.distribution);
+      return;
+    case Kind::constant:
+      break;
+  }
+  draw.distribution.first = section.required_number("constant", any);
+}
+
+Draw read_draw(Section section) {
+  Draw draw;
+  draw.keys = texts(section, "keys");
+  draw.name = section.text("name", draw.keys.empty() ? "" : draw.keys.front());
+  if (draw.name.empty()) section.wrong("keys", "is missing, and so is name: what is drawn?");
+  if (draw.name.find_first_of(separators) != std::string::npos)
+    section.wrong("name", "must have no comma, quote, bar or line break");
+  read_distribution(section, draw);
+  draw.times = texts(section, "times");
+  draw.over = texts(section, "over");
+  if (draw.distribution.kind == Distribution::Kind::list &&
+      !(draw.times.empty() && draw.over.empty()))
+    section.wrong("list", "is taken as it is: times and over do not go with it");
+  draw.group = section.text("group", "");
+  draw.correlation = section.number("correlation", 1.0, {-1.0, 1.0});
+  if (draw.group.empty() && section.has("correlation"))
+    section.wrong("correlation", "with what? group is missing");
+  section.finish();
+  return draw;
+}
+
+std::vector<Draw> read_draws(Section& top) {
+  // Far more than a study needs, and far fewer than a Sobol sequence has.
+  constexpr std::size_t max_draws = 500;
+  std::vector<Draw> draws;
+  for (Section& section : top.sections("draw")) {
+    draws.push_back(read_draw(section));
+    const auto twice = std::count_if(draws.begin(), draws.end(), [&](const Draw& other) {
+      return other.name == draws.back().name;
+    });
+    if (twice > 1) section.wrong("name", draws.back().name + " is drawn twice");
+    if (draws.size() > max_draws) section.wrong("name", "there are more than 500 draws");
+  }
+  return draws;
+}
+
+std::vector<Goal> read_goals(Section section) {
+  std::vector<Goal> goals;
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    const std::string_view name = quantity(i).name;
+    const double max = section.number(name, 0.0, any);
+    if (section.has(name)) goals.push_back({i, max});
+  }
+  const std::size_t faults = *find_quantity("faults");
+  const bool own = std::ranges::any_of(goals, [&](const Goal& g) { return g.quantity == faults; });
+  if (!own) goals.push_back({faults, 0.0});
+  section.finish();
+  return goals;
+}
+
+/// The scenario, and what the study lays over it.
+toml::table read_base(Section& study, const std::filesystem::path& beside,
+                      const toml::table& document, Diagnostics& diagnostics) {
+  const std::string name = study.text("scenario", "sine");
+  std::string text;
+  if (const auto builtin = builtin_scenario(name)) {
+    text = *builtin;
+  } else if (name.find_first_of("./") == std::string::npos) {
+    std::vector<std::string> names;
+    for (const BuiltinScenario& one : builtin_scenarios())
+      names.emplace_back(one.name);
+    study.wrong("scenario", "is no built-in scenario; " + meant_or_all(name, names, "they are"));
+  } else {
+    text = config::read_text((beside / name).string(), diagnostics);
+  }
+  toml::table base = config::parse(text, diagnostics);
+  if (const toml::table* changes = document.get_as<toml::table>("scenario"))
+    apply_changes(base, toml::table(*changes));
+  return base;
+}
+
+std::vector<compare::Document> read_contenders(Section& study,
+                                               const std::filesystem::path& beside) {
+  std::vector<std::string> names = texts(study, "controllers");
+  if (names.empty()) return {{"scenario", ""}};
+  for (std::string& name : names) {
+    if (name.find_first_of("./") != std::string::npos) name = (beside / name).string();
+  }
+  auto found = compare::find_controllers(names);
+  if (found) return *found;
+  study.wrong("controllers", found.error().substr(0, found.error().find_last_not_of('\n') + 1));
+  return {};
+}
+
+std::uint32_t definition_of(const toml::table& document, const Study& study) {
+  std::ostringstream text;
+  text << document << study.scenario;
+  for (const compare::Document& one : study.contenders)
+    text << '\n' << one.name << '\n' << one.text;
+  // Where the runs are does not depend on how many there are, but for this.
+  if (study.sampling == Sampling::latin_hypercube) text << study.runs;
+  return storage::crc32(text.str());
+}
+
+void read_head(Section& section, Study& study) {
+  study.runs = section.integer("runs", study.runs, 1, max_runs);
+  study.sampling = section.choice("sampling", study.sampling, sampling_names);
+  study.seed = static_cast<std::uint64_t>(section.integer("seed", 1, 0, 2147483647));
+  study.known_to = section.number("known_to", 0.0, {0.0, 0.5});
+  if (study.known_to > 0.0 && study.sampling == Sampling::latin_hypercube) {
+    section.wrong("known_to",
+                  "the runs of a Latin hypercube are only good together; take sobol or random");
+  }
+}
+
+void read_window(Section& section, Study& study) {
+  const double duration_s = study.scenario["simulation"]["duration_s"].value_or(200.0);
+  const auto window =
+      section.numbers("window_s", {duration_s / 2.0, duration_s}, {0.0, duration_s}, 2, 2);
+  study.window = {window[0], window[1]};
+  if (!(window[0] < window[1])) section.wrong("window_s", "the second must be above the first");
+}
+
+/// runs and known_to say how far to go, and nothing of a run.
+void forget_how_far(toml::table& document) {
+  if (toml::table* study = document.get_as<toml::table>("study")) {
+    study->erase("runs");
+    study->erase("known_to");
+  }
+}
+
+}  // namespace
+
+tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& path,
+                                                             std::int64_t runs) {
+  Diagnostics diagnostics(path);
+  const auto& builtin = builtin_studies();
+  const auto found = std::ranges::find(builtin, path, &BuiltinScenario::name);
+  const std::string text =
+      found != builtin.end() ? std::string(found->text) : config::read_text(path, diagnostics);
+  toml::table document = config::parse(text, diagnostics);
+  if (!diagnostics.empty()) {
+    if (path.find_first_of("./") == std::string::npos) {
+      std::vector<std::string> names;
+      for (const BuiltinScenario& one : builtin)
+        names.emplace_back(one.name);
+      diagnostics.add(
+          0, "", "and no built-in study has that name; " + meant_or_all(path, names, "they are"));
+    }
+    return tl::unexpected(diagnostics.problems());
+  }
+  Study study;
+  study.name = std::filesystem::path(path).stem().string();
+  const std::filesystem::path beside = std::filesystem::path(path).parent_path();
+  Section top(&document, "", diagnostics);
+  top.allow({"scenario"});
+  Section head = top.section("study");
+  read_head(head, study);
+  if (runs > 0) study.runs = runs;
+  study.scenario = read_base(head, beside, document, diagnostics);
+  read_window(head, study);
+  study.contenders = read_contenders(head, beside);
+  head.finish();
+  study.draws = read_draws(top);
+  study.goals = read_goals(top.section("goals"));
+  top.finish();
+  if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
+  forget_how_far(document);
+  study.definition = definition_of(document, study);
+  return study;
+}
+
+}  // namespace supercoil::host_sim::campaign

@@ -1,0 +1,135 @@
+#include "campaign/results.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "compare/kept_lines.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+namespace {
+
+std::string hexadecimal(std::uint32_t value) {
+  std::array<char, 8> digits{};
+  constexpr int base = 16;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value, base).ptr;
+  return {digits.data(), end};
+}
+
+bool same(const Outcome& one, const Outcome& other) {
+  return one.refused == other.refused && one.fault == other.fault &&
+         std::ranges::equal(one.values, other.values, [](double x, double y) {
+           return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
+         });
+}
+
+std::optional<Key> read_key(const std::vector<std::string_view>& fields, const Study& study) {
+  Key key;
+  std::uint64_t number = 0;
+  const auto contender = std::ranges::find(study.contenders, fields[1], &compare::Document::name);
+  const bool one_lot = study.sampling == Sampling::latin_hypercube;
+  const auto last = static_cast<std::uint64_t>(one_lot ? study.runs : max_runs);
+  if (!compare::read(fields[0], number) || contender == study.contenders.end()) return std::nullopt;
+  if (number < 1 || number > last) return std::nullopt;
+  key.run = static_cast<std::size_t>(number) - 1;
+  key.contender = static_cast<std::size_t>(contender - study.contenders.begin());
+  return key;
+}
+
+double ratio(double value, double max) {
+  if (std::isnan(value)) return INFINITY;
+  if (value <= max) return max > 0.0 ? value / max : 0.0;
+  return max > 0.0 ? value / max : INFINITY;
+}
+
+}  // namespace
+
+std::string Lines::head() const {
+  std::string text = "# supercoil-sim " SUPERCOIL_RELEASE " campaign " + study_->name +
+                     ", definition " + hexadecimal(study_->definition) +
+                     ", a line a run; inf: no longer followed, or never settled\nrun,contender";
+  for (const Draw& draw : study_->draws)
+    text += "," + draw.name;
+  text += ",refused,fault";
+  for (std::size_t i = 0; i < quantity_count; ++i)
+    text += "," + std::string(quantity(i).name);
+  return text + "\n";
+}
+
+std::string Lines::begin_of(const Key& key) const {
+  std::string text =
+      std::to_string(key.run + 1) + "," + study_->contenders[key.contender].name + ",";
+  const auto drawn = draws_->of_run(key.run);
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    text += text_of(study_->draws[i], drawn[i]) + ",";
+  return text;
+}
+
+std::string Lines::line(const Key& key, const Outcome& outcome) const {
+  std::string text = begin_of(key) + outcome.refused + "," + outcome.fault;
+  for (const double value : outcome.values)
+    text += "," + compare::number(value);
+  return text + "\n";
+}
+
+std::string Lines::file(const Outcomes& outcomes) const {
+  std::string text = head();
+  for (const auto& [key, outcome] : outcomes)
+    text += line(key, outcome);
+  return text;
+}
+
+tl::expected<Lines::Read, std::string> Lines::read(const std::filesystem::path& path) const {
+  const std::size_t before = 2 + study_->draws.size();
+  const std::size_t columns = before + 2 + quantity_count;
+  Read read;
+  const auto take = [&](std::string_view text,
+                        const std::string& where) -> tl::expected<void, std::string> {
+    const auto damaged = [&](const std::string& why) {
+      return tl::unexpected(where + "is damaged: " + why + ": " + std::string(text));
+    };
+    const auto fields = compare::fields_of(text);
+    if (fields.size() != columns) return damaged("must be " + std::to_string(columns) + " fields");
+    const auto key = read_key(fields, *study_);
+    if (!key) return damaged("there is no such run");
+    if (!text.starts_with(begin_of(*key))) return damaged("this run draws something else");
+    Outcome outcome{std::string(fields[before]), std::string(fields[before + 1]), {}};
+    for (std::size_t i = 0; i < quantity_count; ++i) {
+      if (!compare::read_number(fields[before + 2 + i], outcome.values[i]))
+        return damaged(std::string(quantity(i).name) + " must be a number");
+    }
+    return merge(read.outcomes, {{*key, std::move(outcome)}}, where);
+  };
+  const auto torn = compare::read_lines(path, head(), take);
+  if (!torn) return tl::unexpected(torn.error());
+  read.torn = *torn;
+  return read;
+}
+
+tl::expected<void, std::string> merge(Outcomes& into, const Outcomes& from,
+                                      const std::string& name) {
+  for (const auto& [key, outcome] : from) {
+    const auto [there, is_new] = into.try_emplace(key, outcome);
+    if (!is_new && !same(there->second, outcome)) {
+      return tl::unexpected(name + ": run " + std::to_string(key.run + 1) +
+                            " came to something else before");
+    }
+  }
+  return {};
+}
+
+double severity(const Study& study, const Outcome& outcome) {
+  double worst = 0.0;
+  for (const Goal& goal : study.goals)
+    worst = std::fmax(worst, ratio(outcome.values.at(goal.quantity), goal.max));
+  return worst;
+}
+
+}  // namespace supercoil::host_sim::campaign

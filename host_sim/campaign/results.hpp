@@ -1,0 +1,64 @@
+// The outcomes of a study, and the file that keeps them: runs.csv.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "campaign/draws.hpp"
+#include "campaign/outcome.hpp"
+#include "campaign/study.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+/// Which run it was.
+struct Key {
+  std::size_t run = 0;        ///< from 0
+  std::size_t contender = 0;  ///< of the study
+
+  friend auto operator<=>(const Key&, const Key&) = default;  // NOLINT(modernize-use-nullptr)
+};
+
+using Outcomes = std::map<Key, Outcome>;
+
+/// Reads and writes lines of runs.csv; equal outcomes give equal bytes.
+class Lines {
+ public:
+  /// Both must outlive it.
+  Lines(const Study& study, const Draws& draws) : study_(&study), draws_(&draws) {}
+
+  std::string line(const Key& key, const Outcome& outcome) const;
+  /// The whole file: what made it, the columns' names, all lines in order.
+  std::string file(const Outcomes& outcomes) const;
+
+  struct Read {
+    Outcomes outcomes;
+    bool torn = false;  ///< the last line was not whole, and is left out
+  };
+  /// A file of another version or study, a damaged line and two outcomes of one run are errors,
+  /// which name the file and the line. An absent file has no outcomes.
+  tl::expected<Read, std::string> read(const std::filesystem::path& path) const;
+
+ private:
+  std::string head() const;
+  /// run,contender and what was drawn.
+  std::string begin_of(const Key& key) const;
+
+  const Study* study_;
+  const Draws* draws_;
+};
+
+/// Adds what was read from a file to the outcomes. The error names a run for which both say
+/// something else.
+tl::expected<void, std::string> merge(Outcomes& into, const Outcomes& from,
+                                      const std::string& name);
+
+/// Largest of the goals' quantities over what is allowed; above 1: failed. A quantity that is not
+/// there, a fault that is a failure, and more than nothing where nothing is allowed are infinite.
+double severity(const Study& study, const Outcome& outcome);
+
+}  // namespace supercoil::host_sim::campaign

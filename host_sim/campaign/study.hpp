@@ -1,0 +1,63 @@
+// A campaign's study as its author wrote it: what is drawn for each run, and what must come out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+#include <toml++/toml.h>
+
+#include "campaign/distribution.hpp"
+#include "campaign/sampler.hpp"
+#include "compare/document.hpp"
+#include "config/diagnostics.hpp"
+#include "runner/summary.hpp"
+#include "scenario/builtin.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+inline constexpr std::int64_t max_runs = 1'000'000;
+
+/// [[draw]]: a value of its own in every run.
+struct Draw {
+  std::string name;               ///< in tables
+  std::vector<std::string> keys;  ///< of the scenario that get it; none: only others refer to it
+  Distribution distribution;
+  toml::array values;              ///< of a list
+  std::vector<std::string> times;  ///< draws and keys that what is drawn is multiplied with
+  std::vector<std::string> over;   ///< and divided by
+  std::string group;               ///< draws of one group go together; empty: alone
+  double correlation = 1.0;        ///< with its group, in ranks of a normal distribution
+};
+
+/// [goals]: the largest value of a quantity that is no failure.
+struct Goal {
+  std::size_t quantity;  ///< of `quantities`
+  double max;
+};
+
+struct Study {
+  std::string name;
+  std::int64_t runs = 1000;
+  Sampling sampling = Sampling::sobol;
+  std::uint64_t seed = 1;
+  /// Run until the share of failures is known to ± this, 95 %; 0: all runs.
+  double known_to = 0.0;
+  Window window;         ///< of tracking
+  toml::table scenario;  ///< without what is drawn
+  std::vector<Draw> draws;
+  std::vector<compare::Document> contenders;  ///< one without text: the scenario's own controller
+  std::vector<Goal> goals;
+  std::uint32_t definition = 0;  ///< checksum of all that a run depends on
+};
+
+/// The studies that come with the program.
+const std::vector<BuiltinScenario>& builtin_studies();
+
+/// path: a .toml file, or the name of a built-in study. runs: in place of its own; 0: these. Or
+/// everything that is wrong with it.
+tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& path,
+                                                             std::int64_t runs = 0);
+
+}  // namespace supercoil::host_sim::campaign

@@ -1,0 +1,114 @@
+#include "campaign/tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "compare/kept_lines.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+namespace {
+
+/// A contender's runs that were not refused.
+struct Runs {
+  std::vector<const Outcome*> outcomes;
+  std::vector<std::vector<double>> drawn;  ///< draw by draw
+};
+
+Runs runs_of(std::size_t contender, const Study& study, const Draws& draws,
+             const Outcomes& outcomes) {
+  Runs runs;
+  runs.drawn.resize(study.draws.size());
+  for (const auto& [key, outcome] : outcomes) {
+    if (key.contender != contender || !outcome.refused.empty()) continue;
+    runs.outcomes.push_back(&outcome);
+    const auto drawn = draws.of_run(key.run);
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+      runs.drawn[i].push_back(drawn[i]);
+  }
+  return runs;
+}
+
+GoalRow row_of(const Goal& goal, const Runs& runs) {
+  GoalRow row{goal, {}, NAN, NAN, NAN, {}};
+  std::vector<double> values;
+  std::int64_t missed = 0;
+  for (const Outcome* outcome : runs.outcomes) {
+    const double value = outcome->values.at(goal.quantity);
+    // What was not measured is no better than the worst.
+    values.push_back(std::isnan(value) ? INFINITY : value);
+    missed += values.back() > goal.max ? 1 : 0;
+  }
+  row.failures = rate_of(missed, static_cast<std::int64_t>(values.size()));
+  row.median = quantile(values, 0.5);
+  row.of_95_in_100 = quantile(values, 0.95);
+  row.worst = quantile(values, 1.0);
+  for (const auto& drawn : runs.drawn)
+    row.decides.push_back(rank_correlation(drawn, values));
+  return row;
+}
+
+}  // namespace
+
+std::vector<ContenderRow> table_of(const Study& study, const Draws& draws,
+                                   const Outcomes& outcomes) {
+  std::vector<ContenderRow> table;
+  for (std::size_t i = 0; i < study.contenders.size(); ++i) {
+    const Runs runs = runs_of(i, study, draws, outcomes);
+    ContenderRow row{study.contenders[i].name, {}, {}, {}, ""};
+    std::int64_t all = 0;
+    for (const auto& [key, outcome] : outcomes) {
+      if (key.contender != i) continue;
+      ++all;
+      if (row.reason.empty()) row.reason = outcome.refused;
+    }
+    const auto ran = static_cast<std::int64_t>(runs.outcomes.size());
+    const auto failed = std::ranges::count_if(
+        runs.outcomes, [&](const Outcome* one) { return severity(study, *one) > 1.0; });
+    row.refused = rate_of(all - ran, all);
+    row.failures = rate_of(failed, ran);
+    for (const Goal& goal : study.goals)
+      row.goals.push_back(row_of(goal, runs));
+    table.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::vector<Key> worst_of(const Study& study, const Outcomes& outcomes, std::size_t contender,
+                          std::size_t count) {
+  std::vector<std::pair<double, Key>> failed;
+  for (const auto& [key, outcome] : outcomes) {
+    if (key.contender != contender || !outcome.refused.empty()) continue;
+    if (const double by = severity(study, outcome); by > 1.0) failed.emplace_back(-by, key);
+  }
+  std::ranges::sort(failed);
+  std::vector<Key> worst;
+  for (std::size_t i = 0; i < std::min(count, failed.size()); ++i)
+    worst.push_back(failed[i].second);
+  return worst;
+}
+
+std::string to_csv(const std::vector<ContenderRow>& table) {
+  std::string text =
+      "controller,quantity,max,runs,failures,rate,ci95_low,ci95_high,median,p95,worst\n";
+  const auto line = [&](const ContenderRow& row, const std::string& name, const std::string& max,
+                        const Rate& rate, const std::string& rest) {
+    text += row.name + "," + name + "," + max + "," + std::to_string(rate.runs) + "," +
+            std::to_string(rate.failures) + "," + compare::number(rate.rate()) + "," +
+            compare::number(rate.low) + "," + compare::number(rate.high) + rest + "\n";
+  };
+  for (const ContenderRow& row : table) {
+    line(row, "refused", "", row.refused, ",,,");
+    line(row, "any", "", row.failures, ",,,");
+    for (const GoalRow& goal : row.goals) {
+      line(row, std::string(quantity(goal.goal.quantity).name), compare::number(goal.goal.max),
+           goal.failures,
+           "," + compare::number(goal.median) + "," + compare::number(goal.of_95_in_100) + "," +
+               compare::number(goal.worst));
+    }
+  }
+  return text;
+}
+
+}  // namespace supercoil::host_sim::campaign

@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "campaign/run_study.hpp"
+#include "campaign/statistics.hpp"
+#include "cli/campaign_results.hpp"
+#include "cli/commands.hpp"
+#include "cli/kept_runs.hpp"
+#include "compare/in_parallel.hpp"
+#include "report/output_folder.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+/// After so many runs each the rates are looked at, whatever the jobs: where a study ends is the
+/// same for all.
+constexpr std::int64_t look_every_runs = 100;
+
+/// What the study describes must be a scenario in the middle of all draws.
+std::string check_medians(const campaign::Study& study, const campaign::Draws& draws) {
+  std::string problems;
+  for (std::size_t i = 0; i < study.contenders.size(); ++i) {
+    const auto scenario = draws.scenario(draws.medians(), i, 0);
+    if (!scenario)
+      problems += "at the median of all draws, with " + study.contenders[i].name + ":\n" +
+                  config::to_text(scenario.error());
+  }
+  return problems;
+}
+
+/// Runs from `from` to before `to` of the shard, all contenders, which are not among the outcomes.
+std::vector<campaign::Key> missing(const campaign::Study& study, const compare::Shard& shard,
+                                   const campaign::Outcomes& outcomes, std::int64_t from,
+                                   std::int64_t to) {
+  std::vector<campaign::Key> runs;
+  for (std::int64_t run = from; run < to; ++run) {
+    if (run % shard.of != shard.number - 1) continue;
+    for (std::size_t i = 0; i < study.contenders.size(); ++i) {
+      const campaign::Key key{static_cast<std::size_t>(run), i};
+      if (!outcomes.contains(key)) runs.push_back(key);
+    }
+  }
+  return runs;
+}
+
+/// Each contender's share of failures, over the runs before `end`.
+bool known_well_enough(const campaign::Study& study, const campaign::Outcomes& outcomes,
+                       std::int64_t end) {
+  if (study.known_to <= 0.0) return false;
+  for (std::size_t i = 0; i < study.contenders.size(); ++i) {
+    std::int64_t runs = 0;
+    std::int64_t failed = 0;
+    for (const auto& [key, outcome] : outcomes) {
+      if (key.contender != i || key.run >= static_cast<std::size_t>(end)) continue;
+      if (!outcome.refused.empty()) continue;
+      ++runs;
+      failed += severity(study, outcome) > 1.0 ? 1 : 0;
+    }
+    if (campaign::rate_of(failed, runs).half_width() > study.known_to) return false;
+  }
+  return true;
+}
+
+void carry_out(const campaign::Study& study, const campaign::Draws& draws,
+               const CampaignOptions& options, campaign::Outcomes& outcomes, KeptRuns& kept) {
+  const campaign::Lines lines(study, draws);
+  bool stopped = false;
+  const std::int64_t step = study.known_to > 0.0 ? look_every_runs : study.runs;
+  for (std::int64_t from = 0; from < study.runs && !stopped; from += step) {
+    const std::int64_t to = std::min(study.runs, from + step);
+    const auto todo = missing(study, options.shard, outcomes, from, to);
+    run(study, draws, todo, compare::threads_for(options.jobs),
+        {[&](const campaign::Key& key, const campaign::Outcome& outcome) {
+           kept.add(lines.line(key, outcome));
+           outcomes.emplace(key, outcome);
+         },
+         [&] { return stopped = kept.stop(); }});
+    if (!stopped && known_well_enough(study, outcomes, to)) {
+      kept.enough();
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+int campaign_command(const CampaignOptions& asked) {
+  if (asked.list) return list_studies();
+  if (asked.study.empty())
+    return fail(exit_wrong_input, "campaign: which study? A file, or a name of --list");
+  auto study = campaign::read_study(asked.study, asked.runs);
+  if (!study) {
+    std::fputs(config::to_text(study.error()).c_str(), stderr);
+    return exit_wrong_input;
+  }
+  CampaignOptions options = asked;
+  if (options.out.empty()) options.out = "supercoil-out/campaign-" + study->name;
+  const compare::Shard& shard = options.shard;
+  if (shard.number < 1 || shard.number > shard.of)
+    return fail(exit_wrong_input, "--shard: must be I/N with 1 <= I <= N");
+  if (shard.of > 1 && study->known_to > 0.0) {
+    return fail(exit_wrong_input,
+                asked.study +
+                    ": study.known_to: no part knows when the whole is known well enough; "
+                    "leave it out with --shard");
+  }
+  const campaign::Draws draws(*study);
+  if (const std::string problems = check_medians(*study, draws); !problems.empty()) {
+    std::fputs(problems.c_str(), stderr);
+    return exit_wrong_input;
+  }
+  if (!options.merge.empty()) return merge_campaign(*study, draws, options);
+
+  auto folder = OutputFolder::open(options.out);
+  if (!folder) return fail(exit_wrong_input, folder.error());
+  const campaign::Lines lines(*study, draws);
+  auto before = lines.read(folder->path() / runs_name);
+  if (!before) return fail(exit_wrong_input, before.error());
+  campaign::Outcomes outcomes = std::move(before->outcomes);
+  const auto all = missing(*study, shard, {}, 0, study->runs).size();
+  const auto todo = missing(*study, shard, outcomes, 0, study->runs).size();
+  KeptRuns kept("campaign", {outcomes.size(), all, todo, before->torn}, *folder, options.quiet);
+  if (const int failed = kept.begin(lines.file(outcomes)); failed != exit_done) return failed;
+  if (todo > 0) carry_out(*study, draws, options, outcomes, kept);
+  if (const int failed = kept.end(); failed != exit_done) return failed;
+  return conclude_campaign(*study, draws, outcomes, *folder, options);
+}
+
+}  // namespace supercoil::host_sim

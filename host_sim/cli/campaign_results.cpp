@@ -1,0 +1,93 @@
+#include "cli/campaign_results.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+
+#include "campaign/plot.hpp"
+#include "campaign/tables.hpp"
+#include "cli/kept_runs.hpp"
+#include "cli/run_results.hpp"
+#include "cli/tables.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+constexpr std::size_t worst_runs = 10;
+
+/// A run as a scenario of its own, with its first line saying what it is.
+std::string replay(const campaign::Study& study, const campaign::Draws& draws,
+                   const campaign::Key& key) {
+  std::ostringstream text;
+  const auto document = draws.document(draws.of_run(key.run), key.contender, key.run);
+  text << "# Run " << key.run + 1 << " of " << study.name << ", "
+       << study.contenders[key.contender].name << "; tracking from " << study.window.from_s
+       << " to " << study.window.to_s << " s\n";
+  if (document) text << *document << "\n";
+  return text.str();
+}
+
+}  // namespace
+
+int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws,
+                      const campaign::Outcomes& outcomes, OutputFolder& folder,
+                      const CampaignOptions& options) {
+  const auto table = table_of(study, draws, outcomes);
+  const std::string markdown = to_markdown(study, table, outcomes);
+  if (options.plot) {
+    const Figure figure = figure_of(study, draws, outcomes, table);
+    if (!figure.panels.empty()) draw_into(folder, figure, "campaign.svg");
+  }
+  Tables tables{{{runs_name, campaign::Lines(study, draws).file(outcomes)},
+                 {"campaign.csv", to_csv(table)},
+                 {"campaign.md", markdown}},
+                markdown,
+                outcomes.size()};
+  for (std::size_t i = 0; i < study.contenders.size(); ++i) {
+    std::size_t place = 0;
+    for (const campaign::Key& key : worst_of(study, outcomes, i, worst_runs)) {
+      tables.files.emplace_back(
+          "worst-" + study.contenders[i].name + "-" + std::to_string(++place) + ".toml",
+          replay(study, draws, key));
+    }
+  }
+  return conclude_tables(tables, folder, options.quiet);
+}
+
+int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
+                   const CampaignOptions& options) {
+  campaign::Outcomes outcomes;
+  for (const std::string& path : options.merge) {
+    if (!std::filesystem::exists(path))
+      return fail(exit_wrong_input, path + ": there is no such file");
+    const auto read = campaign::Lines(study, draws).read(path);
+    if (!read) return fail(exit_wrong_input, read.error());
+    if (read->torn) {
+      return fail(exit_wrong_input,
+                  path + ": its last line is torn: the run was interrupted; go on with it first");
+    }
+    const auto merged = merge(outcomes, read->outcomes, path);
+    if (!merged) return fail(exit_wrong_input, merged.error());
+  }
+  auto folder = OutputFolder::open(options.out);
+  if (!folder) return fail(exit_wrong_input, folder.error());
+  return conclude_campaign(study, draws, outcomes, *folder, options);
+}
+
+int list_studies() {
+  for (const BuiltinScenario& study : campaign::builtin_studies()) {
+    const auto what = description(study);
+    std::printf("%-16.*s %.*s\n", static_cast<int>(study.name.size()), study.name.data(),
+                static_cast<int>(what.size()), what.data());
+  }
+  std::puts("\nQuantities, for [goals]:");
+  for (std::size_t i = 0; i < campaign::quantity_count; ++i) {
+    const campaign::Quantity one = campaign::quantity(i);
+    std::printf("  %-22.*s %.*s\n", static_cast<int>(one.name.size()), one.name.data(),
+                static_cast<int>(one.meaning.size()), one.meaning.data());
+  }
+  return exit_done;
+}
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,22 @@
+// What a campaign leaves.
+#pragma once
+
+#include "campaign/results.hpp"
+#include "cli/commands.hpp"
+#include "report/output_folder.hpp"
+
+namespace supercoil::host_sim {
+
+/// Writes tables, plot and the worst runs. Returns the program's exit status, as the next two do.
+int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws,
+                      const campaign::Outcomes& outcomes, OutputFolder& folder,
+                      const CampaignOptions& options);
+
+/// The same of several parts' runs.csv.
+int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
+                   const CampaignOptions& options);
+
+/// Says which studies and quantities there are.
+int list_studies();
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,201 @@
+"""supercoil-sim campaign as a user meets it: the same bytes whatever the jobs, resumed, in parts, replayed, damaged."""
+
+import csv
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+PROGRAM = pathlib.Path(os.environ["SUPERCOIL_SIM"]).resolve()
+# Short runs, of which some fail and some cannot be.
+STUDY = """# Brief
+[study]
+runs = 24
+scenario = "pwm"
+controllers = ["pi", "pd_ff"]
+window_s = [1.0, 3.0]
+[goals]
+tracking_rms_m = 1e-3
+[scenario.simulation]
+duration_s = 3.0
+[[draw]]
+keys = "plant.stiffness_N_per_m"
+log_uniform = [8.0, 40.0]
+[[draw]]
+keys = "reference.offset_m"
+uniform = [0.008, 0.0125]
+[[draw]]
+name = "noise"
+keys = "sensor.position.noise_rms_m"
+list = [1e-6, 1e-5]
+"""
+FIRST_LINES = 2  # what made it, and the columns' names
+
+
+class Campaign(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.path = pathlib.Path(folder.name)
+        (self.path / "brief.toml").write_text(STUDY)
+
+    def campaign(self, *arguments, study="brief.toml", status=0):
+        done = subprocess.run([PROGRAM, "campaign", *([study] if study else []), "--no-plot", *map(str, arguments)],
+                              capture_output=True, text=True, cwd=self.path, timeout=300)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def files(self, folder):
+        return {file.name: file.read_bytes() for file in (self.path / folder).iterdir()}
+
+    def rows(self, folder):
+        with open(self.path / folder / "runs.csv") as file:
+            next(file)
+            return list(csv.DictReader(file))
+
+    def whole(self):
+        self.campaign("--out", "whole", "--jobs", 1)
+        return self.files("whole")
+
+    def test_each_run_is_a_line_and_all_together_a_table(self):
+        whole = self.whole()
+        self.assertEqual([name for name in sorted(whole) if not name.startswith("worst-")],
+                         ["campaign.csv", "campaign.md", "runs.csv"])
+        rows = self.rows("whole")
+        self.assertEqual([(row["run"], row["contender"]) for row in rows],
+                         [(str(run), name) for run in range(1, 25) for name in ("pi", "pd_ff")])
+        refused = [row for row in rows if row["refused"]]
+        self.assertTrue(0 < len(refused) < len(rows))
+        for row in rows:
+            # The sine's amplitude is 9 mm, and no position is below 0.
+            self.assertEqual(bool(row["refused"]), float(row["reference.offset_m"]) < 0.009)
+            self.assertIn(row["noise"], ("1e-06", "1e-05"))
+        table = list(csv.DictReader(whole["campaign.csv"].decode().splitlines()))
+        for name in ("pi", "pd_ff"):
+            ran = [row for row in rows if row["contender"] == name and not row["refused"]]
+            line, = [line for line in table if (line["controller"], line["quantity"]) == (name, "tracking_rms_m")]
+            values = sorted(float(row["tracking_rms_m"]) for row in ran)
+            self.assertEqual(int(line["runs"]), len(ran))
+            self.assertEqual(int(line["failures"]), sum(value > 1e-3 for value in values))
+            self.assertEqual(float(line["worst"]), values[-1])
+            self.assertEqual(float(line["median"]), values[(len(values) + 1) // 2 - 1])
+            line, = [line for line in table if (line["controller"], line["quantity"]) == (name, "refused")]
+            self.assertEqual(int(line["failures"]), 24 - len(ran))
+
+    def test_contenders_of_a_run_meet_the_same(self):
+        self.whole()
+        rows = self.rows("whole")
+        drawn = ("plant.stiffness_N_per_m", "reference.offset_m", "noise")
+        for one, other in zip(rows[::2], rows[1::2]):
+            self.assertEqual([one[name] for name in drawn], [other[name] for name in drawn])
+        self.assertEqual(len({row["plant.stiffness_N_per_m"] for row in rows}), 24)
+
+    def test_the_same_bytes_whatever_the_jobs(self):
+        whole = self.whole()
+        self.campaign("--out", "two", "--jobs", 2)
+        self.assertEqual(self.files("two"), whole)
+
+    def test_the_worst_run_again_gives_the_same_figures(self):
+        self.whole()
+        failed = [row for row in self.rows("whole") if not row["refused"] and float(row["tracking_rms_m"]) > 1e-3]
+        self.assertTrue(failed)
+        worst = max(failed, key=lambda row: float(row["tracking_rms_m"]))
+        file = f"worst-{worst['contender']}-1.toml"
+        self.assertTrue((self.path / "whole" / file).read_text().startswith(f"# Run {worst['run']} of brief, "))
+        subprocess.run([PROGRAM, "run", f"whole/{file}", "--window", "1:3", "--out", "again", "--no-plot",
+                        "--no-trace", "--no-can"], check=True, cwd=self.path, capture_output=True)
+        summary = json.loads((self.path / "again/summary.json").read_text())
+        self.assertEqual(summary["tracking_rms_m"], float(worst["tracking_rms_m"]))
+        self.assertEqual(summary["tracking_max_m"], float(worst["tracking_max_m"]))
+
+    def test_it_goes_on_after_it_was_killed(self):
+        whole = self.whole()
+        for number in (signal.SIGKILL, signal.SIGINT):
+            out = self.path / number.name
+            with subprocess.Popen([PROGRAM, "campaign", "brief.toml", "--no-plot", "--out", out, "--jobs", "1"],
+                                  cwd=self.path, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as running:
+                while not (out / "runs.csv").is_file() or (out / "runs.csv").read_text().count("\n") < 4:
+                    self.assertIsNone(running.poll(), "it ended before a run had")
+                    time.sleep(0.001)
+                running.send_signal(number)
+                said = running.communicate()[1]
+            if running.returncode == 130:
+                self.assertIn("the same command goes on from there", said)
+            self.assertIn("are already in", self.campaign("--out", out).stderr)
+            self.assertEqual(self.files(out), whole)
+
+    def test_fewer_runs_go_on_to_more(self):
+        whole = self.whole()
+        self.campaign("--out", "more", "--runs", 10)
+        self.assertEqual(len(self.rows("more")), 20)
+        self.assertIn("20 of 48 runs are already in", self.campaign("--out", "more").stderr)
+        self.assertEqual(self.files("more")["runs.csv"], whole["runs.csv"])
+        self.assertEqual(self.files("more")["campaign.csv"], whole["campaign.csv"])
+
+    def test_parts_merged_are_the_whole(self):
+        whole = self.whole()
+        for part in (1, 2, 3):
+            self.campaign("--out", f"part{part}", "--shard", f"{part}/3")
+        parts = [f"part{part}/runs.csv" for part in (3, 1, 2)]
+        self.campaign("--merge", *parts, "--out", "merged")
+        self.assertEqual(self.files("merged"), whole)
+
+    def test_it_ends_when_it_knows_well_enough(self):
+        (self.path / "known.toml").write_text(STUDY.replace("runs = 24", "runs = 1000\nknown_to = 0.1")
+                                              .replace("duration_s = 3.0", "duration_s = 0.5")
+                                              .replace("[1.0, 3.0]", "[0.1, 0.5]"))
+        self.campaign("--out", "one", "--jobs", 1, study="known.toml")
+        rows = self.rows("one")
+        self.assertEqual(len(rows) % 200, 0)
+        self.assertLess(len(rows), 2000)
+        for line in csv.DictReader((self.path / "one/campaign.csv").read_text().splitlines()):
+            if line["quantity"] == "any":
+                self.assertLessEqual(float(line["ci95_high"]) - float(line["ci95_low"]), 0.2)
+        self.campaign("--out", "two", "--jobs", 2, study="known.toml")
+        self.assertEqual(self.files("two"), self.files("one"))
+        said = self.campaign("--out", "part", "--shard", "1/2", study="known.toml", status=2).stderr
+        self.assertIn("study.known_to: no part knows", said)
+
+    def damaged(self, old, new, message):
+        self.whole()
+        runs = self.path / "whole/runs.csv"
+        text = runs.read_text()
+        self.assertIn(old, text)
+        runs.write_text(text.replace(old, new, 1))
+        before = self.files("whole")
+        self.assertIn(message, self.campaign("--out", "whole", status=2).stderr)
+        self.assertEqual(self.files("whole"), before)
+
+    def test_a_damaged_line_is_told_with_its_number(self):
+        self.damaged("\n2,pi,", "\n2,mrac,", "runs.csv:5: is damaged: there is no such run")
+
+    def test_a_line_that_draws_something_else_is_damaged(self):
+        self.damaged("\n2,pi,", "\n2,pi,1", "runs.csv:5: is damaged: this run draws something else")
+
+    def test_results_of_another_study_are_refused(self):
+        self.whole()
+        (self.path / "brief.toml").write_text(STUDY.replace("0.0125", "0.0126"))
+        said = self.campaign("--out", "whole", status=2).stderr
+        self.assertIn("is not of this version", said)
+        self.assertIn("Choose another --out, or delete it", said)
+
+    def test_what_is_no_scenario_in_the_middle_of_its_draws_is_refused_at_once(self):
+        (self.path / "brief.toml").write_text(STUDY.replace("plant.stiffness_N_per_m", "plant.stifness_N_per_m"))
+        said = self.campaign("--out", "none", status=2).stderr
+        self.assertIn("at the median of all draws, with pi", said)
+        self.assertIn("did you mean stiffness_N_per_m?", said)
+        self.assertFalse((self.path / "none").exists())
+
+    def test_it_says_what_there_is(self):
+        said = self.campaign("--list", study=None).stdout
+        for name in ("follows", "identify", "temperature", "hottest_C", "steady_rms_m"):
+            self.assertIn(name, said)
+        self.assertIn("which study? A file, or a name of --list", self.campaign(study=None, status=2).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

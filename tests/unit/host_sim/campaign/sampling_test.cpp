@@ -1,0 +1,110 @@
+// From where the runs of a study draw: distributions, and points of the unit cube.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+#include "campaign/distribution.hpp"
+#include "campaign/sampler.hpp"
+
+using namespace supercoil::host_sim::campaign;
+
+namespace {
+
+using Kind = Distribution::Kind;
+
+/// Which of `parts` equal parts of the line the runs' points are in.
+std::set<int> parts_reached(const Sampler& sampler, std::size_t dimension, int parts) {
+  std::set<int> reached;
+  for (std::size_t run = 0; run < static_cast<std::size_t>(parts); ++run)
+    reached.insert(static_cast<int>(sampler.point(run)[dimension] * parts));
+  return reached;
+}
+
+}  // namespace
+
+TEST_GROUP(Distribution){};
+
+TEST(Distribution, GivesItsQuantiles) {
+  DOUBLES_EQUAL(2.5, (Distribution{Kind::uniform, 2.0, 4.0}.at(0.25)), 1e-15);
+  DOUBLES_EQUAL(4.0, (Distribution{Kind::log_uniform, 1.0, 16.0}.at(0.5)), 1e-12);
+  DOUBLES_EQUAL(7.0, (Distribution{Kind::constant, 7.0}.at(0.9)), 0.0);
+  // scipy.stats.norm.ppf(0.975, 10, 2)
+  DOUBLES_EQUAL(13.919927969080108, (Distribution{Kind::normal, 10.0, 2.0}.at(0.975)), 1e-12);
+}
+
+TEST(Distribution, CutNormalStaysWithinItsEndsAndKeepsItsShape) {
+  const Distribution cut{Kind::normal, 0.0, 1.0, -1.0, 2.0};
+  // scipy.stats.truncnorm.ppf([0.1, 0.5, 0.9], -1, 2)
+  DOUBLES_EQUAL(-0.70464782, cut.at(0.1), 1e-8);
+  DOUBLES_EQUAL(0.17116392, cut.at(0.5), 1e-8);
+  DOUBLES_EQUAL(1.25571536, cut.at(0.9), 1e-8);
+  CHECK(cut.at(1e-12) >= -1.0);
+  CHECK(cut.at(1.0 - 1e-12) <= 2.0);
+  const Distribution far_out{Kind::normal, 0.0, 1.0, 50.0, 51.0};
+  CHECK(far_out.at(0.5) >= 50.0 && far_out.at(0.5) <= 51.0);
+}
+
+TEST(Distribution, EachOfAListIsAsLikely) {
+  Distribution list{Kind::list};
+  list.values = 3;
+  DOUBLES_EQUAL(0.0, list.at(0.333), 0.0);
+  DOUBLES_EQUAL(1.0, list.at(0.334), 0.0);
+  DOUBLES_EQUAL(2.0, list.at(1.0 - 1e-16), 0.0);
+}
+
+TEST_GROUP(Sampler){};
+
+TEST(Sampler, PointsAreInsideTheCube) {
+  for (const auto& [name, sampling] : sampling_names) {
+    const Sampler sampler(sampling, 3, 5, 200);
+    for (std::size_t run = 0; run < 200; ++run) {
+      for (const double x : sampler.point(run))
+        CHECK_TEXT(x > 0.0 && x < 1.0, name.data());
+    }
+  }
+}
+
+TEST(Sampler, LatinHypercubeReachesEachPartOfEachDimensionOnce) {
+  const Sampler sampler(Sampling::latin_hypercube, 1, 4, 100);
+  for (std::size_t dimension = 0; dimension < 4; ++dimension)
+    LONGS_EQUAL(100, parts_reached(sampler, dimension, 100).size());
+}
+
+TEST(Sampler, SobolReachesEachPartOfEachDimensionOnceInPowersOfTwo) {
+  const Sampler sampler(Sampling::sobol, 1, 6, 1);
+  for (std::size_t dimension = 0; dimension < 6; ++dimension)
+    LONGS_EQUAL(64, parts_reached(sampler, dimension, 64).size());
+}
+
+TEST(Sampler, SobolFillsThePlaneOfTheFirstTwoDimensions) {
+  const Sampler sampler(Sampling::sobol, 1, 2, 1);
+  std::set<int> squares;
+  for (std::size_t run = 0; run < 64; ++run) {
+    const auto point = sampler.point(run);
+    squares.insert(8 * static_cast<int>(8.0 * point[0]) + static_cast<int>(8.0 * point[1]));
+  }
+  LONGS_EQUAL(64, squares.size());
+}
+
+TEST(Sampler, SeedsGiveOtherPointsAndOneSeedTheSame) {
+  for (const auto& [name, sampling] : sampling_names) {
+    const Sampler one(sampling, 1, 3, 50);
+    const Sampler again(sampling, 1, 3, 50);
+    const Sampler other(sampling, 2, 3, 50);
+    for (std::size_t run : {7U, 49U, 0U}) {
+      CHECK_TEXT(one.point(run) == again.point(run), name.data());
+      CHECK_TEXT(one.point(run) != other.point(run), name.data());
+    }
+    CHECK_TEXT(one.point(1) != one.point(2), name.data());
+  }
+}
+
+// A campaign of one machine goes on at another, and parts of it are merged.
+TEST(Sampler, PointsAreTheSameOnEveryMachine) {
+  DOUBLES_EQUAL(0.67377268775118759, Sampler(Sampling::random, 1, 2, 1).point(0)[0], 0.0);
+  DOUBLES_EQUAL(0.76004956538987711, Sampler(Sampling::sobol, 1, 2, 1).point(5)[1], 0.0);
+  DOUBLES_EQUAL(0.47510405245576087, Sampler(Sampling::latin_hypercube, 1, 2, 10).point(5)[1], 0.0);
+}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "runner/simulation.hpp"
 #include "supervisor/fault.hpp"
@@ -50,7 +51,7 @@ std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
   compare::Meters meters(scenario);
   Summary summary(window);
   double hottest_rise_K = 0.0;
-  double hottest_C = -INFINITY;
+  double hottest_C = -std::numeric_limits<double>::infinity();
   while (!simulation.done()) {
     if (simulation.tick() % look_every_ticks == 0 && stop) return std::nullopt;
     const TickRecord record = simulation.step();

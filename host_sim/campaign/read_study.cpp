@@ -54,8 +54,8 @@ void read_normal(Section& section, Distribution& into) {
   const auto given = section.numbers("normal", {0.0, 1.0}, any, 2, 2);
   into.first = given[0];
   into.second = given[1];
-  into.min = section.number("min", into.min, {-INFINITY, any.highest});
-  into.max = section.number("max", into.max, {any.lowest, INFINITY});
+  into.min = section.number("min", into.min, {into.min, any.highest});
+  into.max = section.number("max", into.max, {any.lowest, into.max});
   if (!(into.second > 0.0)) section.wrong("normal", "the standard deviation must be above 0");
   if (!(into.min < into.max)) section.wrong("min", "must be below max");
 }
@@ -165,9 +165,7 @@ toml::table read_base(Section& study, const std::filesystem::path& beside,
   if (const auto builtin = builtin_scenario(name)) {
     text = *builtin;
   } else if (name.find_first_of("./") == std::string::npos) {
-    std::vector<std::string> names;
-    for (const BuiltinScenario& one : builtin_scenarios())
-      names.emplace_back(one.name);
+    const auto names = names_of(builtin_scenarios());
     study.wrong("scenario", "is no built-in scenario; " + meant_or_all(name, names, "they are"));
   } else {
     text = config::read_text((beside / name).string(), diagnostics);
@@ -240,11 +238,9 @@ tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& 
   toml::table document = config::parse(text, diagnostics);
   if (!diagnostics.empty()) {
     if (path.find_first_of("./") == std::string::npos) {
-      std::vector<std::string> names;
-      for (const BuiltinScenario& one : builtin)
-        names.emplace_back(one.name);
-      diagnostics.add(
-          0, "", "and no built-in study has that name; " + meant_or_all(path, names, "they are"));
+      diagnostics.add(0, "",
+                      "and no built-in study has that name; " +
+                          meant_or_all(path, names_of(builtin), "they are"));
     }
     return tl::unexpected(diagnostics.problems());
   }

@@ -23,9 +23,10 @@ std::string check_medians(const campaign::Study& study, const campaign::Draws& d
   std::string problems;
   for (std::size_t i = 0; i < study.contenders.size(); ++i) {
     const auto scenario = draws.scenario(draws.medians(), i, 0);
-    if (!scenario)
+    if (!scenario) {
       problems += "at the median of all draws, with " + study.contenders[i].name + ":\n" +
                   config::to_text(scenario.error());
+    }
   }
   return problems;
 }
@@ -86,31 +87,32 @@ void carry_out(const campaign::Study& study, const campaign::Draws& draws,
 
 }  // namespace
 
-int campaign_command(const CampaignOptions& asked) {
-  if (asked.list) return list_studies();
-  if (asked.study.empty())
+int campaign_command(const CampaignOptions& given) {
+  if (given.list) return list_studies();
+  if (given.study.empty())
     return fail(exit_wrong_input, "campaign: which study? A file, or a name of --list");
-  auto study = campaign::read_study(asked.study, asked.runs);
+  auto study = campaign::read_study(given.study, given.runs);
   if (!study) {
     std::fputs(config::to_text(study.error()).c_str(), stderr);
     return exit_wrong_input;
   }
-  CampaignOptions options = asked;
+  CampaignOptions options = given;
   if (options.out.empty()) options.out = "supercoil-out/campaign-" + study->name;
   const compare::Shard& shard = options.shard;
   if (shard.number < 1 || shard.number > shard.of)
     return fail(exit_wrong_input, "--shard: must be I/N with 1 <= I <= N");
-  if (shard.of > 1 && study->known_to > 0.0) {
+  if ((shard.of > 1 || options.slurm > 0) && study->known_to > 0.0) {
     return fail(exit_wrong_input,
-                asked.study +
+                given.study +
                     ": study.known_to: no part knows when the whole is known well enough; "
-                    "leave it out with --shard");
+                    "leave it out with --shard and --slurm");
   }
   const campaign::Draws draws(*study);
   if (const std::string problems = check_medians(*study, draws); !problems.empty()) {
     std::fputs(problems.c_str(), stderr);
     return exit_wrong_input;
   }
+  if (options.slurm > 0) return submit_campaign(*study, options);
   if (!options.merge.empty()) return merge_campaign(*study, draws, options);
 
   auto folder = OutputFolder::open(options.out);

@@ -70,6 +70,11 @@ int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
     const auto merged = merge(outcomes, read->outcomes, path);
     if (!merged) return fail(exit_wrong_input, merged.error());
   }
+  const auto all = static_cast<std::size_t>(study.runs) * study.contenders.size();
+  if (outcomes.size() < all) {
+    std::fprintf(stderr, "supercoil-sim: the parts have %zu of the study's %zu runs\n",
+                 outcomes.size(), all);
+  }
   auto folder = OutputFolder::open(options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
   return conclude_campaign(study, draws, outcomes, *folder, options);

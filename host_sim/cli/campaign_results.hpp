@@ -16,6 +16,9 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
 int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
                    const CampaignOptions& options);
 
+/// Writes an array of jobs that carries the study out, and submits it.
+int submit_campaign(const campaign::Study& study, const CampaignOptions& options);
+
 /// Says which studies and quantities there are.
 int list_studies();
 

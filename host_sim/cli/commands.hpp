@@ -70,12 +70,14 @@ struct CampaignOptions {
   compare::Shard shard;
   std::vector<std::string> merge;  ///< runs.csv of several; nothing is run then
   std::string out;                 ///< empty: supercoil-out/campaign-NAME
+  int slurm = 0;                   ///< parts of an array of jobs; 0: runs here
+  bool submit = true;              ///< these are submitted, not only written
   int jobs = 0;                    ///< 0: as many as there are processors
   bool plot = true;
   bool quiet = false;
   bool list = false;  ///< only says which studies there are
 };
-int campaign_command(const CampaignOptions& options);
+int campaign_command(const CampaignOptions& given);
 
 int list_command();
 

@@ -148,6 +148,14 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
                    "Run nothing: make the tables of several parts' runs.csv")
       ->type_name("FILES")
       ->excludes(shard);
+  constexpr int max_parts = 1000;  // of Slurm's default MaxArraySize
+  CLI::Option* slurm =
+      campaign
+          ->add_option("--slurm", options.slurm,
+                       "Write scripts for so many jobs of a Slurm cluster, and submit them")
+          ->check(CLI::Range(1, max_parts))
+          ->excludes(shard);
+  campaign->add_flag("!--no-submit", options.submit, "Only write them")->needs(slurm);
   campaign->add_flag("!--no-plot", options.plot, "Write no campaign.svg");
   campaign->add_flag("--quiet", options.quiet, "Print nothing but errors");
   campaign->add_flag("--list", options.list, "Say which studies and quantities there are");

@@ -14,14 +14,6 @@ namespace supercoil::host_sim::compare {
 
 namespace {
 
-std::vector<std::string> names_of(const std::vector<BuiltinScenario>& entries) {
-  std::vector<std::string> names;
-  names.reserve(entries.size());
-  for (const BuiltinScenario& entry : entries)
-    names.emplace_back(entry.name);
-  return names;
-}
-
 std::uint32_t checksum(const Document& controller, const Document& disturbance,
                        const std::string& arithmetic) {
   boost::crc_32_type crc;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct BuiltinScenario {
 const std::vector<BuiltinScenario>& builtin_scenarios();
 /// The text of the one with this name.
 std::optional<std::string_view> builtin_scenario(std::string_view name);
+std::vector<std::string> names_of(const std::vector<BuiltinScenario>& entries);
 /// The comment on its first line.
 std::string_view description(const BuiltinScenario& scenario);
 

@@ -176,12 +176,9 @@ ScenarioOrProblems read_scenario(const std::string& path,
   const std::string text = config::read_text(path, diagnostics);
   if (!diagnostics.empty()) {
     if (path.find('.') == std::string::npos && path.find('/') == std::string::npos) {
-      std::vector<std::string> names;
-      for (const BuiltinScenario& scenario : builtin_scenarios())
-        names.emplace_back(scenario.name);
-      diagnostics.add(
-          0, "",
-          "and no built-in scenario has that name; " + meant_or_all(path, names, "they are"));
+      diagnostics.add(0, "",
+                      "and no built-in scenario has that name; " +
+                          meant_or_all(path, names_of(builtin_scenarios()), "they are"));
     }
     return tl::unexpected(diagnostics.problems());
   }

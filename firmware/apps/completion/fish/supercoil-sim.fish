@@ -44,6 +44,8 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l jobs -x -
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l out -r -F -d 'Folder for the results [supercoil-out/campaign-NAME]'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l shard -x -d 'I/N: only the I-th of N parts of all runs'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l merge -r -F -d 'Run nothing'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l slurm -x -d 'Write scripts for so many jobs of a Slurm cluster, and submit them'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l no-submit -d 'Only write them'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l no-plot -d 'Write no campaign.svg'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l quiet -d 'Print nothing but errors'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l list -d 'Say which studies and quantities there are'

@@ -4,6 +4,7 @@ import csv
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -159,6 +160,35 @@ class Campaign(unittest.TestCase):
         self.assertEqual(self.files("two"), self.files("one"))
         said = self.campaign("--out", "part", "--shard", "1/2", study="known.toml", status=2).stderr
         self.assertIn("study.known_to: no part knows", said)
+
+    def test_a_clusters_jobs_give_the_whole(self):
+        whole = self.whole()
+        self.path = self.path / "what's $HOME"  # a shell must leave it as it is
+        self.path.mkdir()
+        (self.path / "brief.toml").write_text(STUDY)
+        said = self.campaign("--out", "array", "--slurm", 3, "--no-submit").stdout
+        self.assertIn("to submit it: sh array/submit.sh", said)
+        array = self.path / "array"
+        for task in "312":
+            subprocess.run(["sh", "part.sbatch"], cwd=array, check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": task})
+        subprocess.run(["sh", "merge.sbatch"], cwd=array, check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual({name: (array / name).read_bytes() for name in whole}, whole)
+
+    def test_without_sbatch_it_says_what_to_type(self):
+        tools = self.path / "tools"
+        tools.mkdir()
+        for tool in ("sh", "dirname"):
+            (tools / tool).symlink_to(shutil.which(tool))
+        done = subprocess.run([PROGRAM, "campaign", "brief.toml", "--out", "array", "--slurm", "2"], cwd=self.path,
+                              env={"PATH": str(tools)}, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("sbatch", done.stderr)
+        self.assertIn("on a machine that has sbatch: sh array/submit.sh", done.stderr)
+
+    def test_parts_that_lack_runs_are_told(self):
+        self.campaign("--out", "part1", "--shard", "1/3")
+        said = self.campaign("--merge", "part1/runs.csv", "--out", "merged").stderr
+        self.assertIn("the parts have 16 of the study's 48 runs", said)
 
     def damaged(self, old, new, message):
         self.whole()

@@ -150,7 +150,7 @@ std::vector<double> Draws::of_run(std::size_t run) const {
 }
 
 std::vector<double> Draws::medians() const {
-  return at(std::vector<double>(study_->draws.size() + groups_.size(), 0.5));
+  return at(std::vector<double>(dimensions(), 0.5));
 }
 
 tl::expected<toml::table, std::string> Draws::document(const std::vector<double>& drawn,

@@ -23,6 +23,10 @@ class Draws {
   /// Half of all draws are below; what a study describes must be a scenario here.
   std::vector<double> medians() const;
 
+  /// As many numbers between 0 and 1, both excluded, are what of_run() is made of.
+  std::size_t dimensions() const { return study_->draws.size() + groups_.size(); }
+  std::vector<double> at(const std::vector<double>& point) const;
+
   /// The scenario, written out. The error says which draw refers to what is not there.
   tl::expected<toml::table, std::string> document(const std::vector<double>& drawn,
                                                   std::size_t contender, std::size_t run) const;
@@ -30,8 +34,6 @@ class Draws {
                               std::size_t run) const;
 
  private:
-  std::vector<double> at(const std::vector<double>& point) const;
-
   const Study* study_;
   std::vector<std::string> groups_;
   Sampler sampler_;

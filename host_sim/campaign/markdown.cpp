@@ -122,4 +122,21 @@ std::string to_markdown(const Study& study, const std::vector<ContenderRow>& tab
   return text;
 }
 
+std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& found) {
+  std::string text = "# The worst of " + study.name + "\n\n" +
+                     cells({"controller", "runs", "quantity", "goal", "the worst found"}) +
+                     "|---|---|---|---|---|\n";
+  for (const auto& [contender, worst] : found) {
+    const std::string& name = study.contenders[contender].name;
+    for (const Goal& goal : study.goals) {
+      const double value = worst.drawn.empty() ? NAN : worst.outcome.values.at(goal.quantity);
+      text += cells({name, std::to_string(worst.runs), std::string(quantity(goal.quantity).name),
+                     "≤ " + shown(goal, goal.max), shown(goal, value)});
+    }
+    if (!worst.outcome.fault.empty()) text += cells({name, "", "fault", "", worst.outcome.fault});
+  }
+  text += "\nsearch-CONTROLLER.toml runs it again.\n";
+  return text;
+}
+
 }  // namespace supercoil::host_sim::campaign

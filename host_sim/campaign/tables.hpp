@@ -1,10 +1,13 @@
 // All runs of a study together.
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "campaign/results.hpp"
+#include "campaign/search.hpp"
 #include "campaign/statistics.hpp"
 #include "campaign/study.hpp"
 
@@ -41,5 +44,8 @@ std::string to_csv(const std::vector<ContenderRow>& table);
 /// What a person reads.
 std::string to_markdown(const Study& study, const std::vector<ContenderRow>& table,
                         const Outcomes& outcomes);
+
+/// What a search found, by contender.
+std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& found);
 
 }  // namespace supercoil::host_sim::campaign

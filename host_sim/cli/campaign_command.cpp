@@ -113,6 +113,7 @@ int campaign_command(const CampaignOptions& given) {
     return exit_wrong_input;
   }
   if (options.slurm > 0) return submit_campaign(*study, options);
+  if (options.search > 0) return search_campaign(*study, draws, options);
   if (!options.merge.empty()) return merge_campaign(*study, draws, options);
 
   auto folder = OutputFolder::open(options.out);

@@ -16,19 +16,18 @@ namespace {
 
 constexpr std::size_t worst_runs = 10;
 
-/// A run as a scenario of its own, with its first line saying what it is.
+}  // namespace
+
 std::string replay(const campaign::Study& study, const campaign::Draws& draws,
-                   const campaign::Key& key) {
+                   const std::vector<double>& drawn, const campaign::Key& key) {
   std::ostringstream text;
-  const auto document = draws.document(draws.of_run(key.run), key.contender, key.run);
+  const auto document = draws.document(drawn, key.contender, key.run);
   text << "# Run " << key.run + 1 << " of " << study.name << ", "
        << study.contenders[key.contender].name << "; tracking from " << study.window.from_s
        << " to " << study.window.to_s << " s\n";
   if (document) text << *document << "\n";
   return text.str();
 }
-
-}  // namespace
 
 int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws,
                       const campaign::Outcomes& outcomes, OutputFolder& folder,
@@ -49,7 +48,7 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
     for (const campaign::Key& key : worst_of(study, outcomes, i, worst_runs)) {
       tables.files.emplace_back(
           "worst-" + study.contenders[i].name + "-" + std::to_string(++place) + ".toml",
-          replay(study, draws, key));
+          replay(study, draws, draws.of_run(key.run), key));
     }
   }
   return conclude_tables(tables, folder, options.quiet);

@@ -71,6 +71,7 @@ struct CampaignOptions {
   std::vector<std::string> merge;  ///< runs.csv of several; nothing is run then
   std::string out;                 ///< empty: supercoil-out/campaign-NAME
   int slurm = 0;                   ///< parts of an array of jobs; 0: runs here
+  std::int64_t search = 0;         ///< runs of a search for the worst, a controller; 0: no search
   bool submit = true;              ///< these are submitted, not only written
   int jobs = 0;                    ///< 0: as many as there are processors
   bool plot = true;

@@ -143,11 +143,11 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
       "--shard", [&](const std::string& text) { options.shard = shard_of(text); },
       "I/N: only the I-th of N parts of all runs");
   shard->type_name("PART");
-  campaign
-      ->add_option("--merge", options.merge,
-                   "Run nothing: make the tables of several parts' runs.csv")
-      ->type_name("FILES")
-      ->excludes(shard);
+  CLI::Option* merge = campaign
+                           ->add_option("--merge", options.merge,
+                                        "Run nothing: make the tables of several parts' runs.csv")
+                           ->type_name("FILES")
+                           ->excludes(shard);
   constexpr int max_parts = 1000;  // of Slurm's default MaxArraySize
   CLI::Option* slurm =
       campaign
@@ -156,6 +156,14 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
           ->check(CLI::Range(1, max_parts))
           ->excludes(shard);
   campaign->add_flag("!--no-submit", options.submit, "Only write them")->needs(slurm);
+  constexpr std::int64_t max_search = 1'000'000;
+  campaign
+      ->add_option("--search", options.search,
+                   "Search for each controller's worst run, in so many runs, instead")
+      ->check(CLI::Range(std::int64_t{1}, max_search))
+      ->excludes(shard)
+      ->excludes(slurm)
+      ->excludes(merge);
   campaign->add_flag("!--no-plot", options.plot, "Write no campaign.svg");
   campaign->add_flag("--quiet", options.quiet, "Print nothing but errors");
   campaign->add_flag("--list", options.list, "Say which studies and quantities there are");

@@ -46,6 +46,7 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l shard -x 
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l merge -r -F -d 'Run nothing'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l slurm -x -d 'Write scripts for so many jobs of a Slurm cluster, and submit them'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l no-submit -d 'Only write them'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l search -x -d 'Search for each controller'\''s worst run, in so many runs, instead'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l no-plot -d 'Write no campaign.svg'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l quiet -d 'Print nothing but errors'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from campaign' -l list -d 'Say which studies and quantities there are'

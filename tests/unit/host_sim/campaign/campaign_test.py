@@ -190,6 +190,22 @@ class Campaign(unittest.TestCase):
         said = self.campaign("--merge", "part1/runs.csv", "--out", "merged").stderr
         self.assertIn("the parts have 16 of the study's 48 runs", said)
 
+    def test_a_search_finds_what_is_worse_than_by_chance(self):
+        self.whole()
+        by_chance = {name: max(float(row["tracking_rms_m"]) for row in self.rows("whole")
+                               if row["contender"] == name and not row["refused"]) for name in ("pi", "pd_ff")}
+        for out, jobs in (("one", 1), ("two", 2)):
+            self.campaign("--search", 150, "--out", out, "--jobs", jobs)
+        self.assertEqual(self.files("one"), self.files("two"))
+        self.assertEqual(sorted(self.files("one")), ["search-pd_ff.toml", "search-pi.toml", "search.md"])
+        for name, chance in by_chance.items():
+            subprocess.run([PROGRAM, "run", f"one/search-{name}.toml", "--window", "1:3", "--out", name, "--no-plot",
+                            "--no-trace", "--no-can"], check=True, cwd=self.path, capture_output=True)
+            found = json.loads((self.path / name / "summary.json").read_text())["tracking_rms_m"]
+            self.assertGreater(found, chance)
+            self.assertIn(f"{1e6 * found:.3g}" if found < 1e-3 else f"{1e6 * found:.0f}",
+                          (self.path / "one/search.md").read_text())
+
     def damaged(self, old, new, message):
         self.whole()
         runs = self.path / "whole/runs.csv"

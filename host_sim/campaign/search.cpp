@@ -1,0 +1,84 @@
+#include "campaign/search.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include <nlopt.h>
+
+#include "campaign/results.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+namespace {
+
+/// For an optimiser that knows no infinity.
+constexpr double worst_possible = 1e6;
+/// Less than any run that was one.
+constexpr double no_scenario = -1.0;
+/// Both ends of a probability are excluded.
+constexpr double nearest_end = 1e-9;
+
+class Search {
+ public:
+  Search(const Study& study, const Draws& draws, std::size_t contender,
+         const std::atomic<bool>& stop, const std::function<bool()>& ran)
+      : study_(&study), draws_(&draws), contender_(contender), stop_(&stop), ran_(&ran) {}
+
+  Worst from(std::int64_t runs) {
+    using Optimiser = std::unique_ptr<std::remove_pointer_t<nlopt_opt>, decltype(&nlopt_destroy)>;
+    const auto dimensions = static_cast<unsigned>(draws_->dimensions());
+    const Optimiser made(nlopt_create(NLOPT_GN_CRS2_LM, dimensions), &nlopt_destroy);
+    optimiser_ = made.get();
+    nlopt_srand(static_cast<unsigned long>(study_->seed) + 1U);
+    nlopt_set_lower_bounds1(optimiser_, nearest_end);
+    nlopt_set_upper_bounds1(optimiser_, 1.0 - nearest_end);
+    nlopt_set_max_objective(optimiser_, &Search::judge, this);
+    nlopt_set_maxeval(optimiser_, static_cast<int>(runs));
+    nlopt_set_stopval(optimiser_, worst_possible);
+    std::vector<double> point(dimensions, 0.5);
+    double found = 0.0;
+    nlopt_optimize(optimiser_, point.data(), &found);
+    return worst_;
+  }
+
+ private:
+  static double judge(unsigned count, const double* point, double* /*gradient*/, void* self) {
+    return static_cast<Search*>(self)->judge({point, point + count});
+  }
+
+  double judge(const std::vector<double>& point) {
+    const auto drawn = draws_->at(point);
+    const auto scenario = draws_->scenario(drawn, contender_, 0);
+    double severity_of_run = no_scenario;
+    if (scenario) {
+      auto outcome = simulate(*scenario, study_->window, *stop_);
+      if (outcome) {
+        severity_of_run = severity(*study_, *outcome);
+        if (worst_.drawn.empty() || severity_of_run > worst_.severity)
+          worst_ = {drawn, std::move(*outcome), severity_of_run, worst_.runs};
+      }
+    }
+    ++worst_.runs;
+    if (*stop_ || (*ran_)()) nlopt_force_stop(optimiser_);
+    return std::min(severity_of_run, worst_possible);
+  }
+
+  const Study* study_;
+  const Draws* draws_;
+  std::size_t contender_;
+  const std::atomic<bool>* stop_;
+  const std::function<bool()>* ran_;
+  nlopt_opt optimiser_ = nullptr;
+  Worst worst_;
+};
+
+}  // namespace
+
+Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
+             const std::atomic<bool>& stop, const std::function<bool()>& ran) {
+  return Search(study, draws, contender, stop, ran).from(runs);
+}
+
+}  // namespace supercoil::host_sim::campaign

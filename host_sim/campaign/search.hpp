@@ -1,0 +1,31 @@
+// The worst that a study's draws can come to, looked for.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "campaign/draws.hpp"
+#include "campaign/outcome.hpp"
+#include "campaign/study.hpp"
+
+namespace supercoil::host_sim::campaign {
+
+struct Worst {
+  std::vector<double> drawn;  ///< as Draws::at() has it; empty: no run was a scenario
+  Outcome outcome;
+  double severity = 0.0;  ///< as severity() has it
+  std::int64_t runs = 0;  ///< until the search ended
+};
+
+/// Controlled random search with local mutation (Kaelo and Ali, 2006; NLopt's CRS2_LM) over all
+/// draws, for the run of this contender that misses its goals by most, with one run's sensor noise.
+/// Ends after so many runs, or when nothing can be worse. The study's seed decides where it begins:
+/// the same study gives the same result. ran: called after each run, on the calling thread; true
+/// ends it.
+Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
+             const std::atomic<bool>& stop, const std::function<bool()>& ran);
+
+}  // namespace supercoil::host_sim::campaign

@@ -1,0 +1,54 @@
+#include <atomic>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "apps/common/progress.hpp"
+#include "campaign/search.hpp"
+#include "campaign/tables.hpp"
+#include "cli/campaign_results.hpp"
+#include "cli/run_results.hpp"
+#include "cli/tables.hpp"
+#include "compare/in_parallel.hpp"
+
+namespace supercoil::host_sim {
+
+int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
+                    const CampaignOptions& options) {
+  auto folder = OutputFolder::open(options.out);
+  if (!folder) return fail(exit_wrong_input, folder.error());
+  catch_interrupts();
+  Progress progress("searching", options.quiet);
+  std::atomic<std::int64_t> runs = 0;
+  const auto all =
+      static_cast<double>(study.contenders.size()) * static_cast<double>(options.search);
+  std::map<std::size_t, campaign::Worst> found;
+  compare::in_parallel(
+      study.contenders.size(), compare::threads_for(options.jobs),
+      [&](std::size_t contender, const std::atomic<bool>& stop) -> compare::Handover {
+        auto worst = campaign::search(study, draws, contender, options.search, stop, [&] {
+          ++runs;
+          return false;
+        });
+        return [&found, contender, result = std::move(worst)] { found[contender] = result; };
+      },
+      [&] {
+        progress.show(static_cast<double>(runs) / all, std::to_string(runs) + " runs");
+        return interrupted();
+      });
+  progress.end();
+  Tables tables{{}, to_markdown(study, found), static_cast<std::size_t>(runs.load())};
+  for (const auto& [contender, worst] : found) {
+    if (worst.drawn.empty()) continue;
+    tables.files.emplace_back("search-" + study.contenders[contender].name + ".toml",
+                              replay(study, draws, worst.drawn, {0, contender}));
+  }
+  tables.files.emplace_back("search.md", tables.markdown);
+  if (const int failed = conclude_tables(tables, *folder, options.quiet); failed != exit_done)
+    return failed;
+  if (interrupted()) return fail(exit_interrupted, "interrupted; what was found is written");
+  return exit_done;
+}
+
+}  // namespace supercoil::host_sim

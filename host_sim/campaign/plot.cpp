@@ -28,6 +28,19 @@ std::vector<Point> finite_values(const Outcomes& outcomes, std::size_t contender
   return points;
 }
 
+/// Errors range over decades, in micrometres.
+struct Axis {
+  std::string label;
+  double scale = 1.0;
+  bool logarithmic = false;
+};
+Axis axis_of(std::size_t number) {
+  const std::string name(quantity(number).name);
+  constexpr double um_per_m = 1e6;
+  if (name.ends_with("_m")) return {name.substr(0, name.size() - 2) + " (µm)", um_per_m, true};
+  return {name};
+}
+
 std::string label_of(const Study& study, std::size_t contender) {
   return study.contenders[contender].name;
 }
@@ -37,12 +50,14 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
                    const Outcomes& outcomes, std::size_t goal) {
   const Goal& of = study.goals[goal];
   Panel panel;
-  panel.title = std::string(quantity(of.quantity).name) + ": runs at or below";
-  panel.x_label = std::string(quantity(of.quantity).name);
+  const Axis axis = axis_of(of.quantity);
+  panel.title = axis.label + ": runs at or below";
+  panel.x_label = axis.label;
   panel.y_label = "%";
   panel.y_low = 0.0;
   panel.y_high = 100.0;
-  double largest = of.max;
+  double largest = axis.scale * of.max;
+  double smallest = largest;
   for (std::size_t i = 0; i < table.size(); ++i) {
     std::vector<Point> points = finite_values(outcomes, i, of.quantity);
     std::ranges::sort(points, {}, &Point::value);
@@ -51,17 +66,24 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
     const std::size_t every = points.size() / max_points + 1;
     for (std::size_t k = 0; k < points.size(); ++k) {
       if (k % every != 0 && k + 1 != points.size()) continue;
-      curve.x.push_back(points[k].value);
+      curve.x.push_back(axis.scale * points[k].value);
       curve.y.push_back(100.0 * static_cast<double>(k + 1) / runs);
     }
     // A few runs far out would press all others into a corner.
     if (!points.empty()) {
-      largest = std::max(largest, points[points.size() * 98 / 100].value);
+      largest = std::max(largest, axis.scale * points[points.size() * 98 / 100].value);
+      smallest = std::min(smallest, axis.scale * points.front().value);
       panel.curves.push_back(std::move(curve));
     }
   }
-  panel.curves.push_back(
-      {"goal", {of.max, of.max}, {0.0, 100.0}, true, static_cast<int>(table.size()), {}});
+  panel.curves.push_back({"goal",
+                          {axis.scale * of.max, axis.scale * of.max},
+                          {0.0, 100.0},
+                          true,
+                          static_cast<int>(table.size()),
+                          {}});
+  panel.x_logarithmic = axis.logarithmic && smallest > 0.0;
+  panel.x_low = panel.x_logarithmic ? 0.95 * smallest : std::min(0.0, smallest);
   panel.x_high = 1.05 * largest;
   return panel;
 }
@@ -88,18 +110,23 @@ Panel scatter(const Study& study, const Draws& draws, const std::vector<Contende
   Panel panel;
   panel.title = "what it goes with most: " + study.draws[draw].name;
   panel.x_label = study.draws[draw].name;
-  panel.y_label = std::string(quantity(number).name);
+  const Axis axis = axis_of(number);
+  panel.y_label = axis.label;
+  panel.x_logarithmic = study.draws[draw].distribution.kind == Distribution::Kind::log_uniform;
+  bool above_0 = true;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::vector<Point> points = finite_values(outcomes, i, number);
     Curve curve{label_of(study, i), {}, {}, false, static_cast<int>(i), {}};
     const std::size_t every = points.size() / max_points + 1;
     for (std::size_t k = 0; k < points.size(); k += every) {
       curve.x.push_back(draws.of_run(points[k].run)[draw]);
-      curve.y.push_back(points[k].value);
+      curve.y.push_back(axis.scale * points[k].value);
     }
+    above_0 = above_0 && std::ranges::all_of(curve.y, [](double y) { return y > 0.0; });
     curve.bars_to = curve.y;
     if (!points.empty()) panel.curves.push_back(std::move(curve));
   }
+  panel.y_logarithmic = axis.logarithmic && above_0;
   return panel;
 }
 

@@ -31,7 +31,7 @@ class Search {
     const auto dimensions = static_cast<unsigned>(draws_->dimensions());
     const Optimiser made(nlopt_create(NLOPT_GN_CRS2_LM, dimensions), &nlopt_destroy);
     optimiser_ = made.get();
-    nlopt_srand(static_cast<unsigned long>(study_->seed) + 1U);
+    nlopt_srand(static_cast<std::uint32_t>(study_->seed) + 1U);
     nlopt_set_lower_bounds1(optimiser_, nearest_end);
     nlopt_set_upper_bounds1(optimiser_, 1.0 - nearest_end);
     nlopt_set_max_objective(optimiser_, &Search::judge, this);

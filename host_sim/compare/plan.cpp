@@ -46,9 +46,10 @@ void ask_for_steps(toml::table& document) {
     levels_m.push_back(offset_m + part * amplitude_m);
   document.insert_or_assign(
       "reference", toml::table{{"kind", "steps"}, {"levels_m", levels_m}, {"hold_s", hold_s}});
-  if (!document.contains("event"))
+  if (!document.contains("event")) {
     apply_changes(document,
                   toml::table{{"simulation", toml::table{{"duration_s", 12.0 * hold_s}}}});
+  }
 }
 
 /// A controller that is tuned by hand to each muscle: the disturbance has its keys.

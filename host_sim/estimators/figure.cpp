@@ -57,7 +57,7 @@ Figure figure_of(const Outcomes& outcomes, const AllBounds& bounds) {
       panel.title =
           "θ" + std::to_string(parameter + 1) + (changed ? ", after the change" : ", from rest");
       panel.y_label = "error (% rms)";
-      panel.logarithmic = true;
+      panel.x_logarithmic = panel.y_logarithmic = true;
       for (std::size_t i = 0; i < contenders.size(); ++i) {
         panel.curves.push_back(curve_of(
             outcomes, i, changed ? &Outcome::squares_after_change : &Outcome::squares_from_rest,

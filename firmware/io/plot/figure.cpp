@@ -69,7 +69,7 @@ void write_x_tics(std::ostream& out, const Panel& panel) {
     if (panel.x_low < panel.x_high) {
       out << "set xrange [" << panel.x_low << ":" << panel.x_high << "]\n";
     } else {
-      out << "set autoscale xfix\n";
+      out << "set xrange [*:*]\nset autoscale xfix\n";  // without what a panel before it had
     }
     out << "set xtics norotate autofreq\n";
     return;
@@ -109,7 +109,8 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
       << "set xlabel " << quoted(panel.x_label) << " offset 0,0.8\n"
       << "set ylabel " << quoted(panel.y_label) << "\n"
       << "set format y '%g'\n"
-      << (panel.logarithmic ? "set" : "unset") << " logscale xy\n";
+      << (panel.x_logarithmic ? "set" : "unset") << " logscale x\n"
+      << (panel.y_logarithmic ? "set" : "unset") << " logscale y\n";
   write_x_tics(out, panel);
   write_y_range(out, panel);
   out << "plot ";

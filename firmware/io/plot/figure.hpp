@@ -27,7 +27,8 @@ struct Panel {
   std::vector<Curve> curves;
   double y_low = 0.0;  ///< with y_high equal: chosen by gnuplot
   double y_high = 0.0;
-  bool logarithmic = false;  ///< both axes: values must be above 0
+  bool x_logarithmic = false;  ///< values must be above 0
+  bool y_logarithmic = false;
   /// Not empty: what stands at x = 0, 1, …; y is then logarithmic.
   std::vector<std::string> x_names{};
   double x_low = 0.0;  ///< with x_high equal: as far as the curves go

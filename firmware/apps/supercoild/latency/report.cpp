@@ -72,7 +72,7 @@ ordered_json json_of(const Histogram& histogram) {
 Panel panel_of(const char* title, const Histogram& histogram) {
   // Where logarithmic axes show that there was nothing.
   constexpr double none = 0.5;
-  Panel panel{title, "us", "ticks", {{"", {}, {}}}, none, 1.0, true};
+  Panel panel{title, "us", "ticks", {{"", {}, {}}}, none, 1.0, true, true};
   Curve& curve = panel.curves.front();
   const auto add = [&](double bin, std::uint64_t count) {
     curve.x.push_back(us(histogram.width()) * std::fmax(bin, none));

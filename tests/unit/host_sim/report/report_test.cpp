@@ -98,12 +98,24 @@ TEST(Report, FigureIsDrawnByGnuplotWhateverItsTitle) {
 
 TEST(Report, FigureMayHaveLogarithmicAxesInOnePanelOnly) {
   Figure figure = one_curve("logarithmic");
-  figure.panels[0].logarithmic = true;
+  figure.panels[0].x_logarithmic = figure.panels[0].y_logarithmic = true;
   figure.panels.push_back(one_curve("linear").panels[0]);
   const std::string script = gnuplot_script(figure, "x.svg");
-  CHECK(script.find("\nset logscale xy\n") < script.find("'linear'"));
-  CHECK(script.find("\nunset logscale xy\n") < script.find("plot $d1"));
-  CHECK(script.find("\nunset logscale xy\n") > script.find("plot $d0"));
+  for (const char* axis : {"x", "y"}) {
+    const std::string set = std::string("set logscale ") + axis + "\n";
+    CHECK(script.find("\n" + set) < script.find("'linear'"));
+    CHECK(script.find("\nun" + set) < script.find("plot $d1"));
+    CHECK(script.find("\nun" + set) > script.find("plot $d0"));
+  }
+}
+
+TEST(Report, PanelDoesNotKeepTheRangeOfTheOneBeforeIt) {
+  Figure figure = one_curve("cut");
+  figure.panels[0].x_high = 0.5;
+  figure.panels.push_back(one_curve("whole").panels[0]);
+  const std::string script = gnuplot_script(figure, "x.svg");
+  CHECK(script.find("set xrange [*:*]") > script.find("set xrange [0:0.5]"));
+  CHECK(script.find("set xrange [*:*]") < script.find("plot $d1"));
 }
 
 TEST(Report, FigureLeavesAGapWhereAValueIsNotFinite) {

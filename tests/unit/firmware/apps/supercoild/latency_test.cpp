@@ -175,7 +175,7 @@ TEST(LatencyReport, JsonHoldsEveryBinThatIsNotEmpty) {
 TEST(LatencyReport, FigureOutlinesEveryBinAndEndsAtNothing) {
   const Figure figure = latency_figure(latency, conditions);
   LONGS_EQUAL(2, figure.panels.size());
-  CHECK(figure.panels[0].logarithmic);
+  CHECK(figure.panels[0].x_logarithmic && figure.panels[0].y_logarithmic);
   const Curve& late = figure.panels[0].curves[0];
   // 100 times 60 to 68 µs, 99 times 69 µs; 450 µs once.
   CHECK((late.x == std::vector<double>{60, 60, 69, 69, 70, 70, 450, 450, 451, 451}));

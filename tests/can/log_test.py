@@ -1,6 +1,7 @@
 """supercoil log of a CAN log: what it writes is what cantools reads, for every value of every frame."""
 
 import csv
+import json
 import math
 import os
 import pathlib
@@ -10,6 +11,7 @@ import tempfile
 import unittest
 
 import cantools
+import mcap.reader
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
@@ -93,6 +95,24 @@ class Log(unittest.TestCase):
                     available = name in signals and is_available(signals[name])
                     self.assertEqual(text != "", available, (name, text))
                     self.assertTrue(not available or same(text, signals[name]))
+
+    def test_mcap_has_the_values_that_cantools_reads(self):
+        self.assertEqual(self.log("can.log", "--mcap", "--out", "can.mcap").returncode, 0)
+        with open(self.path / "can.mcap", "rb") as file:
+            messages = list(mcap.reader.NonSeekingReader(file).iter_messages())
+        self.assertEqual(len(messages), len(self.frames))
+        for (schema, channel, message), (time_s, name, signals) in zip(messages, self.frames):
+            self.assertEqual((channel.topic, schema.name), (f"/node_1/{name}", f"supercoil.{name}"))
+            self.assertEqual(message.log_time, round(1e6 * time_s) * 1000)
+            for signal, value in json.loads(message.data).items():
+                available = signal in signals and is_available(signals[signal])
+                self.assertEqual(value is not None, available, (name, signal))
+                self.assertTrue(not available or same(value, signals[signal]), (name, signal, value))
+        done = self.log("can.log", "--mcap", "--message", "Tracking", "--node", 1, "--out", "tracking.mcap")
+        self.assertEqual(done.returncode, 0)
+        with open(self.path / "tracking.mcap", "rb") as file:
+            topics = {channel.topic for _, channel, _ in mcap.reader.NonSeekingReader(file).iter_messages()}
+        self.assertEqual(topics, {"/node_1/Tracking"})
 
     def test_a_cut_has_its_ends(self):
         first, last = self.frames[100][0], self.frames[300][0]

@@ -60,15 +60,15 @@ std::size_t add_row(std::string& csv, const Decoded& decoded, hal::Time time) {
   return 1;
 }
 
-bool wanted(const CanSelection& selection, const Decoded& decoded, double time_s) {
+}  // namespace
+
+bool is_wanted(const CanSelection& selection, const Decoded& decoded, double time_s) {
   // Logs are in microseconds: a time as it is printed there is that line's.
   constexpr double rounding_s = 0.5e-6;
   return time_s >= selection.from_s - rounding_s && time_s <= selection.to_s + rounding_s &&
          (selection.node == 0 || selection.node == decoded.node) &&
          (selection.message.empty() || selection.message == decoded.message->name);
 }
-
-}  // namespace
 
 tl::expected<std::size_t, std::string> can_to_csv(const std::vector<hal::CanFrame>& frames,
                                                   const CanSelection& selection,
@@ -78,7 +78,7 @@ tl::expected<std::size_t, std::string> can_to_csv(const std::vector<hal::CanFram
   std::size_t rows = 0;
   for (const hal::CanFrame& frame : frames) {
     const auto decoded = can::decode(frame);
-    if (!decoded || !wanted(selection, *decoded, hal::seconds(frame.received))) continue;
+    if (!decoded || !is_wanted(selection, *decoded, hal::seconds(frame.received))) continue;
     rows += add(csv, *decoded, frame.received);
     if (csv.size() < piece_bytes) continue;
     if (auto written = write(csv); !written) return tl::unexpected(written.error());

@@ -10,6 +10,8 @@
 
 #include "supercoil/hal/can_bus.hpp"
 
+#include "can/codec.hpp"
+
 namespace supercoil::operating {
 
 /// What of a log is wanted.
@@ -19,6 +21,8 @@ struct CanSelection {
   int node = 0;         ///< 0: all
   std::string message;  ///< empty: all
 };
+
+bool is_wanted(const CanSelection& selection, const can::Decoded& decoded, double time_s);
 
 using WritePart = std::function<tl::expected<void, std::string>(std::string_view)>;
 

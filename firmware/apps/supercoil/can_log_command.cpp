@@ -2,15 +2,13 @@
 #include <cstdio>
 #include <fstream>
 
-#include <unistd.h>
-
 #include "apps/supercoil/bus/log_file.hpp"
 #include "apps/supercoil/can_csv.hpp"
 #include "apps/supercoil/commands.hpp"
-#include "apps/supercoil/output_file.hpp"
+#include "apps/supercoil/log_output.hpp"
+#include "apps/supercoil/mcap/export.hpp"
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
-#include "storage/posix_files.hpp"
 
 namespace supercoil::operating {
 
@@ -21,10 +19,6 @@ std::string known_messages() {
   for (const can::MessageInfo& message : can::all_messages)
     all.append(all.empty() ? "" : ", ").append(message.name);
   return all;
-}
-
-int no_rows(const LogOptions& options) {
-  return fail(exit_wrong_input, options.file + ": has no such frames of that time and node");
 }
 
 }  // namespace
@@ -52,26 +46,10 @@ int can_log_command(const LogOptions& options) {
     std::fprintf(stderr, "supercoil: %s; %zu such lines are left out\n", log->damage.c_str(),
                  log->damaged_lines);
   }
-  storage::PosixFiles files;
   const CanSelection selection{options.from_s, options.to_s, options.node, options.message};
-  if (options.out.empty()) {
-    const auto rows = can_to_csv(
-        log->frames, selection, [&](std::string_view part) -> tl::expected<void, std::string> {
-          const auto written = files.write({STDOUT_FILENO, "standard output"}, part);
-          if (!written) return tl::unexpected(written.error().text);
-          return {};
-        });
-    if (!rows) return fail(exit_failed, rows.error());
-    return *rows > 0 ? exit_done : no_rows(options);
-  }
-  auto file = OutputFile::open(options.out, files);
-  if (!file) return fail(exit_wrong_input, file.error());
-  const auto rows =
-      can_to_csv(log->frames, selection, [&](std::string_view part) { return file->write(part); });
-  if (!rows) return fail(exit_failed, rows.error());
-  if (*rows == 0) return no_rows(options);
-  const auto kept = file->commit();
-  return kept ? exit_done : fail(exit_failed, kept.error());
+  const auto write_all = options.mcap ? mcap::from_can_log : can_to_csv;
+  return write_output(options.out, options.file + ": has no such frames of that time and node",
+                      [&](const Sink& sink) { return write_all(log->frames, selection, sink); });
 }
 
 }  // namespace supercoil::operating

@@ -6,7 +6,8 @@
 #include <unistd.h>
 
 #include "apps/supercoil/commands.hpp"
-#include "apps/supercoil/output_file.hpp"
+#include "apps/supercoil/log_output.hpp"
+#include "apps/supercoil/mcap/export.hpp"
 #include "apps/supercoil/summary.hpp"
 #include "recorder/recording.hpp"
 #include "storage/posix_files.hpp"
@@ -38,24 +39,16 @@ int say(const std::string& text, storage::Files& files) {
   return written ? exit_done : fail(exit_failed, written.error().text);
 }
 
-int print_csv(const recorder::Recording& recording, storage::Files& files) {
-  const auto written =
-      recorder::to_csv(recording, [&](std::string_view part) -> tl::expected<void, std::string> {
-        auto result = files.write({STDOUT_FILENO, "standard output"}, part);
-        if (!result) return tl::unexpected(result.error().text);
-        return {};
-      });
-  return written ? exit_done : fail(exit_failed, written.error());
-}
-
-int write_csv(const recorder::Recording& recording, const std::string& path,
-              storage::Files& files) {
-  auto file = OutputFile::open(path, files);
-  if (!file) return fail(exit_wrong_input, file.error());
-  auto written =
-      recorder::to_csv(recording, [&](std::string_view part) { return file->write(part); });
-  if (written) written = file->commit();
-  return written ? exit_done : fail(exit_failed, written.error());
+/// The rows, as CSV or MCAP.
+int write_rows(const recorder::Recording& recording, const LogOptions& options) {
+  return write_output(options.out, options.file + ": has no rows of that time and channel",
+                      [&](const Sink& sink) -> tl::expected<std::size_t, std::string> {
+                        const std::size_t rows = recording.rows.size();
+                        if (rows == 0) return 0;
+                        const auto written = options.mcap ? mcap::from_recording(recording, sink)
+                                                          : recorder::to_csv(recording, sink);
+                        return written.map([&] { return rows; });
+                      });
 }
 
 /// Why these rows cannot be shown; empty when they can.
@@ -75,6 +68,8 @@ std::string wrong_choice(const LogOptions& o, const recorder::Recording& recordi
 }  // namespace
 
 int log_command(const LogOptions& options) {
+  if (options.mcap && options.out.empty() && isatty(STDOUT_FILENO) == 1)
+    return fail(exit_wrong_input, "--mcap: a terminal shows no MCAP; give --out FILE, or a pipe");
   if (is_can_log(options.file)) return can_log_command(options);
   if (options.node != 0 || !options.message.empty()) {
     return fail(exit_wrong_input,
@@ -94,10 +89,7 @@ int log_command(const LogOptions& options) {
   }
   if (options.summary) return say(summary(*recording), files);
   recorder::select(*recording, options.from_s, options.to_s, options.channel - 1);
-  if (recording->rows.empty())
-    return fail(exit_wrong_input, options.file + ": has no rows of that time and channel");
-  if (options.out.empty()) return print_csv(*recording, files);
-  return write_csv(*recording, options.out, files);
+  return write_rows(*recording, options);
 }
 
 }  // namespace supercoil::operating

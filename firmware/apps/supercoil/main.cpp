@@ -22,12 +22,11 @@ using namespace supercoil::operating;
 void add_log(CLI::App& app, LogOptions& options) {
   CLI::App* log = app.add_subcommand(
       "log",
-      "Read a flight recording, its rows as CSV or what happened in words; or a CAN log, decoded "
-      "as CSV");
+      "Read a flight recording, its rows as CSV or MCAP or what happened in words; or a CAN log, "
+      "decoded");
   log->add_option("FILE", options.file, "A recording, flight-NUMBER.scfr, or a log of candump -L")
       ->required();
-  CLI::Option* out =
-      log->add_option("--out", options.out, "Write the CSV to this file [standard output]");
+  CLI::Option* out = log->add_option("--out", options.out, "Write to this file [standard output]");
   CLI::Option* from = log->add_option("--from", options.from_s,
                                       "First time in s: of a recording relative to the fault, of a "
                                       "CAN log its own [the first]");
@@ -38,12 +37,13 @@ void add_log(CLI::App& app, LogOptions& options) {
   log->add_flag("--damaged", options.damaged, "Read what can be read of a damaged file");
   CLI::Option* summary =
       log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
+  CLI::Option* mcap = log->add_flag("--mcap", options.mcap, "Write MCAP in place of CSV");
   log->add_option("--node", options.node, "Of a CAN log only this node [all]")
       ->check(CLI::Range(1, can::max_nodes));
   log->add_option("--message", options.message,
                   "Of a CAN log only this message, a column for each signal [a row for each value]")
       ->type_name("NAME");
-  for (CLI::Option* of_csv : {out, from, to, channel})
+  for (CLI::Option* of_csv : {out, from, to, channel, mcap})
     summary->excludes(of_csv);
 }
 

@@ -2,12 +2,16 @@
 
 import csv
 import io
+import json
 import os
 import pathlib
+import pty
 import resource
 import subprocess
 import tempfile
 import unittest
+
+import mcap.reader
 
 PROGRAM = os.environ["SUPERCOIL"]
 WRITE_SAMPLE = os.environ["WRITE_SAMPLE"]
@@ -83,6 +87,56 @@ class Log(unittest.TestCase):
         (self.path / "r.csv.part").write_text("of a run that was killed")
         self.assertEqual(self.log("r.scfr", "--out", "r.csv").returncode, 0)
         self.assertEqual(self.names(), ["r.csv", "r.scfr"])
+
+    def test_mcap_has_the_same_values(self):
+        self.assertEqual(self.log("r.scfr", "--mcap", "--out", "r.mcap").returncode, 0)
+        piped = subprocess.run([PROGRAM, "log", "r.scfr", "--mcap"], capture_output=True, check=True, cwd=self.path)
+        self.assertEqual((self.path / "r.mcap").read_bytes(), piped.stdout)
+        rows, faults = [], []
+        with open(self.path / "r.mcap", "rb") as file:
+            reader = mcap.reader.NonSeekingReader(file)
+            for schema, channel, message in reader.iter_messages():
+                value = json.loads(message.data)
+                self.assertEqual((channel.message_encoding, schema.encoding), ("json", "jsonschema"))
+                self.assertEqual(list(json.loads(schema.data)["properties"]), list(value))
+                if channel.topic == "/faults":
+                    faults.append((message.log_time, value))
+                else:
+                    rows.append((message.log_time, channel.topic, message.sequence, value))
+        with open(self.path / "r.mcap", "rb") as file:
+            recording, = mcap.reader.NonSeekingReader(file).iter_metadata()
+        self.assertEqual(recording.name, "recording")
+        fault_time_ns = int(recording.metadata["fault_time_ns"])
+        self.assertEqual({name: recording.metadata[name] for name in ("fault", "fault_number", "fault_channel", "channels")},
+                         {"fault": "over_temperature", "fault_number": "30", "fault_channel": "2", "channels": "2"})
+        self.assertEqual(faults, [(fault_time_ns, {"channel": 2, "fault": "over_temperature"}),
+                                  (fault_time_ns + 500_000_000, {"channel": 1, "fault": "emergency_stop"})])
+        printed = self.rows()
+        self.assertEqual(len(rows), len(printed))
+        for (time_ns, topic, _, value), row in zip(rows, printed):
+            self.assertEqual(topic, f"/channel_{row.pop('channel')}")
+            self.assertEqual(time_ns, fault_time_ns + round(1e9 * float(row["time_s"])))
+            self.assertEqual(list(value), list(row))
+            for name, text in row.items():
+                same = value[name] == text if isinstance(value[name], str) else value[name] == (float(text) if text else None)
+                self.assertTrue(same, (name, value[name], text))
+        self.assertEqual([sequence for _, topic, sequence, _ in rows if topic == "/channel_1"], list(range(len(rows) // 2)))
+
+    def test_mcap_of_a_part(self):
+        self.assertEqual(self.log("r.scfr", "--mcap", "--channel", 2, "--from", 0, "--to", "0.1", "--out", "r.mcap").returncode, 0)
+        with open(self.path / "r.mcap", "rb") as file:
+            times = [json.loads(message.data)["time_s"] for _, channel, message in
+                     mcap.reader.NonSeekingReader(file).iter_messages(topics=["/channel_2"])]
+        self.assertEqual(times, [round(i / 100, 2) for i in range(11)])
+        self.refused("r.scfr: has no rows of that time and channel", "r.scfr", "--mcap", "--from", 5, "--out", "out.csv")
+
+    def test_mcap_is_not_written_to_a_terminal(self):
+        main, terminal = pty.openpty()
+        self.addCleanup(os.close, main)
+        with os.fdopen(terminal, "w") as out:
+            done = subprocess.run([PROGRAM, "log", "r.scfr", "--mcap"], cwd=self.path, stdout=out, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--mcap: a terminal shows no MCAP; give --out FILE, or a pipe", done.stderr)
 
     def test_the_summary_says_what_happened(self):
         done = self.log("r.scfr", "--summary")

@@ -1,0 +1,47 @@
+// An MCAP file (mcap.dev, version 0 of the format): messages of several channels in the order of
+// their times, without chunks, compression, index or checksums, all of which the format leaves
+// open.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+#include <tl/expected.hpp>
+
+namespace supercoil::operating::mcap {
+
+/// Takes a part of the file; the error says why it could not be written.
+using WritePart = std::function<tl::expected<void, std::string>(std::string_view)>;
+using Written = tl::expected<void, std::string>;
+using Entries = std::vector<std::pair<std::string, std::string>>;
+
+class Writer {
+ public:
+  /// Begins the file. write is called with pieces of some 64 KiB.
+  explicit Writer(WritePart write);
+
+  /// A channel of JSON objects; properties: of its JSON schema. Returns its number.
+  std::uint16_t add_channel(std::string_view topic, std::string_view schema_name,
+                            const nlohmann::ordered_json& properties);
+  /// json: an object of the channel's schema. After the first error, that.
+  Written add_message(std::uint16_t channel, std::uint64_t time_ns, std::string_view json);
+  void add_metadata(std::string_view name, const Entries& entries);
+  /// Ends the file.
+  Written finish();
+
+ private:
+  void add_record(std::uint8_t opcode, std::string_view content);
+  Written flush();
+
+  WritePart write_;
+  Written written_;
+  std::string part_;
+  std::vector<std::uint32_t> messages_;  ///< of each channel
+};
+
+}  // namespace supercoil::operating::mcap

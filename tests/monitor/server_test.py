@@ -115,7 +115,7 @@ class Live(OnSimulatedBoard):
     def test_who_may_command(self):
         served = self.serve()
         order = {"node": 1, "opcode": "renew", "value": 0}
-        for wrong in ({"token": ""}, {"token": "0" * 32}, {"origin": ""}, {"origin": "http://example.org"},
+        for wrong in ({"token": ""}, {"token": "0" * 32}, {"origin": "null"}, {"origin": "http://example.org"},
                       {"origin": f"http://127.0.0.1:{served.port + 1}"}):
             for path in ("/api/command", "/api/alive"):
                 self.assertEqual(served.post(path, order, **wrong)[0], 403, (path, wrong))
@@ -124,6 +124,25 @@ class Live(OnSimulatedBoard):
         # A name that leads here by somebody else's DNS.
         self.assertEqual(served.ask("GET", "/api/history", Host="example.org")[0], 403)
         self.assertEqual(served.ask("GET", "/api/about", Host=f"localhost:{served.port}")[0], 200)
+
+    def test_a_script_needs_the_token_alone(self):
+        served = self.serve()
+        order = json.dumps({"node": 1, "opcode": "arm"})
+        bearer = {"Authorization": f"Bearer {served.token}"}
+        # Whoever is on this machine may stop it, as from the page.
+        self.assertEqual(served.ask("POST", "/stop", "", served.stop_port())[0], 200)
+        until(lambda: served.state()[0] == "disarmed")
+        for wrong in ({}, {"Authorization": "Bearer " + "0" * 32}, {"Authorization": served.token},
+                      {"X-Supercoil-Token": "0" * 32}, {**bearer, "Origin": "http://example.org"}, {**bearer, "Origin": "null"},
+                      {**bearer, "Host": "example.org"}):
+            self.assertEqual(served.ask("POST", "/api/command", order, **wrong)[0], 403, wrong)
+        # In an address it is in logs and histories: good for looking only.
+        status, said = served.ask("POST", f"/api/command?token={served.token}", order)
+        self.assertEqual(status, 403)
+        self.assertIn("Authorization: Bearer TOKEN", said)
+        self.assertEqual(served.state()[0], "disarmed")
+        self.assertEqual(served.ask("POST", "/api/command", order, **bearer)[0], 200)
+        until(lambda: served.state()[0] == "armed")
 
     def test_what_is_no_order_is_told_so(self):
         served = self.serve()
@@ -204,7 +223,7 @@ class Live(OnSimulatedBoard):
         with contextlib.closing(http.client.HTTPConnection("127.0.0.1", served.port)) as connection:
             connection.request("GET", "/")
             self.assertIn(f"http://*:{about['stop_port']};", connection.getresponse().headers["Content-Security-Policy"])
-        self.assertEqual(served.post("/stop", "", about["stop_port"])[0], 403)
+        self.assertEqual(served.post("/stop", "", about["stop_port"], token="")[0], 403)
         self.assertEqual(served.post("/stop", served.token, about["stop_port"])[0], 200)
 
     def test_it_ends_at_once_while_pages_watch(self):

@@ -58,9 +58,14 @@ bool is_own_host(const Access& access, const httplib::Request& request, int port
 }
 
 bool has_token(const Access& access, const httplib::Request& request) {
-  return same(access.token, request.has_header("X-Supercoil-Token")
-                                ? request.get_header_value("X-Supercoil-Token")
-                                : request.get_param_value("token"));
+  return has_token_header(access, request) ||
+         (!request.has_header("X-Supercoil-Token") &&
+          same(access.token, request.get_param_value("token")));
+}
+
+bool has_token_header(const Access& access, const httplib::Request& request) {
+  return same(access.token, request.get_header_value("X-Supercoil-Token")) ||
+         same("Bearer " + access.token, request.get_header_value("Authorization"));
 }
 
 bool is_same_origin(const Access& access, const httplib::Request& request) {
@@ -104,6 +109,12 @@ std::string refuse_to_show(const Access& access, const httplib::Request& request
 std::string refuse_to_command(const Access& access, const httplib::Request& request) {
   if (access.read_only) return "this monitor is read-only";
   if (!is_own_host(access, request, access.port)) return "asked for under another host's name";
+  // Browsers name the page that sends a command, and let no other page set these headers.
+  if (!request.has_header("Origin")) {
+    return has_token_header(access, request)
+               ? ""
+               : "needs the token that was printed, as header Authorization: Bearer TOKEN";
+  }
   if (!is_same_origin(access, request)) return "does not come from this monitor's page";
   if (!has_token(access, request)) return "needs the token that was printed";
   return {};
@@ -112,8 +123,9 @@ std::string refuse_to_command(const Access& access, const httplib::Request& requ
 std::string refuse_to_stop(const Access& access, const httplib::Request& request, int port) {
   if (access.read_only) return "this monitor is read-only";
   if (!is_own_host(access, request, port)) return "asked for under another host's name";
-  if (!is_same_origin(access, request)) return "does not come from this monitor's page";
-  if (!access.loopback && !same(access.token, request.body))
+  if (request.has_header("Origin") && !is_same_origin(access, request))
+    return "does not come from this monitor's page";
+  if (!access.loopback && !same(access.token, request.body) && !has_token_header(access, request))
     return "needs the token that was printed";
   return {};
 }

@@ -26,8 +26,10 @@ bool is_loopback(const std::string& host);
 /// The request names this server as its host: another name that leads here is somebody else's page
 /// that wants to read ours (DNS rebinding).
 bool is_own_host(const Access& access, const httplib::Request& request, int port);
-/// The token that came with it, as header X-Supercoil-Token or as ?token=, is right.
+/// The token that came with it, as a header (below) or as ?token=, is right.
 bool has_token(const Access& access, const httplib::Request& request);
+/// The same as header X-Supercoil-Token or Authorization: Bearer.
+bool has_token_header(const Access& access, const httplib::Request& request);
 /// The page that sent it is ours.
 bool is_same_origin(const Access& access, const httplib::Request& request);
 

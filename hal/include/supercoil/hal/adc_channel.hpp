@@ -25,6 +25,7 @@ class AdcChannel {
   AdcChannel& operator=(const AdcChannel&) = delete;
   virtual ~AdcChannel() = default;
 
+  /// The newest conversion, or the status that says why there is none.
   virtual Sample latest() = 0;
 };
 

@@ -6,12 +6,14 @@
 
 namespace supercoil::hal {
 
+/// How much a Finding matters.
 enum class Severity {
   ok,
   warning,  ///< the firmware runs, but not as it should; or it cannot be known
   problem,  ///< the firmware does not start, or nothing may be heated with it
 };
 
+/// In a word, for people.
 constexpr const char* text(Severity severity) {
   switch (severity) {
     case Severity::ok:

@@ -29,8 +29,11 @@ class CanBus {
   CanBus& operator=(const CanBus&) = delete;
   virtual ~CanBus() = default;
 
+  /// Hands a frame over for sending. ok does not mean that it was on the bus.
   virtual Status send(const CanFrame& frame) = 0;
+  /// The oldest frame that waits. frame is valid with ok alone.
   virtual Status receive(CanFrame& frame) = 0;
+  /// As it was last known.
   virtual CanState state() const = 0;
 };
 

@@ -9,9 +9,11 @@ namespace supercoil::hal {
 using Time = std::chrono::nanoseconds;
 using Duration = std::chrono::nanoseconds;
 
+/// In seconds.
 constexpr double seconds(Duration duration) {
   return 1e-9 * static_cast<double>(duration.count());
 }
+/// Of finite seconds within ±292 years; cut to whole nanoseconds.
 constexpr Duration duration_from(double seconds_) {
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(seconds_));
 }

@@ -13,6 +13,7 @@ class DigitalOutput {
   DigitalOutput& operator=(const DigitalOutput&) = delete;
   virtual ~DigitalOutput() = default;
 
+  /// Any status but ok: the level may be the old one or the new one.
   virtual Status set(bool high) = 0;
 };
 
@@ -31,6 +32,7 @@ class DigitalInput {
   DigitalInput& operator=(const DigitalInput&) = delete;
   virtual ~DigitalInput() = default;
 
+  /// The level now, within 20 µs.
   virtual Level read() = 0;
 };
 

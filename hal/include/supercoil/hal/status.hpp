@@ -13,6 +13,7 @@ enum class Status {
   out_of_range,  ///< the argument is not one that the device can take; nothing was changed
 };
 
+/// In words, for people.
 constexpr const char* text(Status status) {
   switch (status) {
     case Status::ok:

@@ -12,6 +12,7 @@ struct ActuatorStateSpace {
   Matrix<double, 3, 2> b;
 };
 
+/// parameters: valid (see PhysicalParameters).
 ActuatorStateSpace state_space(const PhysicalParameters& parameters);
 
 }  // namespace supercoil::control

@@ -27,6 +27,7 @@ class BatchLeastSquares {
   /// Less than these leave nothing to judge the fit by.
   static constexpr std::size_t min_blocks = 4;
 
+  /// What the experiment says of the muscle.
   struct Fit {
     Theta theta;      ///< in θ's own units, from all blocks
     double bias_W;    ///< constant power beside them: a load, a wrong zero

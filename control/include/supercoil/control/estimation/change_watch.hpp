@@ -46,6 +46,7 @@ class ChangeWatch {
     settling_ = settling_updates_;
   }
 
+  /// One tick: this tick's position in watts at rest, and the power applied since the last one.
   void step(Scalar position_W, Scalar applied_power_W) {
     power_.step(applied_power_W);
     position_.step(position_W);

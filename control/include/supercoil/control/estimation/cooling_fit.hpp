@@ -20,11 +20,13 @@ namespace supercoil::control {
 /// to 2.9 on a muscle whose force grows with temperature (docs/safety.md).
 class CoolingFit {
  public:
+  /// What is possible of the muscle; all > 0.
   struct Settings {
     double fastest_s = 0.5;  ///< time constants that are possible
     double slowest_s = 6.0;
     double max_W = 4.5;
   };
+  /// The time constant that explains the motion best.
   struct Found {
     double time_constant_s;
     double mean_W;  ///< the power at which it was found
@@ -36,6 +38,7 @@ class CoolingFit {
   /// step_s > 0. Allocates nothing.
   CoolingFit(const Settings& settings, double step_s);
 
+  /// Forgets all; the next step is the first.
   void start();
   /// One tick: this tick's position, and the power applied since the last one.
   void step(double position_m, double power_W);

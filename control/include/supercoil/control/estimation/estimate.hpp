@@ -7,6 +7,7 @@
 
 namespace supercoil::control {
 
+/// θ of the muscle and how well it is known: P = θ1 m̂x⃛ + θ2 ẍ + θ3 ẋ + θ4 x.
 struct Estimate {
   Theta theta;                        ///< in θ's own units
   double prediction_error_W = 0.0;    ///< ε = z − θᵀφ, through 1/Λ or 1/Λ'

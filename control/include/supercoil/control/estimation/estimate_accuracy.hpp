@@ -21,6 +21,7 @@ class EstimateAccuracy {
   using Square = Matrix<double, size>;
   using Derivatives = Vector<double, 5>;
 
+  /// All times and variances > 0; forgetting in (0, 1].
   struct Settings {
     RegressionScale scale;
     double update_s;         ///< between regressions
@@ -49,6 +50,7 @@ class EstimateAccuracy {
     double residual_W;
     double scale;  ///< of the counted covariance to a true one, of what nothing excites
   };
+  /// One regression, every update_s.
   void step(const Seen& seen);
 
   /// The muscle has changed: so much more may be true of the last five. before, after: the counted

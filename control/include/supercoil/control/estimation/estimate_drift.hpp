@@ -18,6 +18,7 @@ class EstimateDrift {
   using Parameters = Vector<double, size>;
   using Square = Matrix<double, size>;
 
+  /// All > 0.
   struct Settings {
     double update_s;       ///< between steps
     double lag_s;          ///< between what is compared: so that the data are others
@@ -26,6 +27,7 @@ class EstimateDrift {
   };
   explicit EstimateDrift(const Settings& settings);
 
+  /// One estimate with its covariance, every update_s.
   void step(const Parameters& theta, const Square& covariance);
   /// The muscle has changed: θ is compared with nothing before.
   void forget_past();

@@ -13,6 +13,8 @@ namespace supercoil::control {
 /// The numbers go over CAN: a new one comes last.
 enum class EstimatorKind { none, gradient, least_squares };
 
+/// What an Estimator is made of. Of the estimators' own settings only those of kind count. Nothing
+/// is checked here: see supported() and check_fit().
 struct EstimatorSettings {
   EstimatorKind kind = EstimatorKind::gradient;
   Arithmetic arithmetic = Arithmetic::float64;
@@ -45,6 +47,8 @@ constexpr bool supported(EstimatorKind kind, Arithmetic arithmetic) {
 /// What q8.24 cannot hold of the settings (see controller_settings.hpp).
 std::optional<Violation> check_fit(const EstimatorSettings& settings, double step_s, double max_W);
 
+/// The gradient law or least squares, or none. Positions in metres, powers in watts, one step()
+/// every step_s. No heap and no exception in a step.
 class Estimator {
  public:
   /// Settings must be valid, kind and arithmetic supported; step_s > 0 in seconds.

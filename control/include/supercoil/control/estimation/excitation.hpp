@@ -18,6 +18,7 @@ namespace supercoil::control {
 /// proportion, so that without motion the bound stays near 1.
 class ExcitationMonitor {
  public:
+  /// The window, and what is asked of it.
   struct Settings {
     double window_s = 20.0;
     /// The bound below which an estimate is trusted.

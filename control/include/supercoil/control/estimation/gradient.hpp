@@ -22,6 +22,7 @@ struct GradientSettings {
   double normalisation = 0.0;
 };
 
+/// The law of GradientSettings in one arithmetic, by Euler steps of step_s.
 template <class Scalar>
 class GradientEstimator {
  public:

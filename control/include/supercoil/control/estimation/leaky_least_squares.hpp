@@ -19,6 +19,7 @@ class LeakyLeastSquares {
  public:
   using Weights = Vector<double, N>;
 
+  /// The prior, and how fast it comes back.
   struct Settings {
     Weights prior;                    ///< w₀
     Weights deviation;                ///< √ of the diagonal P₀, > 0

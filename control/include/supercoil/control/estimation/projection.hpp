@@ -15,6 +15,7 @@ struct Box {
   Vector<Scalar, N> lower;
   Vector<Scalar, N> upper;
 
+  /// Bounds included; false with a NaN.
   bool contains(const Vector<Scalar, N>& value) const {
     return (value.array() >= lower.array()).all() && (value.array() <= upper.array()).all();
   }

@@ -17,6 +17,7 @@ class UdCovariance {
   /// Nothing is known of any parameter beyond these variances.
   explicit UdCovariance(const Vector<Scalar, N>& variances) { reset(variances); }
 
+  /// As made anew: a diagonal of these variances, each >= 0.
   void reset(const Vector<Scalar, N>& variances) {
     u_.setIdentity();
     d_ = variances;
@@ -57,6 +58,7 @@ class UdCovariance {
     d_.template head<Count>() = variances;
   }
 
+  /// Of the whole covariance. factor: >= 0.
   void scale(Scalar factor) { d_ *= factor; }
 
   /// Adds a covariance, positive semidefinite. The sum is factored anew, last column first.
@@ -77,6 +79,7 @@ class UdCovariance {
   /// Adds to the variance of each parameter (>= 0); what leans on what stays.
   void inflate(Scalar variance) { add(Matrix<Scalar, N>::Identity() * variance); }
 
+  /// The largest variance of parameters first to N - 1; 0 when there are none.
   Scalar max_variance(int first) const {
     Scalar largest{};
     for (int i = first; i < N; ++i) {

@@ -16,7 +16,9 @@ class Play {
 
   /// Without memory: the output is where the input is.
   void rest_at(double input) { output_ = input; }
+  /// radius: >= 0. The output stays until the next step.
   void set_radius(double radius) { radius_ = radius; }
+  /// Carries the output along as far as the input is more than the radius from it.
   void step(double input) {
     const double before = output_;
     output_ = std::clamp(output_, input - radius_, input + radius_);

@@ -10,6 +10,7 @@ namespace supercoil::control {
 template <std::size_t Degree>
 using Polynomial = std::array<double, Degree + 1>;
 
+/// The product, coefficients ascending.
 template <std::size_t A, std::size_t B>
 constexpr Polynomial<A + B> multiply(const Polynomial<A>& a, const Polynomial<B>& b) {
   Polynomial<A + B> product{};

@@ -12,6 +12,7 @@ namespace supercoil::control {
 template <class Value, std::size_t N>
 using Names = std::array<std::pair<std::string_view, Value>, N>;
 
+/// Empty: no value has this name. Case counts.
 template <class Value, std::size_t N>
 constexpr std::optional<Value> find_named(const Names<Value, N>& names, std::string_view name) {
   for (const auto& [text, value] : names) {
@@ -20,6 +21,7 @@ constexpr std::optional<Value> find_named(const Names<Value, N>& names, std::str
   return std::nullopt;
 }
 
+/// "?": the value has no name.
 template <class Value, std::size_t N>
 constexpr std::string_view name_of(const Names<Value, N>& names, Value demanded) {
   for (const auto& [text, value] : names) {
@@ -28,6 +30,7 @@ constexpr std::string_view name_of(const Names<Value, N>& names, Value demanded)
   return "?";
 }
 
+/// float64 is double, float32 float, q8_24 the fixed-point type Q8_24.
 enum class Arithmetic { float64, float32, q8_24 };
 
 inline constexpr Names<Arithmetic, 3> arithmetic_names{{{"double", Arithmetic::float64},

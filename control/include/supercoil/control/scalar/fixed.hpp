@@ -50,6 +50,7 @@ class Fixed {
     }
   }
 
+  /// raw: the value in steps of resolution().
   static constexpr Fixed from_raw(Raw raw) {
     Fixed result;
     result.raw_ = raw;

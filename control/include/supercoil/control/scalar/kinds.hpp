@@ -74,6 +74,8 @@ constexpr auto names_of(std::string_view none, Kind none_of_it) {
       List{});
 }
 
+/// False for q8.24 where the kind needs float or double. A kind that is not in the list runs in
+/// all.
 template <class List, class Kind>
 constexpr bool runs_in(Kind kind, Arithmetic arithmetic) {
   bool fixed_point = true;

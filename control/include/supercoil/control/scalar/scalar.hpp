@@ -45,6 +45,7 @@ using Matrix = Eigen::Matrix<Scalar, Rows, Columns>;
 
 namespace Eigen {
 
+/// Lets Eigen calculate with Fixed.
 template <int I, int F>
 struct NumTraits<supercoil::control::Fixed<I, F>> {
   using Self = supercoil::control::Fixed<I, F>;

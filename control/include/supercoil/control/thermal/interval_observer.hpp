@@ -23,12 +23,14 @@ struct BasicIntervalEnd {
   Real heating_decay;
   Real cooling_decay;
 
+  /// The rise a tick later, in K, under this power in between.
   Real moved(Real rise_K, Real power_W) const {
     const Real rest_K = power_W * rest_K_per_W;
     return rest_K + (rise_K - rest_K) * (rest_K > rise_K ? heating_decay : cooling_decay);
   }
 };
 
+/// By which a rise falls in step_s without power; all arguments > 0.
 template <class Real>
 Real thermal_decay(Real transfer_W_per_K, Real mass_J_per_K, Real step_s) {
   using std::exp;
@@ -69,6 +71,7 @@ class BasicIntervalObserver {
     max_K_ = hot_.moved(max_K_, max_W);
     min_K_ = cold_.moved(min_K_, min_W);
   }
+  /// The power is known exactly.
   void step(Real power_W) { step(power_W, power_W); }
 
   /// Temperature rise over ambient.

@@ -20,9 +20,11 @@ struct TransferSpan {
   double from_K = 0.0;
   double to_K = INFINITY;
 
+  /// The least heat transfer that is possible at this rise >= 0, in W/K.
   double lowest(double rise_K) const {
     return rise_K >= from_K ? min_W_per_K : min_W_per_K * std::cbrt(rise_K / from_K);
   }
+  /// The greatest.
   double highest(double rise_K) const {
     return rise_K <= to_K ? max_W_per_K : max_W_per_K * std::cbrt(rise_K / to_K);
   }

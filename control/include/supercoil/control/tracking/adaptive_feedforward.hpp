@@ -26,6 +26,8 @@ struct AdaptiveFeedforwardSettings {
   double follow_s = 0.5;                      ///< time constant with which θ̄ follows
 };
 
+/// The law of AdaptiveFeedforwardSettings. Positions and powers are in watts at rest (LawInput); it
+/// saturates nothing itself.
 template <class Scalar>
 class AdaptiveFeedforward {
  public:
@@ -123,6 +125,7 @@ class AdaptiveFeedforward {
   Parameters motion_ = Parameters::Zero();  ///< the model's, at the last tick
 };
 
+/// `adaptive_ff`: how AdaptiveFeedforward is named, set, made and checked (LawDefinition).
 struct AdaptiveFeedforwardLaw : UsualLaw {
   using Settings = AdaptiveFeedforwardSettings;
   template <class Scalar>

@@ -7,6 +7,9 @@
 
 namespace supercoil::control {
 
+/// A law of Laws, or open loop, with its reference model. Positions in metres, powers in watts, one
+/// step() every step_s. It does not saturate its demand: the caller does (PowerRange) and says so
+/// in ControllerInput.
 class Controller {
  public:
   /// Settings must be valid (the configuration checks them), kind and arithmetic supported; step_s

@@ -18,6 +18,8 @@ namespace supercoil::control {
 /// The numbers go over CAN: a new one comes last.
 enum class ControllerKind { power, pi, pd_ff, mrac, mrac_ls, adaptive_ff, learned_ff };
 
+/// What a Controller is made of. Of the laws' own settings only those of kind count. Nothing is
+/// checked here: see supported(), contradictions_of_law() and check_fit().
 struct ControllerSettings {
   ControllerKind kind = ControllerKind::mrac;
   Arithmetic arithmetic = Arithmetic::float64;

@@ -46,10 +46,12 @@ inline constexpr std::array<std::string_view, 16> gain_names{"none",
                                                              "feedforward_acceleration",
                                                              "feedforward_jerk",
                                                              "bias"};
+/// As recordings and CAN clients write it.
 constexpr std::string_view name(Gain gain) {
   return gain_names[static_cast<std::size_t>(gain)];
 }
 
+/// One of a law's gains as it is now.
 struct GainValue {
   Gain gain = Gain::none;
   double value = std::numeric_limits<double>::quiet_NaN();  ///< in the gain's unit

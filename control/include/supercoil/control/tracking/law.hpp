@@ -50,6 +50,7 @@ struct PowerRange {
   double min_W = 0.0;
   double max_W = 4.5;
 
+  /// The nearest power in the range.
   double clip(double power_W) const {
     if (!(power_W > min_W)) return min_W;  // a NaN is cut to the least power
     return power_W < max_W ? power_W : max_W;

@@ -22,8 +22,10 @@ struct LawProblem {
   bool premise = false;  ///< of the law's proof: it may run where that was accepted
 };
 
+/// Up to 8 problems, without heap; further ones are dropped.
 class LawProblems {
  public:
+  /// Without effect when 8 are there.
   void add(const LawProblem& problem) {
     if (count_ < all_.size()) all_[count_++] = problem;
   }

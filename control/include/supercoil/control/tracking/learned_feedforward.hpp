@@ -42,6 +42,8 @@ struct LearnedFeedforwardSettings {
   bool find_period = false;  ///< where none is given
 };
 
+/// The law of LearnedFeedforwardSettings, in float or double. Positions and powers are in watts at
+/// rest (LawInput).
 template <class Scalar>
 class LearnedFeedforward {
   static_assert(std::is_floating_point_v<Scalar>, "information spans more than fixed point does");
@@ -166,6 +168,7 @@ class LearnedFeedforward {
 extern template class LearnedFeedforward<double>;
 extern template class LearnedFeedforward<float>;
 
+/// `learned_ff`: how LearnedFeedforward is named, set, made and checked (LawDefinition).
 struct LearnedFeedforwardLaw : UsualLaw {
   using Settings = LearnedFeedforwardSettings;
   template <class Scalar>

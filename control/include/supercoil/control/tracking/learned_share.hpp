@@ -14,6 +14,7 @@ namespace supercoil::control {
 /// for minutes.
 class LearnedShare {
  public:
+  /// All > 0.
   struct Settings {
     double period_s;         ///< between steps
     double min_W;            ///< of a power that says anything

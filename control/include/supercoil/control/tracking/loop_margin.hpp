@@ -5,6 +5,7 @@
 
 namespace supercoil::control {
 
+/// How much room a loop of a fixed law and a muscle has.
 struct LoopMargin {
   double spectral_radius = 0.0;  ///< of the sampled loop, for each tick; stable below 1
   /// Least |1 + L(jω)|, the distance of the loop's frequency response from −1: 1 over the largest
@@ -25,6 +26,7 @@ struct WorstCorner {
   PhysicalParameters muscle;
   int unstable = 0;  ///< corners of 64
 };
+/// step_s and delay_s as for loop_margin(). Allocates.
 WorstCorner worst_corner(const FixedLaw& law, const PhysicalParameters& nominal, double span,
                          double step_s, double delay_s);
 /// The same with the law that follows from each corner itself. Not for open loop.

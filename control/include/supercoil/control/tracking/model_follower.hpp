@@ -23,6 +23,7 @@ struct ControllerInput {
   PowerRange range{};            ///< that the muscle may get: for shaping
 };
 
+/// What a controller answers at a tick. The power is not yet saturated.
 struct ControllerOutput {
   double demanded_power_W = 0.0;
   double model_m = 0.0;  ///< where the reference model is: what tracking is measured against
@@ -44,13 +45,18 @@ struct ControllerStart {
 /// Open loop: the reference is a power.
 class OpenLoopPower {
  public:
+  /// Nothing to start: it has no state.
   void start(const ControllerStart&) {}
+  /// Nothing to learn: it has no model of the muscle.
   void learn(const Estimate&) {}
+  /// Nothing follows from the muscle.
   void retune(const Theta&) {}
+  /// Demands reference_power_W.
   ControllerOutput step(const ControllerInput& in) const {
     return {.demanded_power_W = in.reference_power_W};
   }
   ModelMotion<double> motion() const { return {}; }
+  /// It has none.
   static GainValue gain(std::uint32_t) { return {}; }
 };
 
@@ -67,6 +73,7 @@ class ModelFollower {
         to_metres_(s.dc_gain_m_per_W),
         fading_(std::exp(-step_s / bridge_s)) {}
 
+  /// See Controller, as for what follows.
   void start(const ControllerStart& at) {
     model_.set({to<Scalar>(at.motion.position * to_watts_),
                 to<Scalar>(at.motion.velocity * to_watts_),
@@ -80,6 +87,7 @@ class ModelFollower {
     held_W_ = at.power_W;
   }
 
+  /// One tick. No heap and no exception.
   ControllerOutput step(const ControllerInput& in) {
     model_.step(last_reference_);
     const FeasibleReference asked = shaper_ ? shaper_->step(in.reference_m, motion(), in.range)
@@ -105,7 +113,9 @@ class ModelFollower {
             oscillation_period_s_};
   }
 
+  /// From now on references are made feasible first.
   void shape_by(const ReferenceShaper& shaper) { shaper_ = shaper; }
+  /// Passed on to the law where it has gains of the muscle; forgets an oscillation that was seen.
   void retune(const Theta& theta) {
     if (tuned_for_ == theta) return;
     tuned_for_ = theta;
@@ -114,6 +124,7 @@ class ModelFollower {
     if constexpr (requires { law_.retune(theta); }) law_.retune(theta);
   }
 
+  /// Passed on to the shaper and to a law that has a model of the muscle.
   void learn(const Estimate& estimate) {
     if (shaper_) shaper_->learn(estimate);
     if constexpr (requires { law_.learn(estimate); }) law_.learn(estimate);

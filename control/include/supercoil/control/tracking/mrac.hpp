@@ -185,6 +185,7 @@ class Mrac {
   Wide estimated_error_{};
 };
 
+/// `mrac`: how Mrac is named, set, made and checked (LawDefinition).
 struct MracLaw : UsualLaw {
   using Settings = MracSettings;
   template <class Scalar>

@@ -251,6 +251,7 @@ class MracLeastSquares {
   Scalar error_square_{};
 };
 
+/// `mrac_ls`: how MracLeastSquares is named, set, made and checked (LawDefinition).
 struct MracLeastSquaresLaw : UsualLaw {
   using Settings = MracLeastSquaresSettings;
   template <class Scalar>

@@ -28,6 +28,7 @@ struct MracPremises {
   std::array<const char*, count> failures() const;
 };
 
+/// Of any settings; what is not finite fails.
 MracPremises check_premises(const MracSettings& settings, const ReferenceModelSettings& model);
 
 }  // namespace supercoil::control

@@ -12,6 +12,7 @@ namespace supercoil::control {
 /// Noise has no such order; a reference that oscillates moves the model.
 class OscillationDetector {
  public:
+  /// Which oscillations count; slow < fast.
   struct Settings {
     double slow_rad_per_s = 2.0;
     double fast_rad_per_s = 40.0;

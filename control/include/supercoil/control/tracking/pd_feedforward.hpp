@@ -15,6 +15,7 @@ struct PdFeedforwardSettings {
   double derivative_filter_rad_per_s = 60.0;
 };
 
+/// The law of PdFeedforwardSettings. Positions and powers are in watts at rest (LawInput).
 template <class Scalar>
 class PdFeedforward {
  public:
@@ -60,6 +61,7 @@ class PdFeedforward {
   Scalar feedforward_;
 };
 
+/// `pd_ff`: how PdFeedforward is named, set, made and checked (LawDefinition).
 struct PdFeedforwardLaw : UsualLaw {
   using Settings = PdFeedforwardSettings;
   template <class Scalar>

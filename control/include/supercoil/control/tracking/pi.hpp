@@ -13,6 +13,7 @@ struct PiSettings {
   double integral_W_per_m_s = 1100.0;
 };
 
+/// The law of PiSettings. Positions and powers are in watts at rest (LawInput).
 template <class Scalar>
 class Pi {
  public:
@@ -62,6 +63,7 @@ class Pi {
   Scalar demanded_{};
 };
 
+/// `pi`: how Pi is named, set, made and checked (LawDefinition).
 struct PiLaw : UsualLaw {
   using Settings = PiSettings;
   template <class Scalar>

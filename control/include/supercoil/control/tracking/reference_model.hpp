@@ -40,6 +40,8 @@ struct ModelMotion {
   Scalar acceleration{};
 };
 
+/// The model in one arithmetic, exactly discretised for a reference held over each tick. It starts
+/// at rest in zero.
 template <class Scalar>
 class ReferenceModel {
  public:

@@ -18,6 +18,7 @@ enum class Infeasible : std::uint8_t {
   heating,  ///< it would need more than the greatest power
 };
 
+/// The reference that a muscle can follow, and why it is not the one that was asked for.
 struct FeasibleReference {
   double reference_m = 0.0;
   Infeasible what = Infeasible::nothing;
@@ -29,6 +30,7 @@ struct FeasibleReference {
 /// power, and goes on to the reference as itself as soon as it can.
 class ReferenceShaper {
  public:
+  /// model: the one that the reference goes through. muscle: until retune().
   ReferenceShaper(const ReferenceModelSettings& model, const RegressionScale& muscle)
       : model_(model), theta_(muscle.nominal), moving_mass_kg_(muscle.moving_mass_kg) {}
 

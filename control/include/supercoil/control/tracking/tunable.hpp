@@ -12,6 +12,7 @@
 
 namespace supercoil::control {
 
+/// How the number of a Tunable is to be read.
 enum class TunableType : std::uint8_t {
   number,
   flag,   ///< 0 or 1
@@ -42,9 +43,11 @@ struct Tunable {
 
   /// NaN: one of this kind has no such value, or its reference model no real poles.
   double get(const ControllerSettings& settings) const;
+  /// The same for an estimator.
   double get(const EstimatorSettings& settings) const;
   /// Where get() is not NaN. to: in range.
   void set(ControllerSettings& settings, double to) const;
+  /// The same for an estimator.
   void set(EstimatorSettings& settings, double to) const;
   /// A NaN is not, nor half a flag. Which kinds of estimators there are is not looked at.
   bool in_range(double value) const;
@@ -58,6 +61,7 @@ struct Tunable {
 /// The places are those of the protocol (docs/can-protocol.md): new ones come last. In this order
 /// they can be set one after the other: what there is depends on the kind and reference_model.
 inline constexpr std::size_t tunable_count = 34;
+/// All of them, in that order.
 const std::array<Tunable, tunable_count>& tunables();
 /// tunable_count: there is none of this name.
 std::size_t tunable_named(std::string_view name);

@@ -97,7 +97,7 @@ def problems_of_links():
 
 def problems_of_navigation():
     listed = LIST_ITEM.findall((ROOT / "docs" / "README.md").read_text())
-    pages = {page.name for page in (ROOT / "docs").glob("*.md")} | {"faults/README.md", "../CHANGELOG.md"}
+    pages = {page.name for page in (ROOT / "docs").glob("*.md")} | {"api/README.md", "faults/README.md", "../CHANGELOG.md"}
     for page in sorted(pages - {"README.md", *listed}):
         yield f"docs/README.md: {page} is not listed"
     for page in sorted({page for page in listed if listed.count(page) > 1}):

@@ -1,14 +1,18 @@
 """The documentation's site, built by toolchain/docs and read in a real browser.
 
 Every page of docs/ is reached from the start page, no link or anchor is dead, the search finds, nothing is asked of
-another machine, and on a phone's screen no page scrolls sideways.
+another machine, and on a phone's screen no page scrolls sideways. The API reference has every public header, and a
+public class without its comment fails the build.
 """
 
 import functools
+import html
 import html.parser
 import http.server
 import pathlib
 import posixpath
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -116,6 +120,43 @@ class SiteTest(unittest.TestCase):
                 elif anchor and file in self.pages and anchor not in self.pages[file].anchors:
                     dead.append(f"{page}: {link}: no such anchor")
         self.assertEqual(dead, [], "\n" + "\n".join(dead))
+
+    def test_every_public_header_is_in_the_reference(self):
+        text = "".join(page.read_text() for page in self.site.glob("docs/api/*.html"))
+        text = html.unescape(re.sub(r"<[^>]+>", "", text))
+        headers = [header.relative_to(ROOT / library / "include").as_posix() for library in ("control", "hal")
+                   for header in (ROOT / library / "include").rglob("*.hpp")]
+        self.assertGreater(len(headers), 60)
+        self.assertEqual([header for header in headers if f'#include "{header}"' not in text], [])
+
+    def test_the_reference_shows_signatures_units_and_errors(self):
+        page = html.unescape(re.sub(r"<[^>]+>", "", (self.site / "docs/api/tracking.html").read_text()))
+        for text in ("Controller(const ControllerSettings &settings, double step_s);",
+                     "supported; step_s > 0 in seconds.", "template <class Scalar>\nclass Pi",
+                     "double proportional_W_per_m = 2000.0"):
+            self.assertIn(text, page)
+        self.assertNotIn("OscillationDetector::Band", page, "private")
+
+    def test_an_undocumented_class_or_function_fails_the_build(self):
+        for code, said in (("struct Bare { double value_m; };", "Bare is not documented"),
+                           ("double bare(double value_m);", "bare(double value_m)"),
+                           ("/// A length.\nstruct Bare { void set(double value_m); };", "set(double value_m)"),
+                           ("/// \\param none There is none.\ndouble bare(double value_m);", "none")):
+            with self.subTest(code), tempfile.TemporaryDirectory() as folder:
+                for part in ("toolchain/docs", "toolchain/docs.d/Doxyfile"):
+                    pathlib.Path(folder, part).parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy2(ROOT / part, pathlib.Path(folder, part))
+                setup = pathlib.Path(folder, "toolchain/setup")
+                setup.write_text("#!/bin/sh\n")
+                setup.chmod(0o755)
+                for library in ("control", "hal"):
+                    include = pathlib.Path(folder, library, "include", "supercoil", library)
+                    include.mkdir(parents=True)
+                (include / "bare.hpp").write_text(f"// A header.\n#pragma once\n\nnamespace supercoil {{\n{code}\n}}\n")
+                built = subprocess.run([pathlib.Path(folder, "toolchain/docs")], capture_output=True, text=True)
+                self.assertEqual(built.returncode, 1)
+                self.assertIn("the API reference has gaps", built.stderr)
+                self.assertIn(said, built.stderr)
 
     def test_nothing_is_asked_of_another_machine(self):
         for page in ("", "docs/paper.html", "docs/safety.html"):

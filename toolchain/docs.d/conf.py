@@ -15,7 +15,7 @@ html_title = f"supercoil {release}"
 
 extensions = ["myst_parser", "site_parts"]
 root_doc = "README"
-include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/faults/*.md"]
+include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/api/*.md", "docs/faults/*.md"]
 exclude_patterns = sorted(entry.name for entry in ROOT.iterdir() if entry.is_dir() and entry.name != "docs")
 
 # Links, headings' anchors and formulas are a Git host's.

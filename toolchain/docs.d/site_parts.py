@@ -7,12 +7,15 @@ import re
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml  # no documented interface: docutils is pinned
 from pygments.lexers.special import TextLexer
+from reference import Reference, headers
 from sphinx.util.docutils import SphinxDirective
 
 INDEX = "docs/README"
 FAULTS = "docs/faults/README"
 PAGE_OR_GROUP = re.compile(r"^(?:## (?P<group>.+)|- \[(?P<name>[^\]]+)\]\((?P<page>[^)#]+)\.md\).*)$", re.M)
 FILE_NAME = re.compile(r"\[(?:docs/)?([\w-]+)\.md\]\((?P<path>(?:[\w./-]*/)?\1)\.md")
+API = "docs/api/README"
+API_PAGE = re.compile(r"^- \[(\w+)\]\(\1\.md\)", re.M)
 FAULT = re.compile(r"^\| *\d+ *\| \[(\w+)\]", re.M)
 
 
@@ -46,6 +49,12 @@ def adapt(app, page, source):
     if page == app.config.root_doc:
         source[0] += toctree("", [("All pages", INDEX)])
         source[0] += "".join(toctree(group, pages) for group, pages in groups(index))
+    elif page == API:
+        source[0] += toctree("", [(name, f"docs/api/{name}") for name in API_PAGE.findall(source[0])])
+    elif posixpath.dirname(page) == posixpath.dirname(API):
+        reference = Reference(app.config.doxygen)
+        listed = headers(pathlib.Path(app.srcdir), posixpath.basename(page))
+        source[0] += "\n" + "".join(map(reference.section, listed))
     elif page == FAULTS:
         source[0] += toctree("", [(name, f"docs/faults/{name}") for name in FAULT.findall(source[0])])
 
@@ -75,6 +84,7 @@ def math(as_block):
 
 
 def setup(app):
+    app.add_config_value("doxygen", "", "env")  # the folder of its XML
     app.connect("source-read", adapt)
     app.connect("html-page-context", add_diagrams)
     app.add_directive("mermaid", Mermaid)

@@ -10,7 +10,7 @@ namespace supercoil::host_sim::campaign {
 namespace {
 
 /// More points would only make the file larger.
-constexpr std::size_t max_points = 1000;
+constexpr std::size_t max_points = 250;
 
 struct Point {
   std::size_t run;
@@ -117,8 +117,8 @@ Panel scatter(const Study& study, const Draws& draws, const std::vector<Contende
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::vector<Point> points = finite_values(outcomes, i, number);
     Curve curve{label_of(study, i), {}, {}, false, static_cast<int>(i), {}};
-    const std::size_t every = points.size() / max_points + 1;
-    for (std::size_t k = 0; k < points.size(); k += every) {
+    // The first of them, which are spread as evenly as all; each n-th may not be.
+    for (std::size_t k = 0; k < std::min(points.size(), max_points); ++k) {
       curve.x.push_back(draws.of_run(points[k].run)[draw]);
       curve.y.push_back(axis.scale * points[k].value);
     }

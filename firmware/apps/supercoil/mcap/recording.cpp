@@ -85,8 +85,7 @@ Written from_recording(const recorder::Recording& recording, const WritePart& wr
       const ordered_json fault{{"channel", number}, {"fault", recorder::fault_name(row.fault)}};
       if (auto done = writer.add_message(faults, time_ns, fault.dump()); !done) return done;
     }
-    const auto done =
-        writer.add_message(channels[number], time_ns, row_json(row, recording.time_s(row)));
+    auto done = writer.add_message(channels[number], time_ns, row_json(row, recording.time_s(row)));
     if (!done) return done;
   }
   return writer.finish();

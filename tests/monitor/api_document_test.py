@@ -1,0 +1,106 @@
+"""docs/monitor-api.json is OpenAPI, has every path that the monitor serves and no other, and says what it answers.
+
+Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
+"""
+
+import contextlib
+import http.client
+import json
+import pathlib
+import re
+import unittest
+
+import jsonschema
+from openapi_spec_validator import validate
+from programs import OnSimulatedBoard, SLACK_S, monitor, until
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DOCUMENT = json.loads((ROOT / "docs" / "monitor-api.json").read_text())
+SOURCES = ROOT / "firmware" / "apps" / "supercoil"
+# server.Get("/api/about" and server.Get(R"(/api/tuning/(\d+))"
+SERVED = re.compile(r'server\.(Get|Post)\((?:R"\((/api/.*?)\)"|"(/api/[^"]*)"),')
+
+
+def served():
+    """(method, path) of the sources, a group of a path as {}."""
+    found = {("post", "/stop")}  # has a listener of its own
+    for source in SOURCES.rglob("*.cpp"):
+        for method, pattern, path in SERVED.findall(source.read_text()):
+            found.add((method.lower(), re.sub(r"\([^()]*\)", "{}", pattern) or path))
+    return found
+
+
+def documented():
+    return {(method, re.sub(r"\{\w+\}", "{}", path)) for path, item in DOCUMENT["paths"].items()
+            for method in item if method in ("get", "post")}
+
+
+class Document(unittest.TestCase):
+    def test_it_is_openapi(self):
+        validate(DOCUMENT)
+
+    def test_it_has_what_is_served(self):
+        self.assertGreater(len(served()), 10)
+        self.assertEqual(documented(), served())
+
+
+class Answers(OnSimulatedBoard):
+    def setUp(self):
+        program = monitor(self.source)
+        self.addCleanup(program.stop)
+        self.port = int(program.found[1].rstrip("/").split(":")[-1])
+        self.token = program.found[2].removeprefix("#token=")
+        until(lambda: "1" in self.ask("get", "/api/history")[1]["nodes"])
+
+    def ask(self, method, path, body=None, port=None, **headers):
+        with contextlib.closing(http.client.HTTPConnection("127.0.0.1", port or self.port, timeout=SLACK_S)) as connection:
+            connection.request(method.upper(), path, None if body is None else json.dumps(body), headers)
+            answer = connection.getresponse()
+            text = answer.read().decode()
+            return answer.status, json.loads(text) if "json" in answer.headers.get("Content-Type", "") else text
+
+    def check(self, method, path, expected, asked=None, **options):
+        """Its status is one that the document has, and its body of the schema there. asked: path with values."""
+        status, said = self.ask(method, asked or path, **options)
+        self.assertEqual(status, expected, said)
+        answers = DOCUMENT["paths"][path][method]["responses"]
+        self.assertIn(str(status), answers)
+        answer = answers[str(status)]
+        if "$ref" in answer:
+            answer = DOCUMENT["components"]["responses"][answer["$ref"].rsplit("/", 1)[1]]
+        (media, content), = answer["content"].items()
+        if media == "application/json":
+            # References are to the document's own parts.
+            jsonschema.validate(said, {**content["schema"], "components": DOCUMENT["components"]})
+        return said
+
+    def test_what_is_looked_at(self):
+        about = self.check("get", "/api/about", 200)
+        self.assertEqual(str(about["protocol_version"]), DOCUMENT["info"]["version"])
+        self.check("get", "/api/history", 200, "/api/history?from_s=-1")
+        self.check("get", "/api/history", 400, "/api/history?from_s=x")
+        self.check("get", "/api/history", 403, Host="example.org")
+        self.check("get", "/api/fault/{name}", 200, "/api/fault/over_temperature")
+        self.check("get", "/api/fault/{name}", 404, "/api/fault/none_such")
+        for path in ("/api/kinds/{node}", "/api/muscle/{node}"):
+            self.check("get", path, 200, path.format(node=1))
+            self.check("get", path, 504, path.format(node=9))
+            self.check("get", path, 400, path.format(node=64))
+
+    def test_what_is_commanded(self):
+        bearer = {"Authorization": f"Bearer {self.token}"}
+        node = {"node": 1}
+        self.check("post", "/api/command", 200, body={**node, "opcode": "disarm"}, **bearer)
+        self.check("post", "/api/command", 400, body={**node, "opcode": "fly"}, **bearer)
+        self.check("post", "/api/command", 403, body={**node, "opcode": "disarm"})
+        self.check("post", "/api/alive", 200, body=node, **bearer)
+        self.check("post", "/api/alive", 400, body={"node": 0}, **bearer)
+        self.check("post", "/api/tuning", 200, body={**node, "place": 0, "from": "in_use"}, **bearer)
+        self.check("post", "/api/tuning", 400, body={**node, "place": 5, "from": "in_use"}, **bearer)
+        port = self.ask("get", "/api/about")[1]["stop_port"]
+        self.check("post", "/stop", 200, port=port)
+        self.check("post", "/stop", 403, port=port, Origin="http://example.org")
+
+
+if __name__ == "__main__":
+    unittest.main()

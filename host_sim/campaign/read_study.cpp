@@ -157,20 +157,28 @@ std::vector<Goal> read_goals(Section section) {
   return goals;
 }
 
+/// A scenario of a file of its own, with what is wrong with that file.
+toml::table read_scenario_file(const std::string& path, std::vector<config::Problem>& problems) {
+  Diagnostics diagnostics(path);
+  toml::table scenario = config::parse(config::read_text(path, diagnostics), diagnostics);
+  problems = diagnostics.problems();
+  return scenario;
+}
+
 /// The scenario, and what the study lays over it.
 toml::table read_base(Section& study, const std::filesystem::path& beside,
-                      const toml::table& document, Diagnostics& diagnostics) {
+                      const toml::table& document, std::vector<config::Problem>& problems) {
   const std::string name = study.text("scenario", "sine");
-  std::string text;
+  toml::table base;
   if (const auto builtin = builtin_scenario(name)) {
-    text = *builtin;
+    Diagnostics none(name);
+    base = config::parse(std::string(*builtin), none);
   } else if (name.find_first_of("./") == std::string::npos) {
     const auto names = names_of(builtin_scenarios());
     study.wrong("scenario", "is no built-in scenario; " + meant_or_all(name, names, "they are"));
   } else {
-    text = config::read_text((beside / name).string(), diagnostics);
+    base = read_scenario_file((beside / name).string(), problems);
   }
-  toml::table base = config::parse(text, diagnostics);
   if (const toml::table* changes = document.get_as<toml::table>("scenario"))
     apply_changes(base, toml::table(*changes));
   return base;
@@ -252,14 +260,19 @@ tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& 
   Section head = top.section("study");
   read_head(head, study);
   if (runs > 0) study.runs = runs;
-  study.scenario = read_base(head, beside, document, diagnostics);
+  std::vector<config::Problem> of_scenario;
+  study.scenario = read_base(head, beside, document, of_scenario);
+  if (document.contains("scenario") && !document.get("scenario")->is_table())
+    top.wrong("scenario", "must be tables: [scenario.plant] and so on; its name is study.scenario");
   read_window(head, study);
   study.contenders = read_contenders(head, beside);
   head.finish();
   study.draws = read_draws(top);
   study.goals = read_goals(top.section("goals"));
   top.finish();
-  if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
+  of_scenario.insert(of_scenario.end(), diagnostics.problems().begin(),
+                     diagnostics.problems().end());
+  if (!of_scenario.empty()) return tl::unexpected(of_scenario);
   forget_how_far(document);
   study.definition = definition_of(document, study);
   return study;

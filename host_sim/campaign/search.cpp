@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -39,7 +41,9 @@ class Search {
     nlopt_set_stopval(optimiser_, worst_possible);
     std::vector<double> point(dimensions, 0.5);
     double found = 0.0;
-    nlopt_optimize(optimiser_, point.data(), &found);
+    const nlopt_result result = nlopt_optimize(optimiser_, point.data(), &found);
+    if (result < 0 && result != NLOPT_FORCED_STOP && result != NLOPT_ROUNDOFF_LIMITED)
+      throw std::runtime_error(std::string("NLopt: ") + nlopt_result_to_string(result));
     return worst_;
   }
 

@@ -24,7 +24,7 @@ struct Worst {
 /// draws, for the run of this contender that misses its goals by most, with one run's sensor noise.
 /// Ends after so many runs, or when nothing can be worse. The study's seed decides where it begins:
 /// the same study gives the same result. ran: called after each run, on the calling thread; true
-/// ends it.
+/// ends it. Throws std::runtime_error where NLopt fails.
 Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
              const std::atomic<bool>& stop, const std::function<bool()>& ran);
 

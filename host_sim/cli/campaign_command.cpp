@@ -113,6 +113,8 @@ int campaign_command(const CampaignOptions& given) {
     return exit_wrong_input;
   }
   if (options.slurm > 0) return submit_campaign(*study, options);
+  if (options.search > 0 && study->draws.empty())
+    return fail(exit_wrong_input, given.study + ": has no [[draw]]: nothing to search over");
   if (options.search > 0) return search_campaign(*study, draws, options);
   if (!options.merge.empty()) return merge_campaign(*study, draws, options);
 

@@ -236,6 +236,16 @@ class Campaign(unittest.TestCase):
         self.assertIn("did you mean stiffness_N_per_m?", said)
         self.assertFalse((self.path / "none").exists())
 
+    def test_a_scenarios_file_is_named_where_it_is_wrong(self):
+        (self.path / "base.toml").write_text("[plant]\nstiffness_N_per_m = = 3\n")
+        (self.path / "brief.toml").write_text(STUDY.replace('"pwm"', '"base.toml"'))
+        self.assertIn("base.toml:2: is not valid TOML", self.campaign("--out", "none", status=2).stderr)
+
+    def test_without_draws_there_is_nothing_to_search(self):
+        (self.path / "brief.toml").write_text(STUDY.split("[[draw]]")[0])
+        said = self.campaign("--search", 5, "--out", "none", status=2).stderr
+        self.assertIn("has no [[draw]]: nothing to search over", said)
+
     def test_it_says_what_there_is(self):
         said = self.campaign("--list", study=None).stdout
         for name in ("follows", "identify", "temperature", "hottest_C", "steady_rms_m"):

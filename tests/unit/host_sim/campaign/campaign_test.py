@@ -195,7 +195,7 @@ class Campaign(unittest.TestCase):
         by_chance = {name: max(float(row["tracking_rms_m"]) for row in self.rows("whole")
                                if row["contender"] == name and not row["refused"]) for name in ("pi", "pd_ff")}
         for out, jobs in (("one", 1), ("two", 2)):
-            self.campaign("--search", 150, "--out", out, "--jobs", jobs)
+            self.campaign("--search", 70, "--out", out, "--jobs", jobs)
         self.assertEqual(self.files("one"), self.files("two"))
         self.assertEqual(sorted(self.files("one")), ["search-pd_ff.toml", "search-pi.toml", "search.md"])
         for name, chance in by_chance.items():

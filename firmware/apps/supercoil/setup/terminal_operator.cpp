@@ -21,7 +21,6 @@ void TerminalOperator::say(const std::string& line) {
 
 void TerminalOperator::show_progress(const std::string& what, double done) {
   if (!progress_ || progress_of_ != what) {
-    progress_.reset();
     progress_.emplace(what, false);
     progress_of_ = what;
   }

@@ -39,6 +39,11 @@ class Document(unittest.TestCase):
     def test_it_is_openapi(self):
         validate(DOCUMENT)
 
+    def test_it_has_every_command(self):
+        names = re.search(r"verb_names\{(.*?)\};", (ROOT / "firmware/core/loop/command.hpp").read_text(), re.S).group(1)
+        body = DOCUMENT["paths"]["/api/command"]["post"]["requestBody"]["content"]["application/json"]["schema"]
+        self.assertEqual(["none", *body["properties"]["opcode"]["enum"]], re.findall(r'"(\w+)"', names))
+
     def test_it_has_what_is_served(self):
         self.assertGreater(len(served()), 10)
         self.assertEqual(documented(), served())

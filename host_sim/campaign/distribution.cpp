@@ -42,7 +42,9 @@ double Distribution::at(double probability) const {
     case Kind::normal:
       return cut_normal(*this, probability);
     case Kind::list:
-      return std::floor(probability * static_cast<double>(values));
+      // A correlated probability may round to 1.
+      return std::min(std::floor(probability * static_cast<double>(values)),
+                      static_cast<double>(values) - 1.0);
     case Kind::constant:
       break;
   }

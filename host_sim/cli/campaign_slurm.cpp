@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -11,7 +12,9 @@ namespace supercoil::host_sim {
 
 int submit_campaign(const campaign::Study& study, const CampaignOptions& options) {
   namespace fs = std::filesystem;
-  const bool builtin = !fs::exists(options.study);
+  // As read_study() takes it: a built-in name before a file.
+  const auto names = names_of(campaign::builtin_studies());
+  const bool builtin = std::ranges::find(names, options.study) != names.end();
   const campaign::Jobs jobs{fs::read_symlink("/proc/self/exe"),
                             builtin ? options.study : fs::absolute(options.study).string(),
                             study.runs, options.slurm};

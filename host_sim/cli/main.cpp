@@ -154,7 +154,8 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
           ->add_option("--slurm", options.slurm,
                        "Write scripts for so many jobs of a Slurm cluster, and submit them")
           ->check(CLI::Range(1, max_parts))
-          ->excludes(shard);
+          ->excludes(shard)
+          ->excludes(merge);
   campaign->add_flag("!--no-submit", options.submit, "Only write them")->needs(slurm);
   constexpr std::int64_t max_search = 1'000'000;
   campaign

@@ -129,11 +129,14 @@ class Live(OnSimulatedBoard):
         served = self.serve()
         order = json.dumps({"node": 1, "opcode": "arm"})
         bearer = {"Authorization": f"Bearer {served.token}"}
-        # Whoever is on this machine may stop it, as from the page.
+        # Whoever is on this machine may stop it, but no page of another server.
+        for browser in ({"Origin": "null"}, {"Sec-Fetch-Site": "cross-site"}):
+            self.assertEqual(served.ask("POST", "/stop", "", served.stop_port(), **browser)[0], 403, browser)
         self.assertEqual(served.ask("POST", "/stop", "", served.stop_port())[0], 200)
         until(lambda: served.state()[0] == "disarmed")
         for wrong in ({}, {"Authorization": "Bearer " + "0" * 32}, {"Authorization": served.token},
                       {"X-Supercoil-Token": "0" * 32}, {**bearer, "Origin": "http://example.org"}, {**bearer, "Origin": "null"},
+                      {**bearer, "Sec-Fetch-Site": "cross-site"},
                       {**bearer, "Host": "example.org"}):
             self.assertEqual(served.ask("POST", "/api/command", order, **wrong)[0], 403, wrong)
         # In an address it is in logs and histories: good for looking only.

@@ -29,6 +29,12 @@ bool names_us(const Access& access, const std::string& host_and_port, int port) 
   return access.host == "0.0.0.0";
 }
 
+/// Browsers name the page that sends a request, or at least what it is to this server, and let no
+/// page of another server set the token's headers.
+bool is_from_no_browser(const httplib::Request& request) {
+  return !request.has_header("Origin") && !request.has_header("Sec-Fetch-Site");
+}
+
 }  // namespace
 
 void bind_exclusively(httplib::Server& server) {
@@ -109,8 +115,7 @@ std::string refuse_to_show(const Access& access, const httplib::Request& request
 std::string refuse_to_command(const Access& access, const httplib::Request& request) {
   if (access.read_only) return "this monitor is read-only";
   if (!is_own_host(access, request, access.port)) return "asked for under another host's name";
-  // Browsers name the page that sends a command, and let no other page set these headers.
-  if (!request.has_header("Origin")) {
+  if (is_from_no_browser(request)) {
     return has_token_header(access, request)
                ? ""
                : "needs the token that was printed, as header Authorization: Bearer TOKEN";
@@ -123,7 +128,7 @@ std::string refuse_to_command(const Access& access, const httplib::Request& requ
 std::string refuse_to_stop(const Access& access, const httplib::Request& request, int port) {
   if (access.read_only) return "this monitor is read-only";
   if (!is_own_host(access, request, port)) return "asked for under another host's name";
-  if (request.has_header("Origin") && !is_same_origin(access, request))
+  if (!is_from_no_browser(request) && !is_same_origin(access, request))
     return "does not come from this monitor's page";
   if (!access.loopback && !same(access.token, request.body) && !has_token_header(access, request))
     return "needs the token that was printed";

@@ -1,9 +1,7 @@
 // A candump log as CSV.
 #pragma once
 
-#include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <tl/expected.hpp>
@@ -11,6 +9,7 @@
 #include "supercoil/hal/can_bus.hpp"
 
 #include "can/codec.hpp"
+#include "recorder/recording.hpp"
 
 namespace supercoil::operating {
 
@@ -24,14 +23,12 @@ struct CanSelection {
 
 bool is_wanted(const CanSelection& selection, const can::Decoded& decoded, double time_s);
 
-using WritePart = std::function<tl::expected<void, std::string>(std::string_view)>;
-
 /// Of all messages: a row for each value, "time_s,node,message,signal,value,unit"; what is not
 /// available has none. Of one message: a row a frame, a column a signal; what is not available is
 /// empty. Values with names are written by name. The message must be one of the protocol's. Returns
 /// how many rows it wrote; the error is the writer's.
 tl::expected<std::size_t, std::string> can_to_csv(const std::vector<hal::CanFrame>& frames,
                                                   const CanSelection& selection,
-                                                  const WritePart& write);
+                                                  const recorder::Sink& write);
 
 }  // namespace supercoil::operating

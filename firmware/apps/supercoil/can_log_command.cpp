@@ -5,7 +5,6 @@
 #include "apps/supercoil/bus/log_file.hpp"
 #include "apps/supercoil/can_csv.hpp"
 #include "apps/supercoil/commands.hpp"
-#include "apps/supercoil/log_output.hpp"
 #include "apps/supercoil/mcap/export.hpp"
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
@@ -48,8 +47,9 @@ int can_log_command(const LogOptions& options) {
   }
   const CanSelection selection{options.from_s, options.to_s, options.node, options.message};
   const auto write_all = options.mcap ? mcap::from_can_log : can_to_csv;
-  return write_output(options.out, options.file + ": has no such frames of that time and node",
-                      [&](const Sink& sink) { return write_all(log->frames, selection, sink); });
+  return write_output(
+      options.out, options.file + ": has no such frames of that time and node",
+      [&](const recorder::Sink& sink) { return write_all(log->frames, selection, sink); });
 }
 
 }  // namespace supercoil::operating

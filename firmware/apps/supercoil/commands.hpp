@@ -1,12 +1,17 @@
 // The commands of supercoil. Each returns the program's exit status.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <tl/expected.hpp>
+
 #include "apps/common/exit_status.hpp"
+#include "recorder/recording.hpp"
 
 namespace supercoil::operating {
 
@@ -33,6 +38,11 @@ struct LogOptions {
 int log_command(const LogOptions& options);
 bool is_can_log(const std::string& path);
 int can_log_command(const LogOptions& options);
+/// Writes it all to the sink, and says how much there was of whatever it counts.
+using Produce = std::function<tl::expected<std::size_t, std::string>(const recorder::Sink&)>;
+/// Into a file, or with an empty path to standard output. Where there was nothing no file is left,
+/// and that is said.
+int write_output(const std::string& path, const std::string& nothing, const Produce& produce);
 
 struct CommandOptions {
   std::string can;  ///< a bus; empty: the board on which this runs

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "apps/supercoil/commands.hpp"
-#include "apps/supercoil/log_output.hpp"
 #include "apps/supercoil/mcap/export.hpp"
+#include "apps/supercoil/output_file.hpp"
 #include "apps/supercoil/summary.hpp"
 #include "recorder/recording.hpp"
 #include "storage/posix_files.hpp"
@@ -39,10 +39,21 @@ int say(const std::string& text, storage::Files& files) {
   return written ? exit_done : fail(exit_failed, written.error().text);
 }
 
+int into_standard_output(const std::string& nothing, const Produce& produce) {
+  storage::PosixFiles files;
+  const auto count = produce([&](std::string_view part) -> tl::expected<void, std::string> {
+    const auto written = files.write({STDOUT_FILENO, "standard output"}, part);
+    if (!written) return tl::unexpected(written.error().text);
+    return {};
+  });
+  if (!count) return fail(exit_failed, count.error());
+  return *count > 0 ? exit_done : fail(exit_wrong_input, nothing);
+}
+
 /// The rows, as CSV or MCAP.
 int write_rows(const recorder::Recording& recording, const LogOptions& options) {
   return write_output(options.out, options.file + ": has no rows of that time and channel",
-                      [&](const Sink& sink) -> tl::expected<std::size_t, std::string> {
+                      [&](const recorder::Sink& sink) -> tl::expected<std::size_t, std::string> {
                         const std::size_t rows = recording.rows.size();
                         if (rows == 0) return 0;
                         const auto written = options.mcap ? mcap::from_recording(recording, sink)
@@ -66,6 +77,18 @@ std::string wrong_choice(const LogOptions& o, const recorder::Recording& recordi
 }
 
 }  // namespace
+
+int write_output(const std::string& path, const std::string& nothing, const Produce& produce) {
+  if (path.empty()) return into_standard_output(nothing, produce);
+  storage::PosixFiles files;
+  auto file = OutputFile::open(path, files);
+  if (!file) return fail(exit_wrong_input, file.error());
+  const auto count = produce([&](std::string_view part) { return file->write(part); });
+  if (!count) return fail(exit_failed, count.error());
+  if (*count == 0) return fail(exit_wrong_input, nothing);
+  const auto kept = file->commit();
+  return kept ? exit_done : fail(exit_failed, kept.error());
+}
 
 int log_command(const LogOptions& options) {
   if (options.mcap && options.out.empty() && isatty(STDOUT_FILENO) == 1)

@@ -33,7 +33,7 @@ ordered_json value_json(const SignalInfo& signal, double value) {
 
 tl::expected<std::size_t, std::string> from_can_log(const std::vector<hal::CanFrame>& frames,
                                                     const CanSelection& selection,
-                                                    const WritePart& write) {
+                                                    const recorder::Sink& write) {
   Writer writer(write);
   std::map<std::string, std::uint16_t> channels;
   std::size_t messages = 0;

@@ -13,12 +13,12 @@ namespace supercoil::operating::mcap {
 /// Topics /channel_1 to /channel_16 have the rows' quantities and time_s, relative to the fault;
 /// /faults each fault that latched or was reset. Times are the board's clock. Metadata "recording":
 /// what the header says.
-Written from_recording(const recorder::Recording& recording, const WritePart& write);
+Written from_recording(const recorder::Recording& recording, const recorder::Sink& write);
 
 /// Topic /node_1/Status and so on for each message of each node; times are the log's. Returns how
 /// many messages it wrote.
 tl::expected<std::size_t, std::string> from_can_log(const std::vector<hal::CanFrame>& frames,
                                                     const CanSelection& selection,
-                                                    const WritePart& write);
+                                                    const recorder::Sink& write);
 
 }  // namespace supercoil::operating::mcap

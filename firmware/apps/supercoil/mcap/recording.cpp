@@ -64,7 +64,7 @@ Entries header_entries(const recorder::Header& header) {
 
 }  // namespace
 
-Written from_recording(const recorder::Recording& recording, const WritePart& write) {
+Written from_recording(const recorder::Recording& recording, const recorder::Sink& write) {
   Writer writer(write);
   writer.add_metadata("recording", header_entries(recording.header));
   const auto faults =

@@ -42,7 +42,7 @@ void put_entries(std::string& out, const Entries& entries) {
 
 }  // namespace
 
-Writer::Writer(WritePart write) : write_(std::move(write)), part_(magic) {
+Writer::Writer(recorder::Sink write) : write_(std::move(write)), part_(magic) {
   std::string content;
   put_text(content, "");
   put_text(content, "supercoil " + std::string(program_version()));

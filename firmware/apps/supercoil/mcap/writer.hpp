@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,17 +12,17 @@
 #include <nlohmann/json.hpp>
 #include <tl/expected.hpp>
 
+#include "recorder/recording.hpp"
+
 namespace supercoil::operating::mcap {
 
-/// Takes a part of the file; the error says why it could not be written.
-using WritePart = std::function<tl::expected<void, std::string>(std::string_view)>;
 using Written = tl::expected<void, std::string>;
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 class Writer {
  public:
   /// Begins the file. write is called with pieces of some 64 KiB.
-  explicit Writer(WritePart write);
+  explicit Writer(recorder::Sink write);
 
   /// A channel of JSON objects; properties: of its JSON schema. Returns its number.
   std::uint16_t add_channel(std::string_view topic, std::string_view schema_name,
@@ -38,7 +37,7 @@ class Writer {
   void add_record(std::uint8_t opcode, std::string_view content);
   Written flush();
 
-  WritePart write_;
+  recorder::Sink write_;
   Written written_;
   std::string part_;
   std::vector<std::uint32_t> messages_;  ///< of each channel

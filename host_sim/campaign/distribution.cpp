@@ -18,6 +18,12 @@ double normal_probability(double quantile) {
 namespace {
 
 double cut_normal(const Distribution& d, double probability) {
+  // A probability near 1 has fewer digits than one near 0: the upper tail is drawn as the lower
+  // one.
+  if (d.min > d.first) {
+    const Distribution mirrored{d.kind, -d.first, d.second, -d.max, -d.min, 0};
+    return -cut_normal(mirrored, 1.0 - probability);
+  }
   const auto below = [&](double value) {
     return std::isfinite(value) ? normal_probability((value - d.first) / d.second)
                                 : (value > 0.0 ? 1.0 : 0.0);
@@ -38,7 +44,7 @@ double Distribution::at(double probability) const {
     case Kind::uniform:
       return first + probability * (second - first);
     case Kind::log_uniform:
-      return first * std::pow(second / first, probability);
+      return std::exp(std::lerp(std::log(first), std::log(second), probability));
     case Kind::normal:
       return cut_normal(*this, probability);
     case Kind::list:

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "compare/kept_lines.hpp"
+#include "batch/kept_lines.hpp"
 #include "config/toml_file.hpp"
 
 namespace supercoil::host_sim::campaign {
@@ -39,7 +39,7 @@ std::optional<Step> take_step(std::string_view& key) {
   if (bracket == std::string_view::npos) return Step{std::string(step), std::nullopt};
   std::size_t index = 0;
   const std::string_view digits = step.substr(bracket + 1);
-  if (!digits.ends_with(']') || !compare::read(digits.substr(0, digits.size() - 1), index))
+  if (!digits.ends_with(']') || !batch::read(digits.substr(0, digits.size() - 1), index))
     return std::nullopt;
   return Step{std::string(step.substr(0, bracket)), index};
 }
@@ -165,7 +165,9 @@ tl::expected<toml::table, std::string> Draws::document(const std::vector<double>
     const Draw& draw = study_->draws[i];
     bool right = true;
     if (draw.distribution.kind == Distribution::Kind::list) {
-      right = set_all(document, draw, draw.values[static_cast<std::size_t>(drawn[i])]);
+      const toml::node& value = draw.values[static_cast<std::size_t>(drawn[i])];
+      if (const auto number = value.value<double>()) known.add(draw.name, *number);
+      right = set_all(document, draw, value);
     } else {
       const auto value = final_value(draw, drawn[i], known);
       if (!value) {
@@ -192,10 +194,10 @@ ScenarioOrProblems Draws::scenario(const std::vector<double>& drawn, std::size_t
 }
 
 std::string text_of(const Draw& draw, double drawn) {
-  if (draw.distribution.kind != Distribution::Kind::list) return compare::number(drawn);
+  if (draw.distribution.kind != Distribution::Kind::list) return batch::number(drawn);
   const toml::node& value = draw.values[static_cast<std::size_t>(drawn)];
   if (const auto text = value.value_exact<std::string>()) return *text;
-  if (const auto floating = value.value_exact<double>()) return compare::number(*floating);
+  if (const auto floating = value.value_exact<double>()) return batch::number(*floating);
   std::ostringstream text;
   text << toml::node_view<const toml::node>(&value);
   return text.str();

@@ -9,12 +9,12 @@ namespace supercoil::host_sim::campaign {
 
 namespace {
 
-/// Two and a bit digits, as a reader wants them.
+/// Three digits, as a reader wants them.
 std::string brief(double value) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return "∞";
   std::array<char, 32> text{};
-  constexpr double of_four_digits = 1000.0;
+  constexpr double of_four_digits = 999.5;
   constexpr double of_eight_digits = 1e8;
   const bool whole = std::abs(value) >= of_four_digits && std::abs(value) < of_eight_digits;
   std::snprintf(text.data(), text.size(), whole ? "%.0f" : "%.3g", value);
@@ -23,6 +23,7 @@ std::string brief(double value) {
 
 /// A value of the goal's quantity, with its unit.
 std::string shown(const Goal& goal, double value) {
+  if (std::isnan(value)) return brief(value);
   const std::string_view name = quantity(goal.quantity).name;
   constexpr double um_per_m = 1e6;
   if (name.ends_with("_m")) return brief(um_per_m * value) + " µm";
@@ -42,7 +43,7 @@ std::string percent(const Rate& rate) {
 /// What the quantity follows most, with the sign of it: no more than three.
 std::string deciding(const Study& study, const GoalRow& row) {
   std::vector<std::size_t> order;
-  // Half as much again as what chance alone gives once in twenty.
+  // Chance alone gives this to less than 3 draws in 1000.
   const double least =
       3.0 / std::sqrt(static_cast<double>(std::max<std::int64_t>(1, row.failures.runs)));
   for (std::size_t i = 0; i < row.decides.size(); ++i) {

@@ -1,9 +1,10 @@
-#include "campaign/plot.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
+
+#include "campaign/tables.hpp"
 
 namespace supercoil::host_sim::campaign {
 
@@ -39,6 +40,16 @@ Axis axis_of(std::size_t number) {
   constexpr double um_per_m = 1e6;
   if (name.ends_with("_m")) return {name.substr(0, name.size() - 2) + " (µm)", um_per_m, true};
   return {name};
+}
+
+/// Of a list its places are drawn.
+std::string label_of(const Draw& draw) {
+  std::string label = draw.name;
+  for (std::size_t i = 0; i < draw.distribution.values; ++i) {
+    const std::string value = text_of(draw, static_cast<double>(i));
+    label += (i == 0 ? ": " : ", ") + std::to_string(i) + " is " + value;
+  }
+  return label;
 }
 
 std::string label_of(const Study& study, std::size_t contender) {
@@ -88,9 +99,9 @@ Panel distribution(const Study& study, const std::vector<ContenderRow>& table,
   return panel;
 }
 
-/// The draw that the goal's quantity follows most, whoever controls.
-std::size_t deciding(const std::vector<ContenderRow>& table, std::size_t goal) {
-  std::size_t draw = 0;
+/// The draw that the goal's quantity follows most, whoever controls; empty where it follows none.
+std::optional<std::size_t> deciding(const std::vector<ContenderRow>& table, std::size_t goal) {
+  std::optional<std::size_t> draw;
   double most = -1.0;
   for (const ContenderRow& row : table) {
     const auto& decides = row.goals[goal].decides;
@@ -104,26 +115,24 @@ std::size_t deciding(const std::vector<ContenderRow>& table, std::size_t goal) {
 }
 
 Panel scatter(const Study& study, const Draws& draws, const std::vector<ContenderRow>& table,
-              const Outcomes& outcomes, std::size_t goal) {
-  const std::size_t draw = deciding(table, goal);
+              const Outcomes& outcomes, std::size_t goal, std::size_t draw) {
   const std::size_t number = study.goals[goal].quantity;
   Panel panel;
   panel.title = "what it goes with most: " + study.draws[draw].name;
-  panel.x_label = study.draws[draw].name;
+  panel.x_label = label_of(study.draws[draw]);
   const Axis axis = axis_of(number);
   panel.y_label = axis.label;
   panel.x_logarithmic = study.draws[draw].distribution.kind == Distribution::Kind::log_uniform;
   bool above_0 = true;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const std::vector<Point> points = finite_values(outcomes, i, number);
-    Curve curve{label_of(study, i), {}, {}, false, static_cast<int>(i), {}};
+    Curve curve{label_of(study, i), {}, {}, false, static_cast<int>(i), {}, true};
     // The first of them, which are spread as evenly as all; each n-th may not be.
     for (std::size_t k = 0; k < std::min(points.size(), max_points); ++k) {
       curve.x.push_back(draws.of_run(points[k].run)[draw]);
       curve.y.push_back(axis.scale * points[k].value);
     }
     above_0 = above_0 && std::ranges::all_of(curve.y, [](double y) { return y > 0.0; });
-    curve.bars_to = curve.y;
     if (!points.empty()) panel.curves.push_back(std::move(curve));
   }
   panel.y_logarithmic = axis.logarithmic && above_0;
@@ -147,7 +156,8 @@ Figure figure_of(const Study& study, const Draws& draws, const Outcomes& outcome
   for (std::size_t goal = 0; goal < study.goals.size(); ++goal) {
     if (!varies(table, goal)) continue;
     figure.panels.push_back(distribution(study, table, outcomes, goal));
-    if (!study.draws.empty()) figure.panels.push_back(scatter(study, draws, table, outcomes, goal));
+    if (const auto draw = deciding(table, goal))
+      figure.panels.push_back(scatter(study, draws, table, outcomes, goal, *draw));
   }
   return figure;
 }

@@ -57,7 +57,11 @@ void read_normal(Section& section, Distribution& into) {
   into.min = section.number("min", into.min, {into.min, any.highest});
   into.max = section.number("max", into.max, {any.lowest, into.max});
   if (!(into.second > 0.0)) section.wrong("normal", "the standard deviation must be above 0");
-  if (!(into.min < into.max)) section.wrong("min", "must be below max");
+  if (!(into.min < into.max)) return section.wrong("min", "must be below max");
+  constexpr double low = 0.25;
+  constexpr double high = 0.75;
+  if (into.second > 0.0 && !(into.at(low) < into.at(high)))
+    section.wrong("min", "next to nothing of the distribution is between min and max");
 }
 
 toml::array read_list(Section& section, Distribution& into) {
@@ -226,8 +230,9 @@ void read_window(Section& section, Study& study) {
   if (!(window[0] < window[1])) section.wrong("window_s", "the second must be above the first");
 }
 
-/// runs and known_to say how far to go, and nothing of a run.
-void forget_how_far(toml::table& document) {
+/// How many runs there are and what is asked of them says nothing of a run.
+void keep_what_makes_a_run(toml::table& document) {
+  document.erase("goals");
   if (toml::table* study = document.get_as<toml::table>("study")) {
     study->erase("runs");
     study->erase("known_to");
@@ -273,7 +278,7 @@ tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& 
   of_scenario.insert(of_scenario.end(), diagnostics.problems().begin(),
                      diagnostics.problems().end());
   if (!of_scenario.empty()) return tl::unexpected(of_scenario);
-  forget_how_far(document);
+  keep_what_makes_a_run(document);
   study.definition = definition_of(document, study);
   return study;
 }

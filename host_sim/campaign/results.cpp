@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "compare/kept_lines.hpp"
+#include "batch/kept_lines.hpp"
 
 namespace supercoil::host_sim::campaign {
 
@@ -36,11 +36,20 @@ std::optional<Key> read_key(const std::vector<std::string_view>& fields, const S
   const auto contender = std::ranges::find(study.contenders, fields[1], &compare::Document::name);
   const bool one_lot = study.sampling == Sampling::latin_hypercube;
   const auto last = static_cast<std::uint64_t>(one_lot ? study.runs : max_runs);
-  if (!compare::read(fields[0], number) || contender == study.contenders.end()) return std::nullopt;
+  if (!batch::read(fields[0], number) || contender == study.contenders.end()) return std::nullopt;
   if (number < 1 || number > last) return std::nullopt;
   key.run = static_cast<std::size_t>(number) - 1;
   key.contender = static_cast<std::size_t>(contender - study.contenders.begin());
   return key;
+}
+
+/// For a field of a table.
+std::string without_commas(std::string text) {
+  for (char& c : text) {
+    if (c == ',') c = ';';
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return text;
 }
 
 double ratio(double value, double max) {
@@ -75,7 +84,7 @@ std::string Lines::begin_of(const Key& key) const {
 std::string Lines::line(const Key& key, const Outcome& outcome) const {
   std::string text = begin_of(key) + outcome.refused + "," + outcome.fault;
   for (const double value : outcome.values)
-    text += "," + compare::number(value);
+    text += "," + batch::number(value);
   return text + "\n";
 }
 
@@ -95,22 +104,33 @@ tl::expected<Lines::Read, std::string> Lines::read(const std::filesystem::path& 
     const auto damaged = [&](const std::string& why) {
       return tl::unexpected(where + "is damaged: " + why + ": " + std::string(text));
     };
-    const auto fields = compare::fields_of(text);
+    const auto fields = batch::fields_of(text);
     if (fields.size() != columns) return damaged("must be " + std::to_string(columns) + " fields");
     const auto key = read_key(fields, *study_);
     if (!key) return damaged("there is no such run");
     if (!text.starts_with(begin_of(*key))) return damaged("this run draws something else");
     Outcome outcome{std::string(fields[before]), std::string(fields[before + 1]), {}};
     for (std::size_t i = 0; i < quantity_count; ++i) {
-      if (!compare::read_number(fields[before + 2 + i], outcome.values[i]))
+      if (!batch::read_number(fields[before + 2 + i], outcome.values[i]))
         return damaged(std::string(quantity(i).name) + " must be a number");
     }
     return merge(read.outcomes, {{*key, std::move(outcome)}}, where);
   };
-  const auto torn = compare::read_lines(path, head(), take);
+  const auto torn = batch::read_lines(path, head(), take);
   if (!torn) return tl::unexpected(torn.error());
   read.torn = *torn;
   return read;
+}
+
+std::optional<Outcome> carry_out(const Study& study, const Draws& draws, const Key& key,
+                                 const std::atomic<bool>& stop) {
+  const auto scenario = draws.scenario(draws.of_run(key.run), key.contender, key.run);
+  if (scenario) return simulate(*scenario, study.window, stop);
+  Outcome refused;
+  const config::Problem& first = scenario.error().front();
+  refused.refused = without_commas((first.key.empty() ? "" : first.key + ": ") + first.message);
+  refused.values.fill(NAN);
+  return refused;
 }
 
 tl::expected<void, std::string> merge(Outcomes& into, const Outcomes& from,

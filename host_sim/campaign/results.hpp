@@ -1,10 +1,12 @@
 // The outcomes of a study, and the file that keeps them: runs.csv.
 #pragma once
 
+#include <atomic>
 #include <compare>
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -51,6 +53,11 @@ class Lines {
   const Study* study_;
   const Draws* draws_;
 };
+
+/// Carries a run out; empty when it was given up because of stop. The outcome depends on the study
+/// and the key alone.
+std::optional<Outcome> carry_out(const Study& study, const Draws& draws, const Key& key,
+                                 const std::atomic<bool>& stop);
 
 /// Adds what was read from a file to the outcomes. The error names a run for which both say
 /// something else.

@@ -1,5 +1,6 @@
 #include "campaign/sampler.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <random>
 #include <utility>
@@ -22,9 +23,11 @@ Generator generator(std::uint64_t seed, std::uint64_t stream, std::uint64_t numb
 
 /// Between 0 and 1, both excluded.
 double fraction(std::uint64_t bits) {
-  constexpr unsigned unused = 11;
-  return (static_cast<double>(bits >> unused) + 0.5) * 0x1p-53;
+  constexpr unsigned unused = 12;
+  return (static_cast<double>(bits >> unused) + 0.5) * 0x1p-52;
 }
+
+constexpr double below_1 = 1.0 - 0x1p-53;
 
 enum Stream : std::uint64_t { shifts = 1, order = 2, points = 3 };
 
@@ -56,7 +59,8 @@ std::vector<double> Sampler::point(std::size_t run) const {
   std::vector<double> point = random(run);
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto part = static_cast<double>(parts_[i][run]);
-    point[i] = (part + point[i]) / static_cast<double>(parts_[i].size());
+    // The last part's end may round to 1.
+    point[i] = std::min((part + point[i]) / static_cast<double>(parts_[i].size()), below_1);
   }
   return point;
 }

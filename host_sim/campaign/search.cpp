@@ -25,7 +25,7 @@ constexpr double nearest_end = 1e-9;
 class Search {
  public:
   Search(const Study& study, const Draws& draws, std::size_t contender,
-         const std::atomic<bool>& stop, const std::function<bool()>& ran)
+         const std::atomic<bool>& stop, const std::function<void()>& ran)
       : study_(&study), draws_(&draws), contender_(contender), stop_(&stop), ran_(&ran) {}
 
   Worst from(std::int64_t runs) {
@@ -65,7 +65,8 @@ class Search {
       }
     }
     ++worst_.runs;
-    if (*stop_ || (*ran_)()) nlopt_force_stop(optimiser_);
+    (*ran_)();
+    if (*stop_) nlopt_force_stop(optimiser_);
     return std::min(severity_of_run, worst_possible);
   }
 
@@ -73,7 +74,7 @@ class Search {
   const Draws* draws_;
   std::size_t contender_;
   const std::atomic<bool>* stop_;
-  const std::function<bool()>* ran_;
+  const std::function<void()>* ran_;
   nlopt_opt optimiser_ = nullptr;
   Worst worst_;
 };
@@ -81,7 +82,7 @@ class Search {
 }  // namespace
 
 Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
-             const std::atomic<bool>& stop, const std::function<bool()>& ran) {
+             const std::atomic<bool>& stop, const std::function<void()>& ran) {
   return Search(study, draws, contender, stop, ran).from(runs);
 }
 

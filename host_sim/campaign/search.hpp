@@ -23,9 +23,9 @@ struct Worst {
 /// Controlled random search with local mutation (Kaelo and Ali, 2006; NLopt's CRS2_LM) over all
 /// draws, for the run of this contender that misses its goals by most, with one run's sensor noise.
 /// Ends after so many runs, or when nothing can be worse. The study's seed decides where it begins:
-/// the same study gives the same result. ran: called after each run, on the calling thread; true
-/// ends it. Throws std::runtime_error where NLopt fails.
+/// the same study gives the same result. ran: called after each run, on the calling thread.
+/// Throws std::runtime_error where NLopt fails.
 Worst search(const Study& study, const Draws& draws, std::size_t contender, std::int64_t runs,
-             const std::atomic<bool>& stop, const std::function<bool()>& ran);
+             const std::atomic<bool>& stop, const std::function<void()>& ran);
 
 }  // namespace supercoil::host_sim::campaign

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "compare/kept_lines.hpp"
+#include "batch/kept_lines.hpp"
 
 namespace supercoil::host_sim::campaign {
 
@@ -95,17 +95,17 @@ std::string to_csv(const std::vector<ContenderRow>& table) {
   const auto line = [&](const ContenderRow& row, const std::string& name, const std::string& max,
                         const Rate& rate, const std::string& rest) {
     text += row.name + "," + name + "," + max + "," + std::to_string(rate.runs) + "," +
-            std::to_string(rate.failures) + "," + compare::number(rate.rate()) + "," +
-            compare::number(rate.low) + "," + compare::number(rate.high) + rest + "\n";
+            std::to_string(rate.failures) + "," + batch::number(rate.rate()) + "," +
+            batch::number(rate.low) + "," + batch::number(rate.high) + rest + "\n";
   };
   for (const ContenderRow& row : table) {
     line(row, "refused", "", row.refused, ",,,");
     line(row, "any", "", row.failures, ",,,");
     for (const GoalRow& goal : row.goals) {
-      line(row, std::string(quantity(goal.goal.quantity).name), compare::number(goal.goal.max),
+      line(row, std::string(quantity(goal.goal.quantity).name), batch::number(goal.goal.max),
            goal.failures,
-           "," + compare::number(goal.median) + "," + compare::number(goal.of_95_in_100) + "," +
-               compare::number(goal.worst));
+           "," + batch::number(goal.median) + "," + batch::number(goal.of_95_in_100) + "," +
+               batch::number(goal.worst));
     }
   }
   return text;

@@ -10,6 +10,7 @@
 #include "campaign/search.hpp"
 #include "campaign/statistics.hpp"
 #include "campaign/study.hpp"
+#include "plot/figure.hpp"
 
 namespace supercoil::host_sim::campaign {
 
@@ -44,6 +45,11 @@ std::string to_csv(const std::vector<ContenderRow>& table);
 /// What a person reads.
 std::string to_markdown(const Study& study, const std::vector<ContenderRow>& table,
                         const Outcomes& outcomes);
+
+/// campaign.svg: how each quantity with a goal is distributed, unless it is always the same, and
+/// over the draw that it follows most.
+Figure figure_of(const Study& study, const Draws& draws, const Outcomes& outcomes,
+                 const std::vector<ContenderRow>& table);
 
 /// What a search found, by contender.
 std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& found);

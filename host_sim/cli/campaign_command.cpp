@@ -1,13 +1,14 @@
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <utility>
 
-#include "campaign/run_study.hpp"
+#include "batch/in_parallel.hpp"
+#include "campaign/results.hpp"
 #include "campaign/statistics.hpp"
 #include "cli/campaign_results.hpp"
 #include "cli/commands.hpp"
 #include "cli/kept_runs.hpp"
-#include "compare/in_parallel.hpp"
 #include "report/output_folder.hpp"
 
 namespace supercoil::host_sim {
@@ -32,7 +33,7 @@ std::string check_medians(const campaign::Study& study, const campaign::Draws& d
 }
 
 /// Runs from `from` to before `to` of the shard, all contenders, which are not among the outcomes.
-std::vector<campaign::Key> missing(const campaign::Study& study, const compare::Shard& shard,
+std::vector<campaign::Key> missing(const campaign::Study& study, const batch::Shard& shard,
                                    const campaign::Outcomes& outcomes, std::int64_t from,
                                    std::int64_t to) {
   std::vector<campaign::Key> runs;
@@ -46,42 +47,61 @@ std::vector<campaign::Key> missing(const campaign::Study& study, const compare::
   return runs;
 }
 
-/// Each contender's share of failures, over the runs before `end`.
-bool known_well_enough(const campaign::Study& study, const campaign::Outcomes& outcomes,
-                       std::int64_t end) {
-  if (study.known_to <= 0.0) return false;
-  for (std::size_t i = 0; i < study.contenders.size(); ++i) {
-    std::int64_t runs = 0;
-    std::int64_t failed = 0;
-    for (const auto& [key, outcome] : outcomes) {
-      if (key.contender != i || key.run >= static_cast<std::size_t>(end)) continue;
-      if (!outcome.refused.empty()) continue;
-      ++runs;
-      failed += severity(study, outcome) > 1.0 ? 1 : 0;
-    }
-    if (campaign::rate_of(failed, runs).half_width() > study.known_to) return false;
-  }
-  return true;
-}
+/// Each contender's share of failures, over the runs that were counted.
+class Shares {
+ public:
+  explicit Shares(const campaign::Study& study)
+      : study_(&study), runs_(study.contenders.size()), failures_(study.contenders.size()) {}
 
-void carry_out(const campaign::Study& study, const campaign::Draws& draws,
-               const CampaignOptions& options, campaign::Outcomes& outcomes, KeptRuns& kept) {
+  void count(const campaign::Outcomes& outcomes, std::int64_t from, std::int64_t to) {
+    const auto end = outcomes.lower_bound({static_cast<std::size_t>(to), 0});
+    for (auto one = outcomes.lower_bound({static_cast<std::size_t>(from), 0}); one != end; ++one) {
+      const auto& [key, outcome] = *one;
+      if (!outcome.refused.empty()) continue;
+      ++runs_[key.contender];
+      failures_[key.contender] += severity(*study_, outcome) > 1.0 ? 1 : 0;
+    }
+  }
+  bool known_to(double half_width) const {
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (campaign::rate_of(failures_[i], runs_[i]).half_width() > half_width) return false;
+    }
+    return true;
+  }
+
+ private:
+  const campaign::Study* study_;
+  std::vector<std::int64_t> runs_;
+  std::vector<std::int64_t> failures_;
+};
+
+void carry_out_all(const campaign::Study& study, const campaign::Draws& draws,
+                   const CampaignOptions& options, campaign::Outcomes& outcomes, KeptRuns& kept) {
   const campaign::Lines lines(study, draws);
+  Shares shares(study);
   bool stopped = false;
-  const std::int64_t step = study.known_to > 0.0 ? look_every_runs : study.runs;
+  const bool looks = study.known_to > 0.0;
+  const std::int64_t step = looks ? look_every_runs : study.runs;
   for (std::int64_t from = 0; from < study.runs && !stopped; from += step) {
     const std::int64_t to = std::min(study.runs, from + step);
     const auto todo = missing(study, options.shard, outcomes, from, to);
-    run(study, draws, todo, compare::threads_for(options.jobs),
-        {[&](const campaign::Key& key, const campaign::Outcome& outcome) {
-           kept.add(lines.line(key, outcome));
-           outcomes.emplace(key, outcome);
-         },
-         [&] { return stopped = kept.stop(); }});
-    if (!stopped && known_well_enough(study, outcomes, to)) {
-      kept.enough();
-      return;
+    if (!todo.empty()) {
+      batch::in_parallel(
+          todo.size(), batch::threads_for(options.jobs),
+          [&](std::size_t number, const std::atomic<bool>& stop) -> batch::Handover {
+            const campaign::Key& key = todo[number];
+            auto outcome = carry_out(study, draws, key, stop);
+            if (!outcome) return {};
+            return [&, key, done = std::move(*outcome)] {
+              kept.add(lines.line(key, done));
+              outcomes.emplace(key, done);
+            };
+          },
+          [&] { return stopped = kept.stop(); });
     }
+    if (stopped || !looks) continue;
+    shares.count(outcomes, from, to);
+    if (shares.known_to(study.known_to)) return kept.enough();
   }
 }
 
@@ -98,7 +118,7 @@ int campaign_command(const CampaignOptions& given) {
   }
   CampaignOptions options = given;
   if (options.out.empty()) options.out = "supercoil-out/campaign-" + study->name;
-  const compare::Shard& shard = options.shard;
+  const batch::Shard& shard = options.shard;
   if (shard.number < 1 || shard.number > shard.of)
     return fail(exit_wrong_input, "--shard: must be I/N with 1 <= I <= N");
   if ((shard.of > 1 || options.slurm > 0) && study->known_to > 0.0) {
@@ -128,7 +148,7 @@ int campaign_command(const CampaignOptions& given) {
   const auto todo = missing(*study, shard, outcomes, 0, study->runs).size();
   KeptRuns kept("campaign", {outcomes.size(), all, todo, before->torn}, *folder, options.quiet);
   if (const int failed = kept.begin(lines.file(outcomes)); failed != exit_done) return failed;
-  if (todo > 0) carry_out(*study, draws, options, outcomes, kept);
+  if (todo > 0) carry_out_all(*study, draws, options, outcomes, kept);
   if (const int failed = kept.end(); failed != exit_done) return failed;
   return conclude_campaign(*study, draws, outcomes, *folder, options);
 }

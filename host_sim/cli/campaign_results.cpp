@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "campaign/plot.hpp"
+#include "batch/kept_lines.hpp"
 #include "campaign/tables.hpp"
 #include "cli/kept_runs.hpp"
 #include "cli/run_results.hpp"
@@ -57,18 +57,15 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
 int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
                    const CampaignOptions& options) {
   campaign::Outcomes outcomes;
-  for (const std::string& path : options.merge) {
-    if (!std::filesystem::exists(path))
-      return fail(exit_wrong_input, path + ": there is no such file");
-    const auto read = campaign::Lines(study, draws).read(path);
-    if (!read) return fail(exit_wrong_input, read.error());
-    if (read->torn) {
-      return fail(exit_wrong_input,
-                  path + ": its last line is torn: the run was interrupted; go on with it first");
-    }
-    const auto merged = merge(outcomes, read->outcomes, path);
-    if (!merged) return fail(exit_wrong_input, merged.error());
-  }
+  const campaign::Lines lines(study, draws);
+  const auto added = batch::add_parts(
+      options.merge, std::filesystem::path(options.out) / runs_name,
+      [&](const std::filesystem::path& part) -> tl::expected<bool, std::string> {
+        const auto read = lines.read(part);
+        if (!read) return tl::unexpected(read.error());
+        return merge(outcomes, read->outcomes, part.string()).map([&] { return read->torn; });
+      });
+  if (!added) return fail(exit_wrong_input, added.error());
   const auto all = static_cast<std::size_t>(study.runs) * study.contenders.size();
   if (outcomes.size() < all) {
     std::fprintf(stderr, "supercoil-sim: the parts have %zu of the study's %zu runs\n",

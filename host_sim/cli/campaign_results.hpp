@@ -10,7 +10,7 @@
 
 namespace supercoil::host_sim {
 
-/// Writes tables, plot and the worst runs. Returns the program's exit status, as the next two do.
+/// Writes tables, plot and the worst runs. Returns the program's exit status, as all here do.
 int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws,
                       const campaign::Outcomes& outcomes, OutputFolder& folder,
                       const CampaignOptions& options);

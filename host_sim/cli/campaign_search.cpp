@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "apps/common/progress.hpp"
+#include "batch/in_parallel.hpp"
 #include "campaign/search.hpp"
 #include "campaign/tables.hpp"
 #include "cli/campaign_results.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
-#include "compare/in_parallel.hpp"
 
 namespace supercoil::host_sim {
 
@@ -24,13 +24,11 @@ int search_campaign(const campaign::Study& study, const campaign::Draws& draws,
   const auto all =
       static_cast<double>(study.contenders.size()) * static_cast<double>(options.search);
   std::map<std::size_t, campaign::Worst> found;
-  compare::in_parallel(
-      study.contenders.size(), compare::threads_for(options.jobs),
-      [&](std::size_t contender, const std::atomic<bool>& stop) -> compare::Handover {
-        auto worst = campaign::search(study, draws, contender, options.search, stop, [&] {
-          ++runs;
-          return false;
-        });
+  batch::in_parallel(
+      study.contenders.size(), batch::threads_for(options.jobs),
+      [&](std::size_t contender, const std::atomic<bool>& stop) -> batch::Handover {
+        auto worst =
+            campaign::search(study, draws, contender, options.search, stop, [&] { ++runs; });
         return [&found, contender, result = std::move(worst)] { found[contender] = result; };
       },
       [&] {

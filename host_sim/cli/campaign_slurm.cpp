@@ -5,30 +5,92 @@
 #include <string>
 #include <utility>
 
-#include "campaign/slurm.hpp"
 #include "cli/campaign_results.hpp"
 
 namespace supercoil::host_sim {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* submit_name = "submit.sh";
+
+struct Jobs {
+  fs::path program;
+  std::string study;  ///< a name, or a whole path
+  std::int64_t runs;
+  int parts;
+};
+
+/// One word for a shell, whatever is in it.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text)
+    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+std::string command(const Jobs& jobs) {
+  return quoted(jobs.program.string()) + " campaign " + quoted(jobs.study) + " --runs " +
+         std::to_string(jobs.runs);
+}
+
+std::string part_script(const Jobs& jobs) {
+  return "#!/bin/sh\n"
+         "# One part of the study. Killed (137: out of memory, for one) it goes on, twice; a job "
+         "that\n"
+         "# is queued again goes on too.\n"
+         "for attempt in 1 2 3; do\n"
+         "  status=0\n"
+         "  " +
+         command(jobs) + " --shard \"$SLURM_ARRAY_TASK_ID\"/" + std::to_string(jobs.parts) +
+         " --out \"part-$SLURM_ARRAY_TASK_ID\" --jobs \"${SLURM_CPUS_PER_TASK:-1}\" --no-plot "
+         "--quiet || status=$?\n"
+         "  [ \"$status\" -eq 137 ] || exit \"$status\"\n"
+         "done\n"
+         "exit \"$status\"\n";
+}
+
+std::string merge_script(const Jobs& jobs) {
+  return "#!/bin/sh\n# The tables of all parts.\nexec " + command(jobs) +
+         " --merge part-*/runs.csv --out .\n";
+}
+
+std::string submit_script(const Jobs& jobs) {
+  return "#!/bin/sh\n"
+         "# Submits the parts, and what merges them when all are done. Its arguments are sbatch's "
+         "for\n"
+         "# the parts: sh submit.sh --cpus-per-task=8 --time=2:00:00\n"
+         "set -eu\n"
+         "cd \"$(dirname \"$0\")\"\n"
+         "parts=$(sbatch --parsable --requeue --array=1-" +
+         std::to_string(jobs.parts) +
+         " --output=part-%a.log --open-mode=append \"$@\" part.sbatch)\n"
+         "parts=${parts%%;*}  # without the cluster's name\n"
+         "merge=$(sbatch --parsable --dependency=afterok:\"$parts\" --kill-on-invalid-dep=yes "
+         "--output=merge.log merge.sbatch)\n"
+         "echo \"job $parts runs the parts, job ${merge%%;*} merges them\"\n";
+}
+
+}  // namespace
+
 int submit_campaign(const campaign::Study& study, const CampaignOptions& options) {
-  namespace fs = std::filesystem;
   // As read_study() takes it: a built-in name before a file.
   const auto names = names_of(campaign::builtin_studies());
   const bool builtin = std::ranges::find(names, options.study) != names.end();
-  const campaign::Jobs jobs{fs::read_symlink("/proc/self/exe"),
-                            builtin ? options.study : fs::absolute(options.study).string(),
-                            study.runs, options.slurm};
+  const Jobs jobs{fs::read_symlink("/proc/self/exe"),
+                  builtin ? options.study : fs::absolute(options.study).string(), study.runs,
+                  options.slurm};
   auto folder = OutputFolder::open(options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
-  for (const auto& [name, text] :
-       {std::pair{campaign::part_script_name, campaign::part_script(jobs)},
-        {campaign::merge_script_name, campaign::merge_script(jobs)},
-        {campaign::submit_script_name, campaign::submit_script(jobs)}}) {
+  for (const auto& [name, text] : {std::pair{"part.sbatch", part_script(jobs)},
+                                   {"merge.sbatch", merge_script(jobs)},
+                                   {submit_name, submit_script(jobs)}}) {
     if (const auto written = folder->write(name, text); !written)
       return fail(exit_failed, written.error());
   }
   if (const auto done = folder->commit(); !done) return fail(exit_failed, done.error());
-  const fs::path script = folder->path() / campaign::submit_script_name;
+  const fs::path script = folder->path() / submit_name;
   if (!options.submit) {
     std::printf("written; to submit it: sh %s\n", script.c_str());
     return exit_done;

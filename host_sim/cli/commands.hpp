@@ -67,7 +67,7 @@ int estimators_command(const EstimatorsOptions& options);
 struct CampaignOptions {
   std::string study;
   std::int64_t runs = 0;  ///< 0: as the study says
-  compare::Shard shard;
+  batch::Shard shard;
   std::vector<std::string> merge;  ///< runs.csv of several; nothing is run then
   std::string out;                 ///< empty: supercoil-out/campaign-NAME
   int slurm = 0;                   ///< parts of an array of jobs; 0: runs here

@@ -1,10 +1,10 @@
 #include <cstdio>
 #include <utility>
 
+#include "batch/in_parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/compare_results.hpp"
 #include "cli/kept_runs.hpp"
-#include "compare/in_parallel.hpp"
 #include "compare/run_plan.hpp"
 #include "report/output_folder.hpp"
 
@@ -62,7 +62,7 @@ int compare_command(const CompareOptions& options) {
                 *folder, options.quiet);
   if (const int failed = kept.begin(compare::to_file(results)); failed != exit_done) return failed;
   if (!todo->empty()) {
-    run_plan(plan->cases, *todo, compare::threads_for(options.jobs),
+    run_plan(plan->cases, *todo, batch::threads_for(options.jobs),
              {[&](const compare::Run& run, const compare::Result& result) {
                 const compare::Key key = key_of(*plan, run);
                 kept.add(compare::to_line(key, result));

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "batch/kept_lines.hpp"
 #include "cli/kept_runs.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
@@ -28,18 +29,16 @@ int conclude_comparison(const Results& results, OutputFolder& folder,
 
 int merge_comparisons(const CompareOptions& options) {
   Results results;
-  for (const std::string& path : options.merge) {
-    if (!std::filesystem::exists(path))
-      return fail(exit_wrong_input, path + ": there is no such file");
-    const auto read = compare::read_results(path);
-    if (!read) return fail(exit_wrong_input, read.error());
-    if (read->torn) {
-      return fail(exit_wrong_input,
-                  path + ": its last line is torn: the run was interrupted; go on with it first");
-    }
-    const auto merged = compare::merge(results, read->results, path);
-    if (!merged) return fail(exit_wrong_input, merged.error());
-  }
+  const auto added =
+      batch::add_parts(options.merge, std::filesystem::path(options.out) / runs_name,
+                       [&](const std::filesystem::path& part) -> tl::expected<bool, std::string> {
+                         const auto read = compare::read_results(part);
+                         if (!read) return tl::unexpected(read.error());
+                         return compare::merge(results, read->results, part.string()).map([&] {
+                           return read->torn;
+                         });
+                       });
+  if (!added) return fail(exit_wrong_input, added.error());
   auto folder = OutputFolder::open(options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
   return conclude_comparison(results, *folder, options);

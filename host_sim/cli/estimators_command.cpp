@@ -3,11 +3,11 @@
 #include <iterator>
 #include <utility>
 
+#include "batch/in_parallel.hpp"
 #include "cli/commands.hpp"
 #include "cli/kept_runs.hpp"
 #include "cli/run_results.hpp"
 #include "cli/tables.hpp"
-#include "compare/in_parallel.hpp"
 #include "estimators/kept_outcomes.hpp"
 #include "report/output_folder.hpp"
 
@@ -33,9 +33,9 @@ std::vector<Key> runs_of(std::int64_t seeds) {
 /// Carries the runs out.
 void try_all(const std::vector<Key>& runs, Outcomes& outcomes, KeptRuns& kept,
              const EstimatorsOptions& options) {
-  compare::in_parallel(
-      runs.size(), compare::threads_for(options.jobs),
-      [&](std::size_t number, const std::atomic<bool>& stop) -> compare::Handover {
+  batch::in_parallel(
+      runs.size(), batch::threads_for(options.jobs),
+      [&](std::size_t number, const std::atomic<bool>& stop) -> batch::Handover {
         const Key& key = runs[number];
         auto outcome = estimators::run(estimators::contenders[key.contender],
                                        estimators::trials[key.trial], key.seed, stop);

@@ -88,8 +88,8 @@ void add_reproduce(CLI::App& app, ReproduceOptions& options) {
 }
 
 /// "I/N"
-compare::Shard shard_of(const std::string& text) {
-  compare::Shard shard;
+batch::Shard shard_of(const std::string& text) {
+  batch::Shard shard;
   const char* end = text.data() + text.size();
   const auto number = std::from_chars(text.data(), end, shard.number);
   if (number.ec == std::errc{} && number.ptr != end && *number.ptr == '/') {

@@ -7,15 +7,10 @@
 
 #include <tl/expected.hpp>
 
+#include "batch/kept_lines.hpp"
 #include "scenario/scenario.hpp"
 
 namespace supercoil::host_sim::compare {
-
-/// Part number of all, from 1 on: every so-manieth run.
-struct Shard {
-  std::int64_t number = 1;
-  std::int64_t of = 1;
-};
 
 /// Empty lists are the built-in ones. A name with a dot or a slash is a scenario's file.
 /// A disturbance's name may end in +SECONDS: its events, and its end, come so much later.
@@ -24,7 +19,7 @@ struct Selection {
   std::vector<std::string> disturbances;
   std::vector<std::string> arithmetics;
   std::int64_t seeds = 20;  ///< 1 to this
-  Shard shard;
+  batch::Shard shard;
 };
 
 /// The controllers and disturbances that an empty selection compares.

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "compare/kept_lines.hpp"
+#include "batch/kept_lines.hpp"
 
 namespace supercoil::host_sim::compare {
 
@@ -26,16 +26,17 @@ std::string head() {
 }
 
 std::optional<std::pair<Key, Result>> read_line(std::string_view line) {
-  const auto fields = fields_of(line);
+  const auto fields = batch::fields_of(line);
   if (fields.size() != columns) return std::nullopt;
   Key key{std::string(fields[0]), std::string(fields[1]), std::string(fields[2]), 0};
   Result result;
   constexpr int hexadecimal = 16;
-  bool right = read(fields[3], key.seed) && read(fields[4], result.definition, hexadecimal);
+  bool right =
+      batch::read(fields[3], key.seed) && batch::read(fields[4], result.definition, hexadecimal);
   result.fault = fields[5];
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const std::string_view field = fields[key_columns + 2 + i];
-    right = right && read_number(field, result.values[i]);
+    right = right && batch::read_number(field, result.values[i]);
   }
   if (!right) return std::nullopt;
   return std::pair(std::move(key), std::move(result));
@@ -67,7 +68,7 @@ std::string to_line(const Key& key, const Result& result) {
                      std::to_string(key.seed) + "," + std::string(definition.data(), end) + "," +
                      result.fault;
   for (const double value : result.values)
-    line += "," + number(value);
+    line += "," + batch::number(value);
   return line + "\n";
 }
 
@@ -80,7 +81,7 @@ std::string to_file(const Results& results) {
 
 tl::expected<ReadResults, std::string> read_results(const std::filesystem::path& path) {
   ReadResults read;
-  const auto torn = read_lines(
+  const auto torn = batch::read_lines(
       path, head(),
       [&](std::string_view line, const std::string& where) -> tl::expected<void, std::string> {
         auto one = read_line(line);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "compare/in_parallel.hpp"
+#include "batch/in_parallel.hpp"
 #include "runner/simulation.hpp"
 #include "supervisor/fault.hpp"
 
@@ -36,9 +36,9 @@ std::optional<Result> simulate(const Case& of, std::uint64_t seed, const std::at
 
 void run_plan(const std::vector<Case>& cases, const std::vector<Run>& runs, unsigned jobs,
               const Listener& listener) {
-  in_parallel(
+  batch::in_parallel(
       runs.size(), jobs,
-      [&](std::size_t number, const std::atomic<bool>& stop) -> Handover {
+      [&](std::size_t number, const std::atomic<bool>& stop) -> batch::Handover {
         const Run& run = runs[number];
         const auto result = simulate(cases[run.of], run.seed, stop);
         if (!result) return {};

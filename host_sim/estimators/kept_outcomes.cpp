@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "compare/kept_lines.hpp"
+#include "batch/kept_lines.hpp"
 
 namespace supercoil::host_sim::estimators {
 
@@ -34,7 +34,7 @@ std::string head() {
 std::string text(const Theta& values) {
   std::string line;
   for (const double value : values)
-    line += "," + compare::number(value);
+    line += "," + batch::number(value);
   return line;
 }
 
@@ -46,18 +46,18 @@ std::optional<std::size_t> place_of(const Kinds& kinds, std::string_view name) {
 }
 
 std::optional<std::pair<Key, Outcome>> read_line(std::string_view line) {
-  const auto fields = compare::fields_of(line);
+  const auto fields = batch::fields_of(line);
   if (fields.size() != columns()) return std::nullopt;
   const auto trial = place_of(trials, fields[0]);
   const auto contender = place_of(contenders, fields[1]);
   if (!trial || !contender) return std::nullopt;
   Key key{*trial, *contender, 0};
-  bool right = compare::read(fields[2], key.seed);
+  bool right = batch::read(fields[2], key.seed);
   auto field = fields.begin() + key_columns;
   const auto next = [&] {
     Theta values;
     for (double& value : values)
-      right = compare::read_number(*field++, value) && right;
+      right = batch::read_number(*field++, value) && right;
     return values;
   };
   Outcome outcome;
@@ -94,7 +94,7 @@ std::string to_file(const Outcomes& outcomes) {
 
 tl::expected<ReadOutcomes, std::string> read_outcomes(const std::filesystem::path& path) {
   ReadOutcomes read;
-  const auto torn = compare::read_lines(
+  const auto torn = batch::read_lines(
       path, head(),
       [&](std::string_view line, const std::string& where) -> tl::expected<void, std::string> {
         auto one = read_line(line);

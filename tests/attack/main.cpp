@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "attack/attacked_board.hpp"
-#include "compare/in_parallel.hpp"
+#include "batch/in_parallel.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -55,9 +55,9 @@ int main(int argc, char** argv) {
   for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every))
     cases.push_back(all[i]);
   std::vector<Damage> damages(cases.size());
-  host_sim::compare::in_parallel(
-      cases.size(), host_sim::compare::threads_for(0),
-      [&](std::size_t i, const std::atomic<bool>&) -> host_sim::compare::Handover {
+  host_sim::batch::in_parallel(
+      cases.size(), host_sim::batch::threads_for(0),
+      [&](std::size_t i, const std::atomic<bool>&) -> host_sim::batch::Handover {
         const Damage damage =
             AttackedBoard(cases[i].attack, cases[i].muscle, cases[i].activity).run();
         return [&damages, i, damage] { damages[i] = damage; };

@@ -10,7 +10,7 @@ SPECIAL = re.compile(r"([\\`*_\[\]<>{}$#|~])")
 
 
 def headers(root, part):
-    """(as it is included) of each header of a part of the libraries: a folder's name."""
+    """Each header of a part of the libraries (a folder's name), as it is included."""
     for folder in ROOTS:
         for header in sorted((root / folder / "supercoil").glob(f"**/{part}/*.hpp")):
             yield header.relative_to(root / folder).as_posix()

@@ -104,6 +104,11 @@ void write_y_range(std::ostream& out, const Panel& panel) {
   }
 }
 
+const char* style_of(const Curve& curve) {
+  if (!curve.bars_to.empty()) return " with yerrorbars pt 7 ps 0.5 lt ";
+  return curve.points ? " with points pt 7 ps 0.3 lt " : " with lines lt ";
+}
+
 void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "set title " << quoted(panel.title) << "\n"
       << "set xlabel " << quoted(panel.x_label) << " offset 0,0.8\n"
@@ -116,9 +121,8 @@ void write_panel(std::ostream& out, const Panel& panel, std::size_t& block) {
   out << "plot ";
   for (std::size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    out << (i > 0 ? ", " : "") << "$d" << block++
-        << (curve.bars_to.empty() ? " with lines lt " : " with yerrorbars pt 7 ps 0.5 lt ")
-        << curve.colour + 1 << (curve.dashed ? " dt 2" : "") << " title " << quoted(curve.label);
+    out << (i > 0 ? ", " : "") << "$d" << block++ << style_of(curve) << curve.colour + 1
+        << (curve.dashed ? " dt 2" : "") << " title " << quoted(curve.label);
   }
   out << "\n";
 }

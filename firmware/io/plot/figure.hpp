@@ -18,6 +18,7 @@ struct Curve {
   int colour = 0;
   /// Not empty: points at y with bars up to here, in place of a line.
   std::vector<double> bars_to{};
+  bool points = false;  ///< in place of a line
 };
 
 struct Panel {

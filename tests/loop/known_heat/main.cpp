@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/in_parallel.hpp"
+#include "batch/in_parallel.hpp"
 #include "loop/known_heat/known_board.hpp"
 
 using namespace supercoil;
@@ -72,9 +72,9 @@ std::vector<Case> suite_cases() {
 }
 
 void run(std::vector<Case>& cases, int jobs) {
-  host_sim::compare::in_parallel(
-      cases.size(), host_sim::compare::threads_for(jobs),
-      [&](std::size_t i, const std::atomic<bool>&) -> host_sim::compare::Handover {
+  host_sim::batch::in_parallel(
+      cases.size(), host_sim::batch::threads_for(jobs),
+      [&](std::size_t i, const std::atomic<bool>&) -> host_sim::batch::Handover {
         const Findings f = measure(cases[i].muscle, cases[i].knowledge, cases[i].seed);
         return [&cases, i, f] { cases[i].findings = f; };
       },

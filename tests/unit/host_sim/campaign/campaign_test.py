@@ -3,15 +3,13 @@
 import csv
 import json
 import os
-import pathlib
 import shutil
-import signal
 import subprocess
-import tempfile
-import time
 import unittest
 
-PROGRAM = pathlib.Path(os.environ["SUPERCOIL_SIM"]).resolve()
+from batch.batch import Batch
+from sim_program import PROGRAM, ProgramCase
+
 # Short runs, of which some fail and some cannot be.
 STUDY = """# Brief
 [study]
@@ -37,30 +35,17 @@ list = [1e-6, 1e-5]
 FIRST_LINES = 2  # what made it, and the columns' names
 
 
-class Campaign(unittest.TestCase):
+class Campaign(Batch, ProgramCase):
+    ARGUMENTS = ("campaign", "brief.toml", "--no-plot")
+    MERGES = ARGUMENTS
+    KEPT_LINES = 4
+
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = pathlib.Path(folder.name)
+        super().setUp()
         (self.path / "brief.toml").write_text(STUDY)
 
     def campaign(self, *arguments, study="brief.toml", status=0):
-        done = subprocess.run([PROGRAM, "campaign", *([study] if study else []), "--no-plot", *map(str, arguments)],
-                              capture_output=True, text=True, cwd=self.path, timeout=300)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
-
-    def files(self, folder):
-        return {file.name: file.read_bytes() for file in (self.path / folder).iterdir()}
-
-    def rows(self, folder):
-        with open(self.path / folder / "runs.csv") as file:
-            next(file)
-            return list(csv.DictReader(file))
-
-    def whole(self):
-        self.campaign("--out", "whole", "--jobs", 1)
-        return self.files("whole")
+        return self.run_batch("campaign", *([study] if study else []), "--no-plot", *arguments, status=status)
 
     def test_each_run_is_a_line_and_all_together_a_table(self):
         whole = self.whole()
@@ -95,11 +80,6 @@ class Campaign(unittest.TestCase):
             self.assertEqual([one[name] for name in drawn], [other[name] for name in drawn])
         self.assertEqual(len({row["plant.stiffness_N_per_m"] for row in rows}), 24)
 
-    def test_the_same_bytes_whatever_the_jobs(self):
-        whole = self.whole()
-        self.campaign("--out", "two", "--jobs", 2)
-        self.assertEqual(self.files("two"), whole)
-
     def test_the_worst_run_again_gives_the_same_figures(self):
         self.whole()
         failed = [row for row in self.rows("whole") if not row["refused"] and float(row["tracking_rms_m"]) > 1e-3]
@@ -113,22 +93,6 @@ class Campaign(unittest.TestCase):
         self.assertEqual(summary["tracking_rms_m"], float(worst["tracking_rms_m"]))
         self.assertEqual(summary["tracking_max_m"], float(worst["tracking_max_m"]))
 
-    def test_it_goes_on_after_it_was_killed(self):
-        whole = self.whole()
-        for number in (signal.SIGKILL, signal.SIGINT):
-            out = self.path / number.name
-            with subprocess.Popen([PROGRAM, "campaign", "brief.toml", "--no-plot", "--out", out, "--jobs", "1"],
-                                  cwd=self.path, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as running:
-                while not (out / "runs.csv").is_file() or (out / "runs.csv").read_text().count("\n") < 4:
-                    self.assertIsNone(running.poll(), "it ended before a run had")
-                    time.sleep(0.001)
-                running.send_signal(number)
-                said = running.communicate()[1]
-            if running.returncode == 130:
-                self.assertIn("the same command goes on from there", said)
-            self.assertIn("are already in", self.campaign("--out", out).stderr)
-            self.assertEqual(self.files(out), whole)
-
     def test_fewer_runs_go_on_to_more(self):
         whole = self.whole()
         self.campaign("--out", "more", "--runs", 10)
@@ -136,14 +100,6 @@ class Campaign(unittest.TestCase):
         self.assertIn("20 of 48 runs are already in", self.campaign("--out", "more").stderr)
         self.assertEqual(self.files("more")["runs.csv"], whole["runs.csv"])
         self.assertEqual(self.files("more")["campaign.csv"], whole["campaign.csv"])
-
-    def test_parts_merged_are_the_whole(self):
-        whole = self.whole()
-        for part in (1, 2, 3):
-            self.campaign("--out", f"part{part}", "--shard", f"{part}/3")
-        parts = [f"part{part}/runs.csv" for part in (3, 1, 2)]
-        self.campaign("--merge", *parts, "--out", "merged")
-        self.assertEqual(self.files("merged"), whole)
 
     def test_it_ends_when_it_knows_well_enough(self):
         (self.path / "known.toml").write_text(STUDY.replace("runs = 24", "runs = 1000\nknown_to = 0.1")
@@ -173,6 +129,30 @@ class Campaign(unittest.TestCase):
             subprocess.run(["sh", "part.sbatch"], cwd=array, check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": task})
         subprocess.run(["sh", "merge.sbatch"], cwd=array, check=True, stdout=subprocess.DEVNULL)
         self.assertEqual({name: (array / name).read_bytes() for name in whole}, whole)
+
+    def test_what_submit_is_given_reaches_the_parts_alone(self):
+        tools = self.path / "tools"
+        tools.mkdir()
+        # What sbatch --parsable prints with clusters: a job's number and the cluster's name.
+        (tools / "sbatch").write_text('#!/bin/sh\nfor word; do echo "$word"; done >> "$CALLS"\necho >> "$CALLS"\necho "17;mine"\n')
+        (tools / "sbatch").chmod(0o755)
+        self.campaign("--out", "array", "--slurm", 3, "--no-submit")
+        done = subprocess.run(["sh", "array/submit.sh", "--cpus-per-task=8", "--comment=two words"], cwd=self.path,
+                              env={"PATH": f"{tools}:{os.environ['PATH']}", "CALLS": str(self.path / "calls")},
+                              capture_output=True, text=True, check=True)
+        parts, merge = [call.split("\n") for call in (self.path / "calls").read_text().strip().split("\n\n")]
+        self.assertIn("--array=1-3", parts)
+        self.assertEqual(parts[-3:], ["--cpus-per-task=8", "--comment=two words", "part.sbatch"])
+        self.assertIn("--dependency=afterok:17", merge)
+        self.assertNotIn("--cpus-per-task=8", merge)
+        self.assertEqual(done.stdout, "job 17 runs the parts, job 17 merges them\n")
+
+    def test_other_goals_are_answered_by_the_same_runs(self):
+        whole = self.whole()
+        (self.path / "brief.toml").write_text(STUDY.replace("tracking_rms_m = 1e-3", "hottest_C = 60.0"))
+        self.assertIn("48 of 48 runs are already in", self.batch("--out", "whole").stderr)
+        self.assertEqual(self.files("whole")["runs.csv"], whole["runs.csv"])
+        self.assertIn(b",hottest_C,", self.files("whole")["campaign.csv"])
 
     def test_without_sbatch_it_says_what_to_type(self):
         tools = self.path / "tools"
@@ -205,16 +185,6 @@ class Campaign(unittest.TestCase):
             self.assertGreater(found, chance)
             self.assertIn(f"{1e6 * found:.3g}" if found < 1e-3 else f"{1e6 * found:.0f}",
                           (self.path / "one/search.md").read_text())
-
-    def damaged(self, old, new, message):
-        self.whole()
-        runs = self.path / "whole/runs.csv"
-        text = runs.read_text()
-        self.assertIn(old, text)
-        runs.write_text(text.replace(old, new, 1))
-        before = self.files("whole")
-        self.assertIn(message, self.campaign("--out", "whole", status=2).stderr)
-        self.assertEqual(self.files("whole"), before)
 
     def test_a_damaged_line_is_told_with_its_number(self):
         self.damaged("\n2,pi,", "\n2,mrac,", "runs.csv:5: is damaged: there is no such run")

@@ -92,6 +92,8 @@ TEST(Study, SaysWhatIsWrongWithADraw) {
                 draw("uniform = [2.0, 1.0]"));
   check_problem("draw[1].log_uniform", draw("log_uniform = [0.0, 1.0]"));
   check_problem("the standard deviation must be above 0", draw("normal = [1.0, 0.0]"));
+  check_problem("min = 50: next to nothing of the distribution is between min and max",
+                draw("normal = [0.0, 1.0]\nmin = 50.0\nmax = 51.0"));
   check_problem("must be a list of numbers, true, false, or texts without comma",
                 draw("list = ['a,b']"));
   check_problem("times and over do not go with it", draw("list = [1.0]\ntimes = 'x'"));
@@ -118,7 +120,8 @@ TEST(Study, AFaultIsAFailureUnlessItSaysOtherwise) {
 
 TEST(Study, HowFarToGoIsNoPartOfWhatARunIs) {
   const Study one = study_of("[study]\nruns = 10");
-  CHECK(one.definition == study_of("[study]\nruns = 20\nknown_to = 0.1").definition);
+  CHECK(one.definition ==
+        study_of("[study]\nruns = 20\nknown_to = 0.1\n[goals]\nhottest_C = 90.0").definition);
   CHECK(one.definition != study_of("[study]\nruns = 10\nseed = 2").definition);
   CHECK(one.definition != study_of("[study]\nruns = 10\n" + draw("constant = 1.0")).definition);
   const auto latin = [](const char* runs) {
@@ -139,6 +142,13 @@ TEST(Study, DrawsAreMultipliedAndDividedByOthersAndByTheScenariosNumbers) {
     DOUBLES_EQUAL(10.0 * factor * factor / 0.5, number(study, run, "plant.stiffness_N_per_m"),
                   1e-12);
   }
+}
+
+TEST(Study, ANumberOfAListMayBeAFactor) {
+  const Study study = study_of("[study]\n[[draw]]\nname = 'factor'\nlist = [2, 2.0]\n" +
+                               draw("constant = 10.0\ntimes = 'factor'"));
+  DOUBLES_EQUAL(20.0, number(study, 0, "plant.stiffness_N_per_m"), 0.0);
+  DOUBLES_EQUAL(20.0, number(study, 1, "plant.stiffness_N_per_m"), 0.0);
 }
 
 TEST(Study, ADrawOfWhatIsNotThereIsRefused) {

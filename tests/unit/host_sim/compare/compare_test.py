@@ -1,45 +1,31 @@
 """supercoil-sim compare as a user meets it: the same bytes whatever the jobs, resumed, in parts, and damaged."""
 
 import csv
-import os
-import pathlib
-import signal
 import subprocess
-import tempfile
-import time
 import unittest
 
-PROGRAM = pathlib.Path(os.environ["SUPERCOIL_SIM"]).resolve()
+from batch.batch import Batch
+from sim_program import PROGRAM, ProgramCase
+
 # Two cells of two seeds, short, each with an event.
 BRIEF = "[simulation]\nduration_s = 30.0\n[[event]]\nat_s = 25.0\nplant.stiffness_N_per_m = 12.0\n"
 CELLS = ["--controllers", "pi,mrac-a", "--disturbances", "brief.toml", "--seeds", "2", "--no-plot"]
 
 
-class Compare(unittest.TestCase):
+class Compare(Batch, ProgramCase):
+    ARGUMENTS = ("compare", *CELLS)
+    MERGES = ("compare", "--no-plot")
+    KEPT_LINES = 3
+
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.path = pathlib.Path(folder.name)
+        super().setUp()
         (self.path / "brief.toml").write_text(BRIEF)
 
     def compare(self, *arguments, status=0):
-        done = subprocess.run([PROGRAM, "compare", *map(str, arguments)], capture_output=True, text=True,
-                              cwd=self.path, timeout=300)
-        self.assertEqual(done.returncode, status, done.stderr)
-        return done
+        return self.run_batch("compare", *arguments, status=status)
 
-    def files(self, folder):
-        return {file.name: file.read_bytes() for file in (self.path / folder).iterdir()}
-
-    def whole(self):
-        self.compare(*CELLS, "--out", "whole", "--jobs", 1)
-        return self.files("whole")
-
-    def test_the_same_bytes_whatever_the_jobs(self):
-        whole = self.whole()
-        self.assertEqual(sorted(whole), ["compare.csv", "compare.md", "runs.csv"])
-        self.compare(*CELLS, "--out", "two", "--jobs", 2)
-        self.assertEqual(self.files("two"), whole)
+    def test_it_writes_runs_and_tables(self):
+        self.assertEqual(sorted(self.whole()), ["compare.csv", "compare.md", "runs.csv"])
 
     def test_a_run_through_run_gives_the_same_figures(self):
         self.whole()
@@ -48,16 +34,12 @@ class Compare(unittest.TestCase):
         subprocess.run([PROGRAM, "run", "s.toml", "--window", "20:25", "--out", "run", "--no-plot", "--no-trace"],
                        check=True, cwd=self.path, capture_output=True)
         summary = (self.path / "run/summary.json").read_text()
-        with open(self.path / "whole/runs.csv") as file:
-            next(file)
-            row, = [row for row in csv.DictReader(file) if (row["controller"], row["seed"]) == ("pi", "2")]
+        row, = [row for row in self.rows("whole") if (row["controller"], row["seed"]) == ("pi", "2")]
         self.assertIn(row["steady_rms_m"][:15], summary)
 
     def test_statistics_are_of_the_runs(self):
         self.whole()
-        with open(self.path / "whole/runs.csv") as file:
-            next(file)
-            peaks = [float(row["peak_m"]) for row in csv.DictReader(file) if row["controller"] == "mrac-a"]
+        peaks = [float(row["peak_m"]) for row in self.rows("whole") if row["controller"] == "mrac-a"]
         with open(self.path / "whole/compare.csv") as file:
             self.assertIn("95 %", next(file))
             row, = [row for row in csv.DictReader(file) if (row["controller"], row["measure"]) == ("mrac-a", "peak_m")]
@@ -68,49 +50,15 @@ class Compare(unittest.TestCase):
         self.assertAlmostEqual(float(row["ci95_high"]), mean + half, delta=1e-5 * mean)
         self.assertAlmostEqual(float(row["ci95_low"]), mean - half, delta=1e-5 * mean)
 
-    def test_it_goes_on_after_it_was_killed(self):
-        whole = self.whole()
-        for number in (signal.SIGKILL, signal.SIGINT):
-            out = self.path / number.name
-            with subprocess.Popen([PROGRAM, "compare", *CELLS, "--out", out, "--jobs", "1"], cwd=self.path,
-                                  stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as running:
-                while not (out / "runs.csv").is_file() or (out / "runs.csv").read_text().count("\n") < 3:
-                    self.assertIsNone(running.poll(), "it ended before a run had")
-                    time.sleep(0.001)
-                running.send_signal(number)
-                said = running.communicate()[1]
-            if running.returncode == 130:
-                self.assertIn("the same command goes on from there", said)
-            self.assertIn("are already in", self.compare(*CELLS, "--out", out).stderr)
-            self.assertEqual(self.files(out), whole)
-
     def test_only_what_is_missing_is_run_again(self):
         whole = self.whole()
         runs = self.path / "whole/runs.csv"
         lines = runs.read_text().splitlines(keepends=True)
         runs.write_text("".join(lines[:-1]) + lines[-1][:20])
-        said = self.compare(*CELLS, "--out", "whole").stderr
+        said = self.batch("--out", "whole").stderr
         self.assertIn("its last line is torn; that run is repeated", said)
         self.assertIn("3 of 4 runs are already in", said)
         self.assertEqual(self.files("whole"), whole)
-
-    def test_parts_merged_are_the_whole(self):
-        whole = self.whole()
-        for part in (1, 2, 3):
-            self.compare(*CELLS, "--out", f"part{part}", "--shard", f"{part}/3")
-        parts = [f"part{part}/runs.csv" for part in (3, 1, 2)]
-        self.compare("--merge", *parts, "--out", "merged", "--no-plot")
-        self.assertEqual(self.files("merged"), whole)
-
-    def damaged(self, old, new, message):
-        self.whole()
-        runs = self.path / "whole/runs.csv"
-        text = runs.read_text()
-        self.assertIn(old, text)
-        runs.write_text(text.replace(old, new, 1))
-        before = self.files("whole")
-        self.assertIn(message, self.compare(*CELLS, "--out", "whole", status=2).stderr)
-        self.assertEqual(self.files("whole"), before)
 
     def test_a_damaged_line_is_told_with_its_number(self):
         self.damaged(",double,1,", ",double,x,", "runs.csv:3: is damaged")
@@ -121,10 +69,10 @@ class Compare(unittest.TestCase):
     def test_another_definition_is_refused(self):
         self.whole()
         (self.path / "brief.toml").write_text(BRIEF.replace("12.0", "13.0"))
-        said = self.compare(*CELLS, "--out", "whole", status=2).stderr
+        said = self.batch("--out", "whole", status=2).stderr
         self.assertIn("runs.csv: its pi with brief was made by another definition", said)
-        self.compare(*CELLS, "--out", "other")
-        said = self.compare("--merge", "whole/runs.csv", "other/runs.csv", "--out", "merged", status=2).stderr
+        self.batch("--out", "other")
+        said = self.merge("merged", "whole/runs.csv", "other/runs.csv", status=2).stderr
         self.assertIn("gave something else before", said)
         self.assertFalse((self.path / "merged").exists())
 
@@ -164,9 +112,7 @@ class Compare(unittest.TestCase):
     def test_a_fault_is_counted_and_the_muscle_not_followed(self):
         (self.path / "broken.toml").write_text(BRIEF.replace("plant.stiffness_N_per_m = 12.0", "injected_fault.heater_open = true"))
         self.compare("--controllers", "pi", "--disturbances", "broken.toml", "--seeds", "1", "--no-plot", "--out", "out")
-        with open(self.path / "out/runs.csv") as file:
-            next(file)
-            row, = csv.DictReader(file)
+        row, = self.rows("out")
         self.assertEqual((row["fault"], row["peak_m"], row["settling_s"]), ("heater_open", "inf", "inf"))
         self.assertIn("∞", (self.path / "out/compare.md").read_text())
 

@@ -1,4 +1,4 @@
-#include "compare/kept_lines.hpp"
+#include "batch/kept_lines.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 
-namespace supercoil::host_sim::compare {
+namespace supercoil::host_sim::batch {
 
 std::string number(double value) {
   if (std::isnan(value)) return {};
@@ -33,8 +34,12 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 
 tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
                                            const std::string& head, const TakeLine& take) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) return false;
+  if (!std::filesystem::is_regular_file(status))
+    return tl::unexpected(path.string() + ": is not a file");
   std::ifstream in(path, std::ios::binary);
-  if (!in && !std::filesystem::exists(path)) return false;
   const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
   if (!in.good() && !in.eof()) return tl::unexpected(path.string() + ": cannot be read");
   if (all.size() < head.size() && head.starts_with(all)) return !all.empty();
@@ -55,4 +60,23 @@ tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
   return false;
 }
 
-}  // namespace supercoil::host_sim::compare
+tl::expected<void, std::string> add_parts(const std::vector<std::string>& parts,
+                                          const std::filesystem::path& own, const AddPart& add) {
+  std::vector<std::filesystem::path> files(parts.begin(), parts.end());
+  for (const std::filesystem::path& file : files) {
+    if (!std::filesystem::exists(file))
+      return tl::unexpected(file.string() + ": there is no such file");
+  }
+  files.push_back(own);
+  for (const std::filesystem::path& file : files) {
+    const auto torn = add(file);
+    if (!torn) return tl::unexpected(torn.error());
+    if (*torn) {
+      return tl::unexpected(
+          file.string() + ": its last line is torn: the run was interrupted; go on with it first");
+    }
+  }
+  return {};
+}
+
+}  // namespace supercoil::host_sim::batch

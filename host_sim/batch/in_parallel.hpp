@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace supercoil::host_sim::compare {
+namespace supercoil::host_sim::batch {
 
 /// As many as requested; for 0, one per processor.
 unsigned threads_for(int requested);
@@ -21,4 +21,4 @@ using Task = std::function<Handover(std::size_t number, const std::atomic<bool>&
 void in_parallel(std::size_t count, unsigned jobs, const Task& task,
                  const std::function<bool()>& stop);
 
-}  // namespace supercoil::host_sim::compare
+}  // namespace supercoil::host_sim::batch

@@ -1,4 +1,4 @@
-#include "compare/in_parallel.hpp"
+#include "batch/in_parallel.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace supercoil::host_sim::compare {
+namespace supercoil::host_sim::batch {
 
 namespace {
 
@@ -98,4 +98,4 @@ void in_parallel(std::size_t count, unsigned jobs, const Task& task,
   work.rethrow();
 }
 
-}  // namespace supercoil::host_sim::compare
+}  // namespace supercoil::host_sim::batch

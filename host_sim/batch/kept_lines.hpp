@@ -2,6 +2,7 @@
 #pragma once
 
 #include <charconv>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -10,7 +11,13 @@
 
 #include <tl/expected.hpp>
 
-namespace supercoil::host_sim::compare {
+namespace supercoil::host_sim::batch {
+
+/// Part number of all, from 1 on: every so-manieth run.
+struct Shard {
+  std::int64_t number = 1;
+  std::int64_t of = 1;
+};
 
 /// The shortest text that reads back as the same value; nothing for NaN.
 std::string number(double value);
@@ -35,4 +42,12 @@ using TakeLine =
 tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
                                            const std::string& head, const TakeLine& take);
 
-}  // namespace supercoil::host_sim::compare
+/// Adds what a file has. True: its last line is torn. The error names the file.
+using AddPart = std::function<tl::expected<bool, std::string>(const std::filesystem::path& part)>;
+
+/// Adds each part of a whole, which must be there and not torn, and what the whole's own file had
+/// before, if it is there: merging loses nothing.
+tl::expected<void, std::string> add_parts(const std::vector<std::string>& parts,
+                                          const std::filesystem::path& own, const AddPart& add);
+
+}  // namespace supercoil::host_sim::batch

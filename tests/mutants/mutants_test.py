@@ -1,6 +1,7 @@
 """The bookkeeping of toolchain/mutate: what is sampled, what is left out, and the interval."""
 
 import pathlib
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -10,6 +11,7 @@ import areas
 import parts
 import results
 import sample
+import workshop
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EQUIVALENTS = pathlib.Path(__file__).parent / "equivalent.toml"
@@ -93,12 +95,36 @@ class Parts(unittest.TestCase):
         for traced in ("t.o\nl/a.a(y.o)\n/usr/lib/c.a(x.o)\n", "t.o\n(l/a.a)y.o\n(/usr/lib/c.a)x.o\n"):
             self.assertEqual(list(parts.pulled(traced, archives)), ["l/y.o", "l/m/y.o"])
 
+    def test_the_linker_says_what_it_took(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def run(*command):
+                return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
+            for name, text in (("main", "int f(); int main() { return f(); }"), ("f", "int f() { return 0; }"),
+                               ("g", "int g() { return 0; }")):
+                (pathlib.Path(folder) / f"{name}.cpp").write_text(text)
+                run("c++", "-c", f"{name}.cpp")
+            run("ar", "qc", "a.a", "f.o", "g.o")
+            traced = run("c++", *parts.TRACE, "main.o", "-o", "main", "a.a")
+            self.assertEqual(list(parts.pulled(traced, {"a.a": {"f.o": ["f.o"], "g.o": ["g.o"]}})), ["f.o"])
+
     def test_named_like_a_file_are_nearest_to_it(self):
         def distance(name, source=""):
             return parts.Part("p", name, frozenset(), [], pathlib.Path(name), source).distance("board/heat.hpp")
         ordered = [distance("heat_test"), distance("heat_late_test"), distance("x_test", '#include "board/heat.hpp"'),
                    distance("x_test", '#include "board/known_heat.hpp"')]
         self.assertEqual(ordered, sorted(set(ordered)))
+
+
+class Judged(unittest.TestCase):
+    def judge(self, *verdicts):
+        shop = mock.Mock(spec=workshop.Workshop)
+        shop.judge_by.side_effect = [(verdict, "") for verdict in verdicts]
+        return workshop.Workshop.judge(shop, mock.Mock(file="f.hpp"), (), 1.0)[0]
+
+    def test_what_no_program_has_survives(self):
+        self.assertEqual(self.judge("in no program", "in no program"), "survived")
+        self.assertEqual(self.judge("same code", "killed"), "killed")
+        self.assertEqual(self.judge("same code", "same code"), "same code")
 
 
 class Equivalents(unittest.TestCase):

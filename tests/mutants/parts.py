@@ -11,6 +11,9 @@ import shlex
 import shutil
 
 
+TRACE = ("-Wl,--trace", "-Wl,--trace")  # once names archives; twice, what is taken of them
+
+
 @dataclasses.dataclass
 class Part:
     program: str
@@ -56,7 +59,7 @@ def parts_of(program, tree, build, run):
         name = pathlib.Path(test).name.removesuffix(".cpp.o") if test else program
         path = build / "parts" / f"{program}.{name}"
         objects = [*([test] if test else []), *rest]
-        traced = run([*flags, "-Wl,--trace", *objects, "-o", path, *words[at + 2:]], cwd=build).stdout
+        traced = run([*flags, *TRACE, *objects, "-o", path, *words[at + 2:]], cwd=build).stdout
         objects += sorted(pulled(traced, archives))
         libraries = [word for word in words[at + 2:] if word not in archives]
         yield Part(program, name, frozenset(objects), [*flags, *objects, "-o", str(path), *libraries], path,

@@ -239,10 +239,11 @@ class Workshop:
         """("invalid" | "same code" | "survived" | "killed", by which part). What nothing noticed in time has survived."""
         ends = time.monotonic() + patience_s
         verdict = self.judge_by(mutant, programs, self.objects_with_code(mutant.file), ends)
-        if verdict[0] == "same code":
+        if verdict[0] in ("same code", "in no program"):
             # A constant may be elsewhere, where no line of its own tells of it.
             verdict = self.judge_by(mutant, programs, self.objects(mutant.file), ends)
-        return verdict
+        # What no test program is linked with, none can notice.
+        return ("survived", "") if verdict[0] == "in no program" else verdict
 
     def judge_by(self, mutant, programs, targets, ends):
         self.mutate(mutant, targets)
@@ -264,6 +265,8 @@ class Workshop:
                 self.kills[mutant.file, str(part)] += 1
                 self.kills[str(part)] += 1
                 return "killed", str(part)
+        if not changed:
+            return "in no program", ""
         return ("survived" if any(changed.values()) else "same code"), ""
 
     def nearest_first(self, file, programs):

@@ -1,0 +1,178 @@
+"""Between ROS 2 and the boards: takes commands, publishes states, at a fixed rate in one task.
+
+Where this task hangs, commands are renewed no more, and the boards let the muscles cool by themselves.
+"""
+
+import asyncio
+import functools
+import logging
+import math
+import time
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import dataclass
+
+from supercoil.errors import SupercoilError
+from supercoil.ros.diagnostics import diagnostics_of
+from supercoil.ros.graph import Graph
+from supercoil.ros.joint import Joint
+from supercoil.ros.messages import Bool, DiagnosticArray, Header, JointState, JointTrajectory, Time
+from supercoil.ros.motion import Held, Knot, Trajectory, knots_of
+from supercoil.ros.names import resolved
+
+_DIAGNOSTICS_EVERY_S = 1.0
+_log = logging.getLogger("supercoil.ros")
+
+
+@dataclass
+class Options:
+    node: str = "supercoil"
+    domain: int = 0
+    rate_Hz: float = 100.0
+    command_timeout_s: float = 1.0
+    states: str = "/joint_states"
+    commands: str = "~/joint_commands"
+    trajectory: str = "~/joint_trajectory"
+    arm: bool = False
+
+
+class Bridge:
+    def __init__(self, joints: Sequence[Joint], options: Options) -> None:
+        self._joints = {joint.name: joint for joint in joints}
+        self._options = options
+        self._stopped = False
+        self._armed_once: set[str] = set()
+        self._stopping: set[asyncio.Task[None]] = set()
+        graph = Graph(options.domain)
+        name = functools.partial(resolved, node=options.node)
+        self._states = graph.publisher(name(options.states), JointState)
+        self._diagnostics = graph.publisher("/diagnostics", DiagnosticArray)
+        self._commands = graph.subscription(name(options.commands), JointState, (False,))
+        self._trajectories = graph.subscription(name(options.trajectory), JointTrajectory, (True,))
+        self._stop = graph.subscription(name("~/emergency_stop"), Bool, (True, False))
+        self._services = []
+        for verb, do in (("arm", Joint.arm), ("disarm", Joint.disarm), ("reset", Joint.reset)):
+            everybody = functools.partial(self._serve, list(joints), do)
+            self._services.append(graph.service(name(f"~/{verb}"), everybody))
+            for joint in joints:
+                one = functools.partial(self._serve, [joint], do)
+                self._services.append(graph.service(name(f"~/{joint.name}/{verb}"), one))
+
+    async def run(self) -> None:
+        """Until it is cancelled; then every muscle that was commanded is disarmed."""
+        async with asyncio.TaskGroup() as tasks:
+            for joint in self._joints.values():
+                tasks.create_task(joint.run())
+            tasks.create_task(self._cycle())
+
+    async def _cycle(self) -> None:
+        loop = asyncio.get_running_loop()
+        period_s = 1.0 / self._options.rate_Hz
+        at_s = loop.time()
+        diagnosed_s = -math.inf
+        while True:
+            self._take()
+            now_s = time.time()
+            for joint in self._joints.values():
+                joint.follow(now_s)
+            self._publish_states()
+            if loop.time() - diagnosed_s >= _DIAGNOSTICS_EVERY_S:
+                diagnosed_s = loop.time()
+                self._diagnostics.write(diagnostics_of(list(self._joints.values()), self._stopped))
+                self._arm_at_start()
+            at_s = max(at_s + period_s, loop.time())  # what is late is left out
+            await asyncio.sleep(at_s - loop.time())
+
+    def _publish_states(self) -> None:
+        """Velocity and effort are not measured, so they are empty."""
+        joints = self._joints.values()
+        self._states.write(JointState(Header(Time.now()), [joint.name for joint in joints],
+                                      [joint.position_m for joint in joints]))
+
+    def _take(self) -> None:
+        for stop, _ in self._stop.take():
+            self._emergency_stop(stop.data)
+        for service in self._services:
+            service.serve()
+        for command, _ in self._commands.take():
+            self._command(command)
+        for trajectory, publisher in self._trajectories.take():
+            self._follow(trajectory, functools.partial(self._trajectories.has, publisher))
+
+    def _emergency_stop(self, stop: bool) -> None:
+        if stop != self._stopped:
+            _log.warning("emergency stop: %s", "stopped" if stop else "released; arm to go on")
+        self._stopped = stop
+        for joint in self._joints.values() if stop else ():
+            joint.let_go()
+            self._run_aside(joint, joint.disarm)
+
+    def _run_aside(self, joint: Joint, do: Callable[[], Awaitable[str]]) -> None:
+        async def run() -> None:
+            try:
+                await do()
+            except SupercoilError as error:
+                joint.refuse(str(error).splitlines()[0])
+
+        task = asyncio.create_task(run())
+        self._stopping.add(task)
+        task.add_done_callback(self._stopping.discard)
+
+    def _arm_at_start(self) -> None:
+        """Each joint once, when its board is first there."""
+        for joint in self._joints.values() if self._options.arm else ():
+            if joint.muscle is not None and joint.name not in self._armed_once and not self._stopped:
+                self._armed_once.add(joint.name)
+                self._run_aside(joint, joint.arm)
+
+    def _command(self, command: JointState) -> None:
+        """Positions of our joints among those that it names."""
+        until_s = time.time() + self._options.command_timeout_s
+        for name, position_m in zip(command.name, command.position, strict=False):
+            joint = self._joints.get(name)
+            if joint is None or self._stopped:
+                continue
+            if math.isfinite(position_m):
+                joint.motion = Held(position_m, until_s)
+            else:
+                joint.refuse(f"a command of {position_m} m is left out")
+
+    def _follow(self, trajectory: JointTrajectory, sender_is_there: Callable[[], bool]) -> None:
+        """All of its joints, or none."""
+        if self._stopped:
+            return
+        try:
+            knots = self._knots_of(trajectory)
+        except ValueError as error:
+            _log.warning("a trajectory is refused: %s", error)
+            for name in trajectory.joint_names:
+                if name in self._joints:
+                    self._joints[name].refuse(f"a trajectory is refused: {error}")
+            return
+        for name, path in knots.items():
+            self._joints[name].motion = Trajectory(path, sender_is_there)
+
+    def _knots_of(self, trajectory: JointTrajectory) -> dict[str, list[Knot]]:
+        knots: dict[str, list[Knot]] = {}
+        for name in trajectory.joint_names:
+            if name not in self._joints:
+                raise ValueError(f"no joint is called {name!r}; there are {', '.join(self._joints)}")
+        for number, name in enumerate(trajectory.joint_names):
+            if name in knots:
+                raise ValueError(f"names {name} twice")
+            joint = self._joints[name]
+            at_m = joint.position_m if joint.set_point_m is None else joint.set_point_m
+            if not math.isfinite(at_m):
+                raise ValueError(f"where {name} is now is not known")
+            knots[name] = knots_of(trajectory, number, Knot(time.time(), at_m, 0.0))
+        return knots
+
+    async def _serve(self, joints: Sequence[Joint], do: Callable[[Joint], Awaitable[str]]) -> tuple[bool, str]:
+        if self._stopped and do is Joint.arm:
+            return False, "the emergency stop is set; publish false on it first"
+        done = await asyncio.gather(*(do(joint) for joint in joints), return_exceptions=True)
+        told = []
+        for joint, outcome in zip(joints, done, strict=True):
+            if isinstance(outcome, BaseException) and not isinstance(outcome, SupercoilError):
+                raise outcome
+            told.append(f"{joint.name}: {str(outcome).splitlines()[0]}")
+        return not any(isinstance(outcome, BaseException) for outcome in done), "; ".join(told)

@@ -1,0 +1,116 @@
+"""supercoil-ros: the command."""
+
+import argparse
+import asyncio
+import logging
+import os
+import signal
+import sys
+from collections.abc import Callable, Sequence
+from importlib.util import find_spec
+
+from supercoil.errors import SupercoilError
+from supercoil.generated.version import __version__
+
+_NODES = range(1, 64)
+_DOMAINS = range(233)  # more have no port of their own
+
+
+def _joint(text: str) -> tuple[str, int]:
+    from supercoil.ros.names import checked
+    name, equals, node = text.partition("=")
+    if not equals or not node.isdecimal() or int(node) not in _NODES:
+        raise argparse.ArgumentTypeError(f"{text}: must be NAME=NODE, with a node of 1 to 63, as finger=1")
+    try:
+        return checked(name, "joint"), int(node)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def _number(low: float, high: float, unit: str) -> Callable[[str], float]:
+    def read(text: str) -> float:
+        try:
+            value = float(text)
+        except ValueError:
+            value = float("nan")
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text}: must be {low:g} to {high:g} {unit}")
+        return value
+    return read
+
+
+def _domain(text: str) -> int:
+    if not text.isdecimal() or int(text) not in _DOMAINS:
+        raise argparse.ArgumentTypeError(f"{text}: must be 0 to {_DOMAINS[-1]}")
+    return int(text)
+
+
+def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(
+        prog="supercoil-ros", formatter_class=argparse.RawDescriptionHelpFormatter,
+        description="Muscles as joints of ROS 2, over DDS as rmw_cyclonedds_cpp speaks it. No ROS is needed on this "
+        "machine.\nPositions are in metres.",
+        epilog="The muscles are disarmed when it ends, and cool by themselves when it is killed. docs/ros.md has all "
+        "of it.")
+    parser.add_argument("address", help="of the boards: can0, socketcand:[HOST:]PORT, INTERFACE:CHANNEL of python-can, "
+                        "or the path of the board's own socket")
+    parser.add_argument("--joint", metavar="NAME=NODE", action="append", required=True, type=_joint,
+                        help="a muscle and its node on the bus; once for each")
+    parser.add_argument("--arm", action="store_true",
+                        help="arm each muscle when its board is first there; otherwise the service ~/arm does")
+    parser.add_argument("--rate", metavar="HZ", type=_number(1.0, 1000.0, "Hz"), default=100.0,
+                        help="of joint states and of set points (default: 100)")
+    parser.add_argument("--command-timeout", metavar="S", type=_number(0.05, 3600.0, "s"), default=1.0,
+                        help="how long a joint command holds (default: 1)")
+    parser.add_argument("--states", metavar="TOPIC", default="/joint_states", help="default: /joint_states")
+    parser.add_argument("--commands", metavar="TOPIC", default="~/joint_commands", help="default: ~/joint_commands")
+    parser.add_argument("--trajectory", metavar="TOPIC", default="~/joint_trajectory",
+                        help="default: ~/joint_trajectory")
+    parser.add_argument("--name", default="supercoil", help="of the node, which ~ stands for (default: supercoil)")
+    parser.add_argument("--domain", metavar="N", type=_domain, default=os.environ.get("ROS_DOMAIN_ID") or "0",
+                        help="of DDS (default: ROS_DOMAIN_ID, or 0)")
+    parser.add_argument("--version", action="version", version=f"supercoil-ros {__version__}")
+    arguments = list(sys.argv[1:] if given is None else given)
+    if "--ros-args" in arguments:  # a launch file of ROS adds it, and its own after it
+        del arguments[arguments.index("--ros-args"):]
+    read = parser.parse_args(arguments)
+    names = [name for name, _ in read.joint]
+    nodes = [node for _, node in read.joint]
+    for kept, what in ((names, "name"), (nodes, "node")):
+        twice = {str(each) for each in kept if kept.count(each) > 1}
+        if twice:
+            parser.error(f"--joint: {what} {', '.join(sorted(twice))} is given twice")
+    return read
+
+
+async def _run(read: argparse.Namespace) -> None:
+    from supercoil.ros.bridge import Bridge, Options
+    from supercoil.ros.joint import Joint
+    joints = [Joint(name, read.address, node) for name, node in read.joint]
+    bridge = Bridge(joints, Options(
+        node=read.name, domain=read.domain, rate_Hz=read.rate, command_timeout_s=read.command_timeout,
+        states=read.states, commands=read.commands, trajectory=read.trajectory, arm=read.arm))
+    running = asyncio.create_task(bridge.run())
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        asyncio.get_running_loop().add_signal_handler(number, running.cancel)
+    try:
+        await running
+    except asyncio.CancelledError:
+        if not running.cancelled():
+            raise
+
+
+def main(given: Sequence[str] | None = None) -> int:
+    """0: it was ended; 1: it could not run; 2: wrong arguments, as argparse has it."""
+    read = _arguments(given)
+    logging.basicConfig(format="supercoil-ros: %(message)s", level=logging.INFO)
+    if find_spec("cyclonedds") is None:
+        print('supercoil-ros: needs Eclipse Cyclone DDS: pip install "supercoil[ros]"', file=sys.stderr)
+        return 1
+    from cyclonedds.core import DDSException
+    try:
+        asyncio.run(_run(read))
+    except (SupercoilError, ValueError, DDSException) as error:
+        print(f"supercoil-ros: {error}", file=sys.stderr)
+        return 1
+    return 0

@@ -1,0 +1,180 @@
+"""One muscle as a joint: connected as long as its board is there, and told where to be."""
+
+import asyncio
+import contextlib
+import logging
+import math
+import time
+
+from supercoil.errors import FaultError, NotReachedError, RefusalError, SupercoilError
+from supercoil.generated import messages, refusals
+from supercoil.generated.names import Fault, State
+from supercoil.muscle import Muscle
+from supercoil.ros.motion import Motion
+
+_TRY_AGAIN_S = 1.0
+_STALE_S = 0.5
+_TELL_REFUSALS_S = 5.0
+# What holds is said again for as long as it does, so that a board that was told to rest by others moves again.
+_SAY_AGAIN_S = 0.5
+
+_UNKNOWN_RANGE_M = (-math.inf, math.inf)
+
+_log = logging.getLogger("supercoil.ros")
+
+
+class _Refused(Exception):
+    """Here, before the board was asked."""
+
+
+class Joint:
+    def __init__(self, name: str, address: str, node: int) -> None:
+        self.name = name
+        self.hardware_id = f"{address} node {node}"
+        self.problem = "not connected yet"  # why the board is not reached; empty: it is
+        self.motion: Motion | None = None
+        self._address = address
+        self._node = node
+        self._muscle: Muscle | None = None
+        self._wanted_m: float | None = None
+        self._look = asyncio.Event()
+        self._range_m = _UNKNOWN_RANGE_M
+        self._refusal = ""
+        self._refused_at_s = -math.inf
+        self._measurement_time_s = math.nan
+        self._measured_at_s = -math.inf
+
+    @property
+    def muscle(self) -> Muscle | None:
+        """None: its board is not reached."""
+        return self._muscle
+
+    @property
+    def refusal(self) -> str:
+        """Of the last seconds; empty: none."""
+        return self._refusal if time.monotonic() - self._refused_at_s < _TELL_REFUSALS_S else ""
+
+    @property
+    def position_m(self) -> float:
+        """NaN: no fresh reading."""
+        now_s = time.monotonic()
+        measured = self._muscle.telemetry.newest(messages.Measurement) if self._muscle else None
+        if measured is None:
+            return math.nan
+        if measured.time_s != self._measurement_time_s:
+            self._measurement_time_s, self._measured_at_s = measured.time_s, now_s
+        return measured.position_m if now_s - self._measured_at_s <= _STALE_S else math.nan
+
+    @property
+    def set_point_m(self) -> float | None:
+        return self._wanted_m
+
+    def refuse(self, why: str) -> None:
+        """For diagnostics, and once in the log."""
+        if why != self.refusal:
+            _log.warning("%s: %s", self.name, why)
+        self._refusal, self._refused_at_s = why, time.monotonic()
+
+    def follow(self, now_s: float) -> None:
+        """now_s: of the wall clock."""
+        wanted = self.motion.at(now_s) if self.motion else None
+        if wanted is None:
+            self.motion = None
+        if wanted != self._wanted_m:
+            self._wanted_m = wanted
+            self._look.set()
+
+    def let_go(self) -> None:
+        self.motion = None
+        self._wanted_m = None
+        self._look.set()
+
+    async def run(self) -> None:
+        """Connects, again and again, and obeys meanwhile."""
+        while True:
+            try:
+                async with Muscle(self._address, self._node) as muscle, asyncio.TaskGroup() as tasks:
+                    self._muscle, self.problem = muscle, ""
+                    _log.info("%s: %s is there", self.name, self.hardware_id)
+                    tasks.create_task(self._watch(muscle))
+                    tasks.create_task(self._obey(muscle))
+            except* SupercoilError as errors:
+                self._muscle = None
+                problem = str(errors.exceptions[0])
+                if problem != self.problem:
+                    _log.error("%s: %s", self.name, problem)
+                self.problem = problem
+            finally:
+                self._muscle = None
+            self.let_go()
+            await asyncio.sleep(_TRY_AGAIN_S)
+
+    async def _watch(self, muscle: Muscle) -> None:
+        """Ends when the board is silent. What was wanted before a stop or a fault is not wanted after it."""
+        async for status in muscle.stream(messages.Status):
+            if status.state not in (State.armed, State.active):
+                self.let_go()
+
+    async def _obey(self, muscle: Muscle) -> None:
+        ours = False  # what the muscle does, it does for us
+        while True:
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(_SAY_AGAIN_S):
+                    await self._look.wait()
+            self._look.clear()
+            try:
+                if self._wanted_m is not None:
+                    self._check(muscle, self._wanted_m)
+                    await muscle.set_position(self._wanted_m)
+                    ours = True
+                elif ours:
+                    ours = False
+                    if muscle.state == State.active:
+                        await muscle.rest()
+            except (RefusalError, FaultError, _Refused) as error:
+                self._remember(error)
+                self.refuse(str(error).splitlines()[0])
+                self.let_go()  # and rests, if it moved
+
+    def _check(self, muscle: Muscle, position_m: float) -> None:
+        """Before the board is asked, to which ten refusals in a row are a fault."""
+        if muscle.state not in (State.armed, State.active):
+            raise _Refused(f"is {muscle.state}: it cannot move")
+        low_m, high_m = self._range_m
+        if not low_m <= position_m <= high_m:
+            nearest_m = low_m if position_m < low_m else high_m
+            raise _Refused(f"{position_m:.6f} m is out of its range, {nearest_m:.6f} m is in")
+
+    def _remember(self, error: Exception) -> None:
+        """The ends of its range, as the board told them."""
+        if isinstance(error, refusals.OutOfRange) and math.isfinite(error.nearest) and self._wanted_m is not None:
+            low_m, high_m = self._range_m
+            self._range_m = (low_m, error.nearest) if self._wanted_m > error.nearest else (error.nearest, high_m)
+
+    async def arm(self) -> str:
+        """What came of it; so do the others. SupercoilError: it did not."""
+        muscle = self._connected()
+        self.let_go()
+        self._range_m = _UNKNOWN_RANGE_M  # it may have been changed
+        if muscle.state in (State.armed, State.active):
+            return "is armed"
+        await muscle.arm()
+        return "armed"
+
+    async def disarm(self) -> str:
+        self.let_go()
+        await self._connected().disarm()
+        return "disarmed"
+
+    async def reset(self) -> str:
+        self.let_go()
+        muscle = self._connected()
+        if muscle.fault == Fault.none:
+            return "has no fault"
+        await muscle.reset()
+        return "reset"
+
+    def _connected(self) -> Muscle:
+        if self._muscle is None:
+            raise NotReachedError(self.problem)
+        return self._muscle

@@ -1,0 +1,98 @@
+"""Where a joint is to be, from what ROS has sent: a set point for a while, or a trajectory."""
+
+import bisect
+import math
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
+
+from supercoil.ros import messages
+
+_LONGEST_S = 86400.0
+
+
+class Motion(Protocol):
+    def at(self, now_s: float) -> float | None:
+        """The set point in m at this time of the wall clock; None: it has ended."""
+
+
+class Held(NamedTuple):
+    position_m: float
+    until_s: float
+
+    def at(self, now_s: float) -> float | None:
+        return self.position_m if now_s < self.until_s else None
+
+
+class Knot(NamedTuple):
+    time_s: float  # of the wall clock
+    position_m: float
+    velocity_m_per_s: float | None
+
+
+def _between(before: Knot, after: Knot, time_s: float) -> float:
+    """A cubic where both velocities are known, else a straight line."""
+    length = after.time_s - before.time_s
+    t = (time_s - before.time_s) / length
+    if before.velocity_m_per_s is None or after.velocity_m_per_s is None:
+        return before.position_m + t * (after.position_m - before.position_m)
+    # Hermite's cubic.
+    return ((1 + 2 * t) * (1 - t) ** 2 * before.position_m + t * (1 - t) ** 2 * length * before.velocity_m_per_s
+            + t * t * (3 - 2 * t) * after.position_m - t * t * (1 - t) * length * after.velocity_m_per_s)
+
+
+class Trajectory:
+    """of: who sent it is still there. Its last point is held for as long."""
+
+    def __init__(self, knots: list[Knot], of: Callable[[], bool]) -> None:
+        self._knots = knots
+        self._times = [knot.time_s for knot in knots]
+        self._sender_is_there = of
+
+    def at(self, now_s: float) -> float | None:
+        after = bisect.bisect_right(self._times, now_s)
+        if after == 0:
+            return self._knots[0].position_m
+        if after == len(self._knots):
+            return self._knots[-1].position_m if self._sender_is_there() else None
+        return _between(self._knots[after - 1], self._knots[after], now_s)
+
+
+def _column(values: list[float], joint: int, joints: int, what: str, point: int) -> float | None:
+    if not values and what != "positions":
+        return None
+    if len(values) != joints:
+        raise ValueError(f"points[{point}].{what} has {len(values)} values for {joints} joints")
+    if not math.isfinite(values[joint]):
+        raise ValueError(f"points[{point}].{what}[{joint}] is {values[joint]}")
+    return values[joint]
+
+
+def knots_of(message: messages.JointTrajectory, joint: int, start: Knot) -> list[Knot]:
+    """Of one of its joints. start: now, and where the joint is. A header without a time begins now.
+
+    ValueError says what is wrong with the message."""
+    begins_s = message.header.stamp.seconds or start.time_s
+    joints = len(message.joint_names)
+    knots: list[Knot] = []
+    for number, point in enumerate(message.points):
+        after_s = point.time_from_start.seconds
+        if not 0.0 <= after_s <= _LONGEST_S:
+            raise ValueError(f"points[{number}].time_from_start is {after_s:g} s; must be 0 to {_LONGEST_S:g}")
+        position = _column(point.positions, joint, joints, "positions", number)
+        velocity = _column(point.velocities, joint, joints, "velocities", number)
+        assert position is not None
+        if knots and begins_s + after_s <= knots[-1].time_s:
+            raise ValueError(f"points[{number}].time_from_start is not after the one before")
+        knots.append(Knot(begins_s + after_s, position, velocity))
+    if not knots:
+        raise ValueError("has no points")
+    if knots[-1].time_s < start.time_s:
+        raise ValueError(f"was over {start.time_s - knots[-1].time_s:.3g} s ago")
+    if knots[0].time_s > start.time_s:
+        # It stays where it is until the trajectory begins, and goes to the first point from there.
+        at_rest = start._replace(time_s=max(begins_s, start.time_s))
+        if at_rest.time_s < knots[0].time_s:
+            knots.insert(0, at_rest)
+        if start.time_s < at_rest.time_s:
+            knots.insert(0, start._replace(velocity_m_per_s=None))
+    return knots

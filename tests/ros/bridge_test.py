@@ -1,0 +1,297 @@
+"""supercoil-ros as a process of its own between two simulated boards and peers on DDS.
+
+A busy machine may let a command expire: then the muscle is armed anew, and what is waited for comes later."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import numpy as np
+from patience import DEADLINE_S, QUICK
+from peer import LOOPBACK, Peer
+
+from supercoil import Fault, State, sync
+
+JOINTS = ("finger", "thumb")
+OK, WARN, ERROR, STALE = range(4)
+STOP_TYPE = "std_msgs/msg/Bool"
+
+
+class Live(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.domain = 1 + os.getpid() % 200
+        cls.simulation = sync.Simulation(QUICK, options=("--nodes", "2"), deadline_s=1e6).start()
+        cls.addClassCleanup(cls.simulation.stop)
+        cls.observers = {"finger": cls.simulation.muscle}
+        cls.observers["thumb"] = sync.Muscle(cls.simulation.address, 2, deadline_s=1e6).connect()
+        cls.addClassCleanup(cls.observers["thumb"].close)
+        cls.peer = Peer(cls.domain)
+        cls.states = cls.peer.reader("rt/joint_states", "sensor_msgs/msg/JointState")
+        cls.diagnostics = cls.peer.reader("rt/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
+        cls.commands = cls.peer.writer("rt/supercoil/joint_commands", "sensor_msgs/msg/JointState")
+        cls.start_bridge()
+        cls.addClassCleanup(cls.end_bridge)
+
+    @classmethod
+    def start_bridge(cls, *words):
+        cls.bridge = subprocess.Popen(
+            [sys.executable, "-m", "supercoil.ros", cls.simulation.address, "--joint", "finger=1", "--joint", "thumb=2",
+             "--domain", str(cls.domain), *words], env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
+
+    @classmethod
+    def end_bridge(cls):
+        cls.bridge.kill()
+        cls.bridge.communicate()
+
+    def setUp(self):
+        """An earlier test leaves nothing behind."""
+        self.wait(lambda: self.commands.matched())
+        self.stop(False)
+        for verb in ("reset", "disarm"):
+            self.wait(lambda verb=verb: self.call(verb)[0])
+        self.wait(lambda: self.all_are(State.disarmed))
+
+    def wait(self, wanted, meanwhile=lambda: None):
+        """Until it is true, and gives that."""
+        end = time.monotonic() + DEADLINE_S
+        while not (seen := wanted()):
+            self.assertIsNone(self.bridge.poll(), "the bridge has ended")
+            self.assertLess(time.monotonic(), end, "never seen")
+            meanwhile()
+            time.sleep(0.01)
+        return seen
+
+    def all_are(self, state):
+        return all(observer.state == state for observer in self.observers.values())
+
+    def call(self, service):
+        return self.peer.call(f"/supercoil/{service}", DEADLINE_S)
+
+    def arm(self):
+        self.wait(lambda: (self.call("reset"), self.call("arm"))[1][0])
+        self.wait(lambda: not self.all_are(State.disarmed))
+
+    def command(self, positions_m, writer=None):
+        empty = np.array([], dtype=np.float64)
+        (writer or self.commands).write(self.peer.message(
+            "sensor_msgs/msg/JointState", self.peer.header(), list(positions_m),
+            np.array(list(positions_m.values()), dtype=np.float64), empty, empty))
+
+    def again(self, positions_m):
+        """Sends it, now and after a command that expired."""
+        def once():
+            if any(observer.state in (State.fault, State.disarmed) for observer in self.observers.values()):
+                self.arm()
+            self.command(positions_m)
+        return once
+
+    def stop(self, stop, reliable=True):
+        writer = self.peer.writer("rt/supercoil/emergency_stop", STOP_TYPE, reliable)
+        self.wait(lambda: writer.matched() == (2 if reliable else 1))
+        writer.write(self.peer.message(STOP_TYPE, stop))
+        # It is taken within a period; another one says that it was.
+        self.wait(lambda: self.diagnosed("emergency stop") == (ERROR if stop else OK))
+
+    def told(self, of):
+        """The newest that is said of it; None: nothing new."""
+        found = [status for array in self.diagnostics.take() for status in array.status
+                 if status.name == f"supercoil: {of}"]
+        return found[-1] if found else None
+
+    def diagnosed(self, of):
+        told = self.told(of)
+        return told.level if told else None
+
+    def diagnosis_of(self, joint, text, meanwhile):
+        return self.wait(lambda: (status := self.told(joint)) and text in status.message and status, meanwhile)
+
+    def position_m(self, joint):
+        return self.observers[joint].position_m
+
+    def near(self, joint, position_m):
+        return abs(self.position_m(joint) - position_m) < 2e-4
+
+    def trajectory(self, writer, points, names=("finger",), velocities=(), begins_s=0.0):
+        empty = np.array([], dtype=np.float64)
+
+        def duration(seconds):
+            return self.peer.message("builtin_interfaces/msg/Duration", int(seconds), int(1e9 * (seconds % 1)))
+        writer.write(self.peer.message(
+            "trajectory_msgs/msg/JointTrajectory", self.peer.header(begins_s), list(names), [
+                self.peer.message("trajectory_msgs/msg/JointTrajectoryPoint", np.array(positions, dtype=np.float64),
+                                  np.array(velocities, dtype=np.float64), empty, empty, duration(after_s))
+                for after_s, positions in points]))
+
+    def trajectory_writer(self):
+        writer = self.peer.writer("rt/supercoil/joint_trajectory", "trajectory_msgs/msg/JointTrajectory")
+        self.wait(writer.matched)
+        return writer
+
+    def test_states_are_what_the_boards_tell(self):
+        state = self.wait(lambda: next((one for one in self.states.take() if np.all(np.isfinite(one.position))), None))
+        self.assertEqual(list(state.name), list(JOINTS))
+        self.assertEqual((len(state.velocity), len(state.effort)), (0, 0))
+        for joint, position_m in zip(JOINTS, state.position, strict=True):
+            self.assertAlmostEqual(position_m, self.position_m(joint), delta=1e-4)
+        self.assertLess(abs(state.header.stamp.sec - time.time()), 60.0)
+
+    def test_bytes_are_read_by_humble_and_jazzy(self):
+        self.wait(lambda: self.states.take_bytes())
+        for release in ("ROS2_HUMBLE", "ROS2_JAZZY"):
+            peer = Peer(self.domain, release)
+            states = peer.reader("rt/joint_states", "sensor_msgs/msg/JointState")
+            diagnostics = peer.reader("rt/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
+            self.assertEqual(list(self.wait(states.take)[-1].name), list(JOINTS))
+            self.assertTrue(self.wait(diagnostics.take)[-1].status)
+
+    def test_publishers_tell_ros_the_type_they_have(self):
+        publication = self.states.dds.get_matched_publications()[0]
+        told = self.states.dds.get_matched_publication_data(publication)
+        self.assertIn(b"typehash=RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e;",
+                      [policy.data for policy in told.qos if type(policy).__name__ == "Userdata"])
+
+    def test_a_command_moves_an_armed_muscle_and_holds_for_its_time(self):
+        self.arm()
+        wanted = {"finger": 0.001, "somebody_elses": 5.0, "thumb": 0.0015}
+        self.wait(lambda: self.near("finger", 0.001) and self.near("thumb", 0.0015), self.again(wanted))
+        # Silence: it rests, and stays armed.
+        self.wait(lambda: all(observer.state in (State.armed, State.fault) for observer in self.observers.values()))
+
+    def test_what_a_board_refuses_is_diagnosed(self):
+        told = self.diagnosis_of("finger", "is disarmed: it cannot move", lambda: self.command({"finger": 0.001}))
+        self.assertEqual((told.level, told.hardware_id), (WARN, f"{self.simulation.address} node 1"))
+        self.assertEqual({value.key: value.value for value in told.values}["state"], "disarmed")
+        self.arm()
+        # A controller's stream, of which ten in a row would be a fault on the board.
+        self.diagnosis_of("thumb", "m is in", self.again({"thumb": 3.0}))
+        self.diagnosis_of("thumb", "a command of nan m is left out", self.again({"thumb": float("nan")}))
+        self.assertIn(self.observers["thumb"].fault, (Fault.none, Fault.command_timeout))
+
+    def test_a_muscle_that_moves_rests_when_it_is_told_what_it_cannot(self):
+        self.arm()
+        self.wait(lambda: self.observers["thumb"].state == State.active, self.again({"thumb": 0.001}))
+        self.wait(lambda: self.observers["thumb"].state != State.active, self.again({"thumb": -1.0}))
+
+    def test_a_trajectory_is_followed_and_its_end_held_while_its_sender_is_there(self):
+        writers = [self.trajectory_writer()]
+
+        def send():
+            self.arm()
+            self.trajectory(writers[0], [(1.0, [0.001, 0.0005]), (3.0, [0.002, 0.001])], JOINTS, velocities=(0.0, 0.0))
+            while not self.all_are(State.active):
+                time.sleep(0.01)
+            while self.all_are(State.active):  # until it is there, or a command has expired
+                if self.near("finger", 0.002) and self.near("thumb", 0.001):
+                    return True
+                time.sleep(0.02)
+            return False
+        self.wait(send)
+        self.assertAlmostEqual(self.observers["finger"].telemetry.tracking.reference_m, 0.002, delta=1e-6)
+        writers.clear()  # as a program that ends
+        self.wait(lambda: all(observer.state in (State.armed, State.fault) for observer in self.observers.values()))
+
+    def test_a_trajectory_that_cannot_be_is_refused_whole(self):
+        writer = self.trajectory_writer()
+        self.arm()
+        for points, names, why in (
+                ([(1.0, [0.001, 0.001])], ("finger", "toe"), "no joint is called 'toe'; there are finger, thumb"),
+                ([(1.0, [0.001, 0.001])], ("finger", "finger"), "names finger twice"),
+                ([(1.0, [0.001]), (0.5, [0.002])], ("finger",), "points[1].time_from_start is not after"),
+                ([(1.0, [float("inf")])], ("finger",), "points[0].positions[0] is inf"),
+                ([], ("finger",), "has no points")):
+            told = self.diagnosis_of("finger", why,
+                                     lambda points=points, names=names: self.trajectory(writer, points, names))
+            self.assertEqual(told.level, WARN)
+        self.assertNotEqual(self.observers["thumb"].state, State.active)
+
+    def test_an_emergency_stop_of_any_publisher_disarms_all_until_it_is_released(self):
+        for reliable in (True, False):
+            self.arm()
+            self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
+            self.stop(True, reliable)
+            self.wait(lambda: all(one.state in (State.disarmed, State.fault) for one in self.observers.values()))
+            self.command({"finger": 0.001, "thumb": 0.001})
+            self.assertEqual(self.call("arm"), (False, "the emergency stop is set; publish false on it first"))
+            self.stop(False)
+            self.assertNotIn(State.active, [one.state for one in self.observers.values()])
+
+    def test_each_joint_is_armed_and_disarmed_alone(self):
+        self.wait(lambda: self.call("thumb/arm")[0])
+        self.wait(lambda: self.observers["thumb"].state == State.armed)
+        self.assertEqual(self.observers["finger"].state, State.disarmed)
+        self.assertEqual(self.call("thumb/disarm"), (True, "thumb: disarmed"))
+        self.assertEqual(self.call("thumb/reset"), (True, "thumb: has no fault"))
+
+    def test_damaged_messages_are_left_out(self):
+        for data in (b"", b"\0\1\0\0", b"\0\1\0\0" + b"\xff" * 40, os.urandom(200)):
+            with contextlib.suppress(Exception):  # Cyclone itself refuses to send some of it
+                self.commands.write_bytes(data)
+        self.arm()
+        self.wait(lambda: self.near("finger", 0.001), self.again({"finger": 0.001, "thumb": 0.0005}))
+
+    def test_a_bridge_that_hangs_or_dies_lets_the_muscles_cool(self):
+        for number in (signal.SIGSTOP, signal.SIGKILL):
+            self.arm()
+            self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
+            self.bridge.send_signal(number)
+            end = time.monotonic() + DEADLINE_S
+            while any(one.state == State.active for one in self.observers.values()):
+                self.assertLess(time.monotonic(), end, "still heats")
+                time.sleep(0.01)
+            # One that heated until then has the fault; one whose command had ended rests.
+            self.assertTrue({one.fault for one in self.observers.values()} <= {Fault.command_timeout, Fault.none})
+            if number == signal.SIGSTOP:
+                self.bridge.send_signal(signal.SIGCONT)
+        self.end_bridge()
+        self.start_bridge()
+
+    def test_a_fault_is_diagnosed_with_its_meaning_until_it_is_reset(self):
+        self.arm()
+        self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
+        self.bridge.send_signal(signal.SIGSTOP)
+        self.wait(lambda: Fault.command_timeout in [one.fault for one in self.observers.values()])
+        self.bridge.send_signal(signal.SIGCONT)
+        in_fault = next(joint for joint, one in self.observers.items() if one.fault != Fault.none)
+        told = self.wait(lambda: (status := self.told(in_fault)) and status.level == ERROR and status)
+        self.assertIn("fault command_timeout: ", told.message)
+        self.wait(lambda: self.call(f"{in_fault}/reset")[0])
+        self.wait(lambda: self.observers[in_fault].fault == Fault.none)
+
+    def test_at_the_end_it_disarms(self):
+        self.arm()
+        self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))
+        self.bridge.send_signal(signal.SIGTERM)
+        self.assertEqual(self.bridge.wait(DEADLINE_S), 0)
+        end = time.monotonic() + DEADLINE_S
+        while any(one.state == State.active for one in self.observers.values()):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.01)
+        self.start_bridge("--arm")  # which arms without a service
+        self.wait(lambda: self.all_are(State.armed) or State.fault in [one.state for one in self.observers.values()])
+        self.end_bridge()
+        self.start_bridge()
+
+    def test_a_board_that_is_not_there_is_stale_and_comes_later(self):
+        other = Peer(self.domain)
+        diagnostics = other.reader("rt/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
+        absent = subprocess.Popen(
+            [sys.executable, "-m", "supercoil.ros", self.simulation.address, "--joint", "ghost=9", "--name", "other",
+             "--states", "other_states", "--domain", str(self.domain)], stderr=subprocess.DEVNULL,
+            env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
+        self.addCleanup(absent.wait)
+        self.addCleanup(absent.kill)
+        told = self.wait(lambda: next((status for array in diagnostics.take() for status in array.status
+                                       if status.name == "supercoil: ghost" and "heartbeat" in status.message), None))
+        self.assertEqual(told.level, STALE)
+        self.assertIn("no heartbeat of node 9", told.message)
+        states = other.reader("rt/other_states", "sensor_msgs/msg/JointState")
+        self.assertTrue(np.isnan(self.wait(states.take)[-1].position[0]))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,56 @@
+"""What the bridge knows of its peers on DDS, on loopback."""
+
+import os
+import time
+import unittest
+
+from peer import LOOPBACK, Peer
+
+os.environ["CYCLONEDDS_URI"] = LOOPBACK
+
+from supercoil.ros.graph import Graph
+from supercoil.ros.messages import Bool
+
+WITHIN_S = 60.0
+KIND = "std_msgs/msg/Bool"
+
+
+class Known(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        domain = 1 + os.getpid() % 200
+        cls.graph, cls.peer = Graph(domain), Peer(domain)
+
+    def wait(self, wanted):
+        end = time.monotonic() + WITHIN_S
+        while not (seen := wanted()):
+            self.assertLess(time.monotonic(), end, "never seen")
+            time.sleep(0.005)
+        return seen
+
+    def test_a_publisher_is_known_by_its_messages_until_it_is_gone(self):
+        subscription = self.graph.subscription("/known", Bool, (True,))
+        for _ in range(20):  # handles are random: with and without a sign
+            writer = self.peer.writer("rt/known", KIND)
+            self.wait(writer.matched)
+            writer.write(self.peer.message(KIND, True))
+            (message, publisher), = self.wait(lambda: list(subscription.take()))
+            self.assertTrue(message.data)
+            self.assertTrue(subscription.has(publisher))
+            del writer
+            self.wait(lambda publisher=publisher: not subscription.has(publisher))
+
+    def test_best_effort_publishers_are_heard_where_it_is_asked_for(self):
+        both = self.graph.subscription("/both", Bool, (True, False))
+        reliable = self.graph.subscription("/reliable", Bool, (True,))
+        heard = self.peer.writer("rt/both", KIND, reliable=False)
+        unheard = self.peer.writer("rt/reliable", KIND, reliable=False)
+        self.wait(heard.matched)
+        for writer in (heard, unheard):
+            writer.write(self.peer.message(KIND, True))
+        self.wait(lambda: list(both.take()))
+        self.assertEqual(list(reliable.take()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -23,7 +23,8 @@ SERVED = re.compile(r'server\.(Get|Post)\((?:R"\((/api/.*?)\)"|"(/api/[^"]*)"),'
 
 def served():
     """(method, path) of the sources, a group of a path as {}."""
-    found = {("post", "/stop")}  # has a listener of its own
+    # One has a listener of its own, the other is among the page's files.
+    found = {("post", "/stop"), ("get", "/api/openapi.json")}
     for source in SOURCES.rglob("*.cpp"):
         for method, pattern, path in SERVED.findall(source.read_text()):
             found.add((method.lower(), re.sub(r"\([^()]*\)", "{}", pattern) or path))
@@ -78,6 +79,9 @@ class Answers(OnSimulatedBoard):
             # References are to the document's own parts.
             jsonschema.validate(said, {**content["schema"], "components": DOCUMENT["components"]})
         return said
+
+    def test_it_is_served(self):
+        self.assertEqual(self.check("get", "/api/openapi.json", 200), DOCUMENT)
 
     def test_what_is_looked_at(self):
         about = self.check("get", "/api/about", 200)

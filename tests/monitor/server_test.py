@@ -60,10 +60,28 @@ class Served:
         names = about["protocol"]["Status"]["state"]["values"]
         return names[str(node["Status"]["state"][-1])], node["Power"]["applied_W"][-1]
 
-    def open_stream(self):
-        stream = socket.create_connection(("127.0.0.1", self.port), timeout=SLACK_S)
+    def open_stream(self, receive_bytes=None):
+        stream = socket.socket()
+        if receive_bytes:
+            stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_bytes)
+        stream.settimeout(SLACK_S)
+        stream.connect(("127.0.0.1", self.port))
         stream.sendall(f"GET /api/stream HTTP/1.1\r\nHost: {self.address}\r\n\r\n".encode())
         return stream
+
+    def events(self, path="/api/stream", **headers):
+        """(id, data) of each message of a stream, until it is closed; the id alone of what it begins with."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=SLACK_S)
+        with contextlib.closing(connection):
+            connection.request("GET", path, headers=headers)
+            answer, event = connection.getresponse(), {}
+            while line := answer.readline().decode():
+                if line == "\n":
+                    if "id" in event:
+                        yield event["id"], json.loads(event.get("data", "null"))
+                    event = {}
+                name, _, text = line.rstrip("\n").partition(": ")
+                event[name] = text
 
 
 class Live(OnSimulatedBoard):
@@ -111,6 +129,49 @@ class Live(OnSimulatedBoard):
                     text += stream.recv(65536)
                 self.assertIn(wanted, text)
                 text = text[text.index(wanted) + len(wanted):]
+
+    def measured_s(self, batches):
+        return [at_s for batch in batches for at_s in batch["nodes"].get("1", {}).get("Measurement", {}).get("time_s", [])]
+
+    def test_a_reader_that_comes_again_gets_what_it_missed(self):
+        served = self.serve()
+        first = served.events()
+        begin, nothing = next(first)
+        self.assertIsNone(nothing)
+        last, batch = next(first)
+        self.assertNotEqual(last, begin)
+        first.close()
+        before = self.measured_s([batch])
+        time.sleep(1.0)
+        again = served.events(**{"Last-Event-ID": last})
+        self.assertEqual(next(again)[0], last)
+        missed = self.measured_s([next(again)[1]])
+        again.close()
+        # A second of them, none twice and none left out.
+        self.assertGreater(len(missed), 50)
+        told = self.measured_s([served.get("/api/history")[1]])
+        self.assertEqual([at_s for at_s in told if (before or missed)[0] <= at_s <= missed[-1]], before + missed)
+
+    def test_only_an_id_of_this_run_is_gone_on_from(self):
+        served = self.serve()
+        run, begin = next(served.events())[0].split("-")
+        for path, last in (("/api/stream?resume=no", f"{run}-0"), ("/api/stream", "1-0"), ("/api/stream", "0"),
+                           ("/api/stream", f"{run}-"), ("/api/stream", f"{run}-1x"), ("/api/stream", f"{run}-{2**64}")):
+            self.assertGreaterEqual(int(next(served.events(path, **{"Last-Event-ID": last}))[0].split("-")[1]),
+                                    int(begin), (path, last))
+        self.assertEqual(next(served.events(**{"Last-Event-ID": f"{run}-0"}))[0], f"{run}-0")
+
+    def test_readers_that_never_read_are_dropped(self):
+        served = self.serve()
+        with contextlib.ExitStack() as crowd:
+            def one_more(**how):
+                return crowd.enter_context(served.open_stream(**how)).recv(12) == b"HTTP/1.1 200"
+
+            for _ in range(24):
+                until(lambda: one_more(receive_bytes=2048))
+            self.assertFalse(one_more())
+            # Nobody has gone; all that is left is that they are dropped.
+            until(one_more, patience_s=10 * SLACK_S)
 
     def test_who_may_command(self):
         served = self.serve()

@@ -41,6 +41,9 @@ void bind_exclusively(httplib::Server& server) {
   server.set_socket_options([](socket_t socket) {
     const int on = 1;
     setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+    // Of each connection: otherwise a reader that takes nothing may have megabytes waiting.
+    const int waiting_bytes = 128 * 1024;
+    setsockopt(socket, SOL_SOCKET, SO_SNDBUF, &waiting_bytes, sizeof(waiting_bytes));
   });
 }
 

@@ -21,6 +21,7 @@ namespace {
 using nlohmann::json;
 
 constexpr auto stream_every = std::chrono::milliseconds(50);
+constexpr auto stream_retry_after = std::chrono::milliseconds(1000);
 constexpr int beat_after = 20;  // quiet pieces: a second
 
 /// Seconds of a query; the fallback when there are none.
@@ -200,36 +201,56 @@ void Api::history(const Request& request, Response& response) const {
   answer_json(response, to_batch(frame_history_->between(*from, *to), frame_history_->figures()));
 }
 
-bool Api::stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost) {
+std::uint64_t Api::first_frame(const Request& request) const {
+  const std::uint64_t end = frame_history_->end();
+  const std::string id = request.get_header_value("Last-Event-ID");
+  if (request.get_param_value("resume") == "no" || !id.starts_with(run_ + "-")) return end;
+  std::uint64_t next = 0;
+  const char* const number_end = id.data() + id.size();
+  const auto read = std::from_chars(id.data() + run_.size() + 1, number_end, next);
+  return read.ec == std::errc{} && read.ptr == number_end ? std::min(next, end) : end;
+}
+
+std::string Api::event_id(const Reader& reader) const {
+  return "id: " + run_ + "-" + std::to_string(reader.next) + "\n";
+}
+
+bool Api::stream_piece(httplib::DataSink& sink, Reader& reader) {
   const auto send = [&](const std::string& text) { return sink.write(text.data(), text.size()); };
+  if (!reader.begun) {
+    reader.begun = true;
+    return send("retry: " + std::to_string(stream_retry_after.count()) + "\n" + event_id(reader) +
+                "\n");
+  }
   for (int quiet = 0; quiet < beat_after && !ending_; ++quiet) {
     std::this_thread::sleep_for(stream_every);
     const std::string lost = frame_history_->lost();
-    if (lost.empty() == was_lost) {
-      was_lost = !was_lost;
+    if (lost.empty() == reader.was_lost) {
+      reader.was_lost = !reader.was_lost;
       const json told{{"reason", lost}};
-      return send((was_lost ? "event: lost\ndata: " : "event: found\ndata: ") + told.dump() +
+      return send((reader.was_lost ? "event: lost\ndata: " : "event: found\ndata: ") + told.dump() +
                   "\n\n");
     }
-    FrameHistory::Part part = frame_history_->since(next);
-    next = part.next;
-    if (!part.frames.empty())
-      return send("data: " + to_batch(part.frames, frame_history_->figures()) + "\n\n");
+    FrameHistory::Part part = frame_history_->since(reader.next);
+    reader.next = part.next;
+    if (!part.frames.empty()) {
+      return send(event_id(reader) + "data: " + to_batch(part.frames, frame_history_->figures()) +
+                  "\n\n");
+    }
   }
   if (ending_) return false;
   return send(": beat\n\n");
 }
 
-void Api::stream(const Request&, Response& response) {
+void Api::stream(const Request& request, Response& response) {
   if (streams_.fetch_add(1) >= max_streams) {
     --streams_;
     return refuse(response, 503, "too many pages watch: close some");
   }
   response.set_chunked_content_provider(
       "text/event-stream",
-      [this, next = frame_history_->end(), was_lost = false](std::size_t,
-                                                             httplib::DataSink& sink) mutable {
-        return stream_piece(sink, next, was_lost);
+      [this, reader = Reader{first_frame(request)}](std::size_t, httplib::DataSink& sink) mutable {
+        return stream_piece(sink, reader);
       },
       [this](bool) { --streams_; });
 }

@@ -70,8 +70,16 @@ class Api {
   template <class Read>
   void tell_of_node(const Request& request, Response& response, Read read);
   void tune(const Request& request, Response& response);
+  struct Reader {
+    std::uint64_t next = 0;  ///< frame
+    bool begun = false;
+    bool was_lost = false;
+  };
+  /// The frame with which it begins: where it left off, if its Last-Event-ID is of this run.
+  std::uint64_t first_frame(const Request& request) const;
+  std::string event_id(const Reader& reader) const;
   /// One piece of a stream; false: the reader is gone.
-  bool stream_piece(httplib::DataSink& sink, std::uint64_t& next, bool& was_lost);
+  bool stream_piece(httplib::DataSink& sink, Reader& reader);
 
   /// The page's threads are more, so that streams cannot take them all.
   static constexpr int max_streams = 24;
@@ -80,6 +88,9 @@ class Api {
   const FrameHistory* frame_history_;
   ManualControls* controls_;
   About about_;
+  /// Numbers of frames are of one run.
+  const std::string run_ =
+      std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
   std::atomic<bool> ending_{false};
   std::atomic<int> streams_{0};
 };

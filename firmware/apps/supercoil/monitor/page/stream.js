@@ -5,6 +5,8 @@ import { token } from "./server.js";
 export class Stream extends EventTarget {
   open() {
     const url = new URL("/api/stream", location.href);
+    // What was missed meanwhile is asked for in the history.
+    url.searchParams.set("resume", "no");
     if (token) url.searchParams.set("token", token);
     if ("SharedWorker" in window) {
       // Pages with another token may see something else, and have a worker of their own.

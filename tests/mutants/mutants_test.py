@@ -116,6 +116,24 @@ class Parts(unittest.TestCase):
 
 
 class Judged(unittest.TestCase):
+    def test_code_of_a_header_is_known_while_its_objects_wait_to_be_compiled(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shop = workshop.Workshop(ROOT, pathlib.Path(folder) / "0", (), 1, {})
+            for there in (shop.tree, shop.build):
+                there.mkdir()
+            (shop.tree / "h.hpp").write_text("inline int f(int a) { return a > 3 ? a : 7; }\nstruct S;\n")
+            (shop.tree / "with.cpp").write_text('#include "h.hpp"\nint g(int a) { return f(a) * f(a + 1); }\n')
+            (shop.tree / "without.cpp").write_text('#include "h.hpp"\nint k() { return 1; }\n')
+            (shop.build / "build.ninja").write_text(
+                "rule cxx\n command = c++ -O0 -g1 -MD -MF $out.d -c $in -o $out\n depfile = $out.d\n deps = gcc\n"
+                + "".join(f"build {name}.o: cxx {shop.tree}/{name}.cpp\n" for name in ("with", "without")))
+            shop.ninja(["with.o", "without.o"], check=True)
+            shop.read_dependencies()
+            shop.lock.close()
+            (shop.build / "with.o").unlink()
+            self.assertEqual(shop.objects("h.hpp"), {"with.o", "without.o"})
+            self.assertEqual(shop.objects_with_code("h.hpp"), {"with.o"})
+
     def judge(self, *verdicts):
         shop = mock.Mock(spec=workshop.Workshop)
         shop.judge_by.side_effect = [(verdict, "") for verdict in verdicts]

@@ -23,6 +23,7 @@ NOT_BUILT = ("docs/", "toolchain/", "tests/coverage/", "tests/attack/", "tests/m
              "tests/mutants/mutants_test.py")
 BUILT_ALL_THE_SAME = ("toolchain/cmake/", "toolchain/page/")
 FAILURE = r"error: Failure in |\nFAILED "  # of CppUTest, and of the fault matrix
+HEADER = re.compile(r" (\S+\.hpp)$", re.M)  # in readelf's tables
 PATIENCE = 10.0  # times what a program takes on the unchanged tree
 
 
@@ -163,6 +164,7 @@ class Workshop:
                         env=environment).returncode == 0
 
     def read_dependencies(self):
+        """Now, as every object is there: later some wait to be compiled."""
         self.objects_of = {}
         told = self.run(["ninja", "-C", self.build, "-t", "deps"]).stdout
         target = ""
@@ -172,7 +174,11 @@ class Workshop:
             elif line.strip() and (self.build / target).exists():
                 path = os.path.normpath(self.build / line.strip())
                 self.objects_of.setdefault(path, set()).add(target)
-        self.with_code = {}
+        self.with_code = {}  # by a header's name
+        for target in set().union(*self.objects_of.values()):
+            lines = self.run(["readelf", "--debug-dump=rawline", self.build / target]).stdout
+            for name in set(HEADER.findall(lines)):
+                self.with_code.setdefault(name, set()).add(target)
 
     def objects(self, file):
         """Which objects must be compiled again when it changes."""
@@ -182,11 +188,7 @@ class Workshop:
         """Of a header, those that have code from it, by their line tables."""
         if file.endswith(".cpp"):
             return self.objects(file)
-        if file not in self.with_code:
-            name = f" {pathlib.Path(file).name}\n"
-            lines_of = lambda target: self.run(["readelf", "--debug-dump=rawline", self.build / target], False).stdout
-            self.with_code[file] = {target for target in self.objects(file) if name in lines_of(target)}
-        return self.with_code[file]
+        return self.objects(file) & self.with_code.get(pathlib.Path(file).name, set())
 
     def code_hash(self, target):
         stripped = self.folder / "stripped.o"

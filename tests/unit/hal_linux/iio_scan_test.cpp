@@ -129,6 +129,15 @@ TEST(IioScan, CallsAPartOfAScanAnError) {
   }
 }
 
+TEST(IioScan, MayKeepFromTwoToFourThousand) {
+  for (const int length : {2, 4096}) {
+    ScanLocation place = board.place();
+    place.length = length;
+    CHECK(hal_linux::IioScan::open(place).has_value());
+    STRCMP_EQUAL((std::to_string(length) + "\n").c_str(), board.attribute("buffer/length").c_str());
+  }
+}
+
 TEST(IioScan, KeepsSixtyFourScansUnlessTold) {
   ScanLocation place = board.place();
   place.length = ScanLocation{}.length;

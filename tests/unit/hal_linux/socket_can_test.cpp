@@ -150,7 +150,11 @@ TEST(SocketCan, FollowsTheControllersErrorFrames) {
   CHECK(hal::CanState::error_passive == state_after(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_PASSIVE));
   CHECK(hal::CanState::error_passive == state_after(CAN_ERR_CRTL, CAN_ERR_CRTL_RX_OVERFLOW));
   CHECK(hal::CanState::active == state_after(CAN_ERR_CRTL, CAN_ERR_CRTL_ACTIVE));
-  CHECK(hal::CanState::error_passive == state_after(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE));
+  for (const std::uint8_t warning :
+       {std::uint8_t{CAN_ERR_CRTL_RX_WARNING}, std::uint8_t{CAN_ERR_CRTL_TX_WARNING}}) {
+    CHECK(hal::CanState::error_passive == state_after(CAN_ERR_CRTL, CAN_ERR_CRTL_TX_PASSIVE));
+    CHECK(hal::CanState::active == state_after(CAN_ERR_CRTL, warning));
+  }
   CHECK(hal::CanState::bus_off == state_after(CAN_ERR_BUSOFF, 0));
   CHECK(hal::CanState::bus_off == state_after(CAN_ERR_TX_TIMEOUT, 0));
   CHECK(hal::CanState::active == state_after(CAN_ERR_RESTARTED, 0));

@@ -24,6 +24,16 @@ std::vector<control::ControllerSettings> two_laws() {
 
 }  // namespace
 
+TEST_GROUP(Smoothed){};
+
+TEST(Smoothed, BeginsAtZeroAndFollowsARampWithoutLag) {
+  Smoothed smoothed(0.05, tick_s);
+  DOUBLES_EQUAL(0.0, smoothed.value(), 0.0);
+  for (int i = 0; i <= 1000; ++i)
+    smoothed.step(2.0 * tick_s * i);
+  DOUBLES_EQUAL(2.0 * tick_s * 1000, smoothed.value(), 1e-6);
+}
+
 /// Of a muscle that rests where it shall be, with the power that holds it there.
 TEST_GROUP(Tracking) {
   control::PhysicalParameters muscle;

@@ -89,6 +89,13 @@ TEST(BoardSupervisor, FindsEachTroubleInItsTimeAndNoSooner) {
   }
 }
 
+TEST(BoardSupervisor, ASupplyThatIsNotReadIsNoVoltage) {
+  Board board;
+  board.inputs.supply.present = false;
+  board.step();
+  DOUBLES_EQUAL(0.0, board.supervisor.verdict().margin(Fault::over_voltage).measured, 0.0);
+}
+
 TEST(BoardSupervisor, FindsThatTheTelemetryThreadStands) {
   Board board;
   for (int i = 0; i < 10; ++i)

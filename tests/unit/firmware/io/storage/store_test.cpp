@@ -119,8 +119,13 @@ TEST(LearnedStore, MakesSureOfTheFolderWhenAnEarlierSaveDidNot) {
   LearnedStore unsure("/d", 3, failing);
   CHECK_FALSE(unsure.save(nth_set(1)).has_value());
   CHECK(disk.survivors().size() > 1);
+  const int before = failing.calls();
   CHECK(unsure.save(nth_set(1)).has_value());
   LONGS_EQUAL(1, disk.survivors().size());
+  // And once: from then on it is sure.
+  const int with_sync = failing.calls() - before;
+  CHECK(unsure.save(nth_set(1)).has_value());
+  LONGS_EQUAL(before + 2 * with_sync - 1, failing.calls());
 }
 
 TEST(LearnedStore, RefusesASetThatFailsItsCheckAndTouchesNothing) {

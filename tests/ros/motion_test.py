@@ -9,6 +9,7 @@ from supercoil.ros.messages import Duration, Header, JointTrajectory, JointTraje
 from supercoil.ros.motion import Held, Knot, Trajectory, knots_of
 
 NOW_S = 1000.0
+WALL_S = 1.7e9  # at the same time
 START = Knot(NOW_S, 0.001, 0.0)
 
 
@@ -23,7 +24,7 @@ def trajectory(*points, begins_s=0.0, names=("finger",)):
 
 
 def there(message, joint=0, sender=True):
-    return Trajectory(knots_of(message, joint, START), lambda: sender)
+    return Trajectory(knots_of(message, joint, START, WALL_S), lambda: sender)
 
 
 class Motion(unittest.TestCase):
@@ -50,10 +51,10 @@ class Motion(unittest.TestCase):
         self.assertAlmostEqual(motion.at(NOW_S + 0.3), float(spline(0.3)), delta=1e-15)
 
     def test_one_with_a_time_begins_then(self):
-        later = there(trajectory(point(1.0, [0.003]), begins_s=NOW_S + 2.0))
+        later = there(trajectory(point(1.0, [0.003]), begins_s=WALL_S + 2.0))
         self.assertEqual((later.at(NOW_S), later.at(NOW_S + 1.9)), (0.001, 0.001))
         self.assertAlmostEqual(later.at(NOW_S + 2.5), 0.002, delta=1e-12)
-        under_way = there(trajectory(point(0.0, [0.0]), point(2.0, [0.004]), begins_s=NOW_S - 1.0))
+        under_way = there(trajectory(point(0.0, [0.0]), point(2.0, [0.004]), begins_s=WALL_S - 1.0))
         self.assertAlmostEqual(under_way.at(NOW_S), 0.002, delta=1e-12)
 
     def test_its_end_is_held_while_the_sender_is_there(self):
@@ -73,9 +74,9 @@ class Motion(unittest.TestCase):
                 (trajectory(point(1.0, [0.0]), point(1.0, [0.1])), "points[1].time_from_start is not after the one"),
                 (trajectory(point(-1.0, [0.0])), "points[0].time_from_start is -1 s; must be 0 to 86400"),
                 (trajectory(point(86401.0, [0.0])), "must be 0 to 86400"),
-                (trajectory(point(1.0, [0.0]), begins_s=NOW_S - 3.0), "was over 2 s ago")):
+                (trajectory(point(1.0, [0.0]), begins_s=WALL_S - 3.0), "was over 2 s ago")):
             with self.subTest(why), self.assertRaises(ValueError) as refused:
-                knots_of(message, 0, START)
+                knots_of(message, 0, START, WALL_S)
             self.assertIn(why, str(refused.exception))
 
 

@@ -12,6 +12,7 @@ from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 
 from supercoil.errors import SupercoilError
+from supercoil.generated.names import State
 from supercoil.ros.diagnostics import diagnostics_of
 from supercoil.ros.graph import Graph
 from supercoil.ros.joint import Joint
@@ -41,7 +42,7 @@ class Bridge:
         self._options = options
         self._stopped = False
         self._armed_once: set[str] = set()
-        self._stopping: set[asyncio.Task[None]] = set()
+        self._aside: dict[str, asyncio.Task[None]] = {}
         graph = Graph(options.domain)
         name = functools.partial(resolved, node=options.node)
         self._states = graph.publisher(name(options.states), JointState)
@@ -71,9 +72,12 @@ class Bridge:
         diagnosed_s = -math.inf
         while True:
             self._take()
-            now_s = time.time()
+            now_s = time.monotonic()
             for joint in self._joints.values():
-                joint.follow(now_s)
+                if self._stopped:
+                    self._hold_stopped(joint)
+                else:
+                    joint.follow(now_s)
             self._publish_states()
             if loop.time() - diagnosed_s >= _DIAGNOSTICS_EVERY_S:
                 diagnosed_s = loop.time()
@@ -102,20 +106,25 @@ class Bridge:
         if stop != self._stopped:
             _log.warning("emergency stop: %s", "stopped" if stop else "released; arm to go on")
         self._stopped = stop
-        for joint in self._joints.values() if stop else ():
-            joint.let_go()
+
+    def _hold_stopped(self, joint: Joint) -> None:
+        """Disarms it, and again for as long as it is armed: by a command that was under way, or by somebody else."""
+        joint.let_go()
+        if joint.muscle is not None and joint.muscle.state in (State.armed, State.active):
             self._run_aside(joint, joint.disarm)
 
     def _run_aside(self, joint: Joint, do: Callable[[], Awaitable[str]]) -> None:
+        """Unless the same is under way for this joint."""
         async def run() -> None:
             try:
                 await do()
-            except SupercoilError as error:
+            except (SupercoilError, RuntimeError) as error:  # RuntimeError: the connection has just been closed
                 joint.refuse(str(error).splitlines()[0])
 
-        task = asyncio.create_task(run())
-        self._stopping.add(task)
-        task.add_done_callback(self._stopping.discard)
+        name = f"{joint.name} {do.__name__}"
+        if name not in self._aside:
+            task = self._aside[name] = asyncio.create_task(run())
+            task.add_done_callback(lambda _: self._aside.pop(name))
 
     def _arm_at_start(self) -> None:
         """Each joint once, when its board is first there."""
@@ -126,11 +135,15 @@ class Bridge:
 
     def _command(self, command: JointState) -> None:
         """Positions of our joints among those that it names."""
-        until_s = time.time() + self._options.command_timeout_s
-        for name, position_m in zip(command.name, command.position, strict=False):
-            joint = self._joints.get(name)
-            if joint is None or self._stopped:
+        if self._stopped or not command.position:
+            return
+        until_s = time.monotonic() + self._options.command_timeout_s
+        ours = [(self._joints[name], number) for number, name in enumerate(command.name) if name in self._joints]
+        for joint, number in ours:
+            if len(command.position) != len(command.name):
+                joint.refuse(f"a command has {len(command.position)} positions for {len(command.name)} names")
                 continue
+            position_m = command.position[number]
             if math.isfinite(position_m):
                 joint.motion = Held(position_m, until_s)
             else:
@@ -163,7 +176,7 @@ class Bridge:
             at_m = joint.position_m if joint.set_point_m is None else joint.set_point_m
             if not math.isfinite(at_m):
                 raise ValueError(f"where {name} is now is not known")
-            knots[name] = knots_of(trajectory, number, Knot(time.time(), at_m, 0.0))
+            knots[name] = knots_of(trajectory, number, Knot(time.monotonic(), at_m, 0.0), time.time())
         return knots
 
     async def _serve(self, joints: Sequence[Joint], do: Callable[[Joint], Awaitable[str]]) -> tuple[bool, str]:
@@ -172,7 +185,7 @@ class Bridge:
         done = await asyncio.gather(*(do(joint) for joint in joints), return_exceptions=True)
         told = []
         for joint, outcome in zip(joints, done, strict=True):
-            if isinstance(outcome, BaseException) and not isinstance(outcome, SupercoilError):
+            if isinstance(outcome, BaseException) and not isinstance(outcome, (SupercoilError, RuntimeError)):
                 raise outcome
             told.append(f"{joint.name}: {str(outcome).splitlines()[0]}")
         return not any(isinstance(outcome, BaseException) for outcome in done), "; ".join(told)

@@ -76,7 +76,7 @@ class Joint:
         self._refusal, self._refused_at_s = why, time.monotonic()
 
     def follow(self, now_s: float) -> None:
-        """now_s: of the wall clock."""
+        """now_s: of the monotonic clock."""
         wanted = self.motion.at(now_s) if self.motion else None
         if wanted is None:
             self.motion = None

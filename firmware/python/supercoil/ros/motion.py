@@ -12,7 +12,8 @@ _LONGEST_S = 86400.0
 
 class Motion(Protocol):
     def at(self, now_s: float) -> float | None:
-        """The set point in m at this time of the wall clock; None: it has ended."""
+        """The set point in m at this time; None: it has ended. Times are those of the monotonic clock: a wall clock
+        that is set back must not keep a muscle hot."""
 
 
 class Held(NamedTuple):
@@ -24,7 +25,7 @@ class Held(NamedTuple):
 
 
 class Knot(NamedTuple):
-    time_s: float  # of the wall clock
+    time_s: float
     position_m: float
     velocity_m_per_s: float | None
 
@@ -67,11 +68,13 @@ def _column(values: list[float], joint: int, joints: int, what: str, point: int)
     return values[joint]
 
 
-def knots_of(message: messages.JointTrajectory, joint: int, start: Knot) -> list[Knot]:
-    """Of one of its joints. start: now, and where the joint is. A header without a time begins now.
+def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_clock_s: float) -> list[Knot]:
+    """Of one of its joints. start: now, and where the joint is. A header without a time begins now, one with a time
+    when the wall clock, as it is now, will have that.
 
     ValueError says what is wrong with the message."""
-    begins_s = message.header.stamp.seconds or start.time_s
+    stamp_s = message.header.stamp.seconds
+    begins_s = start.time_s + (stamp_s - wall_clock_s if stamp_s else 0.0)
     joints = len(message.joint_names)
     knots: list[Knot] = []
     for number, point in enumerate(message.points):

@@ -1,6 +1,6 @@
 """ros2 launch ./finger.launch.py address:=can0 node:=1
 
-The bridge, robot_state_publisher and ros2_control with a trajectory controller, for finger.urdf."""
+The bridge, robot_state_publisher and ros2_control with a trajectory controller, for finger.urdf. It does not arm."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ def generate_launch_description():
         DeclareLaunchArgument("node", default_value="1"),
         ExecuteProcess(cmd=["supercoil-ros", LaunchConfiguration("address"),
                             "--joint", ["finger=", LaunchConfiguration("node")],
-                            "--states", "/supercoil/joint_states", "--arm"], output="screen"),
+                            "--states", "/supercoil/joint_states"], output="screen"),
         Node(package="robot_state_publisher", executable="robot_state_publisher", parameters=[description]),
         Node(package="controller_manager", executable="ros2_control_node", parameters=[description, controllers]),
         *spawn,

@@ -34,7 +34,7 @@ class Known(unittest.TestCase):
             writer = self.peer.writer("rt/known", KIND)
             self.wait(writer.matched)
             writer.write(self.peer.message(KIND, True))
-            (message, publisher), = self.wait(lambda: list(subscription.take()))
+            (message, publisher), = self.wait(subscription.take)
             self.assertTrue(message.data)
             self.assertTrue(subscription.has(publisher))
             del writer
@@ -45,11 +45,22 @@ class Known(unittest.TestCase):
         reliable = self.graph.subscription("/reliable", Bool, (True,))
         heard = self.peer.writer("rt/both", KIND, reliable=False)
         unheard = self.peer.writer("rt/reliable", KIND, reliable=False)
-        self.wait(heard.matched)
+        last = self.peer.writer("rt/reliable", KIND)
+        self.wait(lambda: heard.matched() and last.matched())
         for writer in (heard, unheard):
             writer.write(self.peer.message(KIND, True))
-        self.wait(lambda: list(both.take()))
-        self.assertEqual(list(reliable.take()), [])
+        last.write(self.peer.message(KIND, False))
+        self.wait(both.take)
+        self.assertEqual([message.data for message, _ in self.wait(reliable.take)], [False])
+
+    def test_both_readers_tell_in_the_order_of_sending(self):
+        both = self.graph.subscription("/order", Bool, (True, False))
+        reliable, other = (self.peer.writer("rt/order", KIND, reliable=each) for each in (True, False))
+        self.wait(lambda: reliable.matched() == 2 and other.matched() == 1)
+        other.write(self.peer.message(KIND, False))  # only the second reader has it
+        reliable.write(self.peer.message(KIND, True))
+        time.sleep(0.2)
+        self.assertEqual([message.data for message, _ in both.take()], [False, True, True])
 
 
 if __name__ == "__main__":

@@ -72,8 +72,9 @@ class Motion(unittest.TestCase):
                 (trajectory(point(1.0, [float("nan")])), "points[0].positions[0] is nan"),
                 (trajectory(point(1.0, [0.0], [float("inf")])), "points[0].velocities[0] is inf"),
                 (trajectory(point(1.0, [0.0]), point(1.0, [0.1])), "points[1].time_from_start is not after the one"),
-                (trajectory(point(-1.0, [0.0])), "points[0].time_from_start is -1 s; must be 0 to 86400"),
-                (trajectory(point(86401.0, [0.0])), "must be 0 to 86400"),
+                (trajectory(point(-1.0, [0.0])), "points[0].time_from_start is -1 s; must be 0 to 600"),
+                (trajectory(point(601.0, [0.0])), "must be 0 to 600"),
+                (trajectory(point(1.0, [0.0]), begins_s=WALL_S + 61.0), "begins in 61 s; must be at most 60"),
                 (trajectory(point(1.0, [0.0]), begins_s=WALL_S - 3.0), "was over 2 s ago")):
             with self.subTest(why), self.assertRaises(ValueError) as refused:
                 knots_of(message, 0, START, WALL_S)

@@ -106,6 +106,9 @@ class Bridge:
         if stop != self._stopped:
             _log.warning("emergency stop: %s", "stopped" if stop else "released; arm to go on")
         self._stopped = stop
+        for joint in self._joints.values() if stop else ():
+            joint.let_go()
+            self._run_aside(joint, joint.disarm)  # whatever its heartbeat says
 
     def _hold_stopped(self, joint: Joint) -> None:
         """Disarms it, and again for as long as it is armed: by a command that was under way, or by somebody else."""

@@ -3,7 +3,8 @@
 import asyncio
 import logging
 import secrets
-from collections.abc import Awaitable, Callable, Iterator, Sequence
+import struct
+from collections.abc import Awaitable, Callable, Sequence
 from typing import Generic, TypeVar
 
 from cyclonedds.core import DDSException, Policy, Qos
@@ -38,6 +39,29 @@ def _type_hash(kind: type[IdlStruct]) -> str:
     return f"typehash={known};" if known else ""
 
 
+def _taken(reader: DataReader[M]) -> list[M]:
+    try:
+        return reader.take(_MOST_AT_ONCE)
+    except (DDSException, ValueError, struct.error) as error:
+        _log.warning("damaged messages are left out: %s", error)
+        return []
+
+
+class Publisher(Generic[M]):
+    def __init__(self, writer: DataWriter[M]) -> None:
+        self._writer = writer
+
+    def write(self, message: M) -> None:
+        """What Cyclone does not take is told, and no reason to let go of the muscles."""
+        try:
+            self._writer.write(message)
+        except DDSException as error:
+            _log.warning("a %s was not sent: %s", type(message).__name__, error)
+
+    def has_readers(self) -> bool:
+        return bool(self._writer.get_matched_subscriptions())
+
+
 class Subscription(Generic[M]):
     """A best-effort reader hears every publisher; a reliable one hears reliable publishers only, but all they say."""
 
@@ -45,18 +69,17 @@ class Subscription(Generic[M]):
         self._kind = kind
         self._readers = readers
 
-    def take(self) -> Iterator[tuple[M, int]]:
-        """What has come since, and whose it is. What is no message of the type is left out."""
+    def take(self) -> list[tuple[M, int]]:
+        """What has come since, and whose it is, in the order in which it was sent. What is no message of the type is
+        left out."""
+        found = []
         for reader in self._readers:
-            try:
-                taken = reader.take(_MOST_AT_ONCE)
-            except (DDSException, ValueError) as error:
-                _log.warning("damaged messages are left out: %s", error)
-                continue
-            for message in taken:
+            for message in _taken(reader):
                 if isinstance(message, self._kind):
-                    # Cyclone gives this one with a sign, and others without.
-                    yield message, message.sample_info.publication_handle & _HANDLE  # type: ignore[attr-defined]
+                    info = message.sample_info  # type: ignore[attr-defined]
+                    # Cyclone gives this handle with a sign, and others without.
+                    found.append((info.source_timestamp, message, info.publication_handle & _HANDLE))
+        return [(message, publisher) for _, message, publisher in sorted(found, key=lambda each: each[0])]
 
     def has(self, publisher: int) -> bool:
         """Whether it is still there."""
@@ -70,7 +93,7 @@ Answer = Callable[[], Awaitable[tuple[bool, str]]]
 class Trigger:
     """A service of std_srvs/srv/Trigger."""
 
-    def __init__(self, requests: DataReader[messages.TriggerRequest], responses: DataWriter[messages.TriggerResponse],
+    def __init__(self, requests: DataReader[messages.TriggerRequest], responses: Publisher[messages.TriggerResponse],
                  answer: Answer) -> None:
         self._requests = requests
         self._responses = responses
@@ -79,17 +102,21 @@ class Trigger:
 
     def serve(self) -> None:
         """Begins to answer the requests that came since."""
-        for request in self._requests.take(_MOST_AT_ONCE):
+        for request in _taken(self._requests):
             if isinstance(request, messages.TriggerRequest):
                 task = asyncio.create_task(self._respond(request))
                 self._running.add(task)
                 task.add_done_callback(self._running.discard)
 
     async def _respond(self, request: messages.TriggerRequest) -> None:
-        success, message = await self._answer()
+        try:
+            success, message = await self._answer()
+        except Exception as error:  # a client waits
+            _log.exception("a service failed")
+            success, message = False, f"{type(error).__name__}: {error}"
         # A client that is new here may not hear the answer yet.
         for _ in range(int(_CLIENT_WITHIN_S / _LOOK_EVERY_S)):
-            if self._responses.get_matched_subscriptions():
+            if self._responses.has_readers():
                 break
             await asyncio.sleep(_LOOK_EVERY_S)
         self._responses.write(messages.TriggerResponse(request.client, request.sequence, success, message))
@@ -99,9 +126,9 @@ class Graph:
     def __init__(self, domain: int) -> None:
         self._participant = DomainParticipant(domain)
 
-    def publisher(self, name: str, kind: type[M]) -> DataWriter[M]:
+    def publisher(self, name: str, kind: type[M]) -> Publisher[M]:
         topic = Topic(self._participant, names.topic(name), kind)
-        return DataWriter(self._participant, topic, qos=_quality(True, _type_hash(kind)))
+        return Publisher(DataWriter(self._participant, topic, qos=_quality(True, _type_hash(kind))))
 
     def subscription(self, name: str, kind: type[M], reliable: Sequence[bool]) -> Subscription[M]:
         topic = Topic(self._participant, names.topic(name), kind)
@@ -114,4 +141,4 @@ class Graph:
         requests = Topic(self._participant, names.request(name), messages.TriggerRequest)
         responses = Topic(self._participant, names.response(name), messages.TriggerResponse)
         return Trigger(DataReader(self._participant, requests, qos=_quality(True, identity)),
-                       DataWriter(self._participant, responses, qos=_quality(True, identity)), answer)
+                       Publisher(DataWriter(self._participant, responses, qos=_quality(True, identity))), answer)

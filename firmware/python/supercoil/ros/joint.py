@@ -38,6 +38,7 @@ class Joint:
         self._muscle: Muscle | None = None
         self._wanted_m: float | None = None
         self._look = asyncio.Event()
+        self._arming: asyncio.Task[None] | None = None
         self._range_m = _UNKNOWN_RANGE_M
         self._refusal = ""
         self._refused_at_s = -math.inf
@@ -93,11 +94,15 @@ class Joint:
         """Connects, again and again, and obeys meanwhile."""
         while True:
             try:
-                async with Muscle(self._address, self._node) as muscle, asyncio.TaskGroup() as tasks:
+                async with Muscle(self._address, self._node) as muscle:
                     self._muscle, self.problem = muscle, ""
                     _log.info("%s: %s is there", self.name, self.hardware_id)
-                    tasks.create_task(self._watch(muscle))
-                    tasks.create_task(self._obey(muscle))
+                    try:
+                        async with asyncio.TaskGroup() as tasks:
+                            tasks.create_task(self._watch(muscle))
+                            tasks.create_task(self._obey(muscle))
+                    finally:
+                        self._stop_arming()
             except* SupercoilError as errors:
                 self._muscle = None
                 problem = str(errors.exceptions[0])
@@ -106,6 +111,8 @@ class Joint:
                 self.problem = problem
             finally:
                 self._muscle = None
+            if (task := asyncio.current_task()) is not None and task.cancelling():
+                raise asyncio.CancelledError  # an error on the way out must not keep it here
             self.let_go()
             await asyncio.sleep(_TRY_AGAIN_S)
 
@@ -122,17 +129,19 @@ class Joint:
                 async with asyncio.timeout(_SAY_AGAIN_S):
                     await self._look.wait()
             self._look.clear()
+            wanted_m = self._wanted_m
             try:
-                if self._wanted_m is not None:
-                    self._check(muscle, self._wanted_m)
-                    await muscle.set_position(self._wanted_m)
+                if wanted_m is not None:
+                    self._check(muscle, wanted_m)
                     ours = True
+                    await muscle.set_position(wanted_m)
                 elif ours:
-                    ours = False
-                    if muscle.state == State.active:
+                    # Heartbeats are slower than commands: it may be active and still told as armed.
+                    if muscle.state in (State.armed, State.active):
                         await muscle.rest()
+                    ours = False
             except (RefusalError, FaultError, _Refused) as error:
-                self._remember(error)
+                self._remember(error, wanted_m)
                 self.refuse(str(error).splitlines()[0])
                 self.let_go()  # and rests, if it moved
 
@@ -145,11 +154,11 @@ class Joint:
             nearest_m = low_m if position_m < low_m else high_m
             raise _Refused(f"{position_m:.6f} m is out of its range, {nearest_m:.6f} m is in")
 
-    def _remember(self, error: Exception) -> None:
+    def _remember(self, error: Exception, position_m: float | None) -> None:
         """The ends of its range, as the board told them."""
-        if isinstance(error, refusals.OutOfRange) and math.isfinite(error.nearest) and self._wanted_m is not None:
+        if isinstance(error, refusals.OutOfRange) and math.isfinite(error.nearest) and position_m is not None:
             low_m, high_m = self._range_m
-            self._range_m = (low_m, error.nearest) if self._wanted_m > error.nearest else (error.nearest, high_m)
+            self._range_m = (low_m, error.nearest) if position_m > error.nearest else (error.nearest, high_m)
 
     async def arm(self) -> str:
         """What came of it; so do the others. SupercoilError: it did not."""
@@ -158,11 +167,22 @@ class Joint:
         self._range_m = _UNKNOWN_RANGE_M  # it may have been changed
         if muscle.state in (State.armed, State.active):
             return "is armed"
-        await muscle.arm()
+        arming = self._arming = asyncio.create_task(muscle.arm())
+        try:
+            await arming
+        except asyncio.CancelledError:
+            if (task := asyncio.current_task()) is not None and task.cancelling():
+                raise
+            raise NotReachedError("was stopped while it was being armed") from None
         return "armed"
+
+    def _stop_arming(self) -> None:
+        if self._arming is not None:
+            self._arming.cancel()
 
     async def disarm(self) -> str:
         self.let_go()
+        self._stop_arming()
         await self._connected().disarm()
         return "disarmed"
 

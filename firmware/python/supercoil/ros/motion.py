@@ -7,7 +7,9 @@ from typing import NamedTuple, Protocol
 
 from supercoil.ros import messages
 
-_LONGEST_S = 86400.0
+_LONGEST_S = 600.0
+# A clock that is wrong must not hold a muscle where it is for a year.
+_LATEST_S = 60.0
 
 
 class Motion(Protocol):
@@ -75,6 +77,9 @@ def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_cl
     ValueError says what is wrong with the message."""
     stamp_s = message.header.stamp.seconds
     begins_s = start.time_s + (stamp_s - wall_clock_s if stamp_s else 0.0)
+    if begins_s > start.time_s + _LATEST_S:
+        raise ValueError(f"begins in {begins_s - start.time_s:.6g} s; must be at most {_LATEST_S:g}. Are both clocks "
+                         "right?")
     joints = len(message.joint_names)
     knots: list[Knot] = []
     for number, point in enumerate(message.points):

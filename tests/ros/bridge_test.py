@@ -309,6 +309,19 @@ class Live(unittest.TestCase):
         self.end_bridge()
         self.start_bridge()
 
+    def test_it_ends_also_when_its_bus_ends_first(self):
+        with sync.Simulation(QUICK, deadline_s=1e6) as alone:
+            bridge = subprocess.Popen(
+                [sys.executable, "-m", "supercoil.ros", alone.address, "--joint", "last=1", "--name", "last", "--arm",
+                 "--states", "last_states", "--domain", str(self.domain)],
+                env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
+            self.addCleanup(bridge.wait)
+            self.addCleanup(bridge.kill)
+            commands = self.peer.writer("rt/last/joint_commands", "sensor_msgs/msg/JointState")
+            self.wait(lambda: alone.muscle.state == State.active, lambda: self.command({"last": 0.001}, commands))
+        bridge.send_signal(signal.SIGTERM)
+        self.assertEqual(bridge.wait(DEADLINE_S), 0)
+
     def test_at_the_end_it_disarms(self):
         self.arm()
         self.wait(lambda: self.all_are(State.active), self.again({"finger": 0.001, "thumb": 0.001}))

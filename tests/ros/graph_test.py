@@ -59,7 +59,7 @@ class Known(unittest.TestCase):
         self.wait(lambda: reliable.matched() == 2 and other.matched() == 1)
         other.write(self.peer.message(KIND, False))  # only the second reader has it
         reliable.write(self.peer.message(KIND, True))
-        time.sleep(0.2)
+        self.wait(lambda: [len(reader.read(10)) for reader in both._readers] == [1, 2])
         self.assertEqual([message.data for message, _ in both.take()], [False, True, True])
 
 

@@ -16,82 +16,14 @@ import tempfile
 import time
 import unittest
 
-from programs import OnSimulatedBoard, SLACK_S, SUPERCOIL, command, free_ports, monitor, simulated_board, until
+from programs import SLACK_S, SUPERCOIL, command, free_ports, monitor, until
+from served import OnServedBoard, Served
 
 # As the page says (page_timeout_s), and as a board of the bench lets a command expire.
 PAGE_TIMEOUT_S = 1.5
 
 
-class Served:
-    """One monitor's page, as seen by a program."""
-
-    def __init__(self, program):
-        self.address = program.found[1].removeprefix("http://").rstrip("/")
-        self.token = (program.found[2] or "").removeprefix("#token=")
-        self.port = int(self.address.split(":")[1])
-
-    def ask(self, method, path, body=None, port=None, **headers):
-        connection = http.client.HTTPConnection("127.0.0.1", port or self.port, timeout=SLACK_S)
-        with contextlib.closing(connection):
-            connection.request(method, path, body, headers)
-            answer = connection.getresponse()
-            return answer.status, answer.read().decode()
-
-    def get(self, path, **headers):
-        status, text = self.ask("GET", path, **headers)
-        return status, json.loads(text)
-
-    def post(self, path, body, port=None, token=None, origin=None):
-        headers = {"X-Supercoil-Token": self.token if token is None else token,
-                   "Origin": f"http://{self.address}" if origin is None else origin}
-        status, text = self.ask("POST", path, body if isinstance(body, str) else json.dumps(body), port, **headers)
-        return status, json.loads(text)
-
-    def command(self, opcode, value=0.0):
-        return self.post("/api/command", {"node": 1, "opcode": opcode, "value": value})
-
-    def stop_port(self):
-        return self.get("/api/about")[1]["stop_port"]
-
-    def state(self):
-        """Name of the newest state, and the power."""
-        about = self.get("/api/about")[1]
-        node = self.get("/api/history?from_s=-1")[1]["nodes"]["1"]
-        names = about["protocol"]["Status"]["state"]["values"]
-        return names[str(node["Status"]["state"][-1])], node["Power"]["applied_W"][-1]
-
-    def open_stream(self, receive_bytes=None):
-        stream = socket.socket()
-        if receive_bytes:
-            stream.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_bytes)
-        stream.settimeout(SLACK_S)
-        stream.connect(("127.0.0.1", self.port))
-        stream.sendall(f"GET /api/stream HTTP/1.1\r\nHost: {self.address}\r\n\r\n".encode())
-        return stream
-
-    def events(self, path="/api/stream", **headers):
-        """(id, data) of each message of a stream, until it is closed; the id alone of what it begins with."""
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=SLACK_S)
-        with contextlib.closing(connection):
-            connection.request("GET", path, headers=headers)
-            answer, event = connection.getresponse(), {}
-            while line := answer.readline().decode():
-                if line == "\n":
-                    if "id" in event:
-                        yield event["id"], json.loads(event.get("data", "null"))
-                    event = {}
-                name, _, text = line.rstrip("\n").partition(": ")
-                event[name] = text
-
-
-class Live(OnSimulatedBoard):
-    def serve(self, *options):
-        program = monitor(self.source, *options)
-        self.addCleanup(program.stop)
-        served = Served(program)
-        until(lambda: "1" in served.get(f"/api/history?token={served.token}")[1]["nodes"])
-        return served
-
+class Live(OnServedBoard):
     def arm(self, served):
         """Of whatever was before."""
         served.command("disarm")
@@ -110,68 +42,6 @@ class Live(OnSimulatedBoard):
             self.assertEqual(columns.keys() - {"time_s"}, about["protocol"][message].keys())
             self.assertEqual({len(column) for column in columns.values()}, {len(columns["time_s"])})
             self.assertEqual(columns["time_s"], sorted(columns["time_s"]))
-
-    def test_a_stream_brings_what_is_new_and_says_when_the_source_is_lost_and_found(self):
-        board = simulated_board()
-        self.addCleanup(board.stop)
-        port = board.found[1]
-        program = monitor(f"socketcand:{port}")
-        self.addCleanup(program.stop)
-        with Served(program).open_stream() as stream:
-            text = b""
-            for wanted in (b'data: {"newest_s"', b"event: lost", b"event: found", b'data: {"newest_s"'):
-                if wanted == b"event: lost":
-                    board.stop()
-                if wanted == b"event: found":
-                    self.addCleanup(simulated_board(port).stop)
-                end_s = time.monotonic() + 3 * SLACK_S
-                while wanted not in text and time.monotonic() < end_s:
-                    text += stream.recv(65536)
-                self.assertIn(wanted, text)
-                text = text[text.index(wanted) + len(wanted):]
-
-    def measured_s(self, batches):
-        return [at_s for batch in batches for at_s in batch["nodes"].get("1", {}).get("Measurement", {}).get("time_s", [])]
-
-    def test_a_reader_that_comes_again_gets_what_it_missed(self):
-        served = self.serve()
-        first = served.events()
-        begin, nothing = next(first)
-        self.assertIsNone(nothing)
-        last, batch = next(first)
-        self.assertNotEqual(last, begin)
-        first.close()
-        before = self.measured_s([batch])
-        time.sleep(1.0)
-        again = served.events(**{"Last-Event-ID": last})
-        self.assertEqual(next(again)[0], last)
-        missed = self.measured_s([next(again)[1]])
-        again.close()
-        # A second of them, none twice and none left out.
-        self.assertGreater(len(missed), 50)
-        told = self.measured_s([served.get("/api/history")[1]])
-        self.assertEqual([at_s for at_s in told if (before or missed)[0] <= at_s <= missed[-1]], before + missed)
-
-    def test_only_an_id_of_this_run_is_gone_on_from(self):
-        served = self.serve()
-        run, begin = next(served.events())[0].split("-")
-        for path, last in (("/api/stream?resume=no", f"{run}-0"), ("/api/stream", "1-0"), ("/api/stream", "0"),
-                           ("/api/stream", f"{run}-"), ("/api/stream", f"{run}-1x"), ("/api/stream", f"{run}-{2**64}")):
-            self.assertGreaterEqual(int(next(served.events(path, **{"Last-Event-ID": last}))[0].split("-")[1]),
-                                    int(begin), (path, last))
-        self.assertEqual(next(served.events(**{"Last-Event-ID": f"{run}-0"}))[0], f"{run}-0")
-
-    def test_readers_that_never_read_are_dropped(self):
-        served = self.serve()
-        with contextlib.ExitStack() as crowd:
-            def one_more(**how):
-                return crowd.enter_context(served.open_stream(**how)).recv(12) == b"HTTP/1.1 200"
-
-            for _ in range(24):
-                until(lambda: one_more(receive_bytes=2048))
-            self.assertFalse(one_more())
-            # Nobody has gone; all that is left is that they are dropped.
-            until(one_more, patience_s=10 * SLACK_S)
 
     def test_who_may_command(self):
         served = self.serve()

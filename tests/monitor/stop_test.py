@@ -15,7 +15,7 @@ import unittest
 
 from page_test import READY_S, TARGET_MM, PageCase
 from programs import OnSimulatedBoard, SLACK_S, monitor, simulated_board, trickle, until
-from server_test import Served
+from served import Served
 
 # The monitor hears STOP and the commands of this page, and never says anything to them.
 HEARS_NO_STOP = """const asked = window.fetch;

@@ -6,8 +6,8 @@ import sys
 import unittest
 from xml.etree import ElementTree
 
-from supercoil.ros.bridge import Options
 from supercoil.ros.names import resolved
+from supercoil.ros.options import Options
 
 EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples" / "ros"
 

@@ -9,7 +9,6 @@ import logging
 import math
 import time
 from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import dataclass
 
 from supercoil.errors import SupercoilError
 from supercoil.generated.names import State
@@ -19,21 +18,10 @@ from supercoil.ros.joint import Joint
 from supercoil.ros.messages import Bool, DiagnosticArray, Header, JointState, JointTrajectory, Time
 from supercoil.ros.motion import Held, Knot, Trajectory, knots_of
 from supercoil.ros.names import resolved
+from supercoil.ros.options import Options
 
 _DIAGNOSTICS_EVERY_S = 1.0
 _log = logging.getLogger("supercoil.ros")
-
-
-@dataclass
-class Options:
-    node: str = "supercoil"
-    domain: int = 0
-    rate_Hz: float = 100.0
-    command_timeout_s: float = 1.0
-    states: str = "/joint_states"
-    commands: str = "~/joint_commands"
-    trajectory: str = "~/joint_trajectory"
-    arm: bool = False
 
 
 class Bridge:

@@ -2,6 +2,7 @@
 
 import argparse
 import asyncio
+import dataclasses
 import logging
 import os
 import signal
@@ -11,6 +12,7 @@ from importlib.util import find_spec
 
 from supercoil.errors import SupercoilError
 from supercoil.generated.version import __version__
+from supercoil.ros.options import Options
 
 _NODES = range(1, 64)
 _DOMAINS = range(233)  # more have no port of their own
@@ -58,16 +60,16 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
                         help="a muscle and its node on the bus; once for each")
     parser.add_argument("--arm", action="store_true",
                         help="arm each muscle when its board is first there; otherwise the service ~/arm does")
-    parser.add_argument("--rate", metavar="HZ", type=_number(1.0, 1000.0, "Hz"), default=100.0,
-                        help="of joint states and of set points (default: 100)")
-    parser.add_argument("--command-timeout", metavar="S", type=_number(0.05, 3600.0, "s"), default=1.0,
-                        help="how long a joint command holds (default: 1)")
-    parser.add_argument("--states", metavar="TOPIC", default="/joint_states", help="default: /joint_states")
-    parser.add_argument("--commands", metavar="TOPIC", default="~/joint_commands", help="default: ~/joint_commands")
-    parser.add_argument("--trajectory", metavar="TOPIC", default="~/joint_trajectory",
-                        help="default: ~/joint_trajectory")
-    parser.add_argument("--name", default="supercoil", help="of the node, which ~ stands for (default: supercoil)")
-    parser.add_argument("--domain", metavar="N", type=_domain, default=os.environ.get("ROS_DOMAIN_ID") or "0",
+    parser.add_argument("--rate", metavar="HZ", dest="rate_Hz", type=_number(1.0, 1000.0, "Hz"),
+                        default=Options.rate_Hz, help="of joint states and of set points (default: %(default)g)")
+    parser.add_argument("--command-timeout", metavar="S", dest="command_timeout_s", type=_number(0.05, 3600.0, "s"),
+                        default=Options.command_timeout_s, help="how long a joint command holds (default: %(default)g)")
+    for topic in ("states", "commands", "trajectory"):
+        parser.add_argument(f"--{topic}", metavar="TOPIC", default=getattr(Options, topic), help="default: %(default)s")
+    parser.add_argument("--name", dest="node", default=Options.node,
+                        help="of the node, which ~ stands for (default: %(default)s)")
+    parser.add_argument("--domain", metavar="N", type=_domain,
+                        default=os.environ.get("ROS_DOMAIN_ID") or str(Options.domain),
                         help="of DDS (default: ROS_DOMAIN_ID, or 0)")
     parser.add_argument("--version", action="version", version=f"supercoil-ros {__version__}")
     arguments = list(sys.argv[1:] if given is None else given)
@@ -84,12 +86,10 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
 
 
 async def _run(read: argparse.Namespace) -> None:
-    from supercoil.ros.bridge import Bridge, Options
+    from supercoil.ros.bridge import Bridge
     from supercoil.ros.joint import Joint
     joints = [Joint(name, read.address, node) for name, node in read.joint]
-    bridge = Bridge(joints, Options(
-        node=read.name, domain=read.domain, rate_Hz=read.rate, command_timeout_s=read.command_timeout,
-        states=read.states, commands=read.commands, trajectory=read.trajectory, arm=read.arm))
+    bridge = Bridge(joints, Options(**{one.name: getattr(read, one.name) for one in dataclasses.fields(Options)}))
     running = asyncio.create_task(bridge.run())
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, running.cancel)

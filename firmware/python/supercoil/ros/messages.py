@@ -28,10 +28,6 @@ class Time(IdlStruct, typename="builtin_interfaces::msg::dds_::Time_"):
     def now(cls) -> "Time":
         return cls(*divmod(time.time_ns(), _NS_IN_A_SECOND))
 
-    @property
-    def seconds(self) -> float:
-        return self.sec + self.nanosec / _NS_IN_A_SECOND
-
 
 @dataclass
 @annotations.final
@@ -39,9 +35,9 @@ class Duration(IdlStruct, typename="builtin_interfaces::msg::dds_::Duration_"):
     sec: types.int32 = 0
     nanosec: types.uint32 = 0
 
-    @property
-    def seconds(self) -> float:
-        return self.sec + self.nanosec / _NS_IN_A_SECOND
+
+def in_seconds(time_or_duration: Time | Duration) -> float:
+    return time_or_duration.sec + time_or_duration.nanosec / _NS_IN_A_SECOND
 
 
 @dataclass

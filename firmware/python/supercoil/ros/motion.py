@@ -75,7 +75,7 @@ def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_cl
     when the wall clock, as it is now, will have that.
 
     ValueError says what is wrong with the message."""
-    stamp_s = message.header.stamp.seconds
+    stamp_s = messages.in_seconds(message.header.stamp)
     begins_s = start.time_s + (stamp_s - wall_clock_s if stamp_s else 0.0)
     if begins_s > start.time_s + _LATEST_S:
         raise ValueError(f"begins in {begins_s - start.time_s:.6g} s; must be at most {_LATEST_S:g}. Are both clocks "
@@ -83,7 +83,7 @@ def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_cl
     joints = len(message.joint_names)
     knots: list[Knot] = []
     for number, point in enumerate(message.points):
-        after_s = point.time_from_start.seconds
+        after_s = messages.in_seconds(point.time_from_start)
         if not 0.0 <= after_s <= _LONGEST_S:
             raise ValueError(f"points[{number}].time_from_start is {after_s:g} s; must be 0 to {_LONGEST_S:g}")
         position = _column(point.positions, joint, joints, "positions", number)

@@ -1,0 +1,120 @@
+"""What a joint does when things go wrong at the wrong moment: with a muscle that is told when to fail."""
+
+import asyncio
+import contextlib
+import types
+import unittest
+from unittest import mock
+
+from supercoil import BusError, Fault, NotReachedError, State, refusals
+from supercoil.ros import joint as joints
+
+WITHIN_S = 30.0
+
+
+class Muscle:
+    """In place of supercoil.Muscle."""
+
+    def __init__(self, address, node):
+        self.state, self.fault, self.told = State.armed, Fault.none, []
+        self.arming = asyncio.Event()
+        self.telemetry = types.SimpleNamespace(newest=lambda kind: None)
+        self.at_close = self.refuses = None
+        MADE.append(self)
+
+    async def __aenter__(self):
+        return self
+
+    async def __aexit__(self, *cause):
+        self.told.append("close")
+        if self.at_close:
+            raise self.at_close
+
+    async def stream(self, kind):
+        await asyncio.Event().wait()
+        yield
+
+    async def arm(self):
+        self.arming.set()
+        await asyncio.Event().wait()
+
+    async def disarm(self):
+        self.told.append("disarm")
+
+    async def set_position(self, position_m):
+        self.told.append(position_m)
+        if self.refuses:
+            await self.refuses(position_m)
+
+    async def rest(self):
+        self.told.append("rest")
+
+
+MADE = []
+
+
+class JointAlone(unittest.IsolatedAsyncioTestCase):
+    async def asyncSetUp(self):
+        patched = mock.patch.object(joints, "Muscle", Muscle)
+        patched.start()
+        self.addCleanup(patched.stop)
+        MADE.clear()
+        self.joint = joints.Joint("finger", "can0", 1)
+        self.running = asyncio.create_task(self.joint.run())
+        await self.until(lambda: self.joint.muscle is not None)
+        self.muscle, = MADE
+
+    async def asyncTearDown(self):
+        self.muscle.at_close = None
+        self.running.cancel()
+        with contextlib.suppress(asyncio.CancelledError):
+            await self.running
+
+    async def until(self, wanted):
+        async with asyncio.timeout(WITHIN_S):
+            while not wanted():  # noqa: ASYNC110 - nothing tells of it
+                await asyncio.sleep(0.001)
+
+    def want(self, position_m):
+        self.joint.motion = None if position_m is None else types.SimpleNamespace(at=lambda now_s: position_m)
+        self.joint.follow(0.0)
+
+    async def test_an_error_on_the_way_out_does_not_keep_it(self):
+        self.muscle.at_close = BusError("the bus is gone")
+        self.running.cancel()
+        done, _ = await asyncio.wait([self.running], timeout=WITHIN_S)
+        self.assertEqual(done, {self.running})
+        self.assertTrue(self.running.cancelled())
+
+    async def test_a_set_point_that_is_let_go_before_a_heartbeat_rests(self):
+        self.want(0.001)
+        await self.until(lambda: 0.001 in self.muscle.told)
+        self.want(None)  # told as armed until now
+        await self.until(lambda: "rest" in self.muscle.told)
+
+    async def test_an_arm_that_waits_ends_with_a_disarm(self):
+        self.muscle.state = State.disarmed
+        arming = asyncio.create_task(self.joint.arm())
+        await self.muscle.arming.wait()
+        self.assertEqual(await self.joint.disarm(), "disarmed")
+        with self.assertRaises(NotReachedError):
+            await asyncio.wait_for(arming, WITHIN_S)
+
+    async def test_a_refusal_tells_of_the_position_that_was_refused(self):
+        async def refuse(position_m):
+            if position_m > 0.004:
+                self.want(0.001)  # meanwhile
+                raise refusals.OutOfRange(1, "position", 0.004)
+        self.muscle.refuses = refuse
+        self.want(3.0)
+        await self.until(lambda: 3.0 in self.muscle.told)
+        await self.until(lambda: self.joint.refusal)
+        self.want(0.002)
+        await self.until(lambda: 0.002 in self.muscle.told)
+        self.want(3.0)
+        await self.until(lambda: "0.004000 m is in" in self.joint.refusal)
+        self.assertEqual(self.muscle.told.count(3.0), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -12,7 +12,7 @@ import unittest
 
 import numpy as np
 from patience import DEADLINE_S, QUICK
-from peer import LOOPBACK, Peer
+from peer import LOOPBACK, Peer, Writer
 
 from supercoil import Fault, State, SupercoilError, messages, sync
 
@@ -31,6 +31,7 @@ class Live(unittest.TestCase):
         cls.observers["thumb"] = sync.Muscle(cls.simulation.address, 2, deadline_s=1e6).connect()
         cls.addClassCleanup(cls.observers["thumb"].close)
         cls.peer = Peer(cls.domain)
+        cls.peers = {"ROS2_JAZZY": cls.peer, "ROS2_HUMBLE": Peer(cls.domain, "ROS2_HUMBLE")}
         cls.states = cls.peer.reader("rt/joint_states", "sensor_msgs/msg/JointState")
         cls.diagnostics = cls.peer.reader("rt/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
         cls.commands = cls.peer.writer("rt/supercoil/joint_commands", "sensor_msgs/msg/JointState")
@@ -132,7 +133,9 @@ class Live(unittest.TestCase):
                 for after_s, positions in points]))
 
     def trajectory_writer(self):
-        writer = self.peer.writer("rt/supercoil/joint_trajectory", "trajectory_msgs/msg/JointTrajectory")
+        """One that ends with its last reference."""
+        kind = "trajectory_msgs/msg/JointTrajectory"
+        writer = Writer(self.peer, "rt/supercoil/joint_trajectory", kind, reliable=True)
         self.wait(writer.matched)
         return writer
 
@@ -145,9 +148,7 @@ class Live(unittest.TestCase):
         self.assertLess(abs(state.header.stamp.sec - time.time()), 60.0)
 
     def test_bytes_are_read_by_humble_and_jazzy(self):
-        self.wait(lambda: self.states.take_bytes())
-        for release in ("ROS2_HUMBLE", "ROS2_JAZZY"):
-            peer = Peer(self.domain, release)
+        for peer in self.peers.values():
             states = peer.reader("rt/joint_states", "sensor_msgs/msg/JointState")
             diagnostics = peer.reader("rt/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
             self.assertEqual(list(self.wait(states.take)[-1].name), list(JOINTS))
@@ -340,19 +341,17 @@ class Live(unittest.TestCase):
         self.start_bridge()
 
     def test_a_board_that_is_not_there_is_stale_and_comes_later(self):
-        other = Peer(self.domain)
-        diagnostics = other.reader("rt/diagnostics", "diagnostic_msgs/msg/DiagnosticArray")
         absent = subprocess.Popen(
             [sys.executable, "-m", "supercoil.ros", self.simulation.address, "--joint", "ghost=9", "--name", "other",
              "--states", "other_states", "--domain", str(self.domain)], stderr=subprocess.DEVNULL,
             env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
         self.addCleanup(absent.wait)
         self.addCleanup(absent.kill)
-        told = self.wait(lambda: next((status for array in diagnostics.take() for status in array.status
+        told = self.wait(lambda: next((status for array in self.diagnostics.take() for status in array.status
                                        if status.name == "supercoil: ghost" and "heartbeat" in status.message), None))
         self.assertEqual(told.level, STALE)
         self.assertIn("no heartbeat of node 9", told.message)
-        states = other.reader("rt/other_states", "sensor_msgs/msg/JointState")
+        states = self.peer.reader("rt/other_states", "sensor_msgs/msg/JointState")
         self.assertTrue(np.isnan(self.wait(states.take)[-1].position[0]))
 
 

@@ -94,11 +94,14 @@ class Reader:
 
 
 class Peer:
+    """What it writes to and reads from stays until it ends, as with a node: nothing is made and deleted by the way."""
+
     def __init__(self, domain, release="ROS2_JAZZY"):
         os.environ["CYCLONEDDS_URI"] = LOOPBACK
         self.store = STORES[release]
         self.participant = DomainParticipant(domain)
         self._types = {}
+        self._ends = {}
         self._requests = 0
 
     def topic(self, name, kind):
@@ -112,11 +115,17 @@ class Peer:
         stamp = self.message("builtin_interfaces/msg/Time", whole, int(1e9 * (seconds - whole)))
         return self.message("std_msgs/msg/Header", stamp, "")
 
+    def _end(self, *made_of):
+        if made_of not in self._ends:
+            make, *how = made_of
+            self._ends[made_of] = make(self, *how)
+        return self._ends[made_of]
+
     def writer(self, topic, kind, reliable=True):
-        return Writer(self, topic, kind, reliable)
+        return self._end(Writer, topic, kind, reliable)
 
     def reader(self, topic, kind):
-        return Reader(self, topic, kind)
+        return self._end(Reader, topic, kind)
 
     def call(self, service, within_s):
         """success and message of a Trigger service; an answer to somebody else is not taken for ours."""

@@ -82,7 +82,8 @@ class Bench {
     for (std::size_t i = 0; i < pwms_.size(); ++i) {
       inputs_[2 * i].counts = 5000 + static_cast<int>(clock_.time.count() / 1000000 % 64);
       inputs_[2 * i + 1].counts = powered_ ? static_cast<int>(1.2e6 * pwms_[i].last / 4095) : 0;
-      if (verb != Verb::none) loop_->send({static_cast<std::uint8_t>(i), verb, 0.005});
+      if (verb != Verb::none)
+        loop_->send({static_cast<std::uint8_t>(i), verb, verb == Verb::position ? 0.005 : 0.0});
     }
     loop_->health().telemetry_heartbeats.store(++beats_, std::memory_order_relaxed);
     loop_->tick(clock_.time, clock_.time, 0);

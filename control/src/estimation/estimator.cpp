@@ -76,7 +76,18 @@ Estimator::Estimator(const EstimatorSettings& settings, double step_s)
       scale_(scale_of(settings)),
       to_watts_(1.0 / scale_.dc_gain_m_per_W),
       excitation_(settings.excitation, step_s),
-      trusted_error_(settings.excitation.trusted_error) {}
+      trusted_error_(settings.excitation.trusted_error) {
+  std::visit(
+      [this](const auto& running) {
+        if constexpr (!is_none<decltype(running)>) tell(running);
+      },
+      any_);
+}
+
+template <class Now>
+void Estimator::tell(const Now& running) {
+  estimate_ = Now::Of::estimate(running.estimator, scale_.nominal, excitation_, trusted_error_);
+}
 
 void Estimator::step(double position_m, double applied_power_W) {
   std::visit(
@@ -86,6 +97,7 @@ void Estimator::step(double position_m, double applied_power_W) {
           using Scalar = typename Now::ScalarType;
           running.estimator.step(Scalar(position_m * to_watts_), Scalar(applied_power_W));
           Now::Of::watch(running.estimator, excitation_);
+          if (Now::Of::tells_anew(running.estimator)) tell(running);
         }
       },
       any_);
@@ -95,19 +107,6 @@ void Estimator::restart() {
   std::visit(
       [](auto& running) {
         if constexpr (!is_none<decltype(running)>) running.estimator.restart();
-      },
-      any_);
-}
-
-std::optional<Estimate> Estimator::estimate() const {
-  return std::visit(
-      [&](const auto& running) -> std::optional<Estimate> {
-        if constexpr (is_none<decltype(running)>) {
-          return std::nullopt;
-        } else {
-          using Of = typename std::decay_t<decltype(running)>::Of;
-          return Of::estimate(running.estimator, scale_.nominal, excitation_, trusted_error_);
-        }
       },
       any_);
 }

@@ -21,7 +21,8 @@ class OutputDelay {
   explicit OutputDelay(std::size_t ticks) : ticks_(ticks < max_ticks ? ticks : max_ticks) {}
 
   /// What was set at this tick in, what acts from now on out.
-  const AppliedPower& step(const AppliedPower& set) {
+  AppliedPower step(const AppliedPower& set) {
+    if (ticks_ == 0) return set;
     line_[head_] = set;
     head_ = head_ == ticks_ ? 0 : head_ + 1;
     return line_[head_];

@@ -19,13 +19,11 @@ double nan_if_infinite(double deviation) {
 Estimation::Estimation(const std::vector<control::EstimatorSettings>& estimators, double step_s) {
   for (const auto& estimator : estimators)
     estimators_.emplace_back(estimator, step_s);
-  estimate_ = estimators_[chosen_].estimate();
 }
 
 void Estimation::choose(std::size_t place) {
   chosen_ = place;
   restart();
-  estimate_ = estimators_[chosen_].estimate();
 }
 
 void Estimation::exchange(std::size_t place, control::Estimator& estimator) {
@@ -33,23 +31,17 @@ void Estimation::exchange(std::size_t place, control::Estimator& estimator) {
   if (place == chosen_) choose(place);
 }
 
-void Estimation::step(double position_m, double applied_W) {
-  control::Estimator& estimator = estimators_[chosen_];
-  estimator.step(position_m, applied_W);
-  estimate_ = estimator.estimate();
-}
-
 std::optional<control::PhysicalParameters> Estimation::trusted_muscle(
     const control::PhysicalParameters& known) const {
   if (!trusted()) return std::nullopt;
-  return control::physical_from(estimate_->theta,
+  return control::physical_from(estimate()->theta,
                                 {known.force_per_kelvin_N_per_K, known.moving_mass_kg});
 }
 
 void Estimation::publish(std::uint32_t selector, Snapshot& s) const {
-  control::Estimate e{.theta = control::Theta::Constant(std::nan("")),
-                      .relative_error_bound = std::nan("")};
-  if (estimate_) e = *estimate_;
+  static const control::Estimate nothing{.theta = control::Theta::Constant(std::nan("")),
+                                         .relative_error_bound = std::nan("")};
+  const control::Estimate& e = estimate() ? *estimate() : nothing;
   s.theta = e.theta;
   s.error_bound = e.relative_error_bound;
   s.trusted = e.trusted;

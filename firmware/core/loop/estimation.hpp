@@ -25,11 +25,15 @@ class Estimation {
   /// The muscle was not driven for a while.
   void restart() { estimators_[chosen_].restart(); }
   /// One tick: this tick's position, and the power applied since the last one.
-  void step(double position_m, double applied_W);
+  void step(double position_m, double applied_W) {
+    estimators_[chosen_].step(position_m, applied_W);
+  }
 
   /// As it is now; empty: this estimator tells nothing yet.
-  const std::optional<control::Estimate>& estimate() const { return estimate_; }
-  bool trusted() const { return estimate_ && estimate_->trusted; }
+  const std::optional<control::Estimate>& estimate() const {
+    return estimators_[chosen_].estimate();
+  }
+  bool trusted() const { return estimate() && estimate()->trusted; }
   /// Empty: no estimate is trusted, or it is no muscle's. What theta does not tell is as known.
   std::optional<control::PhysicalParameters> trusted_muscle(
       const control::PhysicalParameters& known) const;
@@ -39,7 +43,6 @@ class Estimation {
  private:
   std::vector<control::Estimator> estimators_;
   std::size_t chosen_ = 0;
-  std::optional<control::Estimate> estimate_;
 };
 
 }  // namespace supercoil

@@ -61,6 +61,11 @@ board::PowerBounds::Interval Heater::warm_Ohm(double cold_Ohm) const {
           cold_Ohm * (1.0 + per_K * heat_.hottest_K())};
 }
 
+board::PowerBounds::Interval Heater::measured_power_W() const {
+  const auto ratio = power_bounds_.true_over_measured();
+  return {power_W_.min / ratio.min, power_W_.max / ratio.max};
+}
+
 /// The muscle's temperature, from the power that was set and the one that was measured: if a switch
 /// conducts by itself, only the current knows.
 void Heater::observe_power(std::int64_t periods) {
@@ -69,18 +74,16 @@ void Heater::observe_power(std::int64_t periods) {
   // Senses that lied while the resistance was calibrated cannot narrow the bounds by that.
   const double as_configured = settings_.cold_resistance_Ohm / cold_Ohm_;
   const auto [min_Ohm, max_Ohm] = warm_Ohm(cold_Ohm_);
-  const auto power_W = power_bounds_.step(
+  power_W_ = power_bounds_.step(
       acting_.duty, supply_V_, current_,
       {min_Ohm * std::min(1.0, as_configured), max_Ohm * std::max(1.0, as_configured)});
-  heat_.step(power_W.min, power_W.max, acting_.power_W, sensed);
-  const auto ratio = power_bounds_.true_over_measured();
-  measured_power_W_ = {power_W.min / ratio.min, power_W.max / ratio.max};
+  heat_.step(power_W_.min, power_W_.max, acting_.power_W, sensed);
   const double measured_W =
       current_.present ? supply_V_ * (current_.value - current_noise_A_) : limiter_.max_W();
   measured_W_ = std::max(acting_.power_W, measured_W);
   // In periods that were left out the power may have gone on, or the charge pump have cut it.
   for (std::int64_t i = 1; i < periods; ++i)
-    heat_.step(0.0, power_W.max, acting_.power_W, sensed);
+    heat_.step(0.0, power_W_.max, acting_.power_W, sensed);
 
   const double per_K = settings_.temperature_coefficient_per_K;
   indicates_temperature_ = per_K > 0.0 && resistance_.age_s() < 1.0;
@@ -162,13 +165,15 @@ void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
   write_duty(state.enable() ? out.step : 0);
   const bool limited = allowed_.by != LimitedBy::nothing || out.clipped;
   // A dither that was cut is none.
-  set_ = {out.applied_W, out.duty, limited, state.may_heat() && !limited ? dither_W : 0.0};
-  acting_ = delay_.step(set_);
+  const board::AppliedPower set{out.applied_W, out.duty, limited,
+                                state.may_heat() && !limited ? dither_W : 0.0};
+  set_ = set;
+  acting_ = delay_.step(set);
 }
 
 control::PowerRange Heater::power_range() const {
   return {limiter_.min_W(),
-          std::fmin(limiter_.max_W(), supply_V_ * supply_V_ / resistance_.value_Ohm())};
+          std::min(limiter_.max_W(), supply_V_ * supply_V_ / resistance_.value_Ohm())};
 }
 
 void Heater::cut() {

@@ -99,7 +99,7 @@ class Heater {
   const board::ThermalFacts& facts() const { return facts_; }
   const board::PowerBounds& power_bounds() const { return power_bounds_; }
   /// Of this tick, as compared senses tell it.
-  const board::PowerBounds::Interval& measured_power_W() const { return measured_power_W_; }
+  board::PowerBounds::Interval measured_power_W() const;
   /// What a controller may count on.
   control::PowerRange power_range() const;
   const Limiter& limiter() const { return limiter_; }
@@ -130,7 +130,7 @@ class Heater {
   HeaterInputs inputs_;
   board::Resistance resistance_;
   board::PowerBounds power_bounds_;
-  board::PowerBounds::Interval measured_power_W_{0.0, 0.0};
+  board::PowerBounds::Interval power_W_{0.0, 0.0};  ///< that acted, within these
   board::Heat heat_;
   bool heat_known_ = false;
   double measured_W_ = 0.0;

@@ -97,6 +97,7 @@ board::StoredTuning Tuner::tuning_in_use() const {
 }
 
 void Tuner::add_to(Command& command, const control::PhysicalParameters& muscle) {
+  if (command.verb != Verb::store && command.verb != Verb::tune) return;
   command.tuned_controller = nullptr;
   command.tuned_estimator = nullptr;
   command.tuning = nullptr;

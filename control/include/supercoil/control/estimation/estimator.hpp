@@ -58,7 +58,7 @@ class Estimator {
   /// After a pause in which it was not stepped: signals start at rest, what was learned stays.
   void restart();
   /// Empty for "none".
-  std::optional<Estimate> estimate() const;
+  const std::optional<Estimate>& estimate() const { return estimate_; }
 
  private:
   template <class Definition, class Scalar>
@@ -72,12 +72,15 @@ class Estimator {
   };
   using Any = VariantOf<std::monostate, Running, Estimators>::Type;
   static Any make(const EstimatorSettings& settings, double step_s);
+  template <class Now>
+  void tell(const Now& running);
 
   Any any_;
   RegressionScale scale_;
   double to_watts_;
   ExcitationMonitor excitation_;
   double trusted_error_;
+  std::optional<Estimate> estimate_;
 };
 
 }  // namespace supercoil::control

@@ -20,9 +20,10 @@ concept ParameterEstimator = requires(Running running, Scalar scalar) {
 };
 
 /// In<Scalar>: the estimator, made of its settings and step_s. watch(): each tick after step(), for
-/// those whose trust hangs on excitation. estimate(): what it tells, and whether that is trusted,
-/// by the nominal θ and the greatest relative error. set_nominal(): max_W is NaN while not known.
-/// values: a range of SettingValue. Where it runs in fixed_point, check_fit(fit, settings, step_s).
+/// those whose trust hangs on excitation. tells_anew(): whether estimate() may be another after
+/// this tick. estimate(): what it tells, and whether that is trusted, by the nominal θ and the
+/// greatest relative error. set_nominal(): max_W is NaN while not known. values: a range of
+/// SettingValue. Where it runs in fixed_point, check_fit(fit, settings, step_s).
 template <class Definition, class Running = typename Definition::template In<double>,
           class Value = SettingValue<typename Definition::Settings>>
 concept EstimatorDefinition = ParameterEstimator<Running, double> &&
@@ -34,6 +35,7 @@ concept EstimatorDefinition = ParameterEstimator<Running, double> &&
   Definition::set_nominal(settings, scale, value);
   { *Definition::values.begin() } -> std::convertible_to<Value>;
   Definition::watch(running, excitation);
+  { Definition::tells_anew(running) } -> std::same_as<bool>;
   { Definition::estimate(running, nominal, excitation, value) } -> std::same_as<Estimate>;
 };
 

@@ -113,6 +113,10 @@ struct GradientEstimation {
                     estimator.scaled_theta());
   }
   template <class Scalar>
+  static bool tells_anew(const GradientEstimator<Scalar>&) {
+    return true;
+  }
+  template <class Scalar>
   static Estimate estimate(const GradientEstimator<Scalar>& estimator, const Theta& /*nominal*/,
                            const ExcitationMonitor& excitation, double /*trusted_error*/) {
     return {.theta = estimator.theta(),

@@ -63,6 +63,7 @@ class LeastSquaresEstimator {
   /// One tick. position_W: position over the DC gain. applied_power_W: the power really applied
   /// since the last tick.
   void step(Scalar position_W, Scalar applied_power_W) {
+    updated_ = begins_;
     if (begins_) {
       begins_ = false;
       updates_ = 0;
@@ -77,6 +78,8 @@ class LeastSquaresEstimator {
   /// The muscle is heated anew after a pause: the filters start at rest, what was learned stays.
   void restart() { begins_ = true; }
 
+  /// What it reports may be another since the last tick.
+  bool updated() const { return updated_; }
   /// Within the bounds. Only the output is projected: a θ moved under the recursion would no
   /// longer be what its covariance says (after changes it then did not converge at all).
   const Parameters& parameters() const { return reported_; }
@@ -200,6 +203,7 @@ class LeastSquaresEstimator {
 
   void update(Scalar position_W) {
     tick_ = 0;
+    updated_ = true;
     ++updates_;
     ++since_start_;
     regression_.update();
@@ -320,6 +324,7 @@ class LeastSquaresEstimator {
   Parameters deviations_ = Parameters::Constant(INFINITY);
 
   bool begins_ = true;
+  bool updated_ = false;
   bool errs_ = false;  ///< the model, visibly
   int first_ = 0;  ///< of the parameters that are estimated: 0 with, 3 without the free responses
   std::int64_t tick_ = 0;
@@ -356,6 +361,10 @@ struct LeastSquaresEstimation {
 
   template <class Scalar>
   static void watch(const LeastSquaresEstimator<Scalar>&, ExcitationMonitor&) {}
+  template <class Scalar>
+  static bool tells_anew(const LeastSquaresEstimator<Scalar>& estimator) {
+    return estimator.updated();
+  }
   template <class Scalar>
   static Estimate estimate(const LeastSquaresEstimator<Scalar>& estimator, const Theta& nominal,
                            const ExcitationMonitor&, double trusted_error) {

@@ -1,6 +1,7 @@
 // Tells a loop that oscillates by itself from one that follows badly, and from noise.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -42,8 +43,8 @@ class OscillationDetector {
     const double error = error_.step(error_m, fast_share_, slow_share_);
     const double model = model_.step(model_m, fast_share_, slow_share_);
     half_s_ += step_s_;
-    max_m_ = std::fmax(max_m_, std::abs(error));
-    model_peak_m_ = std::fmax(model_peak_m_, std::abs(model));
+    max_m_ = std::max(max_m_, std::abs(error));
+    model_peak_m_ = std::max(model_peak_m_, std::abs(model));
     if (half_s_ > std::numbers::pi / settings_.slow_rad_per_s) start_counting();
     if (std::abs(error) <= settings_.min_amplitude_m) return false;
     const int sign = error > 0.0 ? 1 : -1;

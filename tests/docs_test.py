@@ -2,7 +2,7 @@
 
 Every fault has a page of its name, headed by its number, and a row in docs/faults/README.md with its number, group and
 scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not. The list of
-all pages, which is the site's navigation, has each page of docs/ once.
+all pages, which is the site's navigation, has each page of docs/ once, and each manual page with what it says it is.
 """
 
 import pathlib
@@ -96,8 +96,14 @@ def problems_of_links():
 
 
 def problems_of_navigation():
-    listed = LIST_ITEM.findall((ROOT / "docs" / "README.md").read_text())
+    index = (ROOT / "docs" / "README.md").read_text()
+    listed = LIST_ITEM.findall(index)
     pages = {page.name for page in (ROOT / "docs").glob("*.md")} | {"api/README.md", "faults/README.md", "../CHANGELOG.md"}
+    for page in sorted((ROOT / "docs" / "man").glob("*.[1-8]")):
+        pages.add(f"man/{page.name}")
+        about = re.search(r"^\.Nd (.+)$", page.read_text(), re.M)[1].replace("\\-", "-")
+        if f"- [{page.stem}](man/{page.name}): {about}\n" not in index:
+            yield f"docs/README.md: not as docs/man/{page.name} says: {about}"
     for page in sorted(pages - {"README.md", *listed}):
         yield f"docs/README.md: {page} is not listed"
     for page in sorted({page for page in listed if listed.count(page) > 1}):

@@ -1,8 +1,8 @@
 """The documentation's site, built by toolchain/docs and read in a real browser.
 
 Every page of docs/ is reached from the start page, no link or anchor is dead, the search finds, nothing is asked of
-another machine, and on a phone's screen no page scrolls sideways. The API reference has every public header, and a
-public class without its comment fails the build.
+another machine, and on a phone's screen no page scrolls sideways. Every command has its manual page with all options.
+The API reference has every public header, and a public class without its comment fails the build.
 """
 
 import functools
@@ -96,7 +96,8 @@ class SiteTest(unittest.TestCase):
             time.sleep(0.05)
 
     def test_every_source_is_a_page_and_is_reached_from_the_start_page(self):
-        sources = [file.relative_to(ROOT).with_suffix(".html").as_posix() for file in (ROOT / "docs").rglob("*.md")]
+        files = [*(ROOT / "docs").rglob("*.md"), *(ROOT / "docs").glob("man/*.[1-8]")]
+        sources = [file.relative_to(ROOT).with_suffix(".html").as_posix() for file in files]
         self.assertGreater(len(sources), 60)
         reached, ahead = set(), ["index.html"]
         while ahead:
@@ -120,6 +121,26 @@ class SiteTest(unittest.TestCase):
                 elif anchor and file in self.pages and anchor not in self.pages[file].anchors:
                     dead.append(f"{page}: {link}: no such anchor")
         self.assertEqual(dead, [], "\n" + "\n".join(dead))
+
+    def test_every_command_has_its_page_with_an_anchor_for_each_option(self):
+        for manual in sorted((ROOT / "docs" / "man").glob("*.[1-8]")):
+            with self.subTest(manual.stem):
+                name = f"docs/man/{manual.stem}.html"
+                text = html.unescape(re.sub(r"<[^>]+>", "", (self.site / name).read_text()))
+                items = re.findall(r"^\.It Fl (?:\S+ , Fl )?\\-(\S+)", manual.read_text(), re.M)
+                self.assertGreaterEqual(len(items), 1)
+                for option in (f"--{item}".replace("\\-", "-") for item in items):
+                    self.assertIn(option, text)
+                    self.assertTrue([anchor for anchor in self.pages[name].anchors
+                                     if anchor.startswith("cmdoption-") and anchor.endswith(option.strip("-"))], option)
+
+    def test_a_manual_page_shows_defaults_ranges_and_examples(self):
+        page = html.unescape(re.sub(r"<[^>]+>", "", (self.site / "docs/man/supercoil-sim.html").read_text()))
+        for text in ("supercoil-sim campaign [options] [study]", "--nodes INT",
+                     "From 1 to 8. Default: 1. Not with --learned.",
+                     "supercoil-sim run bench --real-time --can socketcand:29536"):
+            self.assertIn(text, page)
+        self.assertIn("../simulation.html", self.pages["docs/man/supercoil-sim.html"].links)
 
     def test_every_public_header_is_in_the_reference(self):
         text = "".join(page.read_text() for page in self.site.glob("docs/api/*.html"))

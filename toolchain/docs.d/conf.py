@@ -1,4 +1,4 @@
-"""How Sphinx makes a site of README.md, CHANGELOG.md and docs/, which a Git host shows as they are: toolchain/docs."""
+"""How Sphinx makes a site of README.md, CHANGELOG.md, docs/ and the manual pages there: toolchain/docs."""
 
 import pathlib
 import re
@@ -15,7 +15,9 @@ html_title = f"supercoil {release}"
 
 extensions = ["myst_parser", "site_parts"]
 root_doc = "README"
-include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/api/*.md", "docs/faults/*.md"]
+include_patterns = ["README.md", "CHANGELOG.md", "docs/*.md", "docs/api/*.md", "docs/faults/*.md", "docs/man/*.[1-8]"]
+# site_parts.adapt() makes Markdown of manual pages.
+source_suffix = dict.fromkeys([".md", ".1", ".8"], "markdown")
 exclude_patterns = sorted(entry.name for entry in ROOT.iterdir() if entry.is_dir() and entry.name != "docs")
 
 # Links, headings' anchors and formulas are a Git host's.

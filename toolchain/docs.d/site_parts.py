@@ -6,15 +6,17 @@ import re
 
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml  # no documented interface: docutils is pinned
+from manual import Manual
 from pygments.lexers.special import TextLexer
 from reference import Reference, headers
 from sphinx.util.docutils import SphinxDirective
 
 INDEX = "docs/README"
 FAULTS = "docs/faults/README"
-PAGE_OR_GROUP = re.compile(r"^(?:## (?P<group>.+)|- \[(?P<name>[^\]]+)\]\((?P<page>[^)#]+)\.md\).*)$", re.M)
+PAGE_OR_GROUP = re.compile(r"^(?:## (?P<group>.+)|- \[(?P<name>[^\]]+)\]\((?P<page>[^)#]+)\.(?:md|[1-8])\).*)$", re.M)
 FILE_NAME = re.compile(r"\[(?:docs/)?([\w-]+)\.md\]\((?P<path>(?:[\w./-]*/)?\1)\.md")
 API = "docs/api/README"
+MANUAL = "docs/man"
 API_PAGE = re.compile(r"^- \[(\w+)\]\(\1\.md\)", re.M)
 FAULT = re.compile(r"^\| *\d+ *\| \[(\w+)\]", re.M)
 
@@ -38,6 +40,8 @@ def toctree(caption, pages):
 
 def adapt(app, page, source):
     """Adds the navigation, and names a page as it does where a link's text is a file's name."""
+    if posixpath.dirname(page) == MANUAL:
+        source[0] = Manual(source[0]).page()
     index = (pathlib.Path(app.srcdir) / f"{INDEX}.md").read_text()
     names = {page: name for _, pages in groups(index) for name, page in pages}
 

@@ -19,7 +19,7 @@ KEPT = ROOT / "firmware/apps/completion"
 PROGRAMS = sys.argv.pop(1)
 # What is typed, and what must be among what is offered; "" where a file's name must be.
 OFFERED = (
-    (["supercoil", "do"], ["doctor"]),
+    (["supercoil", "doct"], ["doctor"]),
     (["supercoil", "--ver"], ["--version"]),
     (["supercoil", "tune", "1", "--from", "con"], ["configured"]),
     (["supercoil", "command", "1", "cali"], ["calibrate"]),

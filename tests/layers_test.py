@@ -32,7 +32,8 @@ ALLOWED = {
 BESIDE = {
     "firmware/io/linux_board": ["linux_board/", "supercoil/hal_linux/"],
     "firmware/apps/supercoild": ["apps/supercoild/", "malloc.h", "poll.h"],
-    "firmware/apps/supercoil": ["apps/supercoil/", "supercoil/identification/", "boost/asio/", "boost/beast/", "httplib.h", "poll.h"],
+    "firmware/apps/supercoil": ["apps/supercoil/", "supercoil/identification/", "boost/asio/", "boost/beast/", "httplib.h", "poll.h",
+                                "spawn.h"],
 }
 INCLUDE = re.compile(r'^\s*#include\s+[<"]([^>"]+)[>"]', re.M)
 

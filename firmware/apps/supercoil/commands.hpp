@@ -114,4 +114,11 @@ struct DbcOptions {
 };
 int dbc_command(const DbcOptions& options);
 
+struct DocsOptions {
+  std::string folder = "/usr/share/doc/supercoil-doc/html";
+  int port = 8000;  ///< 0: a free one
+  bool open = false;
+};
+int docs_command(const DocsOptions& options);
+
 }  // namespace supercoil::operating

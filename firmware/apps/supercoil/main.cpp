@@ -234,6 +234,18 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
   dbc->add_option("--out", options.out, "Write it to this file [standard output]");
 }
 
+void add_docs(CLI::App& app, DocsOptions& options) {
+  CLI::App* docs = app.add_subcommand(
+      "docs", "Serve this documentation to a browser of this machine, until Ctrl-C");
+  docs->add_option("--port", options.port, "Of the site; 0 takes a free one")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  docs->add_flag("--open", options.open, "Open it in the browser too, with xdg-open");
+  docs->add_option("--folder", options.folder, "Where the site is: what toolchain/docs built")
+      ->type_name("DIR")
+      ->capture_default_str();
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
   app.set_version_flag("--version", std::string(program_version()));
@@ -256,6 +268,8 @@ int run_program(int count, char** arguments) {
   add_setup(app, setup);
   DbcOptions dbc;
   add_dbc(app, dbc);
+  DocsOptions docs;
+  add_docs(app, docs);
   if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
     return fail(exit_wrong_input, wrong);
   try {
@@ -271,6 +285,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("identify")) return identify_command(identify);
   if (app.got_subcommand("setup")) return setup_command(setup);
   if (app.got_subcommand("dbc")) return dbc_command(dbc);
+  if (app.got_subcommand("docs")) return docs_command(docs);
   return app.got_subcommand("log") ? log_command(log) : command_command(command);
 }
 

@@ -94,3 +94,8 @@ complete -c supercoil -n __fish_use_subcommand -f -a dbc -d 'Print the DBC of th
 complete -c supercoil -n '__fish_seen_subcommand_from dbc' -s h -l help -d 'Print this help message and exit'
 complete -c supercoil -n '__fish_seen_subcommand_from dbc' -l nodes -x -d 'The bus'\''s nodes, e.g'
 complete -c supercoil -n '__fish_seen_subcommand_from dbc' -l out -r -F -d 'Write it to this file [standard output]'
+complete -c supercoil -n __fish_use_subcommand -f -a docs -d 'Serve this documentation to a browser of this machine, until Ctrl-C'
+complete -c supercoil -n '__fish_seen_subcommand_from docs' -s h -l help -d 'Print this help message and exit'
+complete -c supercoil -n '__fish_seen_subcommand_from docs' -l port -x -d 'Of the site'
+complete -c supercoil -n '__fish_seen_subcommand_from docs' -l open -d 'Open it in the browser too, with xdg-open'
+complete -c supercoil -n '__fish_seen_subcommand_from docs' -l folder -r -F -d 'Where the site is'

@@ -14,10 +14,11 @@ const Asset* find_asset(std::span<const Asset> assets, std::string_view name) {
 
 std::string_view media_type(std::string_view name) {
   using Type = std::pair<std::string_view, std::string_view>;
-  constexpr std::array<Type, 5> types{{{".html", "text/html; charset=utf-8"},
+  constexpr std::array<Type, 6> types{{{".html", "text/html; charset=utf-8"},
                                        {".css", "text/css; charset=utf-8"},
                                        {".js", "text/javascript; charset=utf-8"},
                                        {".svg", "image/svg+xml"},
+                                       {".png", "image/png"},
                                        {".json", "application/json"}}};
   for (const auto& [ending, type] : types) {
     if (name.ends_with(ending)) return type;

@@ -9,6 +9,7 @@ import functools
 import html
 import html.parser
 import http.server
+import os
 import pathlib
 import posixpath
 import re
@@ -25,6 +26,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests" / "monitor"))
 from browser import Browser  # noqa: E402
 
+SUPERCOIL = os.environ.get("SUPERCOIL", ROOT / "build" / "release" / "bin" / "supercoil")
 SHOWN_S = 10.0
 PHONE = (360, 760)
 # The theme's column of text scrolls in place of the page.
@@ -72,10 +74,11 @@ class SiteTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         out = cls.enterClassContext(tempfile.TemporaryDirectory())
-        built = subprocess.run([ROOT / "toolchain" / "docs", "--out", out], capture_output=True, text=True)
+        built = subprocess.run([ROOT / "toolchain" / "docs", "--package", "--out", out], capture_output=True, text=True)
         if built.returncode:
             raise AssertionError(f"toolchain/docs failed:\n{built.stdout}{built.stderr}")
-        cls.site = pathlib.Path(out, "html")
+        cls.out = pathlib.Path(out)
+        cls.site = cls.out / "html"
         cls.pages = {file.relative_to(cls.site).as_posix(): Page(file) for file in cls.site.rglob("*.html")}
         cls.server = serve(cls.site)
         cls.addClassCleanup(cls.server.server_close)
@@ -141,6 +144,24 @@ class SiteTest(unittest.TestCase):
                      "supercoil-sim run bench --real-time --can socketcand:29536"):
             self.assertIn(text, page)
         self.assertIn("../simulation.html", self.pages["docs/man/supercoil-sim.html"].links)
+
+    def test_the_package_has_the_site_where_supercoil_docs_looks_for_it(self):
+        package, = self.out.glob("supercoil-doc_*_all.deb")
+        control = subprocess.run(["dpkg-deb", "--field", package], capture_output=True, text=True, check=True).stdout
+        self.assertIn("Package: supercoil-doc\n", control)
+        self.assertNotIn("@", re.sub(r"<.*>", "", control))
+        told = subprocess.run([SUPERCOIL, "docs", "--help"], capture_output=True, text=True, check=True).stdout
+        folder = re.search(r"--folder DIR=/(\S+)", told)[1]
+        with tempfile.TemporaryDirectory() as root:
+            subprocess.run(["dpkg-deb", "--extract", package, root], check=True)
+            site = pathlib.Path(root, folder)
+            self.assertEqual({file.relative_to(site) for file in site.rglob("*.html")},
+                             {file.relative_to(self.site) for file in self.site.rglob("*.html")})
+            self.assertEqual((site / "index.html").read_bytes(), (self.site / "index.html").read_bytes())
+            for name in ("copyright", "changelog.gz"):
+                self.assertTrue((site.parent / name).is_file(), name)
+            named = re.findall(r"html/_static/(\S+)", (site.parent / "copyright").read_text())
+            self.assertEqual([name for name in named if not [*site.glob(f"_static/{name}")]], [])
 
     def test_every_public_header_is_in_the_reference(self):
         text = "".join(page.read_text() for page in self.site.glob("docs/api/*.html"))

@@ -27,6 +27,7 @@ struct RunOptions {
   bool can = true;
   bool real_time = false;
   std::optional<std::uint16_t> socketcand_port;  ///< in real time; 0: a free one
+  bool end_with_parent = false;                  ///< in real time
   bool check = false;                            ///< only read the scenario
   bool quiet = false;
   bool allow_fault = false;  ///< a run that ends in a fault is not a failure

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <memory>
 
+#include <unistd.h>
+
 #include "cli/nodes.hpp"
 #include "cli/run_results.hpp"
 #include "cli/runs.hpp"
@@ -39,6 +41,7 @@ tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Nodes& nodes,
 int live_run(const RunOptions& options, const Scenario& scenario, const Window& window,
              OutputFolder& folder, storage::LearnedStore& store) {
   catch_interrupts();  // before the first line tells others that it runs
+  const pid_t parent = getppid();
   auto nodes = Nodes::start(options, scenario, window, folder);
   if (!nodes) return fail(exit_wrong_input, nodes.error());
   std::unique_ptr<SocketcandServer> server;
@@ -51,7 +54,8 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
   std::fflush(stdout);
   Pace pace(scenario.step_s());
   const Simulation& first = nodes->first();
-  while (!first.done() && !interrupted()) {
+  const auto is_orphan = [&] { return options.end_with_parent && getppid() != parent; };
+  while (!first.done() && !interrupted() && !is_orphan()) {
     nodes->step();
     if (server) server->poll();
     pace.wait();

@@ -71,6 +71,9 @@ void add_run(CLI::App& app, RunOptions& options) {
          "socketcand:PORT: serve the board's CAN bus on that port of loopback; 0 takes a free one")
       ->type_name("BUS")
       ->needs(real_time);
+  run->add_flag("--end-with-parent", options.end_with_parent,
+                "End also when the program that started it has ended, however it did")
+      ->needs(real_time);
   run->add_flag("--check", options.check,
                 "Check the scenario and exit, and what the muscle can do");
   run->add_flag("--allow-fault", options.allow_fault,

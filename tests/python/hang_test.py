@@ -1,6 +1,7 @@
 """A program that hangs does not keep a muscle hot: its commands expire."""
 
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -20,6 +21,14 @@ with supercoil.Muscle(sys.argv[1], deadline_s=1e6) as muscle:
     muscle.arm()
     muscle.set_position(0.002)
     muscle.hold(1e6)
+"""
+# Prints where its simulation serves, and waits.
+SIMULATES = """
+import sys, time
+from supercoil import sync
+simulation = sync.Simulation(sys.argv[1]).start()
+print(simulation.address.split(":")[1], flush=True)
+time.sleep(1e6)
 """
 RENEWING = (Opcode.position, Opcode.renew)
 
@@ -65,6 +74,22 @@ class Hang(unittest.TestCase):
         process.send_signal(signal.SIGCONT)
         self.assertIn("supercoil.generated.faults.CommandTimeout", process.communicate(timeout=DEADLINE_S)[1])
         self.assertEqual(process.returncode, 1)
+
+
+class Orphan(unittest.TestCase):
+    def test_a_simulation_ends_with_the_process_that_was_killed(self):
+        process = subprocess.Popen([sys.executable, "-c", SIMULATES, str(QUICK)], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        address = ("127.0.0.1", int(process.stdout.readline()))
+        socket.create_connection(address).close()
+        process.kill()
+        end = time.monotonic() + DEADLINE_S
+        with self.assertRaises(ConnectionRefusedError):
+            while time.monotonic() < end:
+                socket.create_connection(address).close()
+                time.sleep(0.05)
 
 
 if __name__ == "__main__":

@@ -75,7 +75,7 @@ class Simulation:
         try:
             process, port = await asyncio.to_thread(_start, [
                 _program(), "run", self.scenario, "--real-time", "--can", "socketcand:0", "--out", folder, "--quiet",
-                *self._options])
+                "--end-with-parent", *self._options])
         except BaseException:
             await self._end()
             raise

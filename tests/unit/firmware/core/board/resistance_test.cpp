@@ -9,8 +9,6 @@ using supercoil::board::Probe;
 using supercoil::board::Resistance;
 using supercoil::test::tick_s;
 
-namespace {}  // namespace
-
 TEST_GROUP(Resistance){};
 
 TEST(Resistance, IsDutyTimesVoltageOverAveragedCurrent) {
@@ -18,6 +16,11 @@ TEST(Resistance, IsDutyTimesVoltageOverAveragedCurrent) {
   CHECK(r.step(0.25, 12.0, 0.25));
   DOUBLES_EQUAL(12.0, r.value_Ohm(), 1e-12);
   DOUBLES_EQUAL(0.0, r.age_s(), 0.0);
+}
+
+TEST(Resistance, IsOldUntilItIsMeasured) {
+  const Resistance r({}, tick_s);
+  CHECK(r.age_s() > 1e6);
 }
 
 TEST(Resistance, HoldsItsLastValueWithItsAgeBelowTheProbeDuty) {

@@ -7,6 +7,7 @@
 #include <CppUTest/TestHarness.h>
 #include <rapidcheck.h>
 
+#include "storage/crc32.hpp"
 #include "storage/envelope.hpp"
 #include "storage/fields.hpp"
 #include "unit/firmware/io/storage/support/sets.hpp"
@@ -275,4 +276,11 @@ TEST(Codec, SmallMotionsAreThoseOfAMuscleAndNotStoredWithoutOne) {
   CHECK(read.has_value());
   CHECK_FALSE(read->has_muscle);
   DOUBLES_EQUAL(0.0, read->response_ratio, 0.0);
+}
+
+// The check value is that of the catalogue of CRC algorithms for CRC-32/ISO-HDLC.
+TEST(Codec, ChecksumOfTwoPartsIsThatOfTheWhole) {
+  UNSIGNED_LONGS_EQUAL(0xCBF43926, crc32("123456789"));
+  UNSIGNED_LONGS_EQUAL(0xCBF43926, crc32("1234", "56789"));
+  UNSIGNED_LONGS_EQUAL(0xCBF43926, crc32("", "123456789"));
 }

@@ -4,7 +4,7 @@ import os
 import time
 import unittest
 
-from peer import LOOPBACK, Peer
+from peer import LOOPBACK, Peer, Writer
 
 os.environ["CYCLONEDDS_URI"] = LOOPBACK
 
@@ -31,7 +31,7 @@ class Known(unittest.TestCase):
     def test_a_publisher_is_known_by_its_messages_until_it_is_gone(self):
         subscription = self.graph.subscription("/known", Bool, (True,))
         for _ in range(20):  # handles are random: with and without a sign
-            writer = self.peer.writer("rt/known", KIND)
+            writer = Writer(self.peer, "rt/known", KIND, reliable=True)
             self.wait(writer.matched)
             writer.write(self.peer.message(KIND, True))
             (message, publisher), = self.wait(subscription.take)

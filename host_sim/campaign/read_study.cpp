@@ -170,9 +170,8 @@ toml::table read_scenario_file(const std::string& path, std::vector<config::Prob
 }
 
 /// The scenario, and what the study lays over it.
-toml::table read_base(Section& study, const std::filesystem::path& beside,
+toml::table read_base(Section& study, const std::string& name, const std::filesystem::path& beside,
                       const toml::table& document, std::vector<config::Problem>& problems) {
-  const std::string name = study.text("scenario", "sine");
   toml::table base;
   if (const auto builtin = builtin_scenario(name)) {
     Diagnostics none(name);
@@ -259,6 +258,7 @@ tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& 
   }
   Study study;
   study.name = std::filesystem::path(path).stem().string();
+  if (text.starts_with('#')) study.about = description({"", text});
   const std::filesystem::path beside = std::filesystem::path(path).parent_path();
   Section top(&document, "", diagnostics);
   top.allow({"scenario"});
@@ -266,7 +266,8 @@ tl::expected<Study, std::vector<config::Problem>> read_study(const std::string& 
   read_head(head, study);
   if (runs > 0) study.runs = runs;
   std::vector<config::Problem> of_scenario;
-  study.scenario = read_base(head, beside, document, of_scenario);
+  study.base = head.text("scenario", "sine");
+  study.scenario = read_base(head, study.base, beside, document, of_scenario);
   if (document.contains("scenario") && !document.get("scenario")->is_table())
     top.wrong("scenario", "must be tables: [scenario.plant] and so on; its name is study.scenario");
   read_window(head, study);

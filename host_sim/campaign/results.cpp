@@ -60,9 +60,13 @@ double ratio(double value, double max) {
 
 }  // namespace
 
+std::string origin_of(const Study& study) {
+  return "supercoil-sim " SUPERCOIL_RELEASE " campaign " + study.name + ", definition " +
+         hexadecimal(study.definition);
+}
+
 std::string Lines::head() const {
-  std::string text = "# supercoil-sim " SUPERCOIL_RELEASE " campaign " + study_->name +
-                     ", definition " + hexadecimal(study_->definition) +
+  std::string text = "# " + origin_of(*study_) +
                      ", a line a run; inf: no longer followed, or never settled\nrun,contender";
   for (const Draw& draw : study_->draws)
     text += "," + draw.name;

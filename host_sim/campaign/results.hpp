@@ -27,6 +27,10 @@ struct Key {
 
 using Outcomes = std::map<Key, Outcome>;
 
+/// Program, version and study that runs are of: "supercoil-sim 0.2.0 campaign NAME, definition
+/// HEX".
+std::string origin_of(const Study& study);
+
 /// Reads and writes lines of runs.csv; equal outcomes give equal bytes.
 class Lines {
  public:

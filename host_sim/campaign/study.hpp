@@ -39,13 +39,15 @@ struct Goal {
 
 struct Study {
   std::string name;
+  std::string about;  ///< the comment on its first line
   std::int64_t runs = 1000;
   Sampling sampling = Sampling::sobol;
   std::uint64_t seed = 1;
   /// Run until the share of failures is known to ± this, 95 %; 0: all runs.
   double known_to = 0.0;
   Window window;         ///< of tracking
-  toml::table scenario;  ///< without what is drawn
+  std::string base;      ///< the scenario's name or file
+  toml::table scenario;  ///< that, with the study's changes, without what is drawn
   std::vector<Draw> draws;
   std::vector<compare::Document> contenders;  ///< one without text: the scenario's own controller
   std::vector<Goal> goals;

@@ -49,6 +49,22 @@ GoalRow row_of(const Goal& goal, const Runs& runs) {
   return row;
 }
 
+constexpr std::size_t kept_worst = 10;
+
+/// Only runs that miss a goal.
+std::vector<Key> worst_of(const Study& study, const Outcomes& outcomes, std::size_t contender) {
+  std::vector<std::pair<double, Key>> failed;
+  for (const auto& [key, outcome] : outcomes) {
+    if (key.contender != contender || !outcome.refused.empty()) continue;
+    if (const double by = severity(study, outcome); by > 1.0) failed.emplace_back(-by, key);
+  }
+  std::ranges::sort(failed);
+  std::vector<Key> worst;
+  for (std::size_t i = 0; i < std::min(kept_worst, failed.size()); ++i)
+    worst.push_back(failed[i].second);
+  return worst;
+}
+
 }  // namespace
 
 std::vector<ContenderRow> table_of(const Study& study, const Draws& draws,
@@ -56,7 +72,7 @@ std::vector<ContenderRow> table_of(const Study& study, const Draws& draws,
   std::vector<ContenderRow> table;
   for (std::size_t i = 0; i < study.contenders.size(); ++i) {
     const Runs runs = runs_of(i, study, draws, outcomes);
-    ContenderRow row{study.contenders[i].name, {}, {}, {}, ""};
+    ContenderRow row{study.contenders[i].name, {}, {}, {}, "", worst_of(study, outcomes, i)};
     std::int64_t all = 0;
     for (const auto& [key, outcome] : outcomes) {
       if (key.contender != i) continue;
@@ -75,18 +91,8 @@ std::vector<ContenderRow> table_of(const Study& study, const Draws& draws,
   return table;
 }
 
-std::vector<Key> worst_of(const Study& study, const Outcomes& outcomes, std::size_t contender,
-                          std::size_t count) {
-  std::vector<std::pair<double, Key>> failed;
-  for (const auto& [key, outcome] : outcomes) {
-    if (key.contender != contender || !outcome.refused.empty()) continue;
-    if (const double by = severity(study, outcome); by > 1.0) failed.emplace_back(-by, key);
-  }
-  std::ranges::sort(failed);
-  std::vector<Key> worst;
-  for (std::size_t i = 0; i < std::min(count, failed.size()); ++i)
-    worst.push_back(failed[i].second);
-  return worst;
+std::string worst_name(const std::string& contender, std::size_t place) {
+  return "worst-" + contender + "-" + std::to_string(place) + ".toml";
 }
 
 std::string to_csv(const std::vector<ContenderRow>& table) {

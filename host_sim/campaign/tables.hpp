@@ -30,15 +30,12 @@ struct ContenderRow {
   Rate failures;  ///< of those that were not refused: runs that miss any goal
   std::vector<GoalRow> goals;
   std::string reason;  ///< of a refusal, the first run's; empty without
+  /// Runs that miss their goals by most, worst first; no more than ten.
+  std::vector<Key> worst;
 };
 
 std::vector<ContenderRow> table_of(const Study& study, const Draws& draws,
                                    const Outcomes& outcomes);
-
-/// A contender's runs that miss their goals by most, worst first; no more than count. Only runs
-/// that miss one.
-std::vector<Key> worst_of(const Study& study, const Outcomes& outcomes, std::size_t contender,
-                          std::size_t count);
 
 /// A line a goal of a contender.
 std::string to_csv(const std::vector<ContenderRow>& table);
@@ -46,10 +43,18 @@ std::string to_csv(const std::vector<ContenderRow>& table);
 std::string to_markdown(const Study& study, const std::vector<ContenderRow>& table,
                         const Outcomes& outcomes);
 
+/// report.html: the same with what was asked, how to repeat the worst runs, and the picture of
+/// figure_of(); svg: empty without.
+std::string to_html(const Study& study, const std::vector<ContenderRow>& table,
+                    const Outcomes& outcomes, const std::string& svg);
+
 /// campaign.svg: how each quantity with a goal is distributed, unless it is always the same, and
 /// over the draw that it follows most.
 Figure figure_of(const Study& study, const Draws& draws, const Outcomes& outcomes,
                  const std::vector<ContenderRow>& table);
+
+/// The file with the contender's worst run of that place, from 1.
+std::string worst_name(const std::string& contender, std::size_t place);
 
 /// What a search found, by contender.
 std::string to_markdown(const Study& study, const std::map<std::size_t, Worst>& found);

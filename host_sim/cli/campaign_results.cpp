@@ -12,12 +12,6 @@
 
 namespace supercoil::host_sim {
 
-namespace {
-
-constexpr std::size_t worst_runs = 10;
-
-}  // namespace
-
 std::string replay(const campaign::Study& study, const campaign::Draws& draws,
                    const std::vector<double>& drawn, const campaign::Key& key) {
   std::ostringstream text;
@@ -34,21 +28,22 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
                       const CampaignOptions& options) {
   const auto table = table_of(study, draws, outcomes);
   const std::string markdown = to_markdown(study, table, outcomes);
+  std::string svg;
   if (options.plot) {
     const Figure figure = figure_of(study, draws, outcomes, table);
-    if (!figure.panels.empty()) draw_into(folder, figure, "campaign.svg");
+    if (!figure.panels.empty()) svg = draw_into(folder, figure, "campaign.svg");
   }
   Tables tables{{{runs_name, campaign::Lines(study, draws).file(outcomes)},
                  {"campaign.csv", to_csv(table)},
-                 {"campaign.md", markdown}},
+                 {"campaign.md", markdown},
+                 {"report.html", to_html(study, table, outcomes, svg)}},
                 markdown,
                 outcomes.size()};
-  for (std::size_t i = 0; i < study.contenders.size(); ++i) {
-    std::size_t place = 0;
-    for (const campaign::Key& key : worst_of(study, outcomes, i, worst_runs)) {
-      tables.files.emplace_back(
-          "worst-" + study.contenders[i].name + "-" + std::to_string(++place) + ".toml",
-          replay(study, draws, draws.of_run(key.run), key));
+  for (const campaign::ContenderRow& row : table) {
+    for (std::size_t i = 0; i < row.worst.size(); ++i) {
+      const campaign::Key& key = row.worst[i];
+      tables.files.emplace_back(campaign::worst_name(row.name, i + 1),
+                                replay(study, draws, draws.of_run(key.run), key));
     }
   }
   return conclude_tables(tables, folder, options.quiet);

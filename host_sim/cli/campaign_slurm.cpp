@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "campaign/readable.hpp"
 #include "cli/campaign_results.hpp"
 
 namespace supercoil::host_sim {
@@ -22,17 +23,9 @@ struct Jobs {
   int parts;
 };
 
-/// One word for a shell, whatever is in it.
-std::string quoted(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text)
-    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 std::string command(const Jobs& jobs) {
-  return quoted(jobs.program.string()) + " campaign " + quoted(jobs.study) + " --runs " +
-         std::to_string(jobs.runs);
+  return campaign::shell_word(jobs.program.string()) + " campaign " +
+         campaign::shell_word(jobs.study) + " --runs " + std::to_string(jobs.runs);
 }
 
 std::string part_script(const Jobs& jobs) {

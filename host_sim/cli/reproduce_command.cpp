@@ -1,9 +1,8 @@
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "apps/common/progress.hpp"
 #include "cli/commands.hpp"
+#include "cli/run_results.hpp"
 #include "paper/reproduction.hpp"
 #include "report/output_folder.hpp"
 #include "report/reproduction_table.hpp"
@@ -12,23 +11,12 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// Draws every figure into the folder and returns their texts. One that cannot be drawn is left
-/// out, with a line that says why: the table is worth more than its pictures.
+/// Draws every figure into the folder and returns their texts; empty where one could not be drawn.
 std::vector<std::string> draw_all(const std::vector<paper::Part>& parts, OutputFolder& folder) {
   std::vector<std::string> texts;
   for (const paper::Part& part : parts) {
-    for (const paper::NamedFigure& figure : part.figures) {
-      const auto path = folder.temporary(figure.name + ".svg");
-      if (auto drawn = draw(figure.figure, path); !drawn) {
-        std::fprintf(stderr, "supercoil-sim: %s.svg is not written: %s\n", figure.name.c_str(),
-                     drawn.error().c_str());
-        folder.drop(figure.name + ".svg");
-        texts.emplace_back();
-        continue;
-      }
-      std::ifstream in(path, std::ios::binary);
-      texts.emplace_back(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-    }
+    for (const paper::NamedFigure& figure : part.figures)
+      texts.push_back(draw_into(folder, figure.figure, figure.name + ".svg"));
   }
   return texts;
 }

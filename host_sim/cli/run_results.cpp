@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -153,12 +155,16 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   return exit_done;
 }
 
-void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name) {
-  const auto drawn = draw(figure, folder.temporary(name));
-  if (drawn) return;
-  folder.drop(name);
-  std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", name.c_str(),
-               drawn.error().c_str());
+std::string draw_into(OutputFolder& folder, const Figure& figure, const std::string& name) {
+  const auto path = folder.temporary(name);
+  if (const auto drawn = draw(figure, path); !drawn) {
+    folder.drop(name);
+    std::fprintf(stderr, "supercoil-sim: %s is not written: %s\n", name.c_str(),
+                 drawn.error().c_str());
+    return {};
+  }
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace supercoil::host_sim

@@ -43,7 +43,8 @@ bool asks(const Scenario& scenario);
 int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
           const RunOptions& options);
 
-/// Draws the figure into the folder, or says why not: results are worth more than their picture.
-void draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);
+/// Draws the figure into the folder and returns it, or says why not and returns nothing: results
+/// are worth more than their picture.
+std::string draw_into(OutputFolder& folder, const Figure& figure, const std::string& name);
 
 }  // namespace supercoil::host_sim

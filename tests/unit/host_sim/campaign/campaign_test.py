@@ -50,7 +50,7 @@ class Campaign(Batch, ProgramCase):
     def test_each_run_is_a_line_and_all_together_a_table(self):
         whole = self.whole()
         self.assertEqual([name for name in sorted(whole) if not name.startswith("worst-")],
-                         ["campaign.csv", "campaign.md", "runs.csv"])
+                         ["campaign.csv", "campaign.md", "report.html", "runs.csv"])
         rows = self.rows("whole")
         self.assertEqual([(row["run"], row["contender"]) for row in rows],
                          [(str(run), name) for run in range(1, 25) for name in ("pi", "pd_ff")])
@@ -128,6 +128,8 @@ class Campaign(Batch, ProgramCase):
         for task in "312":
             subprocess.run(["sh", "part.sbatch"], cwd=array, check=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": task})
         subprocess.run(["sh", "merge.sbatch"], cwd=array, check=True, stdout=subprocess.DEVNULL)
+        self.assertIn(b"<figure", (array / "report.html").read_bytes())
+        del whole["report.html"]  # without a figure
         self.assertEqual({name: (array / name).read_bytes() for name in whole}, whole)
 
     def test_what_submit_is_given_reaches_the_parts_alone(self):

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace supercoil::host_sim::batch {
@@ -40,23 +39,24 @@ tl::expected<bool, std::string> read_lines(const std::filesystem::path& path,
   if (!std::filesystem::is_regular_file(status))
     return tl::unexpected(path.string() + ": is not a file");
   std::ifstream in(path, std::ios::binary);
-  const std::string all{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-  if (!in.good() && !in.eof()) return tl::unexpected(path.string() + ": cannot be read");
-  if (all.size() < head.size() && head.starts_with(all)) return !all.empty();
-  if (!all.starts_with(head)) {
+  std::string begin(head.size(), '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  if (begin.size() < head.size() && head.starts_with(begin) && !in.bad()) return !begin.empty();
+  if (begin != head) {
     return tl::unexpected(path.string() + ":1: is not of this version: it begins \"" +
-                          all.substr(0, std::min(all.find('\n'), std::size_t{80})) +
+                          begin.substr(0, std::min(begin.find('\n'), std::size_t{80})) +
                           "\"; must be \"" + head.substr(0, head.find('\n')) +
                           "\". Choose another --out, or delete it");
   }
-  std::string_view rest = std::string_view(all).substr(head.size());
-  for (auto line = 1 + std::ranges::count(head, '\n'); !rest.empty(); ++line) {
-    const std::size_t end = rest.find('\n');
-    if (end == std::string_view::npos) return true;
-    const auto taken = take(rest.substr(0, end), path.string() + ":" + std::to_string(line) + ": ");
+  // Line by line: a file may be larger than the memory.
+  auto number = 1 + std::ranges::count(head, '\n');
+  for (std::string line; std::getline(in, line); ++number) {
+    if (in.eof()) return true;
+    const auto taken = take(line, path.string() + ":" + std::to_string(number) + ": ");
     if (!taken) return tl::unexpected(taken.error());
-    rest.remove_prefix(end + 1);
   }
+  if (in.bad()) return tl::unexpected(path.string() + ": cannot be read");
   return false;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <ostream>
 #include <string_view>
 #include <utility>
 
@@ -92,17 +93,16 @@ std::string Lines::line(const Key& key, const Outcome& outcome) const {
   return text + "\n";
 }
 
-std::string Lines::file(const Outcomes& outcomes) const {
-  std::string text = head();
+void Lines::write(std::ostream& out, const Outcomes& outcomes) const {
+  out << head();
   for (const auto& [key, outcome] : outcomes)
-    text += line(key, outcome);
-  return text;
+    out << line(key, outcome);
 }
 
-tl::expected<Lines::Read, std::string> Lines::read(const std::filesystem::path& path) const {
+tl::expected<bool, std::string> Lines::read(const std::filesystem::path& path,
+                                            Outcomes& into) const {
   const std::size_t before = 2 + study_->draws.size();
   const std::size_t columns = before + 2 + quantity_count;
-  Read read;
   const auto take = [&](std::string_view text,
                         const std::string& where) -> tl::expected<void, std::string> {
     const auto damaged = [&](const std::string& why) {
@@ -118,12 +118,14 @@ tl::expected<Lines::Read, std::string> Lines::read(const std::filesystem::path& 
       if (!batch::read_number(fields[before + 2 + i], outcome.values[i]))
         return damaged(std::string(quantity(i).name) + " must be a number");
     }
-    return merge(read.outcomes, {{*key, std::move(outcome)}}, where);
+    const auto [there, is_new] = into.try_emplace(*key, outcome);
+    if (!is_new && !same(there->second, outcome)) {
+      return tl::unexpected(where + "run " + std::to_string(key->run + 1) +
+                            " came to something else before");
+    }
+    return {};
   };
-  const auto torn = batch::read_lines(path, head(), take);
-  if (!torn) return tl::unexpected(torn.error());
-  read.torn = *torn;
-  return read;
+  return batch::read_lines(path, head(), take);
 }
 
 std::optional<Outcome> carry_out(const Study& study, const Draws& draws, const Key& key,
@@ -135,18 +137,6 @@ std::optional<Outcome> carry_out(const Study& study, const Draws& draws, const K
   refused.refused = without_commas((first.key.empty() ? "" : first.key + ": ") + first.message);
   refused.values.fill(NAN);
   return refused;
-}
-
-tl::expected<void, std::string> merge(Outcomes& into, const Outcomes& from,
-                                      const std::string& name) {
-  for (const auto& [key, outcome] : from) {
-    const auto [there, is_new] = into.try_emplace(key, outcome);
-    if (!is_new && !same(there->second, outcome)) {
-      return tl::unexpected(name + ": run " + std::to_string(key.run + 1) +
-                            " came to something else before");
-    }
-  }
-  return {};
 }
 
 double severity(const Study& study, const Outcome& outcome) {

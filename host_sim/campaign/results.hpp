@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <filesystem>
+#include <iosfwd>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,15 +40,12 @@ class Lines {
 
   std::string line(const Key& key, const Outcome& outcome) const;
   /// The whole file: what made it, the columns' names, all lines in order.
-  std::string file(const Outcomes& outcomes) const;
+  void write(std::ostream& out, const Outcomes& outcomes) const;
 
-  struct Read {
-    Outcomes outcomes;
-    bool torn = false;  ///< the last line was not whole, and is left out
-  };
-  /// A file of another version or study, a damaged line and two outcomes of one run are errors,
-  /// which name the file and the line. An absent file has no outcomes.
-  tl::expected<Read, std::string> read(const std::filesystem::path& path) const;
+  /// Adds what a file has. True: the last line was not whole, and is left out. A file of another
+  /// version or study, a damaged line and two outcomes of one run are errors, which name the file
+  /// and the line. An absent file has no outcomes.
+  tl::expected<bool, std::string> read(const std::filesystem::path& path, Outcomes& into) const;
 
  private:
   std::string head() const;
@@ -62,11 +60,6 @@ class Lines {
 /// and the key alone.
 std::optional<Outcome> carry_out(const Study& study, const Draws& draws, const Key& key,
                                  const std::atomic<bool>& stop);
-
-/// Adds what was read from a file to the outcomes. The error names a run for which both say
-/// something else.
-tl::expected<void, std::string> merge(Outcomes& into, const Outcomes& from,
-                                      const std::string& name);
 
 /// Largest of the goals' quantities over what is allowed; above 1: failed. A quantity that is not
 /// there, a fault that is a failure, and more than nothing where nothing is allowed are infinite.

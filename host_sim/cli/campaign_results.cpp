@@ -33,8 +33,10 @@ int conclude_campaign(const campaign::Study& study, const campaign::Draws& draws
     const Figure figure = figure_of(study, draws, outcomes, table);
     if (!figure.panels.empty()) svg = draw_into(folder, figure, "campaign.svg");
   }
-  Tables tables{{{runs_name, campaign::Lines(study, draws).file(outcomes)},
-                 {"campaign.csv", to_csv(table)},
+  const campaign::Lines lines(study, draws);
+  const auto kept = folder.write(runs_name, [&](std::ostream& out) { lines.write(out, outcomes); });
+  if (!kept) return fail(exit_failed, kept.error());
+  Tables tables{{{"campaign.csv", to_csv(table)},
                  {"campaign.md", markdown},
                  {"report.html", to_html(study, table, outcomes, svg)}},
                 markdown,
@@ -55,11 +57,7 @@ int merge_campaign(const campaign::Study& study, const campaign::Draws& draws,
   const campaign::Lines lines(study, draws);
   const auto added = batch::add_parts(
       options.merge, std::filesystem::path(options.out) / runs_name,
-      [&](const std::filesystem::path& part) -> tl::expected<bool, std::string> {
-        const auto read = lines.read(part);
-        if (!read) return tl::unexpected(read.error());
-        return merge(outcomes, read->outcomes, part.string()).map([&] { return read->torn; });
-      });
+      [&](const std::filesystem::path& part) { return lines.read(part, outcomes); });
   if (!added) return fail(exit_wrong_input, added.error());
   const auto all = static_cast<std::size_t>(study.runs) * study.contenders.size();
   if (outcomes.size() < all) {

@@ -14,6 +14,10 @@ KeptRuns::KeptRuns(const std::string& what, const Count& count, OutputFolder& fo
       quiet_(quiet) {}
 
 int KeptRuns::begin(const std::string& content) {
+  return begin([&](std::ostream& out) { out << content; });
+}
+
+int KeptRuns::begin(const std::function<void(std::ostream&)>& content) {
   if (count_.torn) {
     std::fprintf(stderr, "supercoil-sim: %s: its last line is torn; that run is repeated\n",
                  path_.c_str());

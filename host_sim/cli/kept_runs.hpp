@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include "apps/common/progress.hpp"
@@ -28,6 +29,7 @@ class KeptRuns {
 
   /// Writes the file as it is known; from here on it is whole, and grows by whole lines. Returns
   /// the program's exit status if that failed.
+  int begin(const std::function<void(std::ostream&)>& content);
   int begin(const std::string& content);
   /// A run has ended.
   void add(const std::string& line);

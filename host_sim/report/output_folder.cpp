@@ -72,9 +72,14 @@ fs::path OutputFolder::temporary(const std::string& name) {
 
 tl::expected<void, std::string> OutputFolder::write(const std::string& name,
                                                     const std::string& content) {
+  return write(name, [&](std::ostream& out) { out << content; });
+}
+
+tl::expected<void, std::string> OutputFolder::write(
+    const std::string& name, const std::function<void(std::ostream&)>& content) {
   const fs::path path = temporary(name);
   std::ofstream out(path, std::ios::binary);
-  out << content;
+  content(out);
   out.close();
   if (!out) return tl::unexpected((folder_ / name).string() + ": cannot be written: " + reason());
   return {};

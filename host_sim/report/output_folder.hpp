@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -27,6 +29,9 @@ class OutputFolder {
   std::filesystem::path temporary(const std::string& name);
   /// Writes a whole file; the error says why it failed (a full disk, for one).
   tl::expected<void, std::string> write(const std::string& name, const std::string& content);
+  /// The same of one that is better not in memory as a whole.
+  tl::expected<void, std::string> write(const std::string& name,
+                                        const std::function<void(std::ostream&)>& content);
   /// Gives up a file that temporary() announced; the others are kept.
   void drop(const std::string& name);
   /// Gives every file its name.

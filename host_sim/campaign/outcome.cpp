@@ -36,6 +36,12 @@ double found_error_ratio(const Simulation& simulation, Property property) {
                   1.0);
 }
 
+/// NaN where nothing was promised, or no first motion came to its end.
+double promise_broken(double promised_rms_m, double rms_m) {
+  if (std::isnan(promised_rms_m) || std::isnan(rms_m)) return NAN;
+  return rms_m <= promised_rms_m ? 0.0 : 1.0;
+}
+
 }  // namespace
 
 std::optional<std::size_t> find_quantity(std::string_view name) {
@@ -65,6 +71,9 @@ std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
   Outcome outcome;
   if (!summary.faults().empty()) outcome.fault = name(summary.faults().front().fault);
   const auto measured = meters.values();
+  const auto& motion = simulation.first_motion();
+  const double promised_rms_m = motion ? motion->promised_rms_m() : NAN;
+  const double first_motion_rms_m = motion ? motion->rms_m() : NAN;
   const std::array<double, run_quantities.size()> others{
       followed ? summary.tracking().rms() : NAN,
       followed ? summary.tracking().largest() : NAN,
@@ -79,6 +88,9 @@ std::optional<Outcome> simulate(const Scenario& scenario, const Window& window,
       found_error_ratio(simulation, [](const auto& muscle) { return muscle.dc_gain_m_per_W(); }),
       found_error_ratio(simulation,
                         [](const auto& muscle) { return muscle.thermal_pole_rad_per_s(); }),
+      promised_rms_m,
+      first_motion_rms_m,
+      promise_broken(promised_rms_m, first_motion_rms_m),
   };
   const auto rest = std::ranges::copy(measured, outcome.values.begin()).out;
   std::ranges::copy(others, rest);

@@ -19,7 +19,7 @@ struct Quantity {
 };
 
 /// After compare's measures: what else a run is judged by.
-inline constexpr std::array<Quantity, 12> run_quantities{{
+inline constexpr std::array<Quantity, 15> run_quantities{{
     {"tracking_rms_m", "error against the reference model within the window"},
     {"tracking_max_m", "the largest of it"},
     {"hottest_rise_K", "the muscle's true temperature above the air, the highest"},
@@ -32,6 +32,9 @@ inline constexpr std::array<Quantity, 12> run_quantities{{
     {"not_found", "1: identify or calibrate found nothing"},
     {"gain_error_ratio", "of the metres per watt that identify found"},
     {"cooling_error_ratio", "of the thermal pole that identify found"},
+    {"promised_rms_m", "error that is promised of the first motion"},
+    {"first_motion_rms_m", "error of the first motion in its last period"},
+    {"promise_broken", "1: it was more than the promised one"},
 }};
 
 inline constexpr std::size_t quantity_count = compare::measures.size() + run_quantities.size();

@@ -129,6 +129,22 @@ void Simulation::send(Verb verb, double value) {
   loop_.send({0, verb, value});
 }
 
+double Simulation::reference_at(double time_s) {
+  if (conditions_->action != OperatorAction::first_motion) return conditions_->reference.at(time_s);
+  if (last_action_ != OperatorAction::first_motion) {
+    if (loop_.channel(0).state().state() != State::armed) return NAN;
+    first_motion_.emplace(loop_, firmware_of(*scenario_), controllers_used_, time_s);
+  }
+  return first_motion_->reference_m(time_s);
+}
+
+/// Before a first motion, until a mode has ended by itself, and after it.
+void Simulation::ask_for_rest() {
+  const bool mode =
+      last_action_ == OperatorAction::identify || last_action_ == OperatorAction::calibrate;
+  if (loop_.channel(0).state().state() == State::active) send(mode ? Verb::renew : Verb::rest);
+}
+
 /// As a master does: renews the command every tick.
 void Simulation::ask(double reference) {
   if (conditions_->injected_faults.commands_stop || conditions_->action == OperatorAction::none)
@@ -154,6 +170,10 @@ void Simulation::ask(double reference) {
       if (asked && state == State::active) send(Verb::renew);
       break;
     }
+    case OperatorAction::first_motion:
+      if (std::isnan(reference)) return ask_for_rest();
+      send(Verb::position, reference);
+      break;
     case OperatorAction::rest:
       if (state == State::active) send(Verb::rest);
       break;
@@ -178,10 +198,11 @@ TickRecord Simulation::step() {
   while (next_event_ < scenario_->events.size() && scenario_->events[next_event_].at_s <= time_s) {
     apply_event(scenario_->events[next_event_++]);
   }
-  const double reference = conditions_->reference.at(time_s);
+  const double reference = reference_at(time_s);
   ask(reference);
   executive_.run_tick();
   housekeep();
+  if (first_motion_) first_motion_->judge(time_s, loop_.channel(0).snapshot());
   ++tick_;
   return record(time_s, reference);
 }

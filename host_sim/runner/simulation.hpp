@@ -8,6 +8,7 @@
 
 #include "loop/executive.hpp"
 #include "recorder/flight_recorder.hpp"
+#include "runner/first_motion.hpp"
 #include "scenario/scenario.hpp"
 #include "simulated_board/simulated_board.hpp"
 #include "simulated_board/simulated_can_bus.hpp"
@@ -75,6 +76,8 @@ class Simulation {
   hal::Time start() const { return start_; }
   /// What identify or calibrate found last; empty when nothing was.
   const std::optional<board::Learned>& learned() const { return learned_; }
+  /// The last first motion; empty when none began.
+  const std::optional<FirstMotionRun>& first_motion() const { return first_motion_; }
 
  private:
   void boot();
@@ -82,7 +85,10 @@ class Simulation {
   void apply_event(const Event& event);
   void set_air();
   void inject_faults(const InjectedFaults& faults);
+  /// What is asked for at this tick, NaN: nothing. Begins a first motion when the muscle is armed.
+  double reference_at(double time_s);
   void ask(double reference);
+  void ask_for_rest();
   void send(Verb verb, double value = 0.0);
   void housekeep();
   void pass_rows();
@@ -108,6 +114,7 @@ class Simulation {
   std::optional<SimulatedCanBus> bus_;
   std::optional<telemetry::CanEndpoint> link_;
   std::optional<board::Learned> learned_;
+  std::optional<FirstMotionRun> first_motion_;
 };
 
 }  // namespace supercoil::host_sim

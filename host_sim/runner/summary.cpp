@@ -91,6 +91,11 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   }
   const auto& learned = simulation.learned();
   json["learned"] = learned ? learned_json(*learned) : ordered_json();
+  json["first_motion"] = ordered_json();
+  if (const auto& motion = simulation.first_motion()) {
+    json["first_motion"] = {{"promised_rms_m", finite(motion->promised_rms_m())},
+                            {"rms_m", finite(motion->rms_m())}};
+  }
   json["mode_result"] = mode_result_json(simulation.loop().channel(0).snapshot());
   json["ticks_outside_temperature_interval"] = outside_interval_ticks_;
   json["hottest_temperature_rise_K"] = finite(simulation.plant().peak_temperature_rise_K());

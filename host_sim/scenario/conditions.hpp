@@ -80,13 +80,14 @@ struct Ambient {
 };
 
 /// The operator's action, applied at every tick.
-enum class OperatorAction { track, rest, disarm, identify, calibrate, none };
-inline constexpr control::Names<OperatorAction, 6> operator_action_names{
+enum class OperatorAction { track, rest, disarm, identify, calibrate, first_motion, none };
+inline constexpr control::Names<OperatorAction, 7> operator_action_names{
     {{"track", OperatorAction::track},
      {"rest", OperatorAction::rest},
      {"disarm", OperatorAction::disarm},
      {"identify", OperatorAction::identify},
      {"calibrate", OperatorAction::calibrate},
+     {"first_motion", OperatorAction::first_motion},
      {"none", OperatorAction::none}}};
 
 struct Conditions {

@@ -157,3 +157,37 @@ TEST(Simulation, FixedPointFollowsDoubleAtEveryRateThatItAccepts) {
     CHECK_COMPARE(max_m, <, c.max_m);
   }
 }
+
+TEST(Simulation, TheFirstMotionWaitsForIdentifyAndIsAsCloseAsPromised) {
+  const Scenario scenario = read(R"(
+simulation.duration_s = 120.0
+operator.action = "identify"
+controller.kind = "learned_ff"
+estimator.kind = "least_squares"
+[[event]]
+at_s = 10.0
+operator.action = "first_motion"
+)");
+  Simulation simulation(scenario);
+  TickRecord last;
+  while (!simulation.done()) {
+    last = simulation.step();
+    CHECK(!simulation.first_motion() || simulation.learned());
+  }
+  CHECK(simulation.first_motion().has_value());
+  const double promised_m = simulation.first_motion()->promised_rms_m();
+  CHECK_COMPARE(simulation.first_motion()->rms_m(), <=, promised_m);
+  CHECK_COMPARE(simulation.first_motion()->rms_m(), >, promised_m / 3.0);
+  CHECK(last.state == State::armed);
+}
+
+TEST(Simulation, AFirstMotionThatIsCutShortHasNoError) {
+  const Scenario scenario = read(
+      "simulation.duration_s = 8.0\noperator.action = 'first_motion'\n"
+      "controller.kind = 'pd_ff'");
+  Simulation simulation(scenario);
+  while (!simulation.done())
+    simulation.step();
+  CHECK(std::isnan(simulation.first_motion()->rms_m()));
+  CHECK(std::isnan(simulation.first_motion()->promised_rms_m()));
+}

@@ -132,6 +132,13 @@ class Campaign(Batch, ProgramCase):
         del whole["report.html"]  # without a figure
         self.assertEqual({name: (array / name).read_bytes() for name in whole}, whole)
 
+    def test_a_promise_is_kept_or_broken(self):
+        self.campaign("--runs", 4, "--out", "kept", study="promise")
+        for row in self.rows("kept"):
+            promised, error = float(row["promised_rms_m"]), float(row["first_motion_rms_m"])
+            self.assertEqual(row["promise_broken"], "1" if error > promised else "0")
+            self.assertTrue(1e-5 < promised < 1e-4)
+
     def test_what_submit_is_given_reaches_the_parts_alone(self):
         tools = self.path / "tools"
         tools.mkdir()
@@ -220,7 +227,7 @@ class Campaign(Batch, ProgramCase):
 
     def test_it_says_what_there_is(self):
         said = self.campaign("--list", study=None).stdout
-        for name in ("follows", "identify", "temperature", "hottest_C", "steady_rms_m"):
+        for name in ("follows", "identify", "promise", "temperature", "hottest_C", "steady_rms_m"):
             self.assertIn(name, said)
         self.assertIn("which study? A file, or a name of --list", self.campaign(study=None, status=2).stderr)
 

@@ -1,0 +1,39 @@
+// The first motion of `supercoil setup`, as a scenario's operator makes it.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "loop/loop.hpp"
+#include "loop/promise.hpp"
+
+namespace supercoil::host_sim {
+
+/// Planned from what the board knows of its muscle, and judged over its last period.
+class FirstMotionRun {
+ public:
+  /// board: of this loop. place: of the controller in use.
+  FirstMotionRun(const Loop& loop, const BoardSettings& board, std::size_t place, double begin_s);
+
+  /// Where the muscle is to be; NaN: the motion is over.
+  double reference_m(double time_s) const;
+  /// After each tick of it.
+  void judge(double time_s, const Snapshot& snapshot);
+
+  /// NaN: the controller's law promises none.
+  double promised_rms_m() const { return promised_rms_m_; }
+  /// Position less reference model, as the board's sensor shows it. NaN: the motion never came to
+  /// its end.
+  double rms_m() const;
+
+ private:
+  FirstMotion motion_;
+  double begin_s_;
+  double promised_rms_m_ = NAN;
+  double square_sum_ = 0.0;
+  std::int64_t ticks_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace supercoil::host_sim

@@ -3,12 +3,15 @@
 import csv
 import json
 import os
+import pathlib
 import shutil
 import subprocess
 import unittest
 
 from batch.batch import Batch
 from sim_program import PROGRAM, ProgramCase
+
+RECIPES = pathlib.Path(__file__).resolve().parents[4] / "examples/campaign"
 
 # Short runs, of which some fail and some cannot be.
 STUDY = """# Brief
@@ -131,6 +134,23 @@ class Campaign(Batch, ProgramCase):
         self.assertIn(b"<figure", (array / "report.html").read_bytes())
         del whole["report.html"]  # without a figure
         self.assertEqual({name: (array / name).read_bytes() for name in whole}, whole)
+
+    def test_a_containers_jobs_give_the_whole(self):
+        whole = self.whole()
+        tools = self.path / "tools"
+        tools.mkdir()
+        # In the place of Apptainer: `apptainer run IMAGE ARGUMENTS`.
+        (tools / "apptainer").write_text('#!/bin/sh\n[ "$1 $2" = "run supercoil-sim.sif" ] || exit 1\n'
+                                         f'shift 2\nexec "{PROGRAM}" "$@"\n')
+        (tools / "apptainer").chmod(0o755)
+        where = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "SLURM_ARRAY_TASK_COUNT": "3"}
+        for task in "312":
+            subprocess.run(["sh", RECIPES / "part.sbatch", "brief.toml"], cwd=self.path, check=True,
+                           env={**where, "SLURM_ARRAY_TASK_ID": task})
+        subprocess.run(["sh", RECIPES / "merge.sbatch", "brief.toml"], cwd=self.path, check=True, env=where,
+                       stdout=subprocess.DEVNULL)
+        del whole["report.html"]  # without a figure
+        self.assertEqual({name: (self.path / "campaign" / name).read_bytes() for name in whole}, whole)
 
     def test_a_promise_is_kept_or_broken(self):
         self.campaign("--runs", 4, "--out", "kept", study="promise")

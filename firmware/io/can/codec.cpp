@@ -85,6 +85,15 @@ std::size_t signal_index(const MessageInfo& message, std::string_view name) {
   throw std::out_of_range(std::string(message.name) + " has no signal " + std::string(name));
 }
 
+std::string_view unit_of(std::string_view signal_name) {
+  for (const MessageInfo& message : all_messages) {
+    for (const SignalInfo& signal : message.signals) {
+      if (signal.name == signal_name && !signal.unit.empty()) return signal.unit;
+    }
+  }
+  return {};
+}
+
 std::string_view value_name(const SignalInfo& signal, double value) {
   for (const ValueName& known : signal.names) {
     if (static_cast<double>(known.raw) == value) return known.name;

@@ -75,6 +75,8 @@ std::optional<Decoded> decode(const hal::CanFrame& frame);
 const MessageInfo* find_message(std::string_view name);
 /// A signal's place in its message; throws std::out_of_range for a name that the protocol lacks.
 std::size_t signal_index(const MessageInfo& message, std::string_view name);
+/// Of the signals of this name; empty: they have none, or there are none.
+std::string_view unit_of(std::string_view signal_name);
 /// Name of a value; empty: it has none.
 std::string_view value_name(const SignalInfo& signal, double value);
 

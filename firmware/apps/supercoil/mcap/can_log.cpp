@@ -18,7 +18,7 @@ ordered_json properties(const can::MessageInfo& message) {
   for (const SignalInfo& signal : message.signals) {
     ordered_json& property = all[std::string(signal.name)];
     property["type"] = {"number", "string", "null"};
-    if (!signal.unit.empty()) property["description"] = "in " + std::string(signal.unit);
+    describe_unit(property, signal.unit);
   }
   return all;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/supercoil/mcap/export.hpp"
+#include "can/codec.hpp"
 #include "recorder/quantities.hpp"
 
 namespace supercoil::operating::mcap {
@@ -27,12 +28,15 @@ void add_number(std::string& json, Number value) {
 
 ordered_json properties() {
   ordered_json all;
-  all["time_s"] = {{"type", "number"}};
+  all["time_s"] = {{"type", "number"}, {"description", "in s, relative to the fault"}};
   for (const recorder::Quantity& quantity : recorder::quantities) {
-    all[std::string(quantity.name)] = {{"type", quantity.word != nullptr
-                                                    ? ordered_json("string")
-                                                    : ordered_json({"number", "null"})}};
+    ordered_json& property = all[std::string(quantity.name)];
+    property["type"] =
+        quantity.word != nullptr ? ordered_json("string") : ordered_json({"number", "null"});
+    describe_unit(property, can::unit_of(quantity.name));
   }
+  // On the bus it is two signals, one for each of its units.
+  all["reference"]["description"] = "in m; in mode power in W";
   return all;
 }
 

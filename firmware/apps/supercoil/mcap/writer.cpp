@@ -42,6 +42,10 @@ void put_entries(std::string& out, const Entries& entries) {
 
 }  // namespace
 
+void describe_unit(nlohmann::ordered_json& property, std::string_view unit) {
+  if (!unit.empty()) property["description"] = "in " + std::string(unit);
+}
+
 Writer::Writer(recorder::Sink write) : write_(std::move(write)), part_(magic) {
   std::string content;
   put_text(content, "");

@@ -19,6 +19,9 @@ namespace supercoil::operating::mcap {
 using Written = tl::expected<void, std::string>;
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
+/// Adds the unit to a property of a JSON schema; an empty one adds nothing.
+void describe_unit(nlohmann::ordered_json& property, std::string_view unit);
+
 class Writer {
  public:
   /// Begins the file. write is called with pieces of some 64 KiB.

@@ -122,6 +122,19 @@ class Log(unittest.TestCase):
                 self.assertTrue(same, (name, value[name], text))
         self.assertEqual([sequence for _, topic, sequence, _ in rows if topic == "/channel_1"], list(range(len(rows) // 2)))
 
+    def test_mcap_tells_units(self):
+        self.assertEqual(self.log("r.scfr", "--mcap", "--out", "r.mcap").returncode, 0)
+        with open(self.path / "r.mcap", "rb") as file:
+            schemas = {channel.topic: json.loads(schema.data)["properties"]
+                       for schema, channel, _ in mcap.reader.NonSeekingReader(file).iter_messages()}
+        for topic in ("/channel_1", "/channel_2"):
+            told = {name: quantity["description"] for name, quantity in schemas[topic].items() if "description" in quantity}
+            self.assertEqual(told, {
+                "time_s": "in s, relative to the fault", "reference": "in m; in mode power in W", "model_m": "in m",
+                "position_m": "in m", "demanded_W": "in W", "applied_W": "in W", "supply_V": "in V", "current_A": "in A",
+                "resistance_Ohm": "in Ohm", "resistance_age_s": "in s", "coldest_C": "in degC", "hottest_C": "in degC",
+                "theta1": "in m", "theta2": "in W s2/m", "theta3": "in W s/m", "theta4": "in W/m"})
+
     def test_mcap_of_a_part(self):
         self.assertEqual(self.log("r.scfr", "--mcap", "--channel", 2, "--from", 0, "--to", "0.1", "--out", "r.mcap").returncode, 0)
         with open(self.path / "r.mcap", "rb") as file:

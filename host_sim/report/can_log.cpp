@@ -12,7 +12,7 @@ CanLog::CanLog(const std::filesystem::path& path, std::string interface)
     : out_(path, std::ios::binary), interface_(std::move(interface)) {}
 
 void CanLog::add(const hal::CanFrame& frame, hal::Time since_start) {
-  out_ << can_client::candump_line(frame, since_start, interface_);
+  out_ << can_client::candump_line(frame, can_client::simulation_epoch + since_start, interface_);
 }
 
 tl::expected<void, std::string> CanLog::finish() {

@@ -1,4 +1,4 @@
-// can.log: a run's frames as candump -L writes them.
+// can.log: a run's frames as candump -L writes them, from can_client::simulation_epoch on.
 #pragma once
 
 #include <filesystem>

@@ -16,6 +16,7 @@ import mcap.reader
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
 LINE = re.compile(r"\((\d+\.\d+)\) can0 ([0-9A-F]{3})#([0-9A-F]*)")
+EPOCH_S = 1_000_000_000  # of a simulated run: 2001-09-09 01:46:40 UTC
 SCENARIO = "simulation.duration_s = 4.0\n[[event]]\nat_s = 3.0\ninjected_fault.heater_open = true\n"
 # Of a float in nine digits.
 RELATIVE = 1e-7
@@ -44,9 +45,10 @@ class Log(unittest.TestCase):
         database = cantools.database.load_file(DBC)
         cls.frames = []  # time, message, signals
         for line in (cls.path / "can.log").read_text().splitlines():
-            time_s, frame_id, data = LINE.fullmatch(line).groups()
+            stamp, frame_id, data = LINE.fullmatch(line).groups()
+            time_s = round(float(stamp) - EPOCH_S, 6)
             message = database.get_message_by_frame_id(int(frame_id, 16))
-            cls.frames.append((float(time_s), message.name, message.decode(bytes.fromhex(data))))
+            cls.frames.append((time_s, message.name, message.decode(bytes.fromhex(data))))
 
     def log(self, *arguments):
         return subprocess.run([os.environ["SUPERCOIL"], "log", *map(str, arguments)], cwd=self.path, capture_output=True,
@@ -66,6 +68,12 @@ class Log(unittest.TestCase):
         self.assertEqual(told["board_time_s"], "2592000.123457")
         wide, = self.rows("month.log", "--message", "Emergency")
         self.assertEqual((wide["time_s"], wide["board_time_s"]), ("2592000.125000", "2592000.123457"))
+
+    def test_a_log_that_begins_at_0_is_shown_with_the_same_times(self):
+        text = (self.path / "can.log").read_text()
+        self.assertEqual(len(re.findall(r"^\(1000000", text, re.M)), len(text.splitlines()))
+        (self.path / "old.log").write_text(re.sub(r"^\(1", "(0", text, flags=re.M))
+        self.assertTrue(self.log("can.log").stdout == self.log("old.log").stdout)
 
     def test_every_value_is_the_one_that_cantools_reads(self):
         rows = iter(self.rows("can.log"))

@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DBC = ROOT / "firmware" / "io" / "can" / "supercoil.dbc"
 LINE = re.compile(r"\((\d{10})\.(\d{6})\) can0 ([0-9A-F]{3})#((?:[0-9A-F]{2}){0,8})\n")
 TICK_S = 1e-3
+EPOCH_S = 1_000_000_000  # at which a simulated run begins: 2001-09-09 01:46:40 UTC
 # Moves, estimates otherwise, is limited, and breaks: the flight recording has every tick of the 10 s before.
 SCENARIO = """\
 simulation.duration_s = 13.5
@@ -115,7 +116,7 @@ class Run(unittest.TestCase):
             if len(data) != message.length:
                 raise AssertionError(f"{message.name}: {len(data)} bytes")
             # A frame is on the wire for 0.3 ms at most, and of one channel there are at most three in a tick.
-            tick = int(seconds) * 1000 + int(microseconds) // 1000
+            tick = (int(seconds) - EPOCH_S) * 1000 + int(microseconds) // 1000
             yield tick, message.name, message.decode(data), message.decode(data, scaling=False, decode_choices=False)
 
     def assert_shows(self, message, name, value, truth, where):

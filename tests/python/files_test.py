@@ -8,6 +8,7 @@ import tempfile
 import unittest
 
 import numpy
+import pandas
 
 import supercoil
 
@@ -52,6 +53,14 @@ class Files(unittest.TestCase):
                 self.assert_same(time_s, row["time_s"], "time_s")
                 for column in columns:
                     self.assert_same(values[column], row[column.partition(".")[2]], column)
+
+    def test_a_can_log_that_begins_at_0_has_the_same_times(self):
+        text = (self.path / "can.log").read_text()
+        self.assertTrue(text.startswith("(1000000000."))
+        (self.path / "old.log").write_text(text.replace("(1", "(0"))
+        pandas.testing.assert_frame_equal(supercoil.load(self.path / "old.log"), supercoil.load(self.path / "can.log"))
+        (self.path / "board.log").write_text(text.replace("(10", "(17"))
+        self.assertGreater(supercoil.load(self.path / "board.log").index[0], 1.7e9)
 
     def test_a_log_of_two_nodes_wants_to_know_which(self):
         text = (self.path / "can.log").read_text()

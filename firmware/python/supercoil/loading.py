@@ -11,6 +11,9 @@ from supercoil.tables import table_of
 from supercoil.units import unit_of
 
 _CANDUMP = re.compile(rb"\((\d+\.\d+)\)\s+\S+\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]{2}){0,8})(?:\s+[RT])?")
+# At which a simulated run begins in its can.log, and the longest that one may take (can_client/candump.hpp).
+_SIMULATION_EPOCH_S = 1_000_000_000
+_LONGEST_RUN_S = 365 * 86400
 
 
 def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
@@ -38,7 +41,7 @@ def _load_candump(file: Path, node: int | None) -> pandas.DataFrame:
         base = identifier & codec.BASE_MASK
         if base in codec.LAYOUTS:
             frames.setdefault(identifier & codec.NODE_MASK, []).append(
-                (float(found[1]), base, bytes.fromhex(found[3].decode())))
+                (_time_of_run_s(found[1].decode()), base, bytes.fromhex(found[3].decode())))
     if node is None and len(frames) > 1:
         raise ValueError(f"{file}: has nodes {', '.join(map(str, sorted(frames)))}: say which one, node=...")
     if node is not None and node not in frames:
@@ -48,6 +51,13 @@ def _load_candump(file: Path, node: int | None) -> pandas.DataFrame:
     table.attrs["node"] = chosen
     table.attrs["damaged_lines"] = damaged
     return table
+
+
+def _time_of_run_s(text: str) -> float:
+    """Since the begin of a simulated run; of another log, and of an older simulator's, its own time."""
+    whole, _, fraction = text.partition(".")
+    in_run = int(whole) - _SIMULATION_EPOCH_S
+    return float(f"{in_run if 0 <= in_run < _LONGEST_RUN_S else int(whole)}.{fraction}")
 
 
 def _load_csv(file: Path) -> pandas.DataFrame:

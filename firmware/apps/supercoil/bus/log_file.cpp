@@ -27,6 +27,7 @@ tl::expected<CanLogFile, std::string> read_can_log(const std::string& path) {
         log.damage = path + ":" + std::to_string(number) + ": " + read.error();
     } else if (read->ours) {
       log.frames.push_back(read->frame);
+      log.frames.back().received = can_client::time_of_run(read->frame.received);
     } else {
       ++log.foreign_lines;
     }

@@ -11,7 +11,7 @@
 namespace supercoil::operating {
 
 struct CanLogFile {
-  std::vector<hal::CanFrame> frames;  ///< in the order of the file
+  std::vector<hal::CanFrame> frames;  ///< in the order of the file; times are time_of_run's
   std::size_t foreign_lines = 0;      ///< frames that supercoil never sends
   std::string damage;                 ///< what is wrong with the first line that cannot be read
   std::size_t damaged_lines = 0;

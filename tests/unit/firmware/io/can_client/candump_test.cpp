@@ -43,6 +43,18 @@ TEST(Candump, WritesWhatCandumpWrites) {
   STRCMP_EQUAL("(0000000000.000000) vcan1 001#\n", candump_line(frame, -1s, "vcan1").c_str());
 }
 
+TEST(Candump, TimesOfASimulatedRunCountFromItsBegin) {
+  CHECK(time_of_run(simulation_epoch) == 0s);
+  CHECK(time_of_run(simulation_epoch + 12345678us) == 12345678us);
+  CHECK(time_of_run(simulation_epoch + 1'000'000s) == 1'000'000s);
+}
+
+TEST(Candump, TimesOfOtherLogsStayAsTheyAre) {
+  for (const hal::Time time :
+       {hal::Time{0}, hal::Time{2592000s}, simulation_epoch - 1us, hal::Time{1436509052249713us}})
+    CHECK(time_of_run(time) == time);
+}
+
 TEST(Candump, EveryFrameComesBack) {
   CHECK(rc::check("line and frame", [] {
     hal::CanFrame frame = any_frame();

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -9,6 +10,7 @@ import unittest
 import cantools
 
 DBC = pathlib.Path(__file__).resolve().parents[2] / "firmware" / "io" / "can" / "supercoil.dbc"
+PAGE = DBC.parents[3] / "docs" / "can.md"
 
 
 def dbc(*arguments):
@@ -41,6 +43,23 @@ class Dbc(unittest.TestCase):
                 self.assertEqual(derived.senders, [{"Board": f"Board_{node}"}.get(s, s) for s in message.senders])
                 self.assertEqual([signal_of(s) for s in derived.signals], [signal_of(s) for s in message.signals])
         self.assertEqual(bus.dbc.attributes["ProtocolVersion"].value, alone.dbc.attributes["ProtocolVersion"].value)
+
+    def test_for_strict_readers_sed_takes_the_names_of_negative_values_and_nothing_else(self):
+        command, = re.findall(r"^  supercoil dbc \| (sed .*) >strict.dbc$", PAGE.read_text(), re.M)
+        strict = subprocess.run(["bash", "-c", command], input=dbc().stdout, capture_output=True, text=True,
+                                check=True).stdout
+        self.assertNotRegex(strict, r"(?m)^VAL_ .* -\d")
+        read = (cantools.database.load_file(DBC).messages, cantools.database.load_string(strict, "dbc").messages)
+        taken = 0
+        for whole, less in zip(*read, strict=True):
+            for signal, other in zip(whole.signals, less.signals, strict=True):
+                if signal.choices and min(signal.choices) < 0:
+                    lowest, = signal.choices
+                    self.assertEqual((lowest, str(signal.choices[lowest])), (-2 ** (signal.length - 1), "not_available"))
+                    signal.choices = None
+                    taken += 1
+                self.assertEqual(signal_of(other), signal_of(signal))
+        self.assertEqual(taken, 9)
 
     def test_it_is_written_to_a_file(self):
         with tempfile.TemporaryDirectory() as folder:

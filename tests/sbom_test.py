@@ -1,0 +1,139 @@
+"""toolchain/sbom: its list of components is what our sources include, what CMake looks for and what the programs are
+linked with; and what it prints is CycloneDX, as cyclonedx-python-lib reads it."""
+
+import fnmatch
+import importlib.machinery
+import importlib.util
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sysconfig
+import tempfile
+import unittest
+
+from cyclonedx.model.bom import Bom
+from cyclonedx.schema import SchemaVersion
+from cyclonedx.validation.json import JsonStrictValidator
+from license_expression import get_spdx_licensing
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+PROGRAM = ROOT / "toolchain" / "sbom"
+SHIPPED = ("control", "identification", "hal", "firmware", "host_sim")  # what the programs are built from
+SYSTEM = {"libc6-dev", "linux-libc-dev"}  # interfaces of the C library and of the kernel
+HEADERS = ("/usr/include", "/usr/include/eigen3")
+LOOKED_FOR = re.compile(r"\b(?:find_package|pkg_check_modules|find_library)\(([\w-]+)")
+
+
+def module():
+    loader = importlib.machinery.SourceFileLoader("sbom", str(PROGRAM))
+    loaded = importlib.util.module_from_spec(importlib.util.spec_from_loader("sbom", loader))
+    loader.exec_module(loaded)
+    return loaded
+
+
+def output_of(*command):
+    return subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def files(*patterns):
+    return (file for folder in SHIPPED for pattern in patterns for file in (ROOT / folder).rglob(pattern))
+
+
+def owners(paths):
+    """Of files, by which Debian package they are installed."""
+    return {re.split("[:,]", line)[0] for line in output_of("dpkg-query", "-S", *paths).splitlines()}
+
+
+def needed_libraries():
+    found = set()
+    for name in ("supercoild", "supercoil", "supercoil-sim"):
+        program = pathlib.Path(os.environ["PROGRAMS"], name)
+        found |= set(re.findall(r"NEEDED\s+(\S+)", output_of("objdump", "-p", program)))
+    return {library for library in found if not re.match(r"lib(clang|asan|ubsan|tsan)", library)}
+
+
+class Sbom(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.sbom = module()
+        cls.components = cls.sbom.known_components()
+        cls.packages = owners(f"*/{sysconfig.get_config_var('MULTIARCH')}/{library}" for library in needed_libraries())
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name)
+
+    def package(self, *depends):
+        control = self.folder / "root" / "DEBIAN" / "control"
+        control.parent.mkdir(parents=True, exist_ok=True)
+        architecture = output_of("dpkg", "--print-architecture").strip()
+        control.write_text(f"Package: supercoil\nVersion: 0.2.0+deb12\nArchitecture: {architecture}\n"
+                           f"Maintainer: M <m@m.invalid>\nDepends: {', '.join(depends)}\n"
+                           "Description: firmware and tools\n more\n")
+        output_of("dpkg-deb", "--build", control.parents[1], self.folder / "p.deb")
+        return subprocess.run(["/usr/bin/python3", PROGRAM, self.folder / "p.deb"], capture_output=True, text=True)
+
+    def test_what_sources_include_is_listed_and_nothing_else(self):
+        names = {name for file in files("*.cpp", "*.hpp")
+                 for name in re.findall(r"^#include <(.*)>", file.read_text(), re.M)}
+        found = [path for name in names for path in (pathlib.Path(folder, name) for folder in HEADERS) if path.exists()]
+        listed = [component["headers"] for component in self.components if "headers" in component]
+        packages = owners(found) - SYSTEM
+        matching = [fnmatch.filter(packages, pattern) for pattern in listed]
+        self.assertEqual([pattern for pattern, some in zip(listed, matching, strict=True) if len(some) != 1], [])
+        self.assertEqual(packages - set().union(*matching), set())
+
+    def test_what_cmake_looks_for_is_listed_and_nothing_else(self):
+        found = {name for file in files("CMakeLists.txt") for name in LOOKED_FOR.findall(file.read_text())}
+        self.assertEqual(found - {"PkgConfig", "Threads"},
+                         {component["cmake"] for component in self.components if "cmake" in component})
+
+    def test_every_library_of_the_programs_is_listed_once(self):
+        for package in self.packages:
+            known = [component["name"] for component in self.components if self.sbom.has_library(component, package)]
+            self.assertEqual(len(known), 1, package)
+
+    def test_packages_of_other_debians_are_known_by_their_names(self):
+        for package, name in (("libgpiod3", "libgpiod"), ("libtomlplusplus3t64", "toml++"),
+                              ("libcpp-httplib0.18", "cpp-httplib"), ("libssl3t64", "OpenSSL"),
+                              ("libstdc++6", "GNU C++ library"), ("libc6", "GNU C library")):
+            self.assertEqual([c["name"] for c in self.components if self.sbom.has_library(c, package)], [name])
+        self.assertFalse(any(self.sbom.has_library(c, "libgpiod-dev") for c in self.components))
+
+    def test_licences_are_spdx(self):
+        for component in self.components:
+            told = get_spdx_licensing().validate(component["licence"])
+            self.assertEqual(told.errors, [], component["name"])
+        self.assertIn("License: Apache-2.0", (ROOT / "toolchain/package/copyright").read_text())
+
+    def test_a_package_is_described_by_a_valid_document(self):
+        done = self.package(*(f"{package} (>= 1.0)" for package in self.packages), "systemd")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIsNone(JsonStrictValidator(SchemaVersion.V1_6).validate_str(done.stdout))
+        bom = Bom.from_json(json.loads(done.stdout))
+        self.assertTrue(bom.validate())
+        ours = bom.metadata.component
+        self.assertEqual((ours.name, ours.version, *(licence.value for licence in ours.licenses)),
+                         ("supercoil", "0.2.0+deb12", "Apache-2.0"))
+        uses = {}
+        for component in bom.components:
+            self.assertEqual(len(component.licenses), 1, component.name)
+            self.assertTrue(component.version or component.name == "systemd", component.name)
+            use, = component.properties
+            uses.setdefault(use.value, set()).add(component.name)
+        self.assertEqual(uses["needed at run time"], self.packages | {"systemd"})
+        self.assertEqual(len(uses["compiled in"]), 1 + sum("headers" in component for component in self.components))
+        self.assertIn("uplot", uses["compiled in"])
+        told = next(dependency for dependency in bom.dependencies if dependency.ref == ours.bom_ref)
+        self.assertEqual({dependency.ref.value for dependency in told.dependencies},
+                         {component.bom_ref.value for component in bom.components})
+
+    def test_a_dependency_that_is_not_listed_is_an_error(self):
+        done = self.package("libc6", "libfoo1")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("libfoo1, which is needed, has 0 entries", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

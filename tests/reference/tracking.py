@@ -2,6 +2,7 @@
 
 import numpy as np
 from scipy.integrate import solve_ivp
+from scipy.interpolate import BPoly
 from scipy.signal import TransferFunction, step
 
 import mrac_ode
@@ -49,6 +50,21 @@ def model_case(name):
             "response": response[1000:20001:1000].tolist()}
 
 
+def trajectory():
+    """Uneven knots of two sines; between them position and two derivatives of both neighbours."""
+    rng = np.random.default_rng(5)
+    times = np.concatenate([[0.0], np.cumsum(rng.uniform(0.02, 0.4, 30))])
+    positions = 0.004 * (1.0 - np.cos(1.7 * times)) + 0.001 * (1.0 - np.cos(5.3 * times))
+    velocities = 0.0068 * np.sin(1.7 * times) + 0.0053 * np.sin(5.3 * times)
+    velocities[-1] = 0.0
+    accelerations = np.zeros_like(times)
+    accelerations[1:-1] = (velocities[2:] - velocities[:-2]) / (times[2:] - times[:-2])
+    way = BPoly.from_derivatives(times, np.stack([positions, velocities, accelerations], axis=1))
+    at = np.linspace(0.0, times[-1], 1001)[:-1]
+    return {"knots": np.stack([times, positions, velocities], axis=1).tolist(), "time_s": at.tolist(),
+            **{name: way(at, nu).tolist() for nu, name in enumerate(["position", "velocity", "acceleration", "jerk"])}}
+
+
 def cases():
     return {"pi": closed_loop(pi_law, 1), "pd_ff": closed_loop(pd_law, 2),
-            "models": [model_case(name) for name in mrac_ode.MODELS]}
+            "models": [model_case(name) for name in mrac_ode.MODELS], "trajectory": trajectory()}

@@ -1,0 +1,82 @@
+// A motion that is sent ahead, as knots that it passes at their times.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "supercoil/control/tracking/reference_model.hpp"
+
+namespace supercoil::control {
+
+/// Where a trajectory is at a time, and how fast.
+struct Knot {
+  double time_s = 0.0;  ///< since the trajectory started
+  double position_m = 0.0;
+  double velocity_m_per_s = 0.0;
+};
+
+/// The way from one knot to the next: the polynomial of degree five that has position, velocity and
+/// acceleration of both.
+class QuinticPiece {
+ public:
+  struct End {
+    Knot knot;
+    double acceleration_m_per_s2 = 0.0;
+  };
+  struct Point {
+    ModelMotion<double> motion;  ///< m, m/s, m/s²
+    double jerk = 0.0;           ///< m/s³
+  };
+
+  /// to is later than from.
+  QuinticPiece(const End& from, const End& to);
+  /// time_s: from the one knot's to the other's.
+  Point at(double time_s) const;
+  double begins_s() const { return begins_s_; }
+  double duration_s() const { return duration_s_; }
+
+ private:
+  double begins_s_;
+  double duration_s_;
+  std::array<double, 6> coefficient_;
+};
+
+/// Position, velocity and acceleration are continuous. The acceleration at a knot is that of the
+/// parabola through the velocities of its neighbours' chord: known when the next knot is, and 0 at
+/// the last one. Once the way to a knot was begun, what comes later bends it no more.
+class Trajectory {
+ public:
+  static constexpr std::size_t capacity = 64;
+
+  /// Forgets all knots, and rests at this position from time 0 on.
+  void start(double position_m);
+
+  std::size_t room() const { return capacity - count_; }
+  /// The last knot that was added; at first that at rest.
+  const Knot& last() const { return end(count_ - 1).knot; }
+  /// What add(next) would make of the way that is not yet begun: the pieces to the last knot and
+  /// from there to the next one. next: later than the last.
+  struct Preview {
+    std::array<QuinticPiece, 2> pieces;
+    std::size_t first;  ///< 1: the first of them is as it was, or there is none
+  };
+  Preview preview(const Knot& next) const;
+  /// next: later than the last, with room for it.
+  void add(const Knot& next);
+
+  /// Where it is; time_s >= 0 never falls. After the last knot it rests there.
+  QuinticPiece::Point at(double time_s);
+
+ private:
+  const QuinticPiece::End& end(std::size_t place) const {
+    return ends_[(first_ + place) % capacity];
+  }
+  double acceleration_at_last(const Knot& next) const;
+
+  std::array<QuinticPiece::End, capacity> ends_{};  ///< a ring
+  std::size_t first_ = 0;                           ///< the knot that was passed last
+  std::size_t count_ = 1;
+  bool begun_ = false;  ///< the way from first_ to the next
+};
+
+}  // namespace supercoil::control

@@ -14,7 +14,9 @@ target_compile_options(supercoil_options INTERFACE
   # g++ 12 reports std::string's own operator+ (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # Contracted multiply-adds would make arm64 and x86-64 differ in the last bit.
-  -ffp-contract=off)
+  -ffp-contract=off
+  # So that the linker can leave out what a program does not use.
+  $<$<CONFIG:Release>:-ffunction-sections>)
 # Libraries' functions are found when a program starts: none is looked up in a tick.
 target_link_options(supercoil_options INTERFACE -Wl,-z,now
   # What a program does not use of our libraries is left out: supercoild locks all of itself in memory.

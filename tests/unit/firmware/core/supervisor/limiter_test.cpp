@@ -81,7 +81,9 @@ TEST(Limiter, GivesNothingForNaN) {
   Limiter limiter({}, tick_s);
   check(limiter.step(std::nan(""), cool_C), 0.0, LimitedBy::invalid);
   check(limiter.step(INFINITY, cool_C), 0.0, LimitedBy::invalid);
+  check(limiter.step(-INFINITY, cool_C), 0.0, LimitedBy::invalid);
   check(limiter.step(2.0, std::nan("")), 0.0, LimitedBy::invalid);
+  check(limiter.step(-2.0, std::nan("")), 0.0, LimitedBy::invalid);
 }
 
 TEST(Limiter, NeverGivesMoreThanAskedNorMoreThanAllowed) {

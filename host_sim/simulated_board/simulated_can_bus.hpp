@@ -59,9 +59,12 @@ class SimulatedCanBus final : public hal::CanBus {
   }
   hal::CanState state() const override { return link; }
 
-  /// A frame from another node on the bus; lost when as many wait as in the kernel's buffer.
+  /// A frame from another node on the bus, that comes now unless it tells when; lost when as many
+  /// wait as in the kernel's buffer.
   void deliver(const hal::CanFrame& frame) {
-    if (inbox_.size() < inbox) inbox_.push_back(frame);
+    if (inbox_.size() >= inbox) return;
+    inbox_.push_back(frame);
+    if (frame.received == hal::Time{}) inbox_.back().received = clock_->now();
   }
 
   /// Hears every frame of the board; `received` is when its last bit was on the wire.

@@ -143,7 +143,7 @@ class Log(unittest.TestCase):
     def test_what_is_wrong_is_told(self):
         (self.path / "half.log").write_text((self.path / "can.log").read_text()[:1000])
         for arguments, status, why in (
-                (("can.log", "--message", "Nonsense"), 2, "--message Nonsense: there are Emergency, FirstCause, TuningRead, Command"),
+                (("can.log", "--message", "Nonsense"), 2, "--message Nonsense: there are Sync, Emergency, FirstCause, Knot, Play"),
                 (("can.log", "--from", "2", "--to", "1"), 2, "--from must not be later"),
                 (("can.log", "--summary"), 2, "is a CAN log"),
                 (("can.log", "--node", "64"), 2, "--node"),

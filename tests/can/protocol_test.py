@@ -52,7 +52,7 @@ class Protocol(unittest.TestCase):
         self.assertEqual(len(set(bases)), len(bases))
         for base in bases:
             self.assertEqual(base % 0x40, 0)
-            self.assertTrue(0x080 <= base <= 0x700)
+            self.assertTrue(0x040 <= base <= 0x700)
 
     def test_everything_is_said_in_words(self):
         for message, signal, _ in self.signals():
@@ -80,7 +80,7 @@ class Protocol(unittest.TestCase):
         when_needed = {message.name for message in self.database.messages if not message.cycle_time}
         self.assertEqual(when_needed, {"Emergency", "FirstCause", "Command", "Acknowledge", "RefusedValue", "Setting",
                                        "SettingWrite", "SettingRead", "Muscle", "MuscleRead", "Tuning", "TuningWrite",
-                                       "TuningRead"})
+                                       "TuningRead", "Sync", "Knot", "Play", "Trajectory"})
 
 
 if __name__ == "__main__":

@@ -64,7 +64,7 @@ OTHERWISE = {"Tracking": {"error_m"},
              "Emergency": {"fault", "state", "board_time_s"}}
 MUSCLE = ("thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m")
 FROM_MASTER = {"Command", "Acknowledge", "RefusedValue", "Setting", "SettingWrite", "SettingRead", "Muscle",
-               "MuscleRead", "Tuning", "TuningWrite", "TuningRead"}  # and its answers
+               "MuscleRead", "Tuning", "TuningWrite", "TuningRead", "Sync", "Knot", "Play", "Trajectory"}  # and its answers
 
 
 def single(value):
@@ -238,7 +238,7 @@ class Run(unittest.TestCase):
         self.assertEqual(counters, [(counters[0] + i) % 256 for i in range(len(counters))])
         for _, message, values, raw in self.frames:
             if message == "Status":
-                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 4))
+                self.assertEqual((raw["leased"], raw["protocol_version"]), (0, 5))
             elif message == "Timing":
                 self.assertEqual((values["late_s"], values["execution_s"]), (0, 0))
                 self.assertEqual((raw["overruns"], raw["dropped_frames"]), (0, 0))

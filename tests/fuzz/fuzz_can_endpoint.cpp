@@ -32,6 +32,8 @@ class Board {
     const hal::CanFrame frame = frame_of(step, model_);
     if (model_.from_holder(frame, now()))
       commanded_[static_cast<std::size_t>(LeaseModel::channel_of(frame))] = now();
+    if (const int moved = model_.heard_trajectory(frame, now()); moved >= 0)
+      commanded_[static_cast<std::size_t>(moved)] = now();
     rig_.bus.deliver(frame);
     tick();
     model_.heard(frame, now());

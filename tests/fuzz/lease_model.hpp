@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 
 #include <supercoil.h>
 
@@ -15,8 +16,9 @@
 
 namespace supercoil::fuzz {
 
-/// CRC-8H2F as AUTOSAR describes it, bit by bit.
-inline std::uint8_t crc_of(const hal::CanFrame& frame) {
+/// CRC-8H2F as AUTOSAR describes it, bit by bit. behind: what follows the data id.
+inline std::uint8_t crc_of(const hal::CanFrame& frame,
+                           std::initializer_list<unsigned> behind = {}) {
   unsigned crc = 0xFF;
   const auto add = [&](unsigned byte) {
     crc ^= byte;
@@ -26,6 +28,8 @@ inline std::uint8_t crc_of(const hal::CanFrame& frame) {
   for (std::size_t i = 1; i < frame.length; ++i)
     add(frame.data[i]);
   add(frame.id & 0xFFU);
+  for (const unsigned byte : behind)
+    add(byte);
   return static_cast<std::uint8_t>(crc ^ 0xFFU);
 }
 
@@ -34,6 +38,8 @@ class LeaseModel {
   static constexpr int channels = 2;
   static constexpr unsigned command_base = 0x200;
   static constexpr unsigned acknowledge_base = 0x240;
+  static constexpr unsigned knot_base = 0x100;
+  static constexpr unsigned play_base = 0x140;
   static constexpr int first_node = 1;
 
   struct Lease {
@@ -44,10 +50,24 @@ class LeaseModel {
 
   explicit LeaseModel(double lease_s) : lease_(hal::duration_from(lease_s)) {}
 
-  /// From 0; -1: the frame is for somebody else.
-  static int channel_of(const hal::CanFrame& frame) {
-    const int channel = frame.id - static_cast<int>(command_base) - first_node;
+  /// From 0; -1: the frame is for somebody else. base: of its message.
+  static int channel_of(const hal::CanFrame& frame, unsigned base = command_base) {
+    const int channel = frame.id - static_cast<int>(base) - first_node;
     return channel >= 0 && channel < channels ? channel : -1;
+  }
+  /// The channel that a frame of a trajectory moves, by the session that it has; -1: none.
+  int moves(const hal::CanFrame& frame) const {
+    const int knot = channel_of(frame, knot_base);
+    if (knot >= 0) return frame.data[0] == knot_crc(frame, knot) ? knot : -1;
+    const int play = channel_of(frame, play_base);
+    const bool ours =
+        play >= 0 && frame.data[0] == crc_of(frame) &&
+        (frame.data[2] | static_cast<unsigned>(frame.data[3]) << 8U) == lease(play).session;
+    return ours ? play : -1;
+  }
+  std::uint8_t knot_crc(const hal::CanFrame& frame, int channel) const {
+    const unsigned session = lease(channel).session;
+    return crc_of(frame, {session & 0xFFU, session >> 8U});
   }
   static bool intact(const hal::CanFrame& frame) {
     return frame.length == SUPERCOIL_COMMAND_LENGTH && frame.data[0] == crc_of(frame);
@@ -89,6 +109,18 @@ class LeaseModel {
     Lease& lease = leases_[static_cast<std::size_t>(channel_of(frame))];
     if (in_sequence(frame)) lease.last = now;
     lease.counter = command_in(frame).counter;
+  }
+  /// The same of a frame of a trajectory; the channel that it moves, -1: none.
+  int heard_trajectory(const hal::CanFrame& frame, hal::Time now) {
+    const int moved = moves(frame);
+    if (moved < 0) return moved;
+    Lease& lease = leases_[static_cast<std::size_t>(moved)];
+    const bool live = lease.session != 0 && now - lease.last <= lease_;
+    const unsigned counter = frame.data[1] & 15U;
+    const unsigned ahead = (counter - lease.counter) & 15U;
+    if (live && ahead >= 1 && ahead <= 4) lease.last = now;
+    if (live) lease.counter = static_cast<std::uint8_t>(counter);
+    return moved;
   }
   /// An answer of the board: it grants a lease, or tells that one was released.
   void answered(const hal::CanFrame& frame, hal::Time now) {

@@ -15,7 +15,7 @@ import cantools
 
 CORPUS = pathlib.Path(__file__).parent / "corpus"
 # Bits of Step::how (steps.hpp).
-TO_CHANNEL, WITH_SESSION, WITH_COUNTER, SEALED, WHOLE, WITH_NONCE = 1, 2, 4, 8, 16, 32
+TO_CHANNEL, WITH_SESSION, WITH_COUNTER, SEALED, WHOLE, WITH_NONCE, KNOT, PLAY = 1, 2, 4, 8, 16, 32, 64, 128
 HOLDER = TO_CHANNEL | WITH_SESSION | WITH_COUNTER | SEALED | WHOLE
 STRANGER = TO_CHANNEL | SEALED | WHOLE
 DBC = cantools.database.load_file(pathlib.Path(__file__).parents[2] / "firmware/io/can/supercoil.dbc")
@@ -25,6 +25,18 @@ OPCODE = {str(name): number for number, name in
 
 def step(how, opcode, value=0.0, wait=2, channel=0, session=0x1234, counter=0):
     return struct.pack("<BBHBBHf", how, wait, channel, 0, OPCODE.get(opcode, opcode) << 4 | counter, session, value)
+
+
+def knot(after_s, position_m, velocity=0.0, wait=2):
+    """As a knot it has no session in its data."""
+    return struct.pack("<BBHBBH", HOLDER & ~WITH_SESSION | KNOT, wait, 0, 0, round(after_s * 1e3) << 4 & 0xF0,
+                       round(after_s * 1e3) >> 4 | round(position_m * 1e7) << 8 & 0xFF00) + struct.pack(
+        "<Hh", round(position_m * 1e7) >> 8, round(velocity * 1e5))
+
+
+def play(when, after_s, wait=2):
+    return struct.pack("<BBHBBHBBH", HOLDER | PLAY, wait, 0, 0, when << 4, 0, 0, round(after_s * 1e5) & 0xFF,
+                       round(after_s * 1e5) >> 8)
 
 
 CLAIMED = step(STRANGER, "lease") + step(STRANGER | WITH_NONCE, "lease")
@@ -47,6 +59,10 @@ FRAMES = {
     "compares_three_senses": CLAIMED + step(HOLDER, "compare", 12.0) + step(HOLDER, "compare", -1.5)
     + step(HOLDER, "compare", 1023.5),
     "tunes": ARMED + step(HOLDER, "controller", 1001.0) + step(HOLDER, "store", 2.0) + step(HOLDER, "store", 3.0),
+    "plays_a_trajectory": ARMED + step(HOLDER, "position", 0.001, 40) + knot(0.0, 0.001) + knot(1.0, 0.0011, 0.0001)
+    + knot(1.0, 0.0012) + play(0, 0.02, 80) + play(2, 0.0) + step(HOLDER, "rest") + play(0, 0.02),
+    "runs_dry": ARMED + step(HOLDER, "position", 0.001, 40) + knot(0.0, 0.001) + knot(0.2, 0.00102, 0.0001)
+    + play(0, 0.02, 20) + 8 * step(HOLDER, "renew", wait=20),
     "the_other_channel": step(STRANGER, "lease", channel=1)
     + step(STRANGER | WITH_NONCE, "lease", channel=1) + step(HOLDER, "arm", wait=20, channel=1)
     + step(HOLDER, "power", 1.0, channel=1) + step(0, "lease"),

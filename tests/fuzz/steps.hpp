@@ -16,6 +16,8 @@ struct Step {
   static constexpr std::uint8_t sealed = 8;        ///< its CRC is right: chance finds one in 256
   static constexpr std::uint8_t whole = 16;        ///< 8 bytes long
   static constexpr std::uint8_t with_nonce = 32;   ///< its value is what the board told last
+  static constexpr std::uint8_t knot = 64;         ///< to_channel: a knot, and no command
+  static constexpr std::uint8_t play = 128;        ///< to_channel: Play, and no command
 
   std::uint8_t how;
   std::uint8_t wait;
@@ -59,7 +61,15 @@ inline hal::CanFrame frame_of(const Step& step, const LeaseModel& model) {
       frame.data[1] = static_cast<std::uint8_t>((frame.data[1] & 0xF0U) | next);
     }
   }
-  if ((step.how & Step::sealed) != 0 && frame.length > 0) frame.data[0] = crc_of(frame);
+  const int channel = LeaseModel::channel_of(frame);
+  const bool is_knot = (step.how & Step::knot) != 0 && channel >= 0;
+  const bool is_play = !is_knot && (step.how & Step::play) != 0 && channel >= 0;
+  if (is_knot || is_play) {
+    const unsigned base = is_knot ? LeaseModel::knot_base : LeaseModel::play_base;
+    frame.id = static_cast<std::uint16_t>(frame.id - LeaseModel::command_base + base);
+  }
+  if ((step.how & Step::sealed) != 0 && frame.length > 0)
+    frame.data[0] = is_knot ? model.knot_crc(frame, channel) : crc_of(frame);
   return frame;
 }
 

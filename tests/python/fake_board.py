@@ -4,7 +4,7 @@ import threading
 
 import can
 
-from supercoil import codec, e2e
+from supercoil import PROTOCOL_VERSION, codec, e2e
 from supercoil.generated import messages
 
 NODE = 5
@@ -13,7 +13,7 @@ NODE = 5
 class FakeBoard:
     """obey(opcode name, value, session) -> (refusal, granted), or None: no answer."""
 
-    def __init__(self, channel, obey=lambda *_: (0, 0), version=4, **status):
+    def __init__(self, channel, obey=lambda *_: (0, 0), version=PROTOCOL_VERSION, **status):
         self.obey = obey
         self.version = version
         self.status = status

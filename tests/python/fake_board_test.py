@@ -28,8 +28,8 @@ class Sessions(unittest.TestCase):
         return sync.Muscle(f"virtual:{self.channel}", NODE, deadline_s=60.0, **options)
 
     def test_a_board_of_another_version_is_not_commanded_but_can_be_stopped(self):
-        board = self.board(version=5)
-        with self.assertRaisesRegex(supercoil.VersionMismatchError, "version 5 .* speaks 4"), self.muscle():
+        board = self.board(version=6)
+        with self.assertRaisesRegex(supercoil.VersionMismatchError, "version 6 .* speaks 5"), self.muscle():
             pass
         self.assertEqual(board.commands, [])
         self.assertFalse(sync.discover(f"virtual:{self.channel}", seconds=0.3)[0].can_be_commanded)

@@ -277,7 +277,7 @@ class OnOneBoard(unittest.TestCase):
 
     def test_a_board_is_discovered(self):
         found, = sync.discover(self.address)
-        self.assertEqual((found.node, found.protocol_version, found.can_be_commanded), (1, 4, True))
+        self.assertEqual((found.node, found.protocol_version, found.can_be_commanded), (1, 5, True))
 
 
 class OnBoardsOfTheirOwn(unittest.TestCase):

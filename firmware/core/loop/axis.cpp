@@ -55,6 +55,7 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
 }
 
 void Axis::sample(hal::Time now) {
+  now_ = now;
   const hal::Sample sample = sensor_->latest();
   const InputSettings& input = settings_.position;
   board::Measured& position = inputs_.position;
@@ -103,6 +104,11 @@ void Axis::learn_heat() {
 
 bool Axis::control() {
   demanded_ = {};
+  if (mode_ == Mode::position) reference_ = playback_.step(now_, reference_);
+  if (playback_.is_over()) {
+    rest();
+    return true;
+  }
   if (!state_.may_heat() || !inputs_.position.present) return false;
   switch (mode_) {
     case Mode::position: {
@@ -142,6 +148,7 @@ LimitedBy Axis::limited_by() const {
 void Axis::rest() {
   if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = Mode::rest;
+  playback_.forget();
   reference_ = 0.0;
   heater_.rest();
 }

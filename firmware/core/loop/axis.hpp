@@ -14,6 +14,7 @@
 #include "loop/estimation.hpp"
 #include "loop/heater.hpp"
 #include "loop/known_muscle.hpp"
+#include "loop/playback.hpp"
 #include "loop/settings.hpp"
 #include "loop/snapshot.hpp"
 #include "loop/tracking.hpp"
@@ -65,6 +66,8 @@ class Axis {
   Reply admits(Mode mode, double& value) const;
   /// The channel became active.
   void start() { estimation_.restart(); }
+  /// Commands of a trajectory.
+  Reply play(const Command& command);
   /// Follows what was admitted. value: m, or W in open loop.
   void follow(Mode mode, double value);
   void rest();
@@ -78,6 +81,8 @@ class Axis {
   const Heater& heater() const { return heater_; }
   /// From any thread.
   double published_muscle(std::size_t quantity) const { return published_muscle_.get(quantity); }
+  /// Of the trajectory; from any thread.
+  PlaybackStatus playback() const { return playback_.status(); }
   /// As Channel::take_learned_update.
   bool take_learned_update(board::LearnedUpdate& update) { return learned_updates_.pop(update); }
 
@@ -140,6 +145,8 @@ class Axis {
   boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;
 
   Mode mode_ = Mode::rest;
+  hal::Time now_{};
+  Playback playback_;
   double reference_ = 0.0;  ///< m, or W in open loop
   control::ControllerOutput demanded_;
   modes::Identify identify_;

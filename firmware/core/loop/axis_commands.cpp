@@ -38,6 +38,7 @@ Reply Axis::admits(Mode mode, double& value) const {
 }
 
 void Axis::follow(Mode mode, double value) {
+  playback_.forget();
   if (mode != mode_ || value != reference_) restart_comparisons();
   reference_ = value;
   if (mode != mode_) enter(mode);
@@ -61,6 +62,15 @@ void Axis::enter(Mode mode) {
     calibrate_.start();
     result_ = ModeResult::running;
   }
+}
+
+Reply Axis::play(const Command& command) {
+  if (mode_ != Mode::position) return Refusal::wrong_state;
+  if (command.verb == Verb::align) return playback_.align(command.value);
+  if (command.verb == Verb::start)
+    return playback_.start(hal::duration_from(command.value), now_, reference_);
+  return playback_.add(command, {control::theta_from(muscle_), muscle_.moving_mass_kg,
+                                 settings_.supervision.max_travel_m, heater_.power_range()});
 }
 
 Reply Axis::obey(const Command& command) {

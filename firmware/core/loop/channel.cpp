@@ -125,6 +125,10 @@ Reply Channel::obey(const Command& command, const BoardTick& board) {
       return renew();
     case Verb::rest:
       return rest();
+    case Verb::knot:
+    case Verb::start:
+    case Verb::align:
+      return play(command);
     default:
       return axis_.obey(command);
   }
@@ -153,6 +157,14 @@ Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
   axis_.follow(mode, value);
   commands_.renewed = true;
   return Refusal::none;
+}
+
+/// A knot or a start is as good as a command to heat; the bus's clock is not.
+Reply Channel::play(const Command& command) {
+  if (!state_.may_heat()) return Refusal::wrong_state;
+  const Reply reply = axis_.play(command);
+  if (reply.refusal == Refusal::none && command.verb != Verb::align) commands_.renewed = true;
+  return reply;
 }
 
 Refusal Channel::renew() {

@@ -81,6 +81,8 @@ class Channel {
   board::SenseComparison senses() const { return axis_.heater().published_senses(); }
   /// What it knows of its muscle, a place in known_quantities; NaN: not known. From any thread.
   double known(std::size_t quantity) const { return axis_.published_muscle(quantity); }
+  /// Of the trajectory; from any thread.
+  PlaybackStatus playback() const { return axis_.playback(); }
   /// In the thread that sends commands, as all of the tuner.
   void add_tuning(Command& command);
   Tuner& tuner() { return tuner_; }
@@ -94,6 +96,7 @@ class Channel {
   Reply obey(const Command& command, const BoardTick& board);
   Refusal arm(const BoardTick& board);
   Reply heat(Mode mode, double value, const BoardTick& board);
+  Reply play(const Command& command);
   Refusal renew();
   Refusal rest();
 

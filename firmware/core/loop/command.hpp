@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string_view>
 
 #include "supercoil/control/estimation/estimator.hpp"
@@ -38,12 +39,20 @@ enum class Verb : std::uint8_t {
   compare_rise = 16,  ///< value: how much warmer than the air a thermometer shows the muscle, in K;
                       ///< 0 forgets what was read
   tune = 17,          ///< value: place of what gets its prepared values (Tuner)
+  knot = 18,          ///< value: m; the next knot of a trajectory (Playback); renews
+  start = 19,  ///< value: on the board's clock, in s; plays the trajectory from then on; renews
+  align = 20,  ///< value: how far the trajectory's time is ahead of the board's clock, in s
 };
 
-inline constexpr std::array<std::string_view, 18> verb_names{
+inline constexpr std::array<std::string_view, 21> verb_names{
     "none",      "arm",   "disarm",         "reset",           "position",     "power",
     "renew",     "rest",  "identify",       "calibrate",       "scale",        "controller",
-    "estimator", "store", "compare_supply", "compare_current", "compare_rise", "tune"};
+    "estimator", "store", "compare_supply", "compare_current", "compare_rise", "tune",
+    "knot",      "start", "align"};
+/// Those that have all of their meaning in their value: the rest comes from a trajectory's frames
+/// alone.
+inline constexpr auto plain_verb_names = std::span(verb_names).first<18>();
+static_assert(verb_names[plain_verb_names.size()] == "knot");
 constexpr std::string_view name(Verb verb) {
   return verb_names[static_cast<std::size_t>(verb)];
 }
@@ -83,6 +92,9 @@ struct Command {
   double value = 0.0;
   Source source = Source::local;
   std::uint32_t id = 0;  ///< chosen by whoever asks; the answer has it
+  // Of `knot`.
+  float after_s = 0.0F;  ///< the one before it
+  float velocity_m_per_s = 0.0F;
   // From the Tuner, which owns them until the answer.
   // Of `tune`: one of them, exchanged for the one in use.
   control::Controller* tuned_controller = nullptr;

@@ -41,12 +41,14 @@ enum class Refusal : std::uint8_t {
   claim_again = 12,        ///< over CAN: the lease is free; claim it with the number in the answer
   protocol_mismatch = 13,  ///< over CAN: of another version of the protocol
   unsuitable = 14,         ///< the prepared controller contradicts itself, or is unstable
+  infeasible = 15,  ///< a knot: the muscle cannot move there so fast, or would have to be cooled
 };
 
-inline constexpr std::array<std::string_view, 15> refusal_names{
+inline constexpr std::array<std::string_view, 16> refusal_names{
     "none",          "wrong_state",  "cause_persists",  "no_edge",           "not_ready",
     "busy",          "out_of_range", "no_such_channel", "not_lease_holder",  "no_lease",
-    "wrong_counter", "queue_full",   "claim_again",     "protocol_mismatch", "unsuitable"};
+    "wrong_counter", "queue_full",   "claim_again",     "protocol_mismatch", "unsuitable",
+    "infeasible"};
 constexpr std::string_view name(Refusal refusal) {
   return refusal_names[static_cast<std::size_t>(refusal)];
 }

@@ -33,9 +33,10 @@ class Encoder {
   }
   const hal::CanFrame& frame() const { return frame_; }
   hal::CanFrame& frame() { return frame_; }
-  /// With the checksum over all that was set.
-  const hal::CanFrame& protected_frame() {
-    e2e::protect(frame_);
+  /// With the checksum over all that was set, and the session of a frame that has no room for it.
+  template <class... Session>
+  const hal::CanFrame& protected_frame(Session... session) {
+    e2e::protect(frame_, session...);
     return frame_;
   }
 

@@ -14,19 +14,32 @@ namespace supercoil::can::e2e {
 ///
 /// Not Profile 1: of the 41664 damages of 3 bits that 8 bytes can take, its CRC-8 of SAE J1850
 /// misses 198, this one none (counted on 2026-11-21; commands_test tries them all).
-inline std::uint8_t crc(const hal::CanFrame& frame) {
+inline auto unfinished_crc(const hal::CanFrame& frame) {
   boost::crc_optimal<8, 0x2F, 0xFF, 0xFF, false, false> crc;
   crc.process_bytes(frame.data.data() + 1, frame.length - 1U);
   crc.process_byte(static_cast<std::uint8_t>(frame.id));
+  return crc;
+}
+inline std::uint8_t crc(const hal::CanFrame& frame) {
+  return unfinished_crc(frame).checksum();
+}
+/// Of a frame that has no room for its session, low byte first behind the data id.
+inline std::uint8_t crc(const hal::CanFrame& frame, std::uint16_t session) {
+  auto crc = unfinished_crc(frame);
+  crc.process_byte(static_cast<std::uint8_t>(session));
+  crc.process_byte(static_cast<std::uint8_t>(session >> 8U));
   return crc.checksum();
 }
 
-inline void protect(hal::CanFrame& frame) {
-  frame.data[0] = crc(frame);
+/// session: of a frame that has no room for it.
+template <class... Session>
+void protect(hal::CanFrame& frame, Session... session) {
+  frame.data[0] = crc(frame, session...);
 }
 /// length: what the message has, 1 to 8.
-inline bool intact(const hal::CanFrame& frame, std::uint8_t length) {
-  return frame.length == length && frame.data[0] == crc(frame);
+template <class... Session>
+bool intact(const hal::CanFrame& frame, std::uint8_t length, Session... session) {
+  return frame.length == length && frame.data[0] == crc(frame, session...);
 }
 
 /// Counters run from 0 to 15.

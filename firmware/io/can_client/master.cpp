@@ -3,6 +3,7 @@
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 #include "telemetry/opcodes.hpp"
+#include "telemetry/trajectory_frames.hpp"
 #include "telemetry/tuning_frames.hpp"
 
 namespace supercoil::can_client {
@@ -77,8 +78,8 @@ std::optional<double> receive_muscle(std::uint8_t node, std::uint8_t quantity,
 }
 
 std::vector<std::uint16_t> answer_ids(std::uint8_t node) {
-  return {acknowledge_id(node), setting_id(node), refused_value_id(node), muscle_id(node),
-          tuning_id(node)};
+  return {acknowledge_id(node), setting_id(node), refused_value_id(node),
+          muscle_id(node),      tuning_id(node),  trajectory_id(node)};
 }
 
 hal::CanFrame tuning_read(std::uint8_t node, const TunedPlace& place) {
@@ -105,6 +106,28 @@ std::optional<TunedValue> receive_tuning(std::uint8_t node, const TunedPlace& pl
   if (!asked_for || !refusal) return std::nullopt;
   return TunedValue{*refusal, telemetry::shortest_decimal(m.get<float>("value")),
                     m.get<std::uint8_t>("counter")};
+}
+
+std::uint16_t trajectory_id(std::uint8_t node) {
+  return can::id_of(message::trajectory, node);
+}
+
+std::optional<Played> receive_trajectory(std::uint8_t node, const hal::CanFrame& frame) {
+  if (frame.id != trajectory_id(node) || !e2e::intact(frame, message::trajectory.length))
+    return std::nullopt;
+  const can::Reader<message::trajectory> m(frame);
+  const auto refusal = refusal_in(m.get("refusal"));
+  const auto state = m.get<std::uint8_t>("playback");
+  if (!refusal || state >= playback_state_names.size()) return std::nullopt;
+  return Played{*refusal, static_cast<PlaybackState>(state), m.get<std::uint8_t>("room"),
+                m.get("buffered_s")};
+}
+
+hal::CanFrame sync(std::uint8_t number, double master_time_s) {
+  return can::Encoder<message::sync>(1)
+      .set("sync", number)
+      .set("master_time_s", master_time_s)
+      .protected_frame();
 }
 
 std::optional<double> receive_progress(std::uint8_t node, const hal::CanFrame& frame) {
@@ -196,6 +219,47 @@ std::optional<Master::Setting> Master::receive_setting(const hal::CanFrame& fram
   if (!mine || !refusal) return std::nullopt;
   if (of_write && ends_lease(*refusal)) session_ = 0;
   return Setting{m.get<std::uint8_t>("setting"), *refusal, m.get<float>("value")};
+}
+
+hal::CanFrame Master::knot(double after_s, double position_m, double velocity_m_per_s) {
+  asked_as_ = session_;
+  return can::Encoder<message::knot>(node_)
+      .set("counter", next_counter())
+      .set("after_s", after_s)
+      .set("position_m", position_m)
+      .set("velocity_m_per_s", velocity_m_per_s)
+      .protected_frame(session_);
+}
+
+hal::CanFrame Master::play(double when, std::uint8_t sync, double after_s) {
+  asked_as_ = session_;
+  return can::Encoder<message::play>(node_)
+      .set("counter", next_counter())
+      .set("when", when)
+      .set("session", session_)
+      .set("sync", sync)
+      .set("after_s", after_s)
+      .protected_frame();
+}
+
+hal::CanFrame Master::play_at_sync(std::uint8_t sync, double after_s) {
+  return play(telemetry::at_sync, sync, after_s);
+}
+
+hal::CanFrame Master::play_never() {
+  return play(telemetry::never, 0, 0.0);
+}
+
+std::optional<Played> Master::receive_played(const hal::CanFrame& frame) {
+  const auto heard = receive_trajectory(node_, frame);
+  if (!heard) return std::nullopt;
+  const can::Reader<message::trajectory> m(frame);
+  const bool mine = m.get<std::uint8_t>("answers") != telemetry::nothing &&
+                    m.get<std::uint8_t>("counter") == counter_ &&
+                    m.get<std::uint16_t>("session_low") == (asked_as_ & 0xFFU);
+  if (!mine) return std::nullopt;
+  if (ends_lease(heard->refusal)) session_ = 0;
+  return heard;
 }
 
 void Master::receive_lease(Refusal refusal, std::uint16_t granted) {

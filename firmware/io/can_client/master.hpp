@@ -8,6 +8,7 @@
 #include "supercoil/hal/can_bus.hpp"
 
 #include "loop/command.hpp"
+#include "loop/playback.hpp"
 #include "loop/tuner.hpp"
 
 namespace supercoil::can_client {
@@ -65,6 +66,19 @@ std::uint16_t tracking_id(std::uint8_t node);
 /// Position less reference model; NaN: it follows none. Empty: the frame does not tell.
 std::optional<double> receive_error_m(std::uint8_t node, const hal::CanFrame& frame);
 
+/// What a node tells of its trajectory.
+struct Played {
+  Refusal refusal;
+  PlaybackState state;
+  std::uint8_t room;  ///< for so many knots more
+  double buffered_s;
+};
+std::uint16_t trajectory_id(std::uint8_t node);
+/// Empty: the frame does not tell.
+std::optional<Played> receive_trajectory(std::uint8_t node, const hal::CanFrame& frame);
+/// For all nodes of the bus; needs no lease.
+hal::CanFrame sync(std::uint8_t number, double master_time_s);
+
 /// Neither sends nor receives.
 class Master {
  public:
@@ -89,6 +103,15 @@ class Master {
   /// Empty: no intact answer to this master's last write.
   std::optional<TunedValue> receive_tuning(const TunedPlace& place, const hal::CanFrame& frame);
 
+  /// Under the lease: the next knot, so long after the one before it.
+  hal::CanFrame knot(double after_s, double position_m, double velocity_m_per_s);
+  /// Under the lease: starts the trajectory so long after a Sync.
+  hal::CanFrame play_at_sync(std::uint8_t sync, double after_s);
+  /// Under the lease: asks what becomes of it.
+  hal::CanFrame play_never();
+  /// Empty: no intact answer to this master's last frame.
+  std::optional<Played> receive_played(const hal::CanFrame& frame);
+
   struct Setting {
     std::uint8_t setting;
     Refusal refusal;
@@ -107,6 +130,7 @@ class Master {
 
  private:
   hal::CanFrame frame(std::uint8_t opcode, double value);
+  hal::CanFrame play(double when, std::uint8_t sync, double after_s);
   std::uint8_t next_counter();
   void receive_lease(Refusal refusal, std::uint16_t granted);
 

@@ -35,10 +35,11 @@ std::vector<std::uint16_t> heard_ids(const CanSettings& settings, std::size_t ch
   for (const can::MessageInfo& message :
        {can::message::command, can::message::setting_write, can::message::setting_read,
         can::message::tuning_read, can::message::tuning_write, can::message::muscle_read,
-        can::message::status}) {
+        can::message::knot, can::message::play, can::message::status}) {
     for (std::size_t i = 0; i < channels; ++i)
       ids.push_back(can::id_of(message, static_cast<can::Node>(settings.first_node + i)));
   }
+  ids.push_back(sync_id);
   return ids;
 }
 
@@ -51,9 +52,14 @@ CanEndpoint::CanEndpoint(const CanSettings& settings, const BoardSettings& board
       commands_(settings, leases_),
       settings_(settings, board, leases_, publisher_, loop),
       tuning_(settings.first_node, leases_, loop),
+      trajectory_(settings.first_node, leases_, loop),
       first_node_(settings.first_node) {}
 
 void CanEndpoint::answer(const Answer& answer) {
+  if (is_of_trajectory(answer.command.verb)) {
+    if (const auto frame = trajectory_.answered(answer)) publisher_.send(*frame);
+    return;
+  }
   const auto frame = commands_.answered(answer);
   if (!frame) return;
   publisher_.send(*frame);
@@ -68,6 +74,8 @@ void CanEndpoint::poll(hal::Time now) {
   loop_->health().bus.store(bus_->state(), std::memory_order_relaxed);
   receive(now);
   loop_->health().node_conflict.store(now < conflict_until_, std::memory_order_relaxed);
+  while (const auto news = trajectory_.news())
+    publisher_.send(*news);
   publisher_.poll(now, [&](std::uint8_t channel) { return leases_.held(channel, now); });
 }
 
@@ -100,6 +108,9 @@ void CanEndpoint::receive(hal::Time now) {
       if (write.answer) publisher_.send(*write.answer);
       if (write.refused_value) publisher_.send(*write.refused_value);
     }
+    const TrajectoryFrames::Taken moved = trajectory_.take(frame, now);
+    if (moved.damaged) loop_->send_damaged(*moved.damaged);
+    if (moved.answer) publisher_.send(*moved.answer);
     if (const auto told = muscle_asked_for(frame)) publisher_.send(*told);
   }
 }

@@ -4,6 +4,7 @@
 #include "telemetry/commands.hpp"
 #include "telemetry/publisher.hpp"
 #include "telemetry/run_settings.hpp"
+#include "telemetry/trajectory_frames.hpp"
 #include "telemetry/tuning_frames.hpp"
 
 namespace supercoil::telemetry {
@@ -46,6 +47,7 @@ class CanEndpoint {
   Commands commands_;
   RunSettings settings_;
   TuningFrames tuning_;
+  TrajectoryFrames trajectory_;
   can::Node first_node_;
   hal::Time conflict_until_{};
 };

@@ -12,7 +12,7 @@ namespace supercoil::telemetry {
 
 /// Of firmware/io/can/supercoil.dbc; a change that an old reader would misunderstand gives a
 /// new number.
-inline constexpr std::uint8_t protocol_version = 4;
+inline constexpr std::uint8_t protocol_version = 5;
 
 /// An opcode has 4 bits, and each means something. A verb has its own number, but for those that
 /// compare with a meter or a thermometer: they share what is no verb's, and the value tells which.

@@ -29,7 +29,7 @@ std::optional<Number> number(std::string_view word) {
 
 std::string known_verbs() {
   std::string all;
-  for (const std::string_view verb : verb_names) {
+  for (const std::string_view verb : plain_verb_names) {
     if (verb != name(Verb::none)) all += (all.empty() ? "" : ", ") + std::string(verb);
   }
   return all + ", clear, store tuning, clear tuning";
@@ -47,11 +47,11 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
   const std::string_view verb_word = next_word(text);
   // To store nothing has a word of its own.
   const bool clears = verb_word == "clear";
-  const auto found =
-      std::find(verb_names.begin(), verb_names.end(), clears ? name(Verb::store) : verb_word);
-  const Verb verb = found == verb_names.end()
+  const auto found = std::find(plain_verb_names.begin(), plain_verb_names.end(),
+                               clears ? name(Verb::store) : verb_word);
+  const Verb verb = found == plain_verb_names.end()
                         ? Verb::none
-                        : static_cast<Verb>(std::distance(verb_names.begin(), found));
+                        : static_cast<Verb>(std::distance(plain_verb_names.begin(), found));
   if (verb == Verb::none) {
     return tl::unexpected("'" + std::string(verb_word) + "' is not a command; there are " +
                           known_verbs());

@@ -155,6 +155,123 @@ static uint64_t cantools_unsigned_from_double(double value)
     return (uint64_t)value;
 }
 
+int supercoil_sync_pack(
+    uint8_t *dst_p,
+    const struct supercoil_sync_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->sync, 0u, 0xffu);
+    dst_p[2] |= pack_left_shift_u64(src_p->master_time_s, 0u, 0xffu);
+    dst_p[3] |= pack_right_shift_u64(src_p->master_time_s, 8u, 0xffu);
+    dst_p[4] |= pack_right_shift_u64(src_p->master_time_s, 16u, 0xffu);
+    dst_p[5] |= pack_right_shift_u64(src_p->master_time_s, 24u, 0xffu);
+    dst_p[6] |= pack_right_shift_u64(src_p->master_time_s, 32u, 0xffu);
+    dst_p[7] |= pack_right_shift_u64(src_p->master_time_s, 40u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_sync_unpack(
+    struct supercoil_sync_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->sync = unpack_right_shift_u8(src_p[1], 0u, 0xffu);
+    dst_p->master_time_s = unpack_right_shift_u64(src_p[2], 0u, 0xffu);
+    dst_p->master_time_s |= unpack_left_shift_u64(src_p[3], 8u, 0xffu);
+    dst_p->master_time_s |= unpack_left_shift_u64(src_p[4], 16u, 0xffu);
+    dst_p->master_time_s |= unpack_left_shift_u64(src_p[5], 24u, 0xffu);
+    dst_p->master_time_s |= unpack_left_shift_u64(src_p[6], 32u, 0xffu);
+    dst_p->master_time_s |= unpack_left_shift_u64(src_p[7], 40u, 0xffu);
+
+    return (0);
+}
+
+int supercoil_sync_init(struct supercoil_sync_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_sync_t));
+
+    return 0;
+}
+
+uint8_t supercoil_sync_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_sync_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_sync_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_sync_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_sync_sync_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_sync_sync_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_sync_sync_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_sync_sync_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint64_t supercoil_sync_master_time_s_encode(double value)
+{
+    return (uint64_t)(cantools_unsigned_from_double(round(value / 1e-06)));
+}
+
+double supercoil_sync_master_time_s_decode(uint64_t value)
+{
+    return ((double)value * 1e-06);
+}
+
+bool supercoil_sync_master_time_s_is_in_range(uint64_t value)
+{
+    return (value <= 281474976710655ull);
+}
+
+bool supercoil_sync_master_time_s_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 281474976.710655));
+}
+
 int supercoil_emergency_pack(
     uint8_t *dst_p,
     const struct supercoil_emergency_t *src_p,
@@ -377,6 +494,578 @@ bool supercoil_first_cause_limit_is_in_phys_range(double value)
     (void)value;
 
     return (true);
+}
+
+int supercoil_knot_pack(
+    uint8_t *dst_p,
+    const struct supercoil_knot_t *src_p,
+    size_t size)
+{
+    uint16_t velocity_m_per_s;
+    uint32_t position_m;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->counter, 0u, 0x0fu);
+    dst_p[1] |= pack_left_shift_u16(src_p->after_s, 4u, 0xf0u);
+    dst_p[2] |= pack_right_shift_u16(src_p->after_s, 4u, 0xffu);
+    position_m = (uint32_t)src_p->position_m;
+    dst_p[3] |= pack_left_shift_u32(position_m, 0u, 0xffu);
+    dst_p[4] |= pack_right_shift_u32(position_m, 8u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(position_m, 16u, 0xffu);
+    velocity_m_per_s = (uint16_t)src_p->velocity_m_per_s;
+    dst_p[6] |= pack_left_shift_u16(velocity_m_per_s, 0u, 0xffu);
+    dst_p[7] |= pack_right_shift_u16(velocity_m_per_s, 8u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_knot_unpack(
+    struct supercoil_knot_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    uint16_t velocity_m_per_s;
+    uint32_t position_m;
+
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->counter = unpack_right_shift_u8(src_p[1], 0u, 0x0fu);
+    dst_p->after_s = unpack_right_shift_u16(src_p[1], 4u, 0xf0u);
+    dst_p->after_s |= unpack_left_shift_u16(src_p[2], 4u, 0xffu);
+    position_m = unpack_right_shift_u32(src_p[3], 0u, 0xffu);
+    position_m |= unpack_left_shift_u32(src_p[4], 8u, 0xffu);
+    position_m |= unpack_left_shift_u32(src_p[5], 16u, 0xffu);
+
+    if ((position_m & (1u << 23)) != 0u) {
+        position_m |= 0xff000000u;
+    }
+
+    dst_p->position_m = (int32_t)position_m;
+    velocity_m_per_s = unpack_right_shift_u16(src_p[6], 0u, 0xffu);
+    velocity_m_per_s |= unpack_left_shift_u16(src_p[7], 8u, 0xffu);
+    dst_p->velocity_m_per_s = (int16_t)velocity_m_per_s;
+
+    return (0);
+}
+
+int supercoil_knot_init(struct supercoil_knot_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_knot_t));
+
+    return 0;
+}
+
+uint8_t supercoil_knot_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_knot_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_knot_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_knot_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_knot_counter_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_knot_counter_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_knot_counter_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_knot_counter_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint16_t supercoil_knot_after_s_encode(double value)
+{
+    return (uint16_t)(cantools_unsigned_from_double(round(value / 0.001)));
+}
+
+double supercoil_knot_after_s_decode(uint16_t value)
+{
+    return ((double)value * 0.001);
+}
+
+bool supercoil_knot_after_s_is_in_range(uint16_t value)
+{
+    return (value <= 4094u);
+}
+
+bool supercoil_knot_after_s_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 4.094));
+}
+
+int32_t supercoil_knot_position_m_encode(double value)
+{
+    return (int32_t)(round(value / 1e-07));
+}
+
+double supercoil_knot_position_m_decode(int32_t value)
+{
+    return ((double)value * 1e-07);
+}
+
+bool supercoil_knot_position_m_is_in_range(int32_t value)
+{
+    return ((value >= -8388607) && (value <= 8388607));
+}
+
+bool supercoil_knot_position_m_is_in_phys_range(double value)
+{
+    return ((value >= -0.8388607) && (value <= 0.8388607));
+}
+
+int16_t supercoil_knot_velocity_m_per_s_encode(double value)
+{
+    return (int16_t)(round(value / 1e-05));
+}
+
+double supercoil_knot_velocity_m_per_s_decode(int16_t value)
+{
+    return ((double)value * 1e-05);
+}
+
+bool supercoil_knot_velocity_m_per_s_is_in_range(int16_t value)
+{
+    return (value >= -32767);
+}
+
+bool supercoil_knot_velocity_m_per_s_is_in_phys_range(double value)
+{
+    return ((value >= -0.32767) && (value <= 0.32767));
+}
+
+int supercoil_play_pack(
+    uint8_t *dst_p,
+    const struct supercoil_play_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->counter, 0u, 0x0fu);
+    dst_p[1] |= pack_left_shift_u8(src_p->when, 4u, 0xf0u);
+    dst_p[2] |= pack_left_shift_u16(src_p->session, 0u, 0xffu);
+    dst_p[3] |= pack_right_shift_u16(src_p->session, 8u, 0xffu);
+    dst_p[4] |= pack_left_shift_u8(src_p->sync, 0u, 0xffu);
+    dst_p[5] |= pack_left_shift_u32(src_p->after_s, 0u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(src_p->after_s, 8u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(src_p->after_s, 16u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_play_unpack(
+    struct supercoil_play_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->counter = unpack_right_shift_u8(src_p[1], 0u, 0x0fu);
+    dst_p->when = unpack_right_shift_u8(src_p[1], 4u, 0xf0u);
+    dst_p->session = unpack_right_shift_u16(src_p[2], 0u, 0xffu);
+    dst_p->session |= unpack_left_shift_u16(src_p[3], 8u, 0xffu);
+    dst_p->sync = unpack_right_shift_u8(src_p[4], 0u, 0xffu);
+    dst_p->after_s = unpack_right_shift_u32(src_p[5], 0u, 0xffu);
+    dst_p->after_s |= unpack_left_shift_u32(src_p[6], 8u, 0xffu);
+    dst_p->after_s |= unpack_left_shift_u32(src_p[7], 16u, 0xffu);
+
+    return (0);
+}
+
+int supercoil_play_init(struct supercoil_play_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_play_t));
+
+    return 0;
+}
+
+uint8_t supercoil_play_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_play_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_play_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_play_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_play_counter_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_play_counter_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_play_counter_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_play_counter_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint8_t supercoil_play_when_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_play_when_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_play_when_is_in_range(uint8_t value)
+{
+    return (value <= 2u);
+}
+
+bool supercoil_play_when_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 2.0));
+}
+
+uint16_t supercoil_play_session_encode(double value)
+{
+    return (uint16_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_play_session_decode(uint16_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_play_session_is_in_range(uint16_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_play_session_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 65535.0));
+}
+
+uint8_t supercoil_play_sync_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_play_sync_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_play_sync_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_play_sync_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint32_t supercoil_play_after_s_encode(double value)
+{
+    return (uint32_t)(cantools_unsigned_from_double(round(value / 1e-05)));
+}
+
+double supercoil_play_after_s_decode(uint32_t value)
+{
+    return ((double)value * 1e-05);
+}
+
+bool supercoil_play_after_s_is_in_range(uint32_t value)
+{
+    return (value <= 6000000u);
+}
+
+bool supercoil_play_after_s_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 60.0));
+}
+
+int supercoil_trajectory_pack(
+    uint8_t *dst_p,
+    const struct supercoil_trajectory_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->crc, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->counter, 0u, 0x0fu);
+    dst_p[1] |= pack_left_shift_u8(src_p->answers, 4u, 0xf0u);
+    dst_p[2] |= pack_left_shift_u8(src_p->session_low, 0u, 0xffu);
+    dst_p[3] |= pack_left_shift_u8(src_p->refusal, 0u, 0xffu);
+    dst_p[4] |= pack_left_shift_u8(src_p->playback, 0u, 0xffu);
+    dst_p[5] |= pack_left_shift_u8(src_p->room, 0u, 0xffu);
+    dst_p[6] |= pack_left_shift_u16(src_p->buffered_s, 0u, 0xffu);
+    dst_p[7] |= pack_right_shift_u16(src_p->buffered_s, 8u, 0xffu);
+
+    return (8);
+}
+
+int supercoil_trajectory_unpack(
+    struct supercoil_trajectory_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->crc = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->counter = unpack_right_shift_u8(src_p[1], 0u, 0x0fu);
+    dst_p->answers = unpack_right_shift_u8(src_p[1], 4u, 0xf0u);
+    dst_p->session_low = unpack_right_shift_u8(src_p[2], 0u, 0xffu);
+    dst_p->refusal = unpack_right_shift_u8(src_p[3], 0u, 0xffu);
+    dst_p->playback = unpack_right_shift_u8(src_p[4], 0u, 0xffu);
+    dst_p->room = unpack_right_shift_u8(src_p[5], 0u, 0xffu);
+    dst_p->buffered_s = unpack_right_shift_u16(src_p[6], 0u, 0xffu);
+    dst_p->buffered_s |= unpack_left_shift_u16(src_p[7], 8u, 0xffu);
+
+    return (0);
+}
+
+int supercoil_trajectory_init(struct supercoil_trajectory_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_trajectory_t));
+
+    return 0;
+}
+
+uint8_t supercoil_trajectory_crc_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_trajectory_crc_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_trajectory_crc_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_trajectory_crc_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_trajectory_counter_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_trajectory_counter_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_trajectory_counter_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_trajectory_counter_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint8_t supercoil_trajectory_answers_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_trajectory_answers_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_trajectory_answers_is_in_range(uint8_t value)
+{
+    return (value <= 2u);
+}
+
+bool supercoil_trajectory_answers_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 2.0));
+}
+
+uint8_t supercoil_trajectory_session_low_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_trajectory_session_low_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_trajectory_session_low_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_trajectory_session_low_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_trajectory_refusal_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_trajectory_refusal_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_trajectory_refusal_is_in_range(uint8_t value)
+{
+    return (value <= 15u);
+}
+
+bool supercoil_trajectory_refusal_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 15.0));
+}
+
+uint8_t supercoil_trajectory_playback_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_trajectory_playback_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_trajectory_playback_is_in_range(uint8_t value)
+{
+    return (value <= 5u);
+}
+
+bool supercoil_trajectory_playback_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 5.0));
+}
+
+uint8_t supercoil_trajectory_room_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_trajectory_room_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_trajectory_room_is_in_range(uint8_t value)
+{
+    return (value <= 63u);
+}
+
+bool supercoil_trajectory_room_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 63.0));
+}
+
+uint16_t supercoil_trajectory_buffered_s_encode(double value)
+{
+    return (uint16_t)(cantools_unsigned_from_double(round(value / 0.01)));
+}
+
+double supercoil_trajectory_buffered_s_decode(uint16_t value)
+{
+    return ((double)value * 0.01);
+}
+
+bool supercoil_trajectory_buffered_s_is_in_range(uint16_t value)
+{
+    return (value <= 65534u);
+}
+
+bool supercoil_trajectory_buffered_s_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 655.34));
 }
 
 int supercoil_tuning_read_pack(
@@ -802,12 +1491,12 @@ double supercoil_acknowledge_refusal_decode(uint8_t value)
 
 bool supercoil_acknowledge_refusal_is_in_range(uint8_t value)
 {
-    return (value <= 14u);
+    return (value <= 15u);
 }
 
 bool supercoil_acknowledge_refusal_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 14.0));
+    return ((value >= 0.0) && (value <= 15.0));
 }
 
 uint16_t supercoil_acknowledge_granted_encode(double value)
@@ -2987,12 +3676,12 @@ double supercoil_setting_refusal_decode(uint8_t value)
 
 bool supercoil_setting_refusal_is_in_range(uint8_t value)
 {
-    return (value <= 14u);
+    return (value <= 15u);
 }
 
 bool supercoil_setting_refusal_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 14.0));
+    return ((value >= 0.0) && (value <= 15.0));
 }
 
 uint8_t supercoil_setting_session_low_encode(double value)
@@ -3487,12 +4176,12 @@ double supercoil_tuning_refusal_decode(uint8_t value)
 
 bool supercoil_tuning_refusal_is_in_range(uint8_t value)
 {
-    return (value <= 14u);
+    return (value <= 15u);
 }
 
 bool supercoil_tuning_refusal_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 14.0));
+    return ((value >= 0.0) && (value <= 15.0));
 }
 
 uint8_t supercoil_tuning_set_encode(double value)

@@ -45,8 +45,12 @@ extern "C" {
 #endif
 
 /* Frame ids. */
+#define SUPERCOIL_SYNC_FRAME_ID (0x41u)
 #define SUPERCOIL_EMERGENCY_FRAME_ID (0x81u)
 #define SUPERCOIL_FIRST_CAUSE_FRAME_ID (0xc1u)
+#define SUPERCOIL_KNOT_FRAME_ID (0x101u)
+#define SUPERCOIL_PLAY_FRAME_ID (0x141u)
+#define SUPERCOIL_TRAJECTORY_FRAME_ID (0x181u)
 #define SUPERCOIL_TUNING_READ_FRAME_ID (0x1c1u)
 #define SUPERCOIL_COMMAND_FRAME_ID (0x201u)
 #define SUPERCOIL_ACKNOWLEDGE_FRAME_ID (0x241u)
@@ -71,8 +75,12 @@ extern "C" {
 #define SUPERCOIL_TUNING_WRITE_FRAME_ID (0x6c1u)
 
 /* Frame lengths in bytes. */
+#define SUPERCOIL_SYNC_LENGTH (8u)
 #define SUPERCOIL_EMERGENCY_LENGTH (8u)
 #define SUPERCOIL_FIRST_CAUSE_LENGTH (8u)
+#define SUPERCOIL_KNOT_LENGTH (8u)
+#define SUPERCOIL_PLAY_LENGTH (8u)
+#define SUPERCOIL_TRAJECTORY_LENGTH (8u)
 #define SUPERCOIL_TUNING_READ_LENGTH (2u)
 #define SUPERCOIL_COMMAND_LENGTH (8u)
 #define SUPERCOIL_ACKNOWLEDGE_LENGTH (7u)
@@ -97,8 +105,12 @@ extern "C" {
 #define SUPERCOIL_TUNING_WRITE_LENGTH (8u)
 
 /* Extended or standard frame types. */
+#define SUPERCOIL_SYNC_IS_EXTENDED (0)
 #define SUPERCOIL_EMERGENCY_IS_EXTENDED (0)
 #define SUPERCOIL_FIRST_CAUSE_IS_EXTENDED (0)
+#define SUPERCOIL_KNOT_IS_EXTENDED (0)
+#define SUPERCOIL_PLAY_IS_EXTENDED (0)
+#define SUPERCOIL_TRAJECTORY_IS_EXTENDED (0)
 #define SUPERCOIL_TUNING_READ_IS_EXTENDED (0)
 #define SUPERCOIL_COMMAND_IS_EXTENDED (0)
 #define SUPERCOIL_ACKNOWLEDGE_IS_EXTENDED (0)
@@ -173,6 +185,46 @@ extern "C" {
 #define SUPERCOIL_EMERGENCY_STATE_ARMED_CHOICE (1u)
 #define SUPERCOIL_EMERGENCY_STATE_ACTIVE_CHOICE (2u)
 #define SUPERCOIL_EMERGENCY_STATE_FAULT_CHOICE (3u)
+
+#define SUPERCOIL_KNOT_AFTER_S_NOT_AVAILABLE_CHOICE (4095u)
+
+#define SUPERCOIL_KNOT_POSITION_M_NOT_AVAILABLE_CHOICE (-8388608)
+
+#define SUPERCOIL_KNOT_VELOCITY_M_PER_S_NOT_AVAILABLE_CHOICE (-32768)
+
+#define SUPERCOIL_PLAY_WHEN_AT_ONCE_CHOICE (0u)
+#define SUPERCOIL_PLAY_WHEN_AT_SYNC_CHOICE (1u)
+#define SUPERCOIL_PLAY_WHEN_NEVER_CHOICE (2u)
+
+#define SUPERCOIL_TRAJECTORY_ANSWERS_NOTHING_CHOICE (0u)
+#define SUPERCOIL_TRAJECTORY_ANSWERS_KNOT_CHOICE (1u)
+#define SUPERCOIL_TRAJECTORY_ANSWERS_PLAY_CHOICE (2u)
+
+#define SUPERCOIL_TRAJECTORY_REFUSAL_NONE_CHOICE (0u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_WRONG_STATE_CHOICE (1u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_CAUSE_PERSISTS_CHOICE (2u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_NO_EDGE_CHOICE (3u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_NOT_READY_CHOICE (4u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_BUSY_CHOICE (5u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_OUT_OF_RANGE_CHOICE (6u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_NO_SUCH_CHANNEL_CHOICE (7u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_NOT_LEASE_HOLDER_CHOICE (8u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_NO_LEASE_CHOICE (9u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_WRONG_COUNTER_CHOICE (10u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_QUEUE_FULL_CHOICE (11u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_UNSUITABLE_CHOICE (14u)
+#define SUPERCOIL_TRAJECTORY_REFUSAL_INFEASIBLE_CHOICE (15u)
+
+#define SUPERCOIL_TRAJECTORY_PLAYBACK_EMPTY_CHOICE (0u)
+#define SUPERCOIL_TRAJECTORY_PLAYBACK_LOADED_CHOICE (1u)
+#define SUPERCOIL_TRAJECTORY_PLAYBACK_WAITING_CHOICE (2u)
+#define SUPERCOIL_TRAJECTORY_PLAYBACK_PLAYING_CHOICE (3u)
+#define SUPERCOIL_TRAJECTORY_PLAYBACK_ENDED_CHOICE (4u)
+#define SUPERCOIL_TRAJECTORY_PLAYBACK_DRY_CHOICE (5u)
+
+#define SUPERCOIL_TRAJECTORY_BUFFERED_S_NOT_AVAILABLE_CHOICE (65535u)
 
 #define SUPERCOIL_TUNING_READ_SET_PREPARED_CHOICE (0u)
 #define SUPERCOIL_TUNING_READ_SET_IN_USE_CHOICE (1u)
@@ -264,6 +316,7 @@ extern "C" {
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
 #define SUPERCOIL_ACKNOWLEDGE_REFUSAL_UNSUITABLE_CHOICE (14u)
+#define SUPERCOIL_ACKNOWLEDGE_REFUSAL_INFEASIBLE_CHOICE (15u)
 
 #define SUPERCOIL_MEASUREMENT_POSITION_M_NOT_AVAILABLE_CHOICE (-8388608)
 
@@ -460,6 +513,7 @@ extern "C" {
 #define SUPERCOIL_SETTING_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
 #define SUPERCOIL_SETTING_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
 #define SUPERCOIL_SETTING_REFUSAL_UNSUITABLE_CHOICE (14u)
+#define SUPERCOIL_SETTING_REFUSAL_INFEASIBLE_CHOICE (15u)
 
 #define SUPERCOIL_SETTING_WRITE_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_WRITE_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -567,6 +621,7 @@ extern "C" {
 #define SUPERCOIL_TUNING_REFUSAL_CLAIM_AGAIN_CHOICE (12u)
 #define SUPERCOIL_TUNING_REFUSAL_PROTOCOL_MISMATCH_CHOICE (13u)
 #define SUPERCOIL_TUNING_REFUSAL_UNSUITABLE_CHOICE (14u)
+#define SUPERCOIL_TUNING_REFUSAL_INFEASIBLE_CHOICE (15u)
 
 #define SUPERCOIL_TUNING_SET_PREPARED_CHOICE (0u)
 #define SUPERCOIL_TUNING_SET_IN_USE_CHOICE (1u)
@@ -677,8 +732,12 @@ extern "C" {
 #define SUPERCOIL_TUNING_WRITE_TUNABLE_ALL_CHOICE (255u)
 
 /* Frame Names. */
+#define SUPERCOIL_SYNC_NAME "Sync"
 #define SUPERCOIL_EMERGENCY_NAME "Emergency"
 #define SUPERCOIL_FIRST_CAUSE_NAME "FirstCause"
+#define SUPERCOIL_KNOT_NAME "Knot"
+#define SUPERCOIL_PLAY_NAME "Play"
+#define SUPERCOIL_TRAJECTORY_NAME "Trajectory"
 #define SUPERCOIL_TUNING_READ_NAME "TuningRead"
 #define SUPERCOIL_COMMAND_NAME "Command"
 #define SUPERCOIL_ACKNOWLEDGE_NAME "Acknowledge"
@@ -703,11 +762,33 @@ extern "C" {
 #define SUPERCOIL_TUNING_WRITE_NAME "TuningWrite"
 
 /* Signal Names. */
+#define SUPERCOIL_SYNC_CRC_NAME "crc"
+#define SUPERCOIL_SYNC_SYNC_NAME "sync"
+#define SUPERCOIL_SYNC_MASTER_TIME_S_NAME "master_time_s"
 #define SUPERCOIL_EMERGENCY_FAULT_NAME "fault"
 #define SUPERCOIL_EMERGENCY_STATE_NAME "state"
 #define SUPERCOIL_EMERGENCY_BOARD_TIME_S_NAME "board_time_s"
 #define SUPERCOIL_FIRST_CAUSE_MEASURED_NAME "measured"
 #define SUPERCOIL_FIRST_CAUSE_LIMIT_NAME "limit"
+#define SUPERCOIL_KNOT_CRC_NAME "crc"
+#define SUPERCOIL_KNOT_COUNTER_NAME "counter"
+#define SUPERCOIL_KNOT_AFTER_S_NAME "after_s"
+#define SUPERCOIL_KNOT_POSITION_M_NAME "position_m"
+#define SUPERCOIL_KNOT_VELOCITY_M_PER_S_NAME "velocity_m_per_s"
+#define SUPERCOIL_PLAY_CRC_NAME "crc"
+#define SUPERCOIL_PLAY_COUNTER_NAME "counter"
+#define SUPERCOIL_PLAY_WHEN_NAME "when"
+#define SUPERCOIL_PLAY_SESSION_NAME "session"
+#define SUPERCOIL_PLAY_SYNC_NAME "sync"
+#define SUPERCOIL_PLAY_AFTER_S_NAME "after_s"
+#define SUPERCOIL_TRAJECTORY_CRC_NAME "crc"
+#define SUPERCOIL_TRAJECTORY_COUNTER_NAME "counter"
+#define SUPERCOIL_TRAJECTORY_ANSWERS_NAME "answers"
+#define SUPERCOIL_TRAJECTORY_SESSION_LOW_NAME "session_low"
+#define SUPERCOIL_TRAJECTORY_REFUSAL_NAME "refusal"
+#define SUPERCOIL_TRAJECTORY_PLAYBACK_NAME "playback"
+#define SUPERCOIL_TRAJECTORY_ROOM_NAME "room"
+#define SUPERCOIL_TRAJECTORY_BUFFERED_S_NAME "buffered_s"
 #define SUPERCOIL_TUNING_READ_PLACE_NAME "place"
 #define SUPERCOIL_TUNING_READ_SET_NAME "set"
 #define SUPERCOIL_TUNING_READ_TUNABLE_NAME "tunable"
@@ -814,6 +895,42 @@ extern "C" {
 #define SUPERCOIL_TUNING_WRITE_VALUE_NAME "value"
 
 /**
+ * Signals in message Sync.
+ *
+ * The master's clock, for all boards of the bus: always this identifier. Each takes when it came, to the microsecond where its kernel tells that, and goes by it while it plays a trajectory; none answers. Once a second is often enough.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_sync_t {
+    /**
+     * As in Command, over bytes 1 to 7 and then the data id.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * One more with each, 0 after 255: by it Play names one.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t sync;
+
+    /**
+     * When it was handed to the bus, by a clock of the master's that nothing sets.
+     *
+     * Range: 0..281474976710655 (0..281474976.71065 s)
+     * Scale: 1e-06
+     * Offset: 0
+     */
+    uint64_t master_time_s;
+};
+
+/**
  * Signals in message Emergency.
  *
  * Sent at once when the channel's fault changes: when one latches, and with none when it was reset.
@@ -874,6 +991,204 @@ struct supercoil_first_cause_t {
      * Offset: 0
      */
     float limit;
+};
+
+/**
+ * Signals in message Knot.
+ *
+ * The next knot of a trajectory, at which the muscle is to be at this position with this velocity. Between knots position, velocity and acceleration are continuous. Taken while the muscle follows a position, and forgotten with any other command than a knot, Play and renew. Renews the command to heat.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_knot_t {
+    /**
+     * As in Command, over bytes 1 to 7, then the data id, then the low and the high byte of the session.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * Of the same row as Command's.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t counter;
+
+    /**
+     * Since the knot before. 0: the first one of another trajectory, where the muscle is told to be now, with velocity 0.
+     *
+     * Range: 0..4094 (0..4.094 s)
+     * Scale: 0.001
+     * Offset: 0
+     */
+    uint16_t after_s;
+
+    /**
+     * As Measurement has it.
+     *
+     * Range: -8388607..8388607 (-0.83886..0.83886 m)
+     * Scale: 1e-07
+     * Offset: 0
+     */
+    int32_t position_m;
+
+    /**
+     * 0 at the last one. A trajectory that ends with another has run dry: the muscle is held there for 1 s, and then rests.
+     *
+     * Range: -32767..32767 (-0.32767..0.32767 m/s)
+     * Scale: 1e-05
+     * Offset: 0
+     */
+    int16_t velocity_m_per_s;
+};
+
+/**
+ * Signals in message Play.
+ *
+ * Starts the trajectory, whose time is 0 at its first knot. Renews the command to heat.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_play_t {
+    /**
+     * As in Command, over bytes 1 to 7 and then the data id.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * Of the same row as Command's.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t counter;
+
+    /**
+     * From which moment after_s counts: at_once from when this came; at_sync from when Sync came with this number, be it one of the latest 8 or the next with it; never asks for Trajectory alone.
+     *
+     * Range: 0..2 (0..2 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t when;
+
+    /**
+     * Of the lease, as it was granted.
+     *
+     * Range: 0..65535 (0..65535 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint16_t session;
+
+    /**
+     * Of at_sync. Boards that are all told the same start in the same tick.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t sync;
+
+    /**
+     * Until the start.
+     *
+     * Range: 0..6000000 (0..60 s)
+     * Scale: 1e-05
+     * Offset: 0
+     */
+    uint32_t after_s;
+};
+
+/**
+ * Signals in message Trajectory.
+ *
+ * The answer to a Knot and to Play; and by itself whenever playback becomes another.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_trajectory_t {
+    /**
+     * As in Command, over bytes 1 to 7 and then the data id.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t crc;
+
+    /**
+     * Of what it answers.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t counter;
+
+    /**
+     * What it answers.
+     *
+     * Range: 0..2 (0..2 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t answers;
+
+    /**
+     * Low byte of the session of what it answers.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t session_low;
+
+    /**
+     * none: it was taken. Else why not. infeasible: the way to this knot asks for more power than there is, or would have the muscle cooled; queue_full: there is no room; wrong_state: the muscle follows no position, there is no first knot, or playback is at the end already; not_ready: the muscle is told to be elsewhere than at the first knot; out_of_range: the position, or a start whose time is over.
+     *
+     * Range: 0..15 (0..15 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t refusal;
+
+    /**
+     * What becomes of the trajectory. waiting: for its start. ended: held at its last knot. dry: the next knot is missing.
+     *
+     * Range: 0..5 (0..5 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t playback;
+
+    /**
+     * So many knots more have room.
+     *
+     * Range: 0..63 (0..63 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t room;
+
+    /**
+     * Until the last knot.
+     *
+     * Range: 0..65534 (0..655.34 s)
+     * Scale: 0.01
+     * Offset: 0
+     */
+    uint16_t buffered_s;
 };
 
 /**
@@ -1013,7 +1328,7 @@ struct supercoil_acknowledge_t {
     /**
      * none: it was obeyed. Else why not. out_of_range: RefusedValue tells the value. claim_again: claim with the number in granted as value. protocol_mismatch: the frame is of another version of this protocol; disarm alone is the same in all.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..15 (0..15 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1607,7 +1922,7 @@ struct supercoil_setting_t {
     /**
      * none: it was written, or read. Else why not.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..15 (0..15 -)
      * Scale: 1
      * Offset: 0
      */
@@ -1769,7 +2084,7 @@ struct supercoil_tuning_t {
     /**
      * none: it was written, or read. Else why not.
      *
-     * Range: 0..14 (0..14 -)
+     * Range: 0..15 (0..15 -)
      * Scale: 1
      * Offset: 0
      */
@@ -2009,6 +2324,163 @@ struct supercoil_tuning_write_t {
      */
     float value;
 };
+
+/**
+ * Pack message Sync.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_sync_pack(
+    uint8_t *dst_p,
+    const struct supercoil_sync_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Sync.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_sync_unpack(
+    struct supercoil_sync_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Sync.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_sync_init(struct supercoil_sync_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_sync_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_sync_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_sync_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_sync_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_sync_sync_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_sync_sync_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_sync_sync_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_sync_sync_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint64_t supercoil_sync_master_time_s_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_sync_master_time_s_decode(uint64_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_sync_master_time_s_is_in_range(uint64_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_sync_master_time_s_is_in_phys_range(double value);
 
 /**
  * Pack message Emergency.
@@ -2283,6 +2755,877 @@ bool supercoil_first_cause_limit_is_in_range(float value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_first_cause_limit_is_in_phys_range(double value);
+
+/**
+ * Pack message Knot.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_knot_pack(
+    uint8_t *dst_p,
+    const struct supercoil_knot_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Knot.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_knot_unpack(
+    struct supercoil_knot_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Knot.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_knot_init(struct supercoil_knot_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_knot_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_knot_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_knot_counter_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_knot_counter_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_counter_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_counter_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint16_t supercoil_knot_after_s_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_knot_after_s_decode(uint16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_after_s_is_in_range(uint16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_after_s_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int32_t supercoil_knot_position_m_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_knot_position_m_decode(int32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_position_m_is_in_range(int32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_position_m_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+int16_t supercoil_knot_velocity_m_per_s_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_knot_velocity_m_per_s_decode(int16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_velocity_m_per_s_is_in_range(int16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_knot_velocity_m_per_s_is_in_phys_range(double value);
+
+/**
+ * Pack message Play.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_play_pack(
+    uint8_t *dst_p,
+    const struct supercoil_play_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Play.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_play_unpack(
+    struct supercoil_play_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Play.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_play_init(struct supercoil_play_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_play_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_play_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_play_counter_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_play_counter_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_counter_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_counter_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_play_when_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_play_when_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_when_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_when_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint16_t supercoil_play_session_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_play_session_decode(uint16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_session_is_in_range(uint16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_session_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_play_sync_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_play_sync_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_sync_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_sync_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint32_t supercoil_play_after_s_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_play_after_s_decode(uint32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_after_s_is_in_range(uint32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_play_after_s_is_in_phys_range(double value);
+
+/**
+ * Pack message Trajectory.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_trajectory_pack(
+    uint8_t *dst_p,
+    const struct supercoil_trajectory_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Trajectory.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_trajectory_unpack(
+    struct supercoil_trajectory_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Trajectory.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_trajectory_init(struct supercoil_trajectory_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_trajectory_crc_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_crc_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_crc_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_crc_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_trajectory_counter_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_counter_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_counter_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_counter_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_trajectory_answers_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_answers_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_answers_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_answers_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_trajectory_session_low_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_session_low_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_session_low_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_session_low_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_trajectory_refusal_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_refusal_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_refusal_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_refusal_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_trajectory_playback_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_playback_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_playback_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_playback_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_trajectory_room_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_room_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_room_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_room_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint16_t supercoil_trajectory_buffered_s_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_trajectory_buffered_s_decode(uint16_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_buffered_s_is_in_range(uint16_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_trajectory_buffered_s_is_in_phys_range(double value);
 
 /**
  * Pack message TuningRead.

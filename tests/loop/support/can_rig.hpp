@@ -105,6 +105,7 @@ class CanRig {
   std::vector<supercoil_refused_value_t> refused_values;
   std::vector<hal::CanFrame> emergencies;
   std::vector<hal::CanFrame> first_causes;
+  std::vector<hal::CanFrame> trajectories;  ///< of either channel
   long heard = 0;
   std::map<std::uint16_t, int> heard_of;  ///< by identifier
   std::map<std::uint16_t, hal::CanFrame> last_of;
@@ -114,8 +115,13 @@ class CanRig {
     ++heard;
     ++heard_of[frame.id];
     last_of[frame.id] = frame;
+    if (frame.id == SUPERCOIL_TRAJECTORY_FRAME_ID || frame.id == SUPERCOIL_TRAJECTORY_FRAME_ID + 1)
+      trajectories.push_back(frame);
     if (frame.id == SUPERCOIL_SETTING_FRAME_ID) settings_told.push_back(read_setting(frame));
-    if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID) answers.push_back(read_answer(frame));
+    // Of either channel.
+    if (frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID ||
+        frame.id == SUPERCOIL_ACKNOWLEDGE_FRAME_ID + 1)
+      answers.push_back(read_answer(frame));
     if (frame.id == SUPERCOIL_REFUSED_VALUE_FRAME_ID)
       refused_values.push_back(read_refused_value(frame));
     if (frame.id == SUPERCOIL_EMERGENCY_FRAME_ID) emergencies.push_back(frame);

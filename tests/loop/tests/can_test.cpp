@@ -255,7 +255,7 @@ TEST(OverCan, AClientOfVersion3IsRefusedAndCanStillDisarm) {
   CHECK(rig.command(other, Verb::position, 0.02F) == Refusal::not_lease_holder);
   // The heartbeat names the version where version 3 had it.
   hold(0.3);
-  LONGS_EQUAL(4, rig.last_of.at(SUPERCOIL_STATUS_FRAME_ID).data[6]);
+  LONGS_EQUAL(5, rig.last_of.at(SUPERCOIL_STATUS_FRAME_ID).data[6]);
   CHECK(rig.state() == State::active);
   CHECK(rig.command(other, Verb::disarm) == Refusal::none);
   CHECK(rig.state() == State::disarmed);

@@ -39,15 +39,16 @@ tl::expected<CommandRequest, std::string> parse_command_request(const std::strin
   const std::string opcode = read.contains("opcode") && read["opcode"].is_string()
                                  ? read["opcode"].get<std::string>()
                                  : std::string();
-  const auto verb = std::find(verb_names.begin() + 1, verb_names.end(), opcode);
-  if (verb == verb_names.end()) return tl::unexpected("'" + opcode + "' is not an opcode");
+  const auto verb = std::find(plain_verb_names.begin() + 1, plain_verb_names.end(), opcode);
+  if (verb == plain_verb_names.end()) return tl::unexpected("'" + opcode + "' is not an opcode");
   double value = 0.0;
   if (const auto given = read.find("value"); given != read.end()) {
     if (!given->is_number() || !std::isfinite(given->get<double>()))
       return tl::unexpected(std::string("value must be a number"));
     value = given->get<double>();
   }
-  return CommandRequest{*node, static_cast<Verb>(std::distance(verb_names.begin(), verb)), value};
+  return CommandRequest{*node, static_cast<Verb>(std::distance(plain_verb_names.begin(), verb)),
+                        value};
 }
 
 }  // namespace supercoil::operating

@@ -5,6 +5,12 @@
 
 namespace supercoil::can {
 
+inline constexpr std::array<ValueName, 3> names_of_answers{{
+    {0, "nothing"},
+    {1, "knot"},
+    {2, "play"},
+}};
+
 inline constexpr std::array<ValueName, 32> names_of_fault{{
     {0, "none"},
     {10, "sensor_out_of_range"},
@@ -114,6 +120,15 @@ inline constexpr std::array<ValueName, 14> names_of_parameter{{
     {13, "bias_deviation"},
 }};
 
+inline constexpr std::array<ValueName, 6> names_of_playback{{
+    {0, "empty"},
+    {1, "loaded"},
+    {2, "waiting"},
+    {3, "playing"},
+    {4, "ended"},
+    {5, "dry"},
+}};
+
 inline constexpr std::array<ValueName, 22> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
@@ -139,7 +154,7 @@ inline constexpr std::array<ValueName, 22> names_of_quantity{{
     {21, "configured_cold_resistance_Ohm"},
 }};
 
-inline constexpr std::array<ValueName, 15> names_of_refusal{{
+inline constexpr std::array<ValueName, 16> names_of_refusal{{
     {0, "none"},
     {1, "wrong_state"},
     {2, "cause_persists"},
@@ -155,6 +170,7 @@ inline constexpr std::array<ValueName, 15> names_of_refusal{{
     {12, "claim_again"},
     {13, "protocol_mismatch"},
     {14, "unsuitable"},
+    {15, "infeasible"},
 }};
 
 inline constexpr std::array<ValueName, 11> names_of_result{{
@@ -241,6 +257,18 @@ inline constexpr std::array<ValueName, 35> names_of_tunable{{
     {255, "all"},
 }};
 
+inline constexpr std::array<ValueName, 3> names_of_when{{
+    {0, "at_once"},
+    {1, "at_sync"},
+    {2, "never"},
+}};
+
+inline constexpr std::array<SignalInfo, 3> signals_of_Sync{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"sync", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"master_time_s", "s", 16, 48, Raw::unsigned_integer, 1e-06, no_value, always, {}},
+}};
+
 inline constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
     {"fault", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_fault},
     {"state", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_state},
@@ -250,6 +278,34 @@ inline constexpr std::array<SignalInfo, 3> signals_of_Emergency{{
 inline constexpr std::array<SignalInfo, 2> signals_of_FirstCause{{
     {"measured", "", 0, 32, Raw::floating, 1.0, no_value, always, {}},
     {"limit", "", 32, 32, Raw::floating, 1.0, no_value, always, {}},
+}};
+
+inline constexpr std::array<SignalInfo, 5> signals_of_Knot{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"after_s", "s", 12, 12, Raw::unsigned_integer, 0.001, 4095, always, {}},
+    {"position_m", "m", 24, 24, Raw::signed_integer, 1e-07, -8388608, always, {}},
+    {"velocity_m_per_s", "m/s", 48, 16, Raw::signed_integer, 1e-05, -32768, always, {}},
+}};
+
+inline constexpr std::array<SignalInfo, 6> signals_of_Play{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"when", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_when},
+    {"session", "", 16, 16, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"sync", "", 32, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"after_s", "s", 40, 24, Raw::unsigned_integer, 1e-05, no_value, always, {}},
+}};
+
+inline constexpr std::array<SignalInfo, 8> signals_of_Trajectory{{
+    {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"answers", "", 12, 4, Raw::unsigned_integer, 1.0, no_value, always, names_of_answers},
+    {"session_low", "", 16, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"refusal", "", 24, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_refusal},
+    {"playback", "", 32, 8, Raw::unsigned_integer, 1.0, no_value, always, names_of_playback},
+    {"room", "", 40, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"buffered_s", "s", 48, 16, Raw::unsigned_integer, 0.01, 65535, always, {}},
 }};
 
 inline constexpr std::array<SignalInfo, 3> signals_of_TuningRead{{
@@ -423,8 +479,12 @@ inline constexpr std::array<SignalInfo, 6> signals_of_TuningWrite{{
 }};
 
 namespace message {
+inline constexpr MessageInfo sync{"Sync", 0x040, 8, 0, signals_of_Sync};
 inline constexpr MessageInfo emergency{"Emergency", 0x080, 8, 0, signals_of_Emergency};
 inline constexpr MessageInfo first_cause{"FirstCause", 0x0c0, 8, 0, signals_of_FirstCause};
+inline constexpr MessageInfo knot{"Knot", 0x100, 8, 0, signals_of_Knot};
+inline constexpr MessageInfo play{"Play", 0x140, 8, 0, signals_of_Play};
+inline constexpr MessageInfo trajectory{"Trajectory", 0x180, 8, 0, signals_of_Trajectory};
 inline constexpr MessageInfo tuning_read{"TuningRead", 0x1c0, 2, 0, signals_of_TuningRead};
 inline constexpr MessageInfo command{"Command", 0x200, 8, 0, signals_of_Command};
 inline constexpr MessageInfo acknowledge{"Acknowledge", 0x240, 7, 0, signals_of_Acknowledge};
@@ -450,9 +510,13 @@ inline constexpr MessageInfo tuning_write{"TuningWrite", 0x6c0, 8, 0, signals_of
 }  // namespace message
 
 /// In the order of identifiers.
-inline constexpr std::array<MessageInfo, 24> all_messages{{
+inline constexpr std::array<MessageInfo, 28> all_messages{{
+    message::sync,
     message::emergency,
     message::first_cause,
+    message::knot,
+    message::play,
+    message::trajectory,
     message::tuning_read,
     message::command,
     message::acknowledge,

@@ -8,6 +8,15 @@ from supercoil.generated import names
 from supercoil.layout import Layout, Raw, Signal
 
 
+class Sync(NamedTuple):
+    """The master's clock, for all boards of the bus: always this identifier. Each takes when it came, to the microsecond where its kernel tells that, and goes by it while it plays a trajectory; none answers. Once a second is often enough."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    sync: int
+    master_time_s: float
+
+
 class Emergency(NamedTuple):
     """Sent at once when the channel's fault changes: when one latches, and with none when it was reset."""
 
@@ -23,6 +32,43 @@ class FirstCause(NamedTuple):
     time_s: float  # on the bus, by the clock of whoever received it
     measured: float
     limit: float
+
+
+class Knot(NamedTuple):
+    """The next knot of a trajectory, at which the muscle is to be at this position with this velocity. Between knots position, velocity and acceleration are continuous. Taken while the muscle follows a position, and forgotten with any other command than a knot, Play and renew. Renews the command to heat."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    after_s: float
+    position_m: float
+    velocity_m_per_s: float
+
+
+class Play(NamedTuple):
+    """Starts the trajectory, whose time is 0 at its first knot. Renews the command to heat."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    when: names.When
+    session: int
+    sync: int
+    after_s: float
+
+
+class Trajectory(NamedTuple):
+    """The answer to a Knot and to Play; and by itself whenever playback becomes another."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    crc: int
+    counter: int
+    answers: names.Answers
+    session_low: int
+    refusal: names.Refusal
+    playback: names.Playback
+    room: int
+    buffered_s: float
 
 
 class TuningRead(NamedTuple):
@@ -262,6 +308,11 @@ class TuningWrite(NamedTuple):
 
 
 LAYOUTS = (
+    Layout(Sync, 0x040, 8, 0, False, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("sync", "", 8, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("master_time_s", "s", 16, 48, Raw.unsigned, 1e-06, None, None, float),
+    )),
     Layout(Emergency, 0x080, 8, 0, True, (
         Signal("fault", "", 0, 8, Raw.unsigned, 1.0, None, None, names.Fault),
         Signal("state", "", 8, 8, Raw.unsigned, 1.0, None, None, names.State),
@@ -270,6 +321,31 @@ LAYOUTS = (
     Layout(FirstCause, 0x0c0, 8, 0, True, (
         Signal("measured", "", 0, 32, Raw.floating, 1.0, None, None, float),
         Signal("limit", "", 32, 32, Raw.floating, 1.0, None, None, float),
+    )),
+    Layout(Knot, 0x100, 8, 0, False, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("after_s", "s", 12, 12, Raw.unsigned, 0.001, 4095, None, float),
+        Signal("position_m", "m", 24, 24, Raw.signed, 1e-07, -8388608, None, float),
+        Signal("velocity_m_per_s", "m/s", 48, 16, Raw.signed, 1e-05, -32768, None, float),
+    )),
+    Layout(Play, 0x140, 8, 0, False, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("when", "", 12, 4, Raw.unsigned, 1.0, None, None, names.When),
+        Signal("session", "", 16, 16, Raw.unsigned, 1.0, None, None, int),
+        Signal("sync", "", 32, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("after_s", "s", 40, 24, Raw.unsigned, 1e-05, None, None, float),
+    )),
+    Layout(Trajectory, 0x180, 8, 0, True, (
+        Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
+        Signal("answers", "", 12, 4, Raw.unsigned, 1.0, None, None, names.Answers),
+        Signal("session_low", "", 16, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("refusal", "", 24, 8, Raw.unsigned, 1.0, None, None, names.Refusal),
+        Signal("playback", "", 32, 8, Raw.unsigned, 1.0, None, None, names.Playback),
+        Signal("room", "", 40, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("buffered_s", "s", 48, 16, Raw.unsigned, 0.01, 65535, None, float),
     )),
     Layout(TuningRead, 0x1c0, 2, 0, False, (
         Signal("place", "", 0, 4, Raw.unsigned, 1.0, None, None, int),
@@ -422,8 +498,12 @@ LAYOUTS = (
 )
 
 # Identifiers are base + node.
+SYNC = 0x040
 EMERGENCY = 0x080
 FIRST_CAUSE = 0x0c0
+KNOT = 0x100
+PLAY = 0x140
+TRAJECTORY = 0x180
 TUNING_READ = 0x1c0
 COMMAND = 0x200
 ACKNOWLEDGE = 0x240

@@ -5,6 +5,12 @@
 from supercoil.named import Named
 
 
+class Answers(Named):
+    nothing = 0
+    knot = 1
+    play = 2
+
+
 class Fault(Named):
     none = 0
     sensor_out_of_range = 10
@@ -114,6 +120,15 @@ class Parameter(Named):
     bias_deviation = 13
 
 
+class Playback(Named):
+    empty = 0
+    loaded = 1
+    waiting = 2
+    playing = 3
+    ended = 4
+    dry = 5
+
+
 class Quantity(Named):
     thermal_mass_J_per_K = 0
     heat_transfer_W_per_K = 1
@@ -155,6 +170,7 @@ class Refusal(Named):
     claim_again = 12
     protocol_mismatch = 13
     unsuitable = 14
+    infeasible = 15
 
 
 class Result(Named):
@@ -239,3 +255,9 @@ class Tunable(Named):
     position_noise_m = 32
     trusted_error = 33
     all = 255
+
+
+class When(Named):
+    at_once = 0
+    at_sync = 1
+    never = 2

@@ -131,6 +131,15 @@ class Unsuitable(RefusalError):
 to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic"""
 
 
+class Infeasible(RefusalError):
+    """to a knot of a trajectory: the way to it asks for more power than there is, or would have the muscle cooled"""
+
+    number = 15
+    name = "infeasible"
+    meaning = """\
+to a knot of a trajectory: the way to it asks for more power than there is, or would have the muscle cooled"""
+
+
 BY_NUMBER: dict[int, type[RefusalError]] = {
     1: WrongState,
     2: CausePersists,
@@ -146,4 +155,5 @@ BY_NUMBER: dict[int, type[RefusalError]] = {
     12: ClaimAgain,
     13: ProtocolMismatch,
     14: Unsuitable,
+    15: Infeasible,
 }

@@ -97,7 +97,7 @@ TEST(Documented, NumbersOnTheBusAreThoseOfTheProtocol) {
       {Refusal::none, Refusal::wrong_state, Refusal::cause_persists, Refusal::no_edge,
        Refusal::not_ready, Refusal::busy, Refusal::out_of_range, Refusal::no_such_channel,
        Refusal::not_lease_holder, Refusal::no_lease, Refusal::wrong_counter, Refusal::queue_full,
-       Refusal::claim_again, Refusal::protocol_mismatch, Refusal::unsuitable});
+       Refusal::claim_again, Refusal::protocol_mismatch, Refusal::unsuitable, Refusal::infeasible});
   check_names<LimitedBy>("limited_by", {LimitedBy::nothing, LimitedBy::minimum, LimitedBy::maximum,
                                         LimitedBy::slew, LimitedBy::temperature, LimitedBy::invalid,
                                         LimitedBy::cooling, LimitedBy::unproven});

@@ -147,11 +147,11 @@ TEST(Codec, TheReservedRawValueIsNaN) {
       ++reserved;
     }
   }
-  LONGS_EQUAL(18, reserved);
+  LONGS_EQUAL(22, reserved);
 }
 
 TEST(Codec, AnEstimateHasTheParameterThatItCarriesAndNoOther) {
-  const CodecMessage& message = codec_messages[9];
+  const CodecMessage& message = codec_messages[13];
   constexpr std::size_t first = 4;  // after parameter, trusted, identify_notes, error_bound
   for (std::uint8_t parameter = 0; parameter < 16; ++parameter) {
     hal::CanFrame frame = empty_frame(message);

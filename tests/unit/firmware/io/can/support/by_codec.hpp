@@ -188,6 +188,35 @@ inline Values tuning_read(const hal::CanFrame& frame) {
                  supercoil_tuning_read_set_decode(m.set),
                  supercoil_tuning_read_tunable_decode(m.tunable)});
 }
+inline Values sync(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_sync_unpack);
+  return values({supercoil_sync_crc_decode(m.crc), supercoil_sync_sync_decode(m.sync),
+                 supercoil_sync_master_time_s_decode(m.master_time_s)});
+}
+inline Values knot(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_knot_unpack);
+  return values(
+      {supercoil_knot_crc_decode(m.crc), supercoil_knot_counter_decode(m.counter),
+       unless<std::uint16_t>(4095, m.after_s, supercoil_knot_after_s_decode),
+       unless<std::int32_t>(-8388608, m.position_m, supercoil_knot_position_m_decode),
+       unless<std::int16_t>(-32768, m.velocity_m_per_s, supercoil_knot_velocity_m_per_s_decode)});
+}
+inline Values play(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_play_unpack);
+  return values({supercoil_play_crc_decode(m.crc), supercoil_play_counter_decode(m.counter),
+                 supercoil_play_when_decode(m.when), supercoil_play_session_decode(m.session),
+                 supercoil_play_sync_decode(m.sync), supercoil_play_after_s_decode(m.after_s)});
+}
+inline Values trajectory(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_trajectory_unpack);
+  return values(
+      {supercoil_trajectory_crc_decode(m.crc), supercoil_trajectory_counter_decode(m.counter),
+       supercoil_trajectory_answers_decode(m.answers),
+       supercoil_trajectory_session_low_decode(m.session_low),
+       supercoil_trajectory_refusal_decode(m.refusal),
+       supercoil_trajectory_playback_decode(m.playback), supercoil_trajectory_room_decode(m.room),
+       unless<std::uint16_t>(65535, m.buffered_s, supercoil_trajectory_buffered_s_decode)});
+}
 inline Values status(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_status_unpack);
   return values(
@@ -211,7 +240,11 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 24> codec_messages{{
+constexpr std::array<CodecMessage, 28> codec_messages{{
+    {"Sync", SUPERCOIL_SYNC_FRAME_ID, SUPERCOIL_SYNC_LENGTH, sync},
+    {"Knot", SUPERCOIL_KNOT_FRAME_ID, SUPERCOIL_KNOT_LENGTH, knot},
+    {"Play", SUPERCOIL_PLAY_FRAME_ID, SUPERCOIL_PLAY_LENGTH, play},
+    {"Trajectory", SUPERCOIL_TRAJECTORY_FRAME_ID, SUPERCOIL_TRAJECTORY_LENGTH, trajectory},
     {"Emergency", SUPERCOIL_EMERGENCY_FRAME_ID, SUPERCOIL_EMERGENCY_LENGTH, emergency},
     {"FirstCause", SUPERCOIL_FIRST_CAUSE_FRAME_ID, SUPERCOIL_FIRST_CAUSE_LENGTH, first_cause},
     {"Command", SUPERCOIL_COMMAND_FRAME_ID, SUPERCOIL_COMMAND_LENGTH, command},

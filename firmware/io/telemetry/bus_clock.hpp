@@ -1,0 +1,38 @@
+// The clock of a bus's master, as its Sync messages tell it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "supercoil/hal/clock.hpp"
+
+namespace supercoil::telemetry {
+
+/// When the latest Sync messages came by the board's clock, and when they were sent by the
+/// master's.
+class BusClock {
+ public:
+  struct Sync {
+    std::uint8_t number;
+    double master_s;
+    hal::Time received;
+  };
+
+  void add(const Sync& sync) {
+    latest_ = sync;
+    known_[sync.number % known_.size()] = sync;
+  }
+  const std::optional<Sync>& latest() const { return latest_; }
+  /// One of the latest 8; empty: it has not come.
+  std::optional<Sync> find(std::uint8_t number) const {
+    const std::optional<Sync>& found = known_[number % known_.size()];
+    return found && found->number == number ? found : std::nullopt;
+  }
+
+ private:
+  std::optional<Sync> latest_;
+  std::array<std::optional<Sync>, 8> known_{};
+};
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,166 @@
+#include "telemetry/trajectory_frames.hpp"
+
+#include <algorithm>
+
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
+
+namespace supercoil::telemetry {
+
+namespace {
+
+namespace message = can::message;
+
+/// What the loop's ring of commands holds.
+constexpr std::size_t max_waiting = 256;
+
+constexpr bool states_have_their_names() {
+  for (std::size_t i = 0; i < playback_state_names.size(); ++i) {
+    if (can::names_of_playback[i].name != playback_state_names[i]) return false;
+  }
+  return can::names_of_playback.size() == playback_state_names.size();
+}
+static_assert(states_have_their_names(), "the states of playback have the same names over CAN");
+
+}  // namespace
+
+TrajectoryFrames::TrajectoryFrames(can::Node first_node, Leases& leases, Loop& loop)
+    : first_node_(first_node), leases_(&leases), loop_(&loop), channels_(leases.channels()) {}
+
+TrajectoryFrames::Taken TrajectoryFrames::take(const hal::CanFrame& frame, hal::Time now) {
+  if (frame.id == sync_id) take_sync(frame);
+  const auto to = [&](const can::MessageInfo& message) {
+    return can::channel_of(frame, message, first_node_, leases_->channels());
+  };
+  if (const auto channel = to(message::knot)) return take_knot(*channel, frame, now);
+  if (const auto channel = to(message::play)) return take_play(*channel, frame, now);
+  return {};
+}
+
+TrajectoryFrames::Taken TrajectoryFrames::take_knot(std::uint8_t channel,
+                                                    const hal::CanFrame& frame, hal::Time now) {
+  const std::uint16_t session = leases_->session(channel);
+  const can::Reader<message::knot> m(frame);
+  const bool whole = frame.length == message::knot.length;
+  // Nobody's session is in it: whose it was is not known.
+  const bool intact = whole && can::e2e::intact(frame, message::knot.length, session);
+  if (!intact && leases_->held(channel, now)) return {channel, {}};
+  if (!whole) return {channel, {}};
+  const Header header{channel, answers_knot, m.get<std::uint8_t>("counter"), session};
+  const Refusal checked = leases_->check(channel, session, header.counter, now);
+  Taken taken;
+  if (checked == Refusal::wrong_counter) taken.damaged = channel;
+  if (checked != Refusal::none) {
+    taken.answer = told(header, checked);
+    return taken;
+  }
+  Command command{channel, Verb::knot, m.get("position_m"), Source::can};
+  command.after_s = m.get<float>("after_s");
+  command.velocity_m_per_s = m.get<float>("velocity_m_per_s");
+  taken.answer = hand_on(header, command);
+  return taken;
+}
+
+TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
+                                                    const hal::CanFrame& frame, hal::Time now) {
+  if (!can::e2e::intact(frame, message::play.length)) return {channel, {}};
+  const can::Reader<message::play> m(frame);
+  const Header header{channel, answers_play, m.get<std::uint8_t>("counter"),
+                      m.get<std::uint16_t>("session")};
+  Refusal checked = leases_->check(channel, header.session, header.counter, now);
+  Taken taken;
+  if (checked == Refusal::wrong_counter) taken.damaged = channel;
+  const auto when = m.get<std::uint8_t>("when");
+  if (checked == Refusal::none && when > never) checked = Refusal::out_of_range;
+  if (checked != Refusal::none || when == never) {
+    taken.answer = told(header, checked);
+    return taken;
+  }
+  const Start asked{header, m.get<std::uint8_t>("sync"), m.get("after_s")};
+  if (when == at_once) {
+    channels_[channel].anchor.reset();
+    const double at_s = hal::seconds(frame.received) + asked.after_s;
+    taken.answer = hand_on(header, {channel, Verb::start, at_s, Source::can});
+  } else if (const auto sync = clock_.find(asked.sync)) {
+    taken.answer = start(asked, *sync);
+  } else {
+    channels_[channel].start = asked;
+    taken.answer = told(header, Refusal::none);
+  }
+  return taken;
+}
+
+void TrajectoryFrames::take_sync(const hal::CanFrame& frame) {
+  if (!can::e2e::intact(frame, message::sync.length)) return;
+  const can::Reader<message::sync> m(frame);
+  const BusClock::Sync sync{m.get<std::uint8_t>("sync"), m.get("master_time_s"), frame.received};
+  clock_.add(sync);
+  for (std::uint8_t i = 0; i < channels_.size(); ++i) {
+    Channel& channel = channels_[i];
+    if (channel.start && channel.start->sync == sync.number) {
+      const Start waited = *channel.start;
+      channel.start.reset();
+      // Told already that it waits; the loop may still find it too late.
+      if (waited.header.session == leases_->session(i)) start(waited, sync);
+    }
+    if (channel.anchor) align(i, sync);
+  }
+}
+
+/// The master's clock since the start, less the board's.
+void TrajectoryFrames::align(std::uint8_t channel, const BusClock::Sync& sync) {
+  const BusClock::Sync& anchor = *channels_[channel].anchor;
+  const double ahead_s =
+      sync.master_s - anchor.master_s - hal::seconds(sync.received - anchor.received);
+  loop_->send({channel, Verb::align, ahead_s, Source::can});
+}
+
+std::optional<hal::CanFrame> TrajectoryFrames::start(const Start& start,
+                                                     const BusClock::Sync& sync) {
+  channels_[start.header.channel].anchor = sync;
+  const double at_s = hal::seconds(sync.received) + start.after_s;
+  return hand_on(start.header, {start.header.channel, Verb::start, at_s, Source::can});
+}
+
+std::optional<hal::CanFrame> TrajectoryFrames::hand_on(const Header& header, Command command) {
+  if (waiting_.size() == max_waiting) return told(header, Refusal::queue_full);
+  command.id = ++last_id_;
+  if (!loop_->send(command)) return told(header, Refusal::queue_full);
+  waiting_.push_back({last_id_, header});
+  return std::nullopt;
+}
+
+std::optional<hal::CanFrame> TrajectoryFrames::answered(const Answer& answer) {
+  const auto found = std::ranges::find(waiting_, answer.command.id, &Waiting::id);
+  if (found == waiting_.end()) return std::nullopt;
+  const Header header = found->header;
+  // The loop answers in order: what came before has lost its answer.
+  waiting_.erase(waiting_.begin(), found + 1);
+  return told(header, answer.refusal);
+}
+
+std::optional<hal::CanFrame> TrajectoryFrames::news() {
+  for (std::uint8_t i = 0; i < channels_.size(); ++i) {
+    const PlaybackState now = loop_->channel(i).playback().state;
+    if (now == channels_[i].told) continue;
+    channels_[i].told = now;
+    if (now == PlaybackState::empty) channels_[i].anchor.reset();
+    return told({i, nothing, 0, 0}, Refusal::none);
+  }
+  return std::nullopt;
+}
+
+hal::CanFrame TrajectoryFrames::told(const Header& header, Refusal refusal) const {
+  const PlaybackStatus status = static_cast<const Loop*>(loop_)->channel(header.channel).playback();
+  return can::Encoder<message::trajectory>(static_cast<can::Node>(first_node_ + header.channel))
+      .set("counter", header.counter)
+      .set("answers", header.answers)
+      .set("session_low", header.session & 0xFFU)
+      .set("refusal", static_cast<double>(refusal))
+      .set("playback", static_cast<double>(status.state))
+      .set("room", status.room)
+      .set("buffered_s", static_cast<double>(status.buffered_s))
+      .protected_frame();
+}
+
+}  // namespace supercoil::telemetry

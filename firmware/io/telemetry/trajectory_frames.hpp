@@ -1,0 +1,88 @@
+// How trajectories come over CAN, and start on several boards at once.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "can/generated/messages.hpp"
+#include "can/nodes.hpp"
+#include "loop/loop.hpp"
+#include "telemetry/bus_clock.hpp"
+#include "telemetry/leases.hpp"
+
+namespace supercoil::telemetry {
+
+/// Of the one Sync that all boards of a bus hear.
+inline constexpr std::uint16_t sync_id = can::id_of(can::message::sync, 1);
+
+/// Values of Trajectory.answers, and of Play.when.
+enum Answers : std::uint8_t { nothing, answers_knot, answers_play };
+enum When : std::uint8_t { at_once, at_sync, never };
+
+constexpr bool is_of_trajectory(Verb verb) {
+  return verb == Verb::knot || verb == Verb::start || verb == Verb::align;
+}
+
+/// Neither sends nor receives. Knots and Play need the channel's lease, as commands do, and are
+/// answered when the loop has done them. Sync needs nothing: it moves nothing by itself.
+class TrajectoryFrames {
+ public:
+  /// All outlive it. first_node: of the board's first channel.
+  TrajectoryFrames(can::Node first_node, Leases& leases, Loop& loop);
+
+  /// What became of a frame. All empty: it has nothing to do with it.
+  struct Taken {
+    std::optional<std::uint8_t> damaged;  ///< the channel whose frame was damaged
+    std::optional<hal::CanFrame> answer;
+  };
+  Taken take(const hal::CanFrame& frame, hal::Time now);
+
+  /// The frame that answers a command of a trajectory; empty: it was none that came over CAN.
+  std::optional<hal::CanFrame> answered(const Answer& answer);
+  /// The next frame of a channel whose playback became another; empty: there is none.
+  std::optional<hal::CanFrame> news();
+
+ private:
+  /// As much of a frame as its answer repeats.
+  struct Header {
+    std::uint8_t channel;
+    std::uint8_t answers;
+    std::uint8_t counter;
+    std::uint16_t session;
+  };
+  struct Waiting {
+    std::uint32_t id;
+    Header header;
+  };
+  struct Start {
+    Header header;
+    std::uint8_t sync;
+    double after_s;
+  };
+  struct Channel {
+    std::optional<Start> start;            ///< that waits for its Sync
+    std::optional<BusClock::Sync> anchor;  ///< by which it started
+    PlaybackState told = PlaybackState::empty;
+  };
+
+  Taken take_knot(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
+  Taken take_play(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
+  void take_sync(const hal::CanFrame& frame);
+  void align(std::uint8_t channel, const BusClock::Sync& sync);
+  /// Empty: the loop has it, and will answer.
+  std::optional<hal::CanFrame> hand_on(const Header& header, Command command);
+  std::optional<hal::CanFrame> start(const Start& start, const BusClock::Sync& sync);
+  hal::CanFrame told(const Header& header, Refusal refusal) const;
+
+  can::Node first_node_;
+  Leases* leases_;
+  Loop* loop_;
+  BusClock clock_;
+  std::vector<Channel> channels_;
+  std::deque<Waiting> waiting_;  ///< in the order of their ids
+  std::uint32_t last_id_ = 0;
+};
+
+}  // namespace supercoil::telemetry

@@ -1,0 +1,286 @@
+// Trajectories over CAN, on a board of two channels.
+#include <cmath>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+#include "loop/support/can_rig.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+namespace {
+
+constexpr unsigned start_at_once = 0;
+constexpr unsigned start_at_sync = 1;
+constexpr unsigned ask_only = 2;
+
+hal::CanFrame knot_frame(Master& who, double after_s, double position_m, double velocity = 0.0) {
+  supercoil_knot_t m{};
+  m.counter = who.next_counter();
+  m.after_s = static_cast<std::uint16_t>(std::lround(after_s * 1e3));
+  m.position_m = static_cast<std::int32_t>(std::lround(position_m * 1e7));
+  m.velocity_m_per_s = static_cast<std::int16_t>(std::lround(velocity * 1e5));
+  hal::CanFrame frame =
+      packed(SUPERCOIL_KNOT_FRAME_ID, SUPERCOIL_KNOT_LENGTH, who.node, m, supercoil_knot_pack);
+  can::e2e::protect(frame, who.session);
+  return frame;
+}
+
+hal::CanFrame play_frame(Master& who, unsigned when, std::uint8_t sync, double after_s) {
+  supercoil_play_t m{};
+  m.counter = who.next_counter();
+  m.when = static_cast<std::uint8_t>(when);
+  m.session = who.session;
+  m.sync = sync;
+  m.after_s = static_cast<std::uint32_t>(std::lround(after_s * 1e5));
+  return sealed(SUPERCOIL_PLAY_FRAME_ID, SUPERCOIL_PLAY_LENGTH, who.node, m, supercoil_play_pack);
+}
+
+hal::CanFrame sync_frame(std::uint8_t number, double master_s) {
+  supercoil_sync_t m{};
+  m.sync = number;
+  m.master_time_s = static_cast<std::uint64_t>(std::llround(master_s * 1e6));
+  return sealed(SUPERCOIL_SYNC_FRAME_ID, SUPERCOIL_SYNC_LENGTH, 1, m, supercoil_sync_pack);
+}
+
+}  // namespace
+
+TEST_GROUP(TrajectoryOverCan) {
+  CanRig rig;
+  Master master;
+  Master second;
+
+  void setup() override {
+    second.node = 2;
+    second.name = 0x2222;
+    rig.run(16.0);
+    for (Master* who : {&master, &second}) {
+      rig.claim(*who);
+      rig.command(*who, Verb::arm);
+      rig.run(0.2);
+    }
+    hold(0.005, 12.0);
+  }
+  /// Both at a position, renewed.
+  void hold(double position_m, double time_s) {
+    for (Master* who : {&master, &second})
+      rig.command(*who, Verb::position, static_cast<float>(position_m));
+    renew(time_s);
+  }
+  void renew(double time_s) {
+    for (long i = std::lround(time_s / 0.1); i > 0; --i) {
+      for (Master* who : {&master, &second})
+        rig.bus.deliver(who->frame(Verb::renew));
+      rig.run(0.1);
+    }
+  }
+  /// The newest of a node; answers: that answers something.
+  supercoil_trajectory_t told(const Master& who, bool answers = false) const {
+    supercoil_trajectory_t newest{};
+    for (const hal::CanFrame& frame : rig.trajectories) {
+      if (frame.id != SUPERCOIL_TRAJECTORY_FRAME_ID + who.node - 1) continue;
+      supercoil_trajectory_t m{};
+      supercoil_trajectory_unpack(&m, frame.data.data(), frame.length);
+      CHECK(can::e2e::intact(frame, SUPERCOIL_TRAJECTORY_LENGTH));
+      if (!answers || m.answers != 0) newest = m;
+    }
+    return newest;
+  }
+  /// no_such_channel: no answer.
+  Refusal ask(Master & who, const hal::CanFrame& frame) {
+    rig.trajectories.clear();
+    rig.bus.deliver(frame);
+    for (int i = 0; i < 20 && told(who, true).answers == 0; ++i)
+      rig.tick();
+    const auto answer = told(who, true);
+    if (answer.answers == 0) return Refusal::no_such_channel;
+    LONGS_EQUAL(frame.data[1] & 15, answer.counter);
+    return static_cast<Refusal>(answer.refusal);
+  }
+  Refusal knot(Master & who, double after_s, double position_m, double velocity = 0.0) {
+    return ask(who, knot_frame(who, after_s, position_m, velocity));
+  }
+  void load(Master & who, double from_m = 0.005, double to_m = 0.006) {
+    CHECK(knot(who, 0.0, from_m) == Refusal::none);
+    CHECK(knot(who, 2.0, to_m) == Refusal::none);
+  }
+  PlaybackState state(std::size_t channel = 0) const {
+    return rig.loop.channel(channel).playback().state;
+  }
+  double reference_m(std::size_t channel = 0) const {
+    return rig.loop.channel(channel).snapshot().reference;
+  }
+};
+
+TEST(TrajectoryOverCan, IsPlayedFollowedAndHeldAtItsEnd) {
+  load(master);
+  LONGS_EQUAL(1, told(master).playback);
+  LONGS_EQUAL(62, told(master).room);
+  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
+  LONGS_EQUAL(2, told(master).playback);
+  renew(1.0);
+  CHECK(state() == PlaybackState::playing);
+  LONGS_EQUAL(3, told(master).playback);
+  renew(6.0);
+  CHECK(state() == PlaybackState::ended);
+  LONGS_EQUAL(4, told(master).playback);
+  DOUBLES_EQUAL(0.006, reference_m(), 1e-7);
+  DOUBLES_EQUAL(0.006, rig.loop.channel(0).snapshot().position_m, 0.0003);
+  CHECK(ask(master, play_frame(master, ask_only, 0, 0.0)) == Refusal::none);
+  LONGS_EQUAL(4, told(master).playback);
+  // The neighbour was told nothing.
+  CHECK(state(1) == PlaybackState::empty);
+}
+
+TEST(TrajectoryOverCan, TwoChannelsStartInTheTickThatOneSyncTells) {
+  load(master);
+  load(second, 0.005, 0.0055);
+  for (Master* who : {&master, &second})
+    CHECK(ask(*who, play_frame(*who, start_at_sync, 7, 0.03)) == Refusal::none);
+  rig.bus.deliver(sync_frame(6, 50.0));
+  renew(0.2);
+  CHECK(state() == PlaybackState::loaded && state(1) == PlaybackState::loaded);
+  rig.bus.deliver(sync_frame(7, 50.2));
+  for (int i = 0; i < 100 && state() != PlaybackState::playing; ++i) {
+    CHECK(state() == state(1));
+    rig.tick();
+  }
+  CHECK(state() == PlaybackState::playing && state(1) == PlaybackState::playing);
+  renew(1.0);
+  // The same part of its way each.
+  DOUBLES_EQUAL((reference_m() - 0.005) / 0.001, (reference_m(1) - 0.005) / 0.0005, 1e-6);
+}
+
+TEST(TrajectoryOverCan, StartsBySyncThatCameBefore) {
+  load(master);
+  rig.bus.deliver(sync_frame(200, 50.0));
+  renew(0.1);
+  CHECK(ask(master, play_frame(master, start_at_sync, 200, 0.5)) == Refusal::none);
+  CHECK(state() == PlaybackState::waiting);
+  load(second);
+  // Its time is over.
+  renew(0.5);
+  CHECK(ask(second, play_frame(second, start_at_sync, 200, 0.3)) == Refusal::out_of_range);
+  CHECK(state() == PlaybackState::playing);
+}
+
+TEST(TrajectoryOverCan, FollowsTheMastersClock) {
+  constexpr double velocity = 0.0002;
+  CHECK(knot(master, 0.0, 0.005) == Refusal::none);
+  CHECK(knot(master, 2.0, 0.0052, velocity) == Refusal::none);
+  for (const double position_m : {0.006, 0.0068, 0.0076, 0.0084})
+    CHECK(knot(master, 4.0, position_m, velocity) == Refusal::none);
+  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.05)) == Refusal::none);
+  const hal::Time synced = rig.board.now();
+  rig.bus.deliver(sync_frame(1, 50.0));
+  // It goes steadily from the third knot on.
+  renew(6.5);
+  const double first_m = reference_m();
+  // The master's clock is 8 ms ahead by now.
+  const double elapsed_s = hal::seconds(rig.board.now() - synced);
+  rig.bus.deliver(sync_frame(2, 50.0 + elapsed_s + 0.008));
+  renew(9.0);
+  DOUBLES_EQUAL(9.0 + 0.008, (reference_m() - first_m) / velocity, 0.0002);
+}
+
+TEST(TrajectoryOverCan, AMasterThatDiesInTheMiddleLetsTheMuscleCool) {
+  load(master);
+  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.0)) == Refusal::out_of_range);
+  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
+  rig.run(0.5);
+  CHECK(rig.fault() == Fault::command_timeout);
+  DOUBLES_EQUAL(0.0, rig.true_power_W(), 0.0);
+  CHECK(state() == PlaybackState::empty);
+}
+
+TEST(TrajectoryOverCan, KnotsAloneKeepItGoingAndWithoutThemItRestsAfterASecond) {
+  CHECK(knot(master, 0.0, 0.005) == Refusal::none);
+  double position_m = 0.005;
+  for (int i = 0; i < 3; ++i)
+    CHECK(knot(master, 0.2, position_m += 0.0001, 0.0005) == Refusal::none);
+  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
+  for (int i = 0; i < 10; ++i) {
+    rig.run(0.18);
+    CHECK(knot(master, 0.2, position_m += 0.0001, 0.0005) == Refusal::none);
+  }
+  CHECK(rig.state() == State::active);
+  renew(1.0);
+  CHECK(state() == PlaybackState::dry);
+  LONGS_EQUAL(5, told(master).playback);
+  CHECK(rig.state() == State::active);
+  for (int i = 0; i < 20 && rig.state() == State::active; ++i) {
+    rig.bus.deliver(master.frame(Verb::renew));
+    rig.run(0.1);
+  }
+  CHECK(rig.state() == State::armed);
+  CHECK(rig.fault() == Fault::none);
+  CHECK(state() == PlaybackState::empty);
+}
+
+TEST(TrajectoryOverCan, AnotherCommandForgetsIt) {
+  load(master);
+  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.02)) == Refusal::none);
+  renew(0.5);
+  CHECK(rig.command(master, Verb::position, 0.0052F) == Refusal::none);
+  rig.tick();
+  CHECK(state() == PlaybackState::empty);
+  DOUBLES_EQUAL(0.0052, reference_m(), 1e-8);
+  load(second);
+  CHECK(rig.command(second, Verb::rest) == Refusal::none);
+  CHECK(state(1) == PlaybackState::empty);
+  CHECK(knot(second, 0.0, 0.005) == Refusal::wrong_state);
+}
+
+TEST(TrajectoryOverCan, NeedsTheLeaseItsSessionAndItsCounter) {
+  const hal::CanFrame first = knot_frame(master, 0.0, 0.005);
+  CHECK(ask(master, first) == Refusal::none);
+  CHECK(ask(master, first) == Refusal::wrong_counter);
+  Master other = master;
+  other.session = static_cast<std::uint16_t>(master.session + 1);
+  // Its session is in its checksum alone: to the board the frame is damaged.
+  CHECK(ask(other, knot_frame(other, 1.0, 0.005)) == Refusal::no_such_channel);
+  CHECK(ask(other, play_frame(other, start_at_once, 0, 0.1)) == Refusal::not_lease_holder);
+  CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
+  CHECK(ask(master, knot_frame(master, 1.0, 0.005)) == Refusal::no_lease);
+}
+
+TEST(TrajectoryOverCan, NoDamageOfAFrameIsObeyed) {
+  load(master);
+  const hal::CanFrame good = knot_frame(master, 1.0, 0.005);
+  for (unsigned bit = 0; bit < 64; ++bit) {
+    hal::CanFrame frame = good;
+    frame.data[bit / 8] = static_cast<std::uint8_t>(frame.data[bit / 8] ^ (1U << bit % 8));
+    rig.bus.deliver(frame);
+    rig.tick();
+    LONGS_EQUAL(62, rig.loop.channel(0).playback().room);
+    // Some in a row would be a fault.
+    if (bit % 4 == 3) CHECK(rig.command(master, Verb::renew) == Refusal::none);
+  }
+  for (std::uint8_t length = 0; length < 8; ++length) {
+    hal::CanFrame frame = good;
+    frame.length = length;
+    rig.bus.deliver(frame);
+    rig.tick();
+    CHECK(rig.command(master, Verb::renew) == Refusal::none);
+  }
+  LONGS_EQUAL(62, rig.loop.channel(0).playback().room);
+  CHECK(rig.fault() == Fault::none);
+}
+
+TEST(TrajectoryOverCan, SyncMovesNothingByItself) {
+  for (int i = 0; i < 300; ++i)
+    rig.bus.deliver(sync_frame(static_cast<std::uint8_t>(i), 1e6 * (i % 7)));
+  renew(0.5);
+  CHECK(rig.state() == State::active);
+  CHECK(state() == PlaybackState::empty);
+  // A clock that goes elsewhere is not followed.
+  load(master);
+  CHECK(ask(master, play_frame(master, start_at_sync, 44, 0.02)) == Refusal::none);
+  rig.bus.deliver(sync_frame(44, 50.0));
+  renew(0.3);
+  rig.bus.deliver(sync_frame(45, 90.0));
+  const double before_m = reference_m();
+  renew(0.1);
+  CHECK(reference_m() - before_m < 0.0002);
+}

@@ -1,0 +1,164 @@
+// A trajectory that is loaded, started, played to its end, or not.
+#include "loop/playback.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "supercoil/control/actuator/parameters.hpp"
+
+using namespace supercoil;
+using namespace std::chrono_literals;
+
+TEST_GROUP(Playback) {
+  const control::PhysicalParameters muscle;
+  Playback::Able able{control::theta_from(muscle), muscle.moving_mass_kg, 0.025, {0.0, 4.5}};
+  supercoil::Playback playback;
+  hal::Time now = 100s;
+
+  Refusal add(double after_s, double position_m, double velocity_m_per_s = 0.0) {
+    Command knot{0, Verb::knot, position_m};
+    knot.after_s = static_cast<float>(after_s);
+    knot.velocity_m_per_s = static_cast<float>(velocity_m_per_s);
+    return playback.add(knot, able).refusal;
+  }
+  /// From 5 mm to 6 mm in 2 s.
+  void load() {
+    CHECK(add(0.0, 0.005) == Refusal::none);
+    CHECK(add(2.0, 0.006) == Refusal::none);
+  }
+  Refusal start(hal::Duration after = 10ms) {
+    return playback.start(now + after, now, 0.005).refusal;
+  }
+  /// Where it is so much later.
+  double step(hal::Duration later) {
+    double position_m = 0.0;
+    for (const hal::Time end = now + later; now < end;) {
+      now += 1ms;
+      position_m = playback.step(now, 0.005);
+    }
+    return position_m;
+  }
+  PlaybackState state() const {
+    return playback.status().state;
+  }
+};
+
+TEST(Playback, GoesFromWhereTheMuscleIsToItsLastKnotAndStaysThere) {
+  load();
+  CHECK(state() == PlaybackState::loaded);
+  DOUBLES_EQUAL(0.005, step(50ms), 0.0);
+  CHECK(start() == Refusal::none);
+  CHECK(state() == PlaybackState::waiting);
+  DOUBLES_EQUAL(0.005, step(9ms), 0.0);
+  CHECK(state() == PlaybackState::waiting);
+  step(1ms);
+  CHECK(state() == PlaybackState::playing);
+  DOUBLES_EQUAL(0.0055, step(1s), 1e-9);
+  DOUBLES_EQUAL(1.0, static_cast<double>(playback.status().buffered_s), 1e-6);
+  step(999ms);
+  CHECK(state() == PlaybackState::playing);
+  DOUBLES_EQUAL(0.006, step(1ms), 0.0);
+  CHECK(state() == PlaybackState::ended);
+  DOUBLES_EQUAL(0.006, step(60s), 0.0);
+  CHECK_FALSE(playback.is_over());
+}
+
+TEST(Playback, IsAtTheSamePlaceWhateverTheTickInWhichItBegan) {
+  load();
+  start(10ms);
+  // Half a tick after its start.
+  now += 10ms + 500us;
+  DOUBLES_EQUAL(0.005, playback.step(now, 0.005), 1e-12);
+  now += 999ms + 500us;
+  DOUBLES_EQUAL(0.0055, playback.step(now, 0.005), 1e-9);
+}
+
+TEST(Playback, RunsDryHoldsAndIsOverASecondLater) {
+  CHECK(add(0.0, 0.005) == Refusal::none);
+  CHECK(add(1.0, 0.0055, 0.001) == Refusal::none);
+  start(1ms);
+  DOUBLES_EQUAL(0.0055, step(1002ms), 0.0);
+  CHECK(state() == PlaybackState::dry);
+  CHECK(add(1.0, 0.006) == Refusal::wrong_state);
+  step(990ms);
+  CHECK_FALSE(playback.is_over());
+  step(20ms);
+  CHECK(playback.is_over());
+  playback.forget();
+  CHECK_FALSE(playback.is_over());
+  CHECK(state() == PlaybackState::empty);
+}
+
+TEST(Playback, GoesOnWithKnotsThatComeInTime) {
+  CHECK(add(0.0, 0.005) == Refusal::none);
+  CHECK(add(1.0, 0.0055, 0.0005) == Refusal::none);
+  start(1ms);
+  step(600ms);
+  CHECK(add(1.0, 0.006, 0.0005) == Refusal::none);
+  step(1s);
+  CHECK(add(1.0, 0.0065, 0.0) == Refusal::none);
+  DOUBLES_EQUAL(0.0065, step(2s), 0.0);
+  CHECK(state() == PlaybackState::ended);
+}
+
+TEST(Playback, RefusesWhatTheMuscleCannotDoWhenItComes) {
+  CHECK(add(0.0, 0.005) == Refusal::none);
+  CHECK(add(0.2, 0.015) == Refusal::infeasible);  // heat
+  CHECK(add(0.2, 0.001) == Refusal::infeasible);  // cooling
+  CHECK(add(2.0, 0.006, 0.1) == Refusal::infeasible);
+  CHECK(add(1.0, 0.0251) == Refusal::out_of_range);
+  CHECK(add(1.0, -0.0251) == Refusal::out_of_range);
+  CHECK(add(1.0, std::nan("")) == Refusal::out_of_range);
+  CHECK(add(1.0, 0.005, std::nan("")) == Refusal::out_of_range);
+  CHECK(add(std::nan(""), 0.005) == Refusal::out_of_range);
+  CHECK(add(-1.0, 0.005) == Refusal::out_of_range);
+  // The way to the last knot was possible, and is not as this one bends it.
+  CHECK(add(0.5, 0.0055, 0.002) == Refusal::none);
+  CHECK(add(0.05, 0.0055, 0.0) == Refusal::infeasible);
+  LONGS_EQUAL(control::Trajectory::capacity - 2, playback.status().room);
+}
+
+TEST(Playback, StartsOnceFromItsFirstKnotAndNotInThePast) {
+  CHECK(start() == Refusal::wrong_state);
+  CHECK(add(1.0, 0.006) == Refusal::wrong_state);
+  CHECK(add(0.0, 0.005, 0.001) == Refusal::out_of_range);
+  load();
+  CHECK(start(-1ms) == Refusal::out_of_range);
+  CHECK(start(61s) == Refusal::out_of_range);
+  CHECK(playback.start(now + 1ms, now, 0.00501).refusal == Refusal::not_ready);
+  CHECK(start() == Refusal::none);
+  CHECK(start() == Refusal::wrong_state);
+  CHECK(add(0.0, 0.005) == Refusal::busy);
+  step(5s);
+  // Ended: another may follow.
+  CHECK(add(0.0, 0.006) == Refusal::none);
+  CHECK(state() == PlaybackState::loaded);
+}
+
+TEST(Playback, TakesNoMoreKnotsThanItHasRoomFor) {
+  CHECK(add(0.0, 0.005) == Refusal::none);
+  while (playback.status().room > 0)
+    CHECK(add(1.0, 0.005) == Refusal::none);
+  CHECK(add(1.0, 0.005) == Refusal::queue_full);
+  start(1ms);
+  step(1010ms);
+  LONGS_EQUAL(1, playback.status().room);
+  CHECK(add(1.0, 0.005) == Refusal::none);
+}
+
+TEST(Playback, FollowsTheClockOfItsBusWithoutAJump) {
+  load();
+  CHECK(playback.align(0.001).refusal == Refusal::wrong_state);
+  start(1ms);
+  step(501ms);
+  CHECK(playback.align(0.011).refusal == Refusal::out_of_range);
+  CHECK(playback.align(std::nan("")).refusal == Refusal::out_of_range);
+  CHECK(playback.align(0.0002).refusal == Refusal::none);
+  const double before_m = step(1ms);
+  CHECK(step(1ms) - before_m < 1.1 * (before_m - 0.005) / 100.0);
+  step(997ms);
+  // 0.2 ms ahead: at 1.5002 s of 2.
+  const double x = 1.5002 / 2.0;
+  DOUBLES_EQUAL(0.005 + 0.001 * x * x * x * (10.0 - 15.0 * x + 6.0 * x * x), step(1ms), 1e-9);
+}

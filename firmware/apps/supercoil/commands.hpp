@@ -55,6 +55,15 @@ struct CommandOptions {
 };
 int command_command(const CommandOptions& options);
 
+struct PlayOptions {
+  std::string file;
+  std::string can;
+  int node = 1;           ///< of columns without a number
+  double settle_s = 3.0;  ///< at the first knot, before the start
+  bool hold = false;      ///< the last knot, until Ctrl-C
+};
+int play_command(const PlayOptions& options);
+
 struct SettingOptions {
   std::string can;  ///< a bus
   int node = 1;

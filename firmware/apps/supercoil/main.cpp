@@ -85,6 +85,25 @@ void add_command(CLI::App& app, CommandOptions& options) {
   command->add_flag("--json", options.json, "Print the answer as one line of JSON too");
 }
 
+void add_play(CLI::App& app, PlayOptions& options) {
+  CLI::App* play = app.add_subcommand(
+      "play", "Play a motion of a file on muscles that are armed, several of them in step");
+  play->add_option("FILE", options.file,
+                   "CSV: time_s, position_m and, if wanted, velocity_m_per_s; for several nodes "
+                   "2:position_m and so on")
+      ->required();
+  play->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
+      ->type_name("BUS")
+      ->required();
+  play->add_option("--node", options.node, "Of columns without a number")
+      ->check(CLI::Range(1, can::max_nodes))
+      ->capture_default_str();
+  play->add_option("--settle", options.settle_s, "At the first row before the start, in s")
+      ->check(CLI::Range(0.0, 3600.0))
+      ->capture_default_str();
+  play->add_flag("--hold", options.hold, "Hold the last row until Ctrl-C [the muscle rests]");
+}
+
 void add_setting(CLI::App& app, SettingOptions& options) {
   CLI::App* setting = app.add_subcommand(
       "setting",
@@ -254,6 +273,8 @@ int run_program(int count, char** arguments) {
   add_log(app, log);
   CommandOptions command;
   add_command(app, command);
+  PlayOptions play;
+  add_play(app, play);
   SettingOptions setting;
   add_setting(app, setting);
   TuneOptions tune;
@@ -282,6 +303,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("monitor")) return monitor_command(monitor);
   if (app.got_subcommand("setting")) return setting_command(setting);
   if (app.got_subcommand("tune")) return tune_command(tune);
+  if (app.got_subcommand("play")) return play_command(play);
   if (app.got_subcommand("identify")) return identify_command(identify);
   if (app.got_subcommand("setup")) return setup_command(setup);
   if (app.got_subcommand("dbc")) return dbc_command(dbc);

@@ -157,6 +157,33 @@ Commander::Tuned Commander::prepare(const can_client::TunedPlace& place, double 
   });
 }
 
+Commander::Played Commander::play(const std::function<hal::CanFrame()>& frame) {
+  return insist([&]() -> Played {
+    const Answer claimed = claim();
+    if (!claimed) return tl::unexpected(claimed.error());
+    if (*claimed != Refusal::none)
+      return can_client::Played{*claimed, PlaybackState::empty, 0, NAN};
+    return exchange<can_client::Played>(
+        frame(), [&](const hal::CanFrame& heard) { return master_.receive_played(heard); });
+  });
+}
+
+Commander::Played Commander::add_knot(double after_s, const control::Knot& knot) {
+  return play([&] { return master_.knot(after_s, knot.position_m, knot.velocity_m_per_s); });
+}
+
+Commander::Played Commander::start_at_sync(std::uint8_t sync, double after_s) {
+  return play([&] { return master_.play_at_sync(sync, after_s); });
+}
+
+Commander::Played Commander::playback() {
+  return play([&] { return master_.play_never(); });
+}
+
+hal::Status Commander::send_sync(std::uint8_t number, double master_time_s) {
+  return bus_->send(can_client::sync(number, master_time_s));
+}
+
 tl::expected<KnownMuscle, std::string> Commander::muscle() {
   drain();
   KnownMuscle known{};

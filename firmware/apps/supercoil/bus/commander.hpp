@@ -33,6 +33,13 @@ class Commander {
   using Tuned = tl::expected<can_client::TunedValue, std::string>;
   Tuned read_tuning(const can_client::TunedPlace& place);
   Tuned prepare(const can_client::TunedPlace& place, double value);
+  /// Likewise, of its trajectory.
+  using Played = tl::expected<can_client::Played, std::string>;
+  Played add_knot(double after_s, const control::Knot& knot);
+  Played start_at_sync(std::uint8_t sync, double after_s);
+  Played playback();
+  /// To all nodes of the bus.
+  hal::Status send_sync(std::uint8_t number, double master_time_s);
   /// Whatever the node goes by. Needs no lease.
   tl::expected<KnownMuscle, std::string> muscle();
   /// Gives the lease back, if there is one.
@@ -50,6 +57,8 @@ class Commander {
       const hal::CanFrame& frame,
       const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
   Answer exchange(const hal::CanFrame& frame);
+  /// frame(): made anew for each try.
+  Played play(const std::function<hal::CanFrame()>& frame);
   /// A question that changes nothing is asked once more when it, or its answer, was lost.
   template <class Heard>
   tl::expected<Heard, std::string> read_value(

@@ -1,0 +1,166 @@
+#include "apps/supercoil/play/player.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include "apps/supercoil/bus/bus_name.hpp"
+#include "text/command_text.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto renew_every = 80ms;
+constexpr auto sync_every = 1s;
+/// So many are sent before the next node's turn.
+constexpr int knots_in_a_row = 6;
+/// Between Play and the start: each node has heard of it, and Sync was sent.
+constexpr double start_after_s = 0.1;
+
+std::string seconds_text(double time_s) {
+  std::string text = std::to_string(time_s);
+  return text.substr(0, text.find('.') + 4) + " s";
+}
+
+}  // namespace
+
+tl::expected<Player, std::string> Player::open(const std::string& bus,
+                                               std::vector<Motion> motions) {
+  Player player;
+  for (Motion& motion : motions) {
+    auto opened = open_bus(bus, can_client::answer_ids(motion.node));
+    if (!opened) return tl::unexpected(opened.error());
+    Node node;
+    node.commander = std::make_unique<Commander>(std::move(*opened), motion.node);
+    node.motion = std::move(motion);
+    player.nodes_.push_back(std::move(node));
+  }
+  player.sync_ = static_cast<std::uint8_t>(std::random_device()());
+  return player;
+}
+
+Player::Problem Player::take(Node& node, const std::string& what, const Commander::Played& played) {
+  const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
+  if (!played) return whose + what + ": " + played.error();
+  if (played->refusal != Refusal::none)
+    return whose + what + ": " + answer_text(played->refusal, NAN);
+  node.played = *played;
+  return std::nullopt;
+}
+
+Player::Problem Player::go_to_start() {
+  for (Node& node : nodes_) {
+    const double first_m = node.motion.knots.front().position_m;
+    const auto answer = node.commander->ask(Verb::position, first_m);
+    const std::string what =
+        "node " + std::to_string(node.motion.node) + ": position " + std::to_string(first_m) + ": ";
+    if (!answer) return what + answer.error();
+    if (*answer != Refusal::none) {
+      const bool out = *answer == Refusal::out_of_range;
+      return what + answer_text(*answer, out ? node.commander->nearest() : NAN);
+    }
+    node.renewed = Clock::now();
+  }
+  return std::nullopt;
+}
+
+Player::Problem Player::renew(Node& node) {
+  if (Clock::now() - node.renewed < renew_every) return std::nullopt;
+  node.renewed = Clock::now();
+  const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
+  const auto answer = node.commander->ask(Verb::renew, 0.0);
+  if (!answer) return whose + answer.error();
+  if (*answer != Refusal::none)
+    return whose + "the board stopped it (" + answer_text(*answer, NAN) + ")";
+  return take(node, "playback", node.commander->playback());
+}
+
+Player::Problem Player::renew() {
+  for (Node& node : nodes_) {
+    if (auto problem = renew(node)) return problem;
+  }
+  return std::nullopt;
+}
+
+Player::Problem Player::load(Node& node) {
+  const auto& knots = node.motion.knots;
+  for (int i = 0; i < knots_in_a_row && node.next < knots.size(); ++i) {
+    const bool first = node.next == 0;
+    if (!first && node.played.room == 0) break;
+    const control::Knot& knot = knots[node.next];
+    const double after_s = first ? 0.0 : knot.time_s - knots[node.next - 1].time_s;
+    const auto played = node.commander->add_knot(after_s, knot);
+    if (played && played->refusal == Refusal::queue_full) break;
+    if (auto problem = take(node, "the knot at " + seconds_text(knot.time_s), played))
+      return problem;
+    node.renewed = Clock::now();
+    ++node.next;
+  }
+  return std::nullopt;
+}
+
+Player::Problem Player::load() {
+  for (Node& node : nodes_) {
+    if (auto problem = load(node)) return problem;
+  }
+  return renew();
+}
+
+bool Player::loaded() const {
+  return std::ranges::all_of(nodes_, [](const Node& node) {
+    return node.next == node.motion.knots.size() || (node.next > 0 && node.played.room == 0);
+  });
+}
+
+Player::Problem Player::start() {
+  const auto sync = static_cast<std::uint8_t>(sync_ + 1);
+  for (Node& node : nodes_) {
+    if (auto problem = take(node, "play", node.commander->start_at_sync(sync, start_after_s)))
+      return problem;
+  }
+  send_sync();
+  return std::nullopt;
+}
+
+void Player::send_sync() {
+  synced_ = Clock::now();
+  ++sync_;
+  const double time_s = std::chrono::duration<double>(synced_.time_since_epoch()).count();
+  static_cast<void>(nodes_.front().commander->send_sync(sync_, time_s));
+}
+
+Player::Problem Player::go_on() {
+  if (Clock::now() - synced_ >= sync_every) send_sync();
+  if (auto problem = load()) return problem;
+  for (const Node& node : nodes_) {
+    const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
+    if (node.played.state == PlaybackState::dry)
+      return whose + "ran dry: its next knot came too late";
+    if (node.played.state == PlaybackState::empty)
+      return whose + "was told something else meanwhile";
+  }
+  return std::nullopt;
+}
+
+bool Player::ended() const {
+  return std::ranges::all_of(
+      nodes_, [](const Node& node) { return node.played.state == PlaybackState::ended; });
+}
+
+double Player::progress() const {
+  const Node& node = nodes_.front();
+  const auto& knots = node.motion.knots;
+  const double sent_s = node.next == 0 ? 0.0 : knots[node.next - 1].time_s;
+  return std::clamp((sent_s - node.played.buffered_s) / knots.back().time_s, 0.0, 1.0);
+}
+
+void Player::rest() {
+  for (Node& node : nodes_) {
+    static_cast<void>(node.commander->ask(Verb::rest, 0.0));
+    node.commander->release();
+  }
+}
+
+}  // namespace supercoil::operating

@@ -1,0 +1,67 @@
+// Plays motions on nodes of a bus, all in step.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/bus/commander.hpp"
+#include "apps/supercoil/play/motion_file.hpp"
+
+namespace supercoil::operating {
+
+/// Each step takes a moment and waits for nothing; it is to be called every 20 ms or so, as
+/// commands to heat expire. Errors name the node and what it was asked.
+class Player {
+ public:
+  using Problem = std::optional<std::string>;
+
+  /// bus: by its name.
+  static tl::expected<Player, std::string> open(const std::string& bus,
+                                                std::vector<Motion> motions);
+
+  /// Tells all to go to their first knot.
+  Problem go_to_start();
+  /// Renews what is commanded.
+  Problem renew();
+  /// Sends knots for which there is room; loaded(): no more have any.
+  Problem load();
+  bool loaded() const;
+  /// All start at the Sync that this sends.
+  Problem start();
+  /// As load() and renew(), with a Sync a second.
+  Problem go_on();
+  /// All hold their last knot.
+  bool ended() const;
+  /// 0 to 1.
+  double progress() const;
+  /// Lets go of all; what heats expires anyway.
+  void rest();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Node {
+    std::unique_ptr<Commander> commander;
+    Motion motion;
+    std::size_t next = 0;  ///< of its knots
+    can_client::Played played{};
+    Clock::time_point renewed{};
+  };
+
+  Player() = default;
+  Problem take(Node& node, const std::string& what, const Commander::Played& played);
+  Problem renew(Node& node);
+  Problem load(Node& node);
+  void send_sync();
+
+  std::vector<Node> nodes_;
+  std::uint8_t sync_ = 0;
+  Clock::time_point synced_{};
+};
+
+}  // namespace supercoil::operating

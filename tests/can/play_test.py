@@ -1,0 +1,178 @@
+"""supercoil play: motions of a file on two simulated boards of one bus, in real time over socketcand."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import numpy as np
+from live import DEADLINE_S, FROM_BOARD, TRIES, Simulator, join
+
+SUPERCOIL = os.environ["SUPERCOIL"]
+QUICK = pathlib.Path(__file__).resolve().parents[1] / "python" / "quick.toml"
+# What a busy machine does to any master in real time: a command expires, the lease ends, a knot or an answer is late.
+STARVED = ("the board stopped it", "no_lease", "no answer from node", "busy", "not_ready", "ran dry", "out_of_range",
+           "was told something else", "wrong_counter", "wrong_state")
+TRACKING = next(message for message in FROM_BOARD.values() if message.name == "Tracking")
+
+
+class Recorder(threading.Thread):
+    """References of both nodes by time, until it is ended."""
+
+    def __init__(self, port):
+        super().__init__(daemon=True)
+        self.bus = join(port)
+        self.references = {1: [], 2: []}
+        self.stopping = False
+
+    def run(self):
+        while not self.stopping:
+            frame = self.bus.recv(0.1)
+            node = frame.arbitration_id - TRACKING.frame_id + 1 if frame else 0
+            if node in self.references:
+                told = TRACKING.decode(frame.data, decode_choices=False)["reference_m"]
+                if abs(told) < 0.5:
+                    self.references[node].append((frame.timestamp, told))
+
+    def end(self):
+        self.stopping = True
+        self.join()
+        self.bus.shutdown()
+        return {node: np.array(told) for node, told in self.references.items()}
+
+
+def way(time_s):
+    """Of 1 mm, there and back, in 3 s."""
+    return 0.0005 * (1.0 - np.cos(2.0 * np.pi * time_s / 3.0))
+
+
+def motion(folder, of_nodes, step_s=0.02):
+    times = np.arange(0.0, 3.0 + step_s / 2.0, step_s)
+    path = pathlib.Path(folder) / "motion.csv"
+    columns = ",".join(f"{node}:position_m" for node in of_nodes)
+    scales = list(of_nodes.values())
+    rows = [",".join([f"{t:.3f}", *(f"{0.003 + scale * way(t):.7f}" for scale in scales)]) for t in times]
+    path.write_text("\n".join([f"time_s,{columns}", *rows]) + "\n")
+    return path
+
+
+class PlayCase(unittest.TestCase):
+    def setUp(self):
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
+
+    def supercoil(self, *arguments):
+        return subprocess.run([SUPERCOIL, *arguments, "--can", self.bus], capture_output=True, text=True,
+                              timeout=DEADLINE_S)
+
+
+class Files(PlayCase):
+    bus = "socketcand:1"
+
+    def test_what_is_wrong_is_named_with_its_line_and_nothing_is_sent(self):
+        path = pathlib.Path(self.folder) / "wrong.csv"
+        for text, why in (
+                ("", "is empty"),
+                ("time_s\n0\n", "1: has no column position_m"),
+                ("position_m\n0\n", "1: has no column time_s"),
+                ("time_s,position\n0,0\n", "1: 'position' is no column; there are time_s, position_m"),
+                ("time_s,64:position_m\n0,0\n", "1: '64:position_m': a node is 1 to 63"),
+                ("time_s,2:velocity_m_per_s\n0,0\n", "1: has no position_m of node 2"),
+                ("time_s,position_m,1:position_m\n0,0,0\n", "1: has '1:position_m' twice"),
+                ("time_s,position_m\n0,0\n", "has fewer than 2 rows"),
+                ("time_s,position_m\n0,0\n1\n", "3: has 1 columns, the first line 2"),
+                ("time_s,position_m\n0,0\n1,nan\n", "3: 'nan' is not a number"),
+                ("time_s,position_m\n0,0\n1,1 mm\n", "3: '1 mm' is not a number"),
+                ("time_s,position_m\n0,0\n\n5,0.001\n", "4: time_s is 5.000000 s after the row before"),
+                ("time_s,position_m\n1,0\n1,0.001\n", "3: time_s is 0.000000 s after the row before"),
+                ("time_s,position_m,velocity_m_per_s\n0,0,0\n1,0.001,0.1\n",
+                 "node 1: velocity_m_per_s of the last row must be 0"),
+                ("time_s,position_m,velocity_m_per_s\n0,0,0\n1,0.1,0.4\n2,0.1,0\n",
+                 "node 1: at 1.000000 s it moves by")):
+            path.write_text(text)
+            done = self.supercoil("play", path)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), text)
+            self.assertIn(f"{path}", done.stderr)
+            self.assertIn(why, done.stderr)
+
+    def test_a_file_or_a_bus_that_is_not_there_is_named(self):
+        done = self.supercoil("play", "not-there.csv")
+        self.assertEqual((done.returncode, "not-there.csv: cannot be read" in done.stderr), (2, True), done.stderr)
+        done = self.supercoil("play", motion(self.folder, {1: 1.0}))
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("socketcand", done.stderr)
+
+
+class Play(PlayCase):
+    def setUp(self):
+        super().setUp()
+        self.simulator = Simulator(self.folder, QUICK, "--nodes", "2")
+        self.addCleanup(self.simulator.end)
+        self.bus = f"socketcand:{self.simulator.port}"
+
+    def arm(self):
+        for node in ("1", "2"):
+            self.supercoil("command", node, "reset")
+            self.supercoil("command", node, "disarm")
+            end = time.monotonic() + DEADLINE_S
+            while self.supercoil("command", node, "arm").returncode:
+                self.assertLess(time.monotonic(), end)
+
+    def play(self, *arguments):
+        """Again where the machine was too busy for a motion in real time."""
+        for _ in range(TRIES):
+            self.arm()
+            done = self.supercoil("play", *arguments)
+            if not any(why in done.stderr for why in STARVED):
+                return done
+        self.fail(f"the machine is too busy: {done.stderr}")
+
+    def test_two_nodes_go_their_ways_in_step(self):
+        recorder = Recorder(self.simulator.port)
+        recorder.start()
+        done = self.play(motion(self.folder, {1: 1.0, 2: 0.5}))
+        references = recorder.end()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # The last play's: it ends with the references.
+        ways = {}
+        for node, scale in ((1, 1.0), (2, 0.5)):
+            times, told = references[node].T
+            last = times > times[-1] - 2.9
+            ways[node] = times[last], (told[last] - 0.003) / scale
+        times, first = ways[1]
+        second = np.interp(times, *ways[2])
+        self.assertGreater(np.ptp(first), 0.0009)
+        # A tick is 10 ms, in which it goes 10 um at most.
+        np.testing.assert_allclose(first, second, atol=3e-5)
+
+    def test_what_a_muscle_cannot_do_is_refused_with_its_time(self):
+        path = pathlib.Path(self.folder) / "fast.csv"
+        path.write_text("time_s,position_m\n0,0.002\n1,0.0022\n1.2,0.02\n1.4,0.02\n")
+        done = self.play(path, "--settle", "0.5")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("node 1: the knot at 1.000 s: refused: infeasible", done.stderr)
+
+    def test_muscles_must_be_armed(self):
+        self.supercoil("command", "1", "disarm")
+        done = self.supercoil("play", motion(self.folder, {1: 1.0}))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("node 1: position 0.003000: refused: wrong_state", done.stderr)
+
+    def test_one_that_is_killed_lets_the_muscles_cool(self):
+        self.arm()
+        process = subprocess.Popen([SUPERCOIL, "play", motion(self.folder, {1: 1.0, 2: 1.0}), "--settle", "1",
+                                    "--can", self.bus])
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        time.sleep(2.5)
+        process.send_signal(signal.SIGKILL)
+        end = time.monotonic() + DEADLINE_S
+        while "command_timeout" not in self.supercoil("command", "state").stdout:
+            self.assertLess(time.monotonic(), end)
+
+
+if __name__ == "__main__":
+    unittest.main()

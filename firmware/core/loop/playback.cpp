@@ -8,11 +8,11 @@ namespace supercoil {
 /// P = θ1 m̂x⃛ + θ2 ẍ + θ3 ẋ + θ4 x, as in ReferenceShaper, in the mean of each part of the way.
 bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able) {
   constexpr double max_parts = 8.0;
-  const double parts = std::clamp(std::floor(piece.duration_s() / smoothed_s), 1.0, max_parts);
+  const auto parts = static_cast<int>(std::clamp(piece.duration_s() / smoothed_s, 1.0, max_parts));
   const double part_s = piece.duration_s() / parts;
   const double margin_W = margin_ratio * able.range.max_W;
   control::ModelMotion<double> from = piece.at(piece.begins_s()).motion;
-  for (double i = 1.0; i <= parts; ++i) {
+  for (int i = 1; i <= parts; ++i) {
     const control::ModelMotion<double> to = piece.at(piece.begins_s() + i * part_s).motion;
     const double needed_W = able.theta[0] * able.moving_mass_kg *
                                 (to.acceleration - from.acceleration) /

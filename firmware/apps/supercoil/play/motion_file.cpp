@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "can/nodes.hpp"
 
@@ -70,8 +71,8 @@ class FullLines {
 
 class MotionReader {
  public:
-  MotionReader(const std::string& text, const std::string& name, std::uint8_t node)
-      : lines_(text), name_(name), node_(node) {}
+  MotionReader(const std::string& text, std::string name, std::uint8_t node)
+      : lines_(text), name_(std::move(name)), node_(node) {}
 
   tl::expected<std::vector<Motion>, std::string> read() {
     if (!lines_.next()) return tl::unexpected(name_ + ": is empty");
@@ -115,18 +116,20 @@ class MotionReader {
     const std::size_t colon = name.find(':');
     const bool numbered = colon != std::string_view::npos;
     const auto node = numbered ? number_in<int>(name.substr(0, colon)) : int{node_};
-    if (!node || *node < 1 || *node > can::max_nodes)
+    if (!node || *node < 1 || *node > can::max_nodes) {
       return at_line("'" + std::string(name) + "': a node is 1 to " +
                      std::to_string(can::max_nodes));
+    }
     const std::string_view what = numbered ? name.substr(colon + 1) : name;
     Columns& columns = columns_[static_cast<std::uint8_t>(*node)];
     auto* column = what == "position_m"         ? &columns.position
                    : what == "velocity_m_per_s" ? &columns.velocity
                                                 : nullptr;
-    if (column == nullptr)
+    if (column == nullptr) {
       return at_line("'" + std::string(name) +
                      "' is no column; there are time_s, position_m, velocity_m_per_s, and for "
                      "several nodes 2:position_m and so on");
+    }
     if (*column) return at_line("has '" + std::string(name) + "' twice");
     *column = place;
     return std::nullopt;
@@ -134,9 +137,10 @@ class MotionReader {
 
   std::optional<std::string> read_row() {
     const auto cells = cells_of(lines_.line());
-    if (cells.size() != cells_)
+    if (cells.size() != cells_) {
       return at_line("has " + std::to_string(cells.size()) + " columns, the first line " +
                      std::to_string(cells_));
+    }
     MotionRow row;
     for (const std::string_view cell : cells) {
       const auto number = number_in<double>(cell);
@@ -149,9 +153,10 @@ class MotionReader {
     // What the bus's milliseconds leave of it.
     time_s = std::round((time_s - begins_s_) * 1e3) / 1e3;
     const double step_s = rows_.empty() ? min_row_step_s : time_s - rows_.back()[*time_];
-    if (!(step_s > min_row_step_s / 2.0 && step_s < max_row_step_s + min_row_step_s / 2.0))
+    if (!(step_s > min_row_step_s / 2.0 && step_s < max_row_step_s + min_row_step_s / 2.0)) {
       return at_line("time_s is " + std::to_string(step_s) +
                      " s after the row before; it must be 0.001 to 4.094 s");
+    }
     rows_.push_back(std::move(row));
     return std::nullopt;
   }

@@ -46,7 +46,7 @@ class Playback {
 
   /// The next knot of `command`. One at once (0 s after the last) is the first of a new trajectory,
   /// at rest.
-  Reply add(const Command& knot, const Able& able);
+  Reply add(const Command& command, const Able& able);
   /// At a time of the board's clock, from the position that is followed now.
   Reply start(hal::Time at, hal::Time now, double reference_m);
   /// Its time goes on until it is so far ahead of the board's clock since the start.

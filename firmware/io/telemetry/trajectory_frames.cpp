@@ -95,8 +95,9 @@ void TrajectoryFrames::take_sync(const hal::CanFrame& frame) {
   const can::Reader<message::sync> m(frame);
   const BusClock::Sync sync{m.get<std::uint8_t>("sync"), m.get("master_time_s"), frame.received};
   clock_.add(sync);
-  for (std::uint8_t i = 0; i < channels_.size(); ++i) {
-    Channel& channel = channels_[i];
+  for (std::size_t place = 0; place < channels_.size(); ++place) {
+    Channel& channel = channels_[place];
+    const auto i = static_cast<std::uint8_t>(place);
     if (channel.start && channel.start->sync == sync.number) {
       const Start waited = *channel.start;
       channel.start.reset();
@@ -140,12 +141,12 @@ std::optional<hal::CanFrame> TrajectoryFrames::answered(const Answer& answer) {
 }
 
 std::optional<hal::CanFrame> TrajectoryFrames::news() {
-  for (std::uint8_t i = 0; i < channels_.size(); ++i) {
+  for (std::size_t i = 0; i < channels_.size(); ++i) {
     const PlaybackState now = loop_->channel(i).playback().state;
     if (now == channels_[i].told) continue;
     channels_[i].told = now;
     if (now == PlaybackState::empty) channels_[i].anchor.reset();
-    return told({i, nothing, 0, 0}, Refusal::none);
+    return told({static_cast<std::uint8_t>(i), nothing, 0, 0}, Refusal::none);
   }
   return std::nullopt;
 }

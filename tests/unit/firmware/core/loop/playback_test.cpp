@@ -11,7 +11,7 @@ using namespace supercoil;
 using namespace std::chrono_literals;
 
 TEST_GROUP(Playback) {
-  const control::PhysicalParameters muscle;
+  const control::PhysicalParameters muscle{};
   Playback::Able able{control::theta_from(muscle), muscle.moving_mass_kg, 0.025, {0.0, 4.5}};
   supercoil::Playback playback;
   hal::Time now = 100s;

@@ -19,10 +19,12 @@ struct Knot {
 /// acceleration of both.
 class QuinticPiece {
  public:
+  /// Either end of the way.
   struct End {
     Knot knot;
     double acceleration_m_per_s2 = 0.0;
   };
+  /// Where the way is at a time.
   struct Point {
     ModelMotion<double> motion;  ///< m, m/s, m/s²
     double jerk = 0.0;           ///< m/s³
@@ -54,12 +56,12 @@ class Trajectory {
   std::size_t room() const { return capacity - count_; }
   /// The last knot that was added; at first that at rest.
   const Knot& last() const { return end(count_ - 1).knot; }
-  /// What add(next) would make of the way that is not yet begun: the pieces to the last knot and
-  /// from there to the next one. next: later than the last.
+  /// The way that is not yet begun, with one knot more.
   struct Preview {
-    std::array<QuinticPiece, 2> pieces;
-    std::size_t first;  ///< 1: the first of them is as it was, or there is none
+    std::array<QuinticPiece, 2> pieces;  ///< to the last knot, and from there to the next one
+    std::size_t first;                   ///< 1: the first of them is as it was, or there is none
   };
+  /// What add(next) would make of it. next: later than the last.
   Preview preview(const Knot& next) const;
   /// next: later than the last, with room for it.
   void add(const Knot& next);

@@ -156,19 +156,26 @@ class Play(PlayCase):
         self.assertIn("node 1: the knot at 1.000 s: refused: infeasible", done.stderr)
 
     def test_muscles_must_be_armed(self):
-        self.supercoil("command", "1", "disarm")
-        done = self.supercoil("play", motion(self.folder, {1: 1.0}))
+        for _ in range(TRIES):
+            done = self.supercoil("play", motion(self.folder, {1: 1.0}))
+            if "no answer" not in done.stderr:
+                break
         self.assertEqual(done.returncode, 1)
         self.assertIn("node 1: position 0.003000: refused: wrong_state", done.stderr)
 
     def test_one_that_is_killed_lets_the_muscles_cool(self):
-        self.arm()
-        process = subprocess.Popen([SUPERCOIL, "play", motion(self.folder, {1: 1.0, 2: 1.0}), "--settle", "1",
-                                    "--can", self.bus])
-        self.addCleanup(process.wait)
-        self.addCleanup(process.kill)
-        time.sleep(2.5)
-        process.send_signal(signal.SIGKILL)
+        for _ in range(TRIES):
+            self.arm()
+            process = subprocess.Popen([SUPERCOIL, "play", motion(self.folder, {1: 1.0, 2: 1.0}), "--settle", "1",
+                                        "--can", self.bus], stderr=subprocess.PIPE, text=True)
+            self.addCleanup(process.communicate)
+            self.addCleanup(process.kill)
+            time.sleep(2.5)
+            played = process.poll() is None  # else the machine was too busy for it
+            process.send_signal(signal.SIGKILL)
+            if played:
+                break
+        self.assertTrue(played)
         end = time.monotonic() + DEADLINE_S
         while "command_timeout" not in self.supercoil("command", "state").stdout:
             self.assertLess(time.monotonic(), end)

@@ -8,17 +8,11 @@
 #include "campaign/readable.hpp"
 #include "campaign/tables.hpp"
 #include "report/html_text.hpp"
+#include "text/nearest.hpp"
 
 namespace supercoil::host_sim::campaign {
 
 namespace {
-
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names)
-    text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 /// A cell of HTML.
 std::string cell(const std::string& html, const char* kind = "") {

@@ -2,10 +2,10 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
+#include "supercoil/identification/csv.hpp"
 #include "supercoil/identification/recording.hpp"
 #include "supercoil/identification/units.hpp"
 
@@ -14,49 +14,6 @@ namespace supercoil::identification {
 namespace {
 
 using Fields = std::vector<std::string_view>;
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view around = " \t\r\"";
-  const std::size_t from = text.find_first_not_of(around);
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(around) - from + 1);
-}
-
-/// Of the line of names: what there is of these, in this order; else spaces.
-char separator_of(std::string_view line) {
-  for (const char separator : {';', '\t', ','})
-    if (line.find(separator) != std::string_view::npos) return separator;
-  return ' ';
-}
-
-void split(std::string_view line, char separator, Fields& fields) {
-  fields.clear();
-  if (separator == ' ') line = trimmed(line);
-  while (true) {
-    const std::size_t end = line.find(separator);
-    fields.push_back(trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos) return;
-    line.remove_prefix(end + 1);
-    if (separator == ' ') line.remove_prefix(std::min(line.find_first_not_of(' '), line.size()));
-  }
-}
-
-/// NaN for an empty field and for "nan"; empty for what is NaN.
-std::optional<double> number_in(std::string_view field, char separator) {
-  if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
-  if (field.front() == '+') field.remove_prefix(1);
-  std::string with_point;
-  if (separator == ';' && field.find(',') != std::string_view::npos) {
-    with_point = field;
-    std::replace(with_point.begin(), with_point.end(), ',', '.');
-    field = with_point;
-  }
-  double value = 0.0;
-  const char* const end = field.data() + field.size();
-  const auto [stopped, error] = std::from_chars(field.data(), end, value);
-  if (error != std::errc{} || stopped != end) return std::nullopt;
-  return value;
-}
 
 std::string list_of(const Fields& names) {
   std::string result;
@@ -124,93 +81,75 @@ tl::expected<Found, Problem> find_column(const Fields& names, std::size_t line,
 
 class CsvReader {
  public:
-  CsvReader(std::string_view text, const Columns& columns) : text_(text), columns_(columns) {}
+  CsvReader(std::string_view text, const Columns& columns) : lines_(text), columns_(columns) {}
 
   tl::expected<Recording, Problem> read() {
-    if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.remove_prefix(3);
-    if (!next_line()) return tl::unexpected(Problem{0, "is empty"});
+    if (!lines_.next()) return tl::unexpected(Problem{0, "is empty"});
     if (auto found = read_names(); !found) return tl::unexpected(found.error());
-    while (next_line())
+    while (lines_.next())
       if (auto added = add_row(); !added) return tl::unexpected(added.error());
     return std::move(recording_);
   }
 
  private:
-  /// The next that is neither empty nor a comment.
-  bool next_line() {
-    while (!text_.empty()) {
-      const std::size_t end = text_.find('\n');
-      line_ = text_.substr(0, end);
-      text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + 1);
-      ++number_;
-      const std::string_view content = trimmed(line_);
-      if (!content.empty() && content.front() != '#') return true;
-    }
-    return false;
-  }
-
   tl::expected<void, Problem> read_names() {
-    separator_ = separator_of(line_);
-    split(line_, separator_, fields_);
-    names_ = fields_.size();
-    if (number_in(fields_.front(), separator_)) {
-      return tl::unexpected(Problem{number_,
+    const Fields& fields = lines_.fields();
+    names_ = fields.size();
+    if (lines_.number_in(fields.front())) {
+      return tl::unexpected(Problem{lines_.number(),
                                     "begins with numbers: its first line must name the "
                                     "columns, e.g. time_s,position_m,power_W"});
     }
     const std::array<const Wanted*, 3> wanted{&wanted_time, &wanted_position, &wanted_power};
     const std::array<const Column*, 3> columns{&columns_.time, &columns_.position, &columns_.power};
     for (std::size_t i = 0; i < 3; ++i) {
-      auto found = find_column(fields_, number_, *wanted[i], *columns[i]);
+      auto found = find_column(fields, lines_.number(), *wanted[i], *columns[i]);
       if (!found) return tl::unexpected(found.error());
       found_[i] = *found;
     }
-    const auto channel = std::find(fields_.begin(), fields_.end(), "channel");
-    if (channel != fields_.end()) channel_at_ = static_cast<std::size_t>(channel - fields_.begin());
+    const auto channel = std::find(fields.begin(), fields.end(), "channel");
+    if (channel != fields.end()) channel_at_ = static_cast<std::size_t>(channel - fields.begin());
     return {};
   }
 
   tl::expected<void, Problem> add_row() {
-    split(line_, separator_, fields_);
-    if (fields_.size() != names_) {
-      return tl::unexpected(Problem{number_, "has " + std::to_string(fields_.size()) +
-                                                 " fields; there are " + std::to_string(names_) +
-                                                 " columns"});
+    const Fields& fields = lines_.fields();
+    if (fields.size() != names_) {
+      return tl::unexpected(Problem{lines_.number(), "has " + std::to_string(fields.size()) +
+                                                         " fields; there are " +
+                                                         std::to_string(names_) + " columns"});
     }
     if (channel_at_ && columns_.channel == 0) {
-      if (first_channel_.empty()) first_channel_ = fields_[*channel_at_];
-      if (fields_[*channel_at_] != first_channel_)
-        return tl::unexpected(Problem{number_, "is of another channel: say which by --channel"});
-    } else if (channel_at_ && fields_[*channel_at_] != std::to_string(columns_.channel)) {
+      if (first_channel_.empty()) first_channel_ = fields[*channel_at_];
+      if (fields[*channel_at_] != first_channel_)
+        return tl::unexpected(
+            Problem{lines_.number(), "is of another channel: say which by --channel"});
+    } else if (channel_at_ && fields[*channel_at_] != std::to_string(columns_.channel)) {
       return {};
     }
     std::array<double, 3> values{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::string_view field = fields_[found_[i].index];
-      const auto value = number_in(field, separator_);
+      const std::string_view field = fields[found_[i].index];
+      const auto value = lines_.number_in(field);
       if (!value) {
-        return tl::unexpected(
-            Problem{number_, found_[i].name + ": \"" + std::string(field) + "\" is not a number"});
+        return tl::unexpected(Problem{
+            lines_.number(), found_[i].name + ": \"" + std::string(field) + "\" is not a number"});
       }
       if (i != 1 && std::isnan(*value)) {
         return tl::unexpected(
-            Problem{number_, found_[i].name + (field.empty() ? " is missing" : " is NaN")});
+            Problem{lines_.number(), found_[i].name + (field.empty() ? " is missing" : " is NaN")});
       }
       values[i] = *value * found_[i].size;
     }
     recording_.time_s.push_back(values[0]);
     recording_.position_m.push_back(values[1]);
     recording_.power_W.push_back(values[2]);
-    recording_.line.push_back(number_);
+    recording_.line.push_back(lines_.number());
     return {};
   }
 
-  std::string_view text_;
+  CsvLines lines_;
   const Columns& columns_;
-  std::string_view line_;
-  std::size_t number_ = 0;
-  char separator_ = ',';
-  Fields fields_;
   std::size_t names_ = 0;
   std::array<Found, 3> found_{};
   std::optional<std::size_t> channel_at_;

@@ -80,27 +80,35 @@ class Files(PlayCase):
                 ("position_m\n0\n", "1: has no column time_s"),
                 ("time_s,position\n0,0\n", "1: 'position' is no column; there are time_s, position_m"),
                 ("time_s,64:position_m\n0,0\n", "1: '64:position_m': a node is 1 to 63"),
+                ("time_s,2x:position_m\n0,0\n", "1: '2x:position_m': a node is 1 to 63"),
                 ("time_s,2:velocity_m_per_s\n0,0\n", "1: has no position_m of node 2"),
                 ("time_s,position_m,1:position_m\n0,0,0\n", "1: has '1:position_m' twice"),
                 ("time_s,position_m\n0,0\n", "has fewer than 2 rows"),
-                ("time_s,position_m\n0,0\n1\n", "3: has 1 columns, the first line 2"),
-                ("time_s,position_m\n0,0\n1,nan\n", "3: 'nan' is not a number"),
-                ("time_s,position_m\n0,0\n1,1 mm\n", "3: '1 mm' is not a number"),
-                ("time_s,position_m\n0,0\n\n5,0.001\n", "4: time_s is 5.000000 s after the row before"),
+                ("time_s,position_m\n0,0\n1\n", "3: has 1 fields; there are 2 columns"),
+                ("time_s,position_m\n0,0\n1,nan\n", '3: "nan" is not a number'),
+                ("time_s,position_m\n0,0\n1,1 mm\n", '3: "1 mm" is not a number'),
+                ("time_s,position_m\n0,0\n\n5,0.001\n",
+                 "4: time_s is 5.000000 s after the row before; it must be 0.001 to 4.094 s"),
                 ("time_s,position_m\n1,0\n1,0.001\n", "3: time_s is 0.000000 s after the row before"),
                 ("time_s,position_m,velocity_m_per_s\n0,0,0\n1,0.001,0.1\n",
                  "node 1: velocity_m_per_s of the last row must be 0"),
                 ("time_s,position_m,velocity_m_per_s\n0,0,0\n1,0.1,0.4\n2,0.1,0\n",
-                 "node 1: at 1.000000 s it moves by")):
+                 "node 1: at 1 s it moves by 0.400000 m/s; at most 0.32767 can be sent")):
             path.write_text(text)
             done = self.supercoil("play", path)
             self.assertEqual((done.returncode, done.stdout), (2, ""), text)
             self.assertIn(f"{path}", done.stderr)
             self.assertIn(why, done.stderr)
 
+    def test_it_may_be_as_a_spreadsheet_writes_it(self):
+        path = pathlib.Path(self.folder) / "sheet.csv"
+        path.write_text("\ufeff# taken by hand\n\"time_s\";\"position_m\"\n0,0;0,003\n0,5;0,0031\n")
+        self.assertIn("socketcand", self.supercoil("play", path).stderr)  # the file is right, and nobody serves the bus
+
     def test_a_file_or_a_bus_that_is_not_there_is_named(self):
         done = self.supercoil("play", "not-there.csv")
-        self.assertEqual((done.returncode, "not-there.csv: cannot be read" in done.stderr), (2, True), done.stderr)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("not-there.csv: there is no such file", done.stderr)
         done = self.supercoil("play", motion(self.folder, {1: 1.0}))
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("socketcand", done.stderr)

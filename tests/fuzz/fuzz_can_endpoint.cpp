@@ -32,7 +32,9 @@ class Board {
     const hal::CanFrame frame = frame_of(step, model_);
     if (model_.from_holder(frame, now()))
       commanded_[static_cast<std::size_t>(LeaseModel::channel_of(frame))] = now();
-    if (const int moved = model_.heard_trajectory(frame, now()); moved >= 0)
+    // Of a trajectory's frames a knot alone renews.
+    const int moved = model_.heard_trajectory(frame, now());
+    if (moved >= 0 && LeaseModel::channel_of(frame, LeaseModel::knot_base) >= 0)
       commanded_[static_cast<std::size_t>(moved)] = now();
     rig_.bus.deliver(frame);
     tick();

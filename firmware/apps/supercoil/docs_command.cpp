@@ -1,13 +1,18 @@
 // supercoil docs: the documentation's site, for a browser of this machine.
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
+#include <string_view>
+#include <system_error>
 #include <thread>
 
 #include <spawn.h>
@@ -18,7 +23,6 @@
 #include "apps/supercoil/monitor/access.hpp"
 #include "apps/supercoil/monitor/assets.hpp"
 #include "apps/supercoil/monitor/server_thread.hpp"
-#include "apps/supercoil/site_files.hpp"
 
 namespace supercoil::operating {
 
@@ -27,6 +31,25 @@ namespace {
 constexpr int not_allowed = 405;
 constexpr int not_found = 404;
 constexpr int forbidden = 403;
+
+/// The file below folder that a request's path names, decoded already: "/docs/can.html", or of a
+/// folder its index.html. None where there is no such file, or where it lies outside of folder.
+std::optional<std::filesystem::path> find_site_file(const std::filesystem::path& folder,
+                                                    std::string_view path) {
+  // The operating system would take a path with a NUL for the part before it.
+  if (path.find('\0') != std::string_view::npos) return std::nullopt;
+  std::error_code error;
+  const auto site = std::filesystem::canonical(folder, error);
+  if (error) return std::nullopt;
+  auto wanted = site / std::filesystem::path(path).relative_path();
+  if (std::filesystem::is_directory(wanted, error)) wanted /= "index.html";
+  // Compared after ".." and links are followed.
+  auto found = std::filesystem::canonical(wanted, error);
+  if (error || !std::filesystem::is_regular_file(found, error)) return std::nullopt;
+  const auto ends = std::mismatch(site.begin(), site.end(), found.begin(), found.end());
+  if (ends.first != site.end()) return std::nullopt;
+  return found;
+}
 
 /// As a provider's content, which the library does not compress: Brotli needs seconds for a script.
 void answer_with(httplib::Response& response, const std::filesystem::path& path) {

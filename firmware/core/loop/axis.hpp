@@ -83,6 +83,7 @@ class Axis {
   double published_muscle(std::size_t quantity) const { return published_muscle_.get(quantity); }
   /// Of the trajectory; from any thread.
   PlaybackStatus playback() const { return playback_.status(); }
+  void align_playback(double ahead_s) { playback_.align(ahead_s); }
   /// As Channel::take_learned_update.
   bool take_learned_update(board::LearnedUpdate& update) { return learned_updates_.pop(update); }
 

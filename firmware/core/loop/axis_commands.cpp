@@ -66,7 +66,6 @@ void Axis::enter(Mode mode) {
 
 Reply Axis::play(const Command& command) {
   if (mode_ != Mode::position) return Refusal::wrong_state;
-  if (command.verb == Verb::align) return playback_.align(command.value);
   if (command.verb == Verb::start)
     return playback_.start(hal::duration_from(command.value), now_, reference_);
   return playback_.add(command, {control::theta_from(muscle_), muscle_.moving_mass_kg,

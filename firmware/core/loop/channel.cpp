@@ -127,7 +127,6 @@ Reply Channel::obey(const Command& command, const BoardTick& board) {
       return rest();
     case Verb::knot:
     case Verb::start:
-    case Verb::align:
       return play(command);
     default:
       return axis_.obey(command);
@@ -159,11 +158,11 @@ Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
   return Refusal::none;
 }
 
-/// A knot or a start is as good as a command to heat; the bus's clock is not.
+/// A knot is as good as a command to heat. A start may come of a Sync, which is nobody's command.
 Reply Channel::play(const Command& command) {
   if (!state_.may_heat()) return Refusal::wrong_state;
   const Reply reply = axis_.play(command);
-  if (reply.refusal == Refusal::none && command.verb != Verb::align) commands_.renewed = true;
+  if (reply.refusal == Refusal::none && command.verb == Verb::knot) commands_.renewed = true;
   return reply;
 }
 

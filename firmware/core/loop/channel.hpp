@@ -83,6 +83,8 @@ class Channel {
   double known(std::size_t quantity) const { return axis_.published_muscle(quantity); }
   /// Of the trajectory; from any thread.
   PlaybackStatus playback() const { return axis_.playback(); }
+  /// As Playback::align; from one other thread.
+  void align_playback(double ahead_s) { axis_.align_playback(ahead_s); }
   /// In the thread that sends commands, as all of the tuner.
   void add_tuning(Command& command);
   Tuner& tuner() { return tuner_; }

@@ -40,15 +40,14 @@ enum class Verb : std::uint8_t {
                       ///< 0 forgets what was read
   tune = 17,          ///< value: place of what gets its prepared values (Tuner)
   knot = 18,          ///< value: m; the next knot of a trajectory (Playback); renews
-  start = 19,  ///< value: on the board's clock, in s; plays the trajectory from then on; renews
-  align = 20,  ///< value: how far the trajectory's time is ahead of the board's clock, in s
+  start = 19,         ///< value: on the board's clock, in s; plays the trajectory from then on
 };
 
-inline constexpr std::array<std::string_view, 21> verb_names{
+inline constexpr std::array<std::string_view, 20> verb_names{
     "none",      "arm",   "disarm",         "reset",           "position",     "power",
     "renew",     "rest",  "identify",       "calibrate",       "scale",        "controller",
     "estimator", "store", "compare_supply", "compare_current", "compare_rise", "tune",
-    "knot",      "start", "align"};
+    "knot",      "start"};
 /// Those that have all of their meaning in their value: the rest comes from a trajectory's frames
 /// alone.
 inline constexpr auto plain_verb_names = std::span(verb_names).first<18>();

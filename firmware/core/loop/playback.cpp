@@ -65,8 +65,8 @@ Reply Playback::start(hal::Time at, hal::Time now, double reference_m) {
   if (state_ != PlaybackState::loaded) return Refusal::wrong_state;
   if (at < now) return Refusal::out_of_range;
   if (hal::seconds(at - now) > max_ahead_s) return {Refusal::out_of_range, max_ahead_s};
-  if (std::abs(reference_m - trajectory_.at(0.0).motion.position) > same_m)
-    return Refusal::not_ready;
+  if (std::abs(reference_m - trajectory_.passed().position_m) > same_m) return Refusal::not_ready;
+  wanted_ahead_s_.store(0.0, std::memory_order_relaxed);
   starts_ = at;
   last_tick_ = now;
   state_ = PlaybackState::waiting;
@@ -74,18 +74,11 @@ Reply Playback::start(hal::Time at, hal::Time now, double reference_m) {
   return Refusal::none;
 }
 
-Reply Playback::align(double ahead_s) {
-  if (state_ < PlaybackState::waiting) return Refusal::wrong_state;
-  if (!(std::abs(ahead_s - ahead_s_) <= max_align_s)) return Refusal::out_of_range;
-  wanted_ahead_s_ = ahead_s;
-  return Refusal::none;
-}
-
 void Playback::forget() {
   if (state_ == PlaybackState::empty) return;
   state_ = PlaybackState::empty;
   trajectory_.start(0.0);
-  time_s_ = ahead_s_ = wanted_ahead_s_ = dry_s_ = 0.0;
+  time_s_ = ahead_s_ = dry_s_ = 0.0;
   publish();
 }
 
@@ -97,8 +90,9 @@ double Playback::step(hal::Time now, double reference_m) {
     if (now < starts_) return reference_m;
     time_s_ = hal::seconds(now - starts_);
   } else {
+    const double off_s = wanted_ahead_s_.load(std::memory_order_relaxed) - ahead_s_;
     const double max_s = max_slew_ratio * elapsed_s;
-    ahead_s_ += std::clamp(wanted_ahead_s_ - ahead_s_, -max_s, max_s);
+    if (std::abs(off_s) <= max_align_s) ahead_s_ += std::clamp(off_s, -max_s, max_s);
     time_s_ = hal::seconds(now - starts_) + ahead_s_;
   }
   const control::Knot& last = trajectory_.last();

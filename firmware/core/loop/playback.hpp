@@ -49,8 +49,10 @@ class Playback {
   Reply add(const Command& command, const Able& able);
   /// At a time of the board's clock, from the position that is followed now.
   Reply start(hal::Time at, hal::Time now, double reference_m);
-  /// Its time goes on until it is so far ahead of the board's clock since the start.
-  Reply align(double ahead_s);
+  /// From one other thread: its time goes on until it is so far ahead of the board's clock since
+  /// the start. No command: it needs no answer, and takes no room from commands. More than 10 ms at
+  /// once are another clock's, and ignored.
+  void align(double ahead_s) { wanted_ahead_s_.store(ahead_s, std::memory_order_relaxed); }
   void forget();
 
   /// One tick: where the muscle should be. reference_m: where it is told to be until then.
@@ -87,7 +89,7 @@ class Playback {
   hal::Time last_tick_{};
   double time_s_ = 0.0;  ///< since it started, aligned
   double ahead_s_ = 0.0;
-  double wanted_ahead_s_ = 0.0;
+  std::atomic<double> wanted_ahead_s_{0.0};
   double dry_s_ = 0.0;
   std::atomic<PlaybackStatus> status_{};
 };

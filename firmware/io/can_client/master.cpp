@@ -112,17 +112,6 @@ std::uint16_t trajectory_id(std::uint8_t node) {
   return can::id_of(message::trajectory, node);
 }
 
-std::optional<Played> receive_trajectory(std::uint8_t node, const hal::CanFrame& frame) {
-  if (frame.id != trajectory_id(node) || !e2e::intact(frame, message::trajectory.length))
-    return std::nullopt;
-  const can::Reader<message::trajectory> m(frame);
-  const auto refusal = refusal_in(m.get("refusal"));
-  const auto state = m.get<std::uint8_t>("playback");
-  if (!refusal || state >= playback_state_names.size()) return std::nullopt;
-  return Played{*refusal, static_cast<PlaybackState>(state), m.get<std::uint8_t>("room"),
-                m.get("buffered_s")};
-}
-
 hal::CanFrame sync(std::uint8_t number, double master_time_s) {
   return can::Encoder<message::sync>(1)
       .set("sync", number)
@@ -251,15 +240,18 @@ hal::CanFrame Master::play_never() {
 }
 
 std::optional<Played> Master::receive_played(const hal::CanFrame& frame) {
-  const auto heard = receive_trajectory(node_, frame);
-  if (!heard) return std::nullopt;
+  if (frame.id != trajectory_id(node_) || !e2e::intact(frame, message::trajectory.length))
+    return std::nullopt;
   const can::Reader<message::trajectory> m(frame);
   const bool mine = m.get<std::uint8_t>("answers") != telemetry::nothing &&
                     m.get<std::uint8_t>("counter") == counter_ &&
                     m.get<std::uint16_t>("session_low") == (asked_as_ & 0xFFU);
-  if (!mine) return std::nullopt;
-  if (ends_lease(heard->refusal)) session_ = 0;
-  return heard;
+  const auto refusal = refusal_in(m.get("refusal"));
+  const auto state = m.get<std::uint8_t>("playback");
+  if (!mine || !refusal || state >= playback_state_names.size()) return std::nullopt;
+  if (ends_lease(*refusal)) session_ = 0;
+  return Played{*refusal, static_cast<PlaybackState>(state), m.get<std::uint8_t>("room"),
+                m.get("buffered_s")};
 }
 
 void Master::receive_lease(Refusal refusal, std::uint16_t granted) {

@@ -74,8 +74,6 @@ struct Played {
   double buffered_s;
 };
 std::uint16_t trajectory_id(std::uint8_t node);
-/// Empty: the frame does not tell.
-std::optional<Played> receive_trajectory(std::uint8_t node, const hal::CanFrame& frame);
 /// For all nodes of the bus; needs no lease.
 hal::CanFrame sync(std::uint8_t number, double master_time_s);
 

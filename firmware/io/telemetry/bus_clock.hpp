@@ -19,11 +19,7 @@ class BusClock {
     hal::Time received;
   };
 
-  void add(const Sync& sync) {
-    latest_ = sync;
-    known_[sync.number % known_.size()] = sync;
-  }
-  const std::optional<Sync>& latest() const { return latest_; }
+  void add(const Sync& sync) { known_[sync.number % known_.size()] = sync; }
   /// One of the latest 8; empty: it has not come.
   std::optional<Sync> find(std::uint8_t number) const {
     const std::optional<Sync>& found = known_[number % known_.size()];
@@ -31,7 +27,6 @@ class BusClock {
   }
 
  private:
-  std::optional<Sync> latest_;
   std::array<std::optional<Sync>, 8> known_{};
 };
 

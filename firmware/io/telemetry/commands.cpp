@@ -38,14 +38,13 @@ Commands::Taken Commands::take(const hal::CanFrame& frame, hal::Time now) {
     taken.answer = acknowledge(header, Refusal::none);
   } else if (header.opcode == Opcode::lease) {
     taken.answer = acknowledge(header, Refusal::none, leases_->session(*channel));
-  } else if (waiting_.size() == max_waiting) {
+  } else if (waiting_.full()) {
     taken.answer = acknowledge(header, Refusal::queue_full);
   } else {
-    waiting_.push_back({++last_id_, header});
     taken.command = meant(header.opcode, static_cast<double>(value));
     taken.command->channel = *channel;
     taken.command->source = Source::can;
-    taken.command->id = last_id_;
+    taken.command->id = waiting_.add(header);
   }
   return taken;
 }
@@ -65,18 +64,13 @@ Refusal Commands::check(const CommandHeader& header, float value, hal::Time now)
 }
 
 std::optional<hal::CanFrame> Commands::answered(const Answer& answer) {
-  const auto found = std::ranges::find(waiting_, answer.command.id, &Waiting::id);
-  if (found == waiting_.end()) return std::nullopt;
-  const CommandHeader header = found->header;
-  // The loop answers in order: what came before has lost its answer.
-  waiting_.erase(waiting_.begin(), found + 1);
-  return acknowledge(header, answer.refusal);
+  const auto header = waiting_.answered(answer.command.id);
+  if (!header) return std::nullopt;
+  return acknowledge(*header, answer.refusal);
 }
 
 hal::CanFrame Commands::not_taken() {
-  const CommandHeader header = waiting_.back().header;
-  waiting_.pop_back();
-  return acknowledge(header, Refusal::queue_full);
+  return acknowledge(waiting_.take_back(), Refusal::queue_full);
 }
 
 hal::CanFrame Commands::acknowledge(const CommandHeader& header, Refusal refusal,

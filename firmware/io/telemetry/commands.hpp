@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include "supercoil/hal/can_bus.hpp"
@@ -10,6 +9,7 @@
 #include "loop/command.hpp"
 #include "telemetry/leases.hpp"
 #include "telemetry/settings.hpp"
+#include "telemetry/unanswered.hpp"
 
 namespace supercoil::telemetry {
 
@@ -49,18 +49,9 @@ class Commands {
   hal::CanFrame acknowledge(const CommandHeader& header, Refusal refusal,
                             std::uint16_t granted = 0) const;
 
-  /// What the loop's ring of commands holds.
-  static constexpr std::size_t max_waiting = 256;
-
-  struct Waiting {
-    std::uint32_t id;
-    CommandHeader header;
-  };
-
   can::Node first_node_;
   Leases* leases_;
-  std::deque<Waiting> waiting_;  ///< in the order of their ids
-  std::uint32_t last_id_ = 0;
+  Unanswered<CommandHeader> waiting_;
 };
 
 }  // namespace supercoil::telemetry

@@ -1,7 +1,5 @@
 #include "telemetry/trajectory_frames.hpp"
 
-#include <algorithm>
-
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 
@@ -10,9 +8,6 @@ namespace supercoil::telemetry {
 namespace {
 
 namespace message = can::message;
-
-/// What the loop's ring of commands holds.
-constexpr std::size_t max_waiting = 256;
 
 constexpr bool states_have_their_names() {
   for (std::size_t i = 0; i < playback_state_names.size(); ++i) {
@@ -28,7 +23,7 @@ TrajectoryFrames::TrajectoryFrames(can::Node first_node, Leases& leases, Loop& l
     : first_node_(first_node), leases_(&leases), loop_(&loop), channels_(leases.channels()) {}
 
 TrajectoryFrames::Taken TrajectoryFrames::take(const hal::CanFrame& frame, hal::Time now) {
-  if (frame.id == sync_id) take_sync(frame);
+  if (frame.id == sync_id) take_sync(frame, now);
   const auto to = [&](const can::MessageInfo& message) {
     return can::channel_of(frame, message, first_node_, leases_->channels());
   };
@@ -42,10 +37,9 @@ TrajectoryFrames::Taken TrajectoryFrames::take_knot(std::uint8_t channel,
   const std::uint16_t session = leases_->session(channel);
   const can::Reader<message::knot> m(frame);
   const bool whole = frame.length == message::knot.length;
-  // Nobody's session is in it: whose it was is not known.
   const bool intact = whole && can::e2e::intact(frame, message::knot.length, session);
-  if (!intact && leases_->held(channel, now)) return {channel, {}};
-  if (!whole) return {channel, {}};
+  // While nobody has the lease there is no session to judge it by, and it is only refused.
+  if (!whole || (!intact && leases_->held(channel, now))) return {channel, {}};
   const Header header{channel, answers_knot, m.get<std::uint8_t>("counter"), session};
   const Refusal checked = leases_->check(channel, session, header.counter, now);
   Taken taken;
@@ -57,6 +51,8 @@ TrajectoryFrames::Taken TrajectoryFrames::take_knot(std::uint8_t channel,
   Command command{channel, Verb::knot, m.get("position_m"), Source::can};
   command.after_s = m.get<float>("after_s");
   command.velocity_m_per_s = m.get<float>("velocity_m_per_s");
+  // The first knot of another trajectory: a start that still waits was the last one's.
+  if (command.after_s == 0.0F) channels_[channel].start.reset();
   taken.answer = hand_on(header, command);
   return taken;
 }
@@ -90,7 +86,7 @@ TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
   return taken;
 }
 
-void TrajectoryFrames::take_sync(const hal::CanFrame& frame) {
+void TrajectoryFrames::take_sync(const hal::CanFrame& frame, hal::Time now) {
   if (!can::e2e::intact(frame, message::sync.length)) return;
   const can::Reader<message::sync> m(frame);
   const BusClock::Sync sync{m.get<std::uint8_t>("sync"), m.get("master_time_s"), frame.received};
@@ -98,22 +94,17 @@ void TrajectoryFrames::take_sync(const hal::CanFrame& frame) {
   for (std::size_t place = 0; place < channels_.size(); ++place) {
     Channel& channel = channels_[place];
     const auto i = static_cast<std::uint8_t>(place);
-    if (channel.start && channel.start->sync == sync.number) {
-      const Start waited = *channel.start;
-      channel.start.reset();
-      // Told already that it waits; the loop may still find it too late.
-      if (waited.header.session == leases_->session(i)) start(waited, sync);
+    if (channel.anchor) {
+      const BusClock::Sync& anchor = *channel.anchor;
+      loop_->channel(i).align_playback(sync.master_s - anchor.master_s -
+                                       hal::seconds(sync.received - anchor.received));
     }
-    if (channel.anchor) align(i, sync);
+    if (!channel.start || channel.start->sync != sync.number) continue;
+    const Start waited = *channel.start;
+    channel.start.reset();
+    // Told already that it waits; the loop may still find it too late.
+    if (leases_->held(i, now) && waited.header.session == leases_->session(i)) start(waited, sync);
   }
-}
-
-/// The master's clock since the start, less the board's.
-void TrajectoryFrames::align(std::uint8_t channel, const BusClock::Sync& sync) {
-  const BusClock::Sync& anchor = *channels_[channel].anchor;
-  const double ahead_s =
-      sync.master_s - anchor.master_s - hal::seconds(sync.received - anchor.received);
-  loop_->send({channel, Verb::align, ahead_s, Source::can});
 }
 
 std::optional<hal::CanFrame> TrajectoryFrames::start(const Start& start,
@@ -124,20 +115,16 @@ std::optional<hal::CanFrame> TrajectoryFrames::start(const Start& start,
 }
 
 std::optional<hal::CanFrame> TrajectoryFrames::hand_on(const Header& header, Command command) {
-  if (waiting_.size() == max_waiting) return told(header, Refusal::queue_full);
-  command.id = ++last_id_;
-  if (!loop_->send(command)) return told(header, Refusal::queue_full);
-  waiting_.push_back({last_id_, header});
+  if (waiting_.full()) return told(header, Refusal::queue_full);
+  command.id = waiting_.add(header);
+  if (!loop_->send(command)) return told(waiting_.take_back(), Refusal::queue_full);
   return std::nullopt;
 }
 
 std::optional<hal::CanFrame> TrajectoryFrames::answered(const Answer& answer) {
-  const auto found = std::ranges::find(waiting_, answer.command.id, &Waiting::id);
-  if (found == waiting_.end()) return std::nullopt;
-  const Header header = found->header;
-  // The loop answers in order: what came before has lost its answer.
-  waiting_.erase(waiting_.begin(), found + 1);
-  return told(header, answer.refusal);
+  const auto header = waiting_.answered(answer.command.id);
+  if (!header) return std::nullopt;
+  return told(*header, answer.refusal);
 }
 
 std::optional<hal::CanFrame> TrajectoryFrames::news() {
@@ -145,7 +132,6 @@ std::optional<hal::CanFrame> TrajectoryFrames::news() {
     const PlaybackState now = loop_->channel(i).playback().state;
     if (now == channels_[i].told) continue;
     channels_[i].told = now;
-    if (now == PlaybackState::empty) channels_[i].anchor.reset();
     return told({static_cast<std::uint8_t>(i), nothing, 0, 0}, Refusal::none);
   }
   return std::nullopt;

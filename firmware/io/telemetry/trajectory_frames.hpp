@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "loop/loop.hpp"
 #include "telemetry/bus_clock.hpp"
 #include "telemetry/leases.hpp"
+#include "telemetry/unanswered.hpp"
 
 namespace supercoil::telemetry {
 
@@ -22,7 +22,7 @@ enum Answers : std::uint8_t { nothing, answers_knot, answers_play };
 enum When : std::uint8_t { at_once, at_sync, never };
 
 constexpr bool is_of_trajectory(Verb verb) {
-  return verb == Verb::knot || verb == Verb::start || verb == Verb::align;
+  return verb == Verb::knot || verb == Verb::start;
 }
 
 /// Neither sends nor receives. Knots and Play need the channel's lease, as commands do, and are
@@ -52,10 +52,6 @@ class TrajectoryFrames {
     std::uint8_t counter;
     std::uint16_t session;
   };
-  struct Waiting {
-    std::uint32_t id;
-    Header header;
-  };
   struct Start {
     Header header;
     std::uint8_t sync;
@@ -63,14 +59,13 @@ class TrajectoryFrames {
   };
   struct Channel {
     std::optional<Start> start;            ///< that waits for its Sync
-    std::optional<BusClock::Sync> anchor;  ///< by which it started
+    std::optional<BusClock::Sync> anchor;  ///< by which it was started last
     PlaybackState told = PlaybackState::empty;
   };
 
   Taken take_knot(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
   Taken take_play(std::uint8_t channel, const hal::CanFrame& frame, hal::Time now);
-  void take_sync(const hal::CanFrame& frame);
-  void align(std::uint8_t channel, const BusClock::Sync& sync);
+  void take_sync(const hal::CanFrame& frame, hal::Time now);
   /// Empty: the loop has it, and will answer.
   std::optional<hal::CanFrame> hand_on(const Header& header, Command command);
   std::optional<hal::CanFrame> start(const Start& start, const BusClock::Sync& sync);
@@ -81,8 +76,7 @@ class TrajectoryFrames {
   Loop* loop_;
   BusClock clock_;
   std::vector<Channel> channels_;
-  std::deque<Waiting> waiting_;  ///< in the order of their ids
-  std::uint32_t last_id_ = 0;
+  Unanswered<Header> waiting_;
 };
 
 }  // namespace supercoil::telemetry

@@ -1050,7 +1050,7 @@ struct supercoil_knot_t {
 /**
  * Signals in message Play.
  *
- * Starts the trajectory, whose time is 0 at its first knot. Renews the command to heat.
+ * Starts the trajectory, whose time is 0 at its first knot. Renews the lease, and not the command to heat.
  *
  * All signal values are as on the CAN bus.
  */

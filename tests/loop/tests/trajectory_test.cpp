@@ -284,3 +284,47 @@ TEST(TrajectoryOverCan, SyncMovesNothingByItself) {
   renew(0.1);
   CHECK(reference_m() - before_m < 0.0002);
 }
+
+TEST(TrajectoryOverCan, SyncIsNobodysCommand) {
+  load(master);
+  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
+  rig.bus.deliver(sync_frame(1, 50.0));
+  renew(0.1);
+  CHECK(state() == PlaybackState::playing);
+  // However many come: a command finds room.
+  for (int i = 0; i < 600; ++i)
+    rig.bus.deliver(sync_frame(1, 50.0));
+  CHECK(rig.command(second, Verb::disarm) == Refusal::none);
+  // They end no row of damaged commands.
+  renew(0.1);
+  for (int i = 0; i < 12; ++i) {
+    hal::CanFrame damaged = master.frame(Verb::renew);
+    damaged.data[4] ^= 1U;
+    rig.bus.deliver(damaged);
+    rig.tick();
+    rig.bus.deliver(sync_frame(1, 50.0));
+    rig.tick();
+  }
+  CHECK(rig.fault() == Fault::command_damaged);
+}
+
+TEST(TrajectoryOverCan, AStartKeepsNoMuscleHot) {
+  load(master);
+  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
+  CHECK(rig.command(master, Verb::renew) == Refusal::none);
+  rig.run(0.2);
+  // The master is dead by now, and somebody else tells the time.
+  rig.bus.deliver(sync_frame(1, 50.0));
+  rig.run(0.1);
+  CHECK(rig.fault() == Fault::command_timeout);
+}
+
+TEST(TrajectoryOverCan, AStartThatWaitsIsNotTheNextTrajectorys) {
+  load(master);
+  CHECK(ask(master, play_frame(master, start_at_sync, 1, 0.02)) == Refusal::none);
+  CHECK(rig.command(master, Verb::position, 0.005F) == Refusal::none);
+  load(master);
+  rig.bus.deliver(sync_frame(1, 50.0));
+  renew(0.2);
+  CHECK(state() == PlaybackState::loaded);
+}

@@ -1,34 +1,16 @@
 #include "apps/supercoil/identify/input.hpp"
 
-#include <filesystem>
 #include <limits>
-#include <system_error>
 
+#include "apps/supercoil/input_file.hpp"
 #include "recorder/recording.hpp"
-#include "storage/posix_files.hpp"
 
 namespace supercoil::operating {
 
 namespace {
 
-namespace fs = std::filesystem;
 using identification::Problem;
 using identification::Recording;
-
-constexpr std::uintmax_t max_bytes = 1ULL << 30;
-
-tl::expected<std::string, std::string> content_of(const std::string& path) {
-  std::error_code error;
-  if (!fs::exists(path, error)) return tl::unexpected(path + ": there is no such file");
-  if (!fs::is_regular_file(path, error)) return tl::unexpected(path + ": is not a file");
-  const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error) return tl::unexpected(path + ": cannot be read: " + error.message());
-  if (bytes > max_bytes) return tl::unexpected(path + ": is larger than 1 GiB");
-  storage::PosixFiles files;
-  auto content = files.read(path, bytes);
-  if (!content) return tl::unexpected(content.error().text);
-  return std::move(*content);
-}
 
 /// The rows of one channel. Lines are counted as supercoil log would write them.
 tl::expected<Recording, Problem> from_flight_recording(std::string_view content, int channel) {
@@ -58,7 +40,7 @@ std::string to_text(const std::string& file, const Problem& problem) {
 }
 
 tl::expected<Recording, std::string> read_input(const IdentifyOptions& o) {
-  const auto content = content_of(o.file);
+  const auto content = read_whole(o.file);
   if (!content) return tl::unexpected(content.error());
   const auto text_of = [&](const Problem& problem) {
     return tl::unexpected(to_text(o.file, problem));

@@ -1,16 +1,19 @@
 #include "apps/supercoil/play/motion_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <utility>
 
-#include "can/nodes.hpp"
+#include "supercoil/identification/csv.hpp"
+
+#include "apps/supercoil/input_file.hpp"
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
 
 namespace supercoil::operating {
 
@@ -23,55 +26,24 @@ struct Columns {
   std::optional<std::size_t> velocity;
 };
 
-/// Of Knot.after_s, whose largest value means something else.
-constexpr double max_row_step_s = 4.094;
+/// The largest that a knot can tell.
+double largest(can::SignalOf<can::message::knot> signal) {
+  hal::CanFrame frame;
+  can::put(frame, signal.info(), INFINITY);
+  return can::get(frame, signal.info());
+}
+/// Its times are whole milliseconds.
 constexpr double min_row_step_s = 0.001;
-constexpr double max_velocity = 0.32767;
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    std::string_view cell = line.substr(0, comma);
-    const auto begin = cell.find_first_not_of(" \t\r");
-    const auto end = cell.find_last_not_of(" \t\r");
-    cells.push_back(begin == std::string_view::npos ? "" : cell.substr(begin, end - begin + 1));
-    if (comma == std::string_view::npos) return cells;
-    line.remove_prefix(comma + 1);
-  }
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
-
-template <class Number>
-std::optional<Number> number_in(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-/// Lines of a text, their numbers from 1; empty ones are left out.
-class FullLines {
- public:
-  explicit FullLines(const std::string& text) : stream_(text) {}
-  bool next() {
-    while (std::getline(stream_, line_)) {
-      ++number_;
-      if (line_.find_first_not_of(" \t\r") != std::string::npos) return true;
-    }
-    return false;
-  }
-  const std::string& line() const { return line_; }
-  int number() const { return number_; }
-
- private:
-  std::istringstream stream_;
-  std::string line_;
-  int number_ = 0;
-};
 
 class MotionReader {
  public:
-  MotionReader(const std::string& text, std::string name, std::uint8_t node)
+  /// text outlives it.
+  MotionReader(std::string_view text, std::string name, std::uint8_t node)
       : lines_(text), name_(std::move(name)), node_(node) {}
 
   tl::expected<std::vector<Motion>, std::string> read() {
@@ -95,7 +67,7 @@ class MotionReader {
   }
 
   std::optional<std::string> read_head() {
-    const auto names = cells_of(lines_.line());
+    const auto& names = lines_.fields();
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (names[i] == "time_s") {
         time_ = i;
@@ -108,20 +80,22 @@ class MotionReader {
       if (!columns.position) return at_line("has no position_m of node " + std::to_string(node));
     }
     if (columns_.empty()) return at_line("has no column position_m");
-    cells_ = names.size();
+    columns_of_file_ = names.size();
     return std::nullopt;
   }
 
   std::optional<std::string> read_name(std::string_view name, std::size_t place) {
     const std::size_t colon = name.find(':');
     const bool numbered = colon != std::string_view::npos;
-    const auto node = numbered ? number_in<int>(name.substr(0, colon)) : int{node_};
-    if (!node || *node < 1 || *node > can::max_nodes) {
+    int node = numbered ? 0 : node_;
+    const bool whole = !numbered || std::from_chars(name.data(), name.data() + colon, node).ptr ==
+                                        name.data() + colon;
+    if (!whole || node < 1 || node > can::max_nodes) {
       return at_line("'" + std::string(name) + "': a node is 1 to " +
                      std::to_string(can::max_nodes));
     }
     const std::string_view what = numbered ? name.substr(colon + 1) : name;
-    Columns& columns = columns_[static_cast<std::uint8_t>(*node)];
+    Columns& columns = columns_[static_cast<std::uint8_t>(node)];
     auto* column = what == "position_m"         ? &columns.position
                    : what == "velocity_m_per_s" ? &columns.velocity
                                                 : nullptr;
@@ -136,16 +110,16 @@ class MotionReader {
   }
 
   std::optional<std::string> read_row() {
-    const auto cells = cells_of(lines_.line());
-    if (cells.size() != cells_) {
-      return at_line("has " + std::to_string(cells.size()) + " columns, the first line " +
-                     std::to_string(cells_));
+    const auto& fields = lines_.fields();
+    if (fields.size() != columns_of_file_) {
+      return at_line("has " + std::to_string(fields.size()) + " fields; there are " +
+                     std::to_string(columns_of_file_) + " columns");
     }
     MotionRow row;
-    for (const std::string_view cell : cells) {
-      const auto number = number_in<double>(cell);
+    for (const std::string_view field : fields) {
+      const auto number = lines_.number_in(field);
       if (!number || !std::isfinite(*number))
-        return at_line("'" + std::string(cell) + "' is not a number");
+        return at_line("\"" + std::string(field) + "\" is not a number");
       row.push_back(*number);
     }
     double& time_s = row[*time_];
@@ -153,9 +127,11 @@ class MotionReader {
     // What the bus's milliseconds leave of it.
     time_s = std::round((time_s - begins_s_) * 1e3) / 1e3;
     const double step_s = rows_.empty() ? min_row_step_s : time_s - rows_.back()[*time_];
-    if (!(step_s > min_row_step_s / 2.0 && step_s < max_row_step_s + min_row_step_s / 2.0)) {
+    const double max_row_step_s = largest("after_s");
+    if (!(step_s > 0.5 * min_row_step_s && step_s < max_row_step_s + 0.5 * min_row_step_s)) {
       return at_line("time_s is " + std::to_string(step_s) +
-                     " s after the row before; it must be 0.001 to 4.094 s");
+                     " s after the row before; it must be " + text_of(min_row_step_s) + " to " +
+                     text_of(max_row_step_s) + " s");
     }
     rows_.push_back(std::move(row));
     return std::nullopt;
@@ -185,39 +161,33 @@ class MotionReader {
       if (knot.velocity_m_per_s != 0.0)
         return whose + "velocity_m_per_s of the " + which + " row must be 0";
     }
-    const auto fast = std::ranges::find_if(motion.knots, [](const control::Knot& knot) {
+    const double max_velocity = largest("velocity_m_per_s");
+    const auto fast = std::ranges::find_if(motion.knots, [&](const control::Knot& knot) {
       return std::abs(knot.velocity_m_per_s) > max_velocity;
     });
     if (fast == motion.knots.end()) return std::nullopt;
-    return whose + "at " + std::to_string(fast->time_s) + " s it moves by " +
-           std::to_string(fast->velocity_m_per_s) + " m/s; at most 0.32767 can be sent";
+    return whose + "at " + text_of(fast->time_s) + " s it moves by " +
+           std::to_string(fast->velocity_m_per_s) + " m/s; at most " + text_of(max_velocity) +
+           " can be sent";
   }
 
-  FullLines lines_;
+  identification::CsvLines lines_;
   std::string name_;
   std::uint8_t node_;
   std::optional<std::size_t> time_;
   std::map<std::uint8_t, Columns> columns_;
-  std::size_t cells_ = 0;
+  std::size_t columns_of_file_ = 0;
   std::vector<MotionRow> rows_;
   double begins_s_ = 0.0;
 };
 
 }  // namespace
 
-tl::expected<std::vector<Motion>, std::string> parse_motions(const std::string& text,
-                                                             const std::string& name,
-                                                             std::uint8_t node) {
-  return MotionReader(text, name, node).read();
-}
-
 tl::expected<std::vector<Motion>, std::string> read_motions(const std::string& path,
                                                             std::uint8_t node) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) return tl::unexpected(path + ": cannot be read");
-  return parse_motions(text.str(), path, node);
+  const auto text = read_whole(path);
+  if (!text) return tl::unexpected(text.error());
+  return MotionReader(*text, path, node).read();
 }
 
 }  // namespace supercoil::operating

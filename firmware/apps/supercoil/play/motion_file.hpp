@@ -17,14 +17,11 @@ struct Motion {
   std::vector<control::Knot> knots;
 };
 
-/// Columns: time_s, position_m and, if wanted, velocity_m_per_s; for several nodes 2:position_m and
-/// so on. Velocities that the file lacks are those of the parabola through three rows, and 0 at
-/// both ends. node: whose the columns without a number are. The error names file, line and value.
+/// As CsvLines reads it. Columns: time_s, position_m and, if wanted, velocity_m_per_s; for several
+/// nodes 2:position_m and so on. Velocities that the file lacks are those of the parabola through
+/// three rows, and 0 at both ends. node: whose the columns without a number are. The error names
+/// file, line and value.
 tl::expected<std::vector<Motion>, std::string> read_motions(const std::string& path,
                                                             std::uint8_t node);
-/// The same of a text. name: for errors.
-tl::expected<std::vector<Motion>, std::string> parse_motions(const std::string& text,
-                                                             const std::string& name,
-                                                             std::uint8_t node);
 
 }  // namespace supercoil::operating

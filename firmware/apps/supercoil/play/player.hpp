@@ -15,8 +15,8 @@
 
 namespace supercoil::operating {
 
-/// Each step takes a moment and waits for nothing; it is to be called every 20 ms or so, as
-/// commands to heat expire. Errors name the node and what it was asked.
+/// Each step waits for the nodes' answers alone; one is to be called every 20 ms or so, as commands
+/// to heat expire. Errors name the node and what it was asked.
 class Player {
  public:
   using Problem = std::optional<std::string>;

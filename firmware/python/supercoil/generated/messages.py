@@ -46,7 +46,7 @@ class Knot(NamedTuple):
 
 
 class Play(NamedTuple):
-    """Starts the trajectory, whose time is 0 at its first knot. Renews the command to heat."""
+    """Starts the trajectory, whose time is 0 at its first knot. Renews the lease, and not the command to heat."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     crc: int

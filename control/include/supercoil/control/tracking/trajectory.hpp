@@ -54,6 +54,8 @@ class Trajectory {
   void start(double position_m);
 
   std::size_t room() const { return capacity - count_; }
+  /// The knot that was passed last; before the start the first one.
+  const Knot& passed() const { return end(0).knot; }
   /// The last knot that was added; at first that at rest.
   const Knot& last() const { return end(count_ - 1).knot; }
   /// The way that is not yet begun, with one knot more.

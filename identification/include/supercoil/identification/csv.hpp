@@ -1,0 +1,37 @@
+// CSV as programs and laboratories write it, line by line.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace supercoil::identification {
+
+/// Fields are separated by what the first line has of semicolon, tab and comma, in this order, or
+/// else by spaces. Empty lines and lines that begin with # are skipped; spaces and quotes around a
+/// field are no part of it.
+class CsvLines {
+ public:
+  /// text outlives it.
+  explicit CsvLines(std::string_view text);
+
+  /// The next line. False: there is none.
+  bool next();
+  /// Of this line, from 1; of all that were skipped too.
+  std::size_t number() const { return number_; }
+  const std::vector<std::string_view>& fields() const { return fields_; }
+  /// NaN for an empty field and for "nan"; empty for what is no number. With a decimal comma where
+  /// semicolons separate.
+  std::optional<double> number_in(std::string_view field) const;
+
+ private:
+  void split(std::string_view line);
+
+  std::string_view text_;
+  std::size_t number_ = 0;
+  char separator_ = '\0';  ///< before the first line
+  std::vector<std::string_view> fields_;
+};
+
+}  // namespace supercoil::identification

@@ -52,9 +52,11 @@ std::optional<std::size_t> index_of(const Fields& names, const Wanted& wanted,
     if (whole && number >= 1 && number <= names.size()) return number - 1;
     return std::nullopt;
   }
-  for (const std::string_view called : wanted.called)
-    for (std::size_t i = 0; i < names.size(); ++i)
+  for (const std::string_view called : wanted.called) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
       if (split_name(wanted.quantity, names[i]).name == called) return i;
+    }
+  }
   return std::nullopt;
 }
 
@@ -121,9 +123,10 @@ class CsvReader {
     }
     if (channel_at_ && columns_.channel == 0) {
       if (first_channel_.empty()) first_channel_ = fields[*channel_at_];
-      if (fields[*channel_at_] != first_channel_)
+      if (fields[*channel_at_] != first_channel_) {
         return tl::unexpected(
             Problem{lines_.number(), "is of another channel: say which by --channel"});
+      }
     } else if (channel_at_ && fields[*channel_at_] != std::to_string(columns_.channel)) {
       return {};
     }

@@ -107,6 +107,17 @@ class Sbom(unittest.TestCase):
             self.assertEqual(told.errors, [], component["name"])
         self.assertIn("License: Apache-2.0", (ROOT / "toolchain/package/copyright").read_text())
 
+    def test_the_notice_of_what_is_compiled_in_is_in_the_package(self):
+        notices = (ROOT / "toolchain/package/copyright").read_text()
+        declarations_only = {"NLopt", "libgpiod"}  # their headers have no code
+        for component in self.components:
+            if "headers" not in component or component["name"] in declarations_only:
+                continue
+            self.assertRegex(notices, r"\nComment: " + re.escape(component["name"]) + r"\W")
+            for licence in get_spdx_licensing().license_keys(component["licence"]):
+                name = {"MIT": "Expat"}.get(licence, licence)  # Debian's word for it
+                self.assertIn(f"\nLicense: {name}\n ", notices)
+
     def test_a_package_is_described_by_a_valid_document(self):
         done = self.package(*(f"{package} (>= 1.0)" for package in self.packages), "systemd")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

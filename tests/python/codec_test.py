@@ -115,6 +115,9 @@ class Codec(unittest.TestCase):
             protected = e2e.protected(identifier, data)
             self.assertEqual(protected, reference.protected(identifier, data))
             self.assertTrue(e2e.is_intact(identifier, protected))
+            session = self.chance.randrange(0x10000)
+            of_session = reference.crc8(data[1:] + bytes([identifier & 0xFF]) + session.to_bytes(2, "little"))
+            self.assertEqual(e2e.protected(identifier, data, session), bytes([of_session]) + data[1:])
             damaged = bytearray(protected)
             for bit in self.chance.sample(range(64), self.chance.randint(1, 3)):
                 damaged[bit // 8] ^= 1 << bit % 8

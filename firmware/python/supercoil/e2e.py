@@ -13,17 +13,18 @@ def _step(crc: int) -> int:
 _TABLE = bytes(_step(byte) for byte in range(256))
 
 
-def checksum(identifier: int, data: bytes) -> int:
-    """Over what follows the first byte, and the identifier's low byte."""
+def checksum(identifier: int, data: bytes, session: int | None = None) -> int:
+    """Over what follows the first byte, the identifier's low byte, and the session of a frame that does not tell it."""
+    tail = b"" if session is None else session.to_bytes(2, "little")
     crc = 0xFF
-    for byte in data[1:]:
+    for byte in data[1:] + bytes([identifier & 0xFF]) + tail:
         crc = _TABLE[crc ^ byte]
-    return _TABLE[crc ^ identifier & 0xFF] ^ 0xFF
+    return crc ^ 0xFF
 
 
-def protected(identifier: int, data: bytes) -> bytes:
+def protected(identifier: int, data: bytes, session: int | None = None) -> bytes:
     """With its checksum in the first byte."""
-    return bytes([checksum(identifier, data)]) + data[1:]
+    return bytes([checksum(identifier, data, session)]) + data[1:]
 
 
 def is_intact(identifier: int, data: bytes) -> bool:

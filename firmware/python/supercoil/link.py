@@ -8,15 +8,18 @@ import can
 
 from supercoil import codec, e2e
 from supercoil.bus import Bus
+from supercoil.clock import Clock
 from supercoil.errors import BusError, NoAnswerError
 from supercoil.generated import messages, names
-from supercoil.generated.names import Opcode, Quantity, Setting, Tunable
+from supercoil.generated.names import Opcode, Quantity, Setting, Tunable, When
 from supercoil.heartbeat import Heartbeat
-from supercoil.session import ANSWER_WITHIN_S, Session
+from supercoil.playback import PlaybackSession
+from supercoil.session import ANSWER_WITHIN_S
 from supercoil.telemetry import Telemetry
 
 _HEARTBEAT = frozenset((messages.STATUS, messages.EMERGENCY, messages.FIRST_CAUSE))
-_ANSWERS = frozenset((messages.ACKNOWLEDGE, messages.SETTING, messages.TUNING, messages.REFUSED_VALUE))
+_ANSWERS = frozenset((messages.ACKNOWLEDGE, messages.SETTING, messages.TUNING, messages.TRAJECTORY,
+                      messages.REFUSED_VALUE))
 # What the event loop is woken for; all else is only kept.
 _EVENTS = _HEARTBEAT | _ANSWERS | {messages.MUSCLE}
 
@@ -34,8 +37,14 @@ class Link(Protocol):
     async def quantity(self, quantity: Quantity) -> float: ...
     async def prepare(self, place: int, tunable: Tunable, value: float) -> None: ...
     async def tuned(self, place: int, tunable: Tunable, of: names.Set) -> float: ...
+    async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> messages.Trajectory: ...
+    async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> messages.Trajectory: ...
     async def keep(self) -> None: ...
     async def release(self) -> None: ...
+    @property
+    def trajectory(self) -> messages.Trajectory: ...
+    @property
+    def clock(self) -> Clock: ...
     @property
     def holds_lease(self) -> bool: ...
     @property
@@ -49,7 +58,7 @@ class CanLink:
         self._address = address
         self._options = options
         self._node = node
-        self._session = Session(node, self._send)
+        self._session = PlaybackSession(node, self._send)
         self._bus: Bus | None = None
         self._loop = asyncio.get_running_loop()
         self._read: dict[tuple[int, ...], list[asyncio.Future[float]]] = {}
@@ -85,11 +94,31 @@ class CanLink:
     async def tuned(self, place: int, tunable: Tunable, of: names.Set) -> float:
         return await self._ask(messages.TUNING_READ, messages.TUNING, place=place, tunable=tunable, set=of)
 
+    async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> messages.Trajectory:
+        await self._session.knot(after_s, position_m, velocity_m_per_s)
+        return self.trajectory
+
+    async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> messages.Trajectory:
+        await self._session.play(when, sync, after_s)
+        return self.trajectory
+
     async def keep(self) -> None:
         await self._session.keep()
 
     async def release(self) -> None:
         await self._session.release()
+
+    @property
+    def trajectory(self) -> messages.Trajectory:
+        """The newest one."""
+        return self._session.trajectory
+
+    @property
+    def clock(self) -> Clock:
+        """Of the bus."""
+        if self._bus is None:
+            raise BusError(f"node {self._node} is not connected")
+        return self._bus.clock
 
     @property
     def holds_lease(self) -> bool:

@@ -7,9 +7,10 @@ import socket
 import time
 
 from supercoil import codec
+from supercoil.clock import Clock
 from supercoil.errors import BusError, NoAnswerError, RefusalError, SupercoilError
 from supercoil.generated import messages, names, refusals
-from supercoil.generated.names import Opcode, Quantity, Refusal, Setting, Tunable
+from supercoil.generated.names import Opcode, Quantity, Refusal, Setting, Tunable, When
 from supercoil.heartbeat import Heartbeat
 from supercoil.local_text import command_line, frames_of
 from supercoil.telemetry import Telemetry
@@ -100,6 +101,24 @@ class SocketLink:
             return float(answer)
         except ValueError:
             raise self._refused(line, answer) from None
+
+    async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> messages.Trajectory:
+        raise self._over_can_only()
+
+    async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> messages.Trajectory:
+        raise self._over_can_only()
+
+    @property
+    def trajectory(self) -> messages.Trajectory:
+        raise self._over_can_only()
+
+    @property
+    def clock(self) -> Clock:
+        raise self._over_can_only()
+
+    def _over_can_only(self) -> SupercoilError:
+        return SupercoilError(f"channel {self._channel}: trajectories cannot be played by the board's socket, only "
+                              "over CAN")
 
     async def keep(self) -> None:
         pass

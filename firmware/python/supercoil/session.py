@@ -29,7 +29,8 @@ _COMMAND = codec.LAYOUTS[messages.COMMAND]
 _SETTING_WRITE = codec.LAYOUTS[messages.SETTING_WRITE]
 _TUNING_WRITE = codec.LAYOUTS[messages.TUNING_WRITE]
 _ANSWERS = {messages.COMMAND: messages.ACKNOWLEDGE, messages.SETTING_WRITE: messages.SETTING,
-            messages.TUNING_WRITE: messages.TUNING}
+            messages.TUNING_WRITE: messages.TUNING, messages.KNOT: messages.TRAJECTORY,
+            messages.PLAY: messages.TRAJECTORY}
 
 Send = Callable[[int, bytes], Awaitable[None]]
 
@@ -37,7 +38,7 @@ Send = Callable[[int, bytes], Awaitable[None]]
 @dataclass
 class Answer:
     refusal: Refusal
-    value: float  # the session or number that was granted; of a setting, what holds
+    value: float  # the session or number that was granted; of a setting, what holds; of a trajectory, its room
     nearest: "asyncio.Future[float] | None" = None
 
 
@@ -114,13 +115,17 @@ class Session:
             what, value = (message.setting, message.session_low), message.value
         else:
             what, value = (message.place, message.tunable), message.value
-        answered = self._pending.get((base, message.counter, *what))
-        if answered is None or answered.done():
-            return
         answer = Answer(message.refusal, value)
-        if answer.refusal == Refusal.out_of_range:
+        if self._settle((base, message.counter, *what), answer) and answer.refusal == Refusal.out_of_range:
             answer.nearest = self._newest_refused = asyncio.get_running_loop().create_future()
+
+    def _settle(self, key: tuple[int, ...], answer: Answer) -> bool:
+        """Whether anybody waits for it. Whoever does goes on later, in the event loop."""
+        answered = self._pending.get(key)
+        if answered is None or answered.done():
+            return False
         answered.set_result(answer)
+        return True
 
     def _next_counter(self) -> int:
         self._counter = (self._counter + 1) % e2e.COUNTERS
@@ -141,19 +146,21 @@ class Session:
             return await self._exchange(_TUNING_WRITE, (place, tunable), place=place, tunable=tunable,
                                         session_low=self._number & 0xFF, value=value)
 
-    async def _exchange(self, layout: Layout, what: tuple[int, ...], **fields: float) -> Answer:
+    async def _exchange(self, layout: Layout, what: tuple[int, ...], *, checked_session: int | None = None,
+                        **fields: float) -> Answer:
+        """checked_session: of a frame that has it in its checksum only."""
         identifier = layout.base | self.node
         answered: asyncio.Future[Answer] = asyncio.get_running_loop().create_future()
         key: tuple[int, ...] = ()
         try:
             async with self._sending:  # in the order of the counters, also when the bus is busy
                 counter = self._next_counter()
-                if counter == 0 and layout is not _COMMAND:
+                if counter == 0 and layout in (_SETTING_WRITE, _TUNING_WRITE):
                     counter = self._next_counter()  # 0 is the counter of an answer to somebody who reads
                 key = (_ANSWERS[layout.base], counter, *what)
                 self._pending[key] = answered
                 await self._send(identifier, e2e.protected(
-                    identifier, codec.encode(layout, {**fields, "counter": counter})))
+                    identifier, codec.encode(layout, {**fields, "counter": counter}), checked_session))
             async with asyncio.timeout(ANSWER_WITHIN_S):
                 return await answered
         except TimeoutError as error:

@@ -1,0 +1,55 @@
+"""The frames of a trajectory, and what the node tells of it (docs/trajectories.md)."""
+
+from collections.abc import Awaitable, Callable
+
+from supercoil import codec, e2e
+from supercoil.generated import messages
+from supercoil.generated.names import Answers, Refusal, When
+from supercoil.session import Answer, Send, Session
+
+_KNOT = codec.LAYOUTS[messages.KNOT]
+_PLAY = codec.LAYOUTS[messages.PLAY]
+
+
+class PlaybackSession(Session):
+    """A session that sends trajectories too. A knot never claims a lease: with another one the board has forgotten the
+    knots before it."""
+
+    def __init__(self, node: int, send: Send) -> None:
+        super().__init__(node, send)
+        self.trajectory: messages.Trajectory = codec.decode(messages.TRAJECTORY, bytes(8))  # empty
+
+    async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> None:
+        """Taken when it returns; trajectory has the room that is left. after_s 0: the first one."""
+        async def ask() -> Answer:
+            number = self._number
+            async with self._in_flight:
+                return await self._exchange(
+                    _KNOT, (Answers.knot, number & 0xFF), checked_session=number, after_s=after_s,
+                    position_m=position_m, velocity_m_per_s=velocity_m_per_s)
+        await self._go_on("knot", ask)
+
+    async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> None:
+        """Starts it; When.never asks for trajectory alone."""
+        async def ask() -> Answer:
+            number = self._number
+            async with self._in_flight:
+                return await self._exchange(_PLAY, (Answers.play, number & 0xFF), when=when, session=number, sync=sync,
+                                            after_s=after_s)
+        await self._go_on("play", ask)
+
+    def receive(self, base: int, data: bytes) -> None:
+        """A Trajectory of the node too."""
+        if base != messages.TRAJECTORY:
+            super().receive(base, data)
+        elif e2e.is_intact(base | self.node, data) and (told := codec.decode(base, data)) is not None:
+            self.trajectory = told
+            self._settle((base, told.counter, told.answers, told.session_low), Answer(told.refusal, told.room))
+
+    async def _go_on(self, command: str, ask: Callable[[], Awaitable[Answer]]) -> None:
+        if not self.holds_lease:
+            raise self._refused(Refusal.no_lease, command)
+        answer = await ask()
+        if answer.refusal == Refusal.wrong_counter:  # frames were lost before this one, which was not taken
+            answer = await ask()
+        await self._judge(command, answer)

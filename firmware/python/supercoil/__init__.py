@@ -17,10 +17,12 @@ from supercoil.discovery import Found, discover, stop
 from supercoil.errors import (
     BusError,
     DeadlineError,
+    DryError,
     FaultError,
     NoAnswerError,
     NotReachedError,
     OutcomeError,
+    PlaybackError,
     RefusalError,
     SimulationError,
     SupercoilError,
@@ -43,6 +45,7 @@ from supercoil.generated.names import (
 from supercoil.generated.version import PROTOCOL_VERSION, __version__
 from supercoil.learning import Outcome
 from supercoil.muscle import Muscle
+from supercoil.playing import Motion, play
 from supercoil.recording import Recording
 from supercoil.simulation import Simulation
 from supercoil.telemetry import Telemetry
@@ -55,12 +58,14 @@ __all__ = [
     "PROTOCOL_VERSION",
     "BusError",
     "DeadlineError",
+    "DryError",
     "Fault",
     "FaultError",
     "Found",
     "Gain",
     "LimitedBy",
     "Mode",
+    "Motion",
     "Muscle",
     "NoAnswerError",
     "NotReachedError",
@@ -69,6 +74,7 @@ __all__ = [
     "Outcome",
     "OutcomeError",
     "Parameter",
+    "PlaybackError",
     "Quantity",
     "Recording",
     "Refusal",
@@ -88,6 +94,7 @@ __all__ = [
     "faults",
     "load",
     "messages",
+    "play",
     "plot",
     "refusals",
     "stop",

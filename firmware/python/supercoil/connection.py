@@ -167,12 +167,16 @@ class Connection:
             await self._link.command(opcode, value)
             self._commanded = True
         except refusals.WrongState:
-            if self.fault == Fault.none:
-                with contextlib.suppress(NoAnswerError):
-                    await self._link.heartbeat.change(HEARTBEAT_S)
+            await self._hear_of_fault()
             if opcode != Opcode.reset:
                 await self._link.heartbeat.raise_fault()
             raise
+
+    async def _hear_of_fault(self) -> None:
+        """Of one that the board's answer is ahead of."""
+        if self.fault == Fault.none:
+            with contextlib.suppress(NoAnswerError):
+                await self._link.heartbeat.change(HEARTBEAT_S)
 
     async def _heat(self, opcode: Opcode, value: float = 0.0) -> None:
         self._kept.raise_if_let_go()

@@ -36,17 +36,20 @@ class UnknownFaultError(FaultError):
 
 class RefusalError(SupercoilError):
     """The board refused a command. nearest: the nearest value that it would have obeyed; NaN: none, or not known.
-    reason: what the board itself says of it, by its own socket only."""
+    reason: what the board itself says of it, by its own socket only. time_s: of the knot of play() that is refused, as
+    it was given; NaN: it was another command."""
 
     number: ClassVar[int] = 0
     name: ClassVar[str] = ""
     meaning: ClassVar[str] = ""
 
-    def __init__(self, node: int, command: str, nearest: float = math.nan, reason: str = "") -> None:
+    def __init__(self, node: int, command: str, nearest: float = math.nan, reason: str = "",
+                 time_s: float = math.nan) -> None:
         self.node = node
         self.command = command
         self.nearest = nearest
         self.reason = reason
+        self.time_s = time_s
         instead = "" if math.isnan(nearest) else f"; {nearest:.7g} would be obeyed"
         because = f": {reason}" if reason else ""
         super().__init__(f"node {node}: {command} is refused: {self.name}{instead}{because} ({self.meaning})")
@@ -89,6 +92,14 @@ class OutcomeError(SupercoilError):
 
 class DeadlineError(SupercoilError):
     """The program was silent for longer than its deadline, so the muscle was let go."""
+
+
+class PlaybackError(SupercoilError):
+    """The board plays the trajectory no longer: it was told something else meanwhile, or has not started."""
+
+
+class DryError(PlaybackError):
+    """A knot came too late: the board holds the one before it for 1 s and then lets the muscle rest."""
 
 
 class SimulationError(SupercoilError):

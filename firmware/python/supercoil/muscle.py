@@ -3,13 +3,13 @@
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from supercoil.tuning import Tuning
+from supercoil.playing import Playing
 
 if TYPE_CHECKING:
     from supercoil import sync
 
 
-class Muscle(Tuning):
+class Muscle(Playing):
     """async with Muscle("can0", node=1) as muscle: ... It is disarmed at the end of the block."""
 
     def __enter__(self) -> "sync.Muscle":

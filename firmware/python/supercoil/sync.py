@@ -1,6 +1,6 @@
 """The same without asyncio: every call here waits for the one of the same name in supercoil.Muscle."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeVar
@@ -16,6 +16,8 @@ from supercoil.discovery import stop as async_stop
 from supercoil.generated import messages
 from supercoil.generated.names import Fault, Quantity, Setting, State
 from supercoil.learning import Outcome
+from supercoil.playing import Motion
+from supercoil.playing import play as async_play
 from supercoil.portal import run
 from supercoil.recording import Recording
 from supercoil.simulation import Simulation as AsyncSimulation
@@ -192,6 +194,14 @@ class Muscle:
     def make_rest(self) -> Order:
         return self._muscle.make_rest()
 
+    def play(self, times_s: Iterable[float], positions_m: Iterable[float],
+             velocities_m_per_s: Iterable[float] | None = None, *, settle_s: float = 3.0, hold: bool = False) -> None:
+        run(self._muscle.play(times_s, positions_m, velocities_m_per_s, settle_s=settle_s, hold=hold))
+
+    def make_motion(self, times_s: Iterable[float], positions_m: Iterable[float],
+                    velocities_m_per_s: Iterable[float] | None = None) -> Motion:
+        return self._muscle.make_motion(times_s, positions_m, velocities_m_per_s)
+
     def execute(self, order: Order) -> messages.Measurement:
         return run(self._muscle.execute(order))
 
@@ -239,6 +249,10 @@ class Simulation:
 
 def cycle(orders: Sequence[Order]) -> list[messages.Measurement]:
     return run(async_cycle(orders))
+
+
+def play(motions: Sequence[Motion], *, settle_s: float = 3.0, hold: bool = False) -> None:
+    run(async_play(motions, settle_s=settle_s, hold=hold))
 
 
 def discover(address: str | can.BusABC, *, seconds: float = 1.0, **options: object) -> list[Found]:

@@ -1,0 +1,94 @@
+"""A trajectory as its knots, checked as far as it can be without a board."""
+
+import itertools
+import math
+from collections.abc import Iterable
+from typing import Any, NamedTuple
+
+from supercoil import codec
+from supercoil.generated import messages
+
+_STEPS_A_SECOND = 1000  # the bus has whole milliseconds
+_FEWEST = 2
+
+
+class Knot(NamedTuple):
+    time_s: float  # as it was given
+    after_s: float  # since the knot before; 0 of the first one
+    position_m: float
+    velocity_m_per_s: float
+
+
+def _greatest(signal: str) -> float:
+    """That a knot can carry."""
+    sent = codec.encode(codec.LAYOUTS[messages.KNOT], {signal: math.inf})
+    return float(getattr(codec.decode(messages.KNOT, sent), signal))
+
+
+MOST_AFTER_S = _greatest("after_s")
+MOST_POSITION_M = _greatest("position_m")
+MOST_VELOCITY_M_PER_S = _greatest("velocity_m_per_s")
+# A velocity that is sent as 0.
+_STANDSTILL_M_PER_S = 0.49e-5
+
+
+def _column(name: str, values: Iterable[float], greatest: float = math.inf) -> list[float]:
+    shape: Any = getattr(values, "shape", None)
+    if shape is not None and len(shape) != 1:
+        raise ValueError(f"{name}: must be one column, a number for each knot; its shape is {shape}")
+    column = []
+    for row, value in enumerate(values):
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            number = math.nan
+        if not math.isfinite(number):
+            raise ValueError(f"row {row}: {name} is {value!r}; it must be a finite number")
+        if abs(number) > greatest:
+            raise ValueError(f"row {row}: {name} is {number:.7g}; it must be {-greatest:.7g} to {greatest:.7g}")
+        column.append(number)
+    return column
+
+
+def _steps(times_s: list[float]) -> list[float]:
+    """Since the row before; the first is 0."""
+    counts = [round((time_s - times_s[0]) * _STEPS_A_SECOND) for time_s in times_s]
+    most = round(MOST_AFTER_S * _STEPS_A_SECOND)
+    for row in range(1, len(counts)):
+        if not 1 <= counts[row] - counts[row - 1] <= most:
+            raise ValueError(f"row {row}: times_s is {times_s[row] - times_s[row - 1]:.7g} s after the row before; it "
+                             f"must be {1 / _STEPS_A_SECOND:g} to {MOST_AFTER_S:g} s")
+    return [0.0] + [(after - before) / _STEPS_A_SECOND for before, after in itertools.pairwise(counts)]
+
+
+def _slopes(steps_s: list[float], positions_m: list[float]) -> list[float]:
+    """Of the parabola through three rows; 0 at both ends."""
+    slopes = [0.0] * len(positions_m)
+    for row in range(1, len(positions_m) - 1):
+        before_s, after_s = steps_s[row], steps_s[row + 1]
+        before = (positions_m[row] - positions_m[row - 1]) / before_s
+        after = (positions_m[row + 1] - positions_m[row]) / after_s
+        slopes[row] = (before * after_s + after * before_s) / (before_s + after_s)
+    return slopes
+
+
+def knots_of(times_s: Iterable[float], positions_m: Iterable[float],
+             velocities_m_per_s: Iterable[float] | None = None) -> tuple[Knot, ...]:
+    """ValueError: says which row, from 0, is wrong and what it must be."""
+    times, positions = _column("times_s", times_s), _column("positions_m", positions_m, MOST_POSITION_M)
+    columns = {"positions_m": positions}
+    if velocities_m_per_s is not None:
+        columns["velocities_m_per_s"] = _column("velocities_m_per_s", velocities_m_per_s, MOST_VELOCITY_M_PER_S)
+    for name, column in columns.items():
+        if len(column) != len(times):
+            raise ValueError(f"{name} has {len(column)} rows and times_s has {len(times)}")
+    if len(times) < _FEWEST:
+        raise ValueError(f"a trajectory has {_FEWEST} rows at least, and not {len(times)}")
+    steps = _steps(times)
+    velocities = columns.get("velocities_m_per_s") or _slopes(steps, positions)
+    _column("the velocity between its neighbours, in m/s,", velocities, MOST_VELOCITY_M_PER_S)
+    for row in (0, len(times) - 1):
+        if abs(velocities[row]) > _STANDSTILL_M_PER_S:
+            raise ValueError(f"row {row}: velocities_m_per_s is {velocities[row]:.7g}; the first and the last one must "
+                             "be 0")
+    return tuple(map(Knot, times, steps, positions, velocities))

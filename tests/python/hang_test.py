@@ -11,6 +11,7 @@ from patience import DEADLINE_S, QUICK, TRIES, patient
 
 import supercoil
 from supercoil import Opcode, State, messages, sync
+from supercoil.generated.names import Answers, Playback
 
 # Holds the muscle until it is told otherwise.
 PROGRAM = """
@@ -21,6 +22,15 @@ with supercoil.Muscle(sys.argv[1], deadline_s=1e6) as muscle:
     muscle.arm()
     muscle.set_position(0.002)
     muscle.hold(1e6)
+"""
+# Plays a trajectory that takes a minute.
+PLAYS = """
+import sys, supercoil
+with supercoil.Muscle(sys.argv[1], deadline_s=1e6) as muscle:
+    if muscle.state == supercoil.State.fault:
+        muscle.reset()
+    muscle.arm()
+    muscle.play([i * 0.1 for i in range(600)], [0.002 + i * 2e-6 for i in range(600)], settle_s=0.0)
 """
 # Prints where its simulation serves, and waits.
 SIMULATES = """
@@ -45,21 +55,21 @@ class Hang(unittest.TestCase):
             self.assertLess(time.monotonic(), end, "never seen")
             time.sleep(0.01)
 
-    def holding(self):
-        """A process that holds the muscle."""
+    def running(self, program, seen):
+        """Its process, when what it does with the muscle is seen."""
         for _ in range(TRIES):
-            process = subprocess.Popen([sys.executable, "-c", PROGRAM, self.simulation.address], stderr=subprocess.PIPE,
+            process = subprocess.Popen([sys.executable, "-c", program, self.simulation.address], stderr=subprocess.PIPE,
                                        text=True)
             self.addCleanup(process.communicate)
             self.addCleanup(process.kill)
-            self.observe(lambda m, process=process: m.state == State.active or process.poll() is not None)
+            self.observe(lambda m, process=process: seen(m) or process.poll() is not None)
             if process.poll() is None:
                 return process
         self.fail(process.communicate()[1])
 
     @patient
     def test_the_command_of_a_stopped_process_expires(self):
-        process = self.holding()
+        process = self.running(PROGRAM, lambda m: m.state == State.active)
         with self.observer.record() as recording:
             self.observer.hold(1.0)
             process.send_signal(signal.SIGSTOP)
@@ -71,9 +81,32 @@ class Hang(unittest.TestCase):
         # By the board's clock.
         self.assertAlmostEqual(expired.time_s - renewed[-1], 0.25, delta=0.02)
         self.assertGreater(len(renewed), 8)
+        self.assert_told_when_it_goes_on(process)
+
+    def assert_told_when_it_goes_on(self, process):
         process.send_signal(signal.SIGCONT)
         self.assertIn("supercoil.generated.faults.CommandTimeout", process.communicate(timeout=DEADLINE_S)[1])
         self.assertEqual(process.returncode, 1)
+
+    @patient
+    def test_a_trajectory_of_a_stopped_process_ends_with_its_knots_left(self):
+        with self.observer.record() as recording:
+            process = self.running(PLAYS, lambda m: (told := m.telemetry.newest(messages.Trajectory)) is not None
+                                   and told.playback == Playback.playing)
+            self.observer.hold(1.0)
+            process.send_signal(signal.SIGSTOP)
+            self.observe(lambda m: m.state == State.fault and m.telemetry.power.applied_W == 0.0)
+            self.observe(lambda m: m.telemetry.newest(messages.Trajectory).playback == Playback.empty)
+        expired = [told for told in recording.of(messages.Emergency) if told.fault != supercoil.Fault.none][-1]
+        self.assertEqual(expired.fault, supercoil.Fault.command_timeout)
+        renewed = [told.time_s for told in recording.of(messages.Acknowledge) if told.opcode in RENEWING]
+        told = [told for told in recording.of(messages.Trajectory) if told.answers != Answers.nothing]
+        renewed += [one.time_s for one in told if one.answers == Answers.knot]
+        # By the board's clock.
+        self.assertAlmostEqual(expired.time_s - max(renewed), 0.25, delta=0.02)
+        self.assertEqual(told[-1].playback, Playback.playing)
+        self.assertGreater(told[-1].buffered_s, 3.0)
+        self.assert_told_when_it_goes_on(process)
 
 
 class Orphan(unittest.TestCase):

@@ -14,7 +14,7 @@ QUICK = pathlib.Path(__file__).with_name("quick.toml")
 TRIES = 5
 DEADLINE_S = 120.0  # for whatever takes a second on a machine that has nothing else to do
 STARVED = (supercoil.faults.CommandTimeout, supercoil.NoAnswerError, supercoil.refusals.NotLeaseHolder,
-           supercoil.DeadlineError)
+           supercoil.DeadlineError, supercoil.PlaybackError, supercoil.refusals.NoLease)
 with contextlib.suppress(PermissionError):  # root, as in a container: the fewer commands expire the sooner it is done
     os.setpriority(os.PRIO_PROCESS, 0, -15)
 

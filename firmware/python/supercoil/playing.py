@@ -124,9 +124,7 @@ class _Player:
             return False
         except RefusalError as refused:
             if isinstance(refused, refusals.WrongState):
-                await self._raise_fault()
-                if self._started_at < math.inf:
-                    await self._raise_if_stopped()
+                await self._raise_cause()
             raise type(refused)(refused.node, f"the knot at {knot.time_s:.3f} s", time_s=knot.time_s) from None
         self.muscle._kept.heats()
         return True
@@ -135,8 +133,14 @@ class _Player:
         try:
             await self._link.play(when, sync, after_s)
         except refusals.WrongState:
-            await self._raise_fault()
+            await self._raise_cause()
             raise
+
+    async def _raise_cause(self) -> None:
+        """Of a refusal because of the state."""
+        await self._raise_fault()
+        if self._sent > 0:
+            await self._raise_if_stopped()
 
     async def _raise_fault(self) -> None:
         await self.muscle._hear_of_fault()

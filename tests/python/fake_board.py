@@ -8,6 +8,7 @@ from supercoil import PROTOCOL_VERSION, codec, e2e
 from supercoil.generated import messages
 
 NODE = 5
+SESSION = 77  # that Leased grants
 
 
 class FakeBoard:
@@ -22,6 +23,10 @@ class FakeBoard:
         self.tuned = []
         self.refuse_tuning = 0
         self.damage_answers = False
+        # Knot or Play -> what Trajectory tells, or None: no answer.
+        self.playback = lambda *_: None
+        self.trajectory = []
+        self.synced = []
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
@@ -58,6 +63,11 @@ class FakeBoard:
                                               (told.counter, told.tunable, self.refuse_tuning)):
                 self.send(messages.TUNING, protected=True, counter=counter, place=told.place, tunable=tunable,
                           refusal=refusal, set=0, value=told.value)
+        if frame.arbitration_id == messages.SYNC | 1:
+            assert e2e.is_intact(frame.arbitration_id, bytes(frame.data))
+            self.synced.append(codec.decode(messages.SYNC, bytes(frame.data)).sync)
+        if frame.arbitration_id in (messages.KNOT | NODE, messages.PLAY | NODE):
+            self._take_trajectory(frame)
         if frame.arbitration_id != messages.COMMAND | NODE:
             return
         told = codec.decode(messages.COMMAND, bytes(frame.data))
@@ -68,9 +78,20 @@ class FakeBoard:
             self.send(messages.ACKNOWLEDGE, protected=True, counter=told.counter, opcode=told.opcode,
                       session=told.session, refusal=answer[0], granted=answer[1])
 
+    def _take_trajectory(self, frame):
+        base = frame.arbitration_id & codec.BASE_MASK
+        told = codec.decode(base, bytes(frame.data))
+        session = SESSION if base == messages.KNOT else told.session
+        of_checksum = (session,) if base == messages.KNOT else ()
+        assert frame.data[0] == e2e.checksum(frame.arbitration_id, bytes(frame.data), *of_checksum)
+        self.trajectory.append(told)
+        if (answer := self.playback(told)) is not None:
+            self.send(messages.TRAJECTORY, protected=True, counter=told.counter, session_low=session & 0xFF,
+                      answers=1 if base == messages.KNOT else 2, **answer)
+
 
 class Leased:
-    """A board that grants session 77 after one claim_again with number 1234; all else is obeyed."""
+    """A board that grants SESSION after one claim_again with number 1234; all else is obeyed."""
 
     def __init__(self):
         self.leased = False
@@ -86,9 +107,9 @@ class Leased:
                 return messages.names.Refusal.claim_again, 1234
             else:
                 self.leased = True
-            return 0, 77
+            return 0, SESSION
         if opcode == "disarm":
             return 0, 0
         if not self.leased:
             return messages.names.Refusal.no_lease, 0
-        return (0, 0) if session == 77 else (messages.names.Refusal.not_lease_holder, 0)
+        return (0, 0) if session == SESSION else (messages.names.Refusal.not_lease_holder, 0)

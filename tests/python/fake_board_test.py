@@ -5,13 +5,14 @@ import unittest
 from unittest import mock
 
 import can
-from fake_board import NODE, FakeBoard, Leased
+from fake_board import NODE, SESSION, FakeBoard, Leased
 from patience import patient_tests
 
 import supercoil
 from supercoil import sync
 from supercoil.address import open_bus
-from supercoil.generated.names import Refusal
+from supercoil.generated import messages
+from supercoil.generated.names import Playback, Refusal, When
 
 
 @patient_tests
@@ -87,6 +88,54 @@ class Sessions(unittest.TestCase):
             with self.assertRaises(supercoil.NoAnswerError):
                 muscle.prepare()
             board.damage_answers = False
+
+    def played(self, board, refusals=()):
+        """Plays three knots; the board answers knots with these refusals first."""
+        waiting = list(refusals)
+
+        def answer(message):
+            if isinstance(message, messages.Knot):
+                return {"refusal": waiting.pop(0) if waiting else 0, "playback": Playback.loaded, "room": 9}
+            state = Playback.loaded if message.when == When.at_sync else Playback.ended
+            return {"refusal": 0, "playback": state, "room": 9}
+        board.playback = answer
+        with self.muscle() as muscle:
+            muscle.play([0.0, 0.25, 0.5], [0.001, 0.002, 0.003], settle_s=0.0)
+
+    def test_a_knot_that_was_not_taken_is_sent_once_more(self):
+        board = self.board()
+        self.played(board, [0, Refusal.wrong_counter])
+        knots = [told for told in board.trajectory if isinstance(told, messages.Knot)]
+        self.assertEqual([(told.after_s, told.position_m, told.velocity_m_per_s) for told in knots],
+                         [(0.0, 0.001, 0.0), (0.25, 0.002, 0.004), (0.25, 0.002, 0.004), (0.25, 0.003, 0.0)])
+        start, = (told for told in board.trajectory if isinstance(told, messages.Play) and told.when == When.at_sync)
+        self.assertEqual(board.synced[0], start.sync)
+        self.assertEqual((start.session, start.after_s), (SESSION, 0.1))
+        self.assertIn("rest", [command[0] for command in board.commands])
+
+    def test_a_knot_for_which_the_board_has_no_time_waits(self):
+        board = self.board()
+        self.played(board, [0, Refusal.queue_full, Refusal.queue_full])
+        self.assertEqual(sum(isinstance(told, messages.Knot) for told in board.trajectory), 5)
+
+    def test_a_session_that_is_lost_ends_a_trajectory(self):
+        for refusal, error in ((Refusal.no_lease, supercoil.refusals.NoLease),
+                               (Refusal.not_lease_holder, supercoil.refusals.NotLeaseHolder)):
+            with self.subTest(refusal):
+                board = self.board()
+                with self.assertRaisesRegex(error, "the knot at 0.250 s is refused"):
+                    self.played(board, [0, refusal])
+                self.assertEqual(len(board.trajectory), 2)
+                self.assertIn("rest", [command[0] for command in board.commands])
+                board.end()
+
+    def test_a_trajectory_that_does_not_start_is_told(self):
+        board = self.board()
+        board.playback = lambda _: {"refusal": 0, "playback": Playback.loaded, "room": 9}
+        with self.muscle() as muscle, self.assertRaisesRegex(supercoil.PlaybackError, "has not started"):
+            muscle.play([0.0, 0.5], [0.001, 0.001], settle_s=0.0)
+        self.assertGreater(len(board.synced), 1)
+        self.assertEqual(board.synced[1], (board.synced[0] + 1) % 256)
 
     def test_another_masters_lease_is_respected(self):
         board = self.board(lambda *_: (Refusal.not_lease_holder, 0))

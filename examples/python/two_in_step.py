@@ -1,7 +1,7 @@
-"""Two muscles follow one sine, half a period apart: both set points go out in one call.
+"""Two muscles go to and fro, half a period apart. The boards have the way ahead of time and start together.
 
 python two_in_step.py can0,1 can0,2
-python two_in_step.py socketcand:29536,1 socketcand:29536,2 10     # seconds, of supercoil-sim ... --nodes 2
+python two_in_step.py socketcand:29536,1 socketcand:29536,2 1     # periods, of supercoil-sim ... --nodes 2
 """
 
 import asyncio
@@ -11,20 +11,24 @@ import sys
 import supercoil
 
 MIDDLE_M, AMPLITUDE_M, PERIOD_S = 0.004, 0.002, 8.0
-EVERY_S = 0.02
+EVERY_S = 0.05
 
 
-async def main(first, second, seconds=16.0):
+async def main(first, second, periods=2):
+    times_s = [i * EVERY_S for i in range(round(periods * PERIOD_S / EVERY_S) + 1)]
+    swings_m = [AMPLITUDE_M * math.cos(2 * math.pi * time_s / PERIOD_S) for time_s in times_s]
     async with supercoil.Muscle(*place(first)) as one, supercoil.Muscle(*place(second)) as two:
         for muscle in (one, two):
             await muscle.arm()
-        start = asyncio.get_running_loop().time()
-        while (elapsed := asyncio.get_running_loop().time() - start) < seconds:
-            swing_m = AMPLITUDE_M * math.sin(2 * math.pi * elapsed / PERIOD_S)
-            told = await supercoil.cycle([one.make_position(MIDDLE_M + swing_m),
-                                          two.make_position(MIDDLE_M - swing_m)])
-            print(f"{elapsed:6.2f} s " + " ".join(f"{1e3 * message.position_m:7.3f} mm" for message in told))
-            await asyncio.sleep(EVERY_S)
+        motions = [one.make_motion(times_s, [MIDDLE_M - swing_m for swing_m in swings_m]),
+                   two.make_motion(times_s, [MIDDLE_M + swing_m for swing_m in swings_m])]
+        await asyncio.gather(*(muscle.move_to(knots[0].position_m) for muscle, knots in motions))
+        with one.record("Tracking") as of_one, two.record("Tracking") as of_two:
+            await supercoil.play(motions, settle_s=0.5)
+    for at, recording in ((first, of_one), (second, of_two)):
+        errors_m = [told.error_m for told in recording.of(supercoil.messages.Tracking)]
+        worst_m = max(abs(error_m) for error_m in errors_m if math.isfinite(error_m))
+        print(f"{at}: off its way by {1e3 * worst_m:.2f} mm at most")
 
 
 def place(text):
@@ -34,4 +38,4 @@ def place(text):
 
 
 if __name__ == "__main__":
-    asyncio.run(main(*sys.argv[1:3], *map(float, sys.argv[3:])))
+    asyncio.run(main(*sys.argv[1:3], *map(int, sys.argv[3:])))

@@ -167,6 +167,15 @@ class Trajectories(unittest.TestCase):
         self.assertEqual(muscle.state, State.armed)
 
     @patient
+    def test_a_number_of_a_sync_that_the_board_has_heard_before_starts_nothing(self):
+        muscle = self.muscle()
+        clock = muscle._muscle._link.clock
+        for _ in range(2):  # with the same numbers
+            clock._number = 255
+            muscle.play([0.0, 1.0], [FIRST_M, FIRST_M + 0.0001], settle_s=0.0)
+        self.assertGreater(clock._number, 127)
+
+    @patient
     def test_a_motion_that_is_cancelled_lets_the_muscle_rest(self):
         async def cancel(muscle):
             playing = await self.under_way(muscle, Playback.playing)

@@ -20,9 +20,14 @@ class Clock:
         self._number = secrets.randbelow(_NUMBERS)
 
     def next_number(self) -> int:
-        """Of a Sync that is still to be sent; no other one has it."""
+        """Of a Sync that is still to be sent."""
         self._number = (self._number + 1) % _NUMBERS
         return self._number
+
+    def avoid_known(self) -> None:
+        """A board has heard the last number already, of an earlier program: it keeps the latest 8, by their lowest
+        bits, so that it cannot know the ones opposite."""
+        self._number = (self._number + _NUMBERS // 2 - 1) % _NUMBERS
 
     async def sync(self, number: int) -> None:
         """All boards of the bus hear it."""

@@ -172,14 +172,24 @@ async def _play(players: Sequence[_Player], settle_s: float) -> None:
     await all_of(player.go_to_start(settle_s) for player in players)
     while not all(player.is_loaded() for player in players):
         await all_of(player.load() for player in players)
-    starts = {player.clock: player.clock.next_number() for player in players}
-    await all_of(player.start(starts[player.clock]) for player in players)
-    for clock, number in starts.items():
-        await clock.sync(number)
+    clocks = {player.clock for player in players}
+    try:
+        await _start(players, clocks)
+    except refusals.OutOfRange:
+        for clock in clocks:
+            clock.avoid_known()
+        await _start(players, clocks)
     synced_at = time.monotonic()
     while not all(player.has_ended() for player in players):
         await all_of(player.go_on() for player in players)
         if time.monotonic() - synced_at >= _SYNC_EVERY_S:
             synced_at = time.monotonic()
-            for clock in starts:
+            for clock in clocks:
                 await clock.sync(clock.next_number())
+
+
+async def _start(players: Sequence[_Player], clocks: Iterable[Clock]) -> None:
+    numbers = {clock: clock.next_number() for clock in clocks}
+    await all_of(player.start(numbers[player.clock]) for player in players)
+    for clock, number in numbers.items():
+        await clock.sync(number)

@@ -161,7 +161,7 @@ class Trajectories(unittest.TestCase):
 
         # As if it had no room for what comes later.
         with mock.patch.object(CanLink, "knot", stops_short), \
-                mock.patch("supercoil.playing._Player.is_loaded", lambda _: len(sent) > 30), \
+                mock.patch("supercoil.player.Player.is_loaded", lambda _: len(sent) > 30), \
                 self.assertRaisesRegex(supercoil.DryError, r"after the one at 0.580 s came too late"):
             muscle.play(TIMES_S, way(TIMES_S), settle_s=0.0)
         self.assertEqual(muscle.state, State.armed)

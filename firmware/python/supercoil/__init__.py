@@ -45,7 +45,8 @@ from supercoil.generated.names import (
 from supercoil.generated.version import PROTOCOL_VERSION, __version__
 from supercoil.learning import Outcome
 from supercoil.muscle import Muscle
-from supercoil.playing import Motion, play
+from supercoil.player import Motion
+from supercoil.playing import play
 from supercoil.recording import Recording
 from supercoil.simulation import Simulation
 from supercoil.telemetry import Telemetry

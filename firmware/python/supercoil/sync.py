@@ -16,7 +16,7 @@ from supercoil.discovery import stop as async_stop
 from supercoil.generated import messages
 from supercoil.generated.names import Fault, Quantity, Setting, State
 from supercoil.learning import Outcome
-from supercoil.playing import Motion
+from supercoil.player import Motion
 from supercoil.playing import play as async_play
 from supercoil.portal import run
 from supercoil.recording import Recording

@@ -226,7 +226,7 @@ void Proof::rest() {
 }
 
 void Proof::judge(double power_W, double hottest_K) {
-  const bool silent = stage_ == Stage::watching ? dither_.silent() : all_.silent();
+  const bool silent = stage_ == Stage::watching ? dither_.silent() : all_.silent() && must_move();
   unproven_s_ = power_W > above_safe_ratio * plan_.safe_W ? unproven_s_ + step_s_ : 0.0;
   if (stage_ == Stage::released) {
     judge_release();
@@ -234,22 +234,30 @@ void Proof::judge(double power_W, double hottest_K) {
     unproven_s_ = 0.0;
     if (stage_ == Stage::overdue) enter(Stage::watching);
     begin_block();
-  } else if (silent && stage_ != Stage::swallowed) {
+  } else if (silent && (stage_ == Stage::watching || stage_ == Stage::overdue)) {
     enter(Stage::released);
   } else if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) {
     unproven_s_ = 0.0;
   } else if (unproven_s_ > overdue_ratio * time_to_limit_s(hottest_K)) {
     if (stage_ == Stage::watching) enter(Stage::overdue);
+    if (stage_ == Stage::moving) enter(Stage::swallowed);
   }
   if (block_s_ > max_block_s) begin_block();
   drive_dither(hottest_K);
 }
 
+bool Proof::must_move() const {
+  return high_m_ - low_m_ >= release_ratio * settings_.obvious_m || stage_s_ >= max_release_s;
+}
+
 void Proof::judge_release() {
-  const bool moved = high_m_ - low_m_ >= release_ratio * settings_.obvious_m;
-  const bool ends = stage_s_ >= max_release_s;
-  unanswered_ = all_.silent() && (moved || ends);
-  if (!unanswered_ && ((all_.answered() && moved) || ends)) enter(Stage::swallowed);
+  if (!must_move()) return;
+  unanswered_ = all_.silent();
+  if (all_.answered()) {
+    enter(Stage::moving);
+  } else if (!unanswered_ && stage_s_ >= max_release_s) {
+    enter(Stage::swallowed);
+  }
 }
 
 void Proof::enter(Stage stage) {
@@ -263,6 +271,7 @@ void Proof::enter(Stage stage) {
 void Proof::allow() {
   switch (stage_) {
     case Stage::watching:
+    case Stage::moving:
       max_W_ = active() ? plan_.provable_W : INFINITY;
       break;
     case Stage::overdue:

@@ -95,7 +95,8 @@ class Proof {
     watching,
     overdue,    ///< not proven in time: the safe power, until something is answered, or nothing
     released,   ///< a dither was not answered: no power, and the muscle must move
-    swallowed,  ///< it did move: friction swallows a dither. The safe power until the next start
+    moving,     ///< it did move: friction swallows a dither. Only its own motion proves it now
+    swallowed,  ///< nor does that. The safe power until the next start
   };
 
   /// Where a block begins, one step's noise would be in all of it.
@@ -142,6 +143,7 @@ class Proof {
   void rest();
   void judge(double power_W, double hottest_K);
   void judge_release();
+  bool must_move() const;
   double time_to_limit_s(double hottest_K) const;
   void enter(Stage stage);
   void allow();

@@ -86,7 +86,7 @@ TEST(ProofStages, ARemovalOfPowerThatMovesNoMuscleFarEndsInTime) {
     muscle.run(10.0);
     LONGS_EQUAL(!contact, muscle.unanswered);
     DOUBLES_EQUAL(0.0, muscle.min_W, 0.0);
-    DOUBLES_EQUAL(contact ? paper_safe_W() : 0.0, muscle.proof.max_W(), 1e-9);
+    DOUBLES_EQUAL(contact ? 4.5 : 0.0, muscle.proof.max_W(), 1e-9);
   }
 }
 
@@ -104,6 +104,54 @@ TEST(ProofStages, WhereFrictionSwallowsADitherNoResponseIsNotAFaultUntilTheNextS
   muscle.heating = false;
   muscle.run(0.1);
   DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+}
+
+TEST(ProofStages, WhereFrictionSwallowsADitherAMotionProvesItselfUntilItEnds) {
+  HeldMuscle muscle(paper_proof());
+  muscle.play_m = 200e-6;
+  const auto run_sine = [&](double time_s) {
+    for (int i = 0; i < std::lround(time_s * 100.0); ++i) {
+      muscle.demanded_W = 2.0 + std::sin(0.01 * i);
+      muscle.run(0.01);
+    }
+  };
+  muscle.run(14.0);  // at rest: a dither, and no power until it has moved
+  DOUBLES_EQUAL(0.0, muscle.min_W, 0.0);
+  muscle.min_W = 1e3;
+  run_sine(60.0);
+  DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
+  muscle.run(30.0);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.min_W, 1e-9);
+  run_sine(10.0);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
+  CHECK_FALSE(muscle.unanswered);
+}
+
+TEST(ProofStages, AMuscleThatMovesAndLosesContactGetsTheSafePowerInTime) {
+  HeldMuscle muscle(paper_proof());
+  muscle.play_m = 200e-6;
+  muscle.run(14.0);
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+  muscle.off_sensor = true;
+  muscle.demanded_W = 4.5;
+  muscle.hotter_K = 500.0;
+  muscle.run(0.05);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
+}
+
+// Play hides the first of the fall; at the safe power there is time to wait for the rest.
+TEST(ProofStages, SilenceAtTheSafePowerIsJudgedOnceTheMuscleMustHaveMoved) {
+  HeldMuscle muscle(paper_proof());
+  muscle.play_m = 300e-6;
+  muscle.run(9.0);
+  muscle.hotter_K = 500.0;  // overdue at once
+  muscle.run(0.05);
+  muscle.hotter_K = 0.0;
+  DOUBLES_EQUAL(paper_safe_W(), muscle.proof.max_W(), 1e-9);
+  muscle.run(3.0);
+  DOUBLES_EQUAL(paper_safe_W(), muscle.min_W, 1e-9);
+  DOUBLES_EQUAL(4.5, muscle.proof.max_W(), 1e-9);
+  CHECK_FALSE(muscle.unanswered);
 }
 
 TEST(ProofStages, WithoutAPositionNothingIsJudged) {

@@ -43,7 +43,7 @@ class Document(unittest.TestCase):
     def test_it_has_every_command(self):
         names = re.search(r"verb_names\{(.*?)\};", (ROOT / "firmware/core/loop/command.hpp").read_text(), re.S).group(1)
         body = DOCUMENT["paths"]["/api/command"]["post"]["requestBody"]["content"]["application/json"]["schema"]
-        plain = re.findall(r'"(\w+)"', names.partition('"knot"')[0])  # a trajectory's come over CAN alone
+        plain = re.findall(r'"(\w+)"', names.partition('"knot"')[0])  # a trajectory's have a path of their own
         self.assertEqual(["none", *body["properties"]["opcode"]["enum"]], plain)
 
     def test_it_has_what_is_served(self):
@@ -103,6 +103,9 @@ class Answers(OnSimulatedBoard):
         self.check("post", "/api/command", 200, body={**node, "opcode": "disarm"}, **bearer)
         self.check("post", "/api/command", 400, body={**node, "opcode": "fly"}, **bearer)
         self.check("post", "/api/command", 403, body={**node, "opcode": "disarm"})
+        self.check("post", "/api/trajectory", 200, body=node, **bearer)
+        self.check("post", "/api/trajectory", 400, body={**node, "knots": [{}]}, **bearer)
+        self.check("post", "/api/trajectory", 403, body=node)
         self.check("post", "/api/alive", 200, body=node, **bearer)
         self.check("post", "/api/alive", 400, body={"node": 0}, **bearer)
         self.check("post", "/api/tuning", 200, body={**node, "place": 0, "from": "in_use"}, **bearer)

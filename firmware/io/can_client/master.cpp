@@ -231,6 +231,10 @@ hal::CanFrame Master::play(double when, std::uint8_t sync, double after_s) {
       .protected_frame();
 }
 
+hal::CanFrame Master::play_at_once(double after_s) {
+  return play(telemetry::at_once, 0, after_s);
+}
+
 hal::CanFrame Master::play_at_sync(std::uint8_t sync, double after_s) {
   return play(telemetry::at_sync, sync, after_s);
 }

@@ -103,6 +103,8 @@ class Master {
 
   /// Under the lease: the next knot, so long after the one before it.
   hal::CanFrame knot(double after_s, double position_m, double velocity_m_per_s);
+  /// Under the lease: starts the trajectory so long after the board has received this.
+  hal::CanFrame play_at_once(double after_s);
   /// Under the lease: starts the trajectory so long after a Sync.
   hal::CanFrame play_at_sync(std::uint8_t sync, double after_s);
   /// Under the lease: asks what becomes of it.

@@ -172,6 +172,10 @@ Commander::Played Commander::add_knot(double after_s, const control::Knot& knot)
   return play([&] { return master_.knot(after_s, knot.position_m, knot.velocity_m_per_s); });
 }
 
+Commander::Played Commander::start_at_once(double after_s) {
+  return play([&] { return master_.play_at_once(after_s); });
+}
+
 Commander::Played Commander::start_at_sync(std::uint8_t sync, double after_s) {
   return play([&] { return master_.play_at_sync(sync, after_s); });
 }

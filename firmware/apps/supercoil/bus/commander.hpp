@@ -36,6 +36,7 @@ class Commander {
   /// Likewise, of its trajectory.
   using Played = tl::expected<can_client::Played, std::string>;
   Played add_knot(double after_s, const control::Knot& knot);
+  Played start_at_once(double after_s);
   Played start_at_sync(std::uint8_t sync, double after_s);
   Played playback();
   /// To all nodes of the bus.

@@ -10,6 +10,7 @@
 #include "apps/supercoil/monitor/assets.hpp"
 #include "apps/supercoil/monitor/batch.hpp"
 #include "apps/supercoil/monitor/command_request.hpp"
+#include "apps/supercoil/monitor/trajectory_request.hpp"
 #include "apps/supercoil/monitor/tuning_request.hpp"
 #include "telemetry/opcodes.hpp"
 #include "text/program_version.hpp"
@@ -160,6 +161,7 @@ void Api::serve_with(httplib::Server& server) {
     answer_with(response, *text, "text/markdown; charset=utf-8");
   });
   server.Post("/api/command", commanded([this](const auto& q, auto& a) { command(q, a); }));
+  server.Post("/api/trajectory", commanded([this](const auto& q, auto& a) { play(q, a); }));
   const auto told = [this](auto read) {
     // this-> as clang 14 otherwise takes the captured this for unused.
     return operating::shown(
@@ -269,6 +271,14 @@ void Api::tune(const Request& request, Response& response) {
   const auto answer = operating::tune(controls_->of(asked->node), *asked);
   if (!answer) return refuse(response, 504, answer.error());
   answer_json(response, json{{"refusal", name(*answer)}}.dump());
+}
+
+void Api::play(const Request& request, Response& response) {
+  const auto asked = parse_trajectory_request(request.body);
+  if (!asked) return refuse(response, 400, asked.error());
+  const auto sent = controls_->of(asked->node).play(asked->knots, asked->start);
+  if (!sent) return refuse(response, 504, sent.error());
+  answer_json(response, sent_json(*sent));
 }
 
 void Api::alive(const Request& request, Response& response) {

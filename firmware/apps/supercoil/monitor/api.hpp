@@ -65,6 +65,7 @@ class Api {
   void history(const Request& request, Response& response) const;
   void stream(const Request& request, Response& response);
   void command(const Request& request, Response& response);
+  void play(const Request& request, Response& response);
   void alive(const Request& request, Response& response);
   /// read(node): what the board answers, as JSON. The node is in the address.
   template <class Read>

@@ -1,5 +1,6 @@
 #include "apps/supercoil/monitor/manual_control.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace supercoil::operating {
@@ -8,6 +9,8 @@ namespace {
 
 /// Five times before a command expires by default.
 constexpr auto renew_every = std::chrono::milliseconds(50);
+/// A start whose time is over when the board's loop hears of it is refused.
+constexpr double start_after_s = 0.1;
 
 bool heats(Verb verb) {
   return verb == Verb::position || verb == Verb::power || verb == Verb::identify ||
@@ -44,6 +47,15 @@ ManualControl::Answer ManualControl::prepare(const can_client::TunedPlace& place
       return heard->refusal;
     });
   });
+}
+
+tl::expected<ManualControl::Sent, std::string> ManualControl::play(
+    const std::vector<NextKnot>& knots, bool start) {
+  Sent sent{0, {Refusal::none, PlaybackState::empty, 0, NAN}};
+  const Answer answer = wait_for([&] { return send_knots(knots, start, sent); });
+  if (!answer) return tl::unexpected(answer.error());
+  sent.played.refusal = *answer;
+  return sent;
 }
 
 ManualControl::Answer ManualControl::wait_for(Act act) {
@@ -103,6 +115,28 @@ ManualControl::Answer ManualControl::obey(Verb verb, double value) {
     release_hold("cooled by a command");
   }
   return answer;
+}
+
+ManualControl::Answer ManualControl::send_knots(const std::vector<NextKnot>& knots, bool start,
+                                                Sent& sent) {
+  return with_commander([&](Commander& commander) -> Answer {
+    const auto take = [&](const Commander::Played& played) -> Answer {
+      if (!played) return tl::unexpected(played.error());
+      sent.played = *played;
+      return played->refusal;
+    };
+    for (const NextKnot& knot : knots) {
+      if (!holds()) return Refusal::wrong_state;
+      Answer answer =
+          take(commander.add_knot(knot.after_s, {0.0, knot.position_m, knot.velocity_m_per_s}));
+      if (!answer || *answer != Refusal::none) return answer;
+      ++sent.knots;
+      const std::lock_guard lock(mutex_);
+      alive_ = Clock::now();
+    }
+    if (start) return holds() ? take(commander.start_at_once(start_after_s)) : Refusal::wrong_state;
+    return knots.empty() ? take(commander.playback()) : Answer(Refusal::none);
+  });
 }
 
 void ManualControl::renew() {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -35,6 +36,21 @@ class ManualControl {
   Answer ask(Verb verb, double value);
   /// Prepares a value of a controller, likewise.
   Answer prepare(const can_client::TunedPlace& place, double value);
+  /// One knot of a trajectory, so long after the one before it.
+  struct NextKnot {
+    double after_s;
+    double position_m;
+    double velocity_m_per_s;
+  };
+  /// What became of some knots.
+  struct Sent {
+    std::size_t knots;          ///< so many were taken
+    can_client::Played played;  ///< the answer to the last one that was sent
+  };
+  /// Sends knots, up to the first one that is refused, and starts the trajectory if told to.
+  /// Without either it asks for the playback. Only what is held is played, and letting go ends it
+  /// between two knots. Whoever sends knots is alive.
+  tl::expected<Sent, std::string> play(const std::vector<NextKnot>& knots, bool start);
   struct Holding {
     bool holding;
     std::string reason;  ///< why not, since the last command that was held
@@ -55,6 +71,7 @@ class ManualControl {
   Answer wait_for(Act act);
   void run();
   Answer obey(Verb verb, double value);
+  Answer send_knots(const std::vector<NextKnot>& knots, bool start, Sent& sent);
   void renew();
   Answer with_commander(const std::function<Answer(Commander&)>& act);
   Answer command(Verb verb, double value);

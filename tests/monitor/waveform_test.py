@@ -4,6 +4,7 @@ Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 """
 
 import pathlib
+import re
 import time
 import unittest
 
@@ -13,6 +14,9 @@ from programs import SLACK_S
 from selenium.webdriver.common.action_chains import ActionChains
 
 CARD = "details[aria-label='waveform for node 1']"
+# Of the bench's muscle: to its first point, and as much as it can follow.
+ARRIVES_S = 45.0
+SINE = {"offset": 6, "amplitude": 1, "period": 4}
 SHAPES = 'const { waveform, refuse_values, waveform_of_file } = await import("/waveform.js");'
 
 
@@ -57,6 +61,45 @@ class Shapes(ModulesCase):
                                 "line 4: time_s 0 is not later than 0 before it", "line 3: two rows at least are needed"])
 
 
+class Trajectories(ModulesCase):
+    SCRIPT = """const { jumps, swinging, through } = await import("/trajectory.js");
+        const values = { offset: 8, amplitude: 2, period: 10, last_period: 2, duration: 60 };
+        const first = (motion, count) => { const knots = motion.knots(); return Array.from({ length: count }, () => knots.next().value); };
+        const all = (motion) => [...motion.knots()].map(({ time_s, position_m, velocity_m_per_s }) => [time_s, position_m, velocity_m_per_s]);
+        """
+
+    def test_a_sine_grows_from_rest_and_its_velocities_fit_its_positions(self):
+        knots = self.ask(self.SCRIPT + """return first(swinging("sine", values), 1000);""")
+        self.assertEqual(list(knots[0].values()), [0, 0.008, 0])
+        self.assertLess(abs(knots[1]["position_m"] - 0.008), 1e-9)
+        for before, knot, after in zip(knots, knots[1:], knots[2:]):
+            self.assertAlmostEqual(knot["time_s"] - before["time_s"], 0.04, 6)
+            self.assertAlmostEqual(knot["velocity_m_per_s"], (after["position_m"] - before["position_m"]) / 0.08, 5)
+        late = [knot["position_m"] for knot in knots if knot["time_s"] > 10]
+        self.assertAlmostEqual(max(late), 0.01, 5)
+        self.assertAlmostEqual(min(late), 0.006, 5)
+
+    def test_a_chirp_ends_at_rest_at_its_offset(self):
+        knots = self.ask(self.SCRIPT + """return all(swinging("chirp", { ...values, last_period: 0.3, duration: 30.03 }));""")
+        self.assertEqual((knots[0], knots[-1]), ([0, 0.008, 0], [30.03, 0.008, 0]))
+        steps = [after[0] - before[0] for before, after in zip(knots, knots[1:])]
+        self.assertAlmostEqual(steps[0], 0.02, 6)
+        self.assertTrue(all(0.009 < step < 0.031 for step in steps), (min(steps), max(steps)))
+
+    def test_what_jumps_or_is_too_quick_is_no_trajectory(self):
+        self.assertEqual(self.ask(self.SCRIPT + """return [jumps("sine", values), jumps("steps", values), jumps("sine", { ...values, last_period: 0.1 }),
+            jumps("chirp", { ...values, last_period: 0.1 }), jumps("sine", { ...values, period: 0.19 })];"""),
+            ["", "it jumps", "", *["a period of less than 0.2 s has too few knots"] * 2])
+
+    def test_a_file_is_passed_smoothly_and_its_close_rows_are_thinned(self):
+        rows, thinned, apart, short = self.ask(self.SCRIPT + """const rounded = (motion) => all(motion).map((knot) => knot.map((value) => Number(value.toFixed(6))));
+            return [rounded(through([[5, 0.001], [6, 0.003], [8, 0.004]])), rounded(through([[0, 0], [0.005, 0.1], [0.02, 0.001], [0.03, 0.002], [0.045, 0.003]])),
+                through([[0, 0], [5, 0.001]]).why, through([[0, 0], [0.01, 0.001]]).why];""")
+        self.assertEqual(rows, [[0, 0.001, 0], [1, 0.003, 0.0015], [3, 0.004, 0]])  # (2 mm/s · 2 s + 0.5 mm/s · 1 s) / 3 s
+        self.assertEqual(thinned, [[0, 0, 0], [0.02, 0.001, 0.063333], [0.045, 0.003, 0]])
+        self.assertEqual((apart, short), ("rows are more than 4.094 s apart", "it lasts less than 0.02 s"))
+
+
 class OnThePage(PageCase):
     @classmethod
     def setUpClass(cls):
@@ -88,23 +131,49 @@ class OnThePage(PageCase):
                 return
         raise AssertionError("is not active after three tries")
 
-    def references(self, page, count):
-        """So many different ones, as the board tells them."""
-        seen = set()
-        page.wait(lambda: seen.add(page.value("reference")) or len(seen) >= count, SLACK_S, f"{count} references")
-        return seen
+    def answer(self, page):
+        return page.text(f"{CARD} .answer")
 
-    def commands(self, page):
-        """So many the page has sent. The browser keeps the newest 250 requests unless it is told otherwise."""
-        return page.run("return performance.getEntriesByType('resource').filter(({ name }) => name.endsWith('/api/command')).length")
+    def play_ahead(self, page, until=r"ahead on the board", **values):
+        """A trajectory, until the page tells so. As often as play()."""
+        for _ in range(3):
+            self.play(page, **values)
+            page.wait(lambda: re.search(until, self.answer(page)) or page.state() != "active", ARRIVES_S, until)
+            if page.state() == "active":
+                return
+            print(f"became {page.state()} meanwhile: {self.answer(page)}; {page.text('.state .fault')}")
+        raise AssertionError("is not played after three tries")
+
+    def references(self, page):
+        """Of the newest 2 s, in mm, as the board tells them each 10 ms."""
+        return [1e3 * told for told in page.run("return fetch('/api/history?from_s=-2').then((answer) => answer.json())")["nodes"]["1"]["Tracking"]["reference_m"]]
+
+    def requests(self, page):
+        """So many commands and knots the page has sent. The browser keeps the newest 250 requests unless it is told otherwise."""
+        return page.run("return performance.getEntriesByType('resource').filter(({ name }) => /command|trajectory/.test(name)).length")
+
+    def stop(self, page):
+        page.click(f"{CARD} .buttons button[type=button]")
+        page.wait(lambda: "the last set point holds" in self.answer(page), SLACK_S, "stopped")
 
     def test_a_sine_moves_the_reference_until_it_is_stopped(self):
         page = self.opened()
-        self.play(page, offset=6, amplitude=3, period=4)
-        for reference in self.references(page, 12):
-            self.assertTrue(2.99 <= reference <= 9.01, reference)
-        page.click(f"{CARD} .buttons button[type=button]")
-        page.wait(lambda: "the last set point holds" in page.text(f"{CARD} .answer"), SLACK_S, "stopped")
+        self.assertIn("As a trajectory", page.text(CARD))
+        self.play_ahead(page, r"sine: [6-9]\.\d s, \d\.\d s ahead", **SINE)  # a period and a half
+        smooth = self.references(page)
+        self.stop(page)
+        page.find(f"{CARD} .choice input").click()
+        self.assertIn("As set points, 20 a second: it was chosen", page.text(CARD))
+        self.start(page)
+        page.wait(lambda: re.search(r"sine: [3-9]\.\d s", self.answer(page)), SLACK_S, "set points")
+        steps = self.references(page)
+        for reference in smooth + steps:
+            self.assertTrue(4.99 <= reference <= 7.01, reference)
+        largest = [max(abs(after - before) for before, after in zip(told, told[1:])) for told in (smooth, steps)]
+        # 1 mm · 2π / 4 s in 10 ms, or in 50.
+        self.assertLess(largest[0], 0.03)
+        self.assertGreater(largest[1], 2 * largest[0])
+        self.stop(page)
         time.sleep(0.3)
         held = page.value("reference")
         time.sleep(0.5)
@@ -118,10 +187,10 @@ class OnThePage(PageCase):
 
     def test_a_command_by_hand_ends_it(self):
         page = self.opened()
-        self.play(page, offset=6, amplitude=3, period=4)
+        self.play_ahead(page, **SINE)
         page.run("document.activeElement.blur(); document.querySelector('.manual .value input').value = '8'")
         ActionChains(page.driver).send_keys("k").perform()
-        page.wait(lambda: "commanded by hand" in page.text(f"{CARD} .answer"), SLACK_S, "ended")
+        page.wait(lambda: "commanded by hand" in self.answer(page), SLACK_S, "ended")
         page.wait(lambda: abs(page.value("reference") - 8.1) < 1e-3, SLACK_S, "a step up from 8 mm")
         time.sleep(0.3)
         self.assertAlmostEqual(page.value("reference"), 8.1, 3)
@@ -131,16 +200,50 @@ class OnThePage(PageCase):
     def test_stop_ends_it_at_once_and_it_stays_ended(self):
         page = self.opened()
         page.run("performance.setResourceTimingBufferSize(100000)")
-        self.play(page, offset=6, amplitude=3, period=4)
+        self.play_ahead(page, **SINE)
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")
-        self.assertIn("the muscle was let go", page.text(f"{CARD} .answer"))
-        sent = self.commands(page)
+        self.assertIn("the muscle was let go", self.answer(page))
+        sent = self.requests(page)
         self.assertGreater(sent, 0)
         page.click(".arm") if page.state() == "disarmed" else None
         page.wait(lambda: page.state() == "armed", READY_S, "armed again")
         time.sleep(0.5)
-        self.assertEqual((page.state(), self.commands(page)), ("armed", sent + 1))
+        self.assertEqual((page.state(), self.requests(page)), ("armed", sent + 1))
+
+    def test_what_the_muscle_cannot_do_is_refused_with_its_time(self):
+        page = self.opened()
+        self.play(page, offset=6, amplitude=3, period=1)
+        page.wait(lambda: "sine: the way to" in self.answer(page), ARRIVES_S, "refused")
+        self.assertRegex(self.answer(page), r"sine: the way to 0\.\d\d s is infeasible: it needs more power than there is, or faster cooling")
+        self.assertEqual((page.state(), page.value("reference")), ("active", 6.0))
+        page.press_space()
+        page.wait(page.is_off, STOP_S, "off")
+
+    def test_steps_are_set_points_and_another_shape_ends_what_is_played(self):
+        page = self.opened()
+        self.play_ahead(page, **SINE)
+        page.run(f"""document.querySelector("{CARD} [value=steps]").click()""")
+        page.wait(lambda: "another shape was chosen" in self.answer(page), SLACK_S, "ended")
+        self.assertIn("As set points, 20 a second: it jumps", page.text(CARD))
+        self.assertFalse(page.find(f"{CARD} .choice").is_displayed())
+        time.sleep(0.3)
+        held = page.value("reference")
+        time.sleep(3.5)  # longer than the board had knots for, and would have held a way that ran dry
+        self.assertEqual((page.state(), page.value("reference")), ("active", held))
+        page.press_space()
+        page.wait(page.is_off, STOP_S, "off")
+
+    def test_a_page_that_is_hidden_lets_the_muscle_rest(self):
+        page = self.opened()
+        page.run("performance.setResourceTimingBufferSize(100000)")
+        self.play_ahead(page, **SINE)
+        page.run("Object.defineProperty(document, 'hidden', { value: true }); document.dispatchEvent(new Event('visibilitychange'))")
+        page.wait(lambda: "the page was hidden; the muscle rests" in self.answer(page), SLACK_S, "ended")
+        page.wait(lambda: page.state() == "armed", SLACK_S, "it rests")
+        sent = self.requests(page)
+        time.sleep(0.5)
+        self.assertEqual((page.state(), self.requests(page)), ("armed", sent))
 
     def test_a_page_that_is_closed_lets_it_expire(self):
         page = self.opened()
@@ -148,10 +251,11 @@ class OnThePage(PageCase):
         page.open(self.address)
         watching, playing = reversed(page.driver.window_handles)
         page.driver.switch_to.window(playing)
-        self.play(page, offset=6, amplitude=3, period=4)
+        self.play_ahead(page, **SINE)
         page.driver.close()
         page.driver.switch_to.window(watching)
-        page.wait(lambda: page.state() == "fault" and "command timeout" in page.text(".state .fault"), SLACK_S, "expired")
+        # It may still have been hidden, and have said so.
+        page.wait(lambda: page.state() == "armed" or page.state() == "fault" and "command timeout" in page.text(".state .fault"), SLACK_S, "cold")
 
     def test_a_file_is_played_and_a_bad_one_is_told(self):
         page = self.opened()
@@ -160,11 +264,11 @@ class OnThePage(PageCase):
         file.write_text("time_s,position_m\n0,0.004\n1,5\n")
         page.find(f"{CARD} [type=file]").send_keys(str(file))
         self.start(page)
-        page.wait(lambda: "line 3: position_m 5; allowed: 0 to 0.03996 m" in page.text(f"{CARD} .answer"), SLACK_S, "the bad line")
-        file.write_text("time_s,position_m\n0,0.004\n1,0.006\n2,0.005\n")
+        page.wait(lambda: "line 3: position_m 5; allowed: 0 to 0.03996 m" in self.answer(page), SLACK_S, "the bad line")
+        file.write_text("time_s,position_m\n0,0.004\n2,0.005\n4,0.006\n6,0.005\n")
         page.find(f"{CARD} [type=file]").send_keys(str(file))
         self.play(page)
-        page.wait(lambda: "played to its end" in page.text(f"{CARD} .answer"), SLACK_S, "the end")
+        page.wait(lambda: "played to its end" in self.answer(page), ARRIVES_S, "the end")
         page.wait(lambda: page.value("reference") == 5.0, SLACK_S, "its last position")
         page.press_space()
         page.wait(page.is_off, STOP_S, "off")

@@ -1,6 +1,6 @@
 // Manual control of one muscle: gives commands, and says that this page lives as long as what it commanded may heat.
 
-import { alive, command } from "./server.js";
+import { alive, command, play } from "./server.js";
 import { clock_now, words } from "./format.js";
 
 const ALIVE_EVERY_MS = 300;
@@ -20,6 +20,7 @@ const WHY = {
   not_lease_holder: "somebody else holds the lease to command this muscle",
   no_lease: "the lease had ended: try again",
   wrong_counter: "commands were lost: try again",
+  infeasible: "the muscle cannot do it: it needs more power than there is, or faster cooling",
   queue_full: "more commands than the board takes at once: try again",
 };
 
@@ -41,7 +42,29 @@ export class ManualControl extends EventTarget {
 
   /** One set point of many. Likewise. */
   follow(position_m) {
-    this.following = this.#command("position", position_m, this.holds !== "position");
+    return this.#follow(() => this.#command("position", position_m, this.holds !== "position"), { obeyed: false, text: "the muscle was let go" });
+  }
+
+  /** Knots of a trajectory, and its start, after a position that is held. Resolves to what the board told, or to {problem}. */
+  play(knots, start) {
+    return this.#follow(async () => {
+      try {
+        const told = await play(this.node, knots, start);
+        this.#heard();
+        return told;
+      } catch ({ message }) {
+        return { problem: message };
+      }
+    }, { problem: "the muscle was let go" });
+  }
+
+  /** After what is under way, unless the muscle is let go meanwhile. */
+  #follow(act, otherwise) {
+    const [before, release_count] = [this.following, this.release_count];
+    this.following = (async () => {
+      await before;
+      return release_count === this.release_count ? act() : otherwise;
+    })();
     return this.following;
   }
 

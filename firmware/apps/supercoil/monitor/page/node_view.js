@@ -27,7 +27,8 @@ export class NodeView {
     this.journal = new Journal(node, store);
     this.state = new StateCard(node, store, on_fault, about.protocol_version, (place) => this.tuning.kind_of(place));
     this.panel = new ControlPanel(this.manual, may, (text, kind) => this.journal.add(text, kind));
-    this.waveform = new WaveformCard(this.manual, may, (text, kind) => this.journal.add(text, kind));
+    this.waveform = new WaveformCard(this.manual, may, (text, kind) => this.journal.add(text, kind),
+      () => store.at(node, "Measurement", store.newest_s)?.position_m);
     this.panel.element.hidden = this.waveform.element.hidden = about.kind === "log";
     this.tuning = new Tuning(node, may, (text, kind) => this.journal.add(text, kind));
     this.tuning.element.hidden = about.kind === "log";

@@ -52,6 +52,9 @@ export async function command(node, opcode, value = 0, options = {}) {
   return (await (await post("/api/command", { node, opcode, value }, options)).json()).refusal;
 }
 
+/** Knots of a trajectory [{after_s, position_m, velocity_m_per_s}], and its start; neither: asks only. Resolves to {refusal, taken, playback, room, buffered_s}. */
+export const play = async (node, knots, start) => (await post("/api/trajectory", { node, knots, start })).json();
+
 /** All values of a node: {controllers: [{controller, kind: {in_use, …}, …}], estimators: [{estimator, …}], choices: {controllers: {kind: […], …}, estimators}}. */
 export const tuning_of = async (node) => (await ask(`/api/tuning/${node}`)).json();
 

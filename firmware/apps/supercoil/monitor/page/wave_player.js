@@ -1,8 +1,10 @@
 // Plays a waveform to a muscle, one set point after the other, until it ends, is stopped, or the muscle is let go.
 
+import { fixed } from "./format.js";
+
 const EVERY_MS = 50;
 
-/** Tells "progress" while it plays, and "stop" (detail: why) once it has ended. */
+/** Tells "progress" (detail: in words) while it plays, and "stop" (detail: why) once it has ended. */
 export class WavePlayer extends EventTarget {
   constructor(manual) {
     super();
@@ -24,6 +26,10 @@ export class WavePlayer extends EventTarget {
     this.#tick();
   }
 
+  hold(why) {
+    this.stop(why);
+  }
+
   /** The muscle stays at its last set point. */
   stop(why) {
     if (!this.playing) return;
@@ -43,7 +49,7 @@ export class WavePlayer extends EventTarget {
     this.asking = false;
     if (wave !== this.wave) return;
     if (!obeyed) return this.stop(text);
-    this.dispatchEvent(new Event("progress"));
+    this.dispatchEvent(new CustomEvent("progress", { detail: `${fixed(this.time_s, 1)} s` }));
     if (ends) this.stop("played to its end");
   }
 }

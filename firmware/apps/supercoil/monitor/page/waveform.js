@@ -46,7 +46,7 @@ export function refuse_values(shape, values, most_m) {
 
 const COLUMNS = ["time_s", "position_m"];
 
-/** A file's rows as a waveform, straight between them. Throws an Error that names line and value. */
+/** A file's rows, and as a waveform, straight between them. Throws an Error that names line and value. */
 export function waveform_of_file(text, most_m) {
   const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(",").map((cell) => cell.trim()));
   const places = COLUMNS.map((name) => lines[0].indexOf(name));
@@ -64,7 +64,7 @@ export function waveform_of_file(text, most_m) {
     rows.push([time_s, position_m]);
   });
   if (rows.length < 2) throw new Error(`line ${lines.length}: two rows at least are needed`);
-  return { at: between(rows), end_s: rows.at(-1)[0] - rows[0][0] };
+  return { at: between(rows), end_s: rows.at(-1)[0] - rows[0][0], rows };
 }
 
 function between(rows) {

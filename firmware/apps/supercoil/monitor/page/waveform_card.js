@@ -1,14 +1,16 @@
 // A waveform to be played to a muscle: its shape, its numbers or its file, start and stop.
 
 import { element, show } from "./dom.js";
-import { fixed } from "./format.js";
+import { jumps, swinging, through } from "./trajectory.js";
+import { TrajectoryPlayer } from "./trajectory_player.js";
 import { WavePlayer } from "./wave_player.js";
 import { SHAPES, refuse_values, waveform, waveform_of_file } from "./waveform.js";
 
 export class WaveformCard {
-  /** may: {command, why}; log: is told (text, kind) of what was done. */
-  constructor(manual, may, log) {
-    Object.assign(this, { log, most_m: NaN, shape: "sine", player: new WavePlayer(manual), fields: new Map() });
+  /** may: {command, why}; log: is told (text, kind) of what was done; position(): where the muscle is, in m. */
+  constructor(manual, may, log, position) {
+    const [set_points, trajectory] = [new WavePlayer(manual), new TrajectoryPlayer(manual, position)];
+    Object.assign(this, { log, most_m: NaN, shape: "sine", set_points, trajectory, player: trajectory, fields: new Map() });
     const disabled = !may.command;
     const id = (name) => `wave-${name}-${manual.node}`;
     const radios = Object.keys(SHAPES).map((shape) => element("label", {},
@@ -20,54 +22,73 @@ export class WaveformCard {
       this.fields.set(name, { input, row: element("div", { class: "value" }, element("label", { for: id(name) }, label), input, element("span", { class: "unit" }, unit)) });
     }
     this.file = element("input", { type: "file", accept: ".csv,text/csv", "aria-label": "file of the waveform", disabled });
-    this.file_row = element("div", {}, this.file, element("p", { class: "hint" }, "CSV with the columns time_s and position_m; straight between its rows."));
-    this.stop_button = element("button", { type: "button", disabled: true, onclick: () => this.player.stop("stopped; the last set point holds") }, "stop");
+    this.file_row = element("div", {}, this.file, element("p", { class: "hint" }, "CSV with the columns time_s and position_m; smooth through its rows as a trajectory, straight between them as set points."));
+    this.by_set_points = element("input", { type: "checkbox", disabled, onchange: () => this.#choose(this.shape) });
+    this.choice = element("label", { class: "choice" }, this.by_set_points, element("span", {}, "as set points"));
+    this.way = element("p", { class: "hint" });
+    this.stop_button = element("button", { type: "button", disabled: true, onclick: () => this.player.hold("stopped; the last set point holds") }, "stop");
     this.answer = element("p", { class: "answer", role: "status", "aria-label": "answer about the waveform" });
     const form = element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#start(); } },
       element("fieldset", { class: "modes" }, element("legend", {}, "shape"), ...radios),
-      ...[...this.fields.values()].map(({ row }) => row), this.file_row,
+      ...[...this.fields.values()].map(({ row }) => row), this.file_row, this.choice, this.way,
       element("div", { class: "buttons" }, element("button", { type: "submit", disabled }, "start"), this.stop_button));
     this.element = element("details", { class: "card full-only waveform", "aria-label": `waveform for node ${manual.node}` },
       element("summary", {}, element("h2", {}, "Waveform")), form, this.answer);
-    this.player.addEventListener("progress", () => this.#say(`${this.shape}: ${fixed(this.player.time_s, 1)} s`));
-    this.player.addEventListener("stop", ({ detail }) => {
-      this.stop_button.disabled = true;
-      this.#say(`${this.shape}: ${detail}`);
-      log(`waveform ${this.shape}: ${detail}`);
-    });
+    for (const player of [set_points, trajectory]) {
+      player.addEventListener("progress", ({ detail }) => this.#say(`${this.shape}: ${detail}`));
+      player.addEventListener("stop", ({ detail }) => {
+        this.stop_button.disabled = true;
+        this.#say(`${this.shape}: ${detail}`);
+        log(`waveform ${this.shape}: ${detail}`);
+      });
+    }
     this.#choose(this.shape);
   }
 
   #choose(shape) {
-    this.player.stop("another shape was chosen");
+    this.player.hold("another shape was chosen, or another way; the last set point holds");
     this.shape = shape;
     for (const [name, { row }] of this.fields) row.hidden = !(name in SHAPES[shape]);
     this.file_row.hidden = shape !== "file";
+    this.choice.hidden = shape === "steps";
+    this.#say_way(shape === "steps" ? "it jumps" : this.by_set_points.checked ? "it was chosen" : "");
   }
 
   async #start() {
     try {
-      const wave = await this.#wave();
-      this.player.start(wave);
+      const { wave, motion } = await this.#wave();
+      const why = this.by_set_points.checked && this.shape !== "steps" ? "it was chosen" : motion.why;
+      this.player.stop("another one begins");
+      this.player = why ? this.set_points : this.trajectory;
+      this.player.start(why ? wave : motion, this.most_m);
       this.stop_button.disabled = false;
-      this.log(`waveform ${this.shape}: started`);
+      this.#say_way(why);
+      this.log(`waveform ${this.shape}: started ${why ? "as set points" : "as a trajectory"}`);
     } catch (problem) {
       this.#say(problem.message, true);
     }
   }
 
-  /** What is to be played; throws what is wrong with it. */
+  /** why: it is played as set points; "" or undefined: as a trajectory. */
+  #say_way(why) {
+    show(this.way, why ? `As set points, 20 a second: ${why}.` : "As a trajectory: the board takes the way ahead of time.");
+  }
+
+  /** What is to be played, as set points and as a trajectory, or why not; throws what is wrong with it. */
   async #wave() {
     if (!(this.most_m > 0)) throw new Error("the board has not told yet how far its muscle may travel");
     if (this.shape === "file") {
       const [file] = this.file.files;
       if (!file) throw new Error("choose a file first");
-      return waveform_of_file(await file.text(), this.most_m);
+      const wave = waveform_of_file(await file.text(), this.most_m);
+      return { wave, motion: through(wave.rows, wave.at) };
     }
     const values = Object.fromEntries([...this.fields].map(([name, { input }]) => [name, input.valueAsNumber]));
     const why = refuse_values(this.shape, values, this.most_m);
     if (why) throw new Error(why);
-    return waveform(this.shape, values);
+    const wave = waveform(this.shape, values);
+    const no_way = jumps(this.shape, values);
+    return { wave, motion: no_way ? { why: no_way } : swinging(this.shape, values) };
   }
 
   #say(text, refused = false) {

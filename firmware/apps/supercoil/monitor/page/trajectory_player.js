@@ -1,0 +1,140 @@
+// Plays a motion by its knots, which the board takes ahead of time, until it ends, is stopped, or the muscle is let go.
+
+import { refusal_words } from "./manual_control.js";
+
+const KNOTS_AT_ONCE = 8;
+const EVERY_MS = 150;
+const SETTLED_MS = 500;
+const ARRIVES_S = 30;
+const NEAR = 0.01; // of the travel
+
+const sleep = (duration_ms) => new Promise((resolve) => setTimeout(resolve, duration_ms));
+
+/** Tells "progress" (detail: in words) while it plays, and "stop" (detail: why) once it has ended. */
+export class TrajectoryPlayer extends EventTarget {
+  /** position(): where the muscle is, in m. */
+  constructor(manual, position) {
+    super();
+    Object.assign(this, { manual, position, run: null });
+    manual.addEventListener("release", () => this.stop("the muscle was let go"));
+    manual.addEventListener("taken", () => this.stop("commanded by hand"));
+    document.addEventListener("visibilitychange", () => this.#see());
+  }
+
+  get playing() {
+    return this.run !== null;
+  }
+
+  /** motion: of trajectory.js. most_m: the channel's travel. */
+  async start(motion, most_m) {
+    this.stop("another one begins");
+    const knots = motion.knots();
+    const next = [knots.next().value];
+    // room: as the board told it; taken_s: time of the last knot that it has.
+    const run = { motion, knots, next, first_m: next[0].position_m, room: KNOTS_AT_ONCE, taken_s: 0, buffered_s: 0, told_ms: 0, started: false };
+    this.run = run;
+    this.#draw(run);
+    const why = (await this.#arrive(run, NEAR * most_m)) ?? (await this.#play(run));
+    if (run !== this.run) return;
+    if (run.ended) this.stop(why);
+    else this.hold(why);
+  }
+
+  /** Ends it; what else is commanded makes the board forget its knots. */
+  stop(why) {
+    if (!this.playing) return;
+    this.run = null;
+    this.dispatchEvent(new CustomEvent("stop", { detail: why }));
+  }
+
+  /** Ends it where it is now. */
+  hold(why) {
+    if (!this.playing) return;
+    const { run } = this;
+    const since_s = (performance.now() - run.told_ms) / 1e3;
+    const here_m = run.started ? run.motion.at(Math.min(run.taken_s, run.taken_s - run.buffered_s + since_s)) : run.first_m;
+    this.stop(why);
+    this.manual.follow(here_m);
+  }
+
+  /** Whom nobody sees is not played: a hidden page is too slow to refill. */
+  #see() {
+    if (!document.hidden || !this.playing) return;
+    this.stop("the page was hidden; the muscle rests");
+    this.manual.send("rest");
+  }
+
+  #tell(text) {
+    this.dispatchEvent(new CustomEvent("progress", { detail: text }));
+  }
+
+  /** Why it did not come to its first point, or null. */
+  async #arrive(run, near_m) {
+    this.#tell("goes to its first point");
+    const { obeyed, text } = await this.manual.follow(run.first_m);
+    if (!obeyed) return this.#end(run, text);
+    const begin_ms = performance.now();
+    for (let near_since_ms = Infinity, now_ms = begin_ms; run === this.run && now_ms - near_since_ms < SETTLED_MS; now_ms = performance.now()) {
+      if (now_ms - begin_ms > 1e3 * ARRIVES_S) return `did not come within ${(1e3 * near_m).toFixed(2)} mm of its first point in ${ARRIVES_S} s`;
+      near_since_ms = Math.abs(this.position() - run.first_m) < near_m ? Math.min(near_since_ms, now_ms) : Infinity;
+      await sleep(EVERY_MS / 3);
+    }
+    return null;
+  }
+
+  /** Nothing is to be held after this. */
+  #end(run, why) {
+    run.ended = true;
+    return why;
+  }
+
+  /** Why it ended. */
+  async #play(run) {
+    while (run === this.run) {
+      const batch = run.next.slice(0, Math.min(KNOTS_AT_ONCE, run.room));
+      const starts = !run.started && batch.length === 0;
+      const after_s = (i) => Math.round(1e3 * (batch[i].time_s - (i > 0 ? batch[i - 1].time_s : run.taken_s))) / 1e3;
+      const told = await this.manual.play(batch.map(({ time_s, ...knot }, i) => ({ after_s: after_s(i), ...knot })), starts);
+      if (run !== this.run) return "";
+      const why = this.#take(run, told, starts);
+      if (why) return why;
+      const behind = batch.length === KNOTS_AT_ONCE && run.room >= KNOTS_AT_ONCE;
+      if (run.started && !behind) await sleep(EVERY_MS);
+    }
+    return "";
+  }
+
+  /** Those that are to be sent next. */
+  #draw(run) {
+    while (run.next.length < KNOTS_AT_ONCE) {
+      const { done, value } = run.knots.next();
+      if (done) return;
+      run.next.push(value);
+    }
+  }
+
+  /** Why it cannot go on, or "". */
+  #take(run, { problem, refusal, taken, playback, room, buffered_s }, starts) {
+    if (problem) return this.#end(run, problem);
+    if (taken > 0) run.taken_s = run.next[taken - 1].time_s;
+    run.next.splice(0, taken);
+    this.#draw(run);
+    Object.assign(run, { room, buffered_s: buffered_s ?? 0, told_ms: performance.now() });
+    const all = run.next.length === 0;
+    if (run.started && (playback === "dry" || (playback === "ended" && !all))) return this.#end(run, "ran dry: its next knot came too late");
+    if (refusal === "infeasible") return `the way to ${run.next[0].time_s.toFixed(2)} s is infeasible: it needs more power than there is, or faster cooling`;
+    if (run.started && playback === "empty") return this.#end(run, "the board was told something else");
+    if (refusal !== "none" && refusal !== "queue_full") return `${starts ? "its start" : `the knot at ${(run.next[0]?.time_s ?? run.taken_s).toFixed(2)} s`} was refused: ${refusal_words(refusal)}`;
+    if (playback === "ended") return this.#end(run, "played to its end");
+    run.started ||= starts;
+    this.#say_where(run);
+    return "";
+  }
+
+  #say_where(run) {
+    const { end_s } = run.motion;
+    if (!run.started) return this.#tell("sends the way ahead");
+    const whole = Number.isFinite(end_s) ? ` of ${end_s.toFixed(1)}` : "";
+    this.#tell(`${(run.taken_s - run.buffered_s).toFixed(1)}${whole} s, ${run.buffered_s.toFixed(1)} s ahead on the board`);
+  }
+}

@@ -1,6 +1,7 @@
 """What a session does where a board is not as it should be: another version, damaged or no answers, lost leases."""
 
 import asyncio
+import threading
 import unittest
 from unittest import mock
 
@@ -12,7 +13,7 @@ import supercoil
 from supercoil import sync
 from supercoil.address import open_bus
 from supercoil.generated import messages
-from supercoil.generated.names import Playback, Refusal, When
+from supercoil.generated.names import Playback, Refusal, State, When
 
 
 @patient_tests
@@ -54,6 +55,23 @@ class Sessions(unittest.TestCase):
         self.assertEqual(board.commands[2][2], 77)
         counters = [command[3] for command in board.commands]
         self.assertEqual(counters, [(counters[0] + i) % 16 for i in range(len(counters))])
+
+    def test_armed_by_a_heartbeat_from_before_is_not_armed_yet(self):
+        board = self.board(state=State.armed)
+        probed = threading.Timer(0.3, lambda: board.status.update(probing=0))
+        self.addCleanup(probed.cancel)
+
+        def probe(opcode, value, session):
+            if opcode == "arm":
+                board.status["probing"] = 1  # in the next heartbeat; that it was armed before is the newest one
+                probed.start()
+            if opcode == "position" and board.status["probing"]:
+                return Refusal.busy, 0
+            return self.lease(opcode, value, session)
+        board.obey = probe
+        with self.muscle() as muscle:
+            muscle.arm()
+            muscle.set_position(0.01)
 
     def test_a_lease_that_ran_out_is_claimed_again_and_the_command_repeated(self):
         board = self.board()

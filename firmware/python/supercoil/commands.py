@@ -4,7 +4,7 @@ import asyncio
 import time
 from typing import NamedTuple
 
-from supercoil.connection import HEARTBEAT_S, Connection
+from supercoil.connection import FRESH_BEATS, HEARTBEAT_S, Connection
 from supercoil.errors import NoAnswerError, NotReachedError
 from supercoil.generated import messages, refusals
 from supercoil.generated.names import Opcode, Quantity, Setting, State
@@ -34,8 +34,10 @@ class Commands(Connection):
                     raise
                 await asyncio.sleep(0.1)
         heartbeat = self._link.heartbeat
-        while not (heartbeat.state == State.armed and heartbeat.status and heartbeat.status.state == State.armed
-                   and not heartbeat.status.probing):
+        fresh_at = heartbeat.beats + FRESH_BEATS
+        while heartbeat.beats < fresh_at or not (
+                heartbeat.state == State.armed and heartbeat.status and heartbeat.status.state == State.armed
+                and not heartbeat.status.probing):
             await heartbeat.change(HEARTBEAT_S)
             await heartbeat.raise_fault()
             if time.monotonic() > end + HEARTBEAT_S:

@@ -26,6 +26,8 @@ M = TypeVar("M", bound=tuple[Any, ...])
 _NODES = range(1, 64)
 _FIRST_HEARTBEAT_S = 2.0
 HEARTBEAT_S = 2.0
+# Before this many heartbeats an older one may have waited in the board's queue.
+FRESH_BEATS = 2
 
 
 class Connection:

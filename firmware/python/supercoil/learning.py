@@ -6,13 +6,11 @@ from typing import NamedTuple
 
 from supercoil.codec import FORGET, RISES_FROM, STORE
 from supercoil.commands import Commands
-from supercoil.connection import HEARTBEAT_S
+from supercoil.connection import FRESH_BEATS, HEARTBEAT_S
 from supercoil.errors import NoAnswerError, NotReachedError, OutcomeError
 from supercoil.generated import messages, results
 from supercoil.generated.names import Mode, Opcode, Result, State
 
-# Before this many heartbeats an older one may have waited in the board's queue.
-_FRESH_BEATS = 2
 _FRICTION = 1 << results.NOTES.index("friction")  # has no bit left among the others
 
 
@@ -36,7 +34,7 @@ class Learning(Commands):
         heartbeat = self._link.heartbeat
         end = time.monotonic() + timeout_s
         await self._heat(opcode)
-        fresh_at = heartbeat.beats + _FRESH_BEATS
+        fresh_at = heartbeat.beats + FRESH_BEATS
         while heartbeat.beats < fresh_at or heartbeat.status is None or (
                 heartbeat.status.result == Result.running or (heartbeat.status.mode == mode
                 and heartbeat.state == State.active)):

@@ -484,9 +484,11 @@ learned file counts, unless that holds the configuration's own parameters). This
    the least heat transfer, reaches `trip_C`: 0.6 s at 4.5 W, 1.7 s at 1.7 W. No block holds anything from before the dither.
 3. No answer: the power is taken away (limited by: `unproven`), and a living muscle must now fall. The model falls by
    twice `responding_min_m`; if less than 0.17 of that is seen, it is this fault. A muscle that falls is alive, and
-   friction swallows its dither: it gets no more than the safe power until it rests or is disarmed.
+   friction or hysteresis swallows its dither: from then on only its own motion proves it. When that does not in three quarters
+   of the time of 2., as at rest, it gets no more than the safe power until it rests or is disarmed.
 4. If nothing is decided in three quarters of that time (the sensor is noisier than `position.noise_rms_m`), the channel
-   gets no more than the safe power until something is answered. A position that moves by more than 0.1 of
+   gets no more than the safe power until something is answered. Silence is judged there only after a motion or a time
+   as in 3.: where a motion turns round, hysteresis hides the first of it. A position that moves by more than 0.1 of
    `responding_min_m` rms in a block, for whatever reason, is not that of a dead sensor: then it waits.
 
 | | |

@@ -9,15 +9,20 @@ import threading
 import time
 import unittest
 
+import e2e
 import numpy as np
-from live import DEADLINE_S, FROM_BOARD, TRIES, Simulator, join
+from between import Between
+from live import DEADLINE_S, PROTOCOL, TRIES, Simulator, join
 
 SUPERCOIL = os.environ["SUPERCOIL"]
 QUICK = pathlib.Path(__file__).resolve().parents[1] / "python" / "quick.toml"
 # What a busy machine does to any master in real time: a command expires, the lease ends, a knot or an answer is late.
 STARVED = ("the board stopped it", "no_lease", "no answer from node", "busy", "not_ready", "ran dry", "out_of_range",
-           "was told something else", "wrong_counter", "wrong_state")
-TRACKING = next(message for message in FROM_BOARD.values() if message.name == "Tracking")
+           "has not started", "was told something else", "wrong_counter", "wrong_state")
+TRACKING, TRAJECTORY, SYNC, KNOT = (PROTOCOL.get_message_by_name(name)
+                                    for name in ("Tracking", "Trajectory", "Sync", "Knot"))
+PLAYING, ENDED = 3, 4  # of Trajectory.playback
+TO_PLAY = 2  # of Trajectory.answers
 
 
 class Recorder(threading.Thread):
@@ -129,14 +134,20 @@ class Play(PlayCase):
             while self.supercoil("command", node, "arm").returncode:
                 self.assertLess(time.monotonic(), end)
 
-    def play(self, *arguments):
-        """Again where the machine was too busy for a motion in real time."""
+    def play(self, *arguments, wanted=None):
+        """Again where the machine was too busy for a motion in real time, unless it says what is wanted."""
         for _ in range(TRIES):
             self.arm()
             done = self.supercoil("play", *arguments)
-            if not any(why in done.stderr for why in STARVED):
+            if (wanted and wanted in done.stderr) or not any(why in done.stderr for why in STARVED):
                 return done
         self.fail(f"the machine is too busy: {done.stderr}")
+
+    def pass_through(self, **alter):
+        """From now on the bus is one on which frames are lost or altered."""
+        between = Between(self.simulator.port, **alter)
+        self.addCleanup(between.end)
+        self.bus = f"socketcand:{between.port}"
 
     def test_two_nodes_go_their_ways_in_step(self):
         recorder = Recorder(self.simulator.port)
@@ -162,6 +173,47 @@ class Play(PlayCase):
         done = self.play(path, "--settle", "0.5")
         self.assertEqual(done.returncode, 1)
         self.assertIn("node 1: the knot at 1.000 s: refused: infeasible", done.stderr)
+
+    def test_one_that_hears_no_sync_ends(self):
+        self.pass_through(to_board=lambda identifier, data: None if identifier == SYNC.frame_id else data)
+        not_started = "node 1: has not started: no Sync came, or too late"
+        done = self.play(motion(self.folder, {1: 1.0}), "--settle", "0.1", wanted=not_started)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(not_started, done.stderr)
+
+    def test_a_rest_in_the_middle_is_not_the_end(self):
+        path = pathlib.Path(self.folder) / "rests.csv"
+        path.write_text("time_s,position_m,velocity_m_per_s\n0,0.003,0\n1,0.0032,0\n2,0.0034,0\n")
+        first = b"\x00\x00"  # after_s, behind the counter
+        knots = []
+
+        def count(identifier, data):
+            if identifier == KNOT.frame_id:
+                begins = bytes((data[1] >> 4, data[2])) == first
+                knots[:] = [data] if begins else [*knots, data]
+            return data
+
+        def hide(room_once_at_rest):
+            """That there is room for the third, until the muscle is at rest or for good."""
+            def change(identifier, data):
+                told = TRAJECTORY.decode(data, decode_choices=False) if identifier == TRAJECTORY.frame_id else None
+                if told is None or len(knots) < 2:
+                    return data
+                if room_once_at_rest and told["playback"] == ENDED:
+                    if told["answers"] == TO_PLAY:  # it hears of the end by the next knot's answer only
+                        told["playback"] = PLAYING
+                else:
+                    told["room"] = 0
+                return e2e.protected(identifier, TRAJECTORY.encode(told))
+            return change
+        dry = "node 1: ran dry: the knot after the one at 1.000 s came too late"
+        for room_once_at_rest, sent in ((False, 2), (True, 3)):
+            with self.subTest(sent=sent):
+                self.pass_through(to_board=count, from_board=hide(room_once_at_rest))
+                done = self.play(path, "--settle", "0.1", wanted=dry)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(dry, done.stderr)
+                self.assertEqual(len(knots), sent)
 
     def test_muscles_must_be_armed(self):
         for _ in range(TRIES):

@@ -18,6 +18,7 @@ constexpr auto sync_every = 1s;
 constexpr int knots_in_a_row = 6;
 /// Between Play and the start: each node has heard of it, and Sync was sent.
 constexpr double start_after_s = 0.1;
+constexpr auto started_within = 2s;
 
 std::string seconds_text(double time_s) {
   std::string text = std::to_string(time_s);
@@ -86,13 +87,17 @@ Player::Problem Player::renew() {
 
 Player::Problem Player::load(Node& node) {
   const auto& knots = node.motion.knots;
-  for (int i = 0; i < knots_in_a_row && node.next < knots.size(); ++i) {
+  for (int i = 0; i < knots_in_a_row && !node.has_sent_all(); ++i) {
     const bool first = node.next == 0;
     if (!first && node.played.room == 0) break;
     const control::Knot& knot = knots[node.next];
     const double after_s = first ? 0.0 : knot.time_s - knots[node.next - 1].time_s;
     const auto played = node.commander->add_knot(after_s, knot);
     if (played && played->refusal == Refusal::queue_full) break;
+    if (played && !first && played->refusal == Refusal::wrong_state) {
+      node.played = *played;
+      if (auto problem = stopped(node)) return problem;
+    }
     if (auto problem = take(node, "the knot at " + seconds_text(knot.time_s), played))
       return problem;
     node.renewed = Clock::now();
@@ -110,7 +115,7 @@ Player::Problem Player::load() {
 
 bool Player::loaded() const {
   return std::ranges::all_of(nodes_, [](const Node& node) {
-    return node.next == node.motion.knots.size() || (node.next > 0 && node.played.room == 0);
+    return node.has_sent_all() || (node.next > 0 && node.played.room == 0);
   });
 }
 
@@ -121,6 +126,7 @@ Player::Problem Player::start() {
       return problem;
   }
   send_sync();
+  started_ = synced_;
   return std::nullopt;
 }
 
@@ -135,18 +141,30 @@ Player::Problem Player::go_on() {
   if (Clock::now() - synced_ >= sync_every) send_sync();
   if (auto problem = load()) return problem;
   for (const Node& node : nodes_) {
-    const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
-    if (node.played.state == PlaybackState::dry)
-      return whose + "ran dry: its next knot came too late";
-    if (node.played.state == PlaybackState::empty)
-      return whose + "was told something else meanwhile";
+    if (auto problem = stopped(node)) return problem;
   }
   return std::nullopt;
 }
 
+Player::Problem Player::stopped(const Node& node) const {
+  const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
+  const PlaybackState state = node.played.state;
+  // At rest in the middle it has ended as well, as far as the board knows.
+  if (state == PlaybackState::dry || (state == PlaybackState::ended && !node.has_sent_all())) {
+    const double last_s = node.motion.knots[node.next - 1].time_s;
+    return whose + "ran dry: the knot after the one at " + seconds_text(last_s) + " came too late";
+  }
+  if (state == PlaybackState::empty) return whose + "was told something else meanwhile";
+  const bool waits = state == PlaybackState::loaded || state == PlaybackState::waiting;
+  if (waits && Clock::now() - started_ > started_within)
+    return whose + "has not started: no Sync came, or too late";
+  return std::nullopt;
+}
+
 bool Player::ended() const {
-  return std::ranges::all_of(
-      nodes_, [](const Node& node) { return node.played.state == PlaybackState::ended; });
+  return std::ranges::all_of(nodes_, [](const Node& node) {
+    return node.has_sent_all() && node.played.state == PlaybackState::ended;
+  });
 }
 
 double Player::progress() const {

@@ -51,17 +51,22 @@ class Player {
     std::size_t next = 0;  ///< of its knots
     can_client::Played played{};
     Clock::time_point renewed{};
+
+    bool has_sent_all() const { return next == motion.knots.size(); }
   };
 
   Player() = default;
   Problem take(Node& node, const std::string& what, const Commander::Played& played);
   Problem renew(Node& node);
   Problem load(Node& node);
+  /// Of what ends a motion early, by what the node told last.
+  Problem stopped(const Node& node) const;
   void send_sync();
 
   std::vector<Node> nodes_;
   std::uint8_t sync_ = 0;
   Clock::time_point synced_{};
+  Clock::time_point started_ = Clock::time_point::max();
 };
 
 }  // namespace supercoil::operating

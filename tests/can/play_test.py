@@ -17,8 +17,8 @@ from live import DEADLINE_S, PROTOCOL, TRIES, Simulator, join
 SUPERCOIL = os.environ["SUPERCOIL"]
 QUICK = pathlib.Path(__file__).resolve().parents[1] / "python" / "quick.toml"
 # What a busy machine does to any master in real time: a command expires, the lease ends, a knot or an answer is late.
-STARVED = ("the board stopped it", "no_lease", "no answer from node", "busy", "not_ready", "ran dry", "out_of_range",
-           "has not started", "was told something else", "wrong_counter", "wrong_state")
+STARVED = ("the board stopped it", "no_lease", "no answer from node", "busy", "not_ready", "ran dry", "has not started",
+           "was told something else", "wrong_counter", "wrong_state")
 TRACKING, TRAJECTORY, SYNC, KNOT = (PROTOCOL.get_message_by_name(name)
                                     for name in ("Tracking", "Trajectory", "Sync", "Knot"))
 PLAYING, ENDED = 3, 4  # of Trajectory.playback

@@ -173,7 +173,7 @@ class Trajectories(unittest.TestCase):
         for _ in range(2):  # with the same numbers
             clock._number = 255
             muscle.play([0.0, 1.0], [FIRST_M, FIRST_M + 0.0001], settle_s=0.0)
-        self.assertGreater(clock._number, 127)
+            self.assertLess(clock._number, 20)  # it went on from there
 
     @patient
     def test_a_motion_that_is_cancelled_lets_the_muscle_rest(self):

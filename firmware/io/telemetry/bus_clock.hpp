@@ -20,10 +20,12 @@ class BusClock {
   };
 
   void add(const Sync& sync) { known_[sync.number % known_.size()] = sync; }
-  /// One of the latest 8; empty: it has not come.
-  std::optional<Sync> find(std::uint8_t number) const {
+  /// One of the latest 8 that came at this time or later; empty: there is none yet. An older one of
+  /// the same number is another program's: numbers come round, and each begins anywhere.
+  std::optional<Sync> find(std::uint8_t number, hal::Time earliest) const {
     const std::optional<Sync>& found = known_[number % known_.size()];
-    return found && found->number == number ? found : std::nullopt;
+    const bool wanted = found && found->number == number && found->received >= earliest;
+    return wanted ? found : std::nullopt;
   }
 
  private:

@@ -1,5 +1,7 @@
 #include "telemetry/trajectory_frames.hpp"
 
+#include <algorithm>
+
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 
@@ -16,6 +18,10 @@ constexpr bool states_have_their_names() {
   return can::names_of_playback.size() == playback_state_names.size();
 }
 static_assert(states_have_their_names(), "the states of playback have the same names over CAN");
+
+/// A master sends one a second: Play that comes behind its Sync means the last one or the one
+/// before.
+constexpr double max_sync_age_s = 2.0;
 
 }  // namespace
 
@@ -73,11 +79,13 @@ TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
     return taken;
   }
   const Start asked{header, m.get<std::uint8_t>("sync"), m.get("after_s")};
+  // By an earlier one the start would be over. This order also bounds an after_s that is no number.
+  const hal::Time earliest = now - hal::duration_from(std::min(max_sync_age_s, asked.after_s));
   if (when == at_once) {
     channels_[channel].anchor.reset();
     const double at_s = hal::seconds(frame.received) + asked.after_s;
     taken.answer = hand_on(header, {channel, Verb::start, at_s, Source::can});
-  } else if (const auto sync = clock_.find(asked.sync)) {
+  } else if (const auto sync = clock_.find(asked.sync, earliest)) {
     taken.answer = start(asked, *sync);
   } else {
     channels_[channel].start = asked;

@@ -24,11 +24,6 @@ class Clock:
         self._number = (self._number + 1) % _NUMBERS
         return self._number
 
-    def avoid_known(self) -> None:
-        """A board has heard the last number already, of an earlier program: it keeps the latest 8, by their lowest
-        bits, so that it cannot know the ones opposite."""
-        self._number = (self._number + _NUMBERS // 2 - 1) % _NUMBERS
-
     async def sync(self, number: int) -> None:
         """All boards of the bus hear it."""
         told = codec.encode(_SYNC, {"sync": number, "master_time_s": time.monotonic()})

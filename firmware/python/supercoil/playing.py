@@ -5,9 +5,7 @@ import math
 import time
 from collections.abc import Iterable, Sequence
 
-from supercoil.clock import Clock
 from supercoil.cycles import all_of
-from supercoil.generated import refusals
 from supercoil.knots import knots_of
 from supercoil.player import Motion, Player
 from supercoil.tuning import Tuning
@@ -70,12 +68,10 @@ async def _play(players: Sequence[Player], settle_s: float) -> None:
     while not all(player.is_loaded() for player in players):
         await all_of(player.load() for player in players)
     clocks = {player.clock for player in players}
-    try:
-        await _start(players, clocks)
-    except refusals.OutOfRange:
-        for clock in clocks:
-            clock.avoid_known()
-        await _start(players, clocks)
+    numbers = {clock: clock.next_number() for clock in clocks}
+    await all_of(player.start(numbers[player.clock]) for player in players)
+    for clock, number in numbers.items():
+        await clock.sync(number)
     synced_at = time.monotonic()
     while not all(player.has_ended() for player in players):
         await all_of(player.go_on() for player in players)
@@ -83,10 +79,3 @@ async def _play(players: Sequence[Player], settle_s: float) -> None:
             synced_at = time.monotonic()
             for clock in clocks:
                 await clock.sync(clock.next_number())
-
-
-async def _start(players: Sequence[Player], clocks: Iterable[Clock]) -> None:
-    numbers = {clock: clock.next_number() for clock in clocks}
-    await all_of(player.start(numbers[player.clock]) for player in players)
-    for clock, number in numbers.items():
-        await clock.sync(number)

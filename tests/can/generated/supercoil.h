@@ -1074,7 +1074,7 @@ struct supercoil_play_t {
     uint8_t counter;
 
     /**
-     * From which moment after_s counts: at_once from when this came; at_sync from when Sync came with this number, be it one of the latest 8 or the next with it; never asks for Trajectory alone.
+     * From which moment after_s counts: at_once from when this came; at_sync from when Sync came with this number: one of the last 2 s by which the start is still ahead, else the next with it; never asks for Trajectory alone.
      *
      * Range: 0..2 (0..2 -)
      * Scale: 1

@@ -158,11 +158,27 @@ TEST(TrajectoryOverCan, StartsBySyncThatCameBefore) {
   renew(0.1);
   CHECK(ask(master, play_frame(master, start_at_sync, 200, 0.5)) == Refusal::none);
   CHECK(state() == PlaybackState::waiting);
+}
+
+TEST(TrajectoryOverCan, ASyncOfAnEarlierProgramStartsNothing) {
+  load(master);
   load(second);
-  // Its time is over.
+  rig.bus.deliver(sync_frame(200, 50.0));
   renew(0.5);
-  CHECK(ask(second, play_frame(second, start_at_sync, 200, 0.3)) == Refusal::out_of_range);
-  CHECK(state() == PlaybackState::playing);
+  // By that one its start would be over.
+  CHECK(ask(master, play_frame(master, start_at_sync, 200, 0.3)) == Refusal::none);
+  renew(2.0);
+  // And by that one soon.
+  CHECK(ask(second, play_frame(second, start_at_sync, 200, 5.0)) == Refusal::none);
+  renew(0.5);
+  CHECK(state() == PlaybackState::loaded && state(1) == PlaybackState::loaded);
+  rig.bus.deliver(sync_frame(200, 70.0));
+  renew(0.5);
+  CHECK(state() == PlaybackState::playing && state(1) == PlaybackState::waiting);
+  renew(4.0);
+  CHECK(state(1) == PlaybackState::waiting);
+  renew(1.0);
+  CHECK(state(1) == PlaybackState::playing);
 }
 
 TEST(TrajectoryOverCan, FollowsTheMastersClock) {

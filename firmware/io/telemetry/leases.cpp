@@ -30,6 +30,7 @@ Refusal Leases::claim(std::uint8_t channel, std::uint16_t claimed_as, double non
   }
   if (nonce != lease.nonce) return Refusal::claim_again;
   lease.nonce = 0;
+  if (lease.used) lease.replaced = lease.last_session;
   lease.session = lease.last_session = random_except(lease.last_session);
   lease.claimed_as = claimed_as;
   lease.used = false;

@@ -34,6 +34,8 @@ class Leases {
   std::uint16_t nonce(std::uint8_t channel) const { return leases_[channel].nonce; }
   /// Of the last claim that was granted, 0: nobody's.
   std::uint16_t session(std::uint8_t channel) const { return leases_[channel].session; }
+  /// Of the master that commanded under the lease before this one; 0: nobody's.
+  std::uint16_t replaced(std::uint8_t channel) const { return leases_[channel].replaced; }
   void release(std::uint8_t channel) { leases_[channel].session = 0; }
 
   /// Whether a frame with this session and counter is its holder's next one. wrong_counter: the
@@ -44,6 +46,7 @@ class Leases {
   struct Lease {
     std::uint16_t session = 0;  ///< 0: nobody's
     std::uint16_t last_session = 0;
+    std::uint16_t replaced = 0;  ///< the last session before this one that was used; 0: none
     std::uint16_t claimed_as = 0;
     std::uint16_t nonce = 0;  ///< that is good for a claim; 0: none
     std::uint16_t last_nonce = 0;

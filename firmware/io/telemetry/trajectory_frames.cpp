@@ -40,12 +40,17 @@ TrajectoryFrames::Taken TrajectoryFrames::take(const hal::CanFrame& frame, hal::
 
 TrajectoryFrames::Taken TrajectoryFrames::take_knot(std::uint8_t channel,
                                                     const hal::CanFrame& frame, hal::Time now) {
-  const std::uint16_t session = leases_->session(channel);
   const can::Reader<message::knot> m(frame);
   const bool whole = frame.length == message::knot.length;
-  const bool intact = whole && can::e2e::intact(frame, message::knot.length, session);
+  const auto is_of = [&](std::uint16_t session) {
+    return whole && can::e2e::intact(frame, message::knot.length, session);
+  };
+  std::uint16_t session = leases_->session(channel);
+  const std::uint16_t replaced = leases_->replaced(channel);
+  // A master that does not know yet that it was replaced damages nothing, and is told.
+  if (!is_of(session) && replaced != 0 && is_of(replaced)) session = replaced;
   // While nobody has the lease there is no session to judge it by, and it is only refused.
-  if (!whole || (!intact && leases_->held(channel, now))) return {channel, {}};
+  if (!whole || (!is_of(session) && leases_->held(channel, now))) return {channel, {}};
   const Header header{channel, answers_knot, m.get<std::uint8_t>("counter"), session};
   const Refusal checked = leases_->check(channel, session, header.counter, now);
   Taken taken;

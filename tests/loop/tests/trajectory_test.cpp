@@ -261,6 +261,24 @@ TEST(TrajectoryOverCan, NeedsTheLeaseItsSessionAndItsCounter) {
   CHECK(ask(master, knot_frame(master, 1.0, 0.005)) == Refusal::no_lease);
 }
 
+TEST(TrajectoryOverCan, KnotsOfAMasterThatWasReplacedHarmNobody) {
+  load(master);
+  Master replaced = master;
+  CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
+  master.name = 0x3333;
+  CHECK(rig.claim(master) == Refusal::none);
+  CHECK(rig.command(master, Verb::position, 0.005F) == Refusal::none);
+  // It does not know yet.
+  for (int i = 0; i < 20; ++i) {
+    rig.bus.deliver(knot_frame(replaced, 1.0, 0.005));
+    rig.tick();
+  }
+  CHECK(rig.fault() == Fault::none);
+  CHECK(knot(replaced, 0.0, 0.005) == Refusal::not_lease_holder);
+  CHECK(state() == PlaybackState::empty);
+  load(master);
+}
+
 TEST(TrajectoryOverCan, NoDamageOfAFrameIsObeyed) {
   load(master);
   const hal::CanFrame good = knot_frame(master, 1.0, 0.005);

@@ -1,12 +1,14 @@
 // The whole firmware over a simulated board for as many ticks as is asked for: it learns, its
 // controllers take over from each other, and faults come and go. Nothing may drift: time, counters,
 // memory, heat.
-//   loop_soak [TICKS]    10^9 by hand (docs/architecture.md); the suite asks for fewer
+//   loop_soak [TICKS [MUSCLE]]    10^9 by hand (docs/architecture.md); the suite asks for fewer
+// The muscle is real or real_hard (docs/muscles.md); without one it is linear.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
 #include "loop/support/rig.hpp"
+#include "plant/presets.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -49,8 +51,26 @@ struct Figures {
   double resident_MB = 0.0;
 };
 
+RigSettings rough_board_with(host_sim::MusclePreset preset) {
+  RigSettings s = rough_board();
+  const host_sim::PresetMuscle muscle = host_sim::preset_muscle(preset);
+  for (std::size_t i = 0; i < s.board.channels.size(); ++i) {
+    host_sim::MuscleChannelSettings& channel = s.board.channels[i];
+    channel.plant = muscle.parameters;
+    channel.effects = muscle.effects;
+    ChannelSettings& firmware = s.firmware.channels[i];
+    channel.effects.air_C = channel.rise_from_C = firmware.thermal.air.warmest_C;
+    // At rest it hangs lower after its first heating.
+    channel.position.low = -0.005;
+    firmware.position.scaling = {channel.position.per_count(), channel.position.low};
+    firmware.supervision.min_position_m = channel.position.low;
+  }
+  return s;
+}
+
 class Soak {
  public:
+  explicit Soak(const RigSettings& settings) : rig_(settings) {}
   bool run(long ticks);
 
  private:
@@ -73,7 +93,7 @@ class Soak {
     std::fflush(stdout);
   }
 
-  Rig rig_{rough_board()};
+  Rig rig_;
   long cycles_ = 0;
   long overruns_ = 0;  ///< those that were made
   Figures first_;
@@ -165,5 +185,14 @@ bool Soak::run(long ticks_asked) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  return Soak().run(count > 1 ? std::atol(arguments[1]) : suite_ticks) ? 0 : 1;
+  RigSettings settings = rough_board();
+  if (count > 2) {
+    const auto preset = control::find_named(host_sim::preset_names, arguments[2]);
+    if (preset != host_sim::MusclePreset::real && preset != host_sim::MusclePreset::real_hard) {
+      std::fputs("loop_soak: the muscle must be real or real_hard\n", stderr);
+      return 2;
+    }
+    settings = rough_board_with(*preset);
+  }
+  return Soak(settings).run(count > 1 ? std::atol(arguments[1]) : suite_ticks) ? 0 : 1;
 }

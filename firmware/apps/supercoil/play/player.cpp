@@ -1,6 +1,7 @@
 #include "apps/supercoil/play/player.hpp"
 
 #include <algorithm>
+#include <future>
 #include <random>
 
 #include "apps/supercoil/bus/bus_name.hpp"
@@ -14,7 +15,7 @@ using namespace std::chrono_literals;
 
 constexpr auto renew_every = 80ms;
 constexpr auto sync_every = 1s;
-/// So many are sent before the next node's turn.
+/// So many are sent before all are renewed.
 constexpr int knots_in_a_row = 6;
 /// Between Play and the start: each node has heard of it, and Sync was sent.
 constexpr double start_after_s = 0.1;
@@ -78,11 +79,22 @@ Player::Problem Player::renew(Node& node) {
   return take(node, "playback", node.commander->playback());
 }
 
-Player::Problem Player::renew() {
-  for (Node& node : nodes_) {
-    if (auto problem = renew(node)) return problem;
+// Each answer takes a board some 10 ms: one node after the other, two would not get 50 knots a
+// second.
+Player::Problem Player::for_each_at_once(Problem (Player::*step)(Node&)) {
+  std::vector<std::future<Problem>> others;
+  for (std::size_t i = 1; i < nodes_.size(); ++i)
+    others.push_back(std::async(std::launch::async, step, this, std::ref(nodes_[i])));
+  Problem found = (this->*step)(nodes_.front());
+  for (auto& other : others) {
+    Problem problem = other.get();
+    if (!found) found = std::move(problem);
   }
-  return std::nullopt;
+  return found;
+}
+
+Player::Problem Player::renew() {
+  return for_each_at_once(&Player::renew);
 }
 
 Player::Problem Player::load(Node& node) {
@@ -107,9 +119,7 @@ Player::Problem Player::load(Node& node) {
 }
 
 Player::Problem Player::load() {
-  for (Node& node : nodes_) {
-    if (auto problem = load(node)) return problem;
-  }
+  if (auto problem = for_each_at_once(&Player::load)) return problem;
   return renew();
 }
 

@@ -57,6 +57,9 @@ class Player {
 
   Player() = default;
   Problem take(Node& node, const std::string& what, const Commander::Played& played);
+  /// Each on a thread of its own, as each has a connection to the bus of its own. The first
+  /// problem in the order of the nodes.
+  Problem for_each_at_once(Problem (Player::*step)(Node&));
   Problem renew(Node& node);
   Problem load(Node& node);
   /// Of what ends a motion early, by what the node told last.

@@ -79,6 +79,7 @@ void Playback::forget() {
   state_ = PlaybackState::empty;
   trajectory_.start(0.0);
   time_s_ = ahead_s_ = dry_s_ = 0.0;
+  led_.reset();
   publish();
 }
 
@@ -102,7 +103,10 @@ double Playback::step(hal::Time now, double reference_m) {
                                  : PlaybackState::dry;
   dry_s_ = state_ == PlaybackState::dry ? dry_s_ + elapsed_s : 0.0;
   publish();
-  return trajectory_.at(time_s_).motion.position;
+  const double position_m = trajectory_.at(time_s_).motion.position;
+  led_.reset();
+  if (state_ == PlaybackState::playing) led_ = trajectory_.at(time_s_ + 0.5 * elapsed_s);
+  return position_m;
 }
 
 void Playback::publish() {

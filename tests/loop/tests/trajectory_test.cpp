@@ -133,6 +133,24 @@ TEST(TrajectoryOverCan, IsPlayedFollowedAndHeldAtItsEnd) {
   CHECK(state(1) == PlaybackState::empty);
 }
 
+// However slow a reference model is: that of PI needs 4 s for a step.
+TEST(TrajectoryOverCan, LeadsTheReferenceModelFromKnotToKnot) {
+  CHECK(knot(master, 0.0, 0.005) == Refusal::none);
+  CHECK(knot(master, 1.0, 0.0055, 0.001) == Refusal::none);
+  CHECK(knot(master, 1.0, 0.006) == Refusal::none);
+  CHECK(knot(master, 1.0, 0.0055) == Refusal::none);
+  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
+  renew(0.1);
+  CHECK(state() == PlaybackState::playing);
+  while (state() == PlaybackState::playing) {
+    const Snapshot& now = rig.loop.channel(0).snapshot();
+    DOUBLES_EQUAL(now.reference, now.model_m, 15e-6);
+    renew(0.1);
+  }
+  CHECK(state() == PlaybackState::ended);
+  DOUBLES_EQUAL(reference_m(), rig.loop.channel(0).snapshot().model_m, 15e-6);
+}
+
 TEST(TrajectoryOverCan, TwoChannelsStartInTheTickThatOneSyncTells) {
   load(master);
   load(second, 0.005, 0.0055);

@@ -73,6 +73,26 @@ TEST(ReferenceModels, VelocityAndAccelerationAreThePositionsDerivatives) {
   DOUBLES_EQUAL((after.velocity - before.velocity) / (2 * step_s), now.acceleration, 1e-6);
 }
 
+// A sine of 2 rad/s, of which the design model by itself would leave a tenth.
+TEST(ReferenceModels, AreLedAlongAMotion) {
+  constexpr double step_s = 1e-3;
+  constexpr double turn = 2.0;
+  const auto sine = [](double time_s) {
+    const double s = std::sin(turn * time_s);
+    const double c = std::cos(turn * time_s);
+    return LedMotion{{s, turn * c, -turn * turn * s}, -turn * turn * turn * c};
+  };
+  for (const auto& settings : {design_model(), eq8_model(), wm16_model()}) {
+    ReferenceModel<double> model(settings, step_s);
+    model.set(sine(0.0).motion);
+    for (int k = 0; k < 10000; ++k) {
+      DOUBLES_EQUAL(sine(k * step_s).motion.position, model.motion().position, 1e-6);
+      model.step(settings.reference_for(sine((k + 0.5) * step_s)));
+    }
+    DOUBLES_EQUAL(3.0 / settings.dc_gain(), settings.reference_for({{3.0, 0.0, 0.0}}), 1e-12);
+  }
+}
+
 TEST(ReferenceModels, AnUnknownNameGivesNoModel) {
   CHECK_FALSE(reference_model_named("eq9").has_value());
 }

@@ -21,6 +21,9 @@ struct ControllerInput {
   double applied_power_W = 0.0;  ///< really applied since the last tick
   bool limited = false;          ///< that power was not the one wanted
   PowerRange range{};            ///< that the muscle may get: for shaping
+  /// Of a trajectory, in the middle of the tick that begins: the model is led along it, by the
+  /// reference under which it moves so. reference_m says nothing then.
+  std::optional<LedMotion> led{};
 };
 
 /// What a controller answers at a tick. The power is not yet saturated.
@@ -65,7 +68,8 @@ template <class Scalar, TrackingLaw<Scalar> Law>
 class ModelFollower {
  public:
   ModelFollower(const ControllerSettings& s, Law law, double step_s)
-      : model_(s.model, step_s),
+      : model_settings_(s.model),
+        model_(s.model, step_s),
         law_(std::move(law)),
         oscillation_(step_s),
         slow_when_oscillating_(s.slow_when_oscillating),
@@ -90,8 +94,9 @@ class ModelFollower {
   /// One tick. No heap and no exception.
   ControllerOutput step(const ControllerInput& in) {
     model_.step(last_reference_);
-    const FeasibleReference asked = shaper_ ? shaper_->step(in.reference_m, motion(), in.range)
-                                            : FeasibleReference{in.reference_m};
+    const double reference_m = in.led ? model_settings_.reference_for(*in.led) : in.reference_m;
+    const FeasibleReference asked =
+        shaper_ ? shaper_->step(reference_m, motion(), in.range) : FeasibleReference{reference_m};
     LawInput<Scalar> input;
     input.reference = to<Scalar>(asked.reference_m * to_watts_);
     input.position = to<Scalar>(in.position_m * to_watts_);
@@ -152,6 +157,7 @@ class ModelFollower {
       if (slow_when_oscillating_) law_.slow_down();
   }
 
+  ReferenceModelSettings model_settings_;
   ReferenceModel<Scalar> model_;
   Law law_;
   OscillationDetector oscillation_;

@@ -10,6 +10,20 @@
 
 namespace supercoil::control {
 
+/// The model's motion at one tick; position and its derivatives by time in the reference's unit.
+template <class Scalar>
+struct ModelMotion {
+  Scalar position{};
+  Scalar velocity{};
+  Scalar acceleration{};
+};
+
+/// A motion with the third derivative that it has then.
+struct LedMotion {
+  ModelMotion<double> motion;  ///< m, m/s, m/s²
+  double jerk = 0.0;           ///< m/s³
+};
+
 /// Wm(s) = gain/denominator, third order, of relative degree three as the muscle is.
 struct ReferenceModelSettings {
   Polynomial<3> denominator;  ///< monic, Hurwitz, ascending
@@ -18,6 +32,13 @@ struct ReferenceModelSettings {
   std::array<double, 3> poles_rad_per_s{NAN, NAN, NAN};
 
   double dc_gain() const { return gain / denominator[0]; }
+  /// The reference under which the model goes on with a motion that it has, in m.
+  double reference_for(const LedMotion& at) const {
+    const auto& a = denominator;
+    return (at.jerk + a[2] * at.motion.acceleration + a[1] * at.motion.velocity +
+            a[0] * at.motion.position) /
+           gain;
+  }
 };
 
 /// ωn²q0/((s² + 2ζωn s + ωn²)(s + q0)) with ωn = 1 rad/s, ζ = 0.69, q0 = 0.8: what the paper's text
@@ -31,14 +52,6 @@ ReferenceModelSettings wm16_model();
 ReferenceModelSettings poles_model(const std::array<double, 3>& poles);
 /// "design", "eq8" or "wm16"; empty for any other name.
 std::optional<ReferenceModelSettings> reference_model_named(std::string_view name);
-
-/// The model's motion at one tick; position and its derivatives by time in the reference's unit.
-template <class Scalar>
-struct ModelMotion {
-  Scalar position{};
-  Scalar velocity{};
-  Scalar acceleration{};
-};
 
 /// The model in one arithmetic, exactly discretised for a reference held over each tick. It starts
 /// at rest in zero.

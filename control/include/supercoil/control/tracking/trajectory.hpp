@@ -24,16 +24,10 @@ class QuinticPiece {
     Knot knot;
     double acceleration_m_per_s2 = 0.0;
   };
-  /// Where the way is at a time.
-  struct Point {
-    ModelMotion<double> motion;  ///< m, m/s, m/s²
-    double jerk = 0.0;           ///< m/s³
-  };
-
   /// to is later than from.
   QuinticPiece(const End& from, const End& to);
   /// time_s: from the one knot's to the other's.
-  Point at(double time_s) const;
+  LedMotion at(double time_s) const;
   double begins_s() const { return begins_s_; }
   double duration_s() const { return duration_s_; }
 
@@ -69,7 +63,7 @@ class Trajectory {
   void add(const Knot& next);
 
   /// Where it is; time_s >= 0 never falls. After the last knot it rests there.
-  QuinticPiece::Point at(double time_s);
+  LedMotion at(double time_s);
 
  private:
   const QuinticPiece::End& end(std::size_t place) const {

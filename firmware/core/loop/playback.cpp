@@ -103,10 +103,10 @@ double Playback::step(hal::Time now, double reference_m) {
                                  : PlaybackState::dry;
   dry_s_ = state_ == PlaybackState::dry ? dry_s_ + elapsed_s : 0.0;
   publish();
-  const double position_m = trajectory_.at(time_s_).motion.position;
+  const control::LedMotion at = trajectory_.at(time_s_);
   led_.reset();
-  if (state_ == PlaybackState::playing) led_ = trajectory_.at(time_s_ + 0.5 * elapsed_s);
-  return position_m;
+  if (state_ == PlaybackState::playing) led_ = at;
+  return at.motion.position;
 }
 
 void Playback::publish() {

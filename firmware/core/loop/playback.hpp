@@ -58,7 +58,7 @@ class Playback {
 
   /// One tick: where the muscle should be. reference_m: where it is told to be until then.
   double step(hal::Time now, double reference_m);
-  /// While it plays: how it moves in the middle of the tick that began with step().
+  /// While it plays: how it moves at the tick of step().
   const std::optional<control::LedMotion>& led() const { return led_; }
   /// It has run dry for so long that the muscle is better off at rest.
   bool is_over() const { return dry_s_ > hold_dry_s; }

@@ -21,8 +21,8 @@ struct ControllerInput {
   double applied_power_W = 0.0;  ///< really applied since the last tick
   bool limited = false;          ///< that power was not the one wanted
   PowerRange range{};            ///< that the muscle may get: for shaping
-  /// Of a trajectory, in the middle of the tick that begins: the model is led along it, by the
-  /// reference under which it moves so. reference_m says nothing then.
+  /// Of a trajectory: the model is led along it, by the reference under which it moves so.
+  /// reference_m says nothing then.
   std::optional<LedMotion> led{};
 };
 
@@ -94,7 +94,8 @@ class ModelFollower {
   /// One tick. No heap and no exception.
   ControllerOutput step(const ControllerInput& in) {
     model_.step(last_reference_);
-    const double reference_m = in.led ? model_settings_.reference_for(*in.led) : in.reference_m;
+    const double reference_m =
+        in.led ? model_settings_.reference_for(*in.led, motion()) : in.reference_m;
     const FeasibleReference asked =
         shaper_ ? shaper_->step(reference_m, motion(), in.range) : FeasibleReference{reference_m};
     LawInput<Scalar> input;

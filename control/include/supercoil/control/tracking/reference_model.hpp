@@ -32,11 +32,15 @@ struct ReferenceModelSettings {
   std::array<double, 3> poles_rad_per_s{NAN, NAN, NAN};
 
   double dc_gain() const { return gain / denominator[0]; }
-  /// The reference under which the model goes on with a motion that it has, in m.
-  double reference_for(const LedMotion& at) const {
-    const auto& a = denominator;
-    return (at.jerk + a[2] * at.motion.acceleration + a[1] * at.motion.velocity +
-            a[0] * at.motion.position) /
+  /// The reference, in m, under which a model that moves so goes on to a motion, and along it. What
+  /// it is off by fades with three poles at 5 rad/s, or at its own if these are faster.
+  double reference_for(const LedMotion& to, const ModelMotion<double>& model) const {
+    const Polynomial<3>& a = denominator;
+    const double pole = std::fmax(5.0, std::cbrt(a[0]));
+    const double jerk = to.jerk + 3.0 * pole * (to.motion.acceleration - model.acceleration) +
+                        3.0 * pole * pole * (to.motion.velocity - model.velocity) +
+                        pole * pole * pole * (to.motion.position - model.position);
+    return (jerk + a[2] * model.acceleration + a[1] * model.velocity + a[0] * model.position) /
            gain;
   }
 };

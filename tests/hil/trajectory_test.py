@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+"""Two boards on one CAN bus play one motion in step, for a minute; then their sender is stopped midway.
+
+Both tick at 1 kHz, by timers of their own; the plants' witness sees them to 1 ms. How far one is behind the other is
+the time by which the true position of one lags, by least squares. Both have the same muscle; what their controllers
+learn at first is told as a lag too.
+Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did not do their part.
+
+    .venv/bin/python tests/hil/trajectory_test.py [--architecture amd64]
+"""
+
+import argparse
+import math
+import re
+
+import numpy as np
+
+import rig
+import witness
+from table import Table
+
+DURATION_S = 60.0
+KNOTS_PER_S = 50
+COMMAND_EXPIRES_MS = 250.0
+
+
+def motion_m(time_s):
+    """From standstill to standstill; quick parts show delays best."""
+    fade = 0.5 - 0.5 * math.cos(math.pi * min(1.0, time_s / 2.0, (DURATION_S - time_s) / 2.0))
+    return 7e-3 + fade * (1e-3 * math.sin(0.4 * math.pi * time_s) + 0.15e-3 * math.sin(2 * math.pi * time_s))
+
+
+def write_motion(path):
+    rows = [f"{i / KNOTS_PER_S:.3f},{x:.7f},{x:.7f}"
+            for i in range(int(DURATION_S * KNOTS_PER_S) + 1) for x in [motion_m(i / KNOTS_PER_S)]]
+    path.write_text("\n".join(["time_s,5:position_m,9:position_m", *rows]) + "\n")
+
+
+def true_positions_m(looks, times_s):
+    return np.interp(times_s, [look.time_s for look in looks], [look.channels[0].position_m for look in looks])
+
+
+def lag_ms(first, second, begin_s, end_s):
+    """By how much the second is behind the first."""
+    times_s = np.arange(begin_s, end_s, 0.001)
+    ahead, behind = true_positions_m(first, times_s), true_positions_m(second, times_s)
+    columns = np.column_stack([np.gradient(ahead, times_s), np.ones_like(times_s)])
+    return 1e3 * np.linalg.lstsq(columns, ahead - behind, rcond=None)[0][0]
+
+
+def judge(table, run, share):
+    marks, _ = witness.said(run.console)
+    console = run.console.replace("\r", "")
+    told = dict(re.findall(r"^(arm \d|played|first ended with|second ended with) (\d+)$", console, re.M))
+    table.row("the script ended with", run.status, 0, 0, "")
+    for what in ("arm 5", "arm 9", "played"):
+        table.row(f"{what}: ended with", int(told[what]), 0, 0, "")
+    first = witness.looks(run.witness)
+    second = witness.looks((share / "witness-2").read_text().splitlines())
+    end_s = marks["played"]
+    times_s = np.arange(end_s - DURATION_S + 1.0, end_s - 1.0, 0.001)
+    apart_m = true_positions_m(first, times_s) - true_positions_m(second, times_s)
+    moved_mm = 1e3 * np.ptp(true_positions_m(first, times_s))
+    table.row("the motion", moved_mm, 2.0, 2.4, "mm")
+    table.row("the second is behind, over the motion", lag_ms(first, second, times_s[0], times_s[-1]), -1, 1, "ms")
+    middle_s = end_s - DURATION_S / 2
+    table.row("    over its first half", lag_ms(first, second, times_s[0], middle_s), -1, 1, "ms")
+    table.row("    over its second half", lag_ms(first, second, middle_s, times_s[-1]), -1, 1, "ms")
+    table.row("how far they are apart, rms", 1e6 * np.sqrt(np.mean(apart_m ** 2)), 0, 20, "um")
+    for name, looks in (("first", first), ("second", second)):
+        heated = witness.at(looks, marks["stopped"]).channels[0].power_W
+        table.row(f"the sender is stopped: the {name} was heated with", heated, 0.3, 4.5, "W")
+        off = witness.first(looks, marks["stopped"], lambda look: look.channels[0].power_W == 0)
+        table.row("    and is off after", (off.time_s - marks["stopped"]) * 1e3, 100, COMMAND_EXPIRES_MS + 50, "ms")
+        again = [look for look in looks if off.time_s < look.time_s and look.channels[0].power_W > 0.01]
+        table.row("    it was heated again, looks", len(again), 0, 0, "")
+    for node in (5, 9):
+        table.row(f"node {node} tells command_timeout", len(re.findall(rf"^seen {node} .*command_timeout", console, re.M)), 1, 1, "")
+    errors = [int(count) for count in re.findall(r"^errors can\d (\d+)$", console, re.M)]
+    table.row("errors that three controllers counted", sum(errors) if len(errors) == 3 else None, 0, 0, "")
+    for which in ("first", "second"):
+        table.row(f"SIGTERM ended the {which} with", int(told[f"{which} ended with"]), 0, 0, "")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    rig.add_architecture(parser)
+    # One processor does the work of two at 1 kHz, so it is eight times as fast.
+    settings = rig.Settings(parser.parse_args().architecture, "trajectory_test", watchdog=True, can=3, instruction_shift=0,
+                            time_out_s=3600.0)
+    share = settings.share
+    share.mkdir(parents=True, exist_ok=True)
+    write_motion(share / "motion.csv")
+    for old in ("can.log", "witness-2"):
+        (share / old).unlink(missing_ok=True)
+    table = Table()
+    table.judge("trajectory", lambda t, r: judge(t, r, share), rig.run(rig.HERE / "scripts" / "trajectory", (), settings))
+    table.end()
+
+
+if __name__ == "__main__":
+    main()

@@ -16,12 +16,14 @@ import re
 import numpy as np
 
 import rig
+import two_boards
 import witness
 from table import Table
 
 DURATION_S = 60.0
 KNOTS_PER_S = 50
 COMMAND_EXPIRES_MS = 250.0
+LAG_MS = 2.0  # ticks of 1 ms and steps of a plant of 1 ms, each with any phase
 
 
 def motion_m(time_s):
@@ -51,21 +53,19 @@ def lag_ms(first, second, begin_s, end_s):
 def judge(table, run, share):
     marks, _ = witness.said(run.console)
     console = run.console.replace("\r", "")
-    told = dict(re.findall(r"^(arm \d|played|first ended with|second ended with) (\d+)$", console, re.M))
-    table.row("the script ended with", run.status, 0, 0, "")
-    for what in ("arm 5", "arm 9", "played"):
-        table.row(f"{what}: ended with", int(told[what]), 0, 0, "")
-    first = witness.looks(run.witness)
-    second = witness.looks((share / "witness-2").read_text().splitlines())
+    ended = two_boards.told(console)
+    two_boards.judge_begin(table, run, ended)
+    table.row("play ended with", ended["played"], 0, 0, "")
+    first, second = two_boards.looks(run, share)
     end_s = marks["played"]
     times_s = np.arange(end_s - DURATION_S + 1.0, end_s - 1.0, 0.001)
     apart_m = true_positions_m(first, times_s) - true_positions_m(second, times_s)
     moved_mm = 1e3 * np.ptp(true_positions_m(first, times_s))
     table.row("the motion", moved_mm, 2.0, 2.4, "mm")
-    table.row("the second is behind, over the motion", lag_ms(first, second, times_s[0], times_s[-1]), -1, 1, "ms")
+    table.row("the second is behind, over the motion", lag_ms(first, second, times_s[0], times_s[-1]), -LAG_MS, LAG_MS, "ms")
     middle_s = end_s - DURATION_S / 2
-    table.row("    over its first half", lag_ms(first, second, times_s[0], middle_s), -1, 1, "ms")
-    table.row("    over its second half", lag_ms(first, second, middle_s, times_s[-1]), -1, 1, "ms")
+    table.row("    over its first half", lag_ms(first, second, times_s[0], middle_s), -LAG_MS, LAG_MS, "ms")
+    table.row("    over its second half", lag_ms(first, second, middle_s, times_s[-1]), -LAG_MS, LAG_MS, "ms")
     table.row("how far they are apart, rms", 1e6 * np.sqrt(np.mean(apart_m ** 2)), 0, 20, "um")
     for name, looks in (("first", first), ("second", second)):
         heated = witness.at(looks, marks["stopped"]).channels[0].power_W
@@ -76,23 +76,16 @@ def judge(table, run, share):
         table.row("    it was heated again, looks", len(again), 0, 0, "")
     for node in (5, 9):
         table.row(f"node {node} tells command_timeout", len(re.findall(rf"^seen {node} .*command_timeout", console, re.M)), 1, 1, "")
-    errors = [int(count) for count in re.findall(r"^errors can\d (\d+)$", console, re.M)]
-    table.row("errors that three controllers counted", sum(errors) if len(errors) == 3 else None, 0, 0, "")
-    for which in ("first", "second"):
-        table.row(f"SIGTERM ended the {which} with", int(told[f"{which} ended with"]), 0, 0, "")
+    two_boards.judge_end(table, console, ended)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     rig.add_architecture(parser)
     # One processor does the work of two at 1 kHz, so it is eight times as fast.
-    settings = rig.Settings(parser.parse_args().architecture, "trajectory_test", watchdog=True, can=3, instruction_shift=0,
-                            time_out_s=3600.0)
+    settings = two_boards.settings(parser.parse_args().architecture, "trajectory_test", instruction_shift=0, time_out_s=3600.0)
     share = settings.share
-    share.mkdir(parents=True, exist_ok=True)
     write_motion(share / "motion.csv")
-    for old in ("can.log", "witness-2"):
-        (share / old).unlink(missing_ok=True)
     table = Table()
     table.judge("trajectory", lambda t, r: judge(t, r, share), rig.run(rig.HERE / "scripts" / "trajectory", (), settings))
     table.end()

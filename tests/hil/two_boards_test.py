@@ -7,10 +7,10 @@ Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did
 """
 
 import argparse
-import re
 
 import rig
 import telemetry_test
+import two_boards
 import witness
 from table import Table
 
@@ -25,15 +25,12 @@ def steady_mm(looks, begin_s, end_s):
 def judge(table, run, share):
     marks, _ = witness.said(run.console)
     console = run.console.replace("\r", "")
-    told = dict(re.findall(r"^(arm \d|arm dead \d|held \d|first ended with|second ended with) (\d+)$", console, re.M))
-    table.row("the script ended with", run.status, 0, 0, "")
+    ended = two_boards.told(console)
+    two_boards.judge_begin(table, run, ended)
     frames = list(telemetry_test.decoded(telemetry_test.protocol(), (share / "can.log").read_text()))
     nodes = {node for _, node, message, _ in frames if message.name == "Status"}
     table.row("nodes heard: 5, 6 of one board, 9 of the other", nodes == {5, 6, 9}, 1, 1, "")
-    for node in (5, 9):
-        table.row(f"arm {node} ended with", int(told[f"arm {node}"]), 0, 0, "")
-    first = witness.looks(run.witness)
-    second = witness.looks((share / "witness-2").read_text().splitlines())
+    first, second = two_boards.looks(run, share)
     low, high = steady_mm(first, marks["held"] - 2, marks["held"])
     table.row("both hold: the first at least at", low, 4.9, 5.1, "mm")
     table.row("    at most", high, 4.9, 5.1, "mm")
@@ -42,33 +39,27 @@ def judge(table, run, share):
     table.row("    at most", high, 7.9, 8.1, "mm")
     off = witness.first(second, marks["held"], lambda look: look.channels[0].power_W == 0)
     table.row("the second is killed: its power is off after", (off.time_s - marks["held"]) * 1e3, 0, PROTECTED_MS + 100, "ms")
-    table.row("    who held it is told so", int(told["held 9"]), 1, 1, "")
-    table.row("    and a command to it is not answered", int(told["arm dead 9"]), 1, 1, "")
+    table.row("    who held it is told so", ended["held 9"], 1, 1, "")
+    table.row("    and a command to it is not answered", ended["arm dead 9"], 1, 1, "")
     low, high = steady_mm(first, marks["killed"], marks["alone"])
     table.row("    the first goes on, at least at", low, 4.9, 5.1, "mm")
     table.row("    at most", high, 4.9, 5.1, "mm")
     warm = [look for look in second if off.time_s < look.time_s and look.channels[0].power_W > 0]
     table.row("    the second was heated again, looks", len(warm), 0, 0, "")
     table.row("    and is disarmed when it comes back", console.count("seen 9 disarmed"), 2, 2, "")
-    table.row("the first was held to the end", int(told["held 5"]), 0, 0, "")
+    table.row("the first was held to the end", ended["held 5"], 0, 0, "")
     faults = [node for _, node, message, signals in frames if message.name == "Status" and str(signals["state"]) == "fault"]
     table.row("faults told by anybody", len(faults), 0, 0, "")
-    errors = [int(count) for count in re.findall(r"^errors can\d (\d+)$", console, re.M)]
-    table.row("errors that three controllers counted", sum(errors) if len(errors) == 3 else None, 0, 0, "")
-    for which in ("first", "second"):
-        table.row(f"SIGTERM ended the {which} with", int(told[f"{which} ended with"]), 0, 0, "")
+    two_boards.judge_end(table, console, ended)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     rig.add_architecture(parser)
     # One processor does the work of two, so it is twice as fast.
-    settings = rig.Settings(parser.parse_args().architecture, "two_boards_test", watchdog=True, can=3, instruction_shift=2,
-                            time_out_s=1800.0)
+    settings = two_boards.settings(parser.parse_args().architecture, "two_boards_test", instruction_shift=2, time_out_s=1800.0)
     share = settings.share
     table = Table()
-    for old in ("can.log", "witness-2"):
-        (share / old).unlink(missing_ok=True)
     table.judge("two boards", lambda t, r: judge(t, r, share), rig.run(rig.HERE / "scripts" / "two_boards", (), settings))
     table.end()
 

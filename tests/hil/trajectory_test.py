@@ -9,16 +9,13 @@ Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did
     .venv/bin/python tests/hil/trajectory_test.py [--architecture amd64]
 """
 
-import argparse
 import math
 import re
 
 import numpy as np
 
-import rig
 import two_boards
 import witness
-from table import Table
 
 DURATION_S = 60.0
 KNOTS_PER_S = 50
@@ -79,17 +76,7 @@ def judge(table, run, share):
     two_boards.judge_end(table, console, ended)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    rig.add_architecture(parser)
-    # One processor does the work of two at 1 kHz, so it is eight times as fast.
-    settings = two_boards.settings(parser.parse_args().architecture, "trajectory_test", instruction_shift=0, time_out_s=3600.0)
-    share = settings.share
-    write_motion(share / "motion.csv")
-    table = Table()
-    table.judge("trajectory", lambda t, r: judge(t, r, share), rig.run(rig.HERE / "scripts" / "trajectory", (), settings))
-    table.end()
-
-
 if __name__ == "__main__":
-    main()
+    # One processor does the work of two at 1 kHz, so it is eight times as fast.
+    two_boards.test(__doc__, "trajectory", judge, prepare=lambda share: write_motion(share / "motion.csv"),
+                    instruction_shift=0, time_out_s=3600.0)

@@ -1,19 +1,27 @@
 """Two boards on one CAN bus (two_boards_up in guest/functions), as their tests see them."""
 
+import argparse
 import re
 
 import rig
 import witness
+from table import Table
 
 OLD = ("can.log", "witness-2")  # what a run leaves in the share
 
 
-def settings(architecture, name, **more):
-    made = rig.Settings(architecture, name, watchdog=True, can=3, **more)
-    made.share.mkdir(parents=True, exist_ok=True)
+def test(about, script, judge, prepare=lambda share: None, **settings):
+    """The program of a test. prepare(share) comes before the board, judge(table, run, share) after it."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    rig.add_architecture(parser)
+    board = rig.Settings(parser.parse_args().architecture, f"{script}_test", watchdog=True, can=3, **settings)
+    board.share.mkdir(parents=True, exist_ok=True)
     for old in OLD:
-        (made.share / old).unlink(missing_ok=True)
-    return made
+        (board.share / old).unlink(missing_ok=True)
+    prepare(board.share)
+    table = Table()
+    table.judge(script, lambda t, r: judge(t, r, board.share), rig.run(rig.HERE / "scripts" / script, (), board))
+    table.end()
 
 
 def looks(run, share):

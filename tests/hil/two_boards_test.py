@@ -6,13 +6,9 @@ Prints what was measured; ends with 1 if any of it is wrong, 2 if the boards did
     .venv/bin/python tests/hil/two_boards_test.py [--architecture amd64]
 """
 
-import argparse
-
-import rig
 import telemetry_test
 import two_boards
 import witness
-from table import Table
 
 PROTECTED_MS = 150.0 + 20.0  # the charge pump's decay, and a step of the plant
 
@@ -53,16 +49,6 @@ def judge(table, run, share):
     two_boards.judge_end(table, console, ended)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    rig.add_architecture(parser)
-    # One processor does the work of two, so it is twice as fast.
-    settings = two_boards.settings(parser.parse_args().architecture, "two_boards_test", instruction_shift=2, time_out_s=1800.0)
-    share = settings.share
-    table = Table()
-    table.judge("two boards", lambda t, r: judge(t, r, share), rig.run(rig.HERE / "scripts" / "two_boards", (), settings))
-    table.end()
-
-
 if __name__ == "__main__":
-    main()
+    # One processor does the work of two, so it is twice as fast.
+    two_boards.test(__doc__, "two_boards", judge, instruction_shift=2, time_out_s=1800.0)

@@ -19,11 +19,11 @@ QuinticPiece::QuinticPiece(const End& from, const End& to)
                   6.0 * way - 3.0 * (v0 + v1) - 0.5 * (a0 - a1)};
 }
 
-LedMotion QuinticPiece::at(double time_s) const {
+TrajectoryPoint QuinticPiece::at(double time_s) const {
   const auto& c = coefficient_;
   const double t = duration_s_;
   const double x = (time_s - begins_s_) / t;
-  LedMotion p;
+  TrajectoryPoint p;
   p.motion.position = c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5]))));
   p.motion.velocity =
       (c[1] + x * (2.0 * c[2] + x * (3.0 * c[3] + x * (4.0 * c[4] + x * 5.0 * c[5])))) / t;
@@ -62,14 +62,14 @@ void Trajectory::add(const Knot& next) {
   ++count_;
 }
 
-LedMotion Trajectory::at(double time_s) {
+TrajectoryPoint Trajectory::at(double time_s) {
   while (count_ > 1 && time_s >= end(1).knot.time_s) {
     first_ = (first_ + 1) % capacity;
     --count_;
     begun_ = false;
   }
   if (count_ == 1) {
-    LedMotion rest;
+    TrajectoryPoint rest;
     rest.motion.position = end(0).knot.position_m;
     return rest;
   }

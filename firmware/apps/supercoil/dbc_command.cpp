@@ -3,7 +3,7 @@
 
 #include "apps/supercoil/bus_dbc.hpp"
 #include "apps/supercoil/commands.hpp"
-#include "apps/supercoil/output_file.hpp"
+#include "apps/supercoil/user_file.hpp"
 #include "storage/posix_files.hpp"
 
 namespace supercoil::operating {

@@ -7,8 +7,8 @@
 
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/mcap/export.hpp"
-#include "apps/supercoil/output_file.hpp"
 #include "apps/supercoil/summary.hpp"
+#include "apps/supercoil/user_file.hpp"
 #include "recorder/recording.hpp"
 #include "storage/posix_files.hpp"
 

@@ -114,7 +114,7 @@ bool Axis::control() {
     case Mode::position: {
       control::ControllerInput input;
       input.reference_m = reference_;
-      input.led = playback_.led();
+      input.trajectory = playback_.point();
       input.position_m = inputs_.position.value;
       input.applied_power_W = heater_.acting().power_W;
       input.limited = heater_.acting().limited;

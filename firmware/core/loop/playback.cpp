@@ -79,11 +79,11 @@ void Playback::forget() {
   state_ = PlaybackState::empty;
   trajectory_.start(0.0);
   time_s_ = ahead_s_ = dry_s_ = 0.0;
-  led_.reset();
   publish();
 }
 
 double Playback::step(hal::Time now, double reference_m) {
+  point_.reset();
   if (state_ < PlaybackState::waiting) return reference_m;
   const double elapsed_s = hal::seconds(now - last_tick_);
   last_tick_ = now;
@@ -103,9 +103,8 @@ double Playback::step(hal::Time now, double reference_m) {
                                  : PlaybackState::dry;
   dry_s_ = state_ == PlaybackState::dry ? dry_s_ + elapsed_s : 0.0;
   publish();
-  const control::LedMotion at = trajectory_.at(time_s_);
-  led_.reset();
-  if (state_ == PlaybackState::playing) led_ = at;
+  const control::TrajectoryPoint at = trajectory_.at(time_s_);
+  if (state_ == PlaybackState::playing) point_ = at;
   return at.motion.position;
 }
 

@@ -58,8 +58,8 @@ class Playback {
 
   /// One tick: where the muscle should be. reference_m: where it is told to be until then.
   double step(hal::Time now, double reference_m);
-  /// While it plays: how it moves at the tick of step().
-  const std::optional<control::LedMotion>& led() const { return led_; }
+  /// Where it is at the tick of step(), while it plays.
+  const std::optional<control::TrajectoryPoint>& point() const { return point_; }
   /// It has run dry for so long that the muscle is better off at rest.
   bool is_over() const { return dry_s_ > hold_dry_s; }
 
@@ -94,7 +94,7 @@ class Playback {
   double ahead_s_ = 0.0;
   std::atomic<double> wanted_ahead_s_{0.0};
   double dry_s_ = 0.0;
-  std::optional<control::LedMotion> led_;
+  std::optional<control::TrajectoryPoint> point_;
   std::atomic<PlaybackStatus> status_{};
 };
 static_assert(std::atomic<PlaybackStatus>::is_always_lock_free);

@@ -239,8 +239,11 @@ void Proof::judge(double power_W, double hottest_K) {
   } else if (all_.answer.moved_m(loud_ratio * settings_.obvious_m)) {
     unproven_s_ = 0.0;
   } else if (unproven_s_ > overdue_ratio * time_to_limit_s(hottest_K)) {
-    if (stage_ == Stage::watching) enter(Stage::overdue);
-    if (stage_ == Stage::moving) enter(Stage::swallowed);
+    if (stage_ == Stage::watching) {
+      enter(Stage::overdue);
+    } else if (stage_ == Stage::moving) {
+      enter(Stage::swallowed);
+    }
   }
   if (block_s_ > max_block_s) begin_block();
   drive_dither(hottest_K);

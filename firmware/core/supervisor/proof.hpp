@@ -143,6 +143,7 @@ class Proof {
   void rest();
   void judge(double power_W, double hottest_K);
   void judge_release();
+  /// A living muscle, by now: the model moved far enough, or had time.
   bool must_move() const;
   double time_to_limit_s(double hottest_K) const;
   void enter(Stage stage);

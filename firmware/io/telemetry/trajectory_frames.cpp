@@ -84,6 +84,7 @@ TrajectoryFrames::Taken TrajectoryFrames::take_play(std::uint8_t channel,
     return taken;
   }
   const Start asked{header, m.get<std::uint8_t>("sync"), m.get("after_s")};
+  channels_[channel].start.reset();  // the one that Play was told before
   // By an earlier one the start would be over. This order also bounds an after_s that is no number.
   const hal::Time earliest = now - hal::duration_from(std::min(max_sync_age_s, asked.after_s));
   if (when == at_once) {

@@ -199,6 +199,19 @@ TEST(TrajectoryOverCan, ASyncOfAnEarlierProgramStartsNothing) {
   CHECK(state(1) == PlaybackState::playing);
 }
 
+TEST(TrajectoryOverCan, AnotherPlayIsInPlaceOfOneThatWaits) {
+  load(master);
+  CHECK(ask(master, play_frame(master, start_at_sync, 9, 0.05)) == Refusal::none);
+  CHECK(ask(master, play_frame(master, start_at_once, 0, 0.05)) == Refusal::none);
+  renew(0.5);
+  CHECK(state() == PlaybackState::playing);
+  rig.trajectories.clear();
+  rig.bus.deliver(sync_frame(9, 50.0));
+  renew(0.3);
+  CHECK_EQUAL(0, told(master, true).answers);
+  CHECK(state() == PlaybackState::playing);
+}
+
 TEST(TrajectoryOverCan, FollowsTheMastersClock) {
   constexpr double velocity = 0.0002;
   CHECK(knot(master, 0.0, 0.005) == Refusal::none);
@@ -260,6 +273,9 @@ TEST(TrajectoryOverCan, AnotherCommandForgetsIt) {
   rig.tick();
   CHECK(state() == PlaybackState::empty);
   DOUBLES_EQUAL(0.0052, reference_m(), 1e-8);
+  renew(12.0);
+  DOUBLES_EQUAL(0.0052, rig.loop.channel(0).snapshot().model_m, 2e-5);
+  CHECK(ask(second, play_frame(second, ask_only, 0, 0.0)) == Refusal::none);
   load(second);
   CHECK(rig.command(second, Verb::rest) == Refusal::none);
   CHECK(state(1) == PlaybackState::empty);

@@ -10,7 +10,7 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/identify/findings.hpp"
 #include "apps/supercoil/identify/input.hpp"
-#include "apps/supercoil/output_file.hpp"
+#include "apps/supercoil/user_file.hpp"
 #include "storage/posix_files.hpp"
 
 namespace supercoil::operating {

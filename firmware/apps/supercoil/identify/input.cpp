@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "apps/supercoil/input_file.hpp"
+#include "apps/supercoil/user_file.hpp"
 #include "recorder/recording.hpp"
 
 namespace supercoil::operating {

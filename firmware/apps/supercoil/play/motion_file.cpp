@@ -11,7 +11,7 @@
 
 #include "supercoil/identification/csv.hpp"
 
-#include "apps/supercoil/input_file.hpp"
+#include "apps/supercoil/user_file.hpp"
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <system_error>
 
-#include "apps/supercoil/output_file.hpp"
 #include "apps/supercoil/setup/record.hpp"
+#include "apps/supercoil/user_file.hpp"
 #include "config/edit_toml.hpp"
 #include "config/toml_file.hpp"
 

@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "apps/supercoil/output_file.hpp"
 #include "apps/supercoil/setup/steps.hpp"
+#include "apps/supercoil/user_file.hpp"
 
 namespace supercoil::operating {
 

@@ -80,7 +80,7 @@ TEST(ReferenceModels, AreLedAlongAMotion) {
   const auto sine = [](double time_s) {
     const double s = std::sin(turn * time_s);
     const double c = std::cos(turn * time_s);
-    return LedMotion{{s, turn * c, -turn * turn * s}, -turn * turn * turn * c};
+    return TrajectoryPoint{{s, turn * c, -turn * turn * s}, -turn * turn * turn * c};
   };
   for (const auto& settings : {design_model(), eq8_model(), wm16_model()}) {
     ReferenceModel<double> model(settings, step_s);

@@ -15,7 +15,7 @@ Knot knot_from(const nlohmann::json& row) {
   return {row.at(0), row.at(1), row.at(2)};
 }
 
-void check_point(const nlohmann::json& c, std::size_t i, const LedMotion& point) {
+void check_point(const nlohmann::json& c, std::size_t i, const TrajectoryPoint& point) {
   DOUBLES_EQUAL(c.at("position")[i], point.motion.position, 1e-12);
   DOUBLES_EQUAL(c.at("velocity")[i], point.motion.velocity, 1e-10);
   DOUBLES_EQUAL(c.at("acceleration")[i], point.motion.acceleration, 1e-8);

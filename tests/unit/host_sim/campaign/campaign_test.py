@@ -153,7 +153,7 @@ class Campaign(Batch, ProgramCase):
         self.assertEqual({name: (self.path / "campaign" / name).read_bytes() for name in whole}, whole)
 
     def test_a_promise_is_kept_or_broken(self):
-        self.campaign("--runs", 2, "--out", "kept", study="promise")
+        self.campaign("--runs", 4, "--out", "kept", study="promise")
         for row in self.rows("kept"):
             promised, error = float(row["promised_rms_m"]), float(row["first_motion_rms_m"])
             self.assertEqual(row["promise_broken"], "1" if error > promised else "0")

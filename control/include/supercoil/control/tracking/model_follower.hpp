@@ -21,9 +21,9 @@ struct ControllerInput {
   double applied_power_W = 0.0;  ///< really applied since the last tick
   bool limited = false;          ///< that power was not the one wanted
   PowerRange range{};            ///< that the muscle may get: for shaping
-  /// Of a trajectory: the model is led along it, by the reference under which it moves so.
-  /// reference_m says nothing then.
-  std::optional<LedMotion> led{};
+  /// The model is led along a trajectory, by the reference under which it moves so. reference_m
+  /// says nothing then.
+  std::optional<TrajectoryPoint> trajectory{};
 };
 
 /// What a controller answers at a tick. The power is not yet saturated.
@@ -95,7 +95,7 @@ class ModelFollower {
   ControllerOutput step(const ControllerInput& in) {
     model_.step(last_reference_);
     const double reference_m =
-        in.led ? model_settings_.reference_for(*in.led, motion()) : in.reference_m;
+        in.trajectory ? model_settings_.reference_for(*in.trajectory, motion()) : in.reference_m;
     const FeasibleReference asked =
         shaper_ ? shaper_->step(reference_m, motion(), in.range) : FeasibleReference{reference_m};
     LawInput<Scalar> input;

@@ -18,8 +18,8 @@ struct ModelMotion {
   Scalar acceleration{};
 };
 
-/// A motion with the third derivative that it has then.
-struct LedMotion {
+/// Where a trajectory is at a time.
+struct TrajectoryPoint {
   ModelMotion<double> motion;  ///< m, m/s, m/s²
   double jerk = 0.0;           ///< m/s³
 };
@@ -31,12 +31,16 @@ struct ReferenceModelSettings {
   /// Where the poles are real: at −poles_rad_per_s[i]. NaN: complex.
   std::array<double, 3> poles_rad_per_s{NAN, NAN, NAN};
 
+  /// The default model by itself would need seconds to come back to a trajectory.
+  static constexpr double min_leading_rad_per_s = 5.0;
+
   double dc_gain() const { return gain / denominator[0]; }
   /// The reference, in m, under which a model that moves so goes on to a motion, and along it. What
-  /// it is off by fades with three poles at 5 rad/s, or at its own if these are faster.
-  double reference_for(const LedMotion& to, const ModelMotion<double>& model) const {
+  /// it is off by fades with three poles at min_leading_rad_per_s, or at its own if these are
+  /// faster.
+  double reference_for(const TrajectoryPoint& to, const ModelMotion<double>& model) const {
     const Polynomial<3>& a = denominator;
-    const double pole = std::fmax(5.0, std::cbrt(a[0]));
+    const double pole = std::fmax(min_leading_rad_per_s, std::cbrt(a[0]));
     const double jerk = to.jerk + 3.0 * pole * (to.motion.acceleration - model.acceleration) +
                         3.0 * pole * pole * (to.motion.velocity - model.velocity) +
                         pole * pole * pole * (to.motion.position - model.position);

@@ -27,7 +27,7 @@ class QuinticPiece {
   /// to is later than from.
   QuinticPiece(const End& from, const End& to);
   /// time_s: from the one knot's to the other's.
-  LedMotion at(double time_s) const;
+  TrajectoryPoint at(double time_s) const;
   double begins_s() const { return begins_s_; }
   double duration_s() const { return duration_s_; }
 
@@ -63,7 +63,7 @@ class Trajectory {
   void add(const Knot& next);
 
   /// Where it is; time_s >= 0 never falls. After the last knot it rests there.
-  LedMotion at(double time_s);
+  TrajectoryPoint at(double time_s);
 
  private:
   const QuinticPiece::End& end(std::size_t place) const {

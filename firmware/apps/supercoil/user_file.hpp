@@ -1,4 +1,4 @@
-// A file that is never half written.
+// A file that somebody names: read whole, and never half written.
 #pragma once
 
 #include <string>
@@ -36,6 +36,9 @@ class OutputFile {
   bool open_ = true;
   bool kept_ = false;
 };
+
+/// At most 1 GiB. The error names the file, and says why not.
+tl::expected<std::string, std::string> read_whole(const std::string& path);
 
 /// Writes a file whole, in place of one that may be there.
 tl::expected<void, std::string> write_whole(const std::string& path, const std::string& text);

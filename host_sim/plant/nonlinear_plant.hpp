@@ -1,16 +1,21 @@
 // A muscle as it is: the paper's equations with whatever effects are on.
 #pragma once
 
-#include "plant/creep.hpp"
-#include "plant/force_curve.hpp"
 #include "plant/guide_friction.hpp"
-#include "plant/heat_transfer.hpp"
 #include "plant/mechanics.hpp"
-#include "plant/play_hysteresis.hpp"
-#include "plant/softening.hpp"
-#include "plant/wear.hpp"
+#include "plant/muscle_body.hpp"
 
 namespace supercoil::host_sim {
+
+/// A muscle's fastest cooling and heating bend little over it.
+inline constexpr double max_slow_step_s = 1e-3;
+
+/// A tick in equal steps of at most max_slow_step_s.
+struct SlowSteps {
+  explicit SlowSteps(double tick_s);
+  int count;
+  double step_s;
+};
 
 /// Position is zero for the new, cold muscle that carries its load.
 ///
@@ -39,47 +44,29 @@ class NonlinearPlant {
   void start_from(const State& state);
 
   const control::PhysicalParameters& parameters() const { return parameters_; }
-  double temperature_rise_K() const { return heat_.rise_K(); }
+  double temperature_rise_K() const { return body_.rise_K(); }
   double position_m() const { return motion_.position_m; }
   double velocity_m_per_s() const { return motion_.velocity_m_per_s; }
-  double peak_temperature_rise_K() const { return peak_K_; }
+  double peak_temperature_rise_K() const { return body_.peak_rise_K(); }
   /// What the last tick lost to the air, in J.
   double heat_loss_J() const { return heat_loss_J_; }
-  const Moisture& moisture() const { return moisture_; }
+  const Moisture& moisture() const { return body_.moisture(); }
 
  private:
-  /// Spring and force that the muscle's condition makes, without load and creep.
-  struct Muscle {
-    double stiffness_N_per_m;
-    double force_N;
-  };
-  Muscle muscle_now();
   void slow_step(double power_W, double load_N);
   void move(const Drive& drive);
 
   control::PhysicalParameters parameters_;
-  double slow_step_s_;
-  int slow_steps_;
+  SlowSteps slow_;
   int substeps_ = 4;
   double per_substep_ = 0.25;
   double end_stop_m_ = -10.0;
   double ceiling_m_ = 10.0;
-  HeatTransfer heat_;
-  PlayHysteresis hysteresis_;
-  ForceCurve force_;
-  Softening softening_;
-  Creep creep_;
-  LonelyStroke lonely_;
-  Ageing ageing_;
-  Moisture moisture_;
-  bool wears_ = false;
+  MuscleBody body_;
   GuideFriction friction_;
   Mechanics mechanics_;
-
-  double peak_K_ = 0.0;
   double heat_loss_J_ = 0.0;
   Motion motion_;
-  Muscle muscle_{};
 };
 
 }  // namespace supercoil::host_sim

@@ -62,12 +62,24 @@ struct ChannelSettings {
   std::vector<control::EstimatorSettings> configured_estimators;
 };
 
+/// Two channels whose muscles turn one joint against each other. Positions of both are arcs at the
+/// lever, as the contractions are: the antagonist's is the agonist's with the other sign.
+struct JointSettings {
+  std::size_t agonist = 0;     ///< its channel; turns the joint towards positive positions
+  std::size_t antagonist = 1;  ///< its channel
+  double lever_m = 0.015;
+  /// The power of the agonist while the joint asks for no effort; the antagonist's has the same
+  /// effect. By it they pull against each other.
+  double co_contraction_W = 1.0;
+};
+
 struct BoardSettings {
   double rate_Hz = 1000.0;
   InputSettings supply;
   InputSettings air;  ///< in °C, where there is a sensor
   BoardSupervision supervision;
   std::vector<ChannelSettings> channels{1};
+  std::vector<JointSettings> joints;  ///< no channel is in two
 
   double step_s() const { return 1.0 / rate_Hz; }
 };

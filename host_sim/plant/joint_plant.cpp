@@ -1,0 +1,115 @@
+#include "plant/joint_plant.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace supercoil::host_sim {
+
+namespace {
+
+/// The agonist contracts with the joint's arc, the antagonist against it.
+constexpr std::array<double, 2> direction{1.0, -1.0};
+
+/// What hung from a muscle alone pulls here.
+PlantEffects pulled(PlantEffects effects, double pretension_N) {
+  effects.hanging_mass_kg = pretension_N / gravity_m_per_s2;
+  return effects;
+}
+
+}  // namespace
+
+JointPlant::JointPlant(const JointPlantSettings& settings, double step_s) : slow_(step_s) {
+  set(settings);
+}
+
+void JointPlant::set(const JointPlantSettings& settings) {
+  settings_ = settings;
+  per_substep_ = 1.0 / settings.substeps;
+  const std::array<const JointMuscle*, 2> muscles{
+      &settings.agonist, settings.antagonist ? &*settings.antagonist : nullptr};
+  const double lever2 = settings.lever_m * settings.lever_m;
+  std::array<double, 2> damping{};
+  double stiffness = settings.spring_Nm_per_rad / lever2;
+  for (std::size_t i = 0; i < muscles.size(); ++i) {
+    pulls_[i] = muscles[i] != nullptr && !muscles[i]->torn;
+    if (muscles[i] == nullptr) continue;
+    bodies_[i].set(muscles[i]->parameters, pulled(muscles[i]->effects, settings.pretension_N),
+                   slow_.step_s);
+    damping[i] = muscles[i]->parameters.damping_Ns_per_m;
+    stiffness += bodies_[i].max_stiffness_N_per_m();
+  }
+  control::PhysicalParameters mass;
+  mass.moving_mass_kg = settings.inertia_kg_m2 / lever2;
+  for (std::size_t taut = 0; taut < mechanics_.size(); ++taut) {
+    mass.damping_Ns_per_m = settings.damping_Nms_per_rad / lever2 +
+                            ((taut & 1U) != 0 ? damping[0] : 0.0) +
+                            ((taut & 2U) != 0 ? damping[1] : 0.0);
+    mechanics_[taut].set(mass, stiffness, slow_.step_s * per_substep_);
+  }
+  PlantEffects rubbing;
+  rubbing.friction_ratio = settings.friction_ratio;
+  friction_.set(mass, pulled(rubbing, settings.pretension_N));
+}
+
+void JointPlant::step(double agonist_W, double antagonist_W, double load_Nm) {
+  for (int i = 0; i < slow_.count; ++i)
+    slow_step({agonist_W, antagonist_W}, load_Nm / settings_.lever_m);
+}
+
+void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) {
+  const double before_m = motion_.position_m;
+  Drives drives{};
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    drives[i] = bodies_[i].step(power_W[i], -settings_.pretension_N, direction[i] * before_m);
+  }
+  const double weight_N =
+      settings_.weight_Nm / settings_.lever_m * std::sin(before_m / settings_.lever_m);
+  move(drives, load_N + weight_N);
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    bodies_[i].moved(0.5 * direction[i] * (before_m + motion_.position_m));
+}
+
+double JointPlant::tension_N(const Drive& drive, double contraction_m) const {
+  return drive.force_N - drive.stiffness_N_per_m * contraction_m;
+}
+
+void JointPlant::move(Drives drives, double load_N) {
+  const double lever2 = settings_.lever_m * settings_.lever_m;
+  const double spring_N_per_m = settings_.spring_Nm_per_rad / lever2;
+  const bool alone = !settings_.antagonist;
+  const double min_m = settings_.min_angle_rad * settings_.lever_m;
+  const double max_m = settings_.max_angle_rad * settings_.lever_m;
+  Drives step{};
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    step[i] = {per_substep_ * (drives[i].stiffness_end_N_per_m - drives[i].stiffness_N_per_m), 0.0,
+               per_substep_ * (drives[i].force_end_N - drives[i].force_N), 0.0};
+  }
+  Motion motion = motion_;
+  for (int n = 0; n < settings_.substeps; ++n) {
+    // A spring alone holds the cold muscle's pretension.
+    const double beside_N = -load_N - (alone ? settings_.pretension_N : 0.0);
+    Drive sum{spring_N_per_m, spring_N_per_m, beside_N, beside_N};
+    std::size_t taut = 0;
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      Drive& d = drives[i];
+      tension_N_[i] =
+          pulls_[i] ? std::max(0.0, tension_N(d, direction[i] * motion.position_m)) : 0.0;
+      const Drive from = d;
+      d.stiffness_N_per_m += step[i].stiffness_N_per_m;
+      d.force_N += step[i].force_N;
+      if (tension_N_[i] <= 0.0) continue;
+      taut |= std::size_t{1} << i;
+      sum.stiffness_N_per_m += from.stiffness_N_per_m;
+      sum.stiffness_end_N_per_m += d.stiffness_N_per_m;
+      sum.force_N += direction[i] * from.force_N;
+      sum.force_end_N += direction[i] * d.force_N;
+    }
+    const Mechanics& mechanics = mechanics_[taut];
+    motion = friction_.on() ? friction_.step(motion, sum, mechanics) : mechanics.step(motion, sum);
+    if (motion.position_m < min_m) motion = {min_m, 0.0};
+    if (motion.position_m > max_m) motion = {max_m, 0.0};
+  }
+  motion_ = motion;
+}
+
+}  // namespace supercoil::host_sim

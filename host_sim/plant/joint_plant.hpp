@@ -1,0 +1,79 @@
+// A joint that two muscles pull, or one against a spring.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "plant/guide_friction.hpp"
+#include "plant/mechanics.hpp"
+#include "plant/muscle_body.hpp"
+#include "plant/nonlinear_plant.hpp"
+
+namespace supercoil::host_sim {
+
+/// Its parameters' moving mass counts for nothing here: the joint has an inertia.
+struct JointMuscle {
+  control::PhysicalParameters parameters;
+  PlantEffects effects;
+  bool torn = false;  ///< it pulls no more
+};
+
+/// The angle is zero where both new, cold muscles pull with pretension_N; the agonist turns the
+/// joint towards positive angles.
+struct JointPlantSettings {
+  JointMuscle agonist;
+  std::optional<JointMuscle> antagonist;  ///< otherwise the spring opposes alone
+  double lever_m = 0.015;                 ///< of both muscles; constant over the angle
+  double inertia_kg_m2 = 2e-5;
+  double damping_Nms_per_rad = 0.0;  ///< beside the muscles'
+  double spring_Nm_per_rad = 0.0;    ///< towards the angle 0, beside the muscles
+  double pretension_N = 0.883;       ///< of each muscle; with a spring alone, the spring's as well
+  double friction_ratio = 0.0;       ///< Coulomb friction at the lever over the pretension
+  double weight_Nm = 0.0;            ///< of what hangs down at the angle 0, when it is level
+  double min_angle_rad = -1.5;       ///< end stops
+  double max_angle_rad = 1.5;
+  int substeps = 4;  ///< of the mechanics, in each step of heat
+};
+
+/// (I/r²) ẍ = T₁ − T₂ − c ẋ − k x − (w sin(x/r) + load)/r with x = rα, T ≥ 0 the muscles' tensions
+/// at the contractions x and −x. Steps as NonlinearPlant's; the weight is that of the step's
+/// beginning.
+class JointPlant {
+ public:
+  /// step_s > 0, the tick; settings as their comments say, with valid muscles.
+  JointPlant(const JointPlantSettings& settings, double step_s);
+
+  /// One tick. load_Nm turns the joint towards negative angles.
+  void step(double agonist_W, double antagonist_W, double load_Nm = 0.0);
+  /// From now on; whatever the muscles remember stays.
+  void set(const JointPlantSettings& settings);
+
+  /// Arc at the lever, as its muscles' contractions are.
+  double position_m() const { return motion_.position_m; }
+  double angle_rad() const { return motion_.position_m / settings_.lever_m; }
+  double velocity_rad_per_s() const { return motion_.velocity_m_per_s / settings_.lever_m; }
+  /// 0: the agonist; above the air as it was at the start.
+  double temperature_rise_K(std::size_t muscle) const { return bodies_[muscle].rise_K(); }
+  /// At the end of the last step; 0: slack.
+  double tension_N(std::size_t muscle) const { return tension_N_[muscle]; }
+
+ private:
+  using Drives = std::array<Drive, 2>;
+
+  void slow_step(const std::array<double, 2>& power_W, double load_N);
+  void move(Drives drives, double load_N);
+  double tension_N(const Drive& drive, double contraction_m) const;
+
+  JointPlantSettings settings_;
+  SlowSteps slow_;
+  double per_substep_ = 0.25;
+  std::array<MuscleBody, 2> bodies_;
+  std::array<bool, 2> pulls_{};  ///< there, and not torn
+  /// By which muscles are taut, as bits: a slack one does not damp.
+  std::array<Mechanics, 4> mechanics_;
+  GuideFriction friction_;
+  std::array<double, 2> tension_N_{};
+  Motion motion_;
+};
+
+}  // namespace supercoil::host_sim

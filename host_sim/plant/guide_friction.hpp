@@ -12,6 +12,8 @@ class GuideFriction {
  public:
   void set(const control::PhysicalParameters& parameters, const PlantEffects& effects);
   bool on() const { return coulomb_N_ > 0.0; }
+  /// Of the mass that moves from now on, where it changes.
+  void set_viscous(double damping_Ns_per_m) { viscous_Ns_per_m_ = damping_Ns_per_m; }
   /// The mass moves against spring, damper and friction. mechanics: its motion without friction.
   Motion step(const Motion& from, const Drive& drive, const Mechanics& mechanics);
   double friction_N(double velocity_m_per_s) const {

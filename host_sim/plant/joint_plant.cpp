@@ -41,9 +41,10 @@ void JointPlant::set(const JointPlantSettings& settings) {
   control::PhysicalParameters mass;
   mass.moving_mass_kg = settings.inertia_kg_m2 / lever2;
   for (std::size_t taut = 0; taut < mechanics_.size(); ++taut) {
-    mass.damping_Ns_per_m = settings.damping_Nms_per_rad / lever2 +
-                            ((taut & 1U) != 0 ? damping[0] : 0.0) +
-                            ((taut & 2U) != 0 ? damping[1] : 0.0);
+    damping_Ns_per_m_[taut] = settings.damping_Nms_per_rad / lever2 +
+                              ((taut & 1U) != 0 ? damping[0] : 0.0) +
+                              ((taut & 2U) != 0 ? damping[1] : 0.0);
+    mass.damping_Ns_per_m = damping_Ns_per_m_[taut];
     mechanics_[taut].set(mass, stiffness, slow_.step_s * per_substep_);
   }
   PlantEffects rubbing;
@@ -62,15 +63,21 @@ void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) 
   for (std::size_t i = 0; i < drives.size(); ++i) {
     drives[i] = bodies_[i].step(power_W[i], -settings_.pretension_N, direction[i] * before_m);
   }
-  const double weight_N =
-      settings_.weight_Nm / settings_.lever_m * std::sin(before_m / settings_.lever_m);
-  move(drives, load_N + weight_N);
+  move(drives, load_N);
   for (std::size_t i = 0; i < drives.size(); ++i)
     bodies_[i].moved(0.5 * direction[i] * (before_m + motion_.position_m));
 }
 
-double JointPlant::tension_N(const Drive& drive, double contraction_m) const {
-  return drive.force_N - drive.stiffness_N_per_m * contraction_m;
+double JointPlant::weight_N(double position_m) const {
+  if (settings_.weight_Nm == 0.0) return 0.0;
+  return settings_.weight_Nm / settings_.lever_m * std::sin(position_m / settings_.lever_m);
+}
+
+void JointPlant::pull(const Drives& drives, double position_m) {
+  for (std::size_t i = 0; i < drives.size(); ++i) {
+    const double spring_N = drives[i].stiffness_N_per_m * direction[i] * position_m;
+    tension_N_[i] = pulls_[i] ? std::max(0.0, drives[i].force_N - spring_N) : 0.0;
+  }
 }
 
 void JointPlant::move(Drives drives, double load_N) {
@@ -88,12 +95,13 @@ void JointPlant::move(Drives drives, double load_N) {
   for (int n = 0; n < settings_.substeps; ++n) {
     // A spring alone holds the cold muscle's pretension.
     const double beside_N = -load_N - (alone ? settings_.pretension_N : 0.0);
-    Drive sum{spring_N_per_m, spring_N_per_m, beside_N, beside_N};
+    const double then_m = motion.position_m + mechanics_[0].step_s() * motion.velocity_m_per_s;
+    Drive sum{spring_N_per_m, spring_N_per_m, beside_N - weight_N(motion.position_m),
+              beside_N - weight_N(then_m)};
     std::size_t taut = 0;
+    pull(drives, motion.position_m);
     for (std::size_t i = 0; i < drives.size(); ++i) {
       Drive& d = drives[i];
-      tension_N_[i] =
-          pulls_[i] ? std::max(0.0, tension_N(d, direction[i] * motion.position_m)) : 0.0;
       const Drive from = d;
       d.stiffness_N_per_m += step[i].stiffness_N_per_m;
       d.force_N += step[i].force_N;
@@ -105,10 +113,12 @@ void JointPlant::move(Drives drives, double load_N) {
       sum.force_end_N += direction[i] * d.force_N;
     }
     const Mechanics& mechanics = mechanics_[taut];
+    friction_.set_viscous(damping_Ns_per_m_[taut]);
     motion = friction_.on() ? friction_.step(motion, sum, mechanics) : mechanics.step(motion, sum);
     if (motion.position_m < min_m) motion = {min_m, 0.0};
     if (motion.position_m > max_m) motion = {max_m, 0.0};
   }
+  pull(drives, motion.position_m);
   motion_ = motion;
 }
 

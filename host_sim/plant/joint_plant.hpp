@@ -36,8 +36,8 @@ struct JointPlantSettings {
 };
 
 /// (I/r²) ẍ = T₁ − T₂ − c ẋ − k x − (w sin(x/r) + load)/r with x = rα, T ≥ 0 the muscles' tensions
-/// at the contractions x and −x. Steps as NonlinearPlant's; the weight is that of the step's
-/// beginning.
+/// at the contractions x and −x. Steps as NonlinearPlant's. Which muscles are taut is asked at the
+/// beginning of each step of the mechanics.
 class JointPlant {
  public:
   /// step_s > 0, the tick; settings as their comments say, with valid muscles.
@@ -62,7 +62,8 @@ class JointPlant {
 
   void slow_step(const std::array<double, 2>& power_W, double load_N);
   void move(Drives drives, double load_N);
-  double tension_N(const Drive& drive, double contraction_m) const;
+  void pull(const Drives& drives, double position_m);
+  double weight_N(double position_m) const;
 
   JointPlantSettings settings_;
   SlowSteps slow_;
@@ -71,6 +72,7 @@ class JointPlant {
   std::array<bool, 2> pulls_{};  ///< there, and not torn
   /// By which muscles are taut, as bits: a slack one does not damp.
   std::array<Mechanics, 4> mechanics_;
+  std::array<double, 4> damping_Ns_per_m_{};
   GuideFriction friction_;
   std::array<double, 2> tension_N_{};
   Motion motion_;

@@ -10,6 +10,7 @@ import pathlib
 
 import actuator
 import estimation
+import joint
 import linear
 import mrac
 import muscle_effects
@@ -24,6 +25,7 @@ TOPICS = {
     "tracking": tracking.cases,
     "plant": plant.cases,
     "muscle_effects": muscle_effects.cases,
+    "joint": joint.cases,
 }
 
 

@@ -19,18 +19,6 @@ namespace {
 
 constexpr double tick_s = 1e-3;
 
-PlantEffects effects_from(const nlohmann::json& json) {
-  PlantEffects effects;
-  std::size_t found = 0;
-  for (const host_sim::EffectRange& range : host_sim::effect_ranges) {
-    if (!json.contains(range.name)) continue;
-    effects.*range.member = json.at(range.name);
-    ++found;
-  }
-  CHECK_EQUAL(json.size(), found);
-  return effects;
-}
-
 }  // namespace
 
 TEST_GROUP(NonlinearPlant){};
@@ -40,8 +28,8 @@ TEST(NonlinearPlant, AgreesWithAnIndependentSolverEffectByEffectAndInAll) {
   CHECK(cases.size() >= 17);
   for (const auto& c : cases) {
     const std::string name = c.at("name");
-    NonlinearPlant plant(test::parameters_from(c.at("parameters")), effects_from(c.at("effects")),
-                         tick_s);
+    NonlinearPlant plant(test::parameters_from(c.at("parameters")),
+                         test::effects_from(c.at("effects")), tick_s);
     const test::Deviations found = test::deviations(plant, tick_s, c);
     CHECK_COMPARE_TEXT(found.temperature.relative(), <, 1e-6, name.c_str());
     CHECK_COMPARE_TEXT(found.position.relative(), <, 1e-6, name.c_str());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
 
 #include "plant/presets.hpp"
@@ -12,6 +13,19 @@ namespace supercoil::test {
 
 inline host_sim::PlantEffects real_muscle() {
   return host_sim::preset_muscle(host_sim::MusclePreset::real).effects;
+}
+
+/// As tests/reference/muscle_effects.py names them.
+inline host_sim::PlantEffects effects_from(const nlohmann::json& json) {
+  host_sim::PlantEffects effects;
+  std::size_t found = 0;
+  for (const host_sim::EffectRange& range : host_sim::effect_ranges) {
+    if (!json.contains(range.name)) continue;
+    effects.*range.member = json.at(range.name);
+    ++found;
+  }
+  CHECK_EQUAL(json.size(), found);
+  return effects;
 }
 
 /// The largest distance between two histories over the largest value of the true one.

@@ -1,0 +1,110 @@
+"""Joints of two muscles, or of one against a spring, under random powers and loads.
+
+The muscles' own equations are those of muscle_effects.py; what is smooth of them goes to an ODE solver as it stands.
+"""
+
+import dataclasses
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from muscle import Muscle
+from muscle_effects import G, OFF, REAL, acceleration, active_force, heat_slope, lugre, stiffness
+
+HOLD_S = 0.5
+HOLDS = 30
+SMOOTH = {**REAL, "hysteresis_ratio": 0.0, "lonely_stroke_m": 0.0}
+STRONGER = Muscle(thermal_mass_J_per_K=0.2, heat_transfer_W_per_K=0.11, stiffness_N_per_m=22.0, damping_Ns_per_m=1.5,
+                  force_per_kelvin_N_per_K=0.01)
+
+
+@dataclasses.dataclass(frozen=True)
+class Joint:
+    lever_m: float = 0.015
+    inertia_kg_m2: float = 2e-5
+    damping_Nms_per_rad: float = 0.0
+    spring_Nm_per_rad: float = 0.0
+    pretension_N: float = 0.883
+    friction_ratio: float = 0.0
+    weight_Nm: float = 0.0
+
+
+PAIR = (Muscle(), Muscle())
+CASES = {  # joint, muscles, effects, load in Nm
+    "linear": (Joint(), PAIR, {}, 0.0),
+    "unequal": (Joint(lever_m=0.02, inertia_kg_m2=6e-5), (Muscle(), STRONGER), {}, 0.0),
+    "damper_and_spring": (Joint(damping_Nms_per_rad=3e-4, spring_Nm_per_rad=2e-3), PAIR, {}, 0.0),
+    "smooth_effects": (Joint(), PAIR, SMOOTH, 0.0),
+    "weight": (Joint(weight_Nm=0.003), PAIR, {}, 0.0),
+    "hard_weight": (Joint(weight_Nm=0.012), PAIR, SMOOTH, 0.0),
+    "spring_alone": (Joint(spring_Nm_per_rad=4e-3), (Muscle(),), SMOOTH, 0.0),
+    "load": (Joint(), PAIR, SMOOTH, 0.002),
+    "friction": (Joint(friction_ratio=0.02), PAIR, {}, 0.0),
+    "slack": (Joint(pretension_N=0.05), PAIR, {}, 0.006),
+    "slack_friction": (Joint(pretension_N=0.05, friction_ratio=0.2), PAIR, {}, 0.007),
+}
+
+
+def tensions(joint, muscles, effects, x, rises, branches):
+    """Before they are cut off at zero. An acceleration without damper, times the mass, is what the muscle pulls with."""
+    found = []
+    for p, sign, phi, pair in zip(muscles, (1.0, -1.0), rises, branches):
+        found.append(p.moving_mass_kg * acceleration(p, effects, stiffness(p, effects, phi), 0.0,
+                                                     active_force(p, effects, phi), sign * x, 0.0, pair, 0.0,
+                                                     -joint.pretension_N))
+    return found
+
+
+def split(state):
+    """Rises, position, velocity, bristle, and the two creeping branches of either muscle."""
+    return state[:2], state[2], state[3], state[4], (state[5:7], state[7:9])
+
+
+def run(joint, muscles, effects, power, load):
+    """The joint's path: what there is at each hold's end."""
+    effects = {**OFF, **effects, "hanging_mass_kg": joint.pretension_N / G}
+    rubbing = {**OFF, "friction_ratio": joint.friction_ratio, "hanging_mass_kg": joint.pretension_N / G}
+    mass = joint.inertia_kg_m2 / joint.lever_m ** 2
+    lump = Muscle(moving_mass_kg=mass)
+    alone = len(muscles) == 1
+
+    def slope(_, state, watts, newton_metres):
+        rises, x, v, z, branches = split(state)
+        force = -newton_metres / joint.lever_m - joint.weight_Nm / joint.lever_m * np.sin(x / joint.lever_m)
+        force -= (joint.damping_Nms_per_rad * v + joint.spring_Nm_per_rad * x) / joint.lever_m ** 2
+        if alone:
+            force -= joint.pretension_N
+        for p, sign, tension in zip(muscles, (1.0, -1.0), tensions(joint, muscles, effects, x, rises, branches)):
+            if tension > 0.0:
+                force += sign * tension - p.damping_Ns_per_m * v
+        rubs, bristle = lugre(lump, rubbing, v, z)
+        heating = [heat_slope(p, effects, phi, w) for p, phi, w in zip(muscles, rises, watts)]
+        creeping = [(sign * x - at) / effects[time] for sign, pair in zip((1.0, -1.0), branches)
+                    for at, time in zip(pair, ("creep_fast_s", "creep_slow_s"))]
+        return [*heating, *[0.0] * alone, v, (force - rubs) / mass, bristle, *creeping]
+
+    state = np.zeros(9)
+    ends = []
+    for hold in range(HOLDS):
+        state = solve_ivp(slope, (0.0, HOLD_S), state, method="DOP853", rtol=1e-10, atol=1e-13,
+                          args=(power[hold], load[hold])).y[:, -1]
+        rises, x, v, _, branches = split(state)
+        pulls = np.maximum(0.0, tensions(joint, muscles, effects, x, rises, branches))
+        ends.append([x / joint.lever_m, v / joint.lever_m, *rises, *pulls, *[0.0] * alone])
+    return np.array(ends)
+
+
+def cases():
+    rng = np.random.default_rng(27)
+    result = []
+    for name, (joint, muscles, effects, load_Nm) in CASES.items():
+        high = rng.uniform(size=(HOLDS, 2)) < 0.5
+        power = np.where(high, rng.uniform(3.0, 4.5, (HOLDS, 2)), rng.uniform(0.0, 1.5, (HOLDS, 2)))
+        load = load_Nm * rng.choice([0.0, 1.0, -1.0], size=HOLDS)
+        ends = run(joint, muscles, effects, power, load.tolist())
+        result.append({"name": name, "joint": dataclasses.asdict(joint), "effects": effects,
+                       "muscles": [muscle.as_dict() for muscle in muscles], "hold_s": HOLD_S,
+                       "power_W": power.tolist(), "load_Nm": load.tolist(),
+                       "angle_rad": ends[:, 0].tolist(), "velocity_rad_per_s": ends[:, 1].tolist(),
+                       "temperature_rise_K": ends[:, 2:4].tolist(), "tension_N": ends[:, 4:].tolist()})
+    return {"cases": result}

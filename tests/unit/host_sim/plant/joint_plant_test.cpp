@@ -1,0 +1,233 @@
+#include "plant/joint_plant.hpp"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include <CppUTest/TestHarness.h>
+#include <nlohmann/json.hpp>
+
+#include "plant/nonlinear_plant.hpp"
+#include "unit/control/support/reference.hpp"
+#include "unit/host_sim/plant/support.hpp"
+
+using namespace supercoil;
+using host_sim::JointMuscle;
+using host_sim::JointPlant;
+using host_sim::JointPlantSettings;
+using host_sim::NonlinearPlant;
+
+namespace {
+
+constexpr double joint_tick_s = 1e-3;
+
+JointPlantSettings equal_muscles() {
+  JointPlantSettings settings;
+  settings.antagonist = JointMuscle{};
+  return settings;
+}
+
+JointPlantSettings settings_from(const nlohmann::json& c) {
+  const auto& joint = c.at("joint");
+  JointPlantSettings settings;
+  settings.lever_m = joint.at("lever_m");
+  settings.inertia_kg_m2 = joint.at("inertia_kg_m2");
+  settings.damping_Nms_per_rad = joint.at("damping_Nms_per_rad");
+  settings.spring_Nm_per_rad = joint.at("spring_Nm_per_rad");
+  settings.pretension_N = joint.at("pretension_N");
+  settings.friction_ratio = joint.at("friction_ratio");
+  settings.weight_Nm = joint.at("weight_Nm");
+  const auto muscle = [&c](std::size_t i) {
+    return JointMuscle{test::parameters_from(c.at("muscles")[i]),
+                       test::effects_from(c.at("effects"))};
+  };
+  settings.agonist = muscle(0);
+  if (c.at("muscles").size() > 1) settings.antagonist = muscle(1);
+  return settings;
+}
+
+struct JointDeviations {
+  test::Deviation angle;
+  test::Deviation velocity;
+  test::Deviation rise;
+  test::Deviation tension;
+};
+
+/// At the end of each hold of a case.
+JointDeviations joint_deviations(JointPlant& plant, double tick_s, const nlohmann::json& c) {
+  const auto ticks = std::lround(c.at("hold_s").get<double>() / tick_s);
+  JointDeviations found;
+  for (std::size_t hold = 0; hold < c.at("power_W").size(); ++hold) {
+    const auto& power_W = c.at("power_W")[hold];
+    for (long tick = 0; tick < ticks; ++tick)
+      plant.step(power_W[0], power_W[1], c.at("load_Nm")[hold]);
+    found.angle.add(plant.angle_rad(), c.at("angle_rad")[hold]);
+    found.velocity.add(plant.velocity_rad_per_s(), c.at("velocity_rad_per_s")[hold]);
+    for (std::size_t i = 0; i < 2; ++i) {
+      found.rise.add(plant.temperature_rise_K(i), c.at("temperature_rise_K")[hold][i]);
+      found.tension.add(plant.tension_N(i), c.at("tension_N")[hold][i]);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_GROUP(JointPlant){};
+
+TEST(JointPlant, AgreesWithAnIndependentSolver) {
+  const nlohmann::json cases = test::reference("joint", "cases");
+  CHECK(cases.size() >= 11);
+  for (const auto& c : cases) {
+    const std::string name = c.at("name");
+    // Where a muscle becomes slack its spring and damper end, within a step of the mechanics.
+    const bool smooth = name.rfind("slack", 0) != 0;
+    JointPlant plant(settings_from(c), joint_tick_s);
+    const JointDeviations found = joint_deviations(plant, joint_tick_s, c);
+    CHECK_COMPARE_TEXT(found.rise.relative(), <, 1e-6, name.c_str());
+    CHECK_COMPARE_TEXT(found.angle.relative(), <, smooth ? 1e-6 : 1e-4, name.c_str());
+    CHECK_COMPARE_TEXT(found.tension.relative(), <, smooth ? 1e-6 : 1e-4, name.c_str());
+    CHECK_COMPARE_TEXT(found.velocity.relative(), <, smooth ? 1e-5 : 2e-3, name.c_str());
+  }
+}
+
+TEST(JointPlant, EqualMusclesUnderEqualPowersHoldEachOther) {
+  JointPlantSettings settings = equal_muscles();
+  settings.weight_Nm = 0.01;
+  settings.friction_ratio = 0.02;
+  JointPlant plant(settings, joint_tick_s);
+  for (int tick = 0; tick < 20000; ++tick) {
+    const double power_W = tick % 3000 < 1500 ? 4.5 : 0.5;
+    plant.step(power_W, power_W);
+    DOUBLES_EQUAL(0.0, plant.angle_rad(), 1e-15);
+  }
+  CHECK_COMPARE(plant.tension_N(0), >, settings.pretension_N);
+  DOUBLES_EQUAL(plant.tension_N(0), plant.tension_N(1), 1e-15);
+}
+
+TEST(JointPlant, MusclesThatChangePlacesMirrorTheAngle) {
+  JointPlantSettings settings = equal_muscles();
+  settings.weight_Nm = 0.005;
+  settings.friction_ratio = 0.02;
+  settings.antagonist->parameters.stiffness_N_per_m = 24.0;
+  settings.antagonist->effects.creep_ratio = 0.1;
+  JointPlantSettings mirrored = settings;
+  std::swap(mirrored.agonist, *mirrored.antagonist);
+  JointPlant plant(settings, joint_tick_s);
+  JointPlant mirror(mirrored, joint_tick_s);
+  double furthest_rad = 0.0;
+  for (int tick = 0; tick < 20000; ++tick) {
+    const double power_W = tick % 3000 < 1500 ? 4.5 : 0.5;
+    const double load_Nm = tick > 10000 ? 0.005 : 0.0;
+    plant.step(power_W, 1.0, load_Nm);
+    mirror.step(1.0, power_W, -load_Nm);
+    DOUBLES_EQUAL(plant.angle_rad(), -mirror.angle_rad(), 1e-12);
+    DOUBLES_EQUAL(plant.tension_N(0), mirror.tension_N(1), 1e-12);
+    furthest_rad = std::fmax(furthest_rad, std::abs(plant.angle_rad()));
+  }
+  CHECK_COMPARE(furthest_rad, >, 0.1);
+}
+
+TEST(JointPlant, ATornMusclePullsNoMoreAndStillGetsHot) {
+  JointPlantSettings settings = equal_muscles();
+  JointPlant plant(settings, joint_tick_s);
+  DOUBLES_EQUAL(0.0, plant.angle_rad(), 0.0);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(1.0, 1.0);
+  const double rise_K = plant.temperature_rise_K(1);
+  settings.antagonist->torn = true;
+  plant.set(settings);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(1.0, 1.0);
+  DOUBLES_EQUAL(0.0, plant.tension_N(1), 0.0);
+  DOUBLES_EQUAL(rise_K, plant.temperature_rise_K(1), 1e-3);
+  // Nothing holds the agonist.
+  DOUBLES_EQUAL(settings.max_angle_rad, plant.angle_rad(), 0.0);
+}
+
+TEST(JointPlant, RestsOnItsEndStopsAndLeavesThem) {
+  JointPlantSettings settings = equal_muscles();
+  settings.min_angle_rad = -0.1;
+  settings.max_angle_rad = 0.2;
+  JointPlant plant(settings, joint_tick_s);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(4.5, 0.0);
+  DOUBLES_EQUAL(0.2, plant.angle_rad(), 1e-15);
+  DOUBLES_EQUAL(0.0, plant.velocity_rad_per_s(), 0.0);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(0.0, 4.5);
+  DOUBLES_EQUAL(-0.1, plant.angle_rad(), 1e-15);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(0.0, 0.0);
+  DOUBLES_EQUAL(0.0, plant.angle_rad(), 1e-3);
+}
+
+TEST(JointPlant, ItsMusclesHeatAsTheyDoAlone) {
+  JointPlantSettings settings = equal_muscles();
+  settings.antagonist->effects = test::real_muscle();
+  JointPlant plant(settings, joint_tick_s);
+  NonlinearPlant linear({}, {}, joint_tick_s);
+  NonlinearPlant real({}, test::real_muscle(), joint_tick_s);
+  for (int tick = 0; tick < 20000; ++tick) {
+    const double power_W = tick % 3000 < 1500 ? 4.5 : 0.5;
+    plant.step(power_W, 5.0 - power_W);
+    linear.step(power_W);
+    real.step(5.0 - power_W);
+    DOUBLES_EQUAL(linear.temperature_rise_K(), plant.temperature_rise_K(0), 0.0);
+    DOUBLES_EQUAL(real.temperature_rise_K(), plant.temperature_rise_K(1), 0.0);
+  }
+}
+
+TEST(JointPlant, PullingAgainstEachOtherStiffensNoLinearMusclesAndMakesRealOnesSofter) {
+  const auto turned_rad = [](const host_sim::PlantEffects& effects, double each_W) {
+    JointPlantSettings settings = equal_muscles();
+    settings.agonist.effects = settings.antagonist->effects = effects;
+    JointPlant plant(settings, joint_tick_s);
+    for (int tick = 0; tick < 60000; ++tick)
+      plant.step(each_W, each_W, 0.003);
+    return plant.angle_rad();
+  };
+  const double expected_rad = -0.003 / (0.015 * 0.015 * 2.0 * 16.0);
+  DOUBLES_EQUAL(expected_rad, turned_rad({}, 0.0), 1e-8);
+  DOUBLES_EQUAL(expected_rad, turned_rad({}, 4.0), 1e-8);
+  host_sim::PlantEffects softens;
+  softens.softening_ratio = 0.4;
+  DOUBLES_EQUAL(expected_rad, turned_rad(softens, 0.0), 1e-8);
+  DOUBLES_EQUAL(expected_rad / 0.6, turned_rad(softens, 6.0), 1e-8);
+}
+
+TEST(JointPlant, TakesCoarseTicksAsWellAsFineOnes) {
+  JointPlantSettings settings = equal_muscles();
+  settings.agonist.effects = settings.antagonist->effects = test::real_muscle();
+  settings.weight_Nm = 0.005;
+  JointPlant fine(settings, 1e-3);
+  JointPlant coarse(settings, 1e-2);
+  for (int tick = 0; tick < 2000; ++tick) {
+    const double power_W = tick % 300 < 150 ? 4.5 : 0.5;
+    for (int i = 0; i < 10; ++i)
+      fine.step(power_W, 1.0);
+    coarse.step(power_W, 1.0);
+    DOUBLES_EQUAL(fine.angle_rad(), coarse.angle_rad(), 1e-12);
+  }
+}
+
+TEST(JointPlant, StaysFiniteForEveryMuscleThatIsAllowed) {
+  for (int corner = 0; corner < 64; ++corner) {
+    JointPlantSettings settings = equal_muscles();
+    int bit = 0;
+    for (const control::PhysicalRange& range : control::physical_ranges) {
+      settings.agonist.parameters.*range.member =
+          (corner >> bit++ & 1) != 0 ? range.highest : range.lowest;
+    }
+    settings.antagonist->effects = test::real_muscle();
+    settings.friction_ratio = corner % 3 == 0 ? 0.02 : 0.0;
+    settings.weight_Nm = 0.01;
+    JointPlant plant(settings, joint_tick_s);
+    for (int tick = 0; tick < 300; ++tick)
+      plant.step(tick < 150 ? 5.0 : 0.0, 1.0);
+    CHECK(std::isfinite(plant.angle_rad()));
+    CHECK(std::isfinite(plant.velocity_rad_per_s()));
+    CHECK(std::isfinite(plant.temperature_rise_K(0)));
+    CHECK(std::isfinite(plant.tension_N(0)));
+  }
+}

@@ -54,6 +54,8 @@ class JointPlant {
   double velocity_rad_per_s() const { return motion_.velocity_m_per_s / settings_.lever_m; }
   /// 0: the agonist; above the air as it was at the start.
   double temperature_rise_K(std::size_t muscle) const { return bodies_[muscle].rise_K(); }
+  /// The hottest that the muscle was.
+  double peak_temperature_rise_K(std::size_t muscle) const { return bodies_[muscle].peak_rise_K(); }
   /// At the end of the last step; 0: slack.
   double tension_N(std::size_t muscle) const { return tension_N_[muscle]; }
 

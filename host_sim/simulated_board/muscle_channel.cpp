@@ -24,24 +24,41 @@ void MuscleChannel::set(const MuscleChannelSettings& settings) {
   settings_ = settings;
 }
 
-void MuscleChannel::advance(hal::Time from, double supply_V) {
+double MuscleChannel::position_m() const {
+  if (joint_ == nullptr) return plant_.position_m();
+  return muscle_ == 0 ? joint_->position_m() : -joint_->position_m();
+}
+
+double MuscleChannel::temperature_rise_K() const {
+  return joint_ == nullptr ? plant_.temperature_rise_K() : joint_->temperature_rise_K(muscle_);
+}
+
+double MuscleChannel::peak_temperature_rise_K() const {
+  return joint_ == nullptr ? plant_.peak_temperature_rise_K()
+                           : joint_->peak_temperature_rise_K(muscle_);
+}
+
+void MuscleChannel::heat(hal::Time from, double supply_V) {
   const bool enabled = enable.high() || faults.enable_stuck_on;
   const double driven = enabled ? pwm.duty(from) : 0.0;
   const double leaked = faults.switch_stuck_on ? 1.0 : faults.switch_leak_ratio;
   const double duty = driven + (1.0 - driven) * leaked;
-  const double warm = 1.0 + settings_.temperature_coefficient_per_K * plant_.temperature_rise_K();
+  const double warm = 1.0 + settings_.temperature_coefficient_per_K * temperature_rise_K();
   const double resistance_Ohm = settings_.resistance_Ohm * warm;
   const double through_A = faults.wire_open ? 0.0 : duty * supply_V / resistance_Ohm;
   const double beside_A = faults.short_Ohm > 0.0 ? duty * supply_V / faults.short_Ohm : 0.0;
   power_W_ = supply_V * through_A * settings_.power_gain;
   current_A_ = through_A + beside_A;
   sense_A_ += sense_gain_ * (current_A_ - sense_A_);
-  plant_.step(power_W_, settings_.load_N);
+}
+
+void MuscleChannel::move(hal::Time to) {
+  if (joint_ == nullptr) plant_.step(power_W_, settings_.load_N);
   if (settings_.thermometer)
-    thermometer_.step(settings_.rise_from_C + plant_.temperature_rise_K(), hal::seconds(step_));
-  if (!faults.slack) slack_at_m_ = plant_.position_m();
-  position.offer(faults.slack ? slack_at_m_ : plant_.position_m(), from + step_);
-  current.offer(sense_A_, from + step_);
+    thermometer_.step(settings_.rise_from_C + temperature_rise_K(), hal::seconds(step_));
+  if (!faults.slack) slack_at_m_ = position_m();
+  position.offer(slack_at_m_, to);
+  current.offer(sense_A_, to);
 }
 
 }  // namespace supercoil::host_sim

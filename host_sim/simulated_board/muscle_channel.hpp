@@ -1,8 +1,10 @@
 // One muscle with its switch, its wires and its sensors.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
+#include "plant/joint_plant.hpp"
 #include "plant/plant.hpp"
 #include "simulated_board/converter.hpp"
 #include "simulated_board/lines.hpp"
@@ -34,6 +36,7 @@ struct MuscleFaults {
   bool enable_stuck_on = false;
   bool slack = false;              ///< heat no longer moves the sensor's end
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
+  bool torn = false;               ///< it pulls no more; a joint's muscle only
 };
 
 class MuscleChannel {
@@ -41,16 +44,31 @@ class MuscleChannel {
   MuscleChannel(const MuscleChannelSettings& settings, hal::Duration step, const hal::Time& now,
                 std::uint64_t seed);
 
-  /// One step of the board, which begins at `from`: supply_V is 0 while its switch is open.
-  void advance(hal::Time from, double supply_V);
+  /// One step of the board, which begins at `from`: what heats the muscle over it. supply_V is 0
+  /// while its switch is open.
+  void heat(hal::Time from, double supply_V);
+  /// And how the muscle has moved and what the sensors see at the step's end. What is in a joint
+  /// has been moved by it.
+  void move(hal::Time to);
   /// Everything that may change under way; converters and PWM stay as they are.
   void set(const MuscleChannelSettings& settings);
+  /// From now on the muscle is one of a joint, which outlives the channel's steps. 0: its agonist.
+  void join(const JointPlant& joint, std::size_t muscle) {
+    joint_ = &joint;
+    muscle_ = muscle;
+  }
 
   /// The thermometer's reading; NaN without one.
   double thermometer_C() const { return thermometer_.reading_C(); }
   /// The air's temperature that the plant's rise counts from.
   double rise_from_C() const { return settings_.rise_from_C; }
+  /// Of a muscle that is in no joint.
   const Plant& plant() const { return plant_; }
+  const MuscleChannelSettings& settings() const { return settings_; }
+  /// Of the muscle, alone or in a joint.
+  double position_m() const;
+  double temperature_rise_K() const;
+  double peak_temperature_rise_K() const;
   double true_power_W() const { return power_W_; }
   double current_A() const { return current_A_; }
 
@@ -64,6 +82,8 @@ class MuscleChannel {
   MuscleChannelSettings settings_;
   hal::Duration step_;
   Plant plant_;
+  const JointPlant* joint_ = nullptr;  ///< of which it is muscle_
+  std::size_t muscle_ = 0;
   Thermometer thermometer_;
   double sense_gain_;
   double sense_A_ = 0.0;

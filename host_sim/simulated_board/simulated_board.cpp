@@ -11,6 +11,10 @@ SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
   std::uint64_t seed = settings.seed;
   for (const MuscleChannelSettings& channel : settings.channels)
     channels_.push_back(std::make_unique<MuscleChannel>(channel, step_, now_, seed++));
+  for (const SimulatedJointSettings& joint : settings.joints) {
+    joints_.push_back(std::make_unique<SimulatedJoint>(joint, *channels_[joint.agonist],
+                                                       *channels_[joint.antagonist], step_));
+  }
   supply.offer(supply_V_, now_);
 }
 
@@ -30,8 +34,12 @@ void SimulatedBoard::advance_to(hal::Time time) {
 void SimulatedBoard::step() {
   closed_ = pump.closed(heartbeat.edges(), now_);
   for (const auto& channel : channels_)
-    channel->advance(now_, closed_ ? supply_V_ : 0.0);
+    channel->heat(now_, closed_ ? supply_V_ : 0.0);
   now_ += step_;
+  for (const auto& joint : joints_)
+    joint->advance();
+  for (const auto& channel : channels_)
+    channel->move(now_);
   supply.offer(supply_V_, now_);
   if (air) air->offer(air_C_, now_);
 }
@@ -41,6 +49,11 @@ board::Devices SimulatedBoard::devices() {
   for (const auto& channel : channels_) {
     devices.channels.push_back(
         {&channel->pwm, &channel->enable, &channel->position, &channel->current});
+  }
+  // The antagonist's channel reads the joint's one sensor, with the other sign.
+  for (const auto& joint : joints_) {
+    const SimulatedJointSettings& its = joint->settings();
+    devices.channels[its.antagonist].position = &channels_[its.agonist]->position;
   }
   if (air) devices.air = &*air;
   return devices;

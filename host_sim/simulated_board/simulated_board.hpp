@@ -7,6 +7,7 @@
 
 #include "board/devices.hpp"
 #include "simulated_board/muscle_channel.hpp"
+#include "simulated_board/simulated_joint.hpp"
 
 namespace supercoil::host_sim {
 
@@ -19,6 +20,7 @@ struct SimulatedBoardSettings {
   double charge_pump_decay_s = 0.02;
   std::uint64_t seed = 1;
   std::vector<MuscleChannelSettings> channels{1};
+  std::vector<SimulatedJointSettings> joints;  ///< no channel is in two
 };
 
 /// Is its own clock: waiting lets the muscles move on, and nothing else takes time unless it is
@@ -43,6 +45,8 @@ class SimulatedBoard final : public hal::Clock {
 
   MuscleChannel& channel(std::size_t i) { return *channels_[i]; }
   const MuscleChannel& channel(std::size_t i) const { return *channels_[i]; }
+  SimulatedJoint& joint(std::size_t i) { return *joints_[i]; }
+  const SimulatedJoint& joint(std::size_t i) const { return *joints_[i]; }
   void set_air_C(double air_C) { air_C_ = air_C; }
   void set_supply_V(double supply_V) { supply_V_ = supply_V; }
   bool supply_closed() const { return closed_; }
@@ -68,6 +72,7 @@ class SimulatedBoard final : public hal::Clock {
   hal::Duration late_{};
   bool closed_ = false;
   std::vector<std::unique_ptr<MuscleChannel>> channels_;
+  std::vector<std::unique_ptr<SimulatedJoint>> joints_;
 };
 
 }  // namespace supercoil::host_sim

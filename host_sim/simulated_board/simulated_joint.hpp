@@ -1,0 +1,47 @@
+// Two muscles of the board that turn one joint.
+#pragma once
+
+#include <cstddef>
+
+#include "plant/joint_plant.hpp"
+#include "simulated_board/muscle_channel.hpp"
+
+namespace supercoil::host_sim {
+
+struct SimulatedJointSettings {
+  std::size_t agonist = 0;     ///< its channel
+  std::size_t antagonist = 1;  ///< its channel
+  JointPlantSettings plant;    ///< its muscles are the channels' own, torn as their faults say
+  double load_Nm = 0.0;        ///< turns the joint towards negative angles
+};
+
+/// The agonist's position sensor is the joint's; the antagonist's channel reads it as well.
+class SimulatedJoint {
+ public:
+  /// The board's channels are those of the settings, and outlive it.
+  SimulatedJoint(const SimulatedJointSettings& settings, MuscleChannel& agonist,
+                 MuscleChannel& antagonist, hal::Duration step);
+  SimulatedJoint(const SimulatedJoint&) = delete;
+  SimulatedJoint& operator=(const SimulatedJoint&) = delete;
+
+  /// One step of the board, for which both channels are heated already.
+  void advance();
+  /// Everything that may change under way, also of the channels' muscles; which channels they are
+  /// stays as it is.
+  void set(const SimulatedJointSettings& settings);
+
+  const JointPlant& plant() const { return plant_; }
+  const SimulatedJointSettings& settings() const { return settings_; }
+
+ private:
+  JointPlantSettings plant_settings() const;
+
+  SimulatedJointSettings settings_;
+  MuscleChannel* agonist_;
+  MuscleChannel* antagonist_;
+  bool agonist_torn_ = false;
+  bool antagonist_torn_ = false;
+  JointPlant plant_;
+};
+
+}  // namespace supercoil::host_sim

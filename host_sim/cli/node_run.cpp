@@ -16,11 +16,12 @@ NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& win
       scenario_(std::move(scenario)),
       folder_(&folder),
       simulation_(scenario_),
-      recorder_(folder.path().string(), 1, scenario_.rate_Hz, files_),
+      recorder_(folder.path().string(), scenario_.start.joint ? 2 : 1, scenario_.rate_Hz, files_),
       summary_(window) {
   simulation_.record_to(recorder_);
   if (options.real_time) return;
-  if (options.trace) trace_.emplace(folder.temporary("trace.csv"), options.every);
+  if (options.trace)
+    trace_.emplace(folder.temporary("trace.csv"), options.every, scenario_.start.joint.has_value());
   if (options.plot) plot_.emplace(scenario_);
 }
 

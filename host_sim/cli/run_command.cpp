@@ -107,6 +107,10 @@ int run_command(const RunOptions& options) {
                                       ", as the first is node " +
                                       std::to_string(int{scenario->can.first_node}));
   }
+  if (scenario->start.joint && options.nodes > 1) {
+    return fail(exit_wrong_input, "--nodes " + std::to_string(options.nodes) +
+                                      ": must be 1 for a scenario with a [joint]");
+  }
   if (options.check) {
     std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenario.c_str(),
                 scenario->ticks(), scenario->events.size());

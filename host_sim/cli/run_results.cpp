@@ -62,6 +62,10 @@ void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
                 json["tracking_max_m"].get<double>() * 1e6, json["window_s"][0].get<double>(),
                 json["window_s"][1].get<double>());
   }
+  if (json.contains("tracking_rms_deg") && !json["tracking_rms_deg"].is_null()) {
+    std::printf("that is %.3f degrees rms, %.3f at most\n", json["tracking_rms_deg"].get<double>(),
+                json["tracking_max_deg"].get<double>());
+  }
   print_limits(summary);
   constexpr double told_from = 0.01;
   if (summary.infeasible_ratio() > told_from) {

@@ -16,12 +16,17 @@ constexpr const char* header =
     "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,temperature_rise_K,"
     "limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,coldest_K,hottest_K,state,"
     "fault,limited_by,bias_W,theta1_deviation,theta2_deviation,theta3_deviation,theta4_deviation,"
-    "bias_deviation_W,thermometer_C\n";
+    "bias_deviation_W,thermometer_C";
+constexpr const char* joint_header =
+    ",antagonist_applied_power_W,antagonist_temperature_rise_K,antagonist_coldest_K,"
+    "antagonist_hottest_K";
 
 }  // namespace
 
-TraceWriter::TraceWriter(const std::filesystem::path& path, std::int64_t every)
+TraceWriter::TraceWriter(const std::filesystem::path& path, std::int64_t every, bool of_joint)
     : out_(path, std::ios::binary), every_(every), buffer_(header) {
+  if (of_joint) buffer_ += joint_header;
+  buffer_ += '\n';
   buffer_.reserve(flush_bytes + 4096);
 }
 
@@ -70,6 +75,14 @@ void TraceWriter::add(const TickRecord& record, const std::optional<control::Est
   if (deviates) number(estimate->bias_deviation_W);
   buffer_ += ',';
   if (std::isfinite(record.thermometer_C)) number(record.thermometer_C);
+  if (record.antagonist) {
+    const AntagonistRecord& other = *record.antagonist;
+    for (const double value :
+         {other.applied_power_W, other.temperature_rise_K, other.coldest_K, other.hottest_K}) {
+      buffer_ += ',';
+      number(value);
+    }
+  }
   buffer_ += '\n';
   if (buffer_.size() >= flush_bytes) flush();
 }

@@ -15,8 +15,9 @@ namespace supercoil::host_sim {
 /// Numbers are written with as many digits as it takes to read the same double back.
 class TraceWriter {
  public:
-  /// every: one row per this many ticks, from the first on.
-  TraceWriter(const std::filesystem::path& path, std::int64_t every);
+  /// every: one row per this many ticks, from the first on. of_joint: its records have an
+  /// antagonist.
+  TraceWriter(const std::filesystem::path& path, std::int64_t every, bool of_joint = false);
 
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
   bool wants(std::int64_t tick) const { return tick % every_ == 0; }

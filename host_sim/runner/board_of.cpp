@@ -25,11 +25,19 @@ double max_age_s(const Scenario& scenario, const ConverterSettings& converter) {
   return std::max({0.01, 3.0 * scenario.step_s(), 2.5 * converter.period_s});
 }
 
+/// As the antagonist sees it.
+PositionSensorSettings mirrored(PositionSensorSettings sensor) {
+  const double min_m = sensor.min_m;
+  sensor.min_m = -sensor.range_m;
+  sensor.range_m = -min_m;
+  return sensor;
+}
+
 /// The muscle's effects in its air.
-PlantEffects effects_of(const Scenario& scenario, const Conditions& c) {
-  PlantEffects effects = c.plant.effects;
+PlantEffects effects_of(const Scenario& scenario, const Conditions& c, const PlantSettings& plant) {
+  PlantEffects effects = plant.effects;
   effects.air_C = scenario.start.ambient.air_C;
-  effects.air_change_K = c.plant.air_acts ? c.ambient.air_C - effects.air_C : 0.0;
+  effects.air_change_K = plant.air_acts ? c.ambient.air_C - effects.air_C : 0.0;
   return effects;
 }
 
@@ -57,10 +65,10 @@ double max_noise_m(const Scenario& scenario) {
   return max_m;
 }
 
-ChannelSupervision supervision_of(const Scenario& scenario) {
-  const Conditions& c = scenario.start;
-  const double range_m = c.position_sensor.range_m;
-  const double min_m = c.position_sensor.min_m;
+ChannelSupervision supervision_of(const Scenario& scenario, const PositionSensorSettings& sensor,
+                                  double resistance_Ohm) {
+  const double range_m = sensor.range_m;
+  const double min_m = sensor.min_m;
   const double max_W = max_power_W(scenario);
   ChannelSupervision s;
   s.min_position_m = min_m - 0.1 * (range_m - min_m);
@@ -68,20 +76,18 @@ ChannelSupervision supervision_of(const Scenario& scenario) {
   s.max_travel_m = Conditions::travel_ratio * range_m;
   s.position_noise_rms_m = max_noise_m(scenario);
   // A sensor without noise that does not show its steps either looks frozen at rest.
-  const double count_m = converter_of(c.position_sensor).per_count();
-  if (c.position_sensor.noise_rms_m < s.position_noise_rms_m ||
-      s.position_noise_rms_m < shown_noise * count_m)
+  const double count_m = converter_of(sensor).per_count();
+  if (sensor.noise_rms_m < s.position_noise_rms_m || s.position_noise_rms_m < shown_noise * count_m)
     s.frozen_s = INFINITY;
   s.out_of_range_s = std::max(s.out_of_range_s, 2.0 * scenario.step_s());
-  s.min_resistance_Ohm = default_least_resistance_Ohm(c.plant.resistance_Ohm);
+  s.min_resistance_Ohm = default_least_resistance_Ohm(resistance_Ohm);
   s.max_measured_W = default_max_measured_W(max_W);
   s.energy_J = default_energy_J(max_W, s.energy_window_s);
   return s;
 }
 
-board::ThermalSettings thermal_of(const Conditions& c) {
+board::ThermalSettings thermal_of(const Conditions& c, const control::PhysicalParameters& m) {
   const ThermalSpans& spans = c.thermal;
-  const control::PhysicalParameters& m = c.muscle;
   board::ThermalSettings t;
   t.bounds = {m.thermal_mass_J_per_K * spans.mass_ratio[0],
               m.thermal_mass_J_per_K * spans.mass_ratio[1],
@@ -107,28 +113,66 @@ BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated)
 /// In °C; beside its error, as good as any.
 const ConverterSettings air_sensor{.low = -100.0, .high = 200.0};
 
-}  // namespace
-
-MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& c) {
+MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
+                                 const PlantSettings& plant) {
   MuscleChannelSettings m;
-  m.plant = c.plant.parameters;
-  m.effects = effects_of(scenario, c);
+  m.plant = plant.parameters;
+  m.effects = effects_of(scenario, c, plant);
   m.rise_from_C = c.ambient.air_C - m.effects.air_change_K;
   if (c.thermometer.present) {
     m.thermometer = {c.thermometer.lag_s, c.thermometer.offset_K, c.thermometer.noise_rms_K,
                      1.0 / c.thermometer.rate_Hz};
   }
-  m.resistance_Ohm = c.plant.resistance_Ohm;
-  m.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
-  m.load_N = c.plant.load_N;
+  m.resistance_Ohm = plant.resistance_Ohm;
+  m.temperature_coefficient_per_K = plant.temperature_coefficient_per_K;
+  m.load_N = plant.load_N;
   m.power_gain = c.power.gain;
   if (c.power.pwm_steps > 0) m.pwm_steps = c.power.pwm_steps;
   m.pwm_delay_s = std::nearbyint(c.power.delay_s * scenario.rate_Hz) / scenario.rate_Hz;
   m.position = converter_of(c.position_sensor);
   if (scenario.board) m.sense_filter_s = scenario.board->channels[0].heater.sense_filter_s;
-  m.current.high = 20.0 * c.power.supply_V / c.plant.resistance_Ohm;
+  m.current.high = 20.0 * c.power.supply_V / plant.resistance_Ohm;
   m.current.low = -0.1 * m.current.high;
   return m;
+}
+
+/// The other channel of a joint: the same position with the other sign, and a muscle of its own.
+ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
+                              const MuscleChannelSettings& simulated) {
+  const Conditions& c = scenario.start;
+  const JointConditions& joint = *c.joint;
+  const double resistance_Ohm = joint.antagonist.resistance_Ohm;
+  channel.muscle = joint.antagonist_muscle;
+  channel.muscle_identified = false;
+  channel.response_ratio = 0.0;
+  board::Scaling& scaling = channel.position.scaling;
+  scaling = {-scaling.per_count, -scaling.offset};
+  channel.heater.current.scaling = scaling_of(simulated.current);
+  channel.heater.cold_resistance_Ohm = resistance_Ohm;
+  channel.heater.temperature_coefficient_per_K = joint.antagonist.temperature_coefficient_per_K;
+  channel.calibration = {};
+  channel.calibration.cold_resistance_Ohm = resistance_Ohm;
+  channel.thermal = thermal_of(c, joint.antagonist_muscle);
+  channel.supervision = supervision_of(scenario, mirrored(c.position_sensor), resistance_Ohm);
+  return channel;
+}
+
+}  // namespace
+
+MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& c) {
+  return channel_of(scenario, c, c.plant);
+}
+
+MuscleChannelSettings antagonist_channel_of(const Scenario& scenario, const Conditions& c) {
+  return channel_of(scenario, c, c.joint->antagonist);
+}
+
+SimulatedJointSettings simulated_joint_of(const Conditions& c) {
+  SimulatedJointSettings joint;
+  joint.plant = c.joint->plant;
+  joint.plant.substeps = c.plant.effects.substeps;
+  joint.load_Nm = c.joint->load_Nm;
+  return joint;
 }
 
 SimulatedBoardSettings simulated_board_of(const Scenario& scenario) {
@@ -141,6 +185,10 @@ SimulatedBoardSettings simulated_board_of(const Scenario& scenario) {
   s.charge_pump_decay_s = pump_decay_s(scenario);
   s.seed = scenario.seed;
   s.channels = {muscle_channel_of(scenario, scenario.start)};
+  if (scenario.start.joint) {
+    s.channels.push_back(antagonist_channel_of(scenario, scenario.start));
+    s.joints = {simulated_joint_of(scenario.start)};
+  }
   return s;
 }
 
@@ -172,15 +220,19 @@ BoardSettings firmware_of(const Scenario& scenario) {
   channel.senses.error_ratio = c.sense_error_ratio;
   channel.heater.error_feedback = c.power.error_feedback;
   channel.heater.delay_s = c.power.delay_s;
-  channel.thermal = thermal_of(c);
+  channel.thermal = thermal_of(c, c.muscle);
   channel.limiter.max_W = c.power.max_W;
   channel.limiter.min_W = c.power.min_W;
-  channel.supervision = supervision_of(scenario);
+  channel.supervision = supervision_of(scenario, c.position_sensor, c.plant.resistance_Ohm);
   channel.controllers = {c.controller};
   channel.estimators = {c.estimator};
   for (const Event& event : scenario.events) {
     if (event.new_controller) channel.controllers.push_back(event.conditions.controller);
     if (event.new_estimator) channel.estimators.push_back(event.conditions.estimator);
+  }
+  if (c.joint) {
+    board.joints = {{0, 1, c.joint->plant.lever_m, c.joint->co_contraction_W}};
+    board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
   }
   return board;
 }

@@ -10,8 +10,12 @@ namespace supercoil::host_sim {
 SimulatedBoardSettings simulated_board_of(const Scenario& scenario);
 MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& conditions);
 
-/// One channel. Its controllers and estimators are those of the start and of each event that names
-/// one, in that order.
+/// Of conditions with a joint: its antagonist's channel, and what the two of them turn.
+MuscleChannelSettings antagonist_channel_of(const Scenario& scenario, const Conditions& conditions);
+SimulatedJointSettings simulated_joint_of(const Conditions& conditions);
+
+/// One channel, or an agonist's and its antagonist's. Its controllers and estimators are those of
+/// the start and of each event that names one, in that order.
 BoardSettings firmware_of(const Scenario& scenario);
 
 }  // namespace supercoil::host_sim

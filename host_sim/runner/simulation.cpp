@@ -98,6 +98,7 @@ void Simulation::apply_event(const Event& event) {
   const MuscleChannelSettings settings = muscle_channel_of(*scenario_, *conditions_);
   muscle.set(settings);
   muscle.position.set(settings.position);
+  if (conditions_->joint) change_joint();
   board_.set_supply_V(conditions_->power.supply_V);
   set_air();
   inject_faults(conditions_->injected_faults);
@@ -108,15 +109,31 @@ void Simulation::apply_event(const Event& event) {
   if (event.reset) send(Verb::reset);
 }
 
+void Simulation::change_joint() {
+  board_.channel(1).set(antagonist_channel_of(*scenario_, *conditions_));
+  board_.joint(0).set(simulated_joint_of(*conditions_));
+  loop_.channel(1).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
+}
+
+double Simulation::peak_temperature_rise_K() const {
+  const double first_K = board_.channel(0).peak_temperature_rise_K();
+  if (!conditions_->joint) return first_K;
+  return std::fmax(first_K, board_.channel(1).peak_temperature_rise_K());
+}
+
 void Simulation::set_air() {
   board_.set_air_C(conditions_->ambient.air_C + conditions_->ambient.sensor_offset_K);
 }
 
 void Simulation::inject_faults(const InjectedFaults& faults) {
   MuscleChannel& muscle = board_.channel(0);
-  muscle.faults = {faults.heater_open,     faults.heater_short ? 0.5 : 0.0,
-                   faults.switch_stuck_on, false,
-                   faults.muscle_slack,    faults.switch_leak_ratio};
+  muscle.faults = {
+      faults.heater_open,  faults.heater_short ? 0.5 : 0.0, faults.switch_stuck_on, false,
+      faults.muscle_slack, faults.switch_leak_ratio,        faults.agonist_torn};
+  if (conditions_->joint) {
+    board_.channel(1).faults.wire_open = faults.antagonist_heater_open;
+    board_.channel(1).faults.torn = faults.antagonist_torn;
+  }
   muscle.position.set(
       ConverterFaults{faults.position_silent, faults.position_frozen, faults.position_loose});
   muscle.current.set(ConverterFaults{.gain = faults.current_gain});
@@ -214,12 +231,12 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.time_s = time_s;
   r.reference = reference;
   r.model_m = s.model_m;
-  r.position_m = plant().position_m();
+  r.position_m = board_.channel(0).position_m();
   r.measured_m = s.position_m;
   r.power_W = s.demanded_W;
   r.applied_power_W = s.applied_W;
   r.temperature_rise_K =
-      plant().temperature_rise_K() + (board_.channel(0).rise_from_C() - ambient_C);
+      board_.channel(0).temperature_rise_K() + (board_.channel(0).rise_from_C() - ambient_C);
   r.thermometer_C = board_.channel(0).thermometer_C();
   r.coldest_K = s.coldest_C - ambient_C;
   r.hottest_K = s.hottest_C - ambient_C;
@@ -231,7 +248,16 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.fault = s.fault;
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
+  if (conditions_->joint) r.antagonist = antagonist_record();
   return r;
+}
+
+AntagonistRecord Simulation::antagonist_record() const {
+  const Snapshot& s = loop_.channel(1).snapshot();
+  const MuscleChannel& muscle = board_.channel(1);
+  const double ambient_C = conditions_->ambient.air_C;
+  return {s.applied_W, muscle.temperature_rise_K() + (muscle.rise_from_C() - ambient_C),
+          s.coldest_C - ambient_C, s.hottest_C - ambient_C};
 }
 
 }  // namespace supercoil::host_sim

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "loop/executive.hpp"
 #include "recorder/flight_recorder.hpp"
@@ -15,6 +16,14 @@
 #include "telemetry/can_endpoint.hpp"
 
 namespace supercoil::host_sim {
+
+/// Of a joint's antagonist, as TickRecord's of the muscle.
+struct AntagonistRecord {
+  double applied_power_W = 0.0;
+  double temperature_rise_K = 0.0;
+  double coldest_K = 0.0;
+  double hottest_K = 0.0;
+};
 
 /// What there is to see of one tick: the firmware's snapshot, and the truth beside it. Powers act
 /// from this tick to the next.
@@ -38,6 +47,7 @@ struct TickRecord {
   Fault fault = Fault::none;        ///< the channel's first cause
   Fault board_fault = Fault::none;  ///< the board's, which may come after it
   LimitedBy limited_by = LimitedBy::nothing;
+  std::optional<AntagonistRecord> antagonist;  ///< where there is a joint
 };
 
 /// Boots the firmware, lets it arm, and commands it as the scenario says. The same scenario gives
@@ -63,7 +73,14 @@ class Simulation {
   const Conditions& conditions() const { return *conditions_; }
   /// Empty when the scenario has no estimator.
   std::optional<control::Estimate> estimate() const { return loop_.channel(0).estimates(); }
+  /// Of a scenario without a joint.
   const Plant& plant() const { return board_.channel(0).plant(); }
+  /// Null without a joint.
+  const JointPlant* joint() const {
+    return scenario_->start.joint ? &board_.joint(0).plant() : nullptr;
+  }
+  /// The hottest that any of its muscles was.
+  double peak_temperature_rise_K() const;
   Loop& loop() { return loop_; }
   /// Keeps what happens from now on; must outlive the simulation's steps.
   void record_to(recorder::FlightRecorder& recorder) { recorder_ = &recorder; }
@@ -85,6 +102,8 @@ class Simulation {
   void apply_event(const Event& event);
   void set_air();
   void inject_faults(const InjectedFaults& faults);
+  void change_joint();
+  AntagonistRecord antagonist_record() const;
   /// What is asked for at this tick, NaN: nothing. Begins a first motion when the muscle is armed.
   double reference_at(double time_s);
   void ask(double reference);

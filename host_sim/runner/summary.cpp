@@ -1,5 +1,7 @@
 #include "runner/summary.hpp"
 
+#include <numbers>
+
 #include <nlohmann/json.hpp>
 
 #include "supercoil/control/actuator/conversions.hpp"
@@ -80,6 +82,11 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
                       std::fmax(window_.from_s, std::fmin(window_.to_s, reached_s))};
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
   json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
+  if (scenario.start.joint) {
+    const double deg_per_m = 180.0 / std::numbers::pi / scenario.start.joint->plant.lever_m;
+    json["tracking_rms_deg"] = measured ? finite(tracking_.rms() * deg_per_m) : nullptr;
+    json["tracking_max_deg"] = measured ? finite(tracking_.largest() * deg_per_m) : nullptr;
+  }
   const auto estimate = simulation.estimate();
   json["estimates"] =
       estimate ? estimate_json(*estimate, simulation.conditions().muscle) : ordered_json();
@@ -98,7 +105,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   }
   json["mode_result"] = mode_result_json(simulation.loop().channel(0).snapshot());
   json["ticks_outside_temperature_interval"] = outside_interval_ticks_;
-  json["hottest_temperature_rise_K"] = finite(simulation.plant().peak_temperature_rise_K());
+  json["hottest_temperature_rise_K"] = finite(simulation.peak_temperature_rise_K());
   json["limited_ticks"] = limited_ticks_;
   json["limited_by_ratio"] = ordered_json::object();
   for (std::size_t i = 1; i < limit_names.size(); ++i) {

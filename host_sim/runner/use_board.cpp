@@ -52,12 +52,18 @@ void put(Conditions& c, const ChannelSettings& channel, const config::ChannelWir
   c.muscle = channel.muscle;
 }
 
+OrRefused check_joint(const Scenario& scenario) {
+  if (!scenario.start.joint) return {};
+  return tl::unexpected<std::string>("the scenario has a [joint]: its board is its own");
+}
+
 }  // namespace
 
 OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::size_t channel,
                     const std::optional<board::Learned>& learned) {
   if (auto checked = check_supply(scenario.start, config.settings); !checked) return checked;
   if (auto checked = check_events(scenario); !checked) return checked;
+  if (auto checked = check_joint(scenario); !checked) return checked;
   BoardSettings board = config.settings;
   board.channels = {config.settings.channels[channel]};
   if (learned) apply_learned(board.channels[0], *learned);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
 
 #include "plant/effects.hpp"
+#include "plant/joint_plant.hpp"
 #include "scenario/injected_faults.hpp"
 #include "scenario/reference.hpp"
 
@@ -22,6 +24,15 @@ struct PlantSettings {
   double load_N = 0.0;  ///< pulls the muscle longer, on top of the moving mass
 
   friend bool operator==(const PlantSettings&, const PlantSettings&) = default;
+};
+
+/// A joint that the muscle turns against another one.
+struct JointConditions {
+  JointPlantSettings plant;  ///< without its muscles
+  double load_Nm = 0.0;      ///< turns it towards negative angles
+  double co_contraction_W = 1.0;
+  PlantSettings antagonist;
+  control::PhysicalParameters antagonist_muscle;  ///< what the board believes it to be
 };
 
 struct PositionSensorSettings {
@@ -94,8 +105,9 @@ struct Conditions {
   /// Of a sensor's range: the travel limit.
   static constexpr double travel_ratio = 0.999;
 
-  PlantSettings plant;
+  PlantSettings plant;                 ///< of a joint: its agonist
   control::PhysicalParameters muscle;  ///< what the board believes the muscle to be
+  std::optional<JointConditions> joint;
   PositionSensorSettings position_sensor;
   ThermometerSettings thermometer;
   PowerSettings power;

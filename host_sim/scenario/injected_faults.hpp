@@ -6,16 +6,19 @@
 namespace supercoil::host_sim {
 
 struct InjectedFaults {
-  bool heater_open = false;        ///< a wire of the muscle is broken
-  bool heater_short = false;       ///< half an ohm across the muscle
-  bool switch_stuck_on = false;    ///< the power switch conducts whatever it is commanded
-  bool position_loose = false;     ///< the sensor's wire is off
-  bool position_silent = false;    ///< no new readings
-  bool position_frozen = false;    ///< the same reading again and again
-  bool muscle_slack = false;       ///< heat no longer moves the sensor's end
-  bool pwm_refuses = false;        ///< the PWM device answers with an error
-  bool stop_pressed = false;       ///< the emergency stop's circuit is open
-  bool commands_stop = false;      ///< the master falls silent
+  bool heater_open = false;      ///< a wire of the muscle is broken
+  bool heater_short = false;     ///< half an ohm across the muscle
+  bool switch_stuck_on = false;  ///< the power switch conducts whatever it is commanded
+  bool position_loose = false;   ///< the sensor's wire is off
+  bool position_silent = false;  ///< no new readings
+  bool position_frozen = false;  ///< the same reading again and again
+  bool muscle_slack = false;     ///< heat no longer moves the sensor's end
+  bool pwm_refuses = false;      ///< the PWM device answers with an error
+  bool stop_pressed = false;     ///< the emergency stop's circuit is open
+  bool commands_stop = false;    ///< the master falls silent
+  bool agonist_torn = false;     ///< of a joint: the muscle pulls no more
+  bool antagonist_torn = false;  ///< likewise
+  bool antagonist_heater_open = false;
   double current_gain = 1.0;       ///< what the current's sense reads, over the truth
   double supply_gain = 1.0;        ///< likewise of the supply's
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the power switch is off
@@ -38,6 +41,13 @@ inline constexpr std::array<InjectedFaultName, 10> injected_fault_names{{
     {"pwm_refuses", &InjectedFaults::pwm_refuses},
     {"stop_pressed", &InjectedFaults::stop_pressed},
     {"commands_stop", &InjectedFaults::commands_stop},
+}};
+
+/// Of a joint only; the others are of its agonist's channel.
+inline constexpr std::array<InjectedFaultName, 3> joint_fault_names{{
+    {"agonist_torn", &InjectedFaults::agonist_torn},
+    {"antagonist_torn", &InjectedFaults::antagonist_torn},
+    {"antagonist_heater_open", &InjectedFaults::antagonist_heater_open},
 }};
 
 struct InjectedFaultNumber {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -13,16 +14,20 @@ namespace supercoil::host_sim {
 namespace {
 
 using config::Diagnostics;
-using config::read_parameters;
 using config::refuse_misfit;
 using config::Section;
 
 /// A muscle that is not the paper's may become longer than it was: its sensor sees some of that.
 constexpr double default_min_ratio = -0.25;
 constexpr double slowest_position_Hz = 20.0;
+/// To both sides.
+constexpr double joint_range_m = 0.008;
 
-PositionSensorSettings read_position_sensor(Section section, bool paper_muscle) {
+enum class Moves { paper_muscle, muscle, joint };
+
+PositionSensorSettings read_position_sensor(Section section, Moves moves) {
   PositionSensorSettings sensor;
+  if (moves == Moves::joint) sensor.range_m = joint_range_m;
   sensor.noise_rms_m = section.number("noise_rms_m", sensor.noise_rms_m, {0.0, 0.1});
   sensor.resolution_bits =
       static_cast<int>(section.integer("resolution_bits", sensor.resolution_bits, 0, 32));
@@ -33,8 +38,11 @@ PositionSensorSettings read_position_sensor(Section section, bool paper_muscle) 
   sensor.rate_Hz = section.number("rate_Hz", sensor.rate_Hz, {0.0, 10e3});
   if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < slowest_position_Hz)
     section.wrong("rate_Hz", "must be 0 (whenever the board asks) or 20 to 10000");
-  const double min_m = paper_muscle ? 0.0 : default_min_ratio * sensor.range_m;
-  sensor.min_m = section.number("min_m", min_m, {-10.0, 0.0});
+  double min_m = 0.0;
+  if (moves == Moves::muscle) min_m = default_min_ratio * sensor.range_m;
+  if (moves == Moves::joint) min_m = -sensor.range_m;
+  // A joint moves to both sides, and its antagonist's travel is what lies below zero.
+  sensor.min_m = section.number("min_m", min_m, {-10.0, moves == Moves::joint ? -1e-4 : 0.0});
   section.finish();
   return sensor;
 }
@@ -118,10 +126,14 @@ double read_senses(Section section) {
   return error_ratio;
 }
 
-InjectedFaults read_injected_faults(Section section) {
+InjectedFaults read_injected_faults(Section section, bool of_joint) {
   InjectedFaults injected_faults;
   for (const InjectedFaultName& known : injected_fault_names)
     injected_faults.*known.member = section.flag(known.name, false);
+  for (const InjectedFaultName& known : joint_fault_names) {
+    injected_faults.*known.member = section.flag(known.name, false);
+    if (!of_joint && section.has(known.name)) section.wrong(known.name, "needs a [joint]");
+  }
   for (const InjectedFaultNumber& known : injected_fault_numbers) {
     injected_faults.*known.member =
         section.number(known.name, InjectedFaults{}.*known.member, {known.min, known.max});
@@ -141,7 +153,18 @@ OperatorAction read_operator(Section section) {
 void check_reach(Section& section, const Conditions& c) {
   if (c.reference.kind == ReferenceKind::power) return;
   std::ostringstream message;
-  if (c.reference.lowest() < 0.0) {
+  if (c.joint) {
+    const double lever_m = c.joint->plant.lever_m;
+    const PositionSensorSettings& sensor = c.position_sensor;
+    const double min_m =
+        std::max(Conditions::travel_ratio * sensor.min_m, lever_m * c.joint->plant.min_angle_rad);
+    const double max_m =
+        std::min(Conditions::travel_ratio * sensor.range_m, lever_m * c.joint->plant.max_angle_rad);
+    if (c.reference.lowest() >= min_m && c.reference.highest() <= max_m) return;
+    message << "the reference goes from " << c.reference.lowest() * 1e3 << " to "
+            << c.reference.highest() * 1e3 << " mm, and sensor.position and the joint's end stops "
+            << "allow " << min_m * 1e3 << " to " << max_m * 1e3 << " mm";
+  } else if (c.reference.lowest() < 0.0) {
     message << "the reference goes down to " << c.reference.lowest() * 1e3
             << " mm, and the muscle only contracts from 0";
   } else if (c.reference.highest() > Conditions::travel_ratio * c.position_sensor.range_m) {
@@ -155,40 +178,36 @@ void check_reach(Section& section, const Conditions& c) {
 
 }  // namespace
 
-control::PhysicalParameters read_muscle(const toml::table& document, Diagnostics& diagnostics) {
-  Diagnostics plant_diagnostics(diagnostics.file());  // read again, and complained of, elsewhere
-  Section plant(document["plant"].as_table(), "plant", plant_diagnostics);
-  const auto fallback = read_plant_parameters(plant);
-  Section muscle(document["muscle"].as_table(), "muscle", diagnostics);
-  const auto believed = read_parameters(muscle, fallback);
-  muscle.finish();
-  return believed;
-}
-
-Conditions read_conditions(const toml::table& document, const control::PhysicalParameters& believed,
+Conditions read_conditions(const toml::table& document, const BelievedMuscles& believed,
                            double step_s, Diagnostics& diagnostics) {
   Section root(&document, "", diagnostics);
   Conditions c;
-  c.muscle = believed;
-  root.allow({"simulation", "muscle", "event"});  // read elsewhere
+  c.muscle = believed.muscle;
+  root.allow({"simulation", "muscle", "joint", "event"});  // read elsewhere
   c.plant = read_plant(root.section("plant"));
+  c.joint = read_joint(document, c.plant, believed.antagonist, diagnostics);
   Section sensor = root.section("sensor");
-  c.position_sensor = read_position_sensor(sensor.section("position"), !c.plant.effects.any());
+  const Moves alone = c.plant.effects.any() ? Moves::muscle : Moves::paper_muscle;
+  c.position_sensor =
+      read_position_sensor(sensor.section("position"), c.joint ? Moves::joint : alone);
   c.thermometer = read_thermometer(sensor.section("temperature"));
   sensor.finish();
-  c.power = read_power(root.section("power"), c.plant.resistance_Ohm, step_s);
+  const double other_Ohm = c.joint ? c.joint->antagonist.resistance_Ohm : 0.0;
+  c.power = read_power(root.section("power"), std::max(c.plant.resistance_Ohm, other_Ohm), step_s);
+  if (c.joint)
+    c.joint->co_contraction_W = read_co_contraction_W(document, c.power.max_W, diagnostics);
   c.thermal = read_thermal(root.section("thermal"));
   c.ambient = read_ambient(root.section("ambient"));
   c.sense_error_ratio = read_senses(root.section("senses"));
-  c.injected_faults = read_injected_faults(root.section("injected_fault"));
+  c.injected_faults = read_injected_faults(root.section("injected_fault"), c.joint.has_value());
   c.action = read_operator(root.section("operator"));
   Section reference = root.section("reference");
-  c.reference = read_reference(reference);
+  c.reference = read_reference(reference, c.joint.has_value());
   Section estimator = root.section("estimator");
-  c.estimator = config::read_estimator(estimator, believed, c.power.max_W);
+  c.estimator = config::read_estimator(estimator, believed.muscle, c.power.max_W);
   const auto model = config::read_reference_model(root.section("reference_model"));
   Section controller = root.section("controller");
-  c.controller = config::read_controller(controller, believed, model, c.power.max_W);
+  c.controller = config::read_controller(controller, believed.muscle, model, c.power.max_W);
   if (c.controller.kind == control::ControllerKind::power &&
       c.reference.kind != ReferenceKind::power) {
     controller.wrong("kind", "open loop needs [reference] kind = \"power\"");
@@ -199,9 +218,9 @@ Conditions read_conditions(const toml::table& document, const control::PhysicalP
   }
   check_reach(reference, c);
   const bool follows = c.reference.kind != ReferenceKind::power;
-  refuse_misfit(controller,
-                control::check_fit(c.controller, step_s, follows ? c.reference.highest() : 0.0,
-                                   c.power.max_W));
+  const double furthest_m = std::max(c.reference.highest(), -c.reference.lowest());
+  refuse_misfit(controller, control::check_fit(c.controller, step_s, follows ? furthest_m : 0.0,
+                                               c.power.max_W));
   refuse_misfit(estimator, control::check_fit(c.estimator, step_s, c.power.max_W));
   root.finish();
   return c;

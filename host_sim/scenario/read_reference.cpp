@@ -13,6 +13,11 @@ constexpr Range allowed_power_W{-1e3, 1e3};
 constexpr Range frequency_rad_per_s{1e-4, 1e3};
 constexpr std::size_t max_terms = 32;
 
+std::vector<double> default_levels_m(bool of_joint) {
+  if (of_joint) return {0.003, -0.004, 0.002, -0.005};
+  return {0.005, 0.015, 0.008, 0.020};
+}
+
 std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, Range amplitudes,
                                  const std::vector<Sinusoid>& fallback) {
   std::vector<double> sizes;
@@ -38,28 +43,30 @@ std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, R
 
 }  // namespace
 
-Reference read_reference(Section& section) {
+Reference read_reference(Section& section, bool of_joint) {
   Reference r;
+  const double offset_m = of_joint ? 0.0 : r.offset;
   r.kind = section.choice("kind", r.kind, reference_names);
   switch (r.kind) {
     case ReferenceKind::sine:
-      r.offset = section.number("offset_m", r.offset, allowed_position_m);
-      r.terms = {{section.number("amplitude_m", 0.009, amplitude_m),
+      r.offset = section.number("offset_m", offset_m, allowed_position_m);
+      r.terms = {{section.number("amplitude_m", of_joint ? 0.005 : 0.009, amplitude_m),
                   section.number("angular_frequency_rad_per_s", 0.25, frequency_rad_per_s)}};
       break;
     case ReferenceKind::step:
       r.levels = {section.number("from_m", 0.0, allowed_position_m),
-                  section.number("to_m", 0.011, allowed_position_m)};
+                  section.number("to_m", of_joint ? 0.005 : 0.011, allowed_position_m)};
       r.hold_s = section.number("at_s", 0.0, {0.0, 1e6});
       break;
     case ReferenceKind::steps:
-      r.levels = section.numbers("levels_m", {0.005, 0.015, 0.008, 0.020}, allowed_position_m, 1,
-                                 max_terms);
+      r.levels =
+          section.numbers("levels_m", default_levels_m(of_joint), allowed_position_m, 1, max_terms);
       r.hold_s = section.number("hold_s", 20.0, {1e-3, 1e6});
       break;
     case ReferenceKind::multisine:
-      r.offset = section.number("offset_m", r.offset, allowed_position_m);
-      r.terms = read_terms(section, "amplitudes_m", amplitude_m, {{0.004, 0.25}, {0.003, 0.6}});
+      r.offset = section.number("offset_m", offset_m, allowed_position_m);
+      r.terms = read_terms(section, "amplitudes_m", amplitude_m,
+                           {{of_joint ? 0.003 : 0.004, 0.25}, {of_joint ? 0.002 : 0.003, 0.6}});
       break;
     case ReferenceKind::power: {
       const Reference paper = paper_excitation();

@@ -40,6 +40,15 @@ constexpr std::array fixed_keys{"simulation",
                                 "ambient.coldest_C",
                                 "ambient.sensor_error_K",
                                 "senses",
+                                "joint.lever_m",
+                                "joint.inertia_kg_m2",
+                                "joint.spring_Nm_per_rad",
+                                "joint.friction_ratio",
+                                "joint.pretension_N",
+                                "joint.min_angle_deg",
+                                "joint.max_angle_deg",
+                                "joint.co_contraction_W",
+                                "joint.antagonist_muscle",
                                 "power.pwm_bits",
                                 "power.delay_s",
                                 "power.error_feedback",
@@ -49,7 +58,11 @@ constexpr std::array fixed_keys{"simulation",
                                 "sensor.position.rate_Hz",
                                 "sensor.position.resolution_bits"};
 
-void refuse_fixed_keys(const toml::table& event, config::Diagnostics& diagnostics) {
+void refuse_fixed_keys(const toml::table& event, bool has_joint, config::Diagnostics& diagnostics) {
+  if (const toml::node* joint = event.get("joint"); joint != nullptr && !has_joint) {
+    diagnostics.add(static_cast<int>(joint->source().begin.line), "event.joint",
+                    "needs a [joint] from the start");
+  }
   for (const char* fixed : fixed_keys) {
     const toml::node* node = event.at_path(fixed).node();
     if (node == nullptr) continue;
@@ -84,7 +97,7 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
   } else {
     for (toml::node& element : *node->as_array()) {
       toml::table& event = *element.as_table();
-      refuse_fixed_keys(event, diagnostics);
+      refuse_fixed_keys(event, document.contains("joint"), diagnostics);
       if (!event.contains("at_s")) {
         diagnostics.add(static_cast<int>(event.source().begin.line), "event.at_s",
                         "is missing: when does the event happen?");
@@ -136,13 +149,14 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   scenario.crc32 = crc32_of(document);
   read_simulation(document, scenario, diagnostics);
   std::vector<WrittenEvent> events = take_events(document, scenario.duration_s, diagnostics);
-  const auto configured = read_muscle(document, diagnostics);
-  const auto believed = learned ? learned->muscle : configured;
+  const BelievedMuscles configured = read_muscles(document, diagnostics);
+  BelievedMuscles believed = configured;
+  if (learned) believed.muscle = learned->muscle;
   scenario.start = read_conditions(document, believed, scenario.step_s(), diagnostics);
   scenario.calibration.cold_resistance_Ohm = scenario.start.plant.resistance_Ohm;
   if (learned) {
     scenario.calibration = learned->calibration;
-    scenario.muscle_identified = !(learned->muscle == configured);
+    scenario.muscle_identified = !(learned->muscle == configured.muscle);
     scenario.response_ratio = learned->response_ratio;
   }
   // Each event is laid over all before it, and the whole is read and checked again. Events at one

@@ -91,6 +91,7 @@ TEST(SimulatedJoint, AMuscleBesideItIsAsOnABoardOfItsOwn) {
     DOUBLES_EQUAL(alone.board.channel(0).plant().position_m(), beside.board.channel(2).position_m(),
                   0.0);
   }
+  CHECK_COMPARE(beside.rise_K(2), >, 5.0);
 }
 
 TEST(SimulatedJoint, ABrokenHeaterWireLeavesItsMuscleCold) {

@@ -1,0 +1,159 @@
+// [joint]: two muscles that turn one lever against each other.
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <sstream>
+
+#include "config/read_control.hpp"
+#include "scenario/read_tables.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+using config::Diagnostics;
+using config::Section;
+
+constexpr double rad_per_deg = std::numbers::pi / 180.0;
+
+/// Of [plant], what has another name in a joint.
+struct RenamedInJoint {
+  const char* plant;
+  const char* joint;
+};
+constexpr std::array<RenamedInJoint, 4> renamed_in_joint{{{"load_N", "load_Nm"},
+                                                          {"friction_ratio", "friction_ratio"},
+                                                          {"end_stop_m", "min_angle_deg"},
+                                                          {"ceiling_m", "max_angle_deg"}}};
+
+JointPlantSettings read_lever(Section& section) {
+  JointPlantSettings p;
+  p.lever_m = section.number("lever_m", p.lever_m, {1e-3, 1.0});
+  p.inertia_kg_m2 = section.number("inertia_kg_m2", p.inertia_kg_m2, {1e-9, 100.0});
+  p.damping_Nms_per_rad = section.number("damping_Nms_per_rad", 0.0, {0.0, 100.0});
+  p.spring_Nm_per_rad = section.number("spring_Nm_per_rad", 0.0, {0.0, 1e3});
+  p.friction_ratio = section.number("friction_ratio", 0.0, {0.0, 1.0});
+  p.pretension_N = section.number("pretension_N", p.pretension_N, {0.0, 1e3});
+  p.weight_Nm = section.number("weight_Nm", 0.0, {-100.0, 100.0});
+  p.min_angle_rad = rad_per_deg * section.number("min_angle_deg", -45.0, {-180.0, -1.0});
+  p.max_angle_rad = rad_per_deg * section.number("max_angle_deg", 45.0, {1.0, 180.0});
+  return p;
+}
+
+/// What both tables may have wrong is said of the one that is read first.
+void add_new(const Diagnostics& found, Diagnostics& diagnostics) {
+  for (const config::Problem& problem : found.problems()) {
+    const auto& known = diagnostics.problems();
+    const bool said =
+        std::any_of(known.begin(), known.end(), [&problem](const config::Problem& other) {
+          return other.key == problem.key && other.message == problem.message;
+        });
+    if (said) continue;
+    diagnostics.add(problem.line, problem.key, problem.message, problem.value, problem.of_default);
+  }
+}
+
+/// One table of [joint], laid over another one of the document.
+Section laid_over(const toml::table& document, const char* own, const char* under,
+                  Diagnostics& diagnostics) {
+  const Section section(document["joint"][own].as_table(), std::string("joint.") + own,
+                        diagnostics);
+  return section.over(document[under].as_table(), under);
+}
+
+void refuse_keys_of_one_muscle(Section section) {
+  for (const RenamedInJoint& key : renamed_in_joint) {
+    if (!section.has(key.plant)) continue;
+    section.wrong(key.plant,
+                  std::string("is of a muscle by itself; of a joint it is joint.") + key.joint);
+  }
+}
+
+/// As an inertia and two springs beside each other move along the arc.
+control::PhysicalParameters along_the_arc(const JointPlantSettings& joint,
+                                          const control::PhysicalParameters& muscle,
+                                          const control::PhysicalParameters& other) {
+  const double lever2 = joint.lever_m * joint.lever_m;
+  control::PhysicalParameters p = muscle;
+  p.stiffness_N_per_m += other.stiffness_N_per_m + joint.spring_Nm_per_rad / lever2;
+  p.damping_Ns_per_m += other.damping_Ns_per_m + joint.damping_Nms_per_rad / lever2;
+  p.moving_mass_kg = joint.inertia_kg_m2 / lever2;
+  return p;
+}
+
+void refuse_impossible(const control::PhysicalParameters& believed, const std::string& table,
+                       const toml::table& document, Diagnostics& diagnostics) {
+  const auto violation = control::check(believed);
+  if (!violation) return;
+  std::ostringstream message;
+  message << "makes " << table << "." << violation->quantity << " = " << violation->value
+          << ", which must be " << violation->lowest << " to " << violation->highest;
+  diagnostics.add(static_cast<int>(document["joint"].node()->source().begin.line), "joint",
+                  message.str());
+}
+
+}  // namespace
+
+std::optional<JointConditions> read_joint(const toml::table& document, const PlantSettings& plant,
+                                          const control::PhysicalParameters& believed,
+                                          Diagnostics& diagnostics) {
+  if (!document.contains("joint")) return std::nullopt;
+  Section root(&document, "", diagnostics);
+  Section section = root.section("joint");
+  JointConditions joint;
+  joint.plant = read_lever(section);
+  joint.load_Nm = section.number("load_Nm", 0.0, {-100.0, 100.0});
+  joint.antagonist_muscle = believed;
+  section.section("antagonist_muscle");  // read elsewhere
+  joint.antagonist = plant;
+  refuse_keys_of_one_muscle(Section(document["plant"].as_table(), "plant", diagnostics));
+  const Section own = section.section("antagonist");
+  if (own.table() != nullptr) {
+    refuse_keys_of_one_muscle(own);
+    Diagnostics found(diagnostics.file());
+    joint.antagonist = read_plant(laid_over(document, "antagonist", "plant", found));
+    add_new(found, diagnostics);
+  }
+  section.allow({"co_contraction_W"});  // once the power's limits are known
+  section.finish();
+  return joint;
+}
+
+double read_co_contraction_W(const toml::table& document, double max_W, Diagnostics& diagnostics) {
+  Section section(document["joint"].as_table(), "joint", diagnostics);
+  return section.number("co_contraction_W", std::min(JointSettings{}.co_contraction_W, max_W),
+                        {0.0, max_W});
+}
+
+BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnostics) {
+  Diagnostics elsewhere(diagnostics.file());  // read again, and complained of, elsewhere
+  Section plant(document["plant"].as_table(), "plant", elsewhere);
+  const auto agonist = read_plant_parameters(plant);
+  Section muscle(document["muscle"].as_table(), "muscle", diagnostics);
+  if (document["joint"].as_table() == nullptr) {
+    const auto believed = config::read_parameters(muscle, agonist);
+    muscle.finish();
+    return {believed, believed};
+  }
+  Section section(document["joint"].as_table(), "joint", elsewhere);
+  const JointPlantSettings lever = read_lever(section);
+  Section other = laid_over(document, "antagonist", "plant", elsewhere);
+  const auto antagonist = read_plant_parameters(other);
+
+  BelievedMuscles believed;
+  believed.muscle = config::read_parameters(muscle, along_the_arc(lever, agonist, antagonist));
+  muscle.finish();
+  Diagnostics found(diagnostics.file());
+  Section other_muscle = laid_over(document, "antagonist_muscle", "muscle", found);
+  believed.antagonist =
+      config::read_parameters(other_muscle, along_the_arc(lever, antagonist, agonist));
+  other_muscle.finish();
+  add_new(found, diagnostics);
+  if (elsewhere.empty()) {
+    refuse_impossible(believed.muscle, "muscle", document, diagnostics);
+    refuse_impossible(believed.antagonist, "joint.antagonist_muscle", document, diagnostics);
+  }
+  return believed;
+}
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,218 @@
+// [joint]: what is read of it, and the boards and runs that come of it.
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+#include <nlohmann/json.hpp>
+
+#include "runner/board_of.hpp"
+#include "runner/summary.hpp"
+#include "unit/host_sim/support/scenarios.hpp"
+
+using namespace supercoil;
+using namespace supercoil::host_sim;
+using supercoil::test::problems;
+using supercoil::test::read;
+
+namespace {
+
+void check_joint_answer(const char* expected, const std::string& text) {
+  STRCMP_EQUAL((std::string("s.toml:") + expected + "\n").c_str(), problems(text).c_str());
+}
+
+TickRecord last_of(Simulation& simulation, Summary& summary) {
+  TickRecord record;
+  while (!simulation.done()) {
+    record = simulation.step();
+    summary.add(record);
+  }
+  return record;
+}
+
+}  // namespace
+
+TEST_GROUP(JointScenario){};
+
+TEST(JointScenario, IsOnlyThereWhereItsTableIs) {
+  CHECK_FALSE(read("").start.joint.has_value());
+  CHECK(read("[joint]").start.joint.has_value());
+}
+
+TEST(JointScenario, TheBoardBelievesBothMusclesAndTheLever) {
+  const Scenario s = read(
+      "[joint]\nlever_m = 0.02\ninertia_kg_m2 = 4e-5\nspring_Nm_per_rad = 0.004\n"
+      "damping_Nms_per_rad = 0.0002\n[joint.antagonist]\nstiffness_N_per_m = 20.0\n"
+      "thermal_mass_J_per_K = 0.2\n");
+  const control::PhysicalParameters& agonist = s.start.muscle;
+  const control::PhysicalParameters& antagonist = s.start.joint->antagonist_muscle;
+  for (const control::PhysicalParameters* muscle : {&agonist, &antagonist}) {
+    DOUBLES_EQUAL(16.0 + 20.0 + 10.0, muscle->stiffness_N_per_m, 1e-9);
+    DOUBLES_EQUAL(2.0 + 2.0 + 0.5, muscle->damping_Ns_per_m, 1e-9);
+    DOUBLES_EQUAL(0.1, muscle->moving_mass_kg, 1e-12);
+  }
+  DOUBLES_EQUAL(0.162, agonist.thermal_mass_J_per_K, 0.0);
+  DOUBLES_EQUAL(0.2, antagonist.thermal_mass_J_per_K, 0.0);
+}
+
+TEST(JointScenario, WhatTheBoardIsToldOfTheMusclesIsLaidOverThat) {
+  const Scenario s = read(
+      "[muscle]\nstiffness_N_per_m = 30.0\nheat_transfer_W_per_K = 0.1\n[joint]\n"
+      "[joint.antagonist_muscle]\nstiffness_N_per_m = 40.0\n");
+  DOUBLES_EQUAL(30.0, s.start.muscle.stiffness_N_per_m, 0.0);
+  DOUBLES_EQUAL(40.0, s.start.joint->antagonist_muscle.stiffness_N_per_m, 0.0);
+  DOUBLES_EQUAL(0.1, s.start.joint->antagonist_muscle.heat_transfer_W_per_K, 0.0);
+  DOUBLES_EQUAL(4.0, s.start.joint->antagonist_muscle.damping_Ns_per_m, 0.0);
+}
+
+TEST(JointScenario, TheAntagonistIsTheAgonistButForWhatIsSaid) {
+  const Scenario s = read(
+      "[plant]\npreset = 'real'\nresistance_Ohm = 8.0\n[joint]\n[joint.antagonist]\n"
+      "creep_ratio = 0.2\n");
+  PlantSettings expected = s.start.plant;
+  expected.effects.creep_ratio = 0.2;
+  CHECK(expected == s.start.joint->antagonist);
+}
+
+TEST(JointScenario, ItsSensorAndReferenceGoToBothSides) {
+  const Conditions c = read("[joint]").start;
+  DOUBLES_EQUAL(-0.008, c.position_sensor.min_m, 0.0);
+  DOUBLES_EQUAL(0.008, c.position_sensor.range_m, 0.0);
+  DOUBLES_EQUAL(-0.005, c.reference.lowest(), 1e-12);
+  DOUBLES_EQUAL(0.005, c.reference.highest(), 1e-12);
+  DOUBLES_EQUAL(
+      -0.012, read("[joint]\n[sensor.position]\nrange_m = 0.012").start.position_sensor.min_m, 0.0);
+}
+
+TEST(JointScenario, AnEventMayChangeLoadsDampingAndTheAntagonist) {
+  const Scenario s = read(
+      "[joint]\n[[event]]\nat_s = 1.0\njoint.load_Nm = 0.002\njoint.weight_Nm = 0.001\n"
+      "joint.damping_Nms_per_rad = 0.0001\njoint.antagonist.stiffness_N_per_m = 12.0\n");
+  const JointConditions& joint = *s.events[0].conditions.joint;
+  DOUBLES_EQUAL(0.002, joint.load_Nm, 0.0);
+  DOUBLES_EQUAL(0.001, joint.plant.weight_Nm, 0.0);
+  DOUBLES_EQUAL(0.0001, joint.plant.damping_Nms_per_rad, 0.0);
+  DOUBLES_EQUAL(12.0, joint.antagonist.parameters.stiffness_N_per_m, 0.0);
+  DOUBLES_EQUAL(32.0, s.events[0].conditions.muscle.stiffness_N_per_m, 0.0);
+}
+
+TEST(JointScenario, WrongOnesAreToldWhatIsAllowed) {
+  check_joint_answer("2: joint.lever_m = 2: must be 0.001 to 1", "[joint]\nlever_m = 2.0");
+  check_joint_answer("2: joint.co_contraction_W = 5: must be 0 to 4.5",
+                     "[joint]\nco_contraction_W = 5.0");
+  check_joint_answer(
+      "2: joint.lever = 0.01: is not a key of [joint]; did you mean lever_m (the unit is part of "
+      "the name)?",
+      "[joint]\nlever = 0.01");
+  check_joint_answer("2: joint.antagonist.force_ratio = 50: must be 0.1 to 20",
+                     "[joint]\nantagonist.force_ratio = 50.0");
+  check_joint_answer("2: joint.antagonist_muscle.stiffness_N_per_m = -1: must be 0.01 to 1e+06",
+                     "[joint]\nantagonist_muscle.stiffness_N_per_m = -1.0");
+  check_joint_answer(
+      "2: plant.load_N = 0.1: is of a muscle by itself; of a joint it is joint.load_Nm",
+      "[plant]\nload_N = 0.1\n[joint]\n");
+  check_joint_answer("1: joint = 3: must be a table: [joint]", "joint = 3");
+  check_joint_answer("3: sensor.position.min_m = 0: must be -10 to -0.0001",
+                     "[joint]\n[sensor.position]\nmin_m = 0.0");
+  check_joint_answer(
+      "1: joint: makes muscle.moving_mass_kg = 10000, which must be 1e-05 to 1000\n"
+      "s.toml:1: joint: makes joint.antagonist_muscle.moving_mass_kg = 10000, which must be 1e-05 "
+      "to 1000",
+      "[joint]\nlever_m = 0.1\ninertia_kg_m2 = 100.0");
+}
+
+TEST(JointScenario, AMistakeInPlantIsToldOnce) {
+  check_joint_answer("2: plant.force_ratio = 50: must be 0.1 to 20",
+                     "[plant]\nforce_ratio = 50.0\n[joint]\nantagonist.creep_ratio = 0.1\n");
+}
+
+TEST(JointScenario, WhatCannotBeReachedIsRefused) {
+  check_joint_answer(
+      "2: reference.kind (its default): the reference goes from 0 to 10 mm, and sensor.position "
+      "and "
+      "the joint's end stops allow -7.992 to 7.992 mm",
+      "[joint]\n[reference]\noffset_m = 0.005\n");
+}
+
+TEST(JointScenario, WhatIsSolderedCannotChange) {
+  check_joint_answer("4: event.joint.lever_m: cannot change during a run",
+                     "[joint]\n[[event]]\nat_s = 1.0\njoint.lever_m = 0.02");
+  check_joint_answer("3: event.joint: needs a [joint] from the start",
+                     "[[event]]\nat_s = 1.0\njoint.load_Nm = 0.02");
+}
+
+TEST(JointScenario, ItsFaultsNeedAJoint) {
+  CHECK(read("[joint]\n[injected_fault]\nantagonist_torn = true")
+            .start.injected_faults.antagonist_torn);
+  check_joint_answer("2: injected_fault.agonist_torn = true: needs a [joint]",
+                     "[injected_fault]\nagonist_torn = true");
+}
+
+TEST(JointScenario, ItsBoardHasTwoChannelsThatSeeItFromBothSides) {
+  const Scenario s = read(
+      "[joint]\nco_contraction_W = 0.7\nlever_m = 0.012\n[joint.antagonist]\n"
+      "resistance_Ohm = 7.0\nthermal_mass_J_per_K = 0.2\n[sensor.position]\nmin_m = -0.006\n"
+      "range_m = 0.009\n");
+  const BoardSettings board = firmware_of(s);
+  LONGS_EQUAL(1, board.joints.size());
+  LONGS_EQUAL(0, board.joints[0].agonist);
+  LONGS_EQUAL(1, board.joints[0].antagonist);
+  DOUBLES_EQUAL(0.012, board.joints[0].lever_m, 0.0);
+  DOUBLES_EQUAL(0.7, board.joints[0].co_contraction_W, 0.0);
+  LONGS_EQUAL(2, board.channels.size());
+  const ChannelSettings& agonist = board.channels[0];
+  const ChannelSettings& antagonist = board.channels[1];
+  DOUBLES_EQUAL(-agonist.position.scaling.per_count, antagonist.position.scaling.per_count, 0.0);
+  DOUBLES_EQUAL(0.006, antagonist.position.scaling.offset, 0.0);
+  DOUBLES_EQUAL(-agonist.supervision.min_position_m, antagonist.supervision.max_position_m, 1e-12);
+  DOUBLES_EQUAL(-agonist.supervision.max_position_m, antagonist.supervision.min_position_m, 1e-12);
+  DOUBLES_EQUAL(0.999 * 0.009, agonist.supervision.max_travel_m, 1e-12);
+  DOUBLES_EQUAL(0.999 * 0.006, antagonist.supervision.max_travel_m, 1e-12);
+  DOUBLES_EQUAL(7.0, antagonist.heater.cold_resistance_Ohm, 0.0);
+  DOUBLES_EQUAL(7.0, antagonist.calibration.cold_resistance_Ohm, 0.0);
+  DOUBLES_EQUAL(0.2, antagonist.thermal.thermal_mass_J_per_K, 0.0);
+  DOUBLES_EQUAL(agonist.limiter.max_W, antagonist.limiter.max_W, 0.0);
+}
+
+TEST(JointScenario, ItsRecordsHaveTheAntagonist) {
+  const Scenario without = read("simulation.duration_s = 0.01");
+  CHECK_FALSE(Simulation(without).step().antagonist.has_value());
+  const Scenario s = read("simulation.duration_s = 5.0\n[joint]\n");
+  Simulation simulation(s);
+  Summary summary({});
+  const TickRecord record = last_of(simulation, summary);
+  CHECK(record.antagonist.has_value());
+  CHECK(std::isfinite(record.antagonist->applied_power_W));
+  CHECK_COMPARE(record.antagonist->coldest_K, <=, record.antagonist->hottest_K);
+  LONGS_EQUAL(0, summary.outside_interval_ticks());
+  DOUBLES_EQUAL(simulation.joint()->position_m(), record.position_m, 0.0);
+  DOUBLES_EQUAL(record.position_m, record.measured_m, 1e-4);
+  const auto json = summary.to_json(s, simulation, 1.0);
+  DOUBLES_EQUAL(json["tracking_max_m"].get<double>() / 0.015 * 180.0 / std::numbers::pi,
+                json["tracking_max_deg"].get<double>(), 1e-12);
+  CHECK_COMPARE(json["hottest_temperature_rise_K"].get<double>(), >=,
+                record.antagonist->temperature_rise_K);
+}
+
+TEST(JointScenario, ATornMuscleTurnsItToTheOthersSide) {
+  for (const bool agonist : {true, false}) {
+    const Scenario s = read(std::string("simulation.duration_s = 10.0\noperator.action = 'disarm'\n"
+                                        "[joint]\n[[event]]\nat_s = 1.0\ninjected_fault.") +
+                            (agonist ? "agonist_torn" : "antagonist_torn") + " = true\n");
+    Simulation simulation(s);
+    Summary summary({});
+    last_of(simulation, summary);
+    DOUBLES_EQUAL(agonist ? -std::numbers::pi / 4.0 : std::numbers::pi / 4.0,
+                  simulation.joint()->angle_rad(), 1e-12);
+  }
+}
+
+TEST(JointScenario, ALoadOfAnEventTurnsIt) {
+  const Scenario s = read(
+      "simulation.duration_s = 10.0\noperator.action = 'disarm'\n[joint]\n[[event]]\nat_s = 1.0\n"
+      "joint.load_Nm = 0.001\njoint.antagonist.stiffness_N_per_m = 24.0\n");
+  Simulation simulation(s);
+  Summary summary({});
+  last_of(simulation, summary);
+  DOUBLES_EQUAL(-0.001 / (0.015 * 0.015 * 40.0), simulation.joint()->angle_rad(), 1e-6);
+}

@@ -41,6 +41,18 @@ TEST_GROUP(Report) {
   }
 };
 
+TEST(Report, AJointsTraceEndsWithItsAntagonist) {
+  TraceWriter writer(folder / "trace.csv", 1, true);
+  TickRecord record;
+  record.antagonist = AntagonistRecord{0.5, 12.0, 10.0, 14.5};
+  writer.add(record, std::nullopt);
+  CHECK(writer.finish().has_value());
+  const std::string text = content(folder / "trace.csv");
+  CHECK(text.find(",thermometer_C,antagonist_applied_power_W,antagonist_temperature_rise_K,"
+                  "antagonist_coldest_K,antagonist_hottest_K\n") != std::string::npos);
+  CHECK(text.find(",,0.5,12,10,14.5\n") != std::string::npos);
+}
+
 TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
   TraceWriter writer(folder / "trace.csv", 2);
   CHECK(writer.wants(0));

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import pathlib
+import random
 import re
 import select
 import socket
@@ -34,15 +35,14 @@ def command(source, *words):
 
 
 def free_ports():
-    """Two ports in a row that nobody listens at: the page's and the stop's."""
+    """Two ports in a row that nobody listens at: the page's and the stop's. They stay free until they are used, and after:
+    from below those that the kernel gives to whoever connects, as other tests do by the thousand meanwhile."""
+    first_given = int(pathlib.Path("/proc/sys/net/ipv4/ip_local_port_range").read_text().split()[0])
     while True:
-        with socket.socket() as first, socket.socket() as second:
-            first.bind(("127.0.0.1", 0))
-            port = first.getsockname()[1]
-            try:
-                second.bind(("127.0.0.1", port + 1))
-            except (OSError, OverflowError):
-                continue
+        port = random.randrange(10000, max(first_given, 12000) - 1)
+        with socket.socket() as first, socket.socket() as second, contextlib.suppress(OSError):
+            first.bind(("127.0.0.1", port))
+            second.bind(("127.0.0.1", port + 1))
             return port
 
 
@@ -80,9 +80,9 @@ class Program:
 
 
 def simulated_board(port=0):
-    """Its .found[1] is the port of its socketcand; 0 takes a free one."""
+    """Its .found[1] is the port of its socketcand: this one, or one at which another board may be started later."""
     program = os.environ.get("SUPERCOIL_SIM", BIN / "supercoil-sim")
-    return Program([program, "run", "bench", "--real-time", "--can", f"socketcand:{port}"],
+    return Program([program, "run", "bench", "--real-time", "--can", f"socketcand:{port or free_ports()}"],
                    r"serving can0 on 127\.0\.0\.1:(\d+)")
 
 

@@ -17,7 +17,7 @@ import unittest
 
 import accessibility_test
 from page_test import PICTURES, Page, TRIES
-from programs import BIN, ROOT, SLACK_S, SUPERCOIL, Program, command, monitor
+from programs import BIN, ROOT, SLACK_S, SUPERCOIL, Program, command, free_ports, monitor
 from selenium.webdriver.common.keys import Keys
 
 EXAMPLE = ROOT / "firmware" / "io" / "config" / "examples" / "raspberry-pi-pwm-ads1115.toml"
@@ -85,8 +85,8 @@ class SetupCase(unittest.TestCase):
 
     def start_board(self, port=0):
         """With the file as it is now; its senses were never compared with a meter."""
-        board = Program([SIMULATOR, "run", "bench", "--board", self.file, "--real-time", "--can", f"socketcand:{port}"],
-                        r"serving can0 on 127\.0\.0\.1:(\d+)")
+        board = Program([SIMULATOR, "run", "bench", "--board", self.file, "--real-time",
+                         "--can", f"socketcand:{port or free_ports()}"], r"serving can0 on 127\.0\.0\.1:(\d+)")
         self.addCleanup(board.stop)
         return board
 

@@ -232,12 +232,19 @@ class SetupTest(SetupCase):
         self.assertEqual(page.find("#setup form input").get_attribute("value"), "12")
 
     def test_what_moves_the_muscle_by_hand_is_released_when_a_step_begins(self):
-        page = self.described()
-        page.click("#open-setup")
-        page.bring_to(3.0)
-        page.click("#open-setup")
-        page.begin("scale")
-        page.wait(lambda: "setup took over" in page.text(".manual .notice"), SLACK_S, "the page says who has the muscle")
+        for _ in range(TRIES):
+            page = self.described()
+            page.click("#open-setup")
+            page.bring_to(3.0)
+            page.click("#open-setup")
+            page.begin("scale")
+            page.wait(lambda page=page: page.text(".manual .notice") != "", SLACK_S, "the page says who has the muscle")
+            if "setup took over" in page.text(".manual .notice"):
+                return
+            self.assertIn("command expired", page.text(".manual .notice"))  # the machine stalled before the step began
+            self.doCleanups()
+            self.setUp()
+        raise AssertionError(f"setup did not take over in {TRIES} tries")
 
     def test_it_is_for_everybody(self):
         page = self.described()

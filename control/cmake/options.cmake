@@ -1,11 +1,16 @@
 # What every target of supercoil is compiled with. It stands beside control, which other projects add without the rest.
 option(SUPERCOIL_WARNINGS_ARE_ERRORS "What the presets set" OFF)
 
-# -O3, which is CMake's, takes a quarter longer to compile, and a simulation the same time.
+# -O3, which is CMake's, takes a quarter longer to compile, and a simulation the same time; but for what a tick runs.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
-# But for what a tick runs.
 function(supercoil_runs_in_ticks target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O3>)
+  supercoil_only_computes(${target})
+endfunction()
+# Of what only computes a fuzz target hears which branches an input took, and not what each of them compared: what an input
+# says is compared where it is read, and to tell of every comparison in every tick takes the tests long.
+function(supercoil_only_computes target)
+  target_compile_options(${target} PRIVATE $<$<BOOL:${SUPERCOIL_FUZZ}>:-fno-sanitize-coverage=trace-cmp,stack-depth>)
 endfunction()
 
 add_library(supercoil_options INTERFACE)
@@ -23,9 +28,10 @@ target_link_options(supercoil_options INTERFACE -Wl,-z,now
   -Wl,--gc-sections)
 
 if(SUPERCOIL_SANITIZE)
-  # -O1: at -O0 the suite takes ten times as long; -g1: half of -g's time to compile, and names and lines remain.
+  # At -O0 the suite takes ten times as long; clang++'s -O1 inlines nothing, and its -O2 takes no longer to compile.
+  # -g1: half of -g's time to compile, and names and lines remain.
   add_compile_options(-fsanitize=${SUPERCOIL_SANITIZE} -fno-sanitize-recover=all
-                      -fno-omit-frame-pointer -O1 -g1
+                      -fno-omit-frame-pointer $<IF:$<CXX_COMPILER_ID:Clang>,-O2,-O1> -g1
                       $<$<CXX_COMPILER_ID:Clang>:-fsanitize-ignorelist=${CMAKE_CURRENT_LIST_DIR}/unsanitized.txt>
                       # g++ knows no fences under ThreadSanitizer; the only ones are in Asio, beside its mutexes.
                       $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)

@@ -71,13 +71,38 @@ void Axis::sample(hal::Time now) {
 void Axis::observe(double supply_V, const board::Measured* air, std::int64_t periods) {
   heater_.observe(supply_V, air, periods);
   prove(periods);
-  inputs_.from_position_K = heater_.indicates_temperature()
-                                ? inputs_.position.value / heater_.heat().metres_per_K()
-                                : 0.0;
-  inputs_.demanded_W = demanded_.demanded_power_W;
+  // Where this muscle alone would be.
+  const double alone_m = inputs_.position.value + other_.expected_m[0];
+  inputs_.from_position_K =
+      heater_.indicates_temperature() ? alone_m / heater_.heat().metres_per_K() : 0.0;
+  inputs_.demanded_W = share_W_;
+  inputs_.opposed_m = other_.expected_m;
+}
+
+control::PowerRange Axis::range() const {
+  const control::PowerRange own = heater_.power_range();
+  return {own.min_W - other_.range.max_W, own.max_W - other_.range.min_W};
+}
+
+control::PowerRange Axis::allowed_range() const {
+  const control::PowerRange range = heater_.power_range();
+  const double cool_W = heater_.limiter().max_W(heater_.heat().hottest_C());
+  return {range.min_W, std::min({range.max_W, cool_W, proven_W()})};
+}
+
+Opposition Axis::opposition(double gain_ratio) const {
+  const board::AppliedPower& acting = heater_.acting();
+  const control::PowerRange own = heater_.power_range();
+  return {gain_ratio * acting.power_W,
+          acting.limited,
+          {gain_ratio * own.min_W, gain_ratio * own.max_W},
+          heater_.heat().expected_m(),
+          heater_.heat().hottest_K()};
 }
 
 void Axis::prove(std::int64_t periods) {
+  // Of one muscle: in a joint the other one moves it as well.
+  if (inputs_.in_joint) return;
   const bool heats = state_.may_heat() && (mode_ == Mode::position || mode_ == Mode::power);
   const board::Measured& position = inputs_.position;
   const board::AppliedPower& acting = heater_.acting();
@@ -89,8 +114,10 @@ void Axis::prove(std::int64_t periods) {
 }
 
 void Axis::estimate() {
-  if (!state_.may_heat() || !inputs_.position.present) return;
-  estimation_.step(inputs_.position.value, heater_.acting().power_W);
+  // What the antagonist could learn the agonist's axis learns, of the same motion and effort.
+  const bool led = mode_ == Mode::joint;
+  if (!state_.may_heat() || !inputs_.position.present || led) return;
+  estimation_.step(inputs_.position.value, moving_W());
   // Once a second: what the estimator knows of cooling, when it may be trusted.
   if (++estimated_ticks_ < ticks_per_s_) return;
   estimated_ticks_ = 0;
@@ -116,16 +143,18 @@ bool Axis::control() {
       input.reference_m = reference_;
       input.trajectory = playback_.point();
       input.position_m = inputs_.position.value;
-      input.applied_power_W = heater_.acting().power_W;
-      input.limited = heater_.acting().limited;
-      input.range = heater_.power_range();
+      input.applied_power_W = moving_W();
+      input.limited = heater_.acting().limited || other_.limited;
+      input.range = range();
       demanded_ = tracking_.step(input, estimation_.estimate());
       return false;
     }
     case Mode::power:
       demanded_.demanded_power_W = reference_;
-      tracking_.set_power(heater_.acting().power_W);
+      tracking_.set_power(moving_W());
       follow_comparisons();
+      return false;
+    case Mode::joint:
       return false;
     case Mode::identify:
       return step_identify();

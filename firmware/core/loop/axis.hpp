@@ -14,6 +14,7 @@
 #include "loop/estimation.hpp"
 #include "loop/heater.hpp"
 #include "loop/known_muscle.hpp"
+#include "loop/opposition.hpp"
 #include "loop/playback.hpp"
 #include "loop/settings.hpp"
 #include "loop/snapshot.hpp"
@@ -36,6 +37,11 @@ class Axis {
 
   // In a tick, in this order.
   void sample(hal::Time now);
+  /// In a joint: what the other muscle does since the last tick.
+  void oppose(const Opposition& other) {
+    other_ = other;
+    inputs_.in_joint = true;
+  }
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
   const AxisInputs& inputs() const { return inputs_; }
@@ -51,8 +57,14 @@ class Axis {
   void estimate();
   /// True when a mode ended: the axis rests.
   bool control();
-  void limit() {
-    heater_.limit(state_, proof_.added_to(demanded_.demanded_power_W), proof_.max_W());
+  /// What the mode wants: in a joint, of both muscles together.
+  double demanded_W() const { return demanded_.demanded_power_W; }
+  /// That its own heater may get now, as hot as the muscle may be and by what it has proven.
+  control::PowerRange allowed_range() const;
+  /// share_W: what its own heater is to give of that.
+  void limit(double share_W) {
+    share_W_ = share_W;
+    heater_.limit(state_, proof_.added_to(share_W), proven_W());
   }
   /// Calibrate probes when it has found the zero, and not before.
   void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
@@ -68,6 +80,10 @@ class Axis {
   void start() { estimation_.restart(); }
   /// Commands of a trajectory.
   Reply play(const Command& command);
+  /// In a joint, of its antagonist: what it pulls with while no effort is asked for.
+  Reply pull_with(double power_W);
+  /// m, or W in open loop and in Mode::joint.
+  double reference() const { return reference_; }
   /// Follows what was admitted. value: m, or W in open loop.
   void follow(Mode mode, double value);
   void rest();
@@ -75,6 +91,13 @@ class Axis {
   void disarm();
   /// Commands that neither arm nor heat.
   Reply obey(const Command& command);
+
+  /// As other_ of the other muscle's axis. gain_ratio: of its gain over this one's.
+  Opposition opposition(double gain_ratio) const;
+  /// Of the muscle as it is known.
+  double dc_gain_m_per_W() const { return muscle_.dc_gain_m_per_W(); }
+  Mode mode() const { return mode_; }
+  bool follows_position() const { return state_.may_heat() && mode_ == Mode::position; }
 
   const Estimation& estimation() const { return estimation_; }
   Heater& heater() { return heater_; }
@@ -92,6 +115,11 @@ class Axis {
   double calibrated(double sensor_m) const {
     return (sensor_m - calibration_.position_offset_m) * calibration_.position_scale;
   }
+  /// That moves the muscle, in watts of its own.
+  double moving_W() const { return heater_.acting().power_W - other_.power_W; }
+  /// What a controller may count on.
+  control::PowerRange range() const;
+  double proven_W() const { return inputs_.in_joint ? INFINITY : proof_.max_W(); }
   void prove(std::int64_t periods);
   void learn_heat();
   LimitedBy limited_by() const;
@@ -130,6 +158,7 @@ class Axis {
   hal::Time position_taken_{-1};
   AxisInputs inputs_;
   Heater heater_;
+  Opposition other_;
   Tracking tracking_;
   Estimation estimation_;
   std::int64_t ticks_per_s_;
@@ -150,6 +179,7 @@ class Axis {
   Playback playback_;
   double reference_ = 0.0;  ///< m, or W in open loop
   control::ControllerOutput demanded_;
+  double share_W_ = 0.0;  ///< of that, from its own heater
   modes::Identify identify_;
   std::unique_ptr<control::CoolingFit> cooling_fit_;  ///< of a weighed muscle; 36 kB
   SmallSignal small_signal_;                          ///< the end of identify

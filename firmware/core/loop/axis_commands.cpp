@@ -37,6 +37,15 @@ Reply Axis::admits(Mode mode, double& value) const {
   return Refusal::none;
 }
 
+Reply Axis::pull_with(double power_W) {
+  const double max_W = heater_.limiter().max_W();
+  const double allowed_W = std::clamp(power_W, 0.0, max_W);
+  if (!(power_W >= 0.0 && power_W <= float_rounding * max_W))
+    return {Refusal::out_of_range, allowed_W};
+  reference_ = allowed_W;
+  return Refusal::none;
+}
+
 void Axis::follow(Mode mode, double value) {
   playback_.forget();
   if (mode != mode_ || value != reference_) restart_comparisons();
@@ -47,7 +56,7 @@ void Axis::follow(Mode mode, double value) {
 /// The channel becomes active in another mode, or changes it while hot.
 void Axis::enter(Mode mode) {
   const bool was_driven = mode_ == Mode::power || mode_ == Mode::position;
-  if (!was_driven) tracking_.set_power(heater_.acting().power_W);
+  if (!was_driven) tracking_.set_power(moving_W());
   if (result_ == ModeResult::running) result_ = ModeResult::interrupted;
   mode_ = mode;
   const double position_m = inputs_.position.value;
@@ -69,7 +78,7 @@ Reply Axis::play(const Command& command) {
   if (command.verb == Verb::start)
     return playback_.start(hal::duration_from(command.value), now_, reference_);
   return playback_.add(command, {control::theta_from(muscle_), muscle_.moving_mass_kg,
-                                 settings_.supervision.max_travel_m, heater_.power_range()});
+                                 settings_.supervision.max_travel_m, range()});
 }
 
 Reply Axis::obey(const Command& command) {

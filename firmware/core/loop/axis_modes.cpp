@@ -9,7 +9,7 @@ namespace supercoil {
 bool Axis::step_identify() {
   if (small_signal_.running()) return step_small_signal();
   const ModeResult now =
-      identify_.step(inputs_.position.value, heater_.acting().power_W, heater_.limiter().max_W());
+      identify_.step(inputs_.position.value, moving_W(), heater_.limiter().max_W());
   // It asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and a power
   // that is cut for so long is a controller's fault.
   demanded_.demanded_power_W =
@@ -34,7 +34,7 @@ bool Axis::step_identify() {
 
 /// What a small motion of the muscle that was found leaves at the sensor.
 bool Axis::step_small_signal() {
-  if (small_signal_.step(inputs_.position.value, heater_.acting().power_W)) {
+  if (small_signal_.step(inputs_.position.value, moving_W())) {
     demanded_.demanded_power_W =
         std::min(small_signal_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
     return false;
@@ -46,7 +46,7 @@ bool Axis::step_small_signal() {
 
 /// Whether its motion is linear does not matter here.
 void Axis::update_cooling_fit() {
-  if (cooling_fit_) cooling_fit_->step(inputs_.position.value, heater_.acting().power_W);
+  if (cooling_fit_) cooling_fit_->step(inputs_.position.value, moving_W());
 }
 
 /// Position and power alone give the muscle's time constant only; a weighed mass makes its heat
@@ -69,8 +69,9 @@ bool Axis::learn_cooling() {
 
 bool Axis::step_calibrate() {
   if (heater_.probing()) return false;
-  const ModeResult now =
-      calibrate_.step(heater_.heat().hottest_K(), inputs_.position.value, step_s_);
+  // The other muscle of a joint moves it as well.
+  const double hottest_K = std::max(heater_.heat().hottest_K(), other_.hottest_K);
+  const ModeResult now = calibrate_.step(hottest_K, inputs_.position.value, step_s_);
   if (now != ModeResult::running) return end_mode(now);
   if (calibrate_.knows_zero()) heater_.start_probe();
   return false;

@@ -43,6 +43,8 @@ void Channel::supervise(const BoardTick& board) {
   const AxisInputs& axis = axis_.inputs();
   const HeaterInputs& heater = axis_.heater().inputs(state_);
   commands_.heating = state_.may_heat();
+  // What leads is renewed, or not, for both.
+  commands_.renewed = commands_.renewed || led();
   present_fault_ = supervisor_.step(axis, heater, commands_);
   // Periods that were left out count as well: in them, nothing was renewed and nothing was heard.
   axis_.judged();
@@ -62,10 +64,18 @@ void Channel::supervise(const BoardTick& board) {
 }
 
 void Channel::control() {
-  if (axis_.control()) state_.rest();
+  const bool moved_joint = moves_joint();
+  if (!axis_.control()) return;
+  state_.rest();
+  if (moved_joint) other_->rest_now();
 }
 
 void Channel::disarm(Fault cause, const detectors::Margin& margin) {
+  make_safe(cause, margin);
+  if (other_ != nullptr) other_->make_safe(cause, margin);
+}
+
+void Channel::make_safe(Fault cause, const detectors::Margin& margin) {
   if (state_.state() != State::fault) {
     first_margin_ = margin;
     cause_is_new_ = cause != Fault::none;
@@ -111,8 +121,7 @@ Reply Channel::obey(const Command& command, const BoardTick& board) {
       disarm(Fault::none);
       return Refusal::none;
     case Verb::reset:
-      reset_requested_ = true;
-      return state_.reset(true, present_fault_ != Fault::none || board.fault != Fault::none);
+      return reset(board);
     case Verb::position:
       return heat(Mode::position, command.value, board);
     case Verb::power:
@@ -133,29 +142,64 @@ Reply Channel::obey(const Command& command, const BoardTick& board) {
   }
 }
 
-Refusal Channel::arm(const BoardTick& board) {
+Refusal Channel::may_arm(const BoardTick& board) const {
   if (state_.state() != State::disarmed) return Refusal::wrong_state;
   const bool quiet = present_fault_ == Fault::none && board.fault == Fault::none;
-  if (!board.proven || !quiet || !axis_.ready()) return Refusal::not_ready;
-  state_.arm();
-  supervisor_.rearmed();
-  axis_.heater().start_probe();
+  return board.proven && quiet && axis_.ready() ? Refusal::none : Refusal::not_ready;
+}
+
+Refusal Channel::arm(const BoardTick& board) {
+  if (const Refusal own = may_arm(board); own != Refusal::none) return own;
+  if (other_ != nullptr) {
+    if (const Refusal others = other_->may_arm(board); others != Refusal::none) return others;
+    other_->arm_now();
+  }
+  arm_now();
   return Refusal::none;
 }
 
-Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
+void Channel::arm_now() {
+  state_.arm();
+  supervisor_.rearmed();
+  axis_.heater().start_probe();
+}
+
+Refusal Channel::reset(const BoardTick& board) {
+  bool persists = present_fault_ != Fault::none || board.fault != Fault::none;
+  reset_requested_ = true;
+  if (other_ != nullptr) {
+    persists = persists || other_->present_fault_ != Fault::none;
+    other_->reset_requested_ = true;
+    other_->state_.reset(true, persists);
+  }
+  return state_.reset(true, persists);
+}
+
+Refusal Channel::may_heat(const BoardTick& board) const {
   const State state = state_.state();
   if (state != State::armed && state != State::active) return Refusal::wrong_state;
   if (!board.proven) return Refusal::not_ready;
-  if (state == State::armed && axis_.heater().probing()) return Refusal::busy;
+  const bool probes = state == State::armed && axis_.heater().probing();
+  return probes ? Refusal::busy : Refusal::none;
+}
+
+Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
+  if (mode == Mode::power && led()) return axis_.pull_with(value);
+  if (const Refusal own = may_heat(board); own != Refusal::none) return own;
+  if (const Refusal joint = joint_admits(mode, board); joint != Refusal::none) return joint;
   if (const Reply reply = axis_.admits(mode, value); reply.refusal != Refusal::none) return reply;
-  if (state == State::armed) {
+  lead(mode);
+  enter(mode, value);
+  commands_.renewed = true;
+  return Refusal::none;
+}
+
+void Channel::enter(Mode mode, double value) {
+  if (state_.state() == State::armed) {
     state_.activate();
     axis_.start();
   }
   axis_.follow(mode, value);
-  commands_.renewed = true;
-  return Refusal::none;
 }
 
 /// A knot is as good as a command to heat. A start may come of a Sync, which is nobody's command.
@@ -167,14 +211,16 @@ Reply Channel::play(const Command& command) {
 }
 
 Refusal Channel::renew() {
-  if (!state_.may_heat()) return Refusal::wrong_state;
+  if (!state_.may_heat() || led()) return Refusal::wrong_state;
   commands_.renewed = true;
   return Refusal::none;
 }
 
 Refusal Channel::rest() {
+  const bool moved_joint = moves_joint();
   if (state_.rest() != Refusal::none) return Refusal::wrong_state;
   axis_.rest();
+  if (moved_joint) other_->rest_now();
   return Refusal::none;
 }
 

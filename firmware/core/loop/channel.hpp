@@ -33,18 +33,26 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
+  /// Before the first tick: the other channel of its joint, which outlives it. leads: commands to
+  /// follow a position come to this one.
+  void join(Channel& other, bool leads) {
+    other_ = &other;
+    leads_ = leads;
+  }
+  Axis& axis() { return axis_; }
+
   // The stages of a tick, in this order.
   void sample(hal::Time now);
   Answer answer(const Command& command, const BoardTick& board);
   void supervise(const BoardTick& board);
   void estimate() { axis_.estimate(); }
   void control();
-  void limit() { axis_.limit(); }
+  void limit() { axis_.limit(axis_.demanded_W()); }  ///< in a joint it is Joint::limit's
   void drive() { axis_.drive(); }
   const Snapshot& publish(const BoardTick& board, const Verdict& board_verdict);
 
-  /// The one way of making the channel safe: duty 0 and enable low, at once. Fault::none is an
-  /// ordinary stop.
+  /// The one way of making the channel safe, and the other one of its joint: duty 0 and enable low,
+  /// at once. Fault::none is an ordinary stop.
   void disarm(Fault cause, const detectors::Margin& margin = {});
   /// For the self-test: a duty and the enable line by hand. Only while disarmed.
   void test_drive(double duty, bool enable) { axis_.heater().test_drive(duty, enable); }
@@ -96,13 +104,31 @@ class Channel {
 
  private:
   Reply obey(const Command& command, const BoardTick& board);
+  void make_safe(Fault cause, const detectors::Margin& margin);
+  Refusal may_arm(const BoardTick& board) const;
   Refusal arm(const BoardTick& board);
+  void arm_now();
+  Refusal reset(const BoardTick& board);
+  Refusal may_heat(const BoardTick& board) const;
   Reply heat(Mode mode, double value, const BoardTick& board);
+  void enter(Mode mode, double value);
   Reply play(const Command& command);
   Refusal renew();
   Refusal rest();
 
+  // In a joint (channel_in_joint.cpp):
+  /// It follows the joint's position, or is led by the other one that does.
+  bool moves_joint() const;
+  bool led() const;
+  /// Whether the other one lets this one heat.
+  Refusal joint_admits(Mode mode, const BoardTick& board) const;
+  /// Before this one's mode changes: the other one begins, or ends, to be led.
+  void lead(Mode mode);
+  void rest_now();
+
   std::uint8_t index_;
+  Channel* other_ = nullptr;  ///< of its joint; null: it is in none
+  bool leads_ = true;
   ChannelState state_;
   Axis axis_;
   Tuner tuner_;

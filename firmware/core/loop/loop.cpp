@@ -38,6 +38,16 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
   for (std::size_t i = 0; i < settings.channels.size(); ++i) {
     channels_.push_back(std::make_unique<Channel>(
         settings.channels[i], settings, devices.channels[i], static_cast<std::uint8_t>(i)));
+    single_.push_back(channels_.back().get());
+  }
+  for (const JointSettings& joint : settings.joints) {
+    Channel& agonist = *channels_[joint.agonist];
+    Channel& antagonist = *channels_[joint.antagonist];
+    agonist.join(antagonist, true);
+    antagonist.join(agonist, false);
+    joints_.emplace_back(joint, agonist.axis(), antagonist.axis(), settings.step_s());
+    std::erase(single_, &agonist);
+    std::erase(single_, &antagonist);
   }
 }
 
@@ -49,6 +59,8 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   // Decide: commands, and whether anything may be hot.
   obey();
   judge_board(woke, hal::seconds(woke - due), skipped);
+  for (Joint& joint : joints_)
+    joint.observe();
   for (const auto& channel : channels_)
     channel->supervise(now_);
   for (const auto& channel : channels_) {
@@ -60,8 +72,11 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   for (const auto& channel : channels_) {
     channel->estimate();
     channel->control();
-    channel->limit();
   }
+  for (Channel* const channel : single_)
+    channel->limit();
+  for (Joint& joint : joints_)
+    joint.limit();
 
   // Drive: watts become duties.
   if (!now_.proven) {

@@ -9,6 +9,7 @@
 #include <boost/lockfree/spsc_queue.hpp>
 
 #include "loop/channel.hpp"
+#include "loop/joint.hpp"
 #include "loop/row.hpp"
 #include "loop/self_test.hpp"
 #include "supervisor/board_supervisor.hpp"
@@ -97,6 +98,8 @@ class Loop {
   BoardSettings settings_;
   board::Devices devices_;
   std::vector<std::unique_ptr<Channel>> channels_;  ///< they cannot move
+  std::vector<Joint> joints_;
+  std::vector<Channel*> single_;  ///< channels of no joint
   BoardSupervisor supervisor_;
   BoardInputs inputs_;
   board::Measured air_;  ///< in °C

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace supercoil {
@@ -38,6 +39,25 @@ std::vector<SettingsProblem> problems_of_arithmetic(const Settings& settings, co
   return {{"arithmetic", "must be double or float: the covariance of " +
                              std::string(control::name_of(names, settings.kind)) +
                              " does not fit q8.24"}};
+}
+
+/// Each takes two channels that no other joint has.
+std::optional<SettingsProblem> check_joints(const BoardSettings& settings) {
+  std::set<std::size_t> taken;
+  for (const JointSettings& joint : settings.joints) {
+    for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
+      const std::string number = std::to_string(channel + 1);
+      if (channel >= settings.channels.size()) {
+        return SettingsProblem{"joint", "channel " + number + " is none of the board's " +
+                                            std::to_string(settings.channels.size())};
+      }
+      if (!taken.insert(channel).second)
+        return SettingsProblem{"joint", "channel " + number + " pulls twice"};
+    }
+    if (!(joint.lever_m > 0.0) || !(joint.co_contraction_W >= 0.0))
+      return SettingsProblem{"joint", "lever_m must exceed 0, and co_contraction_W be 0 or more"};
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -168,7 +188,7 @@ std::optional<SettingsProblem> check(const BoardSettings& settings) {
     if (channel.controllers.empty() || channel.estimators.empty())
       return SettingsProblem{"", "a channel needs a controller and an estimator"};
   }
-  return std::nullopt;
+  return check_joints(settings);
 }
 
 }  // namespace supercoil

@@ -17,10 +17,17 @@
 namespace supercoil {
 
 /// What an active channel does.
-enum class Mode : std::uint8_t { rest, position, power, identify, calibrate };
+enum class Mode : std::uint8_t {
+  rest,
+  position,
+  power,
+  identify,
+  calibrate,
+  joint,  ///< does its part of what the other channel of its joint follows
+};
 
-inline constexpr std::array<std::string_view, 5> mode_names{"rest", "position", "power", "identify",
-                                                            "calibrate"};
+inline constexpr std::array<std::string_view, 6> mode_names{"rest",     "position",  "power",
+                                                            "identify", "calibrate", "joint"};
 
 /// What an estimator may tell beside theta: a bias of the power, and standard deviations.
 inline constexpr std::array<std::string_view, 7> multiplexed_names{

@@ -13,6 +13,9 @@ struct AxisInputs {
   double sensor_m = 0.0;            ///< the same as the sensor gives it
   double position_elapsed_s = 0.0;  ///< since the last fresh position; 0: this one is not fresh
   double demanded_W = 0.0;          ///< by the controller, at the last tick
+  bool in_joint = false;
+  /// By how much the other muscle of the joint moves it away, as HeaterInputs::expected_m.
+  detectors::NotResponding::Expected opposed_m{};
   double from_position_K = 0.0;  ///< temperature that the position tells, beside the resistance's
   bool unanswered = false;       ///< the muscle was asked to prove that it answers, and did not,
   detectors::Margin answer;      ///< and by how much

@@ -97,7 +97,9 @@ void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs&
   if (!heater.current.present) return;
   if (axis.position.present) {
     verdict_.note(heater_not_responding,
-                  not_responding_.step(axis.position.value, heater.expected_m), not_responding_);
+                  not_responding_.step(axis.position.value, heater.expected_m,
+                                       axis.in_joint ? &axis.opposed_m : nullptr),
+                  not_responding_);
   }
   if (axis.unanswered) {
     verdict_.note(heater_not_responding, unanswered_.step(true, axis.answer), unanswered_);

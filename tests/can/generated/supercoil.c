@@ -4329,12 +4329,12 @@ double supercoil_status_mode_decode(uint8_t value)
 
 bool supercoil_status_mode_is_in_range(uint8_t value)
 {
-    return (value <= 4u);
+    return (value <= 5u);
 }
 
 bool supercoil_status_mode_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 4.0));
+    return ((value >= 0.0) && (value <= 5.0));
 }
 
 uint8_t supercoil_status_fault_encode(double value)

@@ -638,6 +638,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_MODE_POWER_CHOICE (2u)
 #define SUPERCOIL_STATUS_MODE_IDENTIFY_CHOICE (3u)
 #define SUPERCOIL_STATUS_MODE_CALIBRATE_CHOICE (4u)
+#define SUPERCOIL_STATUS_MODE_JOINT_CHOICE (5u)
 
 #define SUPERCOIL_STATUS_FAULT_NONE_CHOICE (0u)
 #define SUPERCOIL_STATUS_FAULT_SENSOR_OUT_OF_RANGE_CHOICE (10u)
@@ -2129,7 +2130,7 @@ struct supercoil_status_t {
     /**
      * What an active channel does.
      *
-     * Range: 0..4 (0..4 -)
+     * Range: 0..5 (0..5 -)
      * Scale: 1
      * Offset: 0
      */

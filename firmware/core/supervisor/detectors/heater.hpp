@@ -82,8 +82,12 @@ class NotResponding final : public Detector {
   /// and the slowest that the bounds of its heat allow.
   using Expected = std::array<double, 3>;
 
-  bool step(double position_m, const Expected& expected_m) {
-    const Motions motions = possible(expected_m);
+  /// opposed_m: by how much the other muscle of a joint takes that back; null: there is none. What
+  /// is believed of both gains may be wrong, and two muscles then hold still what believed ones
+  /// would move: that is judged only if no gain of the other muscle explains it.
+  bool step(double position_m, const Expected& expected_m, const Expected* opposed_m = nullptr) {
+    count_ = opposed_m != nullptr ? std::tuple_size_v<Motions> : steps + 2;
+    const Motions motions = possible(expected_m, opposed_m);
     if (elapsed_s_ == 0.0) {
       low_ = high_ = position_m;
       expected_low_ = expected_high_ = motions;
@@ -93,7 +97,7 @@ class NotResponding final : public Detector {
     high_ = std::max(high_, position_m);
     // The models have heat only: a muscle may still be on its way.
     if (elapsed_s_ <= in_time_ratio * settings_.window_s) {
-      for (std::size_t i = 0; i < motions.size(); ++i) {
+      for (std::size_t i = 0; i < count_; ++i) {
         expected_low_[i] = std::min(expected_low_[i], motions[i]);
         expected_high_[i] = std::max(expected_high_[i], motions[i]);
       }
@@ -107,7 +111,7 @@ class NotResponding final : public Detector {
   /// Of the window so far.
   Margin margin() const override {
     double expected = expected_high_[0] - expected_low_[0];
-    for (std::size_t i = 1; i < expected_low_.size(); ++i)
+    for (std::size_t i = 1; i < count_; ++i)
       expected = std::min(expected, expected_high_[i] - expected_low_[i]);
     const bool judged = expected >= settings_.min_expected_m;
     return {high_ - low_, settings_.min_ratio * expected, true, judged};
@@ -119,13 +123,24 @@ class NotResponding final : public Detector {
   /// The believed muscle, and in eight steps from the fastest to the slowest: where one of those
   /// still rises and the other falls already, one between them stands still.
   static constexpr std::size_t steps = 8;
-  using Motions = std::array<double, steps + 2>;
+  /// Of the other muscle's gain over its believed one, with this muscle's as believed; 0: it does
+  /// nothing.
+  static constexpr std::array gains{0.0, 0.1,  0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0,
+                                    1.1, 1.25, 1.4, 1.6, 1.8, 2.1, 2.5, 3.0, 4.0, 6.0, 10.0};
+  using Motions = std::array<double, steps + 2 + gains.size()>;
 
-  static Motions possible(const Expected& expected_m) {
-    const auto [believed, fastest, slowest] = expected_m;
+  static Motions possible(const Expected& expected_m, const Expected* opposed_m) {
+    const Expected none{};
+    const Expected& opposed = opposed_m != nullptr ? *opposed_m : none;
+    const double believed = expected_m[0] - opposed[0];
+    const double fastest = expected_m[1] - opposed[1];
+    const double slowest = expected_m[2] - opposed[2];
     Motions motions{believed};
     for (std::size_t i = 0; i <= steps; ++i)
       motions[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
+    if (opposed_m == nullptr) return motions;
+    for (std::size_t i = 0; i < gains.size(); ++i)
+      motions[steps + 2 + i] = expected_m[0] - gains[i] * opposed[0];
     return motions;
   }
 
@@ -134,6 +149,7 @@ class NotResponding final : public Detector {
   double elapsed_s_ = 0.0;
   double low_ = 0.0;
   double high_ = 0.0;
+  std::size_t count_ = steps + 2;  ///< of the motions that are possible
   Motions expected_low_{};
   Motions expected_high_{};
 };

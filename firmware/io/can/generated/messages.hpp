@@ -76,12 +76,13 @@ inline constexpr std::array<ValueName, 8> names_of_limited_by{{
     {7, "unproven"},
 }};
 
-inline constexpr std::array<ValueName, 5> names_of_mode{{
+inline constexpr std::array<ValueName, 6> names_of_mode{{
     {0, "rest"},
     {1, "position"},
     {2, "power"},
     {3, "identify"},
     {4, "calibrate"},
+    {5, "joint"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_opcode{{

@@ -82,6 +82,7 @@ class Mode(Named):
     power = 2
     identify = 3
     calibrate = 4
+    joint = 5
 
 
 class Opcode(Named):

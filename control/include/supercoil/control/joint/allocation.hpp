@@ -1,0 +1,56 @@
+// The effort that a joint needs, divided between two muscles that pull against each other.
+#pragma once
+
+#include <cmath>
+
+#include "supercoil/control/tracking/law.hpp"
+
+namespace supercoil::control {
+
+/// Of both heaters, each in its own watts.
+struct PairPower {
+  double agonist_W = 0.0;
+  double antagonist_W = 0.0;
+};
+
+/// A law moves a joint by one number, the effort v = P₁ − g P₂ in watts of the agonist, where g is
+/// the antagonist's DC gain over the agonist's: so many watts of the agonist move the joint as far
+/// as one of the antagonist. Without a state, so nothing in it can wind up.
+class JointAllocation {
+ public:
+  /// What both heaters may have.
+  struct Ranges {
+    PowerRange agonist;
+    PowerRange antagonist;
+  };
+
+  /// gain_ratio: g > 0.
+  explicit JointAllocation(double gain_ratio) : gain_ratio_(gain_ratio) {}
+
+  /// Half of the effort comes from each, around co_contraction_W >= 0, of which both pull alike:
+  /// P₁ = c + v/2, g P₂ = c − v/2. What one of them cannot give is left to the other. Within the
+  /// ranges; the effort is the one that was asked for while effort_range() has it, and the nearest
+  /// otherwise. An effort that is no number gives none.
+  PairPower divide(double effort_W, double co_contraction_W, const Ranges& ranges) const {
+    if (!std::isfinite(effort_W)) return {NAN, NAN};
+    const PowerRange against{gain_ratio_ * ranges.antagonist.min_W,
+                             gain_ratio_ * ranges.antagonist.max_W};
+    const double first_W = ranges.agonist.clip(co_contraction_W + 0.5 * effort_W);
+    const double against_W = against.clip(first_W - effort_W);
+    return {ranges.agonist.clip(against_W + effort_W), against_W / gain_ratio_};
+  }
+
+  double effort_W(const PairPower& power) const {
+    return power.agonist_W - gain_ratio_ * power.antagonist_W;
+  }
+  /// Every effort that the ranges allow.
+  PowerRange effort_range(const Ranges& ranges) const {
+    return {ranges.agonist.min_W - gain_ratio_ * ranges.antagonist.max_W,
+            ranges.agonist.max_W - gain_ratio_ * ranges.antagonist.min_W};
+  }
+
+ private:
+  double gain_ratio_;
+};
+
+}  // namespace supercoil::control

@@ -1,0 +1,65 @@
+#include "loop/joint.hpp"
+
+#include <algorithm>
+
+#include "supercoil/control/joint/allocation.hpp"
+
+namespace supercoil {
+
+namespace {
+
+/// Of the antagonist's muscle over the agonist's, as they are known.
+double gain_ratio(const Axis& agonist, const Axis& antagonist) {
+  return antagonist.dc_gain_m_per_W() / agonist.dc_gain_m_per_W();
+}
+
+}  // namespace
+
+Joint::Joint(const JointSettings& settings, Axis& agonist, Axis& antagonist, double step_s)
+    : agonist_(agonist),
+      antagonist_(antagonist),
+      first_W_(settings.co_contraction_W),
+      lag_ratio_(step_s / co_contraction_lag_s) {}
+
+void Joint::observe() {
+  const double ratio = gain_ratio(agonist_, antagonist_);
+  const Opposition of_antagonist = antagonist_.opposition(ratio);
+  antagonist_.oppose(agonist_.opposition(1.0 / ratio));
+  agonist_.oppose(of_antagonist);
+}
+
+/// The antagonist's reference is what it is to pull with while the joint asks for no effort.
+void Joint::follow_co_contraction(bool active, double gain_ratio) {
+  if (!active) {
+    nearly_W_ = co_contraction_W_ = 0.0;
+  } else if (!was_active_) {
+    antagonist_.pull_with(std::min(first_W_ / gain_ratio, antagonist_.heater().limiter().max_W()));
+  }
+  was_active_ = active;
+  if (!active) return;
+  nearly_W_ += lag_ratio_ * (gain_ratio * antagonist_.reference() - nearly_W_);
+  co_contraction_W_ += lag_ratio_ * (nearly_W_ - co_contraction_W_);
+}
+
+void Joint::limit() {
+  const bool active = agonist_.follows_position();
+  const double ratio = gain_ratio(agonist_, antagonist_);
+  follow_co_contraction(active, ratio);
+  if (!active) {
+    agonist_.limit(agonist_.demanded_W());
+    antagonist_.limit(antagonist_.demanded_W());
+    return;
+  }
+  const control::JointAllocation allocation(ratio);
+  const double effort_W = agonist_.demanded_W();
+  control::PairPower power = allocation.divide(
+      effort_W, co_contraction_W_, {agonist_.allowed_range(), antagonist_.allowed_range()});
+  // What neither can give is asked of the one that should: its limiter then says so.
+  const double missing_W = effort_W - allocation.effort_W(power);
+  if (missing_W > 0.0) power.agonist_W += missing_W;
+  if (missing_W < 0.0) power.antagonist_W -= missing_W / ratio;
+  agonist_.limit(power.agonist_W);
+  antagonist_.limit(power.antagonist_W);
+}
+
+}  // namespace supercoil

@@ -6,6 +6,7 @@
 
 #include "config/read_board.hpp"
 #include "config/read_channel.hpp"
+#include "config/read_joint.hpp"
 #include "config/toml_file.hpp"
 
 namespace supercoil::config {
@@ -27,10 +28,16 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
 }
 
 void read_channels(std::vector<Section> sections, Section& every, const BoardContext& context,
-                   BoardConfig& config) {
+                   const JointReader& joints, BoardConfig& config) {
   for (std::size_t i = 0; i < std::min(sections.size(), max_channels); ++i) {
-    ReadChannel channel = read_channel(sections[i].over(every.table(), "every_channel"),
-                                       static_cast<int>(i + 1), context);
+    std::optional<ReadAgonist> agonist;
+    if (const auto place = joints.agonist_of(i)) {
+      agonist.emplace(
+          ReadAgonist{*place, config.settings.channels[*place], config.wiring.channels[*place]});
+    }
+    ReadChannel channel =
+        read_channel(sections[i].over(every.table(), "every_channel"), static_cast<int>(i + 1),
+                     context, agonist ? &*agonist : nullptr);
     config.settings.channels.push_back(std::move(channel.settings));
     config.wiring.channels.push_back(std::move(channel.wiring));
     config.labels.push_back(std::move(channel.label));
@@ -86,7 +93,9 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
       config.settings,       wiring, air, rules.timeout_s, rules.damaged_in_a_row,
       rules.refused_in_a_row};
   const std::vector<Section> channels = root.sections("channel");
-  read_channels(channels, every, context, config);
+  JointReader joints(root.sections("joint"), std::min(channels.size(), max_channels));
+  read_channels(channels, every, context, joints, config);
+  joints.finish(config);
   Section can = root.section("can");
   if (root.has("can"))
     config.can = read_can(can, config.settings.rate_Hz, config.settings.channels.size());

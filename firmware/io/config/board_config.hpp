@@ -24,11 +24,16 @@ struct ChannelLabel {
       thermal_fuse_C;  ///< at which it opens; 0: not fitted; empty: not configured
 };
 
+struct JointLabel {
+  std::string name;
+};
+
 struct BoardConfig {
   std::string name;
   BoardSettings settings;  ///< passes check()
   BoardWiring wiring;      ///< as many channels as the settings
   std::vector<ChannelLabel> labels;
+  std::vector<JointLabel> joints;  ///< as many as the settings have
   std::optional<telemetry::CanSettings> can;
   std::string storage_folder;  ///< what was learned is kept here
 };

@@ -22,7 +22,7 @@ BusTime bus_time(const BoardWiring& wiring, const BusAddress& bus) {
   for (const ChannelWiring& channel : wiring.channels) {
     const std::string name = "channel " + std::to_string(++number);
     add(channel.pwm.access, name + " PWM");
-    add(channel.position.access, name + " position");
+    if (!channel.position_of) add(channel.position.access, name + " position");
     add(channel.current.access, name + " current");
   }
   return result;

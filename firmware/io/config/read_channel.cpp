@@ -27,6 +27,26 @@ void read_position(Section section, const std::string& owner, const BoardContext
   section.finish();
 }
 
+/// One sensor tells where the joint is: the antagonist's position is the agonist's with the other
+/// sign.
+void mirror_position(Section& section, const ReadAgonist& agonist, ReadChannel& channel) {
+  const ChannelSettings& from = agonist.settings;
+  ChannelSettings& c = channel.settings;
+  section.allow({"position"});
+  if (section.table() != nullptr && section.table()->contains("position")) {
+    section.wrong("position", "is that of its agonist, channel " +
+                                  std::to_string(agonist.index + 1) +
+                                  ", with the other sign: leave it out");
+  }
+  channel.wiring.position = agonist.wiring.position;
+  channel.wiring.position_of = agonist.index;
+  c.position = from.position;
+  c.position.scaling = {-from.position.scaling.per_count, -from.position.scaling.offset};
+  c.supervision.min_position_m = -from.supervision.max_position_m;
+  c.supervision.max_position_m = -from.supervision.min_position_m;
+  c.supervision.position_noise_rms_m = from.supervision.position_noise_rms_m;
+}
+
 /// [channel.current].
 void read_current(Section section, const std::string& owner, const BoardContext& context,
                   ReadChannel& channel) {
@@ -68,7 +88,8 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
 
 }  // namespace
 
-ReadChannel read_channel(Section section, int number, const BoardContext& context) {
+ReadChannel read_channel(Section section, int number, const BoardContext& context,
+                         const ReadAgonist* agonist) {
   const std::string owner = "channel " + std::to_string(number);
   ReadChannel channel;
   ChannelSettings& c = channel.settings;
@@ -78,7 +99,11 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
   channel.label.name = section.text("name", owner);
   channel.wiring.enable = context.wiring.line(section.section("enable"), owner + "'s enable");
   channel.wiring.pwm = context.wiring.pwm(section.section("pwm"), owner + "'s PWM");
-  read_position(section.section("position"), owner, context, channel);
+  if (agonist != nullptr) {
+    mirror_position(section, *agonist, channel);
+  } else {
+    read_position(section.section("position"), owner, context, channel);
+  }
   read_current(section.section("current"), owner, context, channel);
   read_heater(section.section("heater"), context, channel.wiring.pwm, c, channel.label);
   read_limits(section.section("limits"), context, c, channel.label);

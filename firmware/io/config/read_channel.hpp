@@ -24,8 +24,16 @@ struct ReadChannel {
   ChannelLabel label;
 };
 
-/// number: from 1, as messages call it.
-ReadChannel read_channel(Section section, int number, const BoardContext& context);
+/// The agonist of the channel's joint, as it was read.
+struct ReadAgonist {
+  std::size_t index;  ///< from 0
+  const ChannelSettings& settings;
+  const ChannelWiring& wiring;
+};
+
+/// number: from 1, as messages call it. agonist: null for every channel but an antagonist.
+ReadChannel read_channel(Section section, int number, const BoardContext& context,
+                         const ReadAgonist* agonist);
 
 // Its tables; each finishes its section.
 

@@ -72,6 +72,8 @@ struct ChannelWiring {
   PwmAddress pwm;
   ConverterAddress position;
   ConverterAddress current;
+  /// The channel before this one that has this position's converter; empty: it is its own.
+  std::optional<std::size_t> position_of;
 };
 
 struct BoardWiring {

@@ -26,7 +26,7 @@ Captures::Captures(const config::BoardWiring& wiring, hal_linux::Machine machine
   want(wiring.supply);
   if (wiring.air) want(*wiring.air);
   for (const config::ChannelWiring& channel : wiring.channels) {
-    want(channel.position);
+    if (!channel.position_of) want(channel.position);
     want(channel.current);
   }
 }

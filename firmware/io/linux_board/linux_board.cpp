@@ -54,9 +54,12 @@ tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> LinuxBoard::
   for (std::size_t i = 0; i < wiring.channels.size(); ++i) {
     const config::ChannelWiring& where = wiring.channels[i];
     ChannelParts& channel = parts.channels[i];
-    board->channels_.push_back({std::move(*channel.enable.device),
-                                take.pwm(channel.pwm, where.pwm.access),
-                                take.converter(channel.position, where.position.access),
+    auto enable = std::move(*channel.enable.device);
+    auto pwm = take.pwm(channel.pwm, where.pwm.access);
+    std::shared_ptr<hal::AdcChannel> position =
+        where.position_of ? board->channels_[*where.position_of].position
+                          : take.converter(*channel.position, where.position.access);
+    board->channels_.push_back({std::move(enable), std::move(pwm), std::move(position),
                                 take.converter(channel.current, where.current.access)});
   }
   return board;

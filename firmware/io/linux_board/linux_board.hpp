@@ -68,7 +68,7 @@ class LinuxBoard {
   struct Channel {
     std::unique_ptr<hal::DigitalOutput> enable;
     std::unique_ptr<hal::PwmOutput> pwm;
-    std::unique_ptr<hal::AdcChannel> position;
+    std::shared_ptr<hal::AdcChannel> position;  ///< both channels of a joint have one
     std::unique_ptr<hal::AdcChannel> current;
   };
   std::vector<Channel> channels_;

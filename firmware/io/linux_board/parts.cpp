@@ -51,7 +51,7 @@ std::vector<std::string> Parts::missing() const {
   note(supply, all);
   if (air) note(*air, all);
   for (const ChannelParts& channel : channels) {
-    note(channel.position, all);
+    if (channel.position) note(*channel.position, all);
     note(channel.current, all);
   }
   return all;
@@ -77,8 +77,9 @@ Parts open_parts(const config::BoardWiring& wiring, const hal_linux::Machine& ma
   if (wiring.light) parts.light = open.output("light", *wiring.light);
   for (std::size_t i = 0; i < wiring.channels.size(); ++i) {
     const config::ChannelWiring& channel = wiring.channels[i];
-    parts.channels.push_back({std::move(enables[i]), std::move(pwms[i]),
-                              open.converter(part_name(i, "position"), channel.position),
+    std::optional<ConverterPart> position;
+    if (!channel.position_of) position = open.converter(part_name(i, "position"), channel.position);
+    parts.channels.push_back({std::move(enables[i]), std::move(pwms[i]), std::move(position),
                               open.converter(part_name(i, "current"), channel.current)});
   }
   return parts;

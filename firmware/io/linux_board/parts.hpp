@@ -30,7 +30,7 @@ using ConverterPart = Part<hal::AdcChannel>;
 struct ChannelParts {
   OutputPart enable;
   PwmPart pwm;
-  ConverterPart position;
+  std::optional<ConverterPart> position;  ///< empty: another channel's (ChannelWiring::position_of)
   ConverterPart current;
 };
 

@@ -82,7 +82,8 @@ std::vector<Candidate> candidates(const config::BoardConfig& config, linux_board
     const config::ChannelWiring& wiring = config.wiring.channels[i];
     const ChannelSettings& settings = config.settings.channels[i];
     linux_board::ChannelParts& channel = parts.channels[i];
-    all.push_back({&channel.position, &wiring.position, position_of(settings), {}});
+    if (channel.position)
+      all.push_back({&*channel.position, &wiring.position, position_of(settings), {}});
     all.push_back({&channel.current, &wiring.current, current_of(settings), {}});
   }
   return all;

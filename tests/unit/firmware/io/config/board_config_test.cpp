@@ -32,6 +32,13 @@ void check_says(const std::string& text, const std::string& part) {
 
 TEST_GROUP(BoardConfig){};
 
+TEST(BoardConfig, JointExampleIsTwoChannelsAtOneSensor) {
+  const BoardConfig c = example("joint-as5600-ads1115.toml");
+  UNSIGNED_LONGS_EQUAL(2, c.settings.channels.size());
+  UNSIGNED_LONGS_EQUAL(1, c.settings.joints.size());
+  check_says(describe(c), "from -6.9 mm (-26.3°) to 6.9 mm (26.3°)");
+}
+
 TEST(BoardConfig, SlowExampleIsFourChannelsBehindI2c) {
   const BoardConfig c = example("raspberry-pi-pca9685-ads1115.toml");
   STRCMP_EQUAL("four muscles, I2C", c.name.c_str());

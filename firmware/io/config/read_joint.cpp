@@ -1,0 +1,82 @@
+#include "config/read_joint.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace supercoil::config {
+
+namespace {
+
+/// Of the agonist's greatest power, where no co-contraction is given.
+constexpr double usual_co_contraction_ratio = 0.2;
+
+/// In watts of the agonist, of which neither heater can give more than this.
+double co_contraction_W(Section& section, const JointSettings& joint, const BoardSettings& board) {
+  const ChannelSettings& agonist = board.channels[joint.agonist];
+  const ChannelSettings& antagonist = board.channels[joint.antagonist];
+  const double gain_ratio = antagonist.muscle.dc_gain_m_per_W() / agonist.muscle.dc_gain_m_per_W();
+  const double max_W = std::min(agonist.limiter.max_W, gain_ratio * antagonist.limiter.max_W);
+  // What a channel lacks is told there.
+  if (!(max_W > 0.0)) return 0.0;
+  return section.number("co_contraction_W", usual_co_contraction_ratio * max_W, {0.0, max_W});
+}
+
+}  // namespace
+
+JointReader::JointReader(std::vector<Section> sections, std::size_t channels)
+    : sections_(std::move(sections)) {
+  read_places(channels);
+}
+
+std::optional<std::size_t> JointReader::read_place(Section& section, const char* key,
+                                                   std::size_t channels) {
+  const auto most = static_cast<std::int64_t>(std::max<std::size_t>(1, channels));
+  const std::int64_t number = section.required_integer(key, 1, most);
+  if (!section.has(key)) return std::nullopt;
+  const auto place = static_cast<std::size_t>(number - 1);
+  if (std::find(taken_.begin(), taken_.end(), place) != taken_.end()) {
+    section.wrong(key, "is a channel that pulls in a joint already");
+    return std::nullopt;
+  }
+  taken_.push_back(place);
+  return place;
+}
+
+void JointReader::read_places(std::size_t channels) {
+  for (Section& section : sections_) {
+    const auto agonist = read_place(section, "agonist", channels);
+    const auto antagonist = read_place(section, "antagonist", channels);
+    joints_.emplace_back();
+    if (!agonist || !antagonist || std::max(*agonist, *antagonist) >= channels) continue;
+    if (*antagonist < *agonist) {
+      section.wrong("antagonist", "must come after the agonist, whose position it has");
+    } else {
+      joints_.back() = JointSettings{.agonist = *agonist, .antagonist = *antagonist};
+    }
+  }
+}
+
+std::optional<std::size_t> JointReader::agonist_of(std::size_t channel) const {
+  for (const auto& joint : joints_) {
+    if (joint && joint->antagonist == channel) return joint->agonist;
+  }
+  return std::nullopt;
+}
+
+void JointReader::finish(BoardConfig& config) {
+  for (std::size_t i = 0; i < sections_.size(); ++i) {
+    Section& section = sections_[i];
+    const std::string name = section.text("name", "joint " + std::to_string(i + 1));
+    const double lever_m = section.required_number("lever_m", {1e-4, 1.0});
+    section.allow({"co_contraction_W"});
+    if (joints_[i]) {
+      joints_[i]->lever_m = lever_m;
+      joints_[i]->co_contraction_W = co_contraction_W(section, *joints_[i], config.settings);
+      config.settings.joints.push_back(*joints_[i]);
+      config.joints.push_back({name});
+    }
+    section.finish();
+  }
+}
+
+}  // namespace supercoil::config

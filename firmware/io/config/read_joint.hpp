@@ -1,0 +1,35 @@
+// [[joint]]: two channels whose muscles pull one lever against each other.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "config/board_config.hpp"
+#include "config/section.hpp"
+
+namespace supercoil::config {
+
+/// Read in two steps: which channels a joint has must be known before they are read, and what their
+/// muscles may have only afterwards.
+class JointReader {
+ public:
+  /// channels: that the board has.
+  JointReader(std::vector<Section> sections, std::size_t channels);
+
+  /// The agonist of the joint in which this channel is the antagonist; both from 0.
+  std::optional<std::size_t> agonist_of(std::size_t channel) const;
+  /// After the channels. Finishes the sections.
+  void finish(BoardConfig& config);
+
+ private:
+  void read_places(std::size_t channels);
+  std::optional<std::size_t> read_place(Section& section, const char* key, std::size_t channels);
+
+  std::vector<Section> sections_;
+  std::vector<std::optional<JointSettings>> joints_;  ///< empty: its channels are wrong
+  std::vector<std::size_t> taken_;                    ///< channels that are in a joint
+};
+
+}  // namespace supercoil::config

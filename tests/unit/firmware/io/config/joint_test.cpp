@@ -1,0 +1,133 @@
+// Boards with a joint: two channels that pull one lever against each other.
+#include <algorithm>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "config/bus_time.hpp"
+#include "config/describe.hpp"
+#include "unit/firmware/io/config/support/small_board.hpp"
+
+using namespace supercoil;
+using namespace supercoil::config;
+using supercoil::test::problems_of;
+using supercoil::test::small_board;
+
+namespace {
+
+/// Its position is the first channel's.
+const std::string second_channel = R"([[channel]]
+enable = {line = "EN2"}
+pwm = {device = "pwm", number = 1}
+[channel.current]
+device = "adc"
+input = "voltage3"
+A_per_count = 0.0001
+[channel.heater]
+cold_resistance_Ohm = 10.0
+[channel.muscle]
+heat_transfer_W_per_K = 0.0712
+[channel.thermal]
+min_mass_J_per_K = 0.13
+max_mass_J_per_K = 0.20
+min_transfer_W_per_K = 0.045
+max_transfer_W_per_K = 0.18
+[channel.limits]
+max_W = 4.0
+max_travel_m = 0.02
+)";
+const std::string one_joint =
+    "[[joint]]\nname = 'elbow'\nagonist = 1\nantagonist = 2\nlever_m = 0.015\n";
+const std::string board_with_joint =
+    supercoil::test::small_board_with("min_m = -0.001", "min_m = -0.041") + second_channel +
+    one_joint;
+
+BoardConfig read_joint_board(const std::string& text) {
+  const auto config = parse_board_config(text, "b.toml");
+  CHECK_TEXT(config.has_value(), config ? "" : to_text(config.error()).c_str());
+  return config.value();
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& replacement) {
+  const std::size_t at = text.find(old);
+  CHECK_TEXT(at != std::string::npos, old.c_str());
+  return text.replace(at, old.size(), replacement);
+}
+
+void check_answer(const std::string& part, const std::string& text) {
+  STRCMP_CONTAINS(part.c_str(), problems_of(text).c_str());
+}
+
+}  // namespace
+
+TEST_GROUP(JointConfig){};
+
+TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
+  const BoardConfig c = read_joint_board(board_with_joint);
+  UNSIGNED_LONGS_EQUAL(1, c.settings.joints.size());
+  const JointSettings& joint = c.settings.joints[0];
+  UNSIGNED_LONGS_EQUAL(0, joint.agonist);
+  UNSIGNED_LONGS_EQUAL(1, joint.antagonist);
+  DOUBLES_EQUAL(0.015, joint.lever_m, 0.0);
+  STRCMP_EQUAL("elbow", c.joints[0].name.c_str());
+  const ChannelSettings& antagonist = c.settings.channels[1];
+  DOUBLES_EQUAL(-1e-6, antagonist.position.scaling.per_count, 0.0);
+  DOUBLES_EQUAL(-0.041, antagonist.supervision.min_position_m, 0.0);
+  DOUBLES_EQUAL(0.041, antagonist.supervision.max_position_m, 0.0);
+  STRCMP_EQUAL("voltage1", c.wiring.channels[1].position.input.c_str());
+  CHECK(c.wiring.channels[1].position_of == std::size_t{0});
+}
+
+TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {
+  // Of 4 W of the antagonist, each of which moves the joint as far as 0.089/0.0712 of the agonist:
+  // the agonist's 4.5 W are less.
+  DOUBLES_EQUAL(0.2 * 4.5, read_joint_board(board_with_joint).settings.joints[0].co_contraction_W,
+                1e-12);
+  DOUBLES_EQUAL(1.5,
+                read_joint_board(board_with_joint + "co_contraction_W = 1.5\n")
+                    .settings.joints[0]
+                    .co_contraction_W,
+                0.0);
+  check_answer("joint[1].co_contraction_W = 4.6: must be 0 to 4.5",
+               board_with_joint + "co_contraction_W = 4.6\n");
+}
+
+TEST(JointConfig, OneConverterIsReadOnce) {
+  const std::string on_bus = replaced(board_with_joint, "device = \"adc\"\ninput = \"voltage1\"",
+                                      "device = \"adc\"\nbus = \"i2c-1\"\ninput = \"voltage1\"");
+  const BoardConfig c = read_joint_board(on_bus);
+  UNSIGNED_LONGS_EQUAL(1, bus_time(c.wiring, c.wiring.buses[0]).users.size());
+}
+
+TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
+  const std::string text = describe(read_joint_board(board_with_joint));
+  for (const char* part : {"joint 1: elbow", "agonist channel 1, antagonist channel 2",
+                           "lever of 15 mm", "with 0.9 W and 0.7 W", "stiffness   16 N/m"})
+    STRCMP_CONTAINS(part, text.c_str());
+}
+
+TEST(JointConfig, WhatCannotBeIsNamed) {
+  check_answer(
+      "channel[2].position: is that of its agonist, channel 1, with the other sign",
+      replaced(board_with_joint, "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"",
+               "position = {device = \"adc\", input = \"voltage9\"}\n"
+               "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\""));
+  check_answer("joint[1].antagonist = 1: must come after the agonist, whose position it has",
+               replaced(replaced(board_with_joint, "agonist = 1\n", "agonist = 2\n"),
+                        "antagonist = 2", "antagonist = 1"));
+  check_answer("joint[1].antagonist = 1: is a channel that pulls in a joint already",
+               replaced(board_with_joint, "antagonist = 2", "antagonist = 1"));
+  check_answer("joint[1].antagonist = 3: must be 1 to 2",
+               replaced(board_with_joint, "antagonist = 2", "antagonist = 3"));
+  check_answer("joint[2].agonist = 1: is a channel that pulls in a joint already",
+               board_with_joint + one_joint);
+  check_answer("joint[1].lever_m: is missing", replaced(board_with_joint, "lever_m = 0.015\n", ""));
+  check_answer("is not a key of [joint[1]]; did you mean antagonist?",
+               replaced(board_with_joint, "antagonist", "antagonst"));
+  check_answer("is already channel 1's position",
+               replaced(small_board + second_channel,
+                        "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"",
+                        "position = {device = \"adc\", input = \"voltage1\", m_per_count = 1e-6, "
+                        "min_m = 0, max_m = 1}\n"
+                        "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\""));
+}

@@ -93,12 +93,13 @@ void Simulation::pass_rows() {
 }
 
 void Simulation::apply_event(const Event& event) {
+  const Conditions& before = *conditions_;
   conditions_ = &event.conditions;
   MuscleChannel& muscle = board_.channel(0);
   const MuscleChannelSettings settings = muscle_channel_of(*scenario_, *conditions_);
   muscle.set(settings);
   muscle.position.set(settings.position);
-  if (conditions_->joint) change_joint();
+  if (conditions_->joint) change_joint(before);
   board_.set_supply_V(conditions_->power.supply_V);
   set_air();
   inject_faults(conditions_->injected_faults);
@@ -109,10 +110,16 @@ void Simulation::apply_event(const Event& event) {
   if (event.reset) send(Verb::reset);
 }
 
-void Simulation::change_joint() {
+void Simulation::change_joint(const Conditions& before) {
   board_.channel(1).set(antagonist_channel_of(*scenario_, *conditions_));
   board_.joint(0).set(simulated_joint_of(*conditions_));
   loop_.channel(1).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
+  const double wanted_W = conditions_->joint->co_contraction_W;
+  if (wanted_W == before.joint->co_contraction_W) return;
+  // The operator commands it in watts of the antagonist.
+  const double gain_ratio = conditions_->joint->antagonist_muscle.dc_gain_m_per_W() /
+                            conditions_->muscle.dc_gain_m_per_W();
+  loop_.send({1, Verb::power, wanted_W / gain_ratio});
 }
 
 double Simulation::peak_temperature_rise_K() const {

@@ -102,7 +102,7 @@ class Simulation {
   void apply_event(const Event& event);
   void set_air();
   void inject_faults(const InjectedFaults& faults);
-  void change_joint();
+  void change_joint(const Conditions& before);
   AntagonistRecord antagonist_record() const;
   /// What is asked for at this tick, NaN: nothing. Begins a first motion when the muscle is armed.
   double reference_at(double time_s);

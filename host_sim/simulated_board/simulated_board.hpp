@@ -45,6 +45,7 @@ class SimulatedBoard final : public hal::Clock {
 
   MuscleChannel& channel(std::size_t i) { return *channels_[i]; }
   const MuscleChannel& channel(std::size_t i) const { return *channels_[i]; }
+  std::size_t joints() const { return joints_.size(); }
   SimulatedJoint& joint(std::size_t i) { return *joints_[i]; }
   const SimulatedJoint& joint(std::size_t i) const { return *joints_[i]; }
   void set_air_C(double air_C) { air_C_ = air_C; }

@@ -216,3 +216,19 @@ TEST(JointScenario, ALoadOfAnEventTurnsIt) {
   last_of(simulation, summary);
   DOUBLES_EQUAL(-0.001 / (0.015 * 0.015 * 40.0), simulation.joint()->angle_rad(), 1e-6);
 }
+
+TEST(JointScenario, TheOperatorAsksBothToPullHarder) {
+  const Scenario scenario = read(
+      "simulation.duration_s = 12.0\n[joint]\nco_contraction_W = 0.5\n"
+      "[joint.antagonist_muscle]\nheat_transfer_W_per_K = 0.0445\n"
+      "[[event]]\nat_s = 10.0\njoint.co_contraction_W = 1.0\n");
+  Simulation simulation(scenario);
+  const Snapshot& antagonist = simulation.loop().channel(1).snapshot();
+  while (!simulation.done()) {
+    const double time_s = simulation.step().time_s;
+    // In watts of the antagonist, which is believed to move the joint twice as far for a watt.
+    if (time_s > 1.0 && time_s < 9.9) DOUBLES_EQUAL(0.25, antagonist.reference, 1e-9);
+  }
+  DOUBLES_EQUAL(0.5, antagonist.reference, 1e-9);
+  CHECK(antagonist.mode == Mode::joint);
+}

@@ -149,7 +149,7 @@ void AttackedBoard::command() {
 }
 
 void AttackedBoard::watch() {
-  const double true_C = attack_.air_C + board_.channel(0).plant().temperature_rise_K();
+  const double true_C = attack_.air_C + board_.channel(0).temperature_rise_K();
   const Snapshot& s = loop_.channel(0).snapshot();
   damage_.hottest_C = std::max(damage_.hottest_C, true_C);
   damage_.outside_K = std::max({damage_.outside_K, true_C - s.hottest_C, s.coldest_C - true_C});

@@ -75,6 +75,41 @@ RigSettings rough_board(double rate_Hz) {
   return s;
 }
 
+RigSettings joint_board(double rate_Hz) {
+  constexpr double lever_m = 0.015;
+  constexpr double travel_m = 0.008;
+  RigSettings s = rough_board(rate_Hz);
+  host_sim::JointPlantSettings joint;
+  joint.lever_m = lever_m;
+  s.board.joints = {{0, 1, joint, 0.0}};
+  s.firmware.joints = {{0, 1, lever_m, 0.8}};
+  const host_sim::ConverterSettings sensor{-0.012, 0.012, 16, 5e-6};
+  for (std::size_t i = 0; i < s.firmware.channels.size(); ++i) {
+    const double way = i == 0 ? 1.0 : -1.0;
+    control::PhysicalParameters& plant = s.board.channels[i].plant;
+    plant.heat_transfer_W_per_K *= 1.0 + 0.1 * way;
+    plant.force_per_kelvin_N_per_K *= 1.0 - 0.1 * way;
+    s.board.channels[i].position = sensor;
+
+    ChannelSettings& channel = s.firmware.channels[i];
+    channel.muscle.stiffness_N_per_m *= 2.0;
+    channel.muscle.damping_Ns_per_m *= 2.0;
+    channel.muscle.moving_mass_kg = joint.inertia_kg_m2 / (lever_m * lever_m);
+    channel.position.scaling = {way * sensor.per_count(), way * sensor.low};
+    channel.supervision.min_position_m = -0.0119;
+    channel.supervision.max_position_m = 0.0119;
+    channel.supervision.max_travel_m = travel_m;
+    channel.supervision.position_noise_rms_m = sensor.noise_rms;
+    channel.controllers = {controller(control::ControllerKind::learned_ff),
+                           controller(control::ControllerKind::pi)};
+    for (control::ControllerSettings& c : channel.controllers) {
+      c.dc_gain_m_per_W = channel.muscle.dc_gain_m_per_W();
+      c.set_nominal(channel.muscle, channel.limiter.max_W);
+    }
+  }
+  return s;
+}
+
 Rig::Rig(const RigSettings& settings)
     : board(settings.board),
       loop(settings.firmware, board.devices()),
@@ -103,7 +138,7 @@ void Rig::ask() {
 }
 
 void Rig::ask_neighbour() {
-  if (loop.channel(neighbour).state().state() != State::active) return;
+  if (!neighbour_follows_ || loop.channel(neighbour).state().state() != State::active) return;
   loop.send({neighbour, Verb::position, 0.008 + 0.003 * std::sin(0.6 * time_s())});
 }
 
@@ -118,6 +153,7 @@ void Rig::tick() {
   }
   Answer answer;
   while (loop.answer(answer)) {
+    last_answers.at(answer.command.channel) = answer.refusal;
     if (answer.command.channel == neighbour) continue;
     if (answer.refusal != Refusal::none) {
       last_refusal = answer.refusal;
@@ -130,7 +166,7 @@ void Rig::tick() {
 
 void Rig::watch_heat() {
   for (std::size_t i = 0; i < loop.channels(); ++i) {
-    const double true_C = ambient_C_ + board.channel(i).plant().temperature_rise_K();
+    const double true_C = ambient_C_ + board.channel(i).temperature_rise_K();
     const Snapshot& s = loop.channel(i).snapshot();
     interval_missed = interval_missed || true_C > s.hottest_C + 1e-9 || true_C < s.coldest_C - 1e-9;
   }
@@ -163,6 +199,12 @@ Refusal Rig::answer_to(Verb verb, double value) {
   return last_refusal;
 }
 
+Refusal Rig::answer_of(std::uint8_t channel, Verb verb, double value) {
+  loop.send({channel, verb, value});
+  tick();
+  return last_answers.at(channel);
+}
+
 void Rig::hold_power(double power_W, double time_s) {
   for (double end_s = this->time_s() + time_s; this->time_s() < end_s;) {
     send(Verb::power, power_W);
@@ -184,6 +226,7 @@ void Rig::arm() {
 }
 
 void Rig::start_neighbour() {
+  neighbour_follows_ = true;
   loop.send({neighbour, Verb::arm, 0.0});
   run(0.2);
   loop.send({neighbour, Verb::position, 0.008});

@@ -2,6 +2,7 @@
 // averaging current sense, a heater whose resistance tells its temperature.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -21,6 +22,10 @@ struct RigSettings {
 /// Two channels; places of controllers: 0 pi, 1 pd_ff, 2 mrac. What a board's settings must have in
 /// common with its rate has it.
 RigSettings rough_board(double rate_Hz = 1000.0);
+
+/// The same with both muscles at one joint, the tested one its agonist; place 0 is learned_ff. The
+/// muscles differ by 20 % in heat transfer and force.
+RigSettings joint_board(double rate_Hz = 1000.0);
 
 /// Channel 0 is under test, and all that is not said to be the neighbour's is about it.
 class Rig {
@@ -49,6 +54,8 @@ class Rig {
   void send(Verb verb, double value = 0.0) { loop.send({tested, verb, value}); }
   /// Sends it, and runs the tick that answers. Not for a rig that sends by itself (task).
   Refusal answer_to(Verb verb, double value = 0.0);
+  /// The same of either channel.
+  Refusal answer_of(std::uint8_t channel, Verb verb, double value = 0.0);
   /// Commands it for so long, again before it expires.
   void hold_power(double power_W, double time_s);
   State state() const { return loop.channel(tested).state().state(); }
@@ -59,7 +66,8 @@ class Rig {
   double period_s() const { return period_s_; }
   /// Of the last command to any but the neighbour that was not obeyed.
   Refusal last_refusal = Refusal::none;
-  double last_nearest = NAN;  ///< of that answer
+  double last_nearest = NAN;              ///< of that answer
+  std::array<Refusal, 2> last_answers{};  ///< to the last command to each channel
   /// The answer to the tested channel's last reset.
   Refusal answer_to_reset = Refusal::none;
 
@@ -79,6 +87,7 @@ class Rig {
   void watch_heat();
   double period_s_;
   double ambient_C_;
+  bool neighbour_follows_ = false;
   std::uint32_t beats_ = 0;
 };
 

@@ -13,7 +13,14 @@ const std::vector<Situation> not_probing{disarmed, armed,    pi,        pd_ff, m
 const std::vector<Situation> no_surplus{disarmed, arming,   armed,     pi,
                                         pd_ff,    identify, calibrate, fault};
 
+/// At the muscle, or at the lever of its joint.
 void load(Rig& rig, double load_N) {
+  if (rig.board.joints() > 0) {
+    host_sim::SimulatedJointSettings joint = rig.board.joint(0).settings();
+    joint.load_Nm = load_N * joint.plant.lever_m;
+    rig.board.joint(0).set(joint);
+    return;
+  }
   host_sim::MuscleChannelSettings settings = ordinary_muscle();
   settings.load_N = load_N;
   rig.muscle().set(settings);

@@ -1,0 +1,269 @@
+// How joints of two muscles `real` that differ by 20 % follow, of which the board believes up to
+// half too much or too little, as they are told and once they are identified:
+//   joint_figures [SEEDS]
+// The table of docs/joints.md.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/uniform_real_distribution.hpp>
+
+#include "runner/simulation.hpp"
+#include "scenario/read_scenario.hpp"
+
+namespace {
+
+using namespace supercoil;
+using host_sim::Simulation;
+using host_sim::TickRecord;
+
+constexpr double lever_m = 0.015;
+constexpr double degree_m = lever_m * std::numbers::pi / 180.0;
+constexpr double noise_deg = 0.02;
+constexpr std::array<const char*, 4> varied{"thermal_mass_J_per_K", "heat_transfer_W_per_K",
+                                            "stiffness_N_per_m", "force_per_kelvin_N_per_K"};
+
+class Drawn {
+ public:
+  explicit Drawn(int seed) : source_(static_cast<unsigned>(seed)) {}
+  /// -1 to 1.
+  double uniform() { return uniform_(source_); }
+  /// Each of what makes a muscle a tenth more or less.
+  control::PhysicalParameters muscle() {
+    control::PhysicalParameters m;
+    for (const char* name : varied)
+      member(m, name) *= uniform() > 0.0 ? 1.1 : 0.9;
+    return m;
+  }
+  static double& member(control::PhysicalParameters& m, const std::string& name) {
+    const auto found =
+        std::find_if(control::physical_ranges.begin(), control::physical_ranges.end(),
+                     [&](const control::PhysicalRange& range) { return name == range.name; });
+    return m.*found->member;
+  }
+
+ private:
+  boost::random::mt19937 source_;
+  boost::random::uniform_real_distribution<double> uniform_{-1.0, 1.0};
+};
+
+std::string line(const std::string& key, double value) {
+  return key + " = " + std::to_string(value) + "\n";
+}
+
+std::string table(const std::string& title, const control::PhysicalParameters& muscle) {
+  std::string text = "[" + title + "]\n";
+  for (const control::PhysicalRange& range : control::physical_ranges) {
+    if (std::string(range.name) != "moving_mass_kg") text += line(range.name, muscle.*range.member);
+  }
+  return text;
+}
+
+struct Motion {
+  const char* name;
+  double duration_s;
+  double (*reference_deg)(double time_s);
+  bool (*counts)(double time_s);
+  double pull_at_s;  ///< both pull twice as much from then on
+};
+
+constexpr double never_s = 1e9;
+
+double set_points_deg(double time_s) {
+  constexpr std::array<double, 6> levels{0.0, 20.0, -10.0, 10.0, -20.0, 5.0};
+  return levels.at(static_cast<std::size_t>(time_s / 20.0) % levels.size());
+}
+
+const std::array<Motion, 3> motions{{
+    // Settled is the last 8 s of each 20.
+    {"set points", 240.0, set_points_deg,
+     [](double t) { return t > 120.0 && std::fmod(t, 20.0) > 12.0; }, never_s},
+    {"sine of 20 deg at 0.1 Hz", 200.0,
+     [](double t) { return 20.0 * std::sin(0.2 * std::numbers::pi * t); },
+     [](double t) { return t > 160.0; }, never_s},
+    {"pull doubled at 10 deg", 240.0, [](double) { return 10.0; },
+     [](double t) { return t > 120.0; }, 120.0},
+}};
+
+std::string scenario_of(int seed, const std::string& controller) {
+  Drawn drawn(seed);
+  const control::PhysicalParameters agonist = drawn.muscle();
+  const control::PhysicalParameters antagonist = drawn.muscle();
+  std::string text = "[simulation]\nseed = " + std::to_string(seed) +
+                     "\nduration_s = 2000.0\n[operator]\naction = 'none'\n[controller]\nkind = '" +
+                     controller + "'\n";
+  text += "[power]\npwm_bits = 12\n[sensor.position]\n" +
+          line("noise_rms_m", noise_deg * degree_m) +
+          "[thermal]\nmass_ratio = [0.45, 2.5]\ntransfer_ratio = [0.3, 4.4]\n";
+  text += table("plant", agonist) + "preset = 'real'\n";
+  text +=
+      "[joint]\npretension_N = 0.4\n" + table("joint.antagonist", antagonist) + "preset = 'real'\n";
+  // What is believed of the joint along its arc, each up to half off; of the force, of that at the
+  // middle of what the muscle does.
+  const std::array<std::pair<const char*, const control::PhysicalParameters*>, 2> beliefs{
+      {{"muscle", &agonist}, {"joint.antagonist_muscle", &antagonist}}};
+  for (const auto& [title, truth] : beliefs) {
+    control::PhysicalParameters believed = *truth;
+    believed.stiffness_N_per_m = agonist.stiffness_N_per_m + antagonist.stiffness_N_per_m;
+    believed.damping_Ns_per_m = agonist.damping_Ns_per_m + antagonist.damping_Ns_per_m;
+    for (const control::PhysicalRange& range : control::physical_ranges)
+      believed.*range.member *= 1.0 + 0.5 * drawn.uniform();
+    text += table(title, believed);
+  }
+  return text;
+}
+
+struct Found {
+  double rms_deg = 0.0;
+  double max_deg = 0.0;
+  double hottest_C = 0.0;
+  long outside = 0;
+  Fault fault = Fault::none;
+};
+
+/// What an operator does with a joint.
+class Operated {
+ public:
+  explicit Operated(const host_sim::Scenario& scenario) : simulation_(scenario) {}
+
+  void arm() {
+    while (state(0) != State::armed) {
+      send(0, Verb::arm);
+      run(1.0);
+    }
+  }
+  /// Each muscle by itself; false: one was not found.
+  bool identify() {
+    for (const std::uint8_t channel : {std::uint8_t{0}, std::uint8_t{1}}) {
+      send(channel, Verb::identify);
+      do {
+        tick();
+        send(channel, Verb::renew);
+      } while (state(channel) == State::active);
+      const Snapshot& ended = simulation_.loop().channel(channel).snapshot();
+      if (ended.result != ModeResult::found) {
+        std::printf("  channel %d: %s\n", channel + 1,
+                    describe_notes(ended.identify_notes).c_str());
+        return false;
+      }
+      run(15.0);
+    }
+    return true;
+  }
+  Found follow(const Motion& motion) {
+    double squares = 0.0;
+    double count = 0.0;
+    bool pulls = false;
+    for (double time_s = 0.0; time_s < motion.duration_s; time_s += 1e-3) {
+      send(0, Verb::position, motion.reference_deg(time_s) * degree_m);
+      if (!pulls && time_s >= motion.pull_at_s) {
+        send(1, Verb::power, 2.0 * simulation_.loop().channel(1).snapshot().reference);
+        pulls = true;
+      }
+      const TickRecord now = tick();
+      if (!motion.counts(time_s)) continue;
+      const double error_deg = (now.position_m - now.model_m) / degree_m;
+      squares += error_deg * error_deg;
+      count += 1.0;
+      found_.max_deg = std::max(found_.max_deg, std::abs(error_deg));
+    }
+    found_.rms_deg = std::sqrt(squares / count);
+    return found_;
+  }
+  const Found& found() const { return found_; }
+
+ private:
+  State state(std::size_t channel) const {
+    return simulation_.loop().channel(channel).state().state();
+  }
+  void send(std::uint8_t channel, Verb verb, double value = 0.0) {
+    simulation_.loop().send({channel, verb, value});
+  }
+  void run(double time_s) {
+    for (long i = std::lround(time_s * 1e3); i > 0; --i)
+      tick();
+  }
+  TickRecord tick() {
+    const TickRecord now = simulation_.step();
+    if (found_.fault == Fault::none) found_.fault = now.fault;
+    watch(now.temperature_rise_K, now.coldest_K, now.hottest_K);
+    watch(now.antagonist->temperature_rise_K, now.antagonist->coldest_K, now.antagonist->hottest_K);
+    return now;
+  }
+  void watch(double rise_K, double coldest_K, double hottest_K) {
+    found_.hottest_C = std::max(found_.hottest_C, 25.0 + rise_K);
+    found_.outside += rise_K < coldest_K - 1e-9 || rise_K > hottest_K + 1e-9 ? 1 : 0;
+  }
+
+  Simulation simulation_;
+  Found found_;
+};
+
+/// Empty: a muscle was not identified.
+std::optional<Found> run_one(const std::string& text, const Motion& motion, bool identified) {
+  const auto scenario = host_sim::parse_scenario(text, "joint.toml");
+  if (!scenario) {
+    std::fputs(config::to_text(scenario.error()).c_str(), stderr);
+    std::exit(2);
+  }
+  Operated joint(*scenario);
+  joint.arm();
+  if (identified && !joint.identify()) return std::nullopt;
+  return joint.follow(motion);
+}
+
+void print_row(const Motion& motion, const std::string& controller, bool identified, int seeds) {
+  std::vector<double> rms;
+  Found worst;
+  int faults = 0;
+  int not_identified = 0;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto found = run_one(scenario_of(seed, controller), motion, identified);
+    if (!found) {
+      ++not_identified;
+      continue;
+    }
+    rms.push_back(found->rms_deg);
+    worst.max_deg = std::max(worst.max_deg, found->max_deg);
+    worst.hottest_C = std::max(worst.hottest_C, found->hottest_C);
+    worst.outside += found->outside;
+    faults += found->fault != Fault::none ? 1 : 0;
+    if (found->fault != Fault::none)
+      std::printf("  seed %d: %s\n", seed, std::string(name(found->fault)).c_str());
+  }
+  if (rms.empty()) rms.push_back(NAN);
+  std::sort(rms.begin(), rms.end());
+  std::printf(
+      "%-25s %-11s %-10s rms %.4f (median), %.4f deg (worst), at most %.4f; %2.0f C, "
+      "%ld ticks outside, %d faults, %d not identified\n",
+      motion.name, controller.c_str(), identified ? "identified" : "told", rms[rms.size() / 2],
+      rms.back(), worst.max_deg, worst.hottest_C, worst.outside, faults, not_identified);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 20;
+    for (const Motion& motion : motions) {
+      for (const bool identified : {false, true}) {
+        for (const char* controller : {"learned_ff", "adaptive_ff", "pi"})
+          print_row(motion, controller, identified, seeds);
+      }
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "joint_figures: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,7 +1,8 @@
 // How joints of two muscles `real` that differ by 20 % follow, of which the board believes up to
 // half too much or too little, as they are told and once they are identified:
-//   joint_figures [SEEDS]
-// The table of docs/joints.md.
+//   joint_figures [SEEDS [MOTION]]
+// MOTION: a part of its name. What faults is told, and not among the figures. The table of
+// docs/joints.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -232,13 +233,15 @@ void print_row(const Motion& motion, const std::string& controller, bool identif
       ++not_identified;
       continue;
     }
-    rms.push_back(found->rms_deg);
-    worst.max_deg = std::max(worst.max_deg, found->max_deg);
     worst.hottest_C = std::max(worst.hottest_C, found->hottest_C);
     worst.outside += found->outside;
-    faults += found->fault != Fault::none ? 1 : 0;
-    if (found->fault != Fault::none)
+    if (found->fault != Fault::none) {
+      ++faults;
       std::printf("  seed %d: %s\n", seed, std::string(name(found->fault)).c_str());
+      continue;
+    }
+    rms.push_back(found->rms_deg);
+    worst.max_deg = std::max(worst.max_deg, found->max_deg);
   }
   if (rms.empty()) rms.push_back(NAN);
   std::sort(rms.begin(), rms.end());
@@ -256,6 +259,7 @@ int main(int argc, char** argv) {
   try {
     const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 20;
     for (const Motion& motion : motions) {
+      if (argc > 2 && std::string(motion.name).find(argv[2]) == std::string::npos) continue;
       for (const bool identified : {false, true}) {
         for (const char* controller : {"learned_ff", "adaptive_ff", "pi"})
           print_row(motion, controller, identified, seeds);

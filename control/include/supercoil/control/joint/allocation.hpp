@@ -40,6 +40,7 @@ class JointAllocation {
     return {ranges.agonist.clip(against_W + effort_W), against_W / gain_ratio_};
   }
 
+  /// v of these powers.
   double effort_W(const PairPower& power) const {
     return power.agonist_W - gain_ratio_ * power.antagonist_W;
   }

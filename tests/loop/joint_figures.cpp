@@ -164,7 +164,9 @@ class Operated {
     double squares = 0.0;
     double count = 0.0;
     bool pulls = false;
-    for (double time_s = 0.0; time_s < motion.duration_s; time_s += 1e-3) {
+    const long ticks = std::lround(motion.duration_s * 1e3);
+    for (long i = 0; i < ticks; ++i) {
+      const double time_s = 1e-3 * static_cast<double>(i);
       send(0, Verb::position, motion.reference_deg(time_s) * degree_m);
       if (!pulls && time_s >= motion.pull_at_s) {
         send(1, Verb::power, 2.0 * simulation_.loop().channel(1).snapshot().reference);

@@ -16,8 +16,8 @@ double to_tenth(double value) {
 /// "12.3 mm (47 °)"
 std::string arc(double arc_m, double lever_m) {
   std::ostringstream out;
-  out << to_tenth(1e3 * arc_m) << " mm ("
-      << to_tenth(arc_m / lever_m * 180.0 / std::numbers::pi) << "°)";
+  out << to_tenth(1e3 * arc_m) << " mm (" << to_tenth(arc_m / lever_m * 180.0 / std::numbers::pi)
+      << "°)";
   return out.str();
 }
 

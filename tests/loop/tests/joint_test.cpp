@@ -137,10 +137,10 @@ TEST(Joint, FollowsBothWaysAndEachTemperatureStaysInItsInterval) {
   arm();
   double squares = 0.0;
   double count = 0.0;
-  const auto sine = [](double t) { return 20.0 * degree_m * std::sin(0.2 * 3.14159265 * t); };
-  follow_for(60.0, sine);
+  const auto wave_m = [](double t) { return 20.0 * degree_m * std::sin(0.2 * 3.14159265 * t); };
+  follow_for(60.0, wave_m);
   follow_for(
-      20.0, [&](double t) { return sine(60.0 + t); },
+      20.0, [&](double t) { return wave_m(60.0 + t); },
       [&] {
         const double error = of(agonist).model_m / degree_m - angle_deg();
         squares += error * error;

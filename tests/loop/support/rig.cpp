@@ -153,7 +153,8 @@ void Rig::tick() {
   }
   Answer answer;
   while (loop.answer(answer)) {
-    last_answers.at(answer.command.channel) = answer.refusal;
+    if (answer.command.channel < last_answers.size())
+      last_answers[answer.command.channel] = answer.refusal;
     if (answer.command.channel == neighbour) continue;
     if (answer.refusal != Refusal::none) {
       last_refusal = answer.refusal;

@@ -33,7 +33,7 @@ class Program(unittest.TestCase):
 
     def test_examples_are_in_order(self):
         examples = sorted(EXAMPLES.glob("*.toml"))
-        self.assertEqual(len(examples), 3)
+        self.assertEqual(len(examples), 4)
         for example in examples:
             with self.subTest(example.name):
                 done = self.run_program("--check", example)

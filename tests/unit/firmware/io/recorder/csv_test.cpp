@@ -136,7 +136,7 @@ TEST(Csv, EveryStateModeAndLimitHasItsName) {
                             "active,power,none,maximum,",
                             "fault,identify,none,slew,",
                             "4,calibrate,none,temperature,",
-                            "5,5,none,invalid,",
+                            "5,joint,none,invalid,",
                             "6,6,none,cooling,",
                             "7,7,none,unproven,"};
   for (std::size_t i = 0; i < limit_names.size(); ++i)

@@ -32,7 +32,9 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
                                                    std::size_t channels) {
   const auto most = static_cast<std::int64_t>(std::max<std::size_t>(1, channels));
   const std::int64_t number = section.required_integer(key, 1, most);
-  if (!section.has(key)) return std::nullopt;
+  // Missing, or said to be wrong.
+  if (!section.has(key) || (*section.table())[key].value<std::int64_t>() != number)
+    return std::nullopt;
   const auto place = static_cast<std::size_t>(number - 1);
   if (std::find(taken_.begin(), taken_.end(), place) != taken_.end()) {
     section.wrong(key, "is a channel that pulls in a joint already");

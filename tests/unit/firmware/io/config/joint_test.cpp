@@ -119,6 +119,9 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
                replaced(board_with_joint, "antagonist = 2", "antagonist = 1"));
   check_answer("joint[1].antagonist = 3: must be 1 to 2",
                replaced(board_with_joint, "antagonist = 2", "antagonist = 3"));
+  CHECK(
+      problems_of(replaced(board_with_joint, "antagonist = 2", "antagonist = 3")).find("already") ==
+      std::string::npos);
   check_answer("joint[2].agonist = 1: is a channel that pulls in a joint already",
                board_with_joint + one_joint);
   check_answer("joint[1].lever_m: is missing", replaced(board_with_joint, "lever_m = 0.015\n", ""));

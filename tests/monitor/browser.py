@@ -1,11 +1,7 @@
 """Debian's Chromium without a window, driven through chromedriver."""
 
-import contextlib
 import json
-import os
-import pathlib
 import tempfile
-import threading
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
@@ -27,29 +23,13 @@ class Browser:
             options.add_argument(option)
         options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
-        self.closed = threading.Event()
-        threading.Thread(target=self.precede, daemon=True).start()
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        self.closed.set()
         self.driver.quit()
         self.profile.cleanup()
-
-    def precede(self):
-        """Gives the threads of its renderers, which draw and run the page, the precedence of this program, for as long as it is
-        open: Chromium gives them none, again and again. What runs beside a test would otherwise let its commands expire.
-        Without the right to it, nothing."""
-        mine = os.getpriority(os.PRIO_PROCESS, 0)
-        while not self.closed.wait(1.0):
-            for process in pathlib.Path("/proc").glob("[0-9]*"):
-                with contextlib.suppress(OSError):  # of another user, or gone
-                    words = process.joinpath("cmdline").read_bytes()
-                    if b"--type=renderer" in words and self.profile.name.encode() in words:
-                        for thread in process.joinpath("task").iterdir():
-                            os.setpriority(os.PRIO_PROCESS, int(thread.name), mine)
 
     def cdp(self, command, **parameters):
         return self.driver.execute_cdp_cmd(command, parameters)

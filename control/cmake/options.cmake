@@ -28,7 +28,7 @@ target_link_options(supercoil_options INTERFACE -Wl,-z,now
   -Wl,--gc-sections)
 
 if(SUPERCOIL_SANITIZE)
-  # At -O0 the suite takes ten times as long; clang++'s -O1 inlines nothing, and its -O2 takes no longer to compile.
+  # At -O0 the suite takes ten times as long; clang++'s -O1 hardly inlines, and its -O2 takes no longer to compile.
   # -g1: half of -g's time to compile, and names and lines remain.
   add_compile_options(-fsanitize=${SUPERCOIL_SANITIZE} -fno-sanitize-recover=all
                       -fno-omit-frame-pointer $<IF:$<CXX_COMPILER_ID:Clang>,-O2,-O1> -g1

@@ -42,16 +42,15 @@ std::optional<Window> read_window(const std::string& text, double duration_s, do
 /// What the muscle that is believed can do, beforehand; in brief, and what to change.
 void tell_feasibility(const Scenario& scenario, bool in_brief) {
   const BoardSettings board = firmware_of(scenario);
-  const ChannelSettings& channel = board.channels[0];
-  auto lines = config::describe_feasibility(channel, board);
+  auto lines = config::describe_feasibility(board, 0);
   if (in_brief) {
     lines.resize(1);
-    for (std::string& promise : config::describe_promises(channel, board))
+    for (std::string& promise : config::describe_promises(board, 0))
       lines.push_back(std::move(promise));
   }
   for (const std::string& line : lines)
     std::printf("muscle: %s\n", line.c_str());
-  for (const std::string& line : config::advice(channel, board))
+  for (const std::string& line : config::advice(board.channels[0], board))
     std::printf("advice: %s\n", line.c_str());
 }
 

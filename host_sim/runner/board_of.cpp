@@ -231,8 +231,8 @@ BoardSettings firmware_of(const Scenario& scenario) {
     if (event.new_estimator) channel.estimators.push_back(event.conditions.estimator);
   }
   if (c.joint) {
-    board.joints = {{0, 1, c.joint->plant.lever_m, c.joint->co_contraction_W}};
     board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
+    add_joint(board, {0, 1, c.joint->plant.lever_m, c.joint->co_contraction_W});
   }
   return board;
 }

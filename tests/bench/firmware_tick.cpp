@@ -45,7 +45,6 @@ class Bench {
         const control::EstimatorSettings& estimator, bool joint = false)
       : joint_(joint) {
     BoardSettings settings;
-    if (joint) settings.joints = {{0, 1, 0.015, 0.5}};
     settings.supply.scaling.per_count = 1e-3;
     settings.channels.resize(channels);
     for (ChannelSettings& channel : settings.channels) {
@@ -58,12 +57,11 @@ class Bench {
       // It is asked to prove that it answers, but what it expects is never enough for a fault.
       channel.muscle_identified = true;
       channel.supervision.responding_min_m = INFINITY;
-      // And in a joint it cannot even tell: the positions here are no joint's.
-      if (joint) channel.supervision.position_noise_rms_m = 1.0;
       channel.supervision.stuck_on_s = INFINITY;
       channel.supervision.open_s = INFINITY;
       channel.supervision.saturated_s = INFINITY;
     }
+    if (joint) add_joint(settings, {0, 1, 0.015, 0.5});
     board::Devices devices{&clock_, &supply_, &heartbeat_, &stop_, nullptr, nullptr, {}};
     supply_.clock = &clock_;
     supply_.counts = 12000;

@@ -87,7 +87,7 @@ control::PowerRange Axis::range() const {
 control::PowerRange Axis::allowed_range() const {
   const control::PowerRange range = heater_.power_range();
   const double cool_W = heater_.limiter().max_W(heater_.heat().hottest_C());
-  return {range.min_W, std::min({range.max_W, cool_W, proven_W()})};
+  return {range.min_W, std::min({range.max_W, cool_W, proof_.max_W()})};
 }
 
 Opposition Axis::opposition(double gain_ratio) const {
@@ -101,8 +101,6 @@ Opposition Axis::opposition(double gain_ratio) const {
 }
 
 void Axis::prove(std::int64_t periods) {
-  // Of one muscle: in a joint the other one moves it as well.
-  if (inputs_.in_joint) return;
   const bool heats = state_.may_heat() && (mode_ == Mode::position || mode_ == Mode::power);
   const board::Measured& position = inputs_.position;
   const board::AppliedPower& acting = heater_.acting();

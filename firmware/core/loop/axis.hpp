@@ -14,7 +14,6 @@
 #include "loop/estimation.hpp"
 #include "loop/heater.hpp"
 #include "loop/known_muscle.hpp"
-#include "loop/opposition.hpp"
 #include "loop/playback.hpp"
 #include "loop/settings.hpp"
 #include "loop/snapshot.hpp"
@@ -27,6 +26,17 @@
 #include "supervisor/small_signal.hpp"
 
 namespace supercoil {
+
+/// What the other muscle of a joint does, as the axis of this one sees it. Of a muscle without
+/// another all is zero.
+struct Opposition {
+  double power_W = 0.0;  ///< that acts, in watts of this muscle: by so much it moves the joint less
+  bool limited = false;  ///< that is not what was wanted
+  control::PowerRange range{0.0, 0.0};  ///< of power_W
+  /// By how much its heat moves the joint against this muscle, as HeaterInputs::expected_m.
+  detectors::NotResponding::Expected expected_m{};
+  double hottest_K = 0.0;  ///< above the air
+};
 
 /// Reads the channel's state, and never changes it: what ends by itself is told to the channel.
 class Axis {
@@ -64,7 +74,7 @@ class Axis {
   /// share_W: what its own heater is to give of that.
   void limit(double share_W) {
     share_W_ = share_W;
-    heater_.limit(state_, proof_.added_to(share_W), proven_W());
+    heater_.limit(state_, proof_.added_to(share_W), proof_.max_W());
   }
   /// Calibrate probes when it has found the zero, and not before.
   void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
@@ -119,7 +129,6 @@ class Axis {
   double moving_W() const { return heater_.acting().power_W - other_.power_W; }
   /// What a controller may count on.
   control::PowerRange range() const;
-  double proven_W() const { return inputs_.in_joint ? INFINITY : proof_.max_W(); }
   void prove(std::int64_t periods);
   void learn_heat();
   LimitedBy limited_by() const;

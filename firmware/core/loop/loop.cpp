@@ -38,7 +38,7 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
   for (std::size_t i = 0; i < settings.channels.size(); ++i) {
     channels_.push_back(std::make_unique<Channel>(
         settings.channels[i], settings, devices.channels[i], static_cast<std::uint8_t>(i)));
-    single_.push_back(channels_.back().get());
+    if (!settings.in_joint(i)) single_.push_back(channels_.back().get());
   }
   for (const JointSettings& joint : settings.joints) {
     Channel& agonist = *channels_[joint.agonist];
@@ -46,8 +46,6 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
     agonist.join(antagonist, true);
     antagonist.join(agonist, false);
     joints_.emplace_back(joint, agonist.axis(), antagonist.axis(), settings.step_s());
-    std::erase(single_, &agonist);
-    std::erase(single_, &antagonist);
   }
 }
 

@@ -53,6 +53,10 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings) {
       }
       if (!taken.insert(channel).second)
         return SettingsProblem{"joint", "channel " + number + " pulls twice"};
+      if (settings.channels[channel].supervision.proof_of_response) {
+        return SettingsProblem{"joint",
+                               "channel " + number + " cannot prove by itself that it responds"};
+      }
     }
     if (!(joint.lever_m > 0.0) || !(joint.co_contraction_W >= 0.0))
       return SettingsProblem{"joint", "lever_m must exceed 0, and co_contraction_W be 0 or more"};
@@ -61,6 +65,18 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings) {
 }
 
 }  // namespace
+
+bool BoardSettings::in_joint(std::size_t channel) const {
+  return std::any_of(joints.begin(), joints.end(), [channel](const JointSettings& joint) {
+    return joint.agonist == channel || joint.antagonist == channel;
+  });
+}
+
+void add_joint(BoardSettings& board, const JointSettings& joint) {
+  board.joints.push_back(joint);
+  for (const std::size_t channel : {joint.agonist, joint.antagonist})
+    board.channels[channel].supervision.proof_of_response = false;
+}
 
 void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
   channel.senses = learned.senses;

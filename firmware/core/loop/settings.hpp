@@ -79,10 +79,15 @@ struct BoardSettings {
   InputSettings air;  ///< in °C, where there is a sensor
   BoardSupervision supervision;
   std::vector<ChannelSettings> channels{1};
-  std::vector<JointSettings> joints;  ///< no channel is in two
+  std::vector<JointSettings> joints;  ///< no channel is in two; see add_joint()
 
   double step_s() const { return 1.0 / rate_Hz; }
+  bool in_joint(std::size_t channel) const;
 };
+
+/// Of two channels that the board has. The proof of response is for one muscle that moves alone: of
+/// theirs none is asked.
+void add_joint(BoardSettings& board, const JointSettings& joint);
 
 /// What a channel learned before, in place of what is configured.
 void apply_learned(ChannelSettings& channel, const board::Learned& learned);

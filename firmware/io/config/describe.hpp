@@ -30,12 +30,10 @@ std::string describe_senses(const ChannelSettings& channel, const BoardSettings&
 std::string describe_small_motions(const ChannelSettings& channel, const BoardSettings& board);
 /// What the muscle can do with these limits: how far, how fast, from when on, and how closely it
 /// will follow. One line each.
-std::vector<std::string> describe_feasibility(const ChannelSettings& channel,
-                                              const BoardSettings& board);
+std::vector<std::string> describe_feasibility(const BoardSettings& board, std::size_t channel);
 /// The error that each controller promises, or the one that would; of a muscle that identify found
-/// to be as far from linear as it lets pass.
-std::vector<std::string> describe_promises(const ChannelSettings& channel,
-                                           const BoardSettings& board);
+/// to be as far from linear as it lets pass. Of a joint none is known.
+std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel);
 /// "14 um rms on a sine of 4 to 9 mm, 6 s a period", and from what.
 std::string describe_promise(const Promise& promise, const FirstMotion& motion);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.

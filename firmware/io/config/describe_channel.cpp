@@ -182,7 +182,7 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   describe_limits(out, c, config.settings, label);
   describe_control(out, c, config.settings.step_s());
   const char* title_of_line = "  can do      ";
-  for (const std::string& line : describe_feasibility(c, config.settings)) {
+  for (const std::string& line : describe_feasibility(config.settings, index)) {
     out << title_of_line << line << "\n";
     title_of_line = "              ";
   }

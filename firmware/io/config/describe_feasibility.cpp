@@ -55,7 +55,9 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
          ")";
 }
 
-std::vector<std::string> describe_promises(const ChannelSettings& c, const BoardSettings& board) {
+std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel) {
+  if (board.in_joint(channel)) return {};
+  const ChannelSettings& c = board.channels[channel];
   const FirstMotion motion = plan_first_motion(feasibility(c, board));
   if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};
   std::vector<std::string> lines;
@@ -72,8 +74,8 @@ std::vector<std::string> describe_promises(const ChannelSettings& c, const Board
   return lines;
 }
 
-std::vector<std::string> describe_feasibility(const ChannelSettings& c,
-                                              const BoardSettings& board) {
+std::vector<std::string> describe_feasibility(const BoardSettings& board, std::size_t channel) {
+  const ChannelSettings& c = board.channels[channel];
   const Feasibility f = feasibility(c, board);
   std::vector<std::string> lines{motion_line(f), start_line(f, c)};
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
@@ -83,7 +85,7 @@ std::vector<std::string> describe_feasibility(const ChannelSettings& c,
                     " down from there; larger ones " +
                     (f.steps[i]->shaped ? "are shaped" : "ask for more than the muscle can do"));
   }
-  for (std::string& line : describe_promises(c, board))
+  for (std::string& line : describe_promises(board, channel))
     lines.push_back(std::move(line));
   return lines;
 }

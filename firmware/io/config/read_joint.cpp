@@ -74,7 +74,7 @@ void JointReader::finish(BoardConfig& config) {
     if (joints_[i]) {
       joints_[i]->lever_m = lever_m;
       joints_[i]->co_contraction_W = co_contraction_W(section, *joints_[i], config.settings);
-      config.settings.joints.push_back(*joints_[i]);
+      add_joint(config.settings, *joints_[i]);
       config.joints.push_back({name});
     }
     section.finish();

@@ -167,12 +167,17 @@ TEST(Joint, PowerToTheAntagonistChangesWithWhatBothPullAndHardlyTheAngle) {
   const double before_N = plant.tension_N(0) + plant.tension_N(1);
   const double before_W = of(antagonist).reference;
   CHECK(rig.answer_of(antagonist, Verb::power, 2.0 * before_W) == Refusal::none);
+  hold(5.0 * degree_m, 3.0);
+  const double soon_N = plant.tension_N(0) + plant.tension_N(1);
   double most_deg = 0.0;
   follow_for(
       60.0, [](double) { return 5.0 * degree_m; },
       [&] { most_deg = std::fmax(most_deg, std::abs(angle_deg() - 5.0)); });
   CHECK_COMPARE(most_deg, <, 0.1);
-  CHECK_COMPARE(plant.tension_N(0) + plant.tension_N(1), >, before_N + 0.05);
+  const double after_N = plant.tension_N(0) + plant.tension_N(1);
+  CHECK_COMPARE(after_N, >, before_N + 0.05);
+  // Slow against every controller.
+  CHECK_COMPARE(soon_N - before_N, <, 0.2 * (after_N - before_N));
   DOUBLES_EQUAL(2.0 * before_W, of(antagonist).reference, 1e-12);
   // More than the heater may have is refused, and the nearest told; so is what is no number.
   for (const double wrong_W : {-0.1, 4.6, static_cast<double>(NAN)})
@@ -315,6 +320,7 @@ TEST(Joint, WaitsForTheOtherMuscleThatMayBeHotFromBefore) {
 
 TEST(Joint, ItsZeroIsTakenWhenBothMusclesAreCold) {
   arm();
+  rig.run(60.0);  // the probe's heat is gone from the agonist
   for (int i = 0; i < 100; ++i) {
     rig.loop.send({antagonist, Verb::power, 2.0});
     rig.run(0.1);
@@ -341,6 +347,52 @@ TEST(Joint, PullsAgainstItselfForMinutesWithoutAFault) {
     CHECK_FALSE(follows_until_fault(fresh, 300.0, [] { return 0.0; }));
     CHECK_FALSE(fresh.interval_missed);
   }
+}
+
+/// Its law hears of either heater's limit, and winds nothing up.
+TEST(Joint, ComesBackAtOnceFromWhatItsAntagonistCannotReach) {
+  RigSettings settings = joint_board();
+  settings.firmware.channels[antagonist].limiter.max_W = 1.0;
+  Rig fresh(settings);
+  begin(fresh);
+  fresh.send(Verb::controller, 1);  // pi, which has an integral
+  double reference_m = -0.0075;
+  const auto wanted = [&] { return reference_m; };
+  CHECK_FALSE(follows_until_fault(fresh, 60.0, wanted));
+  CHECK_COMPARE(fresh.snapshot().position_m, >, -0.006);
+  reference_m = 0.0;
+  CHECK_FALSE(follows_until_fault(fresh, 6.0, wanted));
+  DOUBLES_EQUAL(0.0, fresh.snapshot().position_m, 0.3e-3);
+}
+
+/// By what both muscles together can do a knot is judged.
+TEST(Joint, PlaysATrajectoryThatTakesTheAntagonist) {
+  arm();
+  hold(0.0, 5.0);
+  const auto knot = [](double after_s, double position_m) {
+    Command command{agonist, Verb::knot, position_m};
+    command.after_s = static_cast<float>(after_s);
+    return command;
+  };
+  for (const Command& command : {knot(0.0, 0.0), knot(3.0, -0.003), knot(1.0, -0.003)}) {
+    rig.loop.send(command);
+    rig.tick();
+    CHECK(rig.last_answers.at(agonist) == Refusal::none);
+  }
+}
+
+/// The other muscle gives what a hot one may not: nothing stays limited.
+TEST(Joint, PullsLessWhereOneMuscleIsAsHotAsItMayBe) {
+  RigSettings settings = joint_board();
+  settings.firmware.joints[0].co_contraction_W = 3.0;
+  settings.firmware.channels[agonist].thermal.boot_rise_K = 20.0;  // else it waits for a minute
+  settings.firmware.channels[agonist].limiter.derate_from_C = 50.0;
+  settings.firmware.channels[agonist].limiter.derate_to_C = 90.0;
+  Rig fresh(settings);
+  begin(fresh);
+  CHECK_FALSE(follows_until_fault(fresh, 300.0, [] { return 0.0; }));
+  DOUBLES_EQUAL(0.0, fresh.snapshot().position_m, 0.1e-3);
+  CHECK(fresh.snapshot().limited_by == LimitedBy::nothing);
 }
 
 TEST(Joint, BeginsEachTimeWithoutCoContraction) {

@@ -70,8 +70,7 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
     who.say(entry.path + " = " + entry.literal + "  (" + entry.reason + ")");
     found[entry.path] = entry.literal;
   }
-  for (const std::string& line :
-       config::describe_feasibility(config->settings.channels[index], config->settings))
+  for (const std::string& line : config::describe_feasibility(config->settings, index))
     who.say(line);
   for (const std::string& line : config::advice(*config))
     who.say("advice: " + line);

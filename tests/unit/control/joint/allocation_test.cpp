@@ -42,7 +42,10 @@ TEST(JointAllocation, StaysInTheRangesAndGivesTheNearestEffort) {
     const PairPower power = pair.divided();
     RC_ASSERT(within(power.agonist_W, pair.ranges.agonist));
     RC_ASSERT(within(power.antagonist_W, pair.ranges.antagonist));
-    const double nearest_W = pair.allocation.effort_range(pair.ranges).clip(pair.effort_W);
+    const auto& [agonist, antagonist] = pair.ranges;
+    const PowerRange possible{agonist.min_W - pair.gain_ratio * antagonist.max_W,
+                              agonist.max_W - pair.gain_ratio * antagonist.min_W};
+    const double nearest_W = possible.clip(pair.effort_W);
     RC_ASSERT(std::abs(pair.allocation.effort_W(power) - nearest_W) <= 1e-9);
   }));
 }

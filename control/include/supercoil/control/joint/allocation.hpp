@@ -29,8 +29,8 @@ class JointAllocation {
 
   /// Half of the effort comes from each, around co_contraction_W >= 0, of which both pull alike:
   /// P₁ = c + v/2, g P₂ = c − v/2. What one of them cannot give is left to the other. Within the
-  /// ranges; the effort is the one that was asked for while effort_range() has it, and the nearest
-  /// otherwise. An effort that is no number gives none.
+  /// ranges; the effort is the one that was asked for, or the nearest that they allow. An effort
+  /// that is no number gives none.
   PairPower divide(double effort_W, double co_contraction_W, const Ranges& ranges) const {
     if (!std::isfinite(effort_W)) return {NAN, NAN};
     const PowerRange against{gain_ratio_ * ranges.antagonist.min_W,
@@ -43,11 +43,6 @@ class JointAllocation {
   /// v of these powers.
   double effort_W(const PairPower& power) const {
     return power.agonist_W - gain_ratio_ * power.antagonist_W;
-  }
-  /// Every effort that the ranges allow.
-  PowerRange effort_range(const Ranges& ranges) const {
-    return {ranges.agonist.min_W - gain_ratio_ * ranges.antagonist.max_W,
-            ranges.agonist.max_W - gain_ratio_ * ranges.antagonist.min_W};
   }
 
  private:

@@ -36,7 +36,8 @@ TEST(BoardConfig, JointExampleIsTwoChannelsAtOneSensor) {
   const BoardConfig c = example("joint-as5600-ads1115.toml");
   UNSIGNED_LONGS_EQUAL(2, c.settings.channels.size());
   UNSIGNED_LONGS_EQUAL(1, c.settings.joints.size());
-  check_says(describe(c), "from -6.9 mm (-26.3°) to 6.9 mm (26.3°)");
+  check_says(describe(c), "from -7.9 mm (-30.1°) to 7.9 mm (30.1°)");
+  CHECK(describe(c).find("promises") == std::string::npos);  // that is of one muscle alone
 }
 
 TEST(BoardConfig, SlowExampleIsFourChannelsBehindI2c) {
@@ -274,18 +275,18 @@ TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
   const BoardSettings& board = c.settings;
   ChannelSettings& channel = c.settings.channels[0];
   channel.controllers[0].kind = control::ControllerKind::pi;
-  const auto of_pi = describe_promises(channel, board);
+  const auto of_pi = describe_promises(board, 0);
   LONGS_EQUAL(1, of_pi.size());
   check_says(of_pi[0], "controller 0 promises no error (pi); learned_ff promises, once the muscle");
   channel.controllers[0].kind = control::ControllerKind::learned_ff;
-  const auto of_learned = describe_promises(channel, board);
+  const auto of_learned = describe_promises(board, 0);
   check_says(of_learned[0], "controller 0 promises, once the muscle is identified, at most ");
   const FirstMotion motion = plan_first_motion(feasibility(channel, board));
   const Promise promise =
       promise_error(channel.controllers[0].learned_ff, channel, board, motion, NAN);
   check_says(of_learned[0], describe_promise(promise, motion));
   channel.supervision.max_travel_m = 0.0;
-  check_says(describe_promises(channel, board)[0], "no promise");
+  check_says(describe_promises(board, 0)[0], "no promise");
 }
 
 TEST(BoardConfig, AdviceNamesWhomItConcernsAndWhatToChange) {

@@ -11,6 +11,7 @@
 using namespace supercoil;
 using namespace supercoil::config;
 using supercoil::test::problems_of;
+using supercoil::test::replaced;
 using supercoil::test::small_board;
 
 namespace {
@@ -48,12 +49,6 @@ BoardConfig read_joint_board(const std::string& text) {
   return config.value();
 }
 
-std::string replaced(std::string text, const std::string& old, const std::string& replacement) {
-  const std::size_t at = text.find(old);
-  CHECK_TEXT(at != std::string::npos, old.c_str());
-  return text.replace(at, old.size(), replacement);
-}
-
 void check_answer(const std::string& part, const std::string& text) {
   STRCMP_CONTAINS(part.c_str(), problems_of(text).c_str());
 }
@@ -76,6 +71,9 @@ TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
   DOUBLES_EQUAL(0.041, antagonist.supervision.max_position_m, 0.0);
   STRCMP_EQUAL("voltage1", c.wiring.channels[1].position.input.c_str());
   CHECK(c.wiring.channels[1].position_of == std::size_t{0});
+  // Of one muscle alone: --check and the rows say that it is off.
+  for (const ChannelSettings& channel : c.settings.channels)
+    CHECK_FALSE(channel.supervision.proof_of_response);
 }
 
 TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {

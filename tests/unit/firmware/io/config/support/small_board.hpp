@@ -50,12 +50,15 @@ max_W = 4.5
 max_travel_m = 0.025
 )";
 
-/// The small board with the first `old` in it replaced.
-inline std::string small_board_with(const std::string& old, const std::string& replacement) {
-  std::string text = small_board;
+/// The text with the first `old` in it replaced.
+inline std::string replaced(std::string text, const std::string& old,
+                            const std::string& replacement) {
   const std::size_t at = text.find(old);
   return at == std::string::npos ? "no such text: " + old
                                  : text.replace(at, old.size(), replacement);
+}
+inline std::string small_board_with(const std::string& old, const std::string& replacement) {
+  return replaced(small_board, old, replacement);
 }
 
 /// Every problem of the text, a line each; empty when it is in order.

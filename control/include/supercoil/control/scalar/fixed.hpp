@@ -41,9 +41,11 @@ class Fixed {
   template <int I, int F>
   constexpr explicit Fixed(Fixed<I, F> other) {
     if constexpr (F > FractionBits) {
-      using From = typename Fixed<I, F>::Wide;
       constexpr int shift = F - FractionBits;
-      raw_ = clamp((static_cast<From>(other.raw()) + (From{1} << (shift - 1))) >> shift);
+      // What is cut off is half or more: its first bit is set.
+      raw_ = clamp((other.raw() >> shift) + ((other.raw() >> (shift - 1)) & 1));
+    } else if constexpr (I <= IntegerBits) {
+      raw_ = static_cast<Raw>(other.raw()) << (FractionBits - F);
     } else {
       raw_ = clamp(static_cast<detail::Int128>(other.raw())
                    << (FractionBits - F));  // C++20: defined for negative values
@@ -74,13 +76,15 @@ class Fixed {
   constexpr Fixed& operator+=(Fixed other) {
     Raw sum = 0;
     const bool overflow = __builtin_add_overflow(raw_, other.raw_, &sum);
-    raw_ = overflow ? limit(other.raw_ < 0) : sum;
+    if (overflow) [[unlikely]] sum = limit(other.raw_ < 0);
+    raw_ = sum;
     return *this;
   }
   constexpr Fixed& operator-=(Fixed other) {
     Raw difference = 0;
     const bool overflow = __builtin_sub_overflow(raw_, other.raw_, &difference);
-    raw_ = overflow ? limit(other.raw_ > 0) : difference;
+    if (overflow) [[unlikely]] difference = limit(other.raw_ > 0);
+    raw_ = difference;
     return *this;
   }
   constexpr Fixed& operator*=(Fixed other) {
@@ -127,11 +131,12 @@ class Fixed {
   static constexpr Raw limit(bool negative) {
     return negative ? std::numeric_limits<Raw>::min() : std::numeric_limits<Raw>::max();
   }
+  // One comparison, after narrowing, and a branch that is predicted: this is most of what a step in fixed point costs.
   template <class Integer>
   static constexpr Raw clamp(Integer value) {
-    if (value > std::numeric_limits<Raw>::max()) return limit(false);
-    if (value < std::numeric_limits<Raw>::min()) return limit(true);
-    return static_cast<Raw>(value);
+    const auto narrow = static_cast<Raw>(value);
+    if (value != narrow) [[unlikely]] return limit(value < 0);
+    return narrow;
   }
   static constexpr Raw raw_from(double value) {
     if (value != value) return 0;

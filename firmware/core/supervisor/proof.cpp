@@ -173,34 +173,33 @@ void Proof::step(const Input& in) {
   unanswered_ = false;
   if (!active()) return;
   const auto periods = static_cast<double>(in.periods);
-  power_sum_W_ += in.power_W * periods;
-  dither_sum_W_ += in.dither_W * periods;
-  ticks_ += in.periods;
+  sums_.power_W += in.power_W * periods;
+  sums_.dither_W += in.dither_W * periods;
+  sums_.ticks += in.periods;
   if (in.present) {
-    position_sum_m_ += in.position_m;
-    ++positions_;
+    sums_.position_m += in.position_m;
+    ++sums_.positions;
   }
-  if (ticks_ >= step_ticks_) end_step(in);
+  if (sums_.ticks >= step_ticks_) end_step(in);
 }
 
 void Proof::end_step(const Input& in) {
-  const auto ticks = static_cast<double>(ticks_);
-  const double power_W = power_sum_W_ / ticks;
+  const auto ticks = static_cast<double>(sums_.ticks);
+  const double power_W = sums_.power_W / ticks;
   all_.expect(power_W);
-  dither_.expect(dither_sum_W_ / ticks);
+  dither_.expect(sums_.dither_W / ticks);
   if (in.warmer_air_K != warmer_air_K_) {
     warmer_air_K_ = in.warmer_air_K;
     plan_.for_air(settings_, warmer_air_K_);
     allow();
   }
-  if (positions_ > 0) {
-    compare(position_sum_m_ / static_cast<double>(positions_));
+  if (sums_.positions > 0) {
+    compare(sums_.position_m / static_cast<double>(sums_.positions));
     in.heating ? judge(power_W, in.hottest_K + in.warmer_air_K) : rest();
   } else {
     settled_ = false;
   }
-  power_sum_W_ = dither_sum_W_ = position_sum_m_ = 0.0;
-  ticks_ = positions_ = 0;
+  sums_ = {};
 }
 
 void Proof::compare(double position_m) {

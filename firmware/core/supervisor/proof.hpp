@@ -124,7 +124,6 @@ class Proof {
       expected.settle(smooth_expected_m);
       measured.settle(smooth_position_m);
       answer.restart();
-      result = detectors::Response::Result::open;
     }
     /// The position is somewhere else.
     void settle(double position_m) {
@@ -161,12 +160,14 @@ class Proof {
   Match all_;     ///< of all power
   Match dither_;  ///< of the dither alone
 
-  // Of this step
-  double power_sum_W_ = 0.0;
-  double dither_sum_W_ = 0.0;
-  double position_sum_m_ = 0.0;
-  std::int64_t ticks_ = 0;
-  std::int64_t positions_ = 0;
+  struct Sums {
+    double power_W = 0.0;
+    double dither_W = 0.0;
+    double position_m = 0.0;
+    std::int64_t ticks = 0;
+    std::int64_t positions = 0;
+  };
+  Sums sums_;  ///< of this step
 
   Stage stage_ = Stage::watching;
   bool settled_ = false;

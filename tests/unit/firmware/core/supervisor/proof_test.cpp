@@ -32,6 +32,9 @@ TEST(Proof, IsMissedWithinSecondsOfALostContact) {
     DOUBLES_EQUAL(0.0, muscle.min_W, 1e-9);
     const detectors::Margin margin = muscle.proof.margin();
     CHECK_COMPARE(margin.measured, <, margin.limit);
+    // Of a motion that was expected of at least twice the obvious one.
+    const double expected_m = margin.limit / detectors::Response::silent_ratio;
+    DOUBLES_EQUAL(2.0 * paper_proof().obvious_m, expected_m, 0.1 * paper_proof().obvious_m);
   }
 }
 
@@ -51,10 +54,14 @@ TEST(Proof, IsNoFaultWhileALoadSwings) {
 }
 
 TEST(Proof, IsNotAskedForAtThePowerThatIsSafeAnyway) {
-  HeldMuscle muscle(paper_proof());
-  muscle.demanded_W = 1.1;
-  muscle.run(60.0);
-  LONGS_EQUAL(0, muscle.dither_ticks);
+  for (const bool off_sensor : {false, true}) {
+    HeldMuscle muscle(paper_proof());
+    muscle.off_sensor = off_sensor;
+    muscle.demanded_W = 1.1;
+    muscle.run(60.0);
+    LONGS_EQUAL(0, muscle.dither_ticks);
+    DOUBLES_EQUAL(4.5, muscle.min_W, 1e-9);
+  }
 }
 
 TEST(Proof, AllowsWhatItCanProveWithPowerThatIsKnownBetterOrWorse) {

@@ -80,14 +80,14 @@ void Heater::observe_power(std::int64_t periods) {
   heat_.step(power_W_.min, power_W_.max, acting_.power_W, sensed);
   const double measured_W =
       current_.present ? supply_V_ * (current_.value - current_noise_A_) : limiter_.max_W();
-  measured_W_ = std::max(acting_.power_W, measured_W);
+  inputs_.measured_W = std::max(acting_.power_W, measured_W);
   // In periods that were left out the power may have gone on, or the charge pump have cut it.
   for (std::int64_t i = 1; i < periods; ++i)
     heat_.step(0.0, power_W_.max, acting_.power_W, sensed);
 
   const double per_K = settings_.temperature_coefficient_per_K;
   indicates_temperature_ = per_K > 0.0 && resistance_.age_s() < 1.0;
-  from_resistance_K_ =
+  inputs_.from_resistance_K =
       indicates_temperature_ ? (resistance_.value_Ohm() / cold_Ohm_ - 1.0) / per_K : 0.0;
 }
 
@@ -115,8 +115,6 @@ const HeaterInputs& Heater::inputs(const ChannelState& state) {
   e.expected_m = heat_.expected_m();
   e.hottest_C = heat_known_ ? heat_.hottest_C() : heat_.air().warmest_C();
   e.applied_W = acting_.power_W;
-  e.measured_W = measured_W_;
-  e.from_resistance_K = from_resistance_K_;
   e.probed = probed_;
   e.probe_failed = probe_failed_;
   e.resistance_fresh = resistance_.age_s() == 0.0 && !probe_.running();

@@ -133,9 +133,7 @@ class Heater {
   board::PowerBounds::Interval power_W_{0.0, 0.0};  ///< that acted, within these
   board::Heat heat_;
   bool heat_known_ = false;
-  double measured_W_ = 0.0;
   bool indicates_temperature_ = false;
-  double from_resistance_K_ = 0.0;
   board::Probe probe_;
   bool probed_ = false;
   bool probe_failed_ = false;

@@ -1,7 +1,7 @@
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,16 +19,15 @@ namespace {
 using hal::Severity;
 
 /// "0-2,5" holds 1.
-bool in_list(std::string_view list, int number) {
-  while (!list.empty()) {
-    const std::string_view range = list.substr(0, list.find(','));
-    list.remove_prefix(std::min(list.size(), range.size() + 1));
-    int first = -1;
-    const char* const end = range.data() + range.size();
-    const auto [rest, error] = std::from_chars(range.data(), end, first);
-    if (error != std::errc{}) continue;
-    int last = first;
-    if (rest != end && *rest == '-') std::from_chars(rest + 1, end, last);
+bool in_list(const std::string& list, int number) {
+  std::istringstream ranges(list);
+  for (std::string range; std::getline(ranges, range, ',');) {
+    std::istringstream ends(range);
+    int first = 0;
+    int last = 0;
+    char dash = 0;
+    if (!(ends >> first)) continue;
+    if (!(ends >> dash >> last)) last = first;
     if (number >= first && number <= last) return true;
   }
   return false;

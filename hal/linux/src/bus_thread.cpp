@@ -1,6 +1,5 @@
 #include "supercoil/hal_linux/bus_thread.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "supercoil/hal_linux/monotonic_clock.hpp"
@@ -28,7 +27,7 @@ void BusThread::run() {
   hal::Time wake = clock.now();
   while (!ending_.load(std::memory_order_relaxed)) {
     serve_all(clock.wait_until(wake));
-    const auto periods = std::max<std::int64_t>(1, (clock.now() - wake) / period_ + 1);
+    const auto periods = (clock.now() - wake) / period_ + 1;
     health_.skipped.fetch_add(static_cast<std::uint64_t>(periods - 1), std::memory_order_relaxed);
     wake += periods * period_;
   }

@@ -1,6 +1,7 @@
 // Real threads; also run under ThreadSanitizer. No test depends on how fast they are.
 #include "supercoil/hal_linux/bus_thread.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -98,6 +99,17 @@ TEST(ABus, ThatIsTooSlowLeavesPeriodsOutAndCountsThem) {
   wait_for_rounds(*bus, 3);
   CHECK(bus->health().skipped.load() >= 6);
   CHECK(bus->health().max_round_ns.load() >= 3'000'000);
+}
+
+/// A round that begins late makes the time to the next one shorter, never longer.
+TEST(ABus, ThatIsFastEnoughIsServedInEveryPeriod) {
+  auto bus = started(10ms);
+  wait_for_rounds(*bus, 10);
+  bus.reset();
+  hal::Duration shortest = 1h;
+  for (std::size_t i = 1; i < slow.started.size(); ++i)
+    shortest = std::min(shortest, slow.started[i] - slow.started[i - 1]);
+  CHECK(shortest < 15ms);
 }
 
 TEST(ABus, DoesNotRunFasterThanItsPeriod) {

@@ -51,7 +51,7 @@ TEST(PowerStage, GivesNothingForWhatIsNotAPositiveNumber) {
   const double inputs[][3] = {{nan, 10.0, 12.0},     {1.0, nan, 12.0},    {1.0, 10.0, nan},
                               {1.0, 0.0, 12.0},      {1.0, -5.0, 12.0},   {1.0, 10.0, 0.0},
                               {1.0, 10.0, -12.0},    {1.0, 1e-320, 12.0}, {-1.0, 10.0, 12.0},
-                              {1.0, 10.0, INFINITY}, {0.0, 10.0, 12.0}};
+                              {1.0, 10.0, INFINITY}, {0.0, 10.0, 12.0},   {1.0, INFINITY, 12.0}};
   for (const auto& in : inputs) {
     const auto out = stage.step(in[0], in[1], in[2], 1e3);
     LONGS_EQUAL(0, out.step);

@@ -60,6 +60,34 @@ TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {
   CHECK(contradictions(controller).empty());
 }
 
+TEST(BoardSettingsCheck, AnEstimatorThatIsNoneIsNamed) {
+  control::EstimatorSettings estimator;
+  CHECK(contradictions(estimator).empty());
+  for (const std::size_t none : {control::estimator_names.size(), std::size_t{200}}) {
+    estimator.kind = static_cast<control::EstimatorKind>(none);
+    const auto problem = check(estimator, settings.channels[0], 1e-3);
+    CHECK(problem.has_value());
+    STRCMP_EQUAL("kind", problem->key.c_str());
+  }
+}
+
+TEST(BoardSettingsCheck, WhatFixedPointHoldsDependsOnTheTravelThePowerAndTheStep) {
+  ChannelSettings channel;
+  control::ControllerSettings controller;
+  controller.arithmetic = control::Arithmetic::q8_24;
+  controller.kind = control::ControllerKind::pi;
+  CHECK_FALSE(check(controller, channel, 1e-3).has_value());
+  channel.supervision.max_travel_m = 10.0;
+  STRCMP_EQUAL("arithmetic", check(controller, channel, 1e-3)->key.c_str());
+  channel = {};
+  channel.limiter.max_W = 200.0;
+  STRCMP_EQUAL("arithmetic", check(controller, channel, 1e-3)->key.c_str());
+  channel = {};
+  controller.kind = control::ControllerKind::mrac;
+  CHECK_FALSE(check(controller, channel, 1e-3).has_value());
+  STRCMP_EQUAL("gain", check(controller, channel, 1e-12)->key.c_str());
+}
+
 /// Of whatever law and model it was made, and whatever was changed underway.
 TEST(BoardSettingsCheck, WhatWasStoredMakesTheSameControllerAgain) {
   const auto with = [](std::size_t kind, double model, double factor) {
@@ -184,6 +212,18 @@ TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
   CHECK(channel.senses == learned.senses);
   CHECK(channel.heat == learned.heat);
   CHECK(channel.tuning == learned.tuning);
+}
+
+TEST(AppliedSettings, OfMoreThanFourControllersTheFirstFourAreTuned) {
+  const std::size_t integral = control::tunable_named("integral_W_per_m_s");
+  channel.controllers.resize(5);
+  for (control::ControllerSettings& controller : channel.controllers)
+    controller.kind = control::ControllerKind::pi;
+  learned.tuning.controllers[3].values[integral] = 800.0;
+  learned.tuning.estimators[0].values[integral] = 700.0;  // of a controller, and so of nobody
+  apply_learned(channel, learned);
+  DOUBLES_EQUAL(800.0, channel.controllers[3].pi.integral_W_per_m_s, 0.0);
+  DOUBLES_EQUAL(1100.0, channel.controllers[4].pi.integral_W_per_m_s, 0.0);
 }
 
 TEST(AppliedSettings, AMuscleThatIsStoredAsConfiguredWasNotIdentified) {

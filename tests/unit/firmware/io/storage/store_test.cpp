@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -142,6 +143,15 @@ TEST(LearnedStore, RefusesASetThatFailsItsCheckAndTouchesNothing) {
   CHECK_FALSE(store.save(bad).has_value());
   CHECK(disk.seen() == before);
   LONGS_EQUAL(changes, files.changes());
+}
+
+TEST(LearnedStore, SaysWhyWhatWasLeftOverCannotBeRemoved) {
+  save(1);
+  disk.change({path + ".new", std::make_shared<Inode>(), ""});
+  SimulatedFiles failing(disk, {2, EROFS, false, false});  // after both files were read
+  const auto saved = LearnedStore("/d", 3, failing).save(nth_set(2));
+  CHECK_FALSE(saved.has_value());
+  STRCMP_EQUAL("/d/learned-3.toml.new: simulated: Read-only file system", saved.error().c_str());
 }
 
 TEST(LearnedStore, LoadingChangesNothing) {

@@ -112,6 +112,16 @@ TEST(Loop, AnswersWithTheCommandAsItWasGiven) {
   CHECK_FALSE(rig.loop.answer(answer));
 }
 
+/// Converters have their first values by then.
+TEST(Loop, JudgesItsBoardAfterATenthOfASecond) {
+  settings.board.supply_V = 10.0;
+  Rig rig(settings);
+  rig.run_ticks(100);
+  CHECK(rig.loop.board_fault() == Fault::none);
+  rig.run_ticks(1);
+  CHECK(rig.loop.board_fault() == Fault::under_voltage);
+}
+
 /// Until it is taken: the largest of its kind.
 TEST(Loop, TellsHowLateItWokeAndHowLongItTook) {
   Rig rig(settings);

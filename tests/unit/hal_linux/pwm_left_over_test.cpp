@@ -62,6 +62,13 @@ TEST(PwmLeftOver, NeverHeatsMoreThanBefore) {
   }));
 }
 
+/// A longer period would turn it on.
+TEST(PwmLeftOver, ThatIsInversedAndAlwaysOffStaysOff) {
+  PwmKernel kernel({50'000, 50'000, true, true});
+  CHECK(SysfsPwm::open({"pca9685", 5, 100'000, 4095, kernel.root()}).has_value());
+  DOUBLES_EQUAL(0.0, kernel.max_on, 0.0);
+}
+
 TEST(PwmLeftOver, NoStepIsEverRefusedAndEachComesBack) {
   CHECK(rc::check("steps", [] {
     const int steps = *rc::gen::element(1, 2, 100, 4095, 5000);

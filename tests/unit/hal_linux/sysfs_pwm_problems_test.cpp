@@ -103,6 +103,18 @@ TEST(SysfsPwmProblems, AreSeenWhenADriverSaysYesAndDoesNothing) {
                   answer(place(kernel)).c_str());
 }
 
+TEST(SysfsPwmProblems, AreSeenWhenADriverKeepsItsDutyOrItsPolarityOrStaysDisabled) {
+  const auto answer_of = [](const PwmState& left, const char* attribute, long taken) {
+    PwmKernel kernel(left);
+    next(Call::pwrite, attribute, [taken] { return taken; });
+    return answer(place(kernel));
+  };
+  STRCMP_CONTAINS("duty 500000 ns",
+                  answer_of({1'000'000, 500'000, true, false}, "/duty_cycle", 1).c_str());
+  STRCMP_CONTAINS("enable 0", answer_of({1'000'000, 0, false, false}, "/enable", 1).c_str());
+  STRCMP_CONTAINS(", inversed", answer_of({1'000'000, 0, false, true}, "/polarity", 6).c_str());
+}
+
 TEST(SysfsPwmProblems, ComeOfWrongContent) {
   for (const char* attribute : {"period", "duty_cycle", "enable", "polarity"}) {
     for (const std::string& content :

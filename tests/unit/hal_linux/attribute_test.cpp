@@ -137,7 +137,9 @@ TEST(Attribute, RefusesWhatIsNotText) {
                                     "ELF\0\1",
                                     6));
   STRCMP_CONTAINS("is not text", attribute.text().error().text.c_str());
-  folder.write("value", std::string(5000, 'a'));
+  folder.write("value", std::string(4096, 'a'));
+  LONGS_EQUAL(4096, attribute.text()->size());
+  folder.write("value", std::string(4097, 'a'));
   STRCMP_CONTAINS("is longer than a page", attribute.text().error().text.c_str());
 }
 

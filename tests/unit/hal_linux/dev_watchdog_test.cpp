@@ -66,10 +66,12 @@ TEST(DevWatchdog, TakesWholeSecondsAndNeverFewerThanAsked) {
 }
 
 TEST(DevWatchdog, RefusesTimesThatCannotBe) {
-  for (const double timeout_s : {0.0, -1.0, 1e9, std::nan("")}) {
+  max_s = 1'000'000;
+  for (const double timeout_s : {0.0, -1.0, 86400.5, 1e9, std::nan("")}) {
     CHECK_FALSE(open(timeout_s).has_value());
   }
   STRCMP_EQUAL("", written().c_str());
+  LONGS_EQUAL(86400, (*open(86400.0))->timeout_s());
 }
 
 TEST(DevWatchdog, IsContentWithAShorterTimeThatTheDriverHas) {

@@ -139,6 +139,10 @@ TEST(IioAdc, TellsBetweenWhichCountsItsValuesLie) {
   tree.write(type, "be:u12/16>>2\n");
   LONGS_EQUAL(0, count_range(place())->lowest);
   LONGS_EQUAL(4095, count_range(place())->highest);
+  tree.write(type, "be:u32/32>>0\n");
+  CHECK(count_range(place())->highest == 0xFFFFFFFF);
+  tree.write(type, "be:u33/64>>0\n");
+  CHECK_FALSE(count_range(place()).has_value());
   tree.write(type, "12 bits\n");
   CHECK_FALSE(count_range(place()).has_value());
   CHECK_FALSE(count_range(place("../voltage0")).has_value());

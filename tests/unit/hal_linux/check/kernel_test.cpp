@@ -60,12 +60,24 @@ TEST(CheckKernel, TellsTheShareOfRealTimeThreads) {
   check_finding("ok", "may use 95 % of each 1000000 us", "", throttling());
   root.write("proc/sys/kernel/sched_rt_runtime_us", "-1\n");
   check_finding("ok", "may use all of the processor", "", throttling());
+  root.write("proc/sys/kernel/sched_rt_runtime_us", "900000\n");
+  check_finding("ok", "may use 90 %", "", throttling());
+  root.write("proc/sys/kernel/sched_rt_runtime_us", "899999\n");
+  check_finding("warning", "may use 89 %", "sched_rt_runtime_us=950000", throttling());
   root.write("proc/sys/kernel/sched_rt_runtime_us", "500000\n");
   check_finding("warning", "may use 50 %", "sched_rt_runtime_us=950000", throttling());
   root.write("proc/sys/kernel/sched_rt_runtime_us", "0\n");
   check_finding("problem", "may use 0 %", "sched_rt_runtime_us=950000", throttling());
   root.remove("proc/sys/kernel/sched_rt_runtime_us");
   check_finding("warning", "not known: cannot open ", "a kernel that reports it", throttling());
+}
+
+TEST(CheckKernel, KnowsNoShareOfAPeriodThatIsNone) {
+  for (const char* period : {"0\n", "-1\n"}) {
+    root.write("proc/sys/kernel/sched_rt_period_us", period);
+    check_finding("warning", "sched_rt_runtime_us has no period", "a kernel that reports it",
+                  throttling());
+  }
 }
 
 TEST(CheckKernel, NamesProcessorsThatSlowDown) {
@@ -81,11 +93,15 @@ TEST(CheckKernel, NamesProcessorsThatSlowDown) {
 TEST(CheckKernel, AsksForTheLoopsOwnProcessor) {
   check_finding("ok", "running 0-3, isolated none", "", processors(-1));
   check_finding("warning", "other work may run on the loop's, 3", "isolcpus=3", processors(3));
+  check_finding("warning", "other work may run on the loop's, 0", "isolcpus=0", processors(0));
   root.write(cpus + "isolated", "1,3\n");
   check_finding("ok", "isolated 1,3", "", processors(3));
   check_finding("ok", "isolated 1,3", "", processors(1));
   check_finding("warning", "isolated 1,3", "isolcpus=2", processors(2));
   check_finding("problem", "4 does not run", "another --cpu", processors(4));
+  root.write(cpus + "isolated", "0,2-3\n");
+  check_finding("ok", "isolated 0,2-3", "", processors(2));
+  check_finding("warning", "isolated 0,2-3", "isolcpus=1", processors(1));
 }
 
 TEST(CheckKernel, NamesDebiansRealTimeKernelForThisProcessor) {

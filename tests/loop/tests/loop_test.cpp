@@ -112,6 +112,22 @@ TEST(Loop, AnswersWithTheCommandAsItWasGiven) {
   CHECK_FALSE(rig.loop.answer(answer));
 }
 
+/// So that a flood of them makes no tick late; the rest waits.
+TEST(Loop, ObeysSixtyFourCommandsInATick) {
+  Rig rig(settings);
+  for (int i = 0; i < 100; ++i)
+    CHECK(rig.loop.send({Rig::tested, Verb::disarm}));
+  const auto answers_of_a_tick = [&rig] {
+    rig.executive.run_tick();
+    int answers = 0;
+    for (Answer answer; rig.loop.answer(answer);)
+      ++answers;
+    return answers;
+  };
+  LONGS_EQUAL(64, answers_of_a_tick());
+  LONGS_EQUAL(36, answers_of_a_tick());
+}
+
 /// Converters have their first values by then.
 TEST(Loop, JudgesItsBoardAfterATenthOfASecond) {
   settings.board.supply_V = 10.0;

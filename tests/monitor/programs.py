@@ -79,19 +79,21 @@ class Program:
         self.folder.cleanup()
 
 
-def simulated_board(port=0):
+def simulated_board(port=0, scenario="bench"):
     """Its .found[1] is the port of its socketcand: this one, or one at which another board may be started later."""
     program = os.environ.get("SUPERCOIL_SIM", BIN / "supercoil-sim")
-    return Program([program, "run", "bench", "--real-time", "--can", f"socketcand:{port or free_ports()}"],
+    return Program([program, "run", scenario, "--real-time", "--can", f"socketcand:{port or free_ports()}"],
                    r"serving can0 on 127\.0\.0\.1:(\d+)")
 
 
 class OnSimulatedBoard(unittest.TestCase):
     """Tests that share a simulated board and its bus."""
 
+    scenario = "bench"
+
     @classmethod
     def setUpClass(cls):
-        cls.board = simulated_board()
+        cls.board = simulated_board(scenario=cls.scenario)
         cls.addClassCleanup(cls.board.stop)
         cls.source = f"socketcand:{cls.board.found[1]}"
 

@@ -26,7 +26,7 @@ board::Learned Axis::known() const {
 void Axis::publish_muscle() {
   published_muscle_.set(known_muscle(muscle_, calibration_, response_ratio_, identify_.quality(),
                                      {settings_.configured_muscle.value_or(settings_.muscle),
-                                      settings_.heater.cold_resistance_Ohm}));
+                                      settings_.heater.cold_resistance_Ohm, settings_.joint}));
 }
 
 void Axis::calibrate(const board::Calibration& calibration) {

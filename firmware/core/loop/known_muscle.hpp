@@ -9,13 +9,14 @@
 #include <string_view>
 
 #include "board/learned.hpp"
+#include "loop/settings.hpp"
 #include "modes/identify.hpp"
 
 namespace supercoil {
 
 /// In the order of Muscle.quantity in the DBC. What identify told of its own result is NaN until it
 /// has found a muscle since the start.
-inline constexpr std::array<std::string_view, 22> known_quantities{
+inline constexpr std::array<std::string_view, 24> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
     "position_scale",
@@ -26,7 +27,9 @@ inline constexpr std::array<std::string_view, 22> known_quantities{
     // By the board's file, whatever was found since.
     "configured_thermal_mass_J_per_K", "configured_heat_transfer_W_per_K",
     "configured_stiffness_N_per_m", "configured_damping_Ns_per_m", "configured_moving_mass_kg",
-    "configured_force_per_kelvin_N_per_K", "configured_cold_resistance_Ohm"};
+    "configured_force_per_kelvin_N_per_K", "configured_cold_resistance_Ohm",
+    "joint_lever_m",      ///< < 0 of the antagonist: the angle is position / lever; NaN: no joint
+    "joint_other_node"};  ///< of the other muscle, minus this one's
 /// Places of those that follow the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
@@ -36,6 +39,8 @@ enum KnownPlace : std::uint8_t {
   known_theta1_deviation,
   known_unexplained_ratio = 14,
   known_configured,  ///< the first of the configured ones
+  known_joint_lever = 22,
+  known_joint_other_node,
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
@@ -43,6 +48,7 @@ using KnownMuscle = std::array<double, known_quantities.size()>;
 struct ConfiguredMuscle {
   control::PhysicalParameters muscle;
   double cold_resistance_Ohm;
+  PlaceInJoint joint;
 };
 
 inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const board::Calibration& c,
@@ -70,7 +76,9 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
           file.damping_Ns_per_m,
           file.moving_mass_kg,
           file.force_per_kelvin_N_per_K,
-          configured.cold_resistance_Ohm};
+          configured.cold_resistance_Ohm,
+          configured.joint.lever_m,
+          configured.joint.other_channel};
 }
 
 /// From the loop to other threads; each quantity is whole, all of them together may be of two

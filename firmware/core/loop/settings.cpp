@@ -74,6 +74,9 @@ bool BoardSettings::in_joint(std::size_t channel) const {
 
 void add_joint(BoardSettings& board, const JointSettings& joint) {
   board.joints.push_back(joint);
+  const double apart = static_cast<double>(joint.antagonist) - static_cast<double>(joint.agonist);
+  board.channels[joint.agonist].joint = {joint.lever_m, apart};
+  board.channels[joint.antagonist].joint = {-joint.lever_m, -apart};
   for (const std::size_t channel : {joint.agonist, joint.antagonist})
     board.channels[channel].supervision.proof_of_response = false;
 }

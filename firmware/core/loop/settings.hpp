@@ -39,6 +39,12 @@ struct HeaterSettings {
   double delay_s = 0.0;        ///< from a duty's setting to its acting
 };
 
+/// What a channel tells of the joint that it is in; NaN: in none.
+struct PlaceInJoint {
+  double lever_m = NAN;  ///< the joint's angle in rad is position / lever_m: < 0 of the antagonist
+  double other_channel = NAN;  ///< from this one: 1 is the next
+};
+
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
   std::optional<control::PhysicalParameters> configured_muscle;  ///< empty: it is muscle
@@ -49,6 +55,7 @@ struct ChannelSettings {
   board::ThermalFacts heat;        ///< found out before, as stored
   double response_ratio = 0.0;     ///< likewise, of small motions; 0: not measured
   board::StoredTuning tuning;      ///< as stored; controllers have it already
+  PlaceInJoint joint;              ///< by add_joint()
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;

@@ -43,6 +43,7 @@ from supercoil.generated.names import (
     State,
 )
 from supercoil.generated.version import PROTOCOL_VERSION, __version__
+from supercoil.joints import Joint
 from supercoil.learning import Outcome
 from supercoil.muscle import Muscle
 from supercoil.player import Motion
@@ -64,6 +65,7 @@ __all__ = [
     "FaultError",
     "Found",
     "Gain",
+    "Joint",
     "LimitedBy",
     "Mode",
     "Motion",

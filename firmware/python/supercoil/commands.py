@@ -8,6 +8,7 @@ from supercoil.connection import FRESH_BEATS, HEARTBEAT_S, Connection
 from supercoil.errors import NoAnswerError, NotReachedError
 from supercoil.generated import messages, refusals
 from supercoil.generated.names import Opcode, Quantity, Setting, State
+from supercoil.joints import Joint, joint_of
 
 _LOOK_EVERY_S = 0.02
 _SETTLED_S = 0.2
@@ -122,6 +123,11 @@ class Commands(Connection):
     async def quantities(self) -> dict[Quantity, float]:
         """What the board knows of its muscle and goes by now; NaN: not known."""
         return {quantity: await self._link.quantity(quantity) for quantity in Quantity}
+
+    async def joint(self) -> Joint | None:
+        """The joint that it turns with another muscle; None: it moves alone."""
+        return joint_of(self.node, await self._link.quantity(Quantity.joint_lever_m),
+                        await self._link.quantity(Quantity.joint_other_node))
 
     def make_position(self, position_m: float) -> Order:
         return Order(self, Opcode.position, position_m)

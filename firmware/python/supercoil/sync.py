@@ -15,6 +15,7 @@ from supercoil.discovery import discover as async_discover
 from supercoil.discovery import stop as async_stop
 from supercoil.generated import messages
 from supercoil.generated.names import Fault, Quantity, Setting, State
+from supercoil.joints import Joint
 from supercoil.learning import Outcome
 from supercoil.player import Motion
 from supercoil.playing import play as async_play
@@ -181,6 +182,9 @@ class Muscle:
 
     def quantities(self) -> dict[Quantity, float]:
         return run(self._muscle.quantities())
+
+    def joint(self) -> Joint | None:
+        return run(self._muscle.joint())
 
     def make_position(self, position_m: float) -> Order:
         return self._muscle.make_position(position_m)

@@ -93,7 +93,8 @@ TEST(OverCan, WhatTheBoardKnowsOfItsMuscleIsTold) {
   DOUBLES_EQUAL(channel.calibration.cold_resistance_Ohm, found_Ohm, 0.5);
   CHECK(found_Ohm != channel.calibration.cold_resistance_Ohm);
   // The file's stands beside it.
-  DOUBLES_EQUAL(channel.heater.cold_resistance_Ohm, rig.muscle(known_quantities.size() - 1), 1e-6);
+  DOUBLES_EQUAL(channel.heater.cold_resistance_Ohm, rig.muscle(known_joint_lever - 1), 1e-6);
+  CHECK(std::isnan(rig.muscle(known_joint_lever)));
 }
 
 TEST(OverCan, ARefusedValueComesWithTheNearestAcceptedOne) {

@@ -130,7 +130,7 @@ inline constexpr std::array<ValueName, 6> names_of_playback{{
     {5, "dry"},
 }};
 
-inline constexpr std::array<ValueName, 22> names_of_quantity{{
+inline constexpr std::array<ValueName, 24> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
     {2, "stiffness_N_per_m"},
@@ -153,6 +153,8 @@ inline constexpr std::array<ValueName, 22> names_of_quantity{{
     {19, "configured_moving_mass_kg"},
     {20, "configured_force_per_kelvin_N_per_K"},
     {21, "configured_cold_resistance_Ohm"},
+    {22, "joint_lever_m"},
+    {23, "joint_other_node"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_refusal{{

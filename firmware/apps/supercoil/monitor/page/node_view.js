@@ -5,6 +5,7 @@ import { element } from "./dom.js";
 import { Gains } from "./gains.js";
 import { Identified } from "./identified.js";
 import { ManualControl } from "./manual_control.js";
+import { JointCard } from "./joint_card.js";
 import { Journal } from "./journal.js";
 import { Margins } from "./margins.js";
 import { OutcomeCard } from "./outcome_card.js";
@@ -33,13 +34,13 @@ export class NodeView {
     this.tuning = new Tuning(node, may, (text, kind) => this.journal.add(text, kind));
     this.tuning.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
-    this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins, new OutcomeCard(node, store, view)];
+    this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins, new OutcomeCard(node, store, view), new JointCard(node, store)];
     this.plots = [];
     this.place_of_plots = element("div", { class: "plots" });
     this.lay_out_plots();
-    const [readouts, parameters, identified, gains, margins, outcome] = this.cards.map((card) => card.element);
+    const [readouts, parameters, identified, gains, margins, outcome, joint] = this.cards.map((card) => card.element);
     this.element = element("div", { class: "node", id: `node-${node}`, role: "tabpanel", "aria-label": `node ${node}` },
-      element("div", { class: "side" }, this.state.element, this.panel.element, this.waveform.element, outcome, this.journal.element),
+      element("div", { class: "side" }, this.state.element, joint, this.panel.element, this.waveform.element, outcome, this.journal.element),
       element("div", { class: "main" }, readouts, this.place_of_plots,
         element("div", { class: "lower" }, element("div", { class: "stack" }, parameters, identified, gains, this.tuning.element), margins)));
   }

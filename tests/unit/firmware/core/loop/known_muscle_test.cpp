@@ -29,14 +29,18 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   LONGS_EQUAL(14, known_unexplained_ratio);
   CHECK(known_quantities[known_unexplained_ratio] == "unexplained_ratio");
   CHECK(known_quantities[known_configured] == "configured_thermal_mass_J_per_K");
-  CHECK(known_quantities.back() == "configured_cold_resistance_Ohm");
+  CHECK(known_quantities[known_joint_lever - 1] == "configured_cold_resistance_Ohm");
+  CHECK(known_quantities[known_joint_lever] == "joint_lever_m");
+  CHECK(known_quantities.back() == "joint_other_node");
   const KnownMuscle known = known_muscle(
       {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, {},
-      {{.stiffness_N_per_m = 14.0}, 8.0});
+      {{.stiffness_N_per_m = 14.0}, 8.0, {-0.015, -1.0}});
   DOUBLES_EQUAL(9.0, known[known_cold_resistance], 0.0);
   DOUBLES_EQUAL(0.25, known[known_position_offset], 0.0);
   DOUBLES_EQUAL(1.5, known[known_position_scale], 0.0);
   DOUBLES_EQUAL(0.75, known[known_response_ratio], 0.0);
   DOUBLES_EQUAL(14.0, known[known_configured + 2], 0.0);
-  DOUBLES_EQUAL(8.0, known.back(), 0.0);
+  DOUBLES_EQUAL(8.0, known[known_joint_lever - 1], 0.0);
+  DOUBLES_EQUAL(-0.015, known[known_joint_lever], 0.0);
+  DOUBLES_EQUAL(-1.0, known[known_joint_other_node], 0.0);
 }

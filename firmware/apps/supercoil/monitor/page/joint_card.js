@@ -1,0 +1,70 @@
+// A joint of two muscles, as the board of its nodes tells of it: a picture of its angle, and what each muscle does.
+
+import { element, show } from "./dom.js";
+import { fixed } from "./format.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+const DEGREES = 180 / Math.PI;
+// The picture: from the pivot, in pixels. An angle beyond is drawn at this one.
+const LEVER = 24, ARM = 78, FOOT = 66, MOST_DEG = 80;
+
+const drawn = (name, attributes, ...children) => {
+  const made = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+};
+/** Degrees to the right of upright, within what the picture has room for. */
+const turned = (angle_deg) => `rotate(${Number.isFinite(angle_deg) ? Math.max(-MOST_DEG, Math.min(MOST_DEG, angle_deg)).toFixed(2) : 0})`;
+
+export class JointCard {
+  constructor(node, store) {
+    Object.assign(this, { node, store });
+    this.reference = drawn("line", { class: "reference", y1: 0, y2: -ARM });
+    this.muscles = [drawn("line", { class: "muscle" }), drawn("line", { class: "muscle" })];
+    this.arm = drawn("g", { class: "arm" }, drawn("line", { x1: -LEVER, x2: LEVER }), drawn("line", { y1: 0, y2: -ARM }), drawn("circle", { r: 4 }));
+    const picture = drawn("svg", { viewBox: "-95 -90 190 160", role: "img", "aria-label": "the joint at its angle, its reference dashed" },
+      this.reference, ...this.muscles, this.arm);
+    this.values = ["angle", "reference", "turns right", "turns left"].map((name) => {
+      const title = element("dt", {}, name), value = element("dd", {}, "–");
+      return { title, value, line: element("div", {}, title, value) };
+    });
+    this.element = element("section", { class: "card joint full-only", "aria-label": `joint of node ${node}`, hidden: true },
+      element("h2", {}, "Joint"), picture, element("dl", { class: "facts" }, ...this.values.map(({ line }) => line)));
+  }
+
+  /** What the board told of this node's muscle, by the quantity's name. */
+  #told(name, now_s) {
+    for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s))
+      if (this.store.word("Muscle", "quantity", number) === name) return value;
+    return undefined;
+  }
+
+  update(now_s) {
+    const lever_m = this.#told("joint_lever_m", now_s), other = this.node + this.#told("joint_other_node", now_s);
+    this.element.hidden = !(Math.abs(lever_m) > 0 && Number.isFinite(other));
+    if (this.element.hidden) return;
+    const [right, left] = lever_m > 0 ? [this.node, other] : [other, this.node];
+    const degrees = (message, column) => (this.store.at(right, message, now_s)?.[column] / Math.abs(lever_m)) * DEGREES;
+    const angle_deg = degrees("Measurement", "position_m"), reference_deg = degrees("Tracking", "reference_m");
+    this.arm.setAttribute("transform", turned(angle_deg));
+    this.reference.setAttribute("transform", turned(reference_deg));
+    this.reference.style.display = Number.isFinite(reference_deg) ? "" : "none";
+    this.muscles.forEach((muscle, i) => this.#draw(muscle, i === 0 ? 1 : -1, angle_deg));
+    show(this.values[0].value, `${fixed(angle_deg, 2)}°`);
+    show(this.values[1].value, `${fixed(reference_deg, 2)}°`);
+    [right, left].forEach((node, i) => {
+      const hot = this.store.at(node, "Temperature", now_s);
+      const { title, value } = this.values[2 + i];
+      show(title, `node ${node}, turns ${i === 0 ? "right" : "left"}`);
+      show(value, `${fixed(this.store.at(node, "Power", now_s)?.applied_W, 2)} W, ${fixed(hot?.coldest_C, 0)} … ${fixed(hot?.hottest_C, 0)} °C`);
+    });
+  }
+
+  /** From where it is fixed to the end of the lever that it draws down. */
+  #draw(muscle, side, angle_deg) {
+    const angle = (Number.isFinite(angle_deg) ? Math.max(-MOST_DEG, Math.min(MOST_DEG, angle_deg)) : 0) / DEGREES;
+    const ends = { x1: side * LEVER, y1: FOOT, x2: side * LEVER * Math.cos(angle), y2: side * LEVER * Math.sin(angle) };
+    for (const [key, at] of Object.entries(ends)) muscle.setAttribute(key, at.toFixed(2));
+  }
+}

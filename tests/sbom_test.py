@@ -105,10 +105,10 @@ class Sbom(unittest.TestCase):
         for component in self.components:
             told = get_spdx_licensing().validate(component["licence"])
             self.assertEqual(told.errors, [], component["name"])
-        self.assertIn("License: Apache-2.0", (ROOT / "toolchain/package/copyright").read_text())
+        self.assertIn("License: Apache-2.0", (ROOT / "toolchain/debian/source/copyright").read_text())
 
     def test_the_notice_of_what_is_compiled_in_is_in_the_package(self):
-        notices = (ROOT / "toolchain/package/copyright").read_text()
+        notices = (ROOT / "toolchain/debian/source/copyright").read_text()
         declarations_only = {"NLopt", "libgpiod"}  # their headers have no code
         for component in self.components:
             if "headers" not in component or component["name"] in declarations_only:

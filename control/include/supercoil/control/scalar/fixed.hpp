@@ -76,14 +76,16 @@ class Fixed {
   constexpr Fixed& operator+=(Fixed other) {
     Raw sum = 0;
     const bool overflow = __builtin_add_overflow(raw_, other.raw_, &sum);
-    if (overflow) [[unlikely]] sum = limit(other.raw_ < 0);
+    if (overflow) [[unlikely]]
+      sum = limit(other.raw_ < 0);
     raw_ = sum;
     return *this;
   }
   constexpr Fixed& operator-=(Fixed other) {
     Raw difference = 0;
     const bool overflow = __builtin_sub_overflow(raw_, other.raw_, &difference);
-    if (overflow) [[unlikely]] difference = limit(other.raw_ > 0);
+    if (overflow) [[unlikely]]
+      difference = limit(other.raw_ > 0);
     raw_ = difference;
     return *this;
   }
@@ -131,11 +133,13 @@ class Fixed {
   static constexpr Raw limit(bool negative) {
     return negative ? std::numeric_limits<Raw>::min() : std::numeric_limits<Raw>::max();
   }
-  // One comparison, after narrowing, and a branch that is predicted: this is most of what a step in fixed point costs.
+  // One comparison, after narrowing, and a branch that is predicted: this is most of what a step in
+  // fixed point costs.
   template <class Integer>
   static constexpr Raw clamp(Integer value) {
     const auto narrow = static_cast<Raw>(value);
-    if (value != narrow) [[unlikely]] return limit(value < 0);
+    if (value != narrow) [[unlikely]]
+      return limit(value < 0);
     return narrow;
   }
   static constexpr Raw raw_from(double value) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 #include <boost/lockfree/spsc_queue.hpp>
@@ -92,6 +93,8 @@ class Axis {
   Reply play(const Command& command);
   /// In a joint, of its antagonist: what it pulls with while no effort is asked for.
   Reply pull_with(double power_W);
+  /// The most of that; what the heater may have bounds it as well.
+  void limit_pull(double max_W) { max_pull_W_ = max_W; }
   /// m, or W in open loop and in Mode::joint.
   double reference() const { return reference_; }
   /// Follows what was admitted. value: m, or W in open loop.
@@ -187,6 +190,7 @@ class Axis {
   hal::Time now_{};
   Playback playback_;
   double reference_ = 0.0;  ///< m, or W in open loop
+  double max_pull_W_ = std::numeric_limits<double>::infinity();
   control::ControllerOutput demanded_;
   double share_W_ = 0.0;  ///< of that, from its own heater
   modes::Identify identify_;

@@ -38,7 +38,7 @@ Reply Axis::admits(Mode mode, double& value) const {
 }
 
 Reply Axis::pull_with(double power_W) {
-  const double max_W = heater_.limiter().max_W();
+  const double max_W = std::min(heater_.limiter().max_W(), max_pull_W_);
   const double allowed_W = std::clamp(power_W, 0.0, max_W);
   if (!(power_W >= 0.0 && power_W <= float_rounding * max_W))
     return {Refusal::out_of_range, allowed_W};

@@ -19,6 +19,7 @@ Joint::Joint(const JointSettings& settings, Axis& agonist, Axis& antagonist, dou
     : agonist_(agonist),
       antagonist_(antagonist),
       first_W_(settings.co_contraction_W),
+      max_W_(settings.max_co_contraction_W),
       lag_ratio_(step_s / co_contraction_lag_s) {}
 
 void Joint::observe() {
@@ -26,6 +27,7 @@ void Joint::observe() {
   const Opposition of_antagonist = antagonist_.opposition(ratio);
   antagonist_.oppose(agonist_.opposition(1.0 / ratio));
   agonist_.oppose(of_antagonist);
+  antagonist_.limit_pull(max_W_ / ratio);
 }
 
 /// The antagonist's reference is what it is to pull with while the joint asks for no effort.
@@ -37,7 +39,9 @@ void Joint::follow_co_contraction(bool active, double gain_ratio) {
   }
   was_active_ = active;
   if (!active) return;
-  nearly_W_ += lag_ratio_ * (gain_ratio * antagonist_.reference() - nearly_W_);
+  // What was commanded may be more than the limit once the muscles are known better.
+  const double wanted_W = std::min(gain_ratio * antagonist_.reference(), max_W_);
+  nearly_W_ += lag_ratio_ * (wanted_W - nearly_W_);
   co_contraction_W_ += lag_ratio_ * (nearly_W_ - co_contraction_W_);
 }
 

@@ -28,6 +28,7 @@ class Joint {
   Axis& agonist_;
   Axis& antagonist_;
   double first_W_;    ///< of co-contraction, in watts of the agonist as all here
+  double max_W_;      ///< likewise
   double lag_ratio_;  ///< of a tick to co_contraction_lag_s
   bool was_active_ = false;
   double nearly_W_ = 0.0;

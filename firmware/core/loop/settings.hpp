@@ -1,6 +1,7 @@
 // All that the loop needs to know of a board, in SI units, checked before it starts.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,6 +79,8 @@ struct JointSettings {
   /// The power of the agonist while the joint asks for no effort; the antagonist's has the same
   /// effect. By it they pull against each other.
   double co_contraction_W = 1.0;
+  /// That may be commanded, likewise in watts of the agonist.
+  double max_co_contraction_W = std::numeric_limits<double>::infinity();
 };
 
 struct BoardSettings {

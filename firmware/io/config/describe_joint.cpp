@@ -13,6 +13,16 @@ double to_tenth(double value) {
   return std::nearbyint(10.0 * value) / 10.0;
 }
 
+double to_hundredth(double value) {
+  return std::nearbyint(100.0 * value) / 100.0;
+}
+
+/// That steady heat makes the muscle pull with while it is held still.
+double heat_N(const ChannelSettings& channel, double power_W) {
+  const control::PhysicalParameters& m = channel.muscle;
+  return power_W / m.heat_transfer_W_per_K * m.force_per_kelvin_N_per_K;
+}
+
 /// "12.3 mm (47 °)"
 std::string arc(double arc_m, double lever_m) {
   std::ostringstream out;
@@ -39,6 +49,11 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
       << "  both pull   with " << to_tenth(joint.co_contraction_W) << " W and "
       << to_tenth(joint.co_contraction_W / gain_ratio)
       << " W while the joint asks for no effort, of which each takes half\n"
+      << "              at most with " << to_tenth(joint.max_co_contraction_W) << " W and "
+      << to_tenth(joint.max_co_contraction_W / gain_ratio) << " W, by which heat adds "
+      << to_hundredth(heat_N(agonist, joint.max_co_contraction_W)) << " N and "
+      << to_hundredth(heat_N(antagonist, joint.max_co_contraction_W / gain_ratio))
+      << " N to their pull; what they bear is not configured\n"
       << "  stiffness   " << agonist.muscle.stiffness_N_per_m << " N/m at the lever, "
       << agonist.muscle.stiffness_N_per_m * joint.lever_m * joint.lever_m
       << " Nm/rad, however much both pull: linear muscles at a constant lever\n";

@@ -7,18 +7,25 @@ namespace supercoil::config {
 
 namespace {
 
-/// Of the agonist's greatest power, where no co-contraction is given.
+/// Of what both heaters can give, where no co-contraction is given, and no limit of it: with half
+/// of it, the joint can still be asked for every effort.
 constexpr double usual_co_contraction_ratio = 0.2;
+constexpr double usual_limit_ratio = 0.5;
 
-/// In watts of the agonist, of which neither heater can give more than this.
-double co_contraction_W(Section& section, const JointSettings& joint, const BoardSettings& board) {
+/// In watts of the agonist.
+void read_co_contraction(Section& section, const BoardSettings& board, JointSettings& joint) {
   const ChannelSettings& agonist = board.channels[joint.agonist];
   const ChannelSettings& antagonist = board.channels[joint.antagonist];
   const double gain_ratio = antagonist.muscle.dc_gain_m_per_W() / agonist.muscle.dc_gain_m_per_W();
-  const double max_W = std::min(agonist.limiter.max_W, gain_ratio * antagonist.limiter.max_W);
+  const double both_W = std::min(agonist.limiter.max_W, gain_ratio * antagonist.limiter.max_W);
+  joint.co_contraction_W = 0.0;
   // What a channel lacks is told there.
-  if (!(max_W > 0.0)) return 0.0;
-  return section.number("co_contraction_W", usual_co_contraction_ratio * max_W, {0.0, max_W});
+  if (!(both_W > 0.0)) return;
+  joint.max_co_contraction_W =
+      section.number("max_co_contraction_W", usual_limit_ratio * both_W, {0.0, both_W});
+  joint.co_contraction_W = section.number(
+      "co_contraction_W", std::min(usual_co_contraction_ratio * both_W, joint.max_co_contraction_W),
+      {0.0, joint.max_co_contraction_W});
 }
 
 }  // namespace
@@ -70,10 +77,10 @@ void JointReader::finish(BoardConfig& config) {
     Section& section = sections_[i];
     const std::string name = section.text("name", "joint " + std::to_string(i + 1));
     const double lever_m = section.required_number("lever_m", {1e-4, 1.0});
-    section.allow({"co_contraction_W"});
+    section.allow({"co_contraction_W", "max_co_contraction_W"});
     if (joints_[i]) {
       joints_[i]->lever_m = lever_m;
-      joints_[i]->co_contraction_W = co_contraction_W(section, *joints_[i], config.settings);
+      read_co_contraction(section, config.settings, *joints_[i]);
       add_joint(config.settings, *joints_[i]);
       config.joints.push_back({name});
     }

@@ -185,6 +185,25 @@ TEST(Joint, PowerToTheAntagonistChangesWithWhatBothPullAndHardlyTheAngle) {
   DOUBLES_EQUAL(2.0 * before_W, of(antagonist).reference, 1e-12);
 }
 
+/// In watts of the antagonist, whose gain is what the limit's watts are turned into them by.
+TEST(Joint, PullsNoHarderThanTheLimitOfTheJoint) {
+  RigSettings settings = joint_board();
+  settings.firmware.joints[0].max_co_contraction_W = 1.2;
+  const double gain_ratio = settings.firmware.channels[antagonist].muscle.dc_gain_m_per_W() /
+                            settings.firmware.channels[agonist].muscle.dc_gain_m_per_W();
+  Rig fresh(settings);
+  begin(fresh);
+  CHECK_FALSE(follows_until_fault(fresh, 1.0, [] { return 0.0; }));
+  CHECK(fresh.answer_of(antagonist, Verb::power, 1.21 / gain_ratio) == Refusal::out_of_range);
+  CHECK(fresh.answer_of(antagonist, Verb::power, 1.2 / gain_ratio) == Refusal::none);
+  CHECK_FALSE(follows_until_fault(fresh, 60.0, [] { return 0.0; }));
+  CHECK_COMPARE(fresh.loop.channel(antagonist).snapshot().applied_W, <, 1.25 / gain_ratio);
+  CHECK_COMPARE(fresh.loop.channel(antagonist).snapshot().applied_W, >, 1.0 / gain_ratio);
+  // By itself the muscle may have all that its heater may.
+  CHECK(fresh.answer_of(antagonist, Verb::rest) == Refusal::none);
+  CHECK(fresh.answer_of(antagonist, Verb::power, 2.0) == Refusal::none);
+}
+
 TEST(Joint, AntagonistIsNotCommandedByItselfWhileItIsLed) {
   arm();
   CHECK(rig.answer_of(antagonist, Verb::position, 0.001) == Refusal::wrong_state);

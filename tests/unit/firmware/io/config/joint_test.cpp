@@ -86,8 +86,23 @@ TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {
                     .settings.joints[0]
                     .co_contraction_W,
                 0.0);
-  check_answer("joint[1].co_contraction_W = 4.6: must be 0 to 4.5",
-               board_with_joint + "co_contraction_W = 4.6\n");
+}
+
+TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
+  const auto limit_W = [](const std::string& more) {
+    return read_joint_board(board_with_joint + more).settings.joints[0].max_co_contraction_W;
+  };
+  DOUBLES_EQUAL(0.5 * 4.5, limit_W(""), 1e-12);
+  DOUBLES_EQUAL(3.0, limit_W("max_co_contraction_W = 3.0\n"), 0.0);
+  STRCMP_EQUAL("b.toml:66: joint[1].co_contraction_W = 2.3: must be 0 to 2.25\n",
+               problems_of(board_with_joint + "co_contraction_W = 2.3\n").c_str());
+  check_answer("joint[1].co_contraction_W = 0.9: must be 0 to 0.8",
+               board_with_joint + "co_contraction_W = 0.9\nmax_co_contraction_W = 0.8\n");
+  check_answer("joint[1].max_co_contraction_W = 4.6: must be 0 to 4.5",
+               board_with_joint + "max_co_contraction_W = 4.6\n");
+  // The usual co-contraction is not above it.
+  const BoardConfig low = read_joint_board(board_with_joint + "max_co_contraction_W = 0.5\n");
+  DOUBLES_EQUAL(0.5, low.settings.joints[0].co_contraction_W, 0.0);
 }
 
 TEST(JointConfig, OneConverterIsReadOnce) {
@@ -100,7 +115,8 @@ TEST(JointConfig, OneConverterIsReadOnce) {
 TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
   const std::string text = describe(read_joint_board(board_with_joint));
   for (const char* part : {"joint 1: elbow", "agonist channel 1, antagonist channel 2",
-                           "lever of 15 mm", "with 0.9 W and 0.7 W", "stiffness   16 N/m"})
+                           "lever of 15 mm", "with 0.9 W and 0.7 W", "at most with 2.2 W and 1.8 W",
+                           "heat adds 0.22 N and 0.22 N", "stiffness   16 N/m"})
     STRCMP_CONTAINS(part, text.c_str());
 }
 

@@ -33,6 +33,7 @@ void JointPlant::set(const JointPlantSettings& settings) {
   for (std::size_t i = 0; i < muscles.size(); ++i) {
     pulls_[i] = muscles[i] != nullptr && !muscles[i]->torn;
     if (muscles[i] == nullptr) continue;
+    slack_m_[i] = muscles[i]->slack_m;
     bodies_[i].set(muscles[i]->parameters, pulled(muscles[i]->effects, settings.pretension_N),
                    slow_.step_s);
     damping[i] = muscles[i]->parameters.damping_Ns_per_m;
@@ -61,11 +62,15 @@ void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) 
   const double before_m = motion_.position_m;
   Drives drives{};
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    drives[i] = bodies_[i].step(power_W[i], -settings_.pretension_N, direction[i] * before_m);
+    Drive& d = drives[i];
+    d = bodies_[i].step(power_W[i], -settings_.pretension_N, direction[i] * before_m + slack_m_[i]);
+    // From now on along the joint's arc.
+    d.force_N -= d.stiffness_N_per_m * slack_m_[i];
+    d.force_end_N -= d.stiffness_end_N_per_m * slack_m_[i];
   }
   move(drives, load_N);
   for (std::size_t i = 0; i < drives.size(); ++i)
-    bodies_[i].moved(0.5 * direction[i] * (before_m + motion_.position_m));
+    bodies_[i].moved(0.5 * direction[i] * (before_m + motion_.position_m) + slack_m_[i]);
 }
 
 double JointPlant::weight_N(double position_m) const {

@@ -15,7 +15,8 @@ namespace supercoil::host_sim {
 struct JointMuscle {
   control::PhysicalParameters parameters;
   PlantEffects effects;
-  bool torn = false;  ///< it pulls no more
+  bool torn = false;     ///< it pulls no more
+  double slack_m = 0.0;  ///< of its cable: it contracts so far before it pulls as it did
 };
 
 /// The angle is zero where both new, cold muscles pull with pretension_N; the agonist turns the
@@ -72,6 +73,7 @@ class JointPlant {
   double per_substep_ = 0.25;
   std::array<MuscleBody, 2> bodies_;
   std::array<bool, 2> pulls_{};  ///< there, and not torn
+  std::array<double, 2> slack_m_{};
   /// By which muscles are taut, as bits: a slack one does not damp.
   std::array<Mechanics, 4> mechanics_;
   std::array<double, 4> damping_Ns_per_m_{};

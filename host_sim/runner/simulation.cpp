@@ -134,12 +134,14 @@ void Simulation::set_air() {
 
 void Simulation::inject_faults(const InjectedFaults& faults) {
   MuscleChannel& muscle = board_.channel(0);
-  muscle.faults = {
-      faults.heater_open,  faults.heater_short ? 0.5 : 0.0, faults.switch_stuck_on, false,
-      faults.muscle_slack, faults.switch_leak_ratio,        faults.agonist_torn};
+  muscle.faults = {faults.heater_open,     faults.heater_short ? 0.5 : 0.0,
+                   faults.switch_stuck_on, false,
+                   faults.muscle_slack,    faults.switch_leak_ratio,
+                   faults.agonist_torn,    faults.agonist_slack_m};
   if (conditions_->joint) {
     board_.channel(1).faults.wire_open = faults.antagonist_heater_open;
     board_.channel(1).faults.torn = faults.antagonist_torn;
+    board_.channel(1).faults.slack_m = faults.antagonist_slack_m;
   }
   muscle.position.set(
       ConverterFaults{faults.position_silent, faults.position_frozen, faults.position_loose});

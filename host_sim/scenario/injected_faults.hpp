@@ -22,6 +22,8 @@ struct InjectedFaults {
   double current_gain = 1.0;       ///< what the current's sense reads, over the truth
   double supply_gain = 1.0;        ///< likewise of the supply's
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the power switch is off
+  double agonist_slack_m = 0.0;    ///< of a joint: it contracts so far before it pulls as it did
+  double antagonist_slack_m = 0.0;
 
   friend bool operator==(const InjectedFaults&, const InjectedFaults&) = default;
 };
@@ -60,6 +62,12 @@ inline constexpr std::array<InjectedFaultNumber, 3> injected_fault_numbers{{
     {"current_gain", &InjectedFaults::current_gain, 0.0, 10.0},
     {"supply_gain", &InjectedFaults::supply_gain, 0.0, 10.0},
     {"switch_leak_ratio", &InjectedFaults::switch_leak_ratio, 0.0, 1.0},
+}};
+
+/// Of a joint only.
+inline constexpr std::array<InjectedFaultNumber, 2> joint_fault_numbers{{
+    {"agonist_slack_m", &InjectedFaults::agonist_slack_m, 0.0, 1.0},
+    {"antagonist_slack_m", &InjectedFaults::antagonist_slack_m, 0.0, 1.0},
 }};
 
 }  // namespace supercoil::host_sim

@@ -134,9 +134,15 @@ InjectedFaults read_injected_faults(Section section, bool of_joint) {
     injected_faults.*known.member = section.flag(known.name, false);
     if (!of_joint && section.has(known.name)) section.wrong(known.name, "needs a [joint]");
   }
-  for (const InjectedFaultNumber& known : injected_fault_numbers) {
+  const auto read_number = [&](const InjectedFaultNumber& known) {
     injected_faults.*known.member =
         section.number(known.name, InjectedFaults{}.*known.member, {known.min, known.max});
+  };
+  for (const InjectedFaultNumber& known : injected_fault_numbers)
+    read_number(known);
+  for (const InjectedFaultNumber& known : joint_fault_numbers) {
+    read_number(known);
+    if (!of_joint && section.has(known.name)) section.wrong(known.name, "needs a [joint]");
   }
   section.finish();
   return injected_faults;

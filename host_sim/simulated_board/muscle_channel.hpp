@@ -37,6 +37,7 @@ struct MuscleFaults {
   bool slack = false;              ///< heat no longer moves the sensor's end
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
   bool torn = false;               ///< it pulls no more; a joint's muscle only
+  double slack_m = 0.0;            ///< of its cable, likewise; see JointMuscle
 };
 
 class MuscleChannel {

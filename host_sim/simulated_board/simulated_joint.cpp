@@ -5,7 +5,8 @@ namespace supercoil::host_sim {
 namespace {
 
 JointMuscle muscle_of(const MuscleChannel& channel) {
-  return {channel.settings().plant, channel.settings().effects, channel.faults.torn};
+  return {channel.settings().plant, channel.settings().effects, channel.faults.torn,
+          channel.faults.slack_m};
 }
 
 }  // namespace
@@ -27,17 +28,19 @@ JointPlantSettings SimulatedJoint::plant_settings() const {
   return plant;
 }
 
+std::array<SimulatedJoint::Hold, 2> SimulatedJoint::held() const {
+  const auto hold = [](const MuscleFaults& faults) { return Hold{faults.torn, faults.slack_m}; };
+  return {hold(agonist_->faults), hold(antagonist_->faults)};
+}
+
 void SimulatedJoint::set(const SimulatedJointSettings& settings) {
   settings_ = settings;
-  agonist_torn_ = agonist_->faults.torn;
-  antagonist_torn_ = antagonist_->faults.torn;
+  joined_ = held();
   plant_.set(plant_settings());
 }
 
 void SimulatedJoint::advance() {
-  const bool tears =
-      agonist_->faults.torn != agonist_torn_ || antagonist_->faults.torn != antagonist_torn_;
-  if (tears) set(settings_);
+  if (held() != joined_) set(settings_);
   plant_.step(agonist_->true_power_W(), antagonist_->true_power_W(), settings_.load_Nm);
 }
 

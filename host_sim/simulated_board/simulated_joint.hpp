@@ -1,7 +1,9 @@
 // Two muscles of the board that turn one joint.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <utility>
 
 #include "plant/joint_plant.hpp"
 #include "simulated_board/muscle_channel.hpp"
@@ -11,8 +13,9 @@ namespace supercoil::host_sim {
 struct SimulatedJointSettings {
   std::size_t agonist = 0;     ///< its channel
   std::size_t antagonist = 1;  ///< its channel
-  JointPlantSettings plant;    ///< its muscles are the channels' own, torn as their faults say
-  double load_Nm = 0.0;        ///< turns the joint towards negative angles
+  JointPlantSettings
+      plant;             ///< its muscles are the channels' own, torn and slack as their faults say
+  double load_Nm = 0.0;  ///< turns the joint towards negative angles
 };
 
 /// The agonist's position sensor is the joint's; the antagonist's channel reads it as well.
@@ -34,13 +37,16 @@ class SimulatedJoint {
   const SimulatedJointSettings& settings() const { return settings_; }
 
  private:
+  /// How a muscle is joined to the lever: torn, slack in m.
+  using Hold = std::pair<bool, double>;
+
+  std::array<Hold, 2> held() const;
   JointPlantSettings plant_settings() const;
 
   SimulatedJointSettings settings_;
   MuscleChannel* agonist_;
   MuscleChannel* antagonist_;
-  bool agonist_torn_ = false;
-  bool antagonist_torn_ = false;
+  std::array<Hold, 2> joined_{};  ///< as the plant has it
   JointPlant plant_;
 };
 

@@ -139,6 +139,17 @@ TEST(SimulatedJoint, ATornMuscleLetsTheOtherTurnItToItsEndStop) {
   }
 }
 
+TEST(SimulatedJoint, ASlackCableLetsTheOtherMuscleTurnItByItsShare) {
+  Driven driven(three_muscles());
+  driven.run(0.1);
+  driven.board.channel(0).faults.slack_m = 0.003;
+  driven.run(5.0);
+  DOUBLES_EQUAL(-0.5 * 0.003 / 0.015, driven.angle_rad(), 1e-6);
+  driven.board.channel(0).faults.slack_m = 0.0;
+  driven.run(5.0);
+  DOUBLES_EQUAL(0.0, driven.angle_rad(), 1e-6);
+}
+
 TEST(SimulatedJoint, WhatIsSlackNoLongerMovesTheSensorsEnd) {
   const SimulatedBoardSettings settings = three_muscles();
   Driven driven(settings);

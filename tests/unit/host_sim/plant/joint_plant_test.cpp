@@ -128,6 +128,43 @@ TEST(JointPlant, MusclesThatChangePlacesMirrorTheAngle) {
   CHECK_COMPARE(furthest_rad, >, 0.1);
 }
 
+/// T0 + F1 - k1 (x + s) = T0 + F2 - k2 (-x), while both are taut.
+TEST(JointPlant, SlackOfOneCableIsSharedByBothSpringsWhileBothAreTaut) {
+  JointPlantSettings settings = equal_muscles();
+  settings.agonist.parameters.stiffness_N_per_m = 16.0;
+  settings.antagonist->parameters.stiffness_N_per_m = 24.0;
+  settings.agonist.slack_m = 0.004;
+  JointPlant plant(settings, joint_tick_s);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(0.0, 0.0);
+  const double expected_m = -16.0 * 0.004 / (16.0 + 24.0);
+  DOUBLES_EQUAL(expected_m, plant.position_m(), 1e-9);
+  DOUBLES_EQUAL(settings.pretension_N + 24.0 * expected_m, plant.tension_N(0), 1e-9);
+  DOUBLES_EQUAL(plant.tension_N(0), plant.tension_N(1), 1e-9);
+}
+
+TEST(JointPlant, ASlackMuscleMovesNothingUntilItHasTakenTheSlackUp) {
+  JointPlantSettings settings = equal_muscles();
+  settings.pretension_N = 0.0;
+  settings.spring_Nm_per_rad = 0.01;  // holds the joint where nothing pulls
+  settings.agonist.slack_m = 0.004;
+  const control::PhysicalParameters& muscle = settings.agonist.parameters;
+  // That contracts the free muscle by half of the slack, and by twice of it.
+  const double slack_W = 0.004 * muscle.stiffness_N_per_m * muscle.heat_transfer_W_per_K /
+                         muscle.force_per_kelvin_N_per_K;
+  JointPlant plant(settings, joint_tick_s);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(0.5 * slack_W, 0.0);
+  DOUBLES_EQUAL(0.0, plant.angle_rad(), 1e-12);
+  DOUBLES_EQUAL(0.0, plant.tension_N(0), 0.0);
+  for (int tick = 0; tick < 20000; ++tick)
+    plant.step(2.0 * slack_W, 0.0);
+  // F - k (x + s) = k x + (spring/r²) x with F = 2 k s: both muscles are taut.
+  const double k = muscle.stiffness_N_per_m;
+  const double spring = 0.01 / (settings.lever_m * settings.lever_m);
+  DOUBLES_EQUAL(k * 0.004 / (2.0 * k + spring), plant.position_m(), 1e-6);
+}
+
 TEST(JointPlant, ATornMusclePullsNoMoreAndStillGetsHot) {
   JointPlantSettings settings = equal_muscles();
   JointPlant plant(settings, joint_tick_s);

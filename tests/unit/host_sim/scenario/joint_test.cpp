@@ -146,6 +146,24 @@ TEST(JointScenario, ItsFaultsNeedAJoint) {
             .start.injected_faults.antagonist_torn);
   check_joint_answer("2: injected_fault.agonist_torn = true: needs a [joint]",
                      "[injected_fault]\nagonist_torn = true");
+  DOUBLES_EQUAL(0.003,
+                read("[joint]\n[injected_fault]\nagonist_slack_m = 0.003")
+                    .start.injected_faults.agonist_slack_m,
+                0.0);
+  check_joint_answer("2: injected_fault.antagonist_slack_m = 0.003: needs a [joint]",
+                     "[injected_fault]\nantagonist_slack_m = 0.003");
+  check_joint_answer("3: injected_fault.antagonist_slack_m = -0.1: must be 0 to 1",
+                     "[joint]\n[injected_fault]\nantagonist_slack_m = -0.1");
+}
+
+TEST(JointScenario, ASlackCableOfAnEventTurnsItByHalf) {
+  const Scenario s = read(
+      "simulation.duration_s = 10.0\noperator.action = 'disarm'\n[joint]\n[[event]]\nat_s = 1.0\n"
+      "injected_fault.antagonist_slack_m = 0.003\n");
+  Simulation simulation(s);
+  Summary summary({});
+  last_of(simulation, summary);
+  DOUBLES_EQUAL(0.5 * 0.003, simulation.joint()->position_m(), 1e-6);
 }
 
 TEST(JointScenario, ItsBoardHasTwoChannelsThatSeeItFromBothSides) {

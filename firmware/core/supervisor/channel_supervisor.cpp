@@ -12,6 +12,8 @@ constexpr double open_load_ratio = 0.25;
 constexpr double frozen_noise_ratio = 0.5;
 /// Jump: two readings of a resting muscle differ by less than this many times the noise.
 constexpr double jump_noises = 12.0;
+/// Loose: so many times responding_min_m are expected of the muscle before it is judged.
+constexpr double loose_motions = 3.0;
 /// The resistance is smoothed; outside its span for this long it is not noise.
 constexpr double drifting_s = 0.5;
 constexpr double quiet_sensor_m = 50e-6;  ///< a jump is more than this, however quiet the sensor
@@ -34,6 +36,7 @@ ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_re
       short_({s.off_current_A, s.short_s}, step_s),
       stuck_on_({s.off_current_A, s.stuck_on_s}, step_s),
       not_responding_({s.responding_window_s, s.responding_ratio, s.responding_min_m}, step_s),
+      loose_({s.responding_ratio, loose_motions * s.responding_min_m}, step_s),
       wrong_duty_(s.wrong_duty_s, step_s),
       temperature_(s.trip_C),
       travel_(s.max_travel_m),
@@ -93,13 +96,22 @@ void ChannelSupervisor::judge_heater(const HeaterInputs& e) {
 
 void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs& heater) {
   using enum Fault;
-  if (axis.recalibrated) not_responding_.reset();
+  if (axis.recalibrated) {
+    not_responding_.reset();
+    loose_.reset();
+  }
   if (!heater.current.present) return;
   if (axis.position.present) {
     verdict_.note(heater_not_responding,
                   not_responding_.step(axis.position.value, heater.expected_m,
                                        axis.in_joint ? &axis.opposed_m : nullptr),
                   not_responding_);
+  }
+  if (axis.position.present && axis.in_joint) {
+    verdict_.note(muscle_loose,
+                  loose_.step(heater.limited && !heater.off, axis.position.value, heater.expected_m,
+                              axis.opposed_m),
+                  loose_);
   }
   if (axis.unanswered) {
     verdict_.note(heater_not_responding, unanswered_.step(true, axis.answer), unanswered_);

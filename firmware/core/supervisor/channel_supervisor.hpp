@@ -3,6 +3,7 @@
 
 #include "supervisor/channel_inputs.hpp"
 #include "supervisor/detectors/heater.hpp"
+#include "supervisor/detectors/joint.hpp"
 #include "supervisor/detectors/liveness.hpp"
 #include "supervisor/detectors/muscle.hpp"
 #include "supervisor/detectors/response.hpp"
@@ -51,6 +52,7 @@ class ChannelSupervisor {
   detectors::StuckOn stuck_on_;
   detectors::NotResponding not_responding_;
   detectors::ReportedMargin unanswered_;
+  detectors::MuscleLoose loose_;
   detectors::WrongDuty wrong_duty_;
   detectors::Limit temperature_;
   detectors::Limit travel_;

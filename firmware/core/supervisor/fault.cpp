@@ -2,11 +2,11 @@
 
 namespace supercoil {
 
-const std::array<FaultInfo, 31>& all_faults() {
+const std::array<FaultInfo, 32>& all_faults() {
   using enum Fault;
   static constexpr Scope channel = Scope::channel;
   static constexpr Scope board = Scope::board;
-  static constexpr std::array<FaultInfo, 31> faults{{
+  static constexpr std::array<FaultInfo, 32> faults{{
       {sensor_out_of_range, "sensor_out_of_range", "sensors", channel,
        "a reading lies outside what the sensor can give"},
       {sensor_stale, "sensor_stale", "sensors", channel, "no fresh reading within the allowed age"},
@@ -32,6 +32,8 @@ const std::array<FaultInfo, 31>& all_faults() {
        "more energy within the window than the muscle may take"},
       {resistance_drift, "resistance_drift", "muscle", channel,
        "the cold resistance moved away from its calibration: the silver wears off"},
+      {muscle_loose, "muscle_loose", "muscle", channel,
+       "a muscle of a joint pulls with all that it may, and the joint does not move"},
       {under_voltage, "under_voltage", "supply", board, "the supply is below its limit"},
       {over_voltage, "over_voltage", "supply", board, "the supply is above its limit"},
       {power_limit_exceeded, "power_limit_exceeded", "supply", channel,

@@ -29,6 +29,7 @@ enum class Fault : std::uint8_t {
   over_travel = 31,
   energy_budget_exceeded = 32,
   resistance_drift = 33,
+  muscle_loose = 34,
   // Supply
   under_voltage = 40,
   over_voltage = 41,
@@ -67,7 +68,7 @@ struct FaultInfo {
 };
 
 /// All faults in the order of their numbers, `none` not among them.
-const std::array<FaultInfo, 31>& all_faults();
+const std::array<FaultInfo, 32>& all_faults();
 /// Empty for none and for a number that no fault has.
 std::optional<FaultInfo> info(Fault fault);
 /// "none" for none.

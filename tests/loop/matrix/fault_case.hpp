@@ -37,7 +37,7 @@ struct FaultCase {
   std::function<Fault(Situation)> first = nullptr;
 };
 
-/// At least one of every fault but self_test_failed.
+/// At least one of every fault but self_test_failed and those of a joint.
 const std::vector<FaultCase>& fault_cases();
 
 /// Whether the fault can come about there.

@@ -59,6 +59,11 @@ void try_fault_of(Fault fault, const Run& run, Count& count) {
                 std::string(name(fault)).c_str());
     return;
   }
+  if (fault == Fault::muscle_loose) {
+    std::printf("%2d %-24s tried on a joint, by joint_matrix\n", static_cast<int>(fault),
+                std::string(name(fault)).c_str());
+    return;
+  }
   bool found = false;
   for (const FaultCase& c : fault_cases()) {
     if (c.fault != fault) continue;

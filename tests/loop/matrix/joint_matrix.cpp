@@ -2,7 +2,8 @@
 // cold in the same tick, and both tell the same cause. Its exit status is the verdict.
 #include <cstdio>
 
-#include "loop/matrix/trial.hpp"
+#include "loop/matrix/cases/cases.hpp"
+#include "loop/matrix/joint_trial.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -17,86 +18,16 @@ struct JointSituation {
 constexpr std::array<JointSituation, 3> joint_situations{
     {{Situation::disarmed, "disarmed"}, {Situation::armed, "armed"}, {Situation::pi, "following"}}};
 
-/// Of what a single muscle is asked for: a joint of 8 mm either way needs less,
-constexpr double scale = 0.3;
-constexpr double max_scale = 0.56;  ///< and takes no more.
-
-/// Thresholds of a joint, which each muscle moves half as far and at half of the power.
-void tune_joint(const FaultCase& c, RigSettings& s) {
-  for (ChannelSettings& channel : s.firmware.channels) {
-    channel.thermal.boot_rise_K = 20.0;
-    if (c.fault == Fault::energy_budget_exceeded) channel.supervision.energy_J = 10.0;
-    if (c.fault == Fault::controller_invalid) channel.limiter.max_W = 1.0;
-    // The other muscle's resistance tells that it is not where this one has brought it.
-    if (c.fault == Fault::heater_not_responding) channel.heater.temperature_coefficient_per_K = 0.0;
-  }
-}
-
-void bring_to_joint(const FaultCase& c, Situation situation, Rig& rig) {
-  // The weak heaters of this one must not be at their limits before.
-  rig.scale = c.fault == Fault::controller_invalid ? 0.1 : scale;
-  rig.boot();
-  if (situation == Situation::disarmed) return;
-  rig.arm();
-  rig.run(0.2);
-  if (situation == Situation::armed) return;
-  rig.send(Verb::controller, 1);
-  rig.heat(Task::position);
-  rig.run(8.0);
-}
-
-bool cold(Rig& rig, std::uint8_t channel) {
-  host_sim::MuscleChannel& muscle = rig.board.channel(channel);
-  const bool obeys = muscle.pwm.refuses == hal::Status::ok;
-  return !muscle.enable.high() && (!obeys || muscle.pwm.read_back() <= 1);
-}
-
-std::string seen(Rig& rig, Fault expected) {
-  for (const std::uint8_t i : {Rig::tested, Rig::neighbour}) {
-    const ChannelState& state = rig.loop.channel(i).state();
-    const std::string which = i == Rig::tested ? "the agonist" : "the antagonist";
-    if (state.state() != State::fault) return which + " is " + std::string(name(state.state()));
-    if (state.first_cause() != expected) return which + " has " + text(state.first_cause());
-    if (!cold(rig, i)) return which + " is not cold";
-  }
-  return "";
-}
-
-std::string try_joint(const FaultCase& c, Situation situation) {
-  RigSettings settings = joint_board();
-  c.tune(settings);
-  tune_joint(c, settings);
-  Rig rig(settings);
-  bring_to_joint(c, situation, rig);
-  if (rig.fault() != Fault::none) return "before the injection there was " + text(rig.fault());
-  const double asked = rig.scale;
-  c.inject(rig);
-  // Who holds a sensor that has stopped is asked for nothing; who moves is.
-  if (c.fault == Fault::heater_not_responding)
-    rig.before_tick = [&rig] { rig.scale = scale * (1.0 + 0.8 * std::sin(0.5 * rig.time_s())); };
-  if (rig.scale != asked) rig.scale = std::min(rig.scale * scale, max_scale);
-  rig.run_until([&] { return rig.state() == State::fault; }, c.within.at(rig.period_s()));
-  if (std::string wrong = seen(rig, c.first ? c.first(situation) : c.fault); !wrong.empty())
-    return wrong;
-  if (rig.interval_missed) return "a temperature left its interval";
-  // Gone or not, nothing heats again by itself.
-  c.remove(rig);
-  const double end_s = rig.time_s() + 1.0;
-  while (rig.time_s() < end_s) {
-    rig.tick();
-    if (rig.board.channel(Rig::neighbour).true_power_W() > 0.0 || rig.muscle().true_power_W() > 0.0)
-      return "a muscle is heated again";
-  }
-  return "";
-}
-
 }  // namespace
 
 int main() {
   int tried = 0;
   int failed = 0;
   int not_possible = 0;
-  for (const FaultCase& c : fault_cases()) {
+  std::vector<FaultCase> cases = fault_cases();
+  for (const FaultCase& c : joint_cases())
+    cases.push_back(c);
+  for (const FaultCase& c : cases) {
     for (const JointSituation& s : joint_situations) {
       if (!possible(c, s.like)) {
         ++not_possible;
@@ -106,11 +37,11 @@ int main() {
       const std::string wrong = try_joint(c, s.like);
       if (wrong.empty()) continue;
       ++failed;
-      std::printf("FAILED %-24s %-10s %s\n", std::string(name(c.fault)).c_str(), s.name,
-                  wrong.c_str());
+      std::printf("FAILED %-24s %-10s %s %s\n", std::string(name(c.fault)).c_str(), s.name,
+                  c.how.c_str(), wrong.c_str());
     }
   }
   std::printf("a joint: %zu ways x %zu situations: %d tried, %d cannot come about, %d failed\n",
-              fault_cases().size(), joint_situations.size(), tried, not_possible, failed);
+              cases.size(), joint_situations.size(), tried, not_possible, failed);
   return failed == 0 ? 0 : 1;
 }

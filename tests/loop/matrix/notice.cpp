@@ -1,6 +1,7 @@
 #include "loop/matrix/notice.hpp"
 
-#include "loop/matrix/trial.hpp"
+#include "loop/matrix/cases/cases.hpp"
+#include "loop/matrix/joint_trial.hpp"
 
 namespace supercoil::test {
 
@@ -10,6 +11,9 @@ std::string noticed(Fault fault, const std::function<void(RigSettings&)>& change
     RigSettings settings = rough_board();
     change(settings);
     return try_self_test(settings, &unused_s);
+  }
+  for (const FaultCase& c : joint_cases()) {
+    if (c.fault == fault) return try_joint(c, Situation::pi);
   }
   for (const FaultCase& c : fault_cases()) {
     if (c.fault != fault) continue;

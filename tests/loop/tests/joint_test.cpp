@@ -314,6 +314,41 @@ TEST(Joint, ATornMuscleIsFoundAtOnceAndBothAreCold) {
   }
 }
 
+/// Its end stops lie within its travel: nothing is out of range, and nothing follows.
+TEST(Joint, AMuscleThatMovesNothingIsFoundWithinTwoSecondsWhereTheJointStaysInItsTravel) {
+  using Inject = std::function<void(host_sim::MuscleFaults&)>;
+  const std::vector<Inject> ways{[](host_sim::MuscleFaults& f) { f.torn = true; },
+                                 [](host_sim::MuscleFaults& f) { f.slack_m = 0.2; }};
+  for (const std::uint8_t loose : {agonist, antagonist}) {
+    for (const Inject& inject : ways) {
+      RigSettings settings = known_joint(0.8);
+      settings.board.joints[0].plant.min_angle_rad = -0.4;
+      settings.board.joints[0].plant.max_angle_rad = 0.4;
+      Rig fresh(settings);
+      begin(fresh);
+      CHECK_FALSE(follows_until_fault(fresh, 20.0, [] { return 0.0; }));
+      inject(fresh.board.channel(loose).faults);
+      CHECK(follows_until_fault(fresh, 2.0, [] { return 0.0; }));
+      CHECK(fresh.fault() == Fault::muscle_loose);
+      CHECK(fresh.loop.channel(antagonist).state().first_cause() == Fault::muscle_loose);
+      CHECK_FALSE(fresh.interval_missed);
+    }
+  }
+}
+
+/// A load that the muscle can hold is no loose muscle, however fast it comes.
+TEST(Joint, ALoadThatMovesItIsNoLooseMuscle) {
+  for (const double load_Nm : {-0.0008, 0.0008}) {
+    Rig fresh(known_joint(0.8));
+    begin(fresh);
+    CHECK_FALSE(follows_until_fault(fresh, 20.0, [] { return 0.0; }));
+    host_sim::SimulatedJointSettings loaded = fresh.board.joint(0).settings();
+    loaded.load_Nm = load_Nm;
+    fresh.board.joint(0).set(loaded);
+    CHECK_FALSE(follows_until_fault(fresh, 60.0, [] { return 0.0; }));
+  }
+}
+
 TEST(Joint, ACurrentThatIsNoNumberOfTheAntagonistMakesBothSafe) {
   arm();
   hold(0.002, 1.0);

@@ -11,7 +11,7 @@ inline constexpr std::array<ValueName, 3> names_of_answers{{
     {2, "play"},
 }};
 
-inline constexpr std::array<ValueName, 32> names_of_fault{{
+inline constexpr std::array<ValueName, 33> names_of_fault{{
     {0, "none"},
     {10, "sensor_out_of_range"},
     {11, "sensor_stale"},
@@ -28,6 +28,7 @@ inline constexpr std::array<ValueName, 32> names_of_fault{{
     {31, "over_travel"},
     {32, "energy_budget_exceeded"},
     {33, "resistance_drift"},
+    {34, "muscle_loose"},
     {40, "under_voltage"},
     {41, "over_voltage"},
     {42, "power_limit_exceeded"},

@@ -734,6 +734,8 @@ position command beyond it is refused before it can lead here (refusal: out of r
 - power by hand (`power`): it has no position to stop at
 - an overshoot of a badly tuned controller
 - the load fell off, or broke
+- in a joint: the muscle of the other side is torn, or its cable slack (below 0 the agonist's, above it the antagonist's); the fault comes
+  within 0.1 s of a motion that no heat makes
 - a wrong zero or scale: `scale` with the wrong length, `calibrate` of a muscle that hangs on something
 - one wild reading between `max_travel_m` and the end of the sensor's range: nothing is forgiven here, as it is in [sensor_jump](sensor_jump.md)
 
@@ -870,6 +872,73 @@ grows over weeks.
 - Between probes, at duties too small to measure at.
 - Of a heater with a coefficient, what any temperature of the interval explains. The wider the interval, the more.
 - Slow wear that is calibrated again and again: each calibration is the new base.
+"""
+
+
+class MuscleLoose(FaultError):
+    """A muscle of a joint gets all that it may have, is asked for more, and the joint stays where it is: 'moved 0.05 of the
+3.2 mm expected'. The muscle is torn, or its cable is slack. A muscle by itself is judged by
+heater_not_responding alone."""
+
+    number = 34
+    name = "muscle_loose"
+    meaning = """\
+A muscle of a joint gets all that it may have, is asked for more, and the joint stays where it is: 'moved 0.05 of the
+3.2 mm expected'. The muscle is torn, or its cable is slack. A muscle by itself is judged by
+heater_not_responding alone."""
+    remedy = """\
+1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
+2. Is one loose? Fasten it, tighten its cable, calibrate both.
+3. Are both taut? What held the joint? Set max_travel_m so that it lies within the end stops.
+4. Reset, arm."""
+    page = """\
+# 34 muscle_loose
+
+A muscle of a [joint](../joints.md) gets all that it may have, is asked for more, and the joint stays where it is: "moved 0.05 of the
+3.2 mm expected". The muscle is torn, or its cable is slack. A muscle by itself is judged by
+[heater_not_responding](heater_not_responding.md) alone.
+
+**Detected** while a muscle is limited (`limited_by` maximum or temperature, or the supply gives no more): each time that the joint has
+moved by 0.9 mm, and when the limit begins, expected motion counts from zero. It trips when the muscle should have moved the joint by
+at least 3 mm (three times `responding_min_m`) and the joint has moved by less than 0.3 of that (`responding_ratio`), for 0.5 s. What is
+expected is the least of what the models of the muscle's heat do, with no help of the other muscle or with its heat times anything
+up to ten, as heater_not_responding has it. Simulated: 0.9 to 1.8 s after a muscle tore ([joints](../joints.md#safety)).
+
+**Torn or slack is one fault**, because one position sensor cannot tell them apart: a torn muscle moves nothing, a slack one moves
+nothing until its slack is taken up, and whether more heat would take it up is found out only by giving it.
+
+**Which muscle** the recording tells: both channels show this fault, and the one whose `applied_W` was at its maximum has it. With positions: a
+joint that stands below its reference has lost its agonist, above it its antagonist.
+
+**Reaction:** both channels of the joint go cold. What is expected counts anew; a reset is not refused because of this fault.
+
+## Likely causes
+
+- the muscle is torn, or came off its anchor or the lever
+- its cable slipped off its pulley, or became longer than the muscle can take up
+- the joint is held: at an end stop short of where it was sent, or by something stronger than the muscle
+- the sensor's magnet turns on its axle
+
+## Remedy
+
+1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
+2. Is one loose? Fasten it, tighten its cable, `calibrate` both.
+3. Are both taut? What held the joint? Set `max_travel_m` so that it lies within the end stops.
+4. Reset, arm.
+
+## Margin
+
+In metres, a least value: how far the joint moved since what is expected counts, and 0.3 of what the muscle should have moved it. While
+less than 3 mm are expected, or nothing is limited, used is 0.
+
+## Not detected
+
+- A loose muscle that is not asked for more than it can give: what the other one, a spring or a load does for it is not noticed.
+- A joint that nothing draws away, so that the heat of the loose muscle rises before it is asked for more than it can give: then
+  [controller_invalid](controller_invalid.md), after 120 s.
+- Slack that the other muscle takes up at once, since both stay taut: the joint jumps by a part of it and follows on. Less pretension is
+  left; `calibrate` again.
+- Where the other muscle draws the joint out of its travel, [over_travel](over_travel.md) comes first, within 0.1 s.
 """
 
 
@@ -1739,6 +1808,7 @@ BY_NUMBER: dict[int, type[FaultError]] = {
     31: OverTravel,
     32: EnergyBudgetExceeded,
     33: ResistanceDrift,
+    34: MuscleLoose,
     40: UnderVoltage,
     41: OverVoltage,
     42: PowerLimitExceeded,

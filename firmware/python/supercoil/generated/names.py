@@ -28,6 +28,7 @@ class Fault(Named):
     over_travel = 31
     energy_budget_exceeded = 32
     resistance_drift = 33
+    muscle_loose = 34
     under_voltage = 40
     over_voltage = 41
     power_limit_exceeded = 42

@@ -12,6 +12,8 @@ std::vector<FaultCase> sensor_cases();
 std::vector<FaultCase> heater_cases();
 std::vector<FaultCase> muscle_cases();
 std::vector<FaultCase> board_cases();
+/// On a board of a joint only.
+std::vector<FaultCase> joint_cases();
 std::vector<FaultCase> command_cases();
 
 /// The muscle gets no power, or next to none.

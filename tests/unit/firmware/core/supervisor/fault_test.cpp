@@ -61,6 +61,7 @@ TEST(Faults, HaveTheNumbersThatTheyHadFromTheBeginning) {
                                       {Fault::over_travel, 31},
                                       {Fault::energy_budget_exceeded, 32},
                                       {Fault::resistance_drift, 33},
+                                      {Fault::muscle_loose, 34},
                                       {Fault::under_voltage, 40},
                                       {Fault::over_voltage, 41},
                                       {Fault::power_limit_exceeded, 42},

@@ -1,0 +1,77 @@
+// Detectors of a joint's muscles.
+#include <CppUTest/TestHarness.h>
+
+#include "supervisor/detectors/joint.hpp"
+#include "unit/firmware/core/support/tick.hpp"
+
+using namespace supercoil::detectors;
+using supercoil::test::tick_s;
+
+namespace {
+
+constexpr NotResponding::Expected nothing{};
+
+/// The models rise by 3 mm in 1 s and on.
+NotResponding::Expected rising(int tick) {
+  const double expected_m = 0.003 * tick * tick_s;
+  return {expected_m, expected_m, expected_m};
+}
+
+/// The first tick at which the step trips, from 1; -1: in none of so many.
+template <class Step>
+int tripped_at(Step step, int most = 100'000) {
+  for (int tick = 0; tick < most; ++tick) {
+    if (step(tick)) return tick + 1;
+  }
+  return -1;
+}
+
+}  // namespace
+
+TEST_GROUP(JointDetectors) {
+  MuscleLoose detector{{0.3, 0.003}, tick_s};
+};
+
+TEST(JointDetectors, LooseTripsHalfASecondAfterTheMotionShouldHaveBeenSeen) {
+  const int ticks =
+      tripped_at([&](int tick) { return detector.step(true, 0.002, rising(tick), nothing); });
+  CHECK_COMPARE(ticks, >=, 1499);
+  CHECK_COMPARE(ticks, <=, 1502);
+  CHECK(detector.margin().judged);
+  DOUBLES_EQUAL(0.0, detector.margin().measured, 0.0);
+}
+
+TEST(JointDetectors, LooseIsNoMuscleThatGetsWhatIsAskedOfIt) {
+  LONGS_EQUAL(
+      -1, tripped_at([&](int tick) { return detector.step(false, 0.002, rising(tick), nothing); },
+                     20'000));
+  CHECK_FALSE(detector.margin().judged);
+  // What was expected before does not count.
+  CHECK_FALSE(detector.step(true, 0.002, rising(20'000), nothing));
+  CHECK_FALSE(detector.margin().judged);
+}
+
+TEST(JointDetectors, LooseIsNoMuscleThatMovesTheJointAThirdAsFar) {
+  LONGS_EQUAL(-1, tripped_at(
+                      [&](int tick) {
+                        return detector.step(true, 0.35 * rising(tick)[0], rising(tick), nothing);
+                      },
+                      20'000));
+}
+
+TEST(JointDetectors, LooseCountsAnewFromWhereTheJointWasDrawn) {
+  // The other muscle draws the joint to its end stop within 0.1 s.
+  const int ticks = tripped_at([&](int tick) {
+    const double position_m = tick < 1000 ? 0.002 : -0.006;
+    return detector.step(tick >= 500, position_m, rising(tick), nothing);
+  });
+  CHECK_COMPARE(ticks, >=, 2499);
+  CHECK_COMPARE(ticks, <=, 2502);
+}
+
+TEST(JointDetectors, LooseIsNoMuscleThatTheOtherOneMayHoldStill) {
+  LONGS_EQUAL(
+      -1,
+      tripped_at([&](int tick) { return detector.step(true, 0.002, rising(tick), rising(tick)); },
+                 20'000));
+}

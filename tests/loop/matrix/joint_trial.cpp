@@ -68,10 +68,11 @@ std::string try_joint(const FaultCase& c, Situation situation) {
   c.inject(rig);
   // Who holds a sensor that has stopped is asked for nothing; who moves is. Not for more than there
   // is, which would be muscle_loose.
-  if (c.fault == Fault::heater_not_responding)
+  if (c.fault == Fault::heater_not_responding) {
     rig.before_tick = [&rig] {
       rig.scale = joint_scale * (1.0 + 0.4 * std::sin(0.5 * rig.time_s()));
     };
+  }
   if (rig.scale != asked) rig.scale = std::min(rig.scale * joint_scale, max_joint_scale);
   rig.run_until([&] { return rig.state() == State::fault; }, c.within.at(rig.period_s()));
   if (std::string wrong = wrong_of_both(rig, c.first ? c.first(situation) : c.fault);

@@ -64,11 +64,11 @@ class Sbom(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
 
-    def package(self, *depends):
+    def package(self, *depends, name="supercoil"):
         control = self.folder / "root" / "DEBIAN" / "control"
         control.parent.mkdir(parents=True, exist_ok=True)
         architecture = output_of("dpkg", "--print-architecture").strip()
-        control.write_text(f"Package: supercoil\nVersion: 0.2.0+deb12\nArchitecture: {architecture}\n"
+        control.write_text(f"Package: {name}\nVersion: 0.2.0+deb12\nArchitecture: {architecture}\n"
                            f"Maintainer: M <m@m.invalid>\nDepends: {', '.join(depends)}\n"
                            "Description: firmware and tools\n more\n")
         output_of("dpkg-deb", "--build", control.parents[1], self.folder / "p.deb")
@@ -134,11 +134,20 @@ class Sbom(unittest.TestCase):
             use, = component.properties
             uses.setdefault(use.value, set()).add(component.name)
         self.assertEqual(uses["needed at run time"], self.packages | {"systemd"})
-        self.assertEqual(len(uses["compiled in"]), 1 + sum("headers" in component for component in self.components))
+        self.assertEqual(len(uses["compiled in"]), 1 + sum(
+            "headers" in component and "supercoil" in component.get("programs", ["supercoil"]) for component in self.components))
         self.assertIn("uplot", uses["compiled in"])
         told = next(dependency for dependency in bom.dependencies if dependency.ref == ours.bom_ref)
         self.assertEqual({dependency.ref.value for dependency in told.dependencies},
                          {component.bom_ref.value for component in bom.components})
+
+    def test_what_is_in_one_package_alone_is_not_told_of_the_other(self):
+        for name, has, has_not in (("supercoil", {"uplot", "libcpp-httplib-dev", "libgpiod-dev"}, {"libnlopt-dev"}),
+                                   ("supercoil-sim", {"libnlopt-dev"}, {"uplot", "libcpp-httplib-dev", "libgpiod-dev"})):
+            done = self.package("libc6", name=name)
+            told = {component["name"] for component in json.loads(done.stdout)["components"]}
+            self.assertLessEqual(has, told)
+            self.assertEqual(has_not & told, set())
 
     def test_a_dependency_that_is_not_listed_is_an_error(self):
         done = self.package("libc6", "libfoo1")

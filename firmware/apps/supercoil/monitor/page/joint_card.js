@@ -22,9 +22,9 @@ export class JointCard {
     Object.assign(this, { node, store });
     this.reference = drawn("line", { class: "reference", y1: 0, y2: -ARM });
     this.muscles = [drawn("line", { class: "muscle" }), drawn("line", { class: "muscle" })];
-    this.arm = drawn("g", { class: "arm" }, drawn("line", { x1: -LEVER, x2: LEVER }), drawn("line", { y1: 0, y2: -ARM }), drawn("circle", { r: 4 }));
+    this.limb = drawn("g", { class: "limb" }, drawn("line", { x1: -LEVER, x2: LEVER }), drawn("line", { y1: 0, y2: -ARM }), drawn("circle", { r: 4 }));
     const picture = drawn("svg", { viewBox: "-95 -90 190 160", role: "img", "aria-label": "the joint at its angle, its reference dashed" },
-      this.reference, ...this.muscles, this.arm);
+      this.reference, ...this.muscles, this.limb);
     this.values = ["angle", "reference", "turns right", "turns left"].map((name) => {
       const title = element("dt", {}, name), value = element("dd", {}, "–");
       return { title, value, line: element("div", {}, title, value) };
@@ -47,7 +47,7 @@ export class JointCard {
     const [right, left] = lever_m > 0 ? [this.node, other] : [other, this.node];
     const degrees = (message, column) => (this.store.at(right, message, now_s)?.[column] / Math.abs(lever_m)) * DEGREES;
     const angle_deg = degrees("Measurement", "position_m"), reference_deg = degrees("Tracking", "reference_m");
-    this.arm.setAttribute("transform", turned(angle_deg));
+    this.limb.setAttribute("transform", turned(angle_deg));
     this.reference.setAttribute("transform", turned(reference_deg));
     this.reference.style.display = Number.isFinite(reference_deg) ? "" : "none";
     this.muscles.forEach((muscle, i) => this.#draw(muscle, i === 0 ? 1 : -1, angle_deg));

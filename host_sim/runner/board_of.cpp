@@ -232,7 +232,11 @@ BoardSettings firmware_of(const Scenario& scenario) {
   }
   if (c.joint) {
     board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
-    add_joint(board, {0, 1, c.joint->plant.lever_m, c.joint->co_contraction_W});
+    JointSettings joint{0, 1, c.joint->plant.lever_m, c.joint->co_contraction_W};
+    joint.max_co_contraction_W =
+        std::max(joint.co_contraction_W,
+                 JointSettings::usual_limit_ratio * most_co_contraction_W(board, joint));
+    add_joint(board, joint);
   }
   return board;
 }

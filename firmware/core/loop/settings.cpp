@@ -74,6 +74,13 @@ bool BoardSettings::in_joint(std::size_t channel) const {
   });
 }
 
+double most_co_contraction_W(const BoardSettings& board, const JointSettings& joint) {
+  const ChannelSettings& agonist = board.channels[joint.agonist];
+  const ChannelSettings& antagonist = board.channels[joint.antagonist];
+  const double gain_ratio = antagonist.muscle.dc_gain_m_per_W() / agonist.muscle.dc_gain_m_per_W();
+  return std::min(agonist.limiter.max_W, gain_ratio * antagonist.limiter.max_W);
+}
+
 void add_joint(BoardSettings& board, const JointSettings& joint) {
   board.joints.push_back(joint);
   const double apart = static_cast<double>(joint.antagonist) - static_cast<double>(joint.agonist);

@@ -79,6 +79,9 @@ struct JointSettings {
   /// The power of the agonist while the joint asks for no effort; the antagonist's has the same
   /// effect. By it they pull against each other.
   double co_contraction_W = 1.0;
+  /// Of what both heaters can give, where nothing else is said: with half of it the joint can still
+  /// be asked for every effort.
+  static constexpr double usual_limit_ratio = 0.5;
   /// That may be commanded, likewise in watts of the agonist.
   double max_co_contraction_W = std::numeric_limits<double>::infinity();
 };
@@ -94,6 +97,9 @@ struct BoardSettings {
   double step_s() const { return 1.0 / rate_Hz; }
   bool in_joint(std::size_t channel) const;
 };
+
+/// The co-contraction that both heaters can give, by what is configured of the muscles.
+double most_co_contraction_W(const BoardSettings& board, const JointSettings& joint);
 
 /// Of two channels that the board has. The proof of response is for one muscle that moves alone: of
 /// theirs none is asked.

@@ -109,8 +109,8 @@ void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs&
   }
   if (axis.position.present && axis.in_joint) {
     verdict_.note(muscle_loose,
-                  loose_.step(heater.limited && !heater.off, axis.position.value, heater.expected_m,
-                              axis.opposed_m),
+                  loose_.step(heater.limited && !heater.off && axis.demanded_W > heater.applied_W,
+                              axis.position.value, heater.expected_m, axis.opposed_m),
                   loose_);
   }
   if (axis.unanswered) {

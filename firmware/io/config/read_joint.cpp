@@ -2,30 +2,30 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <sstream>
 
 namespace supercoil::config {
 
 namespace {
 
-/// Of what both heaters can give, where no co-contraction is given, and no limit of it: with half
-/// of it, the joint can still be asked for every effort.
-constexpr double usual_co_contraction_ratio = 0.2;
-constexpr double usual_limit_ratio = 0.5;
+constexpr double usual_co_contraction_ratio = 0.2;  ///< of what both heaters can give
 
 /// In watts of the agonist.
 void read_co_contraction(Section& section, const BoardSettings& board, JointSettings& joint) {
-  const ChannelSettings& agonist = board.channels[joint.agonist];
-  const ChannelSettings& antagonist = board.channels[joint.antagonist];
-  const double gain_ratio = antagonist.muscle.dc_gain_m_per_W() / agonist.muscle.dc_gain_m_per_W();
-  const double both_W = std::min(agonist.limiter.max_W, gain_ratio * antagonist.limiter.max_W);
+  const double both_W = most_co_contraction_W(board, joint);
   joint.co_contraction_W = 0.0;
   // What a channel lacks is told there.
   if (!(both_W > 0.0)) return;
-  joint.max_co_contraction_W =
-      section.number("max_co_contraction_W", usual_limit_ratio * both_W, {0.0, both_W});
+  joint.max_co_contraction_W = section.number(
+      "max_co_contraction_W", JointSettings::usual_limit_ratio * both_W, {0.0, both_W});
   joint.co_contraction_W = section.number(
       "co_contraction_W", std::min(usual_co_contraction_ratio * both_W, joint.max_co_contraction_W),
-      {0.0, joint.max_co_contraction_W});
+      {0.0, both_W});
+  if (joint.co_contraction_W <= joint.max_co_contraction_W) return;
+  std::ostringstream message;
+  message << "must not exceed max_co_contraction_W, which is " << joint.max_co_contraction_W;
+  section.wrong("co_contraction_W", message.str());
+  joint.co_contraction_W = joint.max_co_contraction_W;
 }
 
 }  // namespace

@@ -94,10 +94,13 @@ TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
   };
   DOUBLES_EQUAL(0.5 * 4.5, limit_W(""), 1e-12);
   DOUBLES_EQUAL(3.0, limit_W("max_co_contraction_W = 3.0\n"), 0.0);
-  STRCMP_EQUAL("b.toml:66: joint[1].co_contraction_W = 2.3: must be 0 to 2.25\n",
-               problems_of(board_with_joint + "co_contraction_W = 2.3\n").c_str());
-  check_answer("joint[1].co_contraction_W = 0.9: must be 0 to 0.8",
-               board_with_joint + "co_contraction_W = 0.9\nmax_co_contraction_W = 0.8\n");
+  STRCMP_EQUAL(
+      "b.toml:66: joint[1].co_contraction_W = 2.3: must not exceed max_co_contraction_W, which is "
+      "2.25\n",
+      problems_of(board_with_joint + "co_contraction_W = 2.3\n").c_str());
+  check_answer(
+      "joint[1].co_contraction_W = 0.9: must not exceed max_co_contraction_W, which is 0.8",
+      board_with_joint + "co_contraction_W = 0.9\nmax_co_contraction_W = 0.8\n");
   check_answer("joint[1].max_co_contraction_W = 4.6: must be 0 to 4.5",
                board_with_joint + "max_co_contraction_W = 4.6\n");
   // The usual co-contraction is not above it.

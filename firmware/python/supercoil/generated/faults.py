@@ -898,7 +898,7 @@ A muscle of a [joint](../joints.md) gets all that it may have, is asked for more
 3.2 mm expected". The muscle is torn, or its cable is slack. A muscle by itself is judged by
 [heater_not_responding](heater_not_responding.md) alone.
 
-**Detected** while a muscle is limited (`limited_by` maximum or temperature, or the supply gives no more): each time that the joint has
+**Detected** while a muscle gets less than is asked of it, by its maximum, its temperature or what the supply gives, without a gap: each time that the joint has
 moved by 0.9 mm, and when the limit begins, expected motion counts from zero. It trips when the muscle should have moved the joint by
 at least 3 mm (three times `responding_min_m`) and the joint has moved by less than 0.3 of that (`responding_ratio`), for 0.5 s. What is
 expected is the least of what the models of the muscle's heat do, with no help of the other muscle or with its heat times anything
@@ -934,8 +934,9 @@ less than 3 mm are expected, or nothing is limited, used is 0.
 ## Not detected
 
 - A loose muscle that is not asked for more than it can give: what the other one, a spring or a load does for it is not noticed.
-- A joint that nothing draws away, so that the heat of the loose muscle rises before it is asked for more than it can give: then
-  [controller_invalid](controller_invalid.md), after 120 s.
+- If nothing pulls the joint away, the loose muscle is hot already when it reaches its limit: no motion is expected then, and
+  [controller_invalid](controller_invalid.md) follows after 120 s.
+- A demand that falls below the limit again and again, as a noisy one may: what is expected then counts anew each time.
 - Slack that the other muscle takes up at once, since both stay taut: the joint jumps by a part of it and follows on. Less pretension is
   left; `calibrate` again.
 - Where the other muscle draws the joint out of its travel, [over_travel](over_travel.md) comes first, within 0.1 s.

@@ -235,7 +235,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
     JointSettings joint{0, 1, c.joint->plant.lever_m, c.joint->co_contraction_W};
     joint.max_co_contraction_W =
         std::max(joint.co_contraction_W,
-                 JointSettings::usual_limit_ratio * most_co_contraction_W(board, joint));
+                 JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));
     add_joint(board, joint);
   }
   return board;

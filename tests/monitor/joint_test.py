@@ -23,7 +23,7 @@ TOLD = """const { JointCard } = await import("/joint_card.js");
         store.append({ newest_s: 1, nodes: { [node]: { [message]: { time_s: [time_s], ...Object.fromEntries(Object.entries(row).map(([name, value]) => [name, [value]])) } } } });
     const muscle = (node, lever_m, other) => {
         hear(node, "Muscle", { quantity: quantity("joint_lever_m"), value: lever_m }, 0.5);
-        hear(node, "Muscle", { quantity: quantity("joint_other_node"), value: other });
+        hear(node, "Muscle", { quantity: quantity("joint_other_node_offset"), value: other });
     };
     const shown = (node) => {
         const card = new JointCard(node, store);

@@ -28,8 +28,8 @@ inline constexpr std::array<std::string_view, 24> known_quantities{
     "configured_thermal_mass_J_per_K", "configured_heat_transfer_W_per_K",
     "configured_stiffness_N_per_m", "configured_damping_Ns_per_m", "configured_moving_mass_kg",
     "configured_force_per_kelvin_N_per_K", "configured_cold_resistance_Ohm",
-    "joint_lever_m",      ///< < 0 of the antagonist: the angle is position / lever; NaN: no joint
-    "joint_other_node"};  ///< of the other muscle, minus this one's
+    "joint_lever_m",  ///< < 0 of the antagonist: the angle is position / lever; NaN: no joint
+    "joint_other_node_offset"};  ///< of the other muscle, minus this one's
 /// Places of those that follow the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
@@ -78,7 +78,7 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
           file.force_per_kelvin_N_per_K,
           configured.cold_resistance_Ohm,
           configured.joint.lever_m,
-          configured.joint.other_channel};
+          configured.joint.other_channel_offset};
 }
 
 /// From the loop to other threads; each quantity is whole, all of them together may be of two

@@ -74,7 +74,7 @@ bool BoardSettings::in_joint(std::size_t channel) const {
   });
 }
 
-double most_co_contraction_W(const BoardSettings& board, const JointSettings& joint) {
+double feasible_co_contraction_W(const BoardSettings& board, const JointSettings& joint) {
   const ChannelSettings& agonist = board.channels[joint.agonist];
   const ChannelSettings& antagonist = board.channels[joint.antagonist];
   const double gain_ratio = antagonist.muscle.dc_gain_m_per_W() / agonist.muscle.dc_gain_m_per_W();

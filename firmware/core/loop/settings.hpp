@@ -43,7 +43,7 @@ struct HeaterSettings {
 /// What a channel tells of the joint that it is in; NaN: in none.
 struct PlaceInJoint {
   double lever_m = NAN;  ///< the joint's angle in rad is position / lever_m: < 0 of the antagonist
-  double other_channel = NAN;  ///< from this one: 1 is the next
+  double other_channel_offset = NAN;  ///< from this one: 1 is the next
 };
 
 struct ChannelSettings {
@@ -99,7 +99,7 @@ struct BoardSettings {
 };
 
 /// The co-contraction that both heaters can give, by what is configured of the muscles.
-double most_co_contraction_W(const BoardSettings& board, const JointSettings& joint);
+double feasible_co_contraction_W(const BoardSettings& board, const JointSettings& joint);
 
 /// Of two channels that the board has. The proof of response is for one muscle that moves alone: of
 /// theirs none is asked.

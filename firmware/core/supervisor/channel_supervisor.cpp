@@ -22,6 +22,11 @@ double frozen_band_m(const ChannelSupervision& s) {
   return s.position_noise_rms_m > 0.0 ? frozen_noise_ratio * s.position_noise_rms_m : -1.0;
 }
 
+/// Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
+bool wants_more(const AxisInputs& axis, const HeaterInputs& heater) {
+  return heater.limited && axis.demanded_W > heater.applied_W;
+}
+
 }  // namespace
 
 ChannelSupervisor::ChannelSupervisor(const ChannelSupervision& s, double cold_resistance_Ohm,
@@ -109,8 +114,8 @@ void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs&
   }
   if (axis.position.present && axis.in_joint) {
     verdict_.note(muscle_loose,
-                  loose_.step(heater.limited && !heater.off && axis.demanded_W > heater.applied_W,
-                              axis.position.value, heater.expected_m, axis.opposed_m),
+                  loose_.step(!heater.off && wants_more(axis, heater), axis.position.value,
+                              heater.expected_m, axis.opposed_m),
                   loose_);
   }
   if (axis.unanswered) {
@@ -139,9 +144,7 @@ void ChannelSupervisor::judge_muscle(const AxisInputs& axis, const HeaterInputs&
 void ChannelSupervisor::judge_commands(const CommandInputs& commands, const AxisInputs& axis,
                                        const HeaterInputs& heater) {
   using enum Fault;
-  // Wanting less than no power is how a muscle cools; wanting more than there is cannot last.
-  const bool unmet_demand =
-      commands.heating && heater.limited && axis.demanded_W > heater.applied_W;
+  const bool unmet_demand = commands.heating && wants_more(axis, heater);
   verdict_.note(controller_invalid, lost_.step(axis.demanded_W, unmet_demand), lost_);
   verdict_.note(command_timeout, expired_.step(commands.renewed, commands.heating), expired_);
   // Only an obeyed command ends a row: damaged and refused ones may alternate.

@@ -12,7 +12,7 @@ constexpr double usual_co_contraction_ratio = 0.2;  ///< of what both heaters ca
 
 /// In watts of the agonist.
 void read_co_contraction(Section& section, const BoardSettings& board, JointSettings& joint) {
-  const double both_W = most_co_contraction_W(board, joint);
+  const double both_W = feasible_co_contraction_W(board, joint);
   joint.co_contraction_W = 0.0;
   // What a channel lacks is told there.
   if (!(both_W > 0.0)) return;

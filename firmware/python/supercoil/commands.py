@@ -127,7 +127,7 @@ class Commands(Connection):
     async def joint(self) -> Joint | None:
         """The joint that it turns with another muscle; None: it moves alone."""
         return joint_of(self.node, await self._link.quantity(Quantity.joint_lever_m),
-                        await self._link.quantity(Quantity.joint_other_node))
+                        await self._link.quantity(Quantity.joint_other_node_offset))
 
     def make_position(self, position_m: float) -> Order:
         return Order(self, Opcode.position, position_m)

@@ -485,7 +485,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_FORCE_PER_KELVIN_N_PER_K_CHOICE (20u)
 #define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_COLD_RESISTANCE_OHM_CHOICE (21u)
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_M_CHOICE (22u)
-#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_OTHER_NODE_CHOICE (23u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_OTHER_NODE_OFFSET_CHOICE (23u)
 
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -575,7 +575,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_FORCE_PER_KELVIN_N_PER_K_CHOICE (20u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_COLD_RESISTANCE_OHM_CHOICE (21u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_M_CHOICE (22u)
-#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_OTHER_NODE_CHOICE (23u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_OTHER_NODE_OFFSET_CHOICE (23u)
 
 #define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
@@ -1884,7 +1884,7 @@ struct supercoil_muscle_t {
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node: the node of the other muscle, minus this one. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1

@@ -155,7 +155,7 @@ inline constexpr std::array<ValueName, 24> names_of_quantity{{
     {20, "configured_force_per_kelvin_N_per_K"},
     {21, "configured_cold_resistance_Ohm"},
     {22, "joint_lever_m"},
-    {23, "joint_other_node"},
+    {23, "joint_other_node_offset"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_refusal{{

@@ -155,7 +155,7 @@ class Quantity(Named):
     configured_force_per_kelvin_N_per_K = 20
     configured_cold_resistance_Ohm = 21
     joint_lever_m = 22
-    joint_other_node = 23
+    joint_other_node_offset = 23
 
 
 class Refusal(Named):

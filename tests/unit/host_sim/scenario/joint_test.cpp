@@ -177,6 +177,8 @@ TEST(JointScenario, ItsBoardHasTwoChannelsThatSeeItFromBothSides) {
   LONGS_EQUAL(1, board.joints[0].antagonist);
   DOUBLES_EQUAL(0.012, board.joints[0].lever_m, 0.0);
   DOUBLES_EQUAL(0.7, board.joints[0].co_contraction_W, 0.0);
+  // As of a board whose file says nothing of it.
+  DOUBLES_EQUAL(0.5 * 4.5, board.joints[0].max_co_contraction_W, 1e-12);
   LONGS_EQUAL(2, board.channels.size());
   const ChannelSettings& agonist = board.channels[0];
   const ChannelSettings& antagonist = board.channels[1];

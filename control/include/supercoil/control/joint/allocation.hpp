@@ -30,7 +30,7 @@ class JointAllocation {
   /// Half of the effort comes from each, around co_contraction_W >= 0, of which both pull alike:
   /// P₁ = c + v/2, g P₂ = c − v/2. What one of them cannot give is left to the other. Within the
   /// ranges; the effort is the one that was asked for, or the nearest that they allow. An effort
-  /// that is no number gives none.
+  /// that is NaN gives NaN.
   PairPower divide(double effort_W, double co_contraction_W, const Ranges& ranges) const {
     if (!std::isfinite(effort_W)) return {NAN, NAN};
     const PowerRange against{gain_ratio_ * ranges.antagonist.min_W,

@@ -6,7 +6,7 @@ import { fixed } from "./format.js";
 const SVG = "http://www.w3.org/2000/svg";
 const DEGREES = 180 / Math.PI;
 // The picture: from the pivot, in pixels. An angle beyond is drawn at this one.
-const LEVER = 24, ARM = 78, FOOT = 66, MOST_DEG = 80;
+const LEVER = 24, ARM = 78, FOOT = 66, MAX_DEG = 80;
 
 const drawn = (name, attributes, ...children) => {
   const made = document.createElementNS(SVG, name);
@@ -15,7 +15,7 @@ const drawn = (name, attributes, ...children) => {
   return made;
 };
 /** Degrees to the right of upright, within what the picture has room for. */
-const turned = (angle_deg) => `rotate(${Number.isFinite(angle_deg) ? Math.max(-MOST_DEG, Math.min(MOST_DEG, angle_deg)).toFixed(2) : 0})`;
+const turned = (angle_deg) => `rotate(${Number.isFinite(angle_deg) ? Math.max(-MAX_DEG, Math.min(MAX_DEG, angle_deg)).toFixed(2) : 0})`;
 
 export class JointCard {
   constructor(node, store) {
@@ -41,7 +41,7 @@ export class JointCard {
   }
 
   update(now_s) {
-    const lever_m = this.#told("joint_lever_m", now_s), other = this.node + this.#told("joint_other_node", now_s);
+    const lever_m = this.#told("joint_lever_m", now_s), other = this.node + this.#told("joint_other_node_offset", now_s);
     this.element.hidden = !(Math.abs(lever_m) > 0 && Number.isFinite(other));
     if (this.element.hidden) return;
     const [right, left] = lever_m > 0 ? [this.node, other] : [other, this.node];
@@ -63,7 +63,7 @@ export class JointCard {
 
   /** From where it is fixed to the end of the lever that it draws down. */
   #draw(muscle, side, angle_deg) {
-    const angle = (Number.isFinite(angle_deg) ? Math.max(-MOST_DEG, Math.min(MOST_DEG, angle_deg)) : 0) / DEGREES;
+    const angle = (Number.isFinite(angle_deg) ? Math.max(-MAX_DEG, Math.min(MAX_DEG, angle_deg)) : 0) / DEGREES;
     const ends = { x1: side * LEVER, y1: FOOT, x2: side * LEVER * Math.cos(angle), y2: side * LEVER * Math.sin(angle) };
     for (const [key, at] of Object.entries(ends)) muscle.setAttribute(key, at.toFixed(2));
   }

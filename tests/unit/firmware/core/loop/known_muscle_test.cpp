@@ -31,7 +31,7 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   CHECK(known_quantities[known_configured] == "configured_thermal_mass_J_per_K");
   CHECK(known_quantities[known_joint_lever - 1] == "configured_cold_resistance_Ohm");
   CHECK(known_quantities[known_joint_lever] == "joint_lever_m");
-  CHECK(known_quantities.back() == "joint_other_node");
+  CHECK(known_quantities.back() == "joint_other_node_offset");
   const KnownMuscle known = known_muscle(
       {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, {},
       {{.stiffness_N_per_m = 14.0}, 8.0, {-0.015, -1.0}});

@@ -245,6 +245,24 @@ TEST(ChannelSupervisor, CoolingIsNotALostController) {
     check_fault(Fault::none, channel.step());
 }
 
+/// Of a joint's muscle, whose heat changes and which moves nothing. Less than it gets is asked for
+/// where there is a minimum.
+TEST(ChannelSupervisor, OnlyAMuscleThatIsAskedForMoreThanItGetsIsLoose) {
+  for (const double demanded_W : {3.5, 3.7}) {
+    Channel channel;
+    channel.inputs.axis.in_joint = true;
+    channel.inputs.heater.limited = true;
+    channel.inputs.axis.demanded_W = demanded_W;
+    Fault found = Fault::none;
+    for (int i = 0; i < 2000 && found == Fault::none; ++i) {
+      for (double& expected_m : channel.inputs.heater.expected_m)
+        expected_m += 4e-6;
+      found = channel.step();
+    }
+    check_fault(demanded_W > 3.6 ? Fault::muscle_loose : Fault::none, found);
+  }
+}
+
 TEST(ChannelSupervisor, AnExpiredCommandDoesNotConcernARestingMuscle) {
   Channel channel;
   channel.inputs.commands.heating = false;

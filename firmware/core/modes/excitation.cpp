@@ -48,6 +48,7 @@ double Excitation::step(double position_m, double max_W) {
     case Phase::search:
       power_W_ = std::min(max_W, power_W_ * std::exp(settings_.step_s / growth_s));
       if (ahead_m >= travel_ratio * settings_.max_travel_m || (still && power_W_ >= max_W) ||
+          position_m_ - cold_m_ < -backwards_ratio * settings_.max_travel_m ||
           (phase_s_ > max_still_s && position_m_ - cold_m_ < min_m())) {
         end_search(ahead_m);
         begin(Phase::cool);

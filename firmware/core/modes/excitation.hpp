@@ -38,6 +38,8 @@ class Excitation {
   bool done() const { return cycle_ >= cycles || too_still_; }
   /// The muscle has moved by less than is needed, and no more power is allowed.
   bool too_little_motion() const { return too_still_; }
+  /// It has, but away from where heat should draw it.
+  bool moved_backwards() const { return too_still_ && reach_m_ <= -min_m(); }
   /// From 0; the first one searches for the power, and teaches little.
   std::size_t cycle() const { return cycle_; }
   double risen_m() const { return position_m_ - cold_m_; }
@@ -54,6 +56,8 @@ class Excitation {
   static constexpr double travel_ratio = 0.55;
   /// Of the travel: less is not enough to identify by.
   static constexpr double min_ratio = 0.01;
+  /// Likewise: a muscle that softens as it warms may give way a little at first.
+  static constexpr double backwards_ratio = 0.1;
   static constexpr double first_ratio = 0.02;  ///< of the power
   static constexpr double growth_s = 0.75;     ///< of the power in the search, e-fold
   static constexpr double smoothing_s = 0.05;

@@ -21,11 +21,12 @@ enum class ModeResult : std::uint8_t {
   implausible = 8,         ///< out of range; of identify also: far from what was believed
   not_stored = 9,          ///< used, but the last ones still wait to be stored
   too_little_motion = 10,  ///< identify: the muscle hardly moved
+  moved_backwards = 11,    ///< identify: heat moved it away from where it should
 };
 
-inline constexpr std::array<std::string_view, 11> mode_result_names{
-    "none",     "running",   "found",       "interrupted", "not_cold",         "moved",
-    "poor_fit", "uncertain", "implausible", "not_stored",  "too_little_motion"};
+inline constexpr std::array<std::string_view, 12> mode_result_names{
+    "none",     "running",   "found",       "interrupted", "not_cold",          "moved",
+    "poor_fit", "uncertain", "implausible", "not_stored",  "too_little_motion", "moved_backwards"};
 
 /// Bits: everything that identify has to say of its last fit. Each is a reason for a refusal, but
 /// for theta1_kept and friction, and for theta2_uncertain unless θ2 is hardly known at all.

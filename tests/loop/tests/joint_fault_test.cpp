@@ -109,6 +109,35 @@ TEST(JointFault, AMuscleThatMovesNothingIsFoundWithinTwoSecondsWhereTheJointStay
   }
 }
 
+/// As with both heaters swapped: the controller would drive it to the other end.
+TEST(JointFault, ASensorWithTheWrongSignIsFoundAtTheFirstMotion) {
+  for (const double to_m : {0.004, -0.004}) {
+    Rig fresh(known_joint(0.8));
+    fresh.board.channel(agonist).position.set(host_sim::ConverterFaults{.gain = -1.0});
+    begin(fresh);
+    CHECK(follows_until_fault(fresh, 3.0, [=] { return to_m; }));
+    CHECK(fresh.fault() == Fault::muscle_loose);
+    CHECK_COMPARE(std::abs(fresh.board.joint(0).plant().position_m()), <, 0.006);
+  }
+}
+
+TEST(JointFault, IdentifyTellsThatHeatMovesTheJointTheOtherWay) {
+  rig.board.channel(agonist).position.set(host_sim::ConverterFaults{.gain = -1.0});
+  arm();
+  CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
+  double hottest_C = 0.0;
+  CHECK(rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        hottest_C = std::max(hottest_C, 25.0 + rig.muscle().temperature_rise_K());
+        return state_of(agonist) != State::active;
+      },
+      60.0));
+  CHECK(of(agonist).result == ModeResult::moved_backwards);
+  CHECK_FALSE(both(State::fault));
+  CHECK_COMPARE(hottest_C, <, 50.0);
+}
+
 /// A load that comes at once is no loose muscle, whether the muscle can hold it or gives all that
 /// it may and is drawn out.
 TEST(JointFault, ALoadThatMovesItIsNoLooseMuscle) {

@@ -82,6 +82,31 @@ class NotResponding final : public Detector {
   /// and the slowest that the bounds of its heat allow.
   using Expected = std::array<double, 3>;
 
+  /// The believed muscle, and in eight steps from the fastest to the slowest: where one of those
+  /// still rises and the other falls already, one between them stands still.
+  static constexpr std::size_t steps = 8;
+  /// Of the other muscle's gain over its believed one, with this muscle's as believed; 0: it does
+  /// nothing.
+  static constexpr std::array gains{0.0, 0.1,  0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0,
+                                    1.1, 1.25, 1.4, 1.6, 1.8, 2.1, 2.5, 3.0, 4.0, 6.0, 10.0};
+  using Motions = std::array<double, steps + 2 + gains.size()>;
+
+  /// Where the muscle may be. Without an other one the first steps + 2 only.
+  static Motions possible(const Expected& expected_m, const Expected* opposed_m) {
+    const Expected none{};
+    const Expected& opposed = opposed_m != nullptr ? *opposed_m : none;
+    const double believed = expected_m[0] - opposed[0];
+    const double fastest = expected_m[1] - opposed[1];
+    const double slowest = expected_m[2] - opposed[2];
+    Motions motions{believed};
+    for (std::size_t i = 0; i <= steps; ++i)
+      motions[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
+    if (opposed_m == nullptr) return motions;
+    for (std::size_t i = 0; i < gains.size(); ++i)
+      motions[steps + 2 + i] = expected_m[0] - gains[i] * opposed[0];
+    return motions;
+  }
+
   /// opposed_m: by how much the other muscle of a joint takes that back; null: there is none. What
   /// is believed of both gains may be wrong, and two muscles then hold still what believed ones
   /// would move: that is judged only if no gain of the other muscle explains it.
@@ -119,30 +144,6 @@ class NotResponding final : public Detector {
 
  private:
   static constexpr double in_time_ratio = 0.95;  ///< of the window
-
-  /// The believed muscle, and in eight steps from the fastest to the slowest: where one of those
-  /// still rises and the other falls already, one between them stands still.
-  static constexpr std::size_t steps = 8;
-  /// Of the other muscle's gain over its believed one, with this muscle's as believed; 0: it does
-  /// nothing.
-  static constexpr std::array gains{0.0, 0.1,  0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0,
-                                    1.1, 1.25, 1.4, 1.6, 1.8, 2.1, 2.5, 3.0, 4.0, 6.0, 10.0};
-  using Motions = std::array<double, steps + 2 + gains.size()>;
-
-  static Motions possible(const Expected& expected_m, const Expected* opposed_m) {
-    const Expected none{};
-    const Expected& opposed = opposed_m != nullptr ? *opposed_m : none;
-    const double believed = expected_m[0] - opposed[0];
-    const double fastest = expected_m[1] - opposed[1];
-    const double slowest = expected_m[2] - opposed[2];
-    Motions motions{believed};
-    for (std::size_t i = 0; i <= steps; ++i)
-      motions[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
-    if (opposed_m == nullptr) return motions;
-    for (std::size_t i = 0; i < gains.size(); ++i)
-      motions[steps + 2 + i] = expected_m[0] - gains[i] * opposed[0];
-    return motions;
-  }
 
   Settings settings_;
   double step_s_;

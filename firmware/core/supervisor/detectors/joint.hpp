@@ -1,13 +1,56 @@
 // Does each muscle of a joint still move it?
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include "supervisor/detectors/heater.hpp"
 #include "supervisor/detectors/margin.hpp"
 
 namespace supercoil::detectors {
 
+/// A muscle gets hotter, and the joint moves the other way: three times in a row by at least a part
+/// of what every model of the muscles expects. Once may be a load that came.
+class MovesAway {
+ public:
+  /// min_expected_m: of all times together.
+  MovesAway(double min_ratio, double min_expected_m)
+      : min_ratio_(min_ratio), expected_each_m_(min_expected_m / times) {}
+
+  bool step(double position_m, const NotResponding::Motions& motions_m) {
+    if (begins_) {
+      begins_ = false;
+      from_m_ = position_m;
+      expected_from_m_ = motions_m;
+    }
+    double expected_m = motions_m[0] - expected_from_m_[0];
+    for (std::size_t i = 1; i < motions_m.size(); ++i)
+      expected_m = std::min(expected_m, motions_m[i] - expected_from_m_[i]);
+    if (expected_m >= expected_each_m_) {
+      begins_ = true;
+      count_ = position_m - from_m_ <= -min_ratio_ * expected_m ? count_ + 1 : 0;
+    }
+    return count_ >= times;
+  }
+  void reset() {
+    begins_ = true;
+    count_ = 0;
+  }
+
+ private:
+  static constexpr int times = 3;
+
+  double min_ratio_;
+  double expected_each_m_;
+  bool begins_ = true;
+  int count_ = 0;
+  double from_m_ = 0.0;
+  NotResponding::Motions expected_from_m_{};
+};
+
 /// A muscle of a joint gets hotter, is asked for more than it can give, and the joint stays where
-/// it is: the muscle is torn, or its cable slack. In seconds, where NotResponding takes a window:
+/// it is or moves the other way: the muscle is torn, its cable slack, or its heater or the sensor's
+/// sign is the other muscle's. In seconds, where NotResponding takes a window:
 /// it must not take a muscle that holds a growing load still for a dead one, and no load is held
 /// still by a muscle that has no more to give.
 class MuscleLoose final : public Detector {
@@ -20,6 +63,7 @@ class MuscleLoose final : public Detector {
   MuscleLoose(const Settings& settings, double step_s)
       : moved_m_(settings.min_ratio * settings.min_expected_m),
         motion_({longest_s, settings.min_ratio, settings.min_expected_m}, step_s),
+        away_(settings.min_ratio, settings.min_expected_m),
         held_(settings.hold_s, step_s) {}
 
   /// limited: the muscle gets less than is asked of it. Positions as NotResponding's: each time
@@ -27,17 +71,21 @@ class MuscleLoose final : public Detector {
   bool step(bool limited, double position_m, const NotResponding::Expected& expected_m,
             const NotResponding::Expected& opposed_m) {
     if (!limited) {
-      motion_.reset();
+      reset();
       margin_ = {0.0, 0.0, true, false};
       return held_.step(false);
     }
     motion_.step(position_m, expected_m, &opposed_m);
     margin_ = motion_.margin();
     if (margin_.measured >= moved_m_) motion_.reset();
-    return held_.step(margin_.judged && !(margin_.measured >= margin_.limit));
+    const bool away = away_.step(position_m, NotResponding::possible(expected_m, &opposed_m));
+    return held_.step(margin_.judged && !(margin_.measured >= margin_.limit)) || away;
   }
   /// Every position moved.
-  void reset() { motion_.reset(); }
+  void reset() {
+    motion_.reset();
+    away_.reset();
+  }
   Margin margin() const override { return margin_; }
 
  private:
@@ -45,6 +93,7 @@ class MuscleLoose final : public Detector {
 
   double moved_m_;
   NotResponding motion_;
+  MovesAway away_;
   HoldTimer held_;
   Margin margin_{0.0, 0.0, true, false};
 };

@@ -177,7 +177,7 @@ inline constexpr std::array<ValueName, 16> names_of_refusal{{
     {15, "infeasible"},
 }};
 
-inline constexpr std::array<ValueName, 11> names_of_result{{
+inline constexpr std::array<ValueName, 12> names_of_result{{
     {0, "none"},
     {1, "running"},
     {2, "found"},
@@ -189,6 +189,7 @@ inline constexpr std::array<ValueName, 11> names_of_result{{
     {8, "implausible"},
     {9, "not_stored"},
     {10, "too_little_motion"},
+    {11, "moved_backwards"},
 }};
 
 inline constexpr std::array<ValueName, 4> names_of_set{{

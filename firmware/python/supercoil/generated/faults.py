@@ -889,8 +889,10 @@ heater_not_responding alone."""
     remedy = """\
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, calibrate both.
-3. Are both taut? What held the joint? Set max_travel_m so that it lies within the end stops.
-4. Reset, arm."""
+3. Did it move the wrong way? Swap both heaters with their current senses, or agonist and antagonist in [joint], or change the
+   sign of m_per_count. identify then says found, not moved_backwards.
+4. Are both taut? What held the joint? Set max_travel_m so that it lies within the end stops.
+5. Reset, arm."""
     page = """\
 # 34 muscle_loose
 
@@ -903,6 +905,10 @@ moved by 0.9 mm, and when the limit begins, expected motion counts from zero. It
 at least 3 mm (three times `responding_min_m`) and the joint has moved by less than 0.3 of that (`responding_ratio`), for 0.5 s. What is
 expected is the least of what the models of the muscle's heat do, with no help of the other muscle or with its heat times anything
 up to ten, as heater_not_responding has it. Simulated: 0.9 to 1.8 s after a muscle tore ([joints](../joints.md#safety)).
+
+It trips as well where the joint **moves the other way**: three times in a row, while one more millimetre was expected of a limited muscle,
+the joint moved by at least 0.3 of that in the other direction. So swapped heaters, or a sensor with the wrong sign, are found at
+the first motion.
 
 **Torn or slack is one fault**, because one position sensor cannot tell them apart: a torn muscle moves nothing, a slack one moves
 nothing until its slack is taken up, and whether more heat would take it up is found out only by giving it.
@@ -918,13 +924,16 @@ joint that stands below its reference has lost its agonist, above it its antagon
 - its cable slipped off its pulley, or became longer than the muscle can take up
 - the joint is held: at an end stop short of where it was sent, or by something stronger than the muscle
 - the sensor's magnet turns on its axle
+- the joint moves away from where it is sent: both heaters are swapped, or the position has the wrong sign
 
 ## Remedy
 
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, `calibrate` both.
-3. Are both taut? What held the joint? Set `max_travel_m` so that it lies within the end stops.
-4. Reset, arm.
+3. Did it move the wrong way? Swap both heaters with their current senses, or `agonist` and `antagonist` in `[[joint]]`, or change the
+   sign of `m_per_count`. `identify` then says `found`, not `moved_backwards`.
+4. Are both taut? What held the joint? Set `max_travel_m` so that it lies within the end stops.
+5. Reset, arm.
 
 ## Margin
 

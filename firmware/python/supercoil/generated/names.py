@@ -189,6 +189,7 @@ class Result(Named):
     implausible = 8
     not_stored = 9
     too_little_motion = 10
+    moved_backwards = 11
 
 
 class Set(Named):

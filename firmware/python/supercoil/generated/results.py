@@ -16,6 +16,7 @@ MEANINGS = {
     Result.implausible: "out of range; of identify also: far from what the configuration says",
     Result.not_stored: "used, but the results before it still wait for the disk",
     Result.too_little_motion: "the muscle moved by less than 1 % of its travel with all the power that it may have",
+    Result.moved_backwards: "the more heat, the further the muscle moved away from where it should: the sensor's sign is wrong, or, of a joint, both heaters are swapped",
 }
 
 # Bits of what identify has to say, from the least on.

@@ -1,4 +1,6 @@
 // Detectors of a joint's muscles.
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 #include "supervisor/detectors/joint.hpp"
@@ -74,4 +76,37 @@ TEST(JointDetectors, LooseIsNoMuscleThatTheOtherOneMayHoldStill) {
       -1,
       tripped_at([&](int tick) { return detector.step(true, 0.002, rising(tick), rising(tick)); },
                  20'000));
+}
+
+TEST(JointDetectors, LooseIsAMuscleThatMovesTheJointTheOtherWay) {
+  // Three times one millimetre, at once: no model of it stands still.
+  const int ticks = tripped_at([&](int tick) {
+    return detector.step(true, 0.002 - 0.4 * rising(tick)[0], rising(tick), nothing);
+  });
+  CHECK_COMPARE(ticks, >=, 1000);
+  CHECK_COMPARE(ticks, <=, 1010);
+  // What counted before the muscle got what it asked for does not count.
+  CHECK_FALSE(detector.step(false, 0.0, rising(0), nothing));
+  CHECK_FALSE(detector.step(true, 0.0, rising(0), nothing));
+}
+
+TEST(JointDetectors, LooseIsNoMuscleThatALoadDrawsOutForAWhile) {
+  // Nearly three times, then it follows again; and once more.
+  double position_m = 0.0;
+  LONGS_EQUAL(-1, tripped_at(
+                      [&](int tick) {
+                        const double way = std::fmod(rising(tick)[0], 0.006) < 0.00285 ? -1.0 : 1.0;
+                        position_m += way * 0.4 * rising(1)[0];
+                        return detector.step(true, position_m, rising(tick), nothing);
+                      },
+                      20'000));
+}
+
+TEST(JointDetectors, TheOtherMuscleMayMoveTheJointTheOtherWay) {
+  LONGS_EQUAL(-1, tripped_at(
+                      [&](int tick) {
+                        return detector.step(true, -0.4 * rising(tick)[0], rising(tick),
+                                             rising(tick));
+                      },
+                      20'000));
 }

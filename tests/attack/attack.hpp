@@ -13,6 +13,17 @@ namespace supercoil::test {
 /// 0.045 / 0.089.
 inline constexpr double worst_configured_cooling = 0.51;
 
+/// Why an interval may miss the truth.
+inline constexpr std::string_view worse_cooling =
+    "the cooling is worse than `min_transfer_W_per_K` says";
+inline constexpr std::string_view leak_as_noise = "10 mA of it pass for the sense's noise";
+inline constexpr std::string_view warmer_air = "the air is warmer than `ambient.warmest_C` says";
+
+/// As short as it can be.
+std::string text_of(double value);
+/// Of a switch that conducts a part of what it should.
+std::string leak_text(double percent);
+
 struct Attack {
   std::string name;
   double current_gain = 1.0;  ///< what a sense reads, over the truth

@@ -18,14 +18,17 @@ OVERSHOOT_K = 0.5
 # What a reading's rounding may show.
 HELD_K = 0.05
 
-Run = collections.namedtuple("Run", "muscle attack activity hottest_C outside_K fault fault_s guard blindness")
+MUSCLES = ("soft", "stiff")
+JOINTS = ("soft joint", "stiff joint")
+
+Run = collections.namedtuple("Run", "board attack activity hottest_C outside_K fault fault_s guard blindness")
 
 
 def runs_of(program, every):
     text = subprocess.run([program, str(every)], check=True, capture_output=True, text=True).stdout
     for line in text.splitlines():
-        muscle, attack, activity, hottest, outside, fault, fault_s, guard, blindness = line.split(";")
-        yield Run(muscle, attack, activity, float(hottest), float(outside), fault, float(fault_s), guard, blindness)
+        board, attack, activity, hottest, outside, fault, fault_s, guard, blindness = line.split(";")
+        yield Run(board, attack, activity, float(hottest), float(outside), fault, float(fault_s), guard, blindness)
 
 
 def kept(run):
@@ -38,37 +41,56 @@ def held(run):
 
 def problems(runs):
     for run in runs:
-        what = f"{run.muscle} muscle, {run.attack}, {run.activity}"
+        what = f"{run.board}, {run.attack}, {run.activity}"
         if not kept(run) and not run.guard:
             yield f"{what}: {run.hottest_C} °C, and nothing protects"
         if not held(run) and not run.blindness:
             yield f"{what}: {run.outside_K} K outside of the published interval"
 
 
-def by_attack(runs):
+def by_attack(runs, boards):
     groups = collections.defaultdict(list)
     for run in runs:
-        groups[run.attack].append(run)
+        if run.board in boards:
+            groups[run.attack].append(run)
     return groups
 
 
-def summary(runs):
-    yield "| attack | hottest, soft | hottest, stiff | interval | protects |"
-    yield "|---|---|---|---|---|"
-    for attack, group in by_attack(runs).items():
-        hottest = {m: max(r.hottest_C for r in group if r.muscle == m) for m in ("soft", "stiff")}
+def summary(runs, boards, faults=False):
+    """boards: two of them, a column each."""
+    yield "| attack | hottest, soft | hottest, stiff | interval | protects |" + (" ends with |" if faults else "")
+    yield "|---|---|---|---|---|" + ("---|" if faults else "")
+    for attack, group in by_attack(runs, boards).items():
+        hottest = " | ".join(f"{max(run.hottest_C for run in group if run.board == board):.0f} °C" for board in boards)
         outside = max(r.outside_K for r in group)
         interval = "holds" if all(map(held, group)) else f"off by {outside:.1f} K"
         over = [run for run in group if not kept(run)]
         protects = f"**{over[0].guard}**{only_while(over)}" if over else "firmware"
-        yield f"| {attack} | {hottest['soft']:.0f} °C | {hottest['stiff']:.0f} °C | {interval} | {protects} |"
+        yield f"| {attack} | {hottest} | {interval} | {protects} |" + (f" {endings(group)} |" if faults else "")
+
+
+def endings(group):
+    """Each fault with its times and how many runs it ended."""
+    times = collections.defaultdict(list)
+    for run in group:
+        if run.fault:
+            times[run.fault].append(run.fault_s)
+    told = [f"[{fault}](faults/{fault}.md) {span(seconds)} ({len(seconds)})" for fault, seconds in times.items()]
+    if going_on := sum(not run.fault for run in group):
+        told.append(f"– ({going_on})")
+    return ", ".join(told)
+
+
+def span(seconds):
+    first, last = f"{min(seconds):.1f}", f"{max(seconds):.1f}"
+    return f"{first} s" if first == last else f"{first} to {last} s"
 
 
 def table(runs, muscle):
     yield "| attack | while | hottest | interval | fault | after |"
     yield "|---|---|---|---|---|---|"
     for run in runs:
-        if run.muscle != muscle:
+        if run.board != muscle:
             continue
         hottest = f"{run.hottest_C:.0f} °C" if kept(run) else f"**{run.hottest_C:.0f} °C**"
         interval = "holds" if held(run) else f"off by {run.outside_K:.1f} K"
@@ -87,9 +109,9 @@ def sentence(text):
     return text[0].upper() + text[1:] + "."
 
 
-def unprotected(runs):
+def unprotected(runs, boards):
     """For safety.md."""
-    for attack, group in by_attack(runs).items():
+    for attack, group in by_attack(runs, boards).items():
         over = [run for run in group if not kept(run)]
         missed = [run for run in group if not held(run)]
         if over:
@@ -111,11 +133,13 @@ def with_section(text, name, lines):
 
 def pages(runs):
     attacks, safety = ROOT / "docs/attacks.md", ROOT / "docs/safety.md"
-    text = with_section(attacks.read_text(), "summary", summary(runs))
-    for muscle in ("soft", "stiff"):
+    text = with_section(attacks.read_text(), "summary", summary(runs, MUSCLES))
+    text = with_section(text, "joints", summary(runs, JOINTS, faults=True))
+    for muscle in MUSCLES:
         text = with_section(text, muscle, table(runs, muscle))
     yield attacks, text
-    yield safety, with_section(safety.read_text(), "unprotected attacks", unprotected(runs))
+    text = with_section(safety.read_text(), "unprotected attacks", unprotected(runs, MUSCLES))
+    yield safety, with_section(text, "unprotected attacks on joints", unprotected(runs, JOINTS))
 
 
 def main():

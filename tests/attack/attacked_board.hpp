@@ -1,15 +1,19 @@
-// The whole firmware, as a configuration's file starts it, over a board that is attacked.
+// The whole firmware over a simulated board that is attacked.
 #pragma once
 
-#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <string>
 
-#include "attack/attack.hpp"
 #include "loop/executive.hpp"
 #include "simulated_board/simulated_board.hpp"
 
 namespace supercoil::test {
 
-/// Judged by the plant's own temperature.
+inline constexpr double hold_ratio = 0.8;  ///< of what max_W would hold
+inline constexpr double rearm_every_s = 12.0;
+
+/// Judged by the muscles' own temperatures: of the worst muscle.
 struct Damage {
   double hottest_C = 0.0;
   double outside_K = 0.0;  ///< how far the truth was outside of the published interval
@@ -17,41 +21,75 @@ struct Damage {
   double fault_s = 0.0;  ///< after the attack; of one that is there from the start, after arming
 };
 
+/// How a run goes, whatever the attack.
+struct Course {
+  std::string name;
+  double duration_s = 60.0;  ///< from the attack on
+  bool from_start = false;   ///< the attack is there at boot
+  double air_C = 30.0;
+  double air_sensor_offset_K = 0.0;
+};
+
+/// What the attack is, and what is commanded meanwhile, a derived class says.
 class AttackedBoard {
  public:
-  AttackedBoard(Attack attack, const Muscle& muscle, Activity activity);
   AttackedBoard(const AttackedBoard&) = delete;
   AttackedBoard& operator=(const AttackedBoard&) = delete;
+  virtual ~AttackedBoard() = default;
 
+  /// Boots, warms the muscles, attacks, and goes on until the time is over or the board has cut the
+  /// heat for good. Once.
   Damage run();
+
+ protected:
+  using Wiring = std::function<void(board::Devices&)>;
+
+  /// miswire: what is soldered otherwise than the firmware believes.
+  AttackedBoard(
+      const Course& course, const BoardSettings& firmware,
+      const host_sim::SimulatedBoardSettings& simulated,
+      const Wiring& miswire = [](board::Devices&) {});
+
+  virtual void begin_attack() = 0;
+  /// Ten times a second: commands expire after 0.25 s.
+  virtual void command() = 0;
+
+  void send(Verb verb, double value = 0.0, std::uint8_t channel = 0) {
+    loop_.send({channel, verb, value});
+  }
+  const Channel& channel(std::size_t i = 0) const { return loop_.channel(i); }
+  State state() const { return channel().state().state(); }
+  bool attacked() const { return attacked_; }
+  /// Since the attack began, or the warming before it.
+  double elapsed_s() const { return time_s() - since_s_; }
+
+  const host_sim::SimulatedBoardSettings simulated_;  ///< as it was before the attack
+  host_sim::SimulatedBoard board_;
 
  private:
   double time_s() const { return hal::seconds(board_.true_time()); }
-  State state() const { return loop_.channel(0).state().state(); }
-  void begin_attack();
   void tick();
-  /// Until the time is over, or the board has cut the heat for good.
   void run_for(double duration_s);
-  void command();
-  void command_active();
-  void send(Verb verb, double value = 0.0) { loop_.send({0, verb, value}); }
   void watch();
   bool over() const;
 
-  Attack attack_;
-  Muscle muscle_;
-  Activity activity_;
-  bool attacked_ = false;
-  double since_s_ = 0.0;  ///< when the present stretch began
-  bool mode_asked_ = false;
-  BoardSettings firmware_;
-  host_sim::SimulatedBoardSettings simulated_;
-  host_sim::SimulatedBoard board_;
+  Course course_;
+  std::size_t channels_;
+  std::uint32_t command_every_;  ///< ticks
   Loop loop_;
   Executive executive_;
+  bool attacked_ = false;
+  double since_s_ = 0.0;  ///< when the present stretch began
   Damage damage_;
   double faulty_since_s_ = 0.0;
   std::uint32_t ticks_ = 0;
 };
+
+inline board::Scaling scaling_of(const host_sim::ConverterSettings& converter) {
+  return {converter.per_count(), converter.low};
+}
+
+/// Of the text of a configuration's file; one that is not in order ends the program.
+BoardSettings settings_of(const std::string& text);
 
 }  // namespace supercoil::test

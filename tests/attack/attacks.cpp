@@ -6,14 +6,6 @@ namespace supercoil::test {
 
 namespace {
 
-constexpr std::string_view worse_cooling = "the cooling is worse than `min_transfer_W_per_K` says";
-
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", value);
-  return text.data();
-}
-
 void add_lying_senses(std::vector<Attack>& attacks) {
   constexpr std::array<double, 8> gains{0.5, 0.64, 0.78, 0.9, 1.1, 1.3, 1.4, 1.5};
   const auto add = [&](double current, double supply) {
@@ -60,9 +52,9 @@ void add_cooling(std::vector<Attack>& attacks) {
 void add_leaks(std::vector<Attack>& attacks) {
   for (const double percent : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0}) {
     Attack a;
-    a.name = percent < 100.0 ? "switch leaks " + text_of(percent) + " %" : "switch stuck on";
+    a.name = leak_text(percent);
     a.switch_leak_ratio = 0.01 * percent;
-    if (percent <= 5.0) a.blindness = "10 mA of it pass for the sense's noise";
+    if (percent <= 5.0) a.blindness = leak_as_noise;
     attacks.push_back(a);
   }
 }
@@ -73,7 +65,7 @@ void add_hot_air(std::vector<Attack>& attacks) {
     a.name = "air at " + text_of(air_C) + " °C";
     a.air_C = air_C;
     a.from_start = true;
-    a.blindness = "the air is warmer than `ambient.warmest_C` says";
+    a.blindness = warmer_air;
     attacks.push_back(a);
   }
 }
@@ -118,6 +110,16 @@ void add_identified(std::vector<Attack>& attacks) {
 }
 
 }  // namespace
+
+std::string text_of(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
+std::string leak_text(double percent) {
+  return percent < 100.0 ? "switch leaks " + text_of(percent) + " %" : "switch stuck on";
+}
 
 /// A muscle that is known must prove that it answers, but not while it is identified.
 std::string_view guard_in(Activity activity, const Attack& attack) {

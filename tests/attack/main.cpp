@@ -1,9 +1,12 @@
-// Every attack on every muscle in every activity, a line each: attack_table.py judges them.
+// Every attack on every muscle, and on joints of two of them, in every activity, a line each:
+// attack_table.py judges them.
 //   attacks [EVERY]    EVERY: takes every so many only
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 
-#include "attack/attacked_board.hpp"
+#include "attack/attacked_joint.hpp"
+#include "attack/attacked_muscle.hpp"
 #include "batch/in_parallel.hpp"
 
 using namespace supercoil;
@@ -12,54 +15,74 @@ using namespace supercoil::test;
 namespace {
 
 struct Case {
-  Attack attack;
-  Muscle muscle;
-  Activity activity;
+  std::string board;  ///< the muscle's name, or its joint's
+  std::string attack;
+  std::string activity;
+  std::string guard;
+  std::string blindness;
+  std::function<Damage()> run;
 };
 
-std::vector<Case> all_cases() {
-  std::vector<Case> cases;
+// Only a switch that conducts by itself heats what is disarmed.
+bool heats_disarmed(const Attack& attack) {
+  return attack.switch_leak_ratio > 0.0;
+}
+bool heats_disarmed(const JointAttack& attack) {
+  return attack.muscles[0].switch_leak_ratio > 0.0 || attack.muscles[1].switch_leak_ratio > 0.0;
+}
+
+void add_muscles(std::vector<Case>& cases) {
   for (const Muscle& muscle : muscles) {
     for (const Attack& attack : all_attacks()) {
       for (std::size_t i = 0; i < activity_names.size(); ++i) {
         const auto activity = static_cast<Activity>(i);
-        // Only a switch that conducts by itself heats what is disarmed.
-        if (activity == Activity::disarmed && attack.switch_leak_ratio == 0.0) continue;
-        cases.push_back({attack, muscle, activity});
+        if (activity == Activity::disarmed && !heats_disarmed(attack)) continue;
+        cases.push_back({std::string(muscle.name), attack.name, std::string(activity_names[i]),
+                         std::string(guard_in(activity, attack)), std::string(attack.blindness),
+                         [=] { return AttackedMuscle(attack, muscle, activity).run(); }});
       }
     }
   }
-  return cases;
 }
 
-std::string string_of(std::string_view text) {
-  return std::string(text);
+void add_joints(std::vector<Case>& cases) {
+  for (const Muscle& muscle : muscles) {
+    for (const JointAttack& attack : all_joint_attacks()) {
+      for (std::size_t i = 0; i < joint_activity_names.size(); ++i) {
+        const auto activity = static_cast<JointActivity>(i);
+        if (activity == JointActivity::disarmed && !heats_disarmed(attack)) continue;
+        cases.push_back({std::string(muscle.name) + " joint", attack.name,
+                         std::string(joint_activity_names[i]), std::string(attack.guard),
+                         std::string(attack.blindness),
+                         [=] { return AttackedJoint(attack, muscle, activity).run(); }});
+      }
+    }
+  }
 }
 
 void print(const Case& c, const Damage& damage) {
-  const auto fault = damage.fault == Fault::none ? std::string_view() : name(damage.fault);
-  const auto activity = activity_names[static_cast<std::size_t>(c.activity)];
-  std::printf("%s;%s;%s;%.1f;%.1f;%s;%.1f;%s;%s\n", string_of(c.muscle.name).c_str(),
-              c.attack.name.c_str(), string_of(activity).c_str(), damage.hottest_C,
-              damage.outside_K, string_of(fault).c_str(), damage.fault_s,
-              string_of(guard_in(c.activity, c.attack)).c_str(),
-              string_of(c.attack.blindness).c_str());
+  const std::string fault =
+      damage.fault == Fault::none ? std::string() : std::string(name(damage.fault));
+  std::printf("%s;%s;%s;%.1f;%.1f;%s;%.1f;%s;%s\n", c.board.c_str(), c.attack.c_str(),
+              c.activity.c_str(), damage.hottest_C, damage.outside_K, fault.c_str(), damage.fault_s,
+              c.guard.c_str(), c.blindness.c_str());
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const int every = argc > 1 ? std::atoi(argv[1]) : 1;
+  std::vector<Case> all;
+  add_muscles(all);
+  add_joints(all);
   std::vector<Case> cases;
-  const std::vector<Case> all = all_cases();
   for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every))
     cases.push_back(all[i]);
   std::vector<Damage> damages(cases.size());
   host_sim::batch::in_parallel(
       cases.size(), host_sim::batch::threads_for(0),
       [&](std::size_t i, const std::atomic<bool>&) -> host_sim::batch::Handover {
-        const Damage damage =
-            AttackedBoard(cases[i].attack, cases[i].muscle, cases[i].activity).run();
+        const Damage damage = cases[i].run();
         return [&damages, i, damage] { damages[i] = damage; };
       },
       [] { return false; });

@@ -6,42 +6,18 @@
 
 #include "config/bus_time.hpp"
 #include "config/describe.hpp"
-#include "unit/firmware/io/config/support/small_board.hpp"
+#include "unit/firmware/io/config/support/joint_board.hpp"
 
 using namespace supercoil;
 using namespace supercoil::config;
+using supercoil::test::board_with_joint;
+using supercoil::test::one_joint;
 using supercoil::test::problems_of;
 using supercoil::test::replaced;
+using supercoil::test::second_channel;
 using supercoil::test::small_board;
 
 namespace {
-
-/// Its position is the first channel's.
-const std::string second_channel = R"([[channel]]
-enable = {line = "EN2"}
-pwm = {device = "pwm", number = 1}
-[channel.current]
-device = "adc"
-input = "voltage3"
-A_per_count = 0.0001
-[channel.heater]
-cold_resistance_Ohm = 10.0
-[channel.muscle]
-heat_transfer_W_per_K = 0.0712
-[channel.thermal]
-min_mass_J_per_K = 0.13
-max_mass_J_per_K = 0.20
-min_transfer_W_per_K = 0.045
-max_transfer_W_per_K = 0.18
-[channel.limits]
-max_W = 4.0
-max_travel_m = 0.02
-)";
-const std::string one_joint =
-    "[[joint]]\nname = 'elbow'\nagonist = 1\nantagonist = 2\nlever_m = 0.015\n";
-const std::string board_with_joint =
-    supercoil::test::small_board_with("min_m = -0.001", "min_m = -0.041") + second_channel +
-    one_joint;
 
 BoardConfig read_joint_board(const std::string& text) {
   const auto config = parse_board_config(text, "b.toml");

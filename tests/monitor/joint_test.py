@@ -5,13 +5,20 @@
 Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 """
 
+import json
+import math
+import pathlib
 import re
+import subprocess
 import sys
+import tempfile
 import time
 import unittest
 
 from modules import ModulesCase
-from page_test import PICTURES, PageCase
+from page_test import PICTURES, READY_S, STOP_S, PageCase
+from programs import SLACK_S, SUPERCOIL, command, until
+from selenium.webdriver.common.keys import Keys
 
 CARD = "section[aria-label='joint of node {}']"
 FOLLOWS_S = 60.0  # from the page's opening: the board starts, proves itself, and arms
@@ -52,6 +59,30 @@ class Told(ModulesCase):
         self.assertEqual(self.ask(TOLD + "muscle(1, 0.015, 1); return shown(1).slice(0, 3);"), ["rotate(0)", "angle: –°", "reference: –°"])
 
 
+class Angles(ModulesCase):
+    SCRIPT = """const { measure_of } = await import("/joint.js");
+        const { waveform, refuse_values, waveform_of_file } = await import("/waveform.js");
+        const agonist = measure_of({ lever_m: 0.015, other: 2 });
+        const values = { offset: -5, amplitude: 20, period: 10 };
+        """
+
+    def test_only_the_agonists_positions_are_angles(self):
+        self.assertEqual(self.ask(self.SCRIPT + """return [agonist, measure_of({ lever_m: -0.015, other: 1 }), measure_of(null)].map(({ unit, both_ways }) => [unit, both_ways]);"""),
+                         [["°", True], ["mm", False], ["mm", False]])
+
+    def test_waveforms_of_a_joint_are_degrees_both_ways(self):
+        at_m, why = self.ask(self.SCRIPT + """return [waveform("sine", values, agonist).at(2.5), refuse_values("sine", values, 0.008, agonist)];""")
+        self.assertAlmostEqual(at_m, 0.0039270, 6)  # 15 degrees
+        self.assertEqual(why, "")
+        self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, offset: 15 }, 0.008, agonist);"""),
+                         "offset and amplitude reach from -5.00 to 35.00 °; allowed: -30.56 to 30.56 °")
+
+    def test_a_file_of_a_joint_may_have_negative_positions(self):
+        told = self.ask(self.SCRIPT + """const why = (row, measure) => { try { waveform_of_file(`time_s,position_m\n0,0\n1,${row}\n`, 0.008, measure); return ""; } catch ({ message }) { return message; } };
+            return [why(-0.008, agonist), why(-0.009, agonist), why(-0.008)];""")
+        self.assertEqual(told, ["", "line 3: position_m -0.009; allowed: -0.008 to 0.008 m", "line 3: position_m -0.008; allowed: 0 to 0.008 m"])
+
+
 class OfJoint(PageCase):
     scenario = "joint"
 
@@ -70,6 +101,55 @@ class OnThePage(OfJoint):
         self.assertEqual([heat[:2] for heat in heats], [("1", "right"), ("2", "left")])
         self.assertGreater(float(heats[1][2]), float(heats[0][2]), "what turns it left pulls more there")
         self.assertEqual(page.errors(), [])
+
+
+class ByHand(OfJoint):
+    """A joint that nobody else commands."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        file = pathlib.Path(folder, "joint.toml")
+        file.write_text("[simulation]\nduration_s = 86400.0\n[joint]\n[operator]\naction = 'none'\n[controller]\nkind = 'learned_ff'\n")
+        cls.scenario = str(file)
+        super().setUpClass()
+
+    def type_angle(self, page, angle):
+        field = page.find(".manual .value input")
+        field.clear()
+        field.send_keys(str(angle), Keys.ENTER)
+
+    def test_it_is_turned_both_ways_by_its_angle(self):
+        page = self.page()
+        page.wait(lambda: page.text(".manual .value .unit") == "°", READY_S, "the joint is told")
+        unit = page.find("#wave-amplitude-1 + .unit").get_attribute("textContent")
+        self.assertEqual(unit, "°")
+        page.arm()
+        for angle in (8, -8):
+            self.type_angle(page, angle)
+            page.wait(lambda: abs((self.angle_deg(page, 1) or (99.0, 0.0))[0] - angle) < 0.3, FOLLOWS_S, f"at {angle} degrees")
+        self.type_angle(page, -60)
+        page.wait(lambda: re.search(r"allowed: -\d+\.\d+ to \d+\.\d+ °", page.text(".manual .answer")), STOP_S, "refused with the range")
+        page.press_space()
+        page.wait(page.is_off, STOP_S, "off")
+        self.assertEqual(page.errors(), [])
+
+
+    def told_angle_deg(self):
+        agonist, _ = json.loads(command(self.source, "state", "--json").stdout)["nodes"]
+        return math.degrees(agonist["Measurement"]["position_m"] / 0.015)
+
+    def test_command_takes_degrees(self):
+        for word in ("disarm", "reset"):
+            command(self.source, "1", word)
+        until(lambda: command(self.source, "1", "arm").returncode == 0)
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "-6deg", "--for", "15", "--can", self.source],
+                                stderr=subprocess.PIPE, text=True)
+        until(lambda: abs(self.told_angle_deg() + 6.0) < 0.5)
+        self.assertEqual((held.communicate(timeout=2 * SLACK_S)[1], held.returncode), ("", 0))
+        self.assertIn("out_of_range; 0.007992 would be obeyed", command(self.source, "1", "position", "90deg").stderr)
+        # About -3 to +7 degrees.
+        self.assertEqual(command(self.source, "1", "position", "2deg", "--amplitude", "5", "--period", "4", "--for", "5").returncode, 0)
 
 
 class Picture(OfJoint):

@@ -40,6 +40,8 @@ class Scripts(OnSimulatedBoard):
                                     (("command", "2", "arm", "--can", self.source), 1, "no answer from node 2"),
                                     (("command", "state", "--can", "socketcand:1"), 1, "socketcand"),
                                     (("command", "1", "arm", "--amplitude", "1", "--period", "2", "--can", self.source), 2, "a sine"),
+                                    (("command", "1", "position", "5deg", "--can", self.source), 2, "channel 1 is in no joint"),
+                                    (("command", "1", "power", "5deg", "--can", self.source), 2, "power needs a number"),
                                     (("setting", "1", "volume", "--can", self.source), 2, "is not a setting"),
                                     (("setting", "2", "--can", self.source), 1, "no answer from node 2"),
                                     (("doctor", "--config", "/dev/null"), 2, "is not a file"),

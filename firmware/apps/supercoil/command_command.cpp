@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/progress.hpp"
+#include "apps/supercoil/angle.hpp"
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
@@ -55,15 +56,19 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
+std::string shortest(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.9g", value);
+  return text.data();
+}
+
 /// Channel and verb as they are; the value on its sine, if there is one.
 std::string line_at(const CommandOptions& options, double time_s) {
   if (options.sine_period_s <= 0.0) return joined(options.words);
   constexpr double turn = 6.283185307179586;
   const double value = std::stod(options.words[2]) +
                        options.sine_amplitude * std::sin(turn * time_s / options.sine_period_s);
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return joined({options.words[0], options.words[1], text.data()});
+  return joined({options.words[0], options.words[1], shortest(value)});
 }
 
 /// identify and calibrate end by themselves, with a result.
@@ -149,10 +154,23 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
   return exit_done;
 }
 
+/// A position in degrees becomes one in metres, and so does its sine's amplitude.
+tl::expected<void, std::string> in_metres(BoardLink& board, CommandOptions& options) {
+  if (options.words.size() != 3 || options.words[1] != name(Verb::position)) return {};
+  const auto angle_deg = degrees_of(options.words[2]);
+  if (!angle_deg) return {};
+  const auto m_per_deg = metres_per_degree(board, options.words[0]);
+  if (!m_per_deg) return tl::unexpected(m_per_deg.error());
+  options.words[2] = shortest(*angle_deg * *m_per_deg);
+  options.sine_amplitude *= *m_per_deg;
+  return {};
+}
+
 }  // namespace
 
-int command_command(const CommandOptions& options) {
-  const bool number = options.words.size() == 3 && is_number(options.words[2]);
+int command_command(CommandOptions options) {
+  const bool number =
+      options.words.size() == 3 && (is_number(options.words[2]) || degrees_of(options.words[2]));
   if (options.sine_period_s > 0.0 && !number) {
     return refused(options, exit_wrong_input,
                    joined(options.words) + ": a sine needs a number as its middle");
@@ -161,6 +179,8 @@ int command_command(const CommandOptions& options) {
     return refused(options, exit_wrong_input, "a sine needs --for or --hold");
   const auto board = open_link(options.can, options.socket);
   if (!board) return refused(options, exit_failed, board.error());
+  if (const auto metres = in_metres(**board, options); !metres)
+    return refused(options, exit_wrong_input, metres.error());
   const std::string line = joined(options.words);
   if (line == "state") return tell_state(**board, options);
   if (options.hold_s > 0.0) return hold(**board, options);

@@ -53,7 +53,7 @@ struct CommandOptions {
   double sine_amplitude = 0.0;
   double sine_period_s = 0.0;  ///< 0: no sine
 };
-int command_command(const CommandOptions& options);
+int command_command(CommandOptions options);
 
 struct PlayOptions {
   std::string file;

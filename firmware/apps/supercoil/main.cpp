@@ -54,7 +54,8 @@ void add_command(CLI::App& app, CommandOptions& options) {
   command
       ->add_option("COMMAND", options.words,
                    "state; or CHANNEL (from 1) and arm, disarm, reset, renew, rest, identify, "
-                   "calibrate, position M, power W, scale M, controller N, estimator N, store "
+                   "calibrate, position M (of a joint also 20deg), power W, scale M, controller N, "
+                   "estimator N, store "
                    "(keep what the estimator has learned), clear (forget the muscle that is kept), "
                    "tune N (use what was prepared)")
       ->required()
@@ -68,8 +69,9 @@ void add_command(CLI::App& app, CommandOptions& options) {
           "--hold", [&] { options.hold_s = std::numeric_limits<double>::infinity(); },
           "Renew it until Ctrl-C; then the muscle rests")
       ->excludes(hold);
-  CLI::Option* amplitude = command->add_option("--amplitude", options.sine_amplitude,
-                                               "With --for: the value is the middle of a sine");
+  CLI::Option* amplitude =
+      command->add_option("--amplitude", options.sine_amplitude,
+                          "With --for: the value is the middle of a sine, in its unit");
   CLI::Option* period = command->add_option("--period", options.sine_period_s, "Of the sine, in s")
                             ->check(CLI::Range(0.2, 1e4));
   amplitude->needs(period);

@@ -1,11 +1,12 @@
 // The panel by which a muscle is commanded: state, arm, mode, set-point.
 
 import { element, show } from "./dom.js";
+import { LENGTH, measure_of } from "./joint.js";
 
 // While the board has not told its limits: the stroke and the power of the paper's muscle.
 const USUAL = { position: 0.02, power: 4.5 };
 const MODES = {
-  position: { opcode: "position", button: "move", unit: "mm", factor: 1e3, steps: [0.01, 0.1, 0.5, 1, 5], step: 0.1, label: "Position",
+  position: { opcode: "position", button: "move", unit: LENGTH.unit, factor: LENGTH.per_m, steps: [0.01, 0.1, 0.5, 1, 5], step: 0.1, label: "Position",
     hint: "The controller makes the muscle follow this position." },
   power: { opcode: "power", button: "heat", unit: "W", factor: 1, steps: [0.01, 0.05, 0.1, 0.5], step: 0.05, label: "Power",
     hint: "Open loop: the muscle gets this power, within its limits." },
@@ -14,10 +15,22 @@ const MODES = {
   calibrate: { opcode: "calibrate", button: "calibrate", hint: "Finds zero and cold resistance; the muscle must be cold." },
 };
 
+/** The modes of a muscle in a joint, which the agonist's node commands. */
+function modes_in({ lever_m, other }) {
+  const { unit, per_m } = measure_of({ lever_m });
+  const position = lever_m > 0
+    ? { ...MODES.position, unit, factor: per_m, both_ways: true, steps: [0.05, 0.1, 0.5, 1, 5], step: 0.5, label: "Angle",
+      hint: "The controller makes the joint follow this angle." }
+    : { ...MODES.position, hint: `Node ${other} commands the joint; a position is refused here.` };
+  const power = lever_m > 0 ? MODES.power
+    : { ...MODES.power, hint: `How hard both muscles pull while the joint follows node ${other}; else this muscle alone gets this power.` };
+  return { ...MODES, position, power };
+}
+
 export class ControlPanel {
   /** may: {command: may it, why: why not}; log: is told (text, kind) of each command. */
   constructor(manual, may, log) {
-    Object.assign(this, { manual, may, log, mode: "position", values: {}, steps: {}, limits: new Map() });
+    Object.assign(this, { manual, may, log, modes: MODES, mode: "position", values: {}, steps: {}, limits: new Map() });
     const id = (name) => `${name}-${manual.node}`;
     this.arm = this.#button("arm", "arm");
     this.disarm = this.#button("disarm", "disarm");
@@ -64,7 +77,7 @@ export class ControlPanel {
   #choose(mode) {
     this.values[this.mode] = this.number.value;
     this.mode = mode;
-    const { button, hint, unit, label, steps, step } = MODES[mode];
+    const { button, hint, unit, label, steps, step } = this.modes[mode];
     show(this.go, button);
     show(this.hint, hint);
     this.value_row.hidden = this.slider.hidden = !unit;
@@ -79,9 +92,14 @@ export class ControlPanel {
 
   /** Number and slider end at the limit of the detector, where the board has told it. */
   #scale() {
-    const { factor, steps: [finest], opcode } = MODES[this.mode];
+    const { factor, steps: [finest], opcode, both_ways } = this.modes[this.mode];
     const most = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
-    for (const input of [this.number, this.slider]) Object.assign(input, { min: 0, step: this.step.value, max: (Math.floor((most * factor) / finest) * finest).toFixed(2) });
+    const step = Number(this.step.value);
+    // A slider counts its steps from its least value: 0 must be among them.
+    for (const [input, unit] of [[this.number, finest], [this.slider, both_ways ? Math.max(step, finest) : finest]]) {
+      const reach = (Math.floor((most * factor) / unit) * unit).toFixed(2);
+      Object.assign(input, { min: both_ways ? -reach : 0, step, max: reach });
+    }
   }
 
   #take_step() {
@@ -91,19 +109,19 @@ export class ControlPanel {
 
   /** One step up (1) or down (-1), sent at once; no further than the limits. */
   nudge(sign) {
-    if (!this.may.command || !MODES[this.mode].unit) return;
+    if (!this.may.command || !this.modes[this.mode].unit) return;
     const wanted = (this.number.valueAsNumber || 0) + sign * Number(this.step.value);
-    this.number.value = this.slider.value = Number(Math.min(Math.max(wanted, 0), Number(this.number.max)).toFixed(2));
+    this.number.value = this.slider.value = Number(Math.min(Math.max(wanted, Number(this.number.min)), Number(this.number.max)).toFixed(2));
     this.#go();
   }
 
   #go() {
-    const { opcode, unit, factor } = MODES[this.mode];
+    const { opcode, unit, factor } = this.modes[this.mode];
     if (!unit) return this.#send(opcode);
     const value = this.number.valueAsNumber;
     if (Number.isNaN(value)) return this.#answer("a number is missing", false);
     const { rangeOverflow, rangeUnderflow } = this.number.validity;
-    if (rangeOverflow || rangeUnderflow) return this.#answer(`allowed: 0 to ${this.number.max} ${unit}`, false);
+    if (rangeOverflow || rangeUnderflow) return this.#answer(`allowed: ${this.number.min} to ${this.number.max} ${unit}`, false);
     this.#send(opcode, value / factor, `${this.number.value} ${unit}`);
   }
 
@@ -120,15 +138,26 @@ export class ControlPanel {
     this.answer.classList.toggle("refused", !obeyed);
   }
 
-  /** status: what the channel says of itself, in words, or null. The sensible next step stands out. */
-  update(status, limits) {
+  /** A muscle that turns out to be in a joint: its numbers are angles from now on. */
+  #take_joint(joint) {
+    if (this.joint_told || !joint) return;
+    this.joint_told = true;
+    this.modes = modes_in(joint);
+    Object.assign(this, { values: {}, steps: {} });
+    this.number.value = "0";
+    this.#choose(this.mode);
+  }
+
+  /** status: what the channel says of itself, in words, or null; joint: of joint_of(). The sensible next step stands out. */
+  update(status, limits, joint) {
     if (status) this.manual.observe(status);
+    this.#take_joint(joint);
     for (const [button, state] of [[this.arm, "disarmed"], [this.reset, "fault"]])
       button.classList.toggle("next", status?.state === state);
     this.go.classList.toggle("next", status?.state === "armed");
     // The same map is filled again and again.
     const told = limits.size !== this.limits_told;
     Object.assign(this, { limits, limits_told: limits.size });
-    if (told && MODES[this.mode].unit) this.#scale();
+    if (told && this.modes[this.mode].unit) this.#scale();
   }
 }

@@ -2,9 +2,9 @@
 
 import { element, show } from "./dom.js";
 import { fixed } from "./format.js";
+import { DEGREES, joint_of } from "./joint.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const DEGREES = 180 / Math.PI;
 // The picture: from the pivot, in pixels. An angle beyond is drawn at this one.
 const LEVER = 24, ARM = 78, FOOT = 66, MAX_DEG = 80;
 
@@ -33,17 +33,11 @@ export class JointCard {
       element("h2", {}, "Joint"), picture, element("dl", { class: "facts" }, ...this.values.map(({ line }) => line)));
   }
 
-  /** What the board told of this node's muscle, by the quantity's name. */
-  #told(name, now_s) {
-    for (const [number, { value }] of this.store.round(this.node, "Muscle", "quantity", now_s))
-      if (this.store.word("Muscle", "quantity", number) === name) return value;
-    return undefined;
-  }
-
   update(now_s) {
-    const lever_m = this.#told("joint_lever_m", now_s), other = this.node + this.#told("joint_other_node_offset", now_s);
-    this.element.hidden = !(Math.abs(lever_m) > 0 && Number.isFinite(other));
-    if (this.element.hidden) return;
+    const joint = joint_of(this.store, this.node, now_s);
+    this.element.hidden = !joint;
+    if (!joint) return;
+    const { lever_m, other } = joint;
     const [right, left] = lever_m > 0 ? [this.node, other] : [other, this.node];
     const degrees = (message, column) => (this.store.at(right, message, now_s)?.[column] / Math.abs(lever_m)) * DEGREES;
     const angle_deg = degrees("Measurement", "position_m"), reference_deg = degrees("Tracking", "reference_m");

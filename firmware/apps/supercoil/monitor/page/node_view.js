@@ -5,6 +5,7 @@ import { element } from "./dom.js";
 import { Gains } from "./gains.js";
 import { Identified } from "./identified.js";
 import { ManualControl } from "./manual_control.js";
+import { joint_of, measure_of } from "./joint.js";
 import { JointCard } from "./joint_card.js";
 import { Journal } from "./journal.js";
 import { Margins } from "./margins.js";
@@ -74,8 +75,9 @@ export class NodeView {
     for (const card of this.cards) card.update(now_s);
     this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();
-    this.panel.update(this.status, this.margins.limits);
-    this.waveform.update(this.margins.limits);
+    const joint = joint_of(this.store, this.node, now_s);
+    this.panel.update(this.status, this.margins.limits, joint);
+    this.waveform.update(this.margins.limits, measure_of(joint));
     for (const plot of this.plots) plot.show_values();
   }
 }

@@ -1,8 +1,8 @@
 // Motions as a board takes them ahead of time: knots, each with its time, position and velocity.
 
+import { LENGTH } from "./joint.js";
 import { waveform } from "./waveform.js";
 
-const MM = 1e3;
 const STEP_S = 0.04;
 const FAST_STEP_S = 0.02; // where 25 knots a second were fewer than 10 a period
 const LEAST_PERIOD_S = 0.2;
@@ -24,9 +24,9 @@ function ease(part) {
 const in_ms = (time_s) => Math.round(1e3 * time_s) / 1e3;
 
 /** {at, end_s, knots()}: a swing that grows within its first period, and a chirp's fades within its last one. */
-export function swinging(shape, values) {
-  const wave = waveform(shape, values);
-  const middle_m = values.offset / MM;
+export function swinging(shape, values, measure = LENGTH) {
+  const wave = waveform(shape, values, measure);
+  const middle_m = values.offset / measure.per_m;
   const { period, last_period } = values;
   const fade = (time_s) => ease(time_s / period) * (shape === "chirp" ? ease((wave.end_s - time_s) / last_period) : 1);
   const at = (time_s) => middle_m + fade(time_s) * (wave.at(time_s) - middle_m);

@@ -1,10 +1,10 @@
 // Set points as functions of time: waveforms to be played to a muscle.
 
-const MM = 1e3;
+import { LENGTH } from "./joint.js";
 
-/** What a shape asks for, by name: label, unit, value at first. Lengths in mm, as they are typed. */
-const OFFSET = { offset: ["offset", "mm", 8] };
-const SWING = { ...OFFSET, amplitude: ["amplitude", "mm", 2], period: ["period", "s", 10] };
+/** What a shape asks for, by name: label, unit ("": that of the positions), value at first. */
+const OFFSET = { offset: ["offset", "", 8] };
+const SWING = { ...OFFSET, amplitude: ["amplitude", "", 2], period: ["period", "s", 10] };
 export const SHAPES = {
   sine: SWING,
   steps: SWING,
@@ -16,21 +16,21 @@ export const SHAPES = {
 const chirped = ({ period, last_period, duration }) => (time_s) =>
   time_s / period + ((1 / last_period - 1 / period) * time_s ** 2) / (2 * duration);
 
-function swing({ offset, amplitude }, phase, shape) {
-  return (time_s) => (offset + amplitude * shape(phase(time_s))) / MM;
+function swing({ offset, amplitude }, phase, shape, { per_m }) {
+  return (time_s) => (offset + amplitude * shape(phase(time_s))) / per_m;
 }
 
 const sine = (phase) => Math.sin(2 * Math.PI * phase);
 const square = (phase) => (phase % 1 < 0.5 ? 1 : -1);
 
-/** {at: position in m by time in s, end_s}; values: numbers by name, as SHAPES asks for them. */
-export function waveform(shape, values) {
-  if (shape === "chirp") return { at: swing(values, chirped(values), sine), end_s: values.duration };
-  return { at: swing(values, (time_s) => time_s / values.period, shape === "sine" ? sine : square), end_s: Infinity };
+/** {at: position in m by time in s, end_s}; values: numbers by name, as SHAPES asks for them, positions as measure has them. */
+export function waveform(shape, values, measure = LENGTH) {
+  if (shape === "chirp") return { at: swing(values, chirped(values), sine, measure), end_s: values.duration };
+  return { at: swing(values, (time_s) => time_s / values.period, shape === "sine" ? sine : square, measure), end_s: Infinity };
 }
 
 /** What is wrong with the values, in words, or "". most_m: the channel's travel. */
-export function refuse_values(shape, values, most_m) {
+export function refuse_values(shape, values, most_m, { unit, per_m, both_ways } = LENGTH) {
   for (const [name, [label]] of Object.entries(SHAPES[shape])) {
     const value = values[name];
     if (!Number.isFinite(value)) return `${label}: a number is missing`;
@@ -38,8 +38,9 @@ export function refuse_values(shape, values, most_m) {
   }
   const low = values.offset - Math.abs(values.amplitude);
   const high = values.offset + Math.abs(values.amplitude);
-  if (low < 0 || high > most_m * MM) {
-    return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} mm; allowed: 0 to ${(most_m * MM).toFixed(2)} mm`;
+  const most = most_m * per_m, least = both_ways ? -most : 0;
+  if (low < least || high > most) {
+    return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} ${unit}; allowed: ${both_ways ? least.toFixed(2) : 0} to ${most.toFixed(2)} ${unit}`;
   }
   return "";
 }
@@ -47,7 +48,8 @@ export function refuse_values(shape, values, most_m) {
 const COLUMNS = ["time_s", "position_m"];
 
 /** A file's rows, and as a waveform, straight between them. Throws an Error that names line and value. */
-export function waveform_of_file(text, most_m) {
+export function waveform_of_file(text, most_m, { both_ways } = LENGTH) {
+  const least_m = both_ways ? -most_m : 0;
   const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(",").map((cell) => cell.trim()));
   const places = COLUMNS.map((name) => lines[0].indexOf(name));
   if (places.includes(-1)) throw new Error(`line 1: "${lines[0].join(",")}": the first line must name the columns time_s and position_m`);
@@ -60,7 +62,7 @@ export function waveform_of_file(text, most_m) {
       return value;
     });
     if (rows.length > 0 && time_s <= rows.at(-1)[0]) throw new Error(`line ${i + 1}: time_s ${time_s} is not later than ${rows.at(-1)[0]} before it`);
-    if (position_m < 0 || position_m > most_m) throw new Error(`line ${i + 1}: position_m ${position_m}; allowed: 0 to ${Number(most_m.toPrecision(4))} m`);
+    if (position_m < least_m || position_m > most_m) throw new Error(`line ${i + 1}: position_m ${position_m}; allowed: ${Number(least_m.toPrecision(4))} to ${Number(most_m.toPrecision(4))} m`);
     rows.push([time_s, position_m]);
   });
   if (rows.length < 2) throw new Error(`line ${lines.length}: two rows at least are needed`);

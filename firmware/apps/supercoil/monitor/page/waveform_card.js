@@ -1,6 +1,7 @@
 // A waveform to be played to a muscle: its shape, its numbers or its file, start and stop.
 
 import { element, show } from "./dom.js";
+import { LENGTH } from "./joint.js";
 import { jumps, swinging, through } from "./trajectory.js";
 import { TrajectoryPlayer } from "./trajectory_player.js";
 import { WavePlayer } from "./wave_player.js";
@@ -10,7 +11,7 @@ export class WaveformCard {
   /** may: {command, why}; log: is told (text, kind) of what was done; position(): where the muscle is, in m. */
   constructor(manual, may, log, position) {
     const [set_points, trajectory] = [new WavePlayer(manual), new TrajectoryPlayer(manual, position)];
-    Object.assign(this, { log, most_m: NaN, shape: "sine", set_points, trajectory, player: trajectory, fields: new Map() });
+    Object.assign(this, { log, most_m: NaN, measure: LENGTH, shape: "sine", set_points, trajectory, player: trajectory, fields: new Map() });
     const disabled = !may.command;
     const id = (name) => `wave-${name}-${manual.node}`;
     const radios = Object.keys(SHAPES).map((shape) => element("label", {},
@@ -19,7 +20,8 @@ export class WaveformCard {
     // Of all shapes; those of the chosen one are seen.
     for (const [name, [label, unit, value]] of Object.entries(Object.assign({}, ...Object.values(SHAPES)))) {
       const input = element("input", { type: "number", id: id(name), step: "any", inputmode: "decimal", value, disabled });
-      this.fields.set(name, { input, row: element("div", { class: "value" }, element("label", { for: id(name) }, label), input, element("span", { class: "unit" }, unit)) });
+      const unit_shown = element("span", { class: "unit" }, unit || LENGTH.unit);
+      this.fields.set(name, { input, typed_unit: unit ? null : unit_shown, row: element("div", { class: "value" }, element("label", { for: id(name) }, label), input, unit_shown) });
     }
     this.file = element("input", { type: "file", accept: ".csv,text/csv", "aria-label": "file of the waveform", disabled });
     this.file_row = element("div", {}, this.file, element("p", { class: "hint" }, "CSV with the columns time_s and position_m; smooth through its rows as a trajectory, straight between them as set points."));
@@ -80,15 +82,15 @@ export class WaveformCard {
     if (this.shape === "file") {
       const [file] = this.file.files;
       if (!file) throw new Error("choose a file first");
-      const wave = waveform_of_file(await file.text(), this.most_m);
+      const wave = waveform_of_file(await file.text(), this.most_m, this.measure);
       return { wave, motion: through(wave.rows, wave.at) };
     }
     const values = Object.fromEntries([...this.fields].map(([name, { input }]) => [name, input.valueAsNumber]));
-    const why = refuse_values(this.shape, values, this.most_m);
+    const why = refuse_values(this.shape, values, this.most_m, this.measure);
     if (why) throw new Error(why);
-    const wave = waveform(this.shape, values);
+    const wave = waveform(this.shape, values, this.measure);
     const no_way = jumps(this.shape, values);
-    return { wave, motion: no_way ? { why: no_way } : swinging(this.shape, values) };
+    return { wave, motion: no_way ? { why: no_way } : swinging(this.shape, values, this.measure) };
   }
 
   #say(text, refused = false) {
@@ -96,8 +98,13 @@ export class WaveformCard {
     this.answer.classList.toggle("refused", refused);
   }
 
-  /** limits: of the detectors, by fault. */
-  update(limits) {
+  /** limits: of the detectors, by fault; measure: in which positions are typed. */
+  update(limits, measure) {
     this.most_m = limits.get("over_travel");
+    if (measure.per_m === this.measure.per_m) return;
+    this.measure = measure;
+    for (const { typed_unit } of this.fields.values()) if (typed_unit) show(typed_unit, measure.unit);
+    // About the middle of where it may go, and little of it.
+    if (measure.both_ways) [this.fields.get("offset").input.value, this.fields.get("amplitude").input.value] = [0, 5];
   }
 }

@@ -1,0 +1,30 @@
+#include "apps/supercoil/angle.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace supercoil::operating {
+
+std::optional<double> degrees_of(std::string_view text) {
+  constexpr std::string_view unit = "deg";
+  if (!text.ends_with(unit)) return std::nullopt;
+  text.remove_suffix(unit.size());
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool number = error == std::errc{} && end == text.data() + text.size();
+  return number && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+tl::expected<double, std::string> metres_per_degree(BoardLink& board, const std::string& channel) {
+  const auto muscle = board.muscle(channel);
+  if (!muscle) return tl::unexpected(muscle.error());
+  const double lever_m = muscle->at(known_joint_lever);
+  if (!std::isfinite(lever_m)) {
+    return tl::unexpected("channel " + channel +
+                          " is in no joint: its position is in metres, not in degrees");
+  }
+  return lever_m * std::numbers::pi / 180.0;
+}
+
+}  // namespace supercoil::operating

@@ -2,12 +2,12 @@
 nearest test programs notice.
 
 The lines are divided into runs of equal length. Of each run one mutant is drawn (universalmutator makes them), compiled
-and tried; one that does not compile, compiles to the same code, or is listed in tests/mutants/equivalent.toml, is
+and tried; one that does not compile, compiles to the same code, or is listed in tests/mutants/equivalent, is
 replaced by the next of its run. All of it happens on copies in build/mutate. Of each test
 program one file of tests after the other is tried, the nearest first.
 
 A run that was ended is carried on by the same command. When lines were only added to tests/unit and tests/loop since, or
-nothing but texts and tests/mutants/equivalent.toml changed, it keeps what was killed: a test that fails still does. What
+nothing but texts and tests/mutants/equivalent changed, it keeps what was killed: a test that fails still does. What
 survived is tried again. When any other file changed, or a line of a test is gone, it begins anew.
 """
 
@@ -63,7 +63,7 @@ class Run:
         areas = {AREA_OF[run[0].file] for run in self.runs}
         self.programs = list(dict.fromkeys(program for area in AREAS if area in areas
                                            for program in self.programs_of[area]))
-        self.known = equivalents(pathlib.Path(__file__).parent / "equivalent.toml")
+        self.known = equivalents(pathlib.Path(__file__).parent / "equivalent")
         FOLDER.mkdir(parents=True, exist_ok=True)
         self.results = Results(FOLDER / "results.jsonl", [code_hash(ROOT), options.seed, len(self.runs), options.only],
                                tests_of(ROOT), self.known)

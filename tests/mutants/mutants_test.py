@@ -14,7 +14,7 @@ import sample
 import workshop
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-EQUIVALENTS = pathlib.Path(__file__).parent / "equivalent.toml"
+EQUIVALENTS = pathlib.Path(__file__).parent / "equivalent"
 
 
 class Interval(unittest.TestCase):

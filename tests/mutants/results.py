@@ -74,13 +74,15 @@ def interval(killed, counted):
     return float(low), float(high)
 
 
-def equivalents(path):
-    """By what a mutant changes; each must have its reason."""
-    listed = tomllib.loads(path.read_text()).get("equivalent", [])
-    for each in listed:
-        if not each.get("reason", "").strip():
-            raise SystemExit(f"{path}: an equivalent in {each['file']} has no reason")
-    return {(each["file"], each["before"], each["after"]): each["reason"] for each in listed}
+def equivalents(folder):
+    """Of all files there, by what a mutant changes; each must have its reason."""
+    reasons = {}
+    for path in sorted(folder.glob("*.toml")):
+        for each in tomllib.loads(path.read_text()).get("equivalent", []):
+            if not each.get("reason", "").strip():
+                raise SystemExit(f"{path}: an equivalent in {each['file']} has no reason")
+            reasons[each["file"], each["before"], each["after"]] = each["reason"]
+    return reasons
 
 
 def report(results, strata):

@@ -25,7 +25,7 @@ class Mutant:
     after: str
 
     def key(self):
-        """How tests/mutants/equivalent.toml names it: without its line's number, which other changes move."""
+        """How tests/mutants/equivalent names it: without its line's number, which other changes move."""
         return self.file, self.before.strip(), self.after.strip()
 
     def __str__(self):

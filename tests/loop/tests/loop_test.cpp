@@ -159,6 +159,16 @@ TEST(Loop, TellsHowLateItWokeAndHowLongItTook) {
   UNSIGNED_LONGS_EQUAL(0, rig.loop.timing().overruns);
 }
 
+/// Each left-out period is a step of what is believed of the heat, up to a number.
+TEST(Loop, ComesBackFromAStallHoweverManyPeriodsItTook) {
+  Rig rig(settings);
+  rig.boot();
+  const hal::Time now = rig.board.now();
+  rig.loop.tick(now, now, std::int64_t{1} << 40);
+  CHECK(rig.fault() == Fault::overrun);
+  CHECK_COMPARE(rig.snapshot().hottest_C, <, 200.0);
+}
+
 TEST(Loop, CountsTheRowsThatNobodyTakes) {
   host_sim::SimulatedBoard board(settings.board);
   supercoil::Loop loop(settings.firmware, board.devices());

@@ -148,6 +148,17 @@ TEST(SteadyState, TakesAReadingWhenTheMuscleMustBeInSteadyHeat) {
   DOUBLES_EQUAL(1.51, facts.steady_max_W, 1e-9);
 }
 
+TEST(SteadyState, AveragesThePowerOverHalfOfTheSlowestTimeConstant) {
+  SteadyState steady = held(30.0);
+  const double half_s =
+      0.5 * settings.bounds.max_mass_J_per_K / settings.bounds.min_transfer_W_per_K;
+  for (long i = std::lround(half_s / tick_s); i > 0; --i)
+    steady.step({1.7, 1.71}, 40.0);
+  CHECK(steady.read(17.0, compared_power, facts) == Refusal::none);
+  DOUBLES_EQUAL(1.7 - 0.2 * std::exp(-1.0), facts.steady_min_W, 1e-4);
+  DOUBLES_EQUAL(1.71 - 0.2 * std::exp(-1.0), facts.steady_max_W, 1e-4);
+}
+
 TEST(SteadyState, WaitsAnewWhenThePowerIsAnotherOne) {
   SteadyState steady = held(30.0);
   steady.restart();

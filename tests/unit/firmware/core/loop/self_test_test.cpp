@@ -41,6 +41,16 @@ TEST(SelfTest, FindsAnEnableLineThatDoesNotCut) {
   CHECK(outcome(current) == SelfTest::Outcome::enable_does_not_cut);
 }
 
+/// Each by itself: what did not flow in the first pulse makes up for nothing in the second.
+TEST(SelfTest, FindsHalfAsMuchAgainAsAnIdleChannelMayShowInEitherPulse) {
+  const auto past_pump = [](SelfTest::Lines l) { return l.pulse && l.enable ? 1.5 * idle_A : 0.0; };
+  CHECK(outcome(past_pump) == SelfTest::Outcome::pump_does_not_open);
+  const auto past_enable = [](SelfTest::Lines l) {
+    return l.pulse && l.heartbeat ? 1.5 * idle_A : 0.0;
+  };
+  CHECK(outcome(past_enable) == SelfTest::Outcome::enable_does_not_cut);
+}
+
 TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
   SelfTest test({0.02}, tick_s);
   int pulses = 0;

@@ -43,6 +43,26 @@ TEST(BoardSettingsCheck, RefusesAPumpThatALateTickWouldStop) {
              "charge_pump_decay_ms");
 }
 
+TEST(BoardSettingsCheck, AJointTakesTwoChannelsOfTheBoard) {
+  settings.channels.resize(4);
+  for (ChannelSettings& channel : settings.channels)
+    channel.supervision.proof_of_response = false;
+  settings.joints = {{.agonist = 2, .antagonist = 1}};
+  CHECK_FALSE(check(settings).has_value());
+  CHECK(settings.in_joint(1) && settings.in_joint(2));
+  CHECK_FALSE(settings.in_joint(0) || settings.in_joint(3));
+
+  settings.joints[0].antagonist = 4;
+  check_says("channel 5 is none of the board's 4", "joint");
+  settings.joints[0].antagonist = 2;
+  check_says("channel 3 pulls twice", "joint");
+  settings.joints = {{.agonist = 0, .antagonist = 1}, {.agonist = 2, .antagonist = 1}};
+  check_says("channel 2 pulls twice", "joint");
+  settings.joints.resize(1);
+  settings.channels[1].supervision.proof_of_response = true;
+  check_says("channel 2 cannot prove by itself that it responds", "joint");
+}
+
 TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {
   control::ControllerSettings controller;
   controller.kind = control::ControllerKind::learned_ff;

@@ -25,14 +25,14 @@ class Heat {
         interval_(with_weighed_mass(settings), step_s),
         by_reading_(settings.bounds, step_s),
         learned_(settings.thermal_mass_J_per_K, step_s),
+        step_s_(step_s),
         expected_{control::ThermalObserver(muscle.thermal_mass_J_per_K, step_s),
                   control::ThermalObserver(settings.bounds.min_mass_J_per_K, step_s),
-                  control::ThermalObserver(settings.bounds.max_mass_J_per_K, step_s)},
-        metres_per_K_(muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m) {
+                  control::ThermalObserver(settings.bounds.max_mass_J_per_K, step_s)} {
+    believe(muscle);
     interval_.reset(settings.boot_rise_K);
     by_reading_.reset(settings.boot_rise_K);
     const control::ThermalBounds& b = settings.bounds;
-    expected_[0].learn(muscle.thermal_pole_rad_per_s());
     expected_[1].learn(-b.max_transfer_W_per_K / b.min_mass_J_per_K);
     expected_[2].learn(-b.min_transfer_W_per_K / b.max_mass_J_per_K);
   }
@@ -76,6 +76,13 @@ class Heat {
                   std::fmin(-b.min_transfer_W_per_K / b.max_mass_J_per_K, pole_rad_per_s)));
   }
 
+  /// Where such a muscle moves to is expected from now on, as of a cold one.
+  void believe(const control::PhysicalParameters& muscle) {
+    expected_[0] = control::ThermalObserver(muscle.thermal_mass_J_per_K, step_s_);
+    expected_[0].learn(muscle.thermal_pole_rad_per_s());
+    metres_per_K_ = muscle.force_per_kelvin_N_per_K / muscle.stiffness_N_per_m;
+  }
+
   double coldest_K() const {
     return has_reading_ ? std::max(interval_.min_K(), by_reading_.min_K()) : interval_.min_K();
   }
@@ -105,8 +112,9 @@ class Heat {
   PowerBounds::Interval true_over_measured_{1.0, 1.0};
   bool has_reading_ = false;
   control::ThermalObserver learned_;
+  double step_s_;
   std::array<control::ThermalObserver, 3> expected_;
-  double metres_per_K_;
+  double metres_per_K_ = 0.0;
 };
 
 }  // namespace supercoil::board

@@ -160,6 +160,7 @@ class Axis {
   void publish_muscle();
   static Refusal refusal_of(ModeResult kept);
   ModeResult keep(const control::PhysicalParameters& muscle, const board::Calibration& found);
+  ModeResult keep_identified();
   Refusal store_thermal_facts(const board::ThermalFacts& facts);
   void calibrate(const board::Calibration& calibration);
 

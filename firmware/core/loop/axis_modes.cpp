@@ -26,7 +26,7 @@ bool Axis::step_identify() {
   if (!std::isfinite(plan.dither.decided_s)) {
     // What an earlier muscle's small motions were says nothing of this one.
     response_ratio_ = 0.0;
-    return end_mode(keep(muscle, calibration_));
+    return end_mode(keep_identified());
   }
   small_signal_.start(plan, ExpectedMotion(muscle, plan.step_s));
   return false;
@@ -41,7 +41,17 @@ bool Axis::step_small_signal() {
   }
   demanded_ = {};
   response_ratio_ = small_signal_.response_ratio();
-  return end_mode(keep(identify_.found(), calibration_));
+  return end_mode(keep_identified());
+}
+
+/// What is expected of the muscle is so from now on, as it will be at the next start.
+ModeResult Axis::keep_identified() {
+  const ModeResult kept = keep(identify_.found(), calibration_);
+  if (kept == ModeResult::found || kept == ModeResult::not_stored) {
+    heater_.believe(muscle_);
+    inputs_.recalibrated = true;
+  }
+  return kept;
 }
 
 /// Whether its motion is linear does not matter here.

@@ -75,6 +75,7 @@ class Heater {
   void calibrate(double cold_Ohm) { cold_Ohm_ = cold_Ohm; }
   /// Thermal pole of the muscle, as estimated and trusted.
   void learn(double pole_rad_per_s) { heat_.learn(pole_rad_per_s); }
+  void believe(const control::PhysicalParameters& muscle) { heat_.believe(muscle); }
   void set_power_range(double min_W, double max_W) { limiter_.set_range(min_W, max_W); }
   /// From any thread; no more power than this, nor than the configured maximum.
   void allow_power(double max_W) { max_power_W_.store(max_W, std::memory_order_relaxed); }

@@ -19,7 +19,7 @@ struct AxisInputs {
   double from_position_K = 0.0;  ///< temperature that the position tells, beside the resistance's
   bool unanswered = false;       ///< the muscle was asked to prove that it answers, and did not,
   detectors::Margin answer;      ///< and by how much
-  bool recalibrated = false;     ///< every position moved since the last tick
+  bool recalibrated = false;     ///< positions, or what is expected of them, jumped
 };
 
 /// Of the heater, at this tick.

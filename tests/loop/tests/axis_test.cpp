@@ -41,6 +41,27 @@ TEST(Axis, TellsOfFrictionWhereLessThanHalfOfASmallMotionArrives) {
   }
 }
 
+/// Not only at the next start. The muscle was believed to move half as far again.
+TEST(Axis, ExpectsTheMotionOfTheMuscleThatIdentifyFound) {
+  control::ThermalBounds& bounds = settings.firmware.channels[0].thermal.bounds;
+  const control::PhysicalParameters& plant = settings.board.channels[0].plant;
+  bounds.min_mass_J_per_K = bounds.max_mass_J_per_K = plant.thermal_mass_J_per_K;
+  bounds.min_transfer_W_per_K = bounds.max_transfer_W_per_K = plant.heat_transfer_W_per_K;
+  settings.firmware.channels[0].muscle.force_per_kelvin_N_per_K *= 1.5;
+  rig().heat(Task::identify);
+  CHECK(rig().run_until([&] { return rig().state() == State::armed; }, 200.0));
+  CHECK(rig().snapshot().result == ModeResult::found);
+  rig().task = Task::nothing;
+  rig().run(30.0);
+  const auto margin = [&] {
+    return rig().loop.channel(0).verdict().margin(Fault::heater_not_responding);
+  };
+  for (int i = 0; i < 30 && margin().measured < 0.004; ++i)
+    rig().hold_power(2.0, 1.0);
+  CHECK(margin().judged);
+  DOUBLES_EQUAL(0.3, margin().limit / margin().measured, 0.03);
+}
+
 TEST(Axis, IsAtRestWhenItIsDisarmed) {
   rig().heat(Task::position);
   rig().run(1.0);

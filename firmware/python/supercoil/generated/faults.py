@@ -462,10 +462,10 @@ Power goes in, current flows, and the position does not move as it should: "move
 **Detected** at the end of each window of 20 s: how far did the position range, from its lowest to its highest, and how
 far did the models of the muscle? If each model moved by at least 1 mm and the position by less than 0.3 of what
 the one did that moved least, it trips (`responding_window_s`, `responding_ratio`, `responding_min_m`). One model is the
-muscle that the configuration believes, nine are mixtures of the fastest and the slowest that its `[thermal]` bounds allow:
+muscle as it is believed: configured, or found by the last `identify`. Nine are mixtures of the fastest and the slowest that its `[thermal]` bounds allow:
 until `identify` nothing but a belief is known, and where a muscle within the bounds may stand still nothing is asked of it. They are
 driven with the power that was applied. What they do in the window's last second is not expected any more: they have heat
-and no inertia. Windows follow each other from boot on, or from a calibration, whether the channel is armed or not, so it
+and no inertia. Windows follow each other from boot on, or from a calibration or an `identify` that found a muscle, whether the channel is armed or not, so it
 takes 20 to 40 s. Arming does not restart the window.
 
 **A muscle that was identified must also answer while it is hot and still** (mode position or power; loaded from a

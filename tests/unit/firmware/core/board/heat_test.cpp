@@ -79,6 +79,27 @@ TEST(HotEnd, TheColdEndAndTheExpectedMotionHaveTheirOwnPowers) {
                 1e-5);
 }
 
+TEST(HotEnd, ExpectsTheMotionOfWhatIsBelievedNow) {
+  Heat heat(settings, {}, tick_s);
+  control::PhysicalParameters found;
+  found.thermal_mass_J_per_K = 0.15;
+  found.heat_transfer_W_per_K = 0.1;
+  found.stiffness_N_per_m = 40.0;
+  heat.believe(found);
+  for (int i = 0; i < 120'000; ++i)
+    heat.step(1.0, 3.0, 2.0);
+  const double metres_per_K = found.force_per_kelvin_N_per_K / found.stiffness_N_per_m;
+  DOUBLES_EQUAL(metres_per_K, heat.metres_per_K(), 0.0);
+  DOUBLES_EQUAL(2.0 * found.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);
+  DOUBLES_EQUAL(2.0 / settings.bounds.max_transfer_W_per_K * metres_per_K, heat.expected_m()[1],
+                1e-5);
+  // The muscle's own mass: half of the way after a time constant times ln 2.
+  heat.believe(found);
+  for (int i = 0; i < static_cast<int>(std::lround(1.5 * std::log(2.0) / tick_s)); ++i)
+    heat.step(1.0, 3.0, 2.0);
+  DOUBLES_EQUAL(found.dc_gain_m_per_W(), heat.expected_m()[0], 1e-5);
+}
+
 TEST(HotEnd, CountsFromTheAirThatIsMeasured) {
   settings.air = {25.0, 15.0, 2.0};
   Heat heat(settings, {}, tick_s);

@@ -9,6 +9,7 @@
 
 #include "apps/common/exit_status.hpp"
 #include "compare/plan.hpp"
+#include "report/trace_writer.hpp"
 
 namespace supercoil::host_sim {
 
@@ -23,6 +24,7 @@ struct RunOptions {
   std::string window;  ///< "FROM:TO" in seconds, either may be empty
   std::int64_t every = 1;
   bool trace = true;
+  TraceFormat trace_format = TraceFormat::csv;
   bool plot = true;
   bool can = true;
   bool real_time = false;

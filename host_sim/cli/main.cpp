@@ -41,7 +41,7 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_option(
       "--window", options.window,
       "Time span FROM:TO in seconds over which the tracking error is computed [the whole run]");
-  run->add_option("--every", options.every, "Ticks per row of trace.csv [1]")
+  run->add_option("--every", options.every, "Ticks per row of the trace [1]")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1000000}));
   CLI::Option* learned =
       run->add_option("--learned", options.learned,
@@ -60,7 +60,11 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(1, 16))
       ->capture_default_str()
       ->needs(board);
-  run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
+  CLI::Option* no_trace = run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
+  run->add_flag_callback(
+         "--npy", [&] { options.trace_format = TraceFormat::npy; },
+         "Write trace.npy for numpy and pandas in place of trace.csv")
+      ->excludes(no_trace);
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
   run->add_flag("!--no-can", options.can, "Write no can.log, what the board sends on its CAN bus");
   CLI::Option* real_time = run->add_flag("--real-time", options.real_time,

@@ -20,8 +20,10 @@ NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& win
       summary_(window) {
   simulation_.record_to(recorder_);
   if (options.real_time) return;
-  if (options.trace)
-    trace_.emplace(folder.temporary("trace.csv"), options.every, scenario_.start.joint.has_value());
+  if (options.trace) {
+    trace_ = write_trace(folder.temporary(trace_file(options.trace_format)), options.trace_format,
+                         options.every, scenario_.start.joint.has_value());
+  }
   if (options.plot) plot_.emplace(scenario_);
 }
 

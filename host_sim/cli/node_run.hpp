@@ -1,6 +1,7 @@
 // A scenario on one board, and what is kept of it.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "cli/commands.hpp"
@@ -38,7 +39,7 @@ class NodeRun {
   Simulation simulation_;
   recorder::FlightRecorder recorder_;
   Summary summary_;
-  std::optional<TraceWriter> trace_;
+  std::unique_ptr<TraceWriter> trace_;
   std::optional<RunPlot> plot_;
 };
 

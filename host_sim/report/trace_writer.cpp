@@ -1,10 +1,12 @@
 #include "report/trace_writer.hpp"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
+#include <cstring>
 #include <system_error>
 
 namespace supercoil::host_sim {
@@ -12,78 +14,107 @@ namespace supercoil::host_sim {
 namespace {
 
 constexpr std::size_t flush_bytes = 1 << 20;
-constexpr const char* header =
-    "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,temperature_rise_K,"
-    "limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,coldest_K,hottest_K,state,"
-    "fault,limited_by,bias_W,theta1_deviation,theta2_deviation,theta3_deviation,theta4_deviation,"
-    "bias_deviation_W,thermometer_C";
-constexpr const char* joint_header =
-    ",antagonist_applied_power_W,antagonist_temperature_rise_K,antagonist_coldest_K,"
-    "antagonist_hottest_K";
+
+/// Empty cells tell that there is nothing to tell.
+class CsvTrace final : public TraceWriter {
+ public:
+  CsvTrace(const std::filesystem::path& path, std::int64_t every, bool of_joint)
+      : TraceWriter(path, TraceFormat::csv, every, of_joint) {
+    for (const TraceColumn& column : columns())
+      buffer_.append(column.name).append(&column == &columns().back() ? "\n" : ",");
+  }
+
+ private:
+  void add_row(const TraceRow& row) override {
+    for (const TraceColumn& column : columns()) {
+      if (column.word != nullptr) {
+        buffer_ += column.word(row);
+      } else if (const auto value = column.number(row)) {
+        number(*value);
+      }
+      buffer_ += &column == &columns().back() ? '\n' : ',';
+    }
+  }
+  void number(double value) {
+    std::array<char, 32> text{};
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    buffer_.append(text.data(), end);
+  }
+};
+
+/// An array of records, in numpy's format 1.0
+/// (https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html): doubles, NaN where
+/// there is nothing to tell, and words of so many bytes. Its header gets the number of rows at the
+/// end: the file of a program that was killed has none.
+class NpyTrace final : public TraceWriter {
+ public:
+  NpyTrace(const std::filesystem::path& path, std::int64_t every, bool of_joint)
+      : TraceWriter(path, TraceFormat::npy, every, of_joint) {
+    buffer_ = header(0);
+  }
+
+ private:
+  static constexpr std::size_t word_bytes = 24;  ///< "energy_budget_exceeded" has 22
+  static constexpr std::size_t count_digits = 12;
+
+  static_assert(std::endian::native == std::endian::little && sizeof(double) == 8);
+
+  void add_row(const TraceRow& row) override {
+    for (const TraceColumn& column : columns()) {
+      std::array<char, word_bytes> bytes{};
+      if (column.word != nullptr) {
+        const std::string_view word = column.word(row);
+        std::memcpy(bytes.data(), word.data(), std::min(word.size(), bytes.size()));
+        buffer_.append(bytes.data(), bytes.size());
+      } else {
+        const double value = column.number(row).value_or(NAN);
+        std::memcpy(bytes.data(), &value, sizeof value);
+        buffer_.append(bytes.data(), sizeof value);
+      }
+    }
+  }
+
+  std::string header_of_all() const override { return header(rows()); }
+
+  /// As long whatever the number.
+  std::string header(std::int64_t count) const {
+    const std::string digits = std::to_string(count);
+    std::string text = "{'descr': [";
+    for (const TraceColumn& column : columns()) {
+      text.append("('").append(column.name).append("', '");
+      text += column.word != nullptr ? "|S" + std::to_string(word_bytes) : "<f8";
+      text += "'), ";
+    }
+    text += "], 'fortran_order': False, 'shape': (" +
+            std::string(count_digits - digits.size(), ' ') + digits + ",)}";
+    constexpr std::size_t before = 10;  // magic, version and length
+    constexpr std::size_t alignment = 64;
+    text.append(alignment - (before + text.size() + 1) % alignment, ' ') += '\n';
+    std::string start("\x93NUMPY\x01\x00", 8);
+    start += static_cast<char>(text.size() & 0xFF);
+    start += static_cast<char>(text.size() >> 8);
+    return start + text;
+  }
+};
 
 }  // namespace
 
-TraceWriter::TraceWriter(const std::filesystem::path& path, std::int64_t every, bool of_joint)
-    : out_(path, std::ios::binary), every_(every), buffer_(header) {
-  if (of_joint) buffer_ += joint_header;
-  buffer_ += '\n';
+const char* trace_file(TraceFormat format) {
+  return format == TraceFormat::csv ? "trace.csv" : "trace.npy";
+}
+
+TraceWriter::TraceWriter(const std::filesystem::path& path, TraceFormat format, std::int64_t every,
+                         bool of_joint)
+    : out_(path, std::ios::binary),
+      format_(format),
+      every_(every),
+      columns_(trace_columns(of_joint)) {
   buffer_.reserve(flush_bytes + 4096);
 }
 
-void TraceWriter::number(double value) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
-  buffer_.append(text.data(), end);
-}
-
 void TraceWriter::add(const TickRecord& record, const std::optional<control::Estimate>& estimate) {
-  number(record.time_s);
-  for (const double value : {record.reference, record.model_m}) {
-    buffer_ += ',';
-    if (!record.open_loop) number(value);
-  }
-  for (const double value : {record.position_m, record.measured_m, record.power_W,
-                             record.applied_power_W, record.temperature_rise_K}) {
-    buffer_ += ',';
-    number(value);
-  }
-  buffer_ += record.limited ? ",1" : ",0";
-  for (int i = 0; i < 4; ++i) {
-    buffer_ += ',';
-    if (estimate) number(estimate->theta[i]);
-  }
-  buffer_ += !estimate ? "," : estimate->trusted ? ",1" : ",0";
-  buffer_ += ',';
-  if (record.commands_power) number(record.reference);
-  for (const double value : {record.coldest_K, record.hottest_K}) {
-    buffer_ += ',';
-    number(value);
-  }
-  for (const std::string_view word :
-       {name(record.state), name(record.fault), name(record.limited_by)}) {
-    buffer_ += ',';
-    buffer_ += word;
-  }
-  const bool deviates = estimate && std::isfinite(estimate->bias_deviation_W);
-  buffer_ += ',';
-  if (deviates) number(estimate->bias_W);
-  for (int i = 0; i < 4; ++i) {
-    buffer_ += ',';
-    if (deviates) number(estimate->deviation[i]);
-  }
-  buffer_ += ',';
-  if (deviates) number(estimate->bias_deviation_W);
-  buffer_ += ',';
-  if (std::isfinite(record.thermometer_C)) number(record.thermometer_C);
-  if (record.antagonist) {
-    const AntagonistRecord& other = *record.antagonist;
-    for (const double value :
-         {other.applied_power_W, other.temperature_rise_K, other.coldest_K, other.hottest_K}) {
-      buffer_ += ',';
-      number(value);
-    }
-  }
-  buffer_ += '\n';
+  ++rows_;
+  add_row({record, estimate});
   if (buffer_.size() >= flush_bytes) flush();
 }
 
@@ -94,9 +125,20 @@ void TraceWriter::flush() {
 
 tl::expected<void, std::string> TraceWriter::finish() {
   flush();
+  if (const std::string header = header_of_all(); !header.empty()) {
+    out_.seekp(0);
+    out_ << header;
+  }
   out_.close();
   if (out_) return {};
-  return tl::unexpected("trace.csv: cannot be written: " + std::generic_category().message(errno));
+  return tl::unexpected(std::string(trace_file(format_)) +
+                        ": cannot be written: " + std::generic_category().message(errno));
+}
+
+std::unique_ptr<TraceWriter> write_trace(const std::filesystem::path& path, TraceFormat format,
+                                         std::int64_t every, bool of_joint) {
+  if (format == TraceFormat::csv) return std::make_unique<CsvTrace>(path, every, of_joint);
+  return std::make_unique<NpyTrace>(path, every, of_joint);
 }
 
 }  // namespace supercoil::host_sim

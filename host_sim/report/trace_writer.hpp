@@ -1,36 +1,61 @@
-// trace.csv: one row a tick.
+// trace.csv or trace.npy: one row a tick.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 
 #include <tl/expected.hpp>
 
-#include "runner/simulation.hpp"
+#include "report/trace_columns.hpp"
 
 namespace supercoil::host_sim {
 
-/// Numbers are written with as many digits as it takes to read the same double back.
+enum class TraceFormat { csv, npy };
+
+/// "trace.csv", "trace.npy".
+const char* trace_file(TraceFormat format);
+
 class TraceWriter {
  public:
-  /// every: one row per this many ticks, from the first on. of_joint: its records have an
-  /// antagonist.
-  TraceWriter(const std::filesystem::path& path, std::int64_t every, bool of_joint = false);
+  TraceWriter(const TraceWriter&) = delete;
+  TraceWriter& operator=(const TraceWriter&) = delete;
+  virtual ~TraceWriter() = default;
 
   void add(const TickRecord& record, const std::optional<control::Estimate>& estimate);
   bool wants(std::int64_t tick) const { return tick % every_ == 0; }
   /// The error says why the file is not complete.
   tl::expected<void, std::string> finish();
 
+ protected:
+  TraceWriter(const std::filesystem::path& path, TraceFormat format, std::int64_t every,
+              bool of_joint);
+
+  std::span<const TraceColumn> columns() const { return columns_; }
+  std::int64_t rows() const { return rows_; }
+  std::string buffer_;
+
  private:
-  void number(double value);
+  virtual void add_row(const TraceRow& row) = 0;
+  /// What stands at the file's begin, once all rows are there; empty: what was written stays.
+  virtual std::string header_of_all() const { return {}; }
   void flush();
 
   std::ofstream out_;
+  TraceFormat format_;
   std::int64_t every_;
-  std::string buffer_;
+  std::span<const TraceColumn> columns_;
+  std::int64_t rows_ = 0;
 };
+
+/// every: one row per this many ticks, from the first on. of_joint: its records have an antagonist.
+/// Numbers can be read back to the bit.
+std::unique_ptr<TraceWriter> write_trace(const std::filesystem::path& path, TraceFormat format,
+                                         std::int64_t every, bool of_joint = false);
 
 }  // namespace supercoil::host_sim

@@ -100,7 +100,18 @@ class Files(unittest.TestCase):
         self.assertEqual((units["measured_m"], units["temperature_rise_K"], units["theta4"], units["thermometer_C"],
                           units["state"]), ("m", "K", "W/m", "degC", ""))
 
+    def test_a_trace_for_numpy_has_the_same_rows(self):
+        subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", "npy", "--every", "10", "--npy",
+                        "--no-plot", "--no-can", "--allow-fault", "--quiet"], cwd=self.path, check=True, timeout=300)
+        self.assertFalse((self.path / "npy" / "trace.csv").exists())
+        table, same = supercoil.load(self.path / "npy" / "trace.npy"), supercoil.load(self.path / "trace.csv")
+        pandas.testing.assert_frame_equal(table, same, check_exact=True, check_dtype=False)
+        self.assertEqual(table["fault"].iloc[-1], "heater_open")
+
     def test_what_is_none_of_them_is_refused(self):
+        numpy.save(self.path / "other.npy", numpy.zeros(3))
+        with self.assertRaisesRegex(ValueError, "is no trace"):
+            supercoil.load(self.path / "other.npy")
         with self.assertRaisesRegex(ValueError, "no can.log"):
             supercoil.load(self.path / "s.toml")
 

@@ -2,8 +2,11 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
+import numpy
 import pandas
+from numpy.typing import NDArray
 
 from supercoil import codec
 from supercoil.flight import MAGIC, load_flight
@@ -14,10 +17,11 @@ _CANDUMP = re.compile(rb"\((\d+\.\d+)\)\s+\S+\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]
 # At which a simulated run begins in its can.log, and the longest that one may take (can_client/candump.hpp).
 _SIMULATION_EPOCH_S = 1_000_000_000
 _LONGEST_RUN_S = 365 * 86400
+_NPY = b"\x93NUMPY"
 
 
 def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
-    """can.log (as candump -L writes it), a flight recording, or trace.csv; by what is in it, not by its name.
+    """can.log (as candump -L writes it), a flight recording, trace.csv or trace.npy; by what is in it, not by its name.
 
     The index is time_s, as in the file; of a recording, before and after its fault. can.log: columns are
     Message.signal; node: of which; it can be left out where the log has one only. attrs["damaged_lines"]: left out.
@@ -27,6 +31,8 @@ def load(path: str | Path, *, node: int | None = None) -> pandas.DataFrame:
         start = opened.read(len(MAGIC))
     if start == MAGIC:
         return load_flight(file)
+    if start.startswith(_NPY):
+        return _load_npy(file)
     return _load_candump(file, node) if start.startswith(b"(") else _load_csv(file)
 
 
@@ -64,6 +70,26 @@ def _load_csv(file: Path) -> pandas.DataFrame:
     table = pandas.read_csv(file)
     if not len(table.columns) or table.columns[0] != "time_s":
         raise ValueError(f"{file}: is no can.log, no flight recording, and no CSV whose first column is time_s")
+    return _with_units(table)
+
+
+def _load_npy(file: Path) -> pandas.DataFrame:
+    rows = numpy.load(file, allow_pickle=False)
+    if not rows.dtype.names or rows.dtype.names[0] != "time_s":
+        raise ValueError(f"{file}: is no trace: its records do not begin with time_s")
+    return _with_units(pandas.DataFrame({name: _decoded(rows[name]) for name in rows.dtype.names}))
+
+
+def _decoded(column: NDArray[Any]) -> NDArray[Any]:
+    """Words hardly ever change from row to row: each stretch of them is decoded once."""
+    if column.dtype.kind != "S" or len(column) == 0:
+        return column
+    begins = numpy.flatnonzero(numpy.concatenate(([True], column[1:] != column[:-1])))
+    words = numpy.array([word.decode("ascii") for word in column[begins]], dtype=object)
+    return numpy.repeat(words, numpy.diff(numpy.append(begins, len(column))))
+
+
+def _with_units(table: pandas.DataFrame) -> pandas.DataFrame:
     table = table.set_index("time_s")
     table.attrs["units"] = {column: unit_of(column) for column in table.columns}
     return table

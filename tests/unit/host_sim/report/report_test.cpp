@@ -42,11 +42,11 @@ TEST_GROUP(Report) {
 };
 
 TEST(Report, AJointsTraceEndsWithItsAntagonist) {
-  TraceWriter writer(folder / "trace.csv", 1, true);
+  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, true);
   TickRecord record;
   record.antagonist = AntagonistRecord{0.5, 12.0, 10.0, 14.5};
-  writer.add(record, std::nullopt);
-  CHECK(writer.finish().has_value());
+  writer->add(record, std::nullopt);
+  CHECK(writer->finish().has_value());
   const std::string text = content(folder / "trace.csv");
   CHECK(text.find(",thermometer_C,antagonist_applied_power_W,antagonist_temperature_rise_K,"
                   "antagonist_coldest_K,antagonist_hottest_K\n") != std::string::npos);
@@ -54,28 +54,28 @@ TEST(Report, AJointsTraceEndsWithItsAntagonist) {
 }
 
 TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
-  TraceWriter writer(folder / "trace.csv", 2);
-  CHECK(writer.wants(0));
-  CHECK_FALSE(writer.wants(1));
+  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 2);
+  CHECK(writer->wants(0));
+  CHECK_FALSE(writer->wants(1));
   TickRecord record;
   record.time_s = 0.1 + 0.2;
   record.reference = 0.011;
   record.applied_power_W = 1.0 / 3.0;
   record.limited = true;
   control::Estimate estimate{control::Theta{1.0, 2.0, 3.0, 4.0}, 0.0, 0.0, 0.0, true};
-  writer.add(record, estimate);
+  writer->add(record, estimate);
   estimate.bias_W = 0.5;
   estimate.deviation = control::Theta{0.1, 0.2, 0.3, 0.4};
   estimate.bias_deviation_W = 0.25;
   record.thermometer_C = 31.5;
-  writer.add(record, estimate);
+  writer->add(record, estimate);
   record.thermometer_C = NAN;
   record.open_loop = record.commands_power = true;
   record.state = State::fault;
   record.fault = Fault::heater_open;
   record.limited_by = LimitedBy::temperature;
-  writer.add(record, std::nullopt);
-  CHECK(writer.finish().has_value());
+  writer->add(record, std::nullopt);
+  CHECK(writer->finish().has_value());
   STRCMP_EQUAL(
       "time_s,reference_m,model_m,position_m,measured_m,power_W,applied_power_W,"
       "temperature_rise_K,limited,theta1,theta2,theta3,theta4,trusted,reference_power_W,"
@@ -91,11 +91,15 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
 }
 
 TEST(Report, TraceReportsADiskThatIsFull) {
-  TraceWriter writer("/dev/full", 1);
-  writer.add({}, std::nullopt);
-  const auto finished = writer.finish();
-  CHECK_FALSE(finished.has_value());
-  STRCMP_EQUAL("trace.csv: cannot be written: No space left on device", finished.error().c_str());
+  for (const TraceFormat format : {TraceFormat::csv, TraceFormat::npy}) {
+    const auto writer = write_trace("/dev/full", format, 1);
+    writer->add({}, std::nullopt);
+    const auto finished = writer->finish();
+    CHECK_FALSE(finished.has_value());
+    STRCMP_EQUAL(
+        (std::string(trace_file(format)) + ": cannot be written: No space left on device").c_str(),
+        finished.error().c_str());
+  }
 }
 
 TEST(Report, FigureIsDrawnByGnuplotWhateverItsTitle) {

@@ -1,0 +1,106 @@
+#include "report/trace_columns.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace supercoil::host_sim {
+
+namespace {
+
+using Number = std::optional<double>;
+
+constexpr std::size_t of_antagonist = 4;
+
+Number if_finite(double value) {
+  return std::isfinite(value) ? Number(value) : std::nullopt;
+}
+
+template <double TickRecord::*Member>
+Number of_record(const TraceRow& row) {
+  return row.record.*Member;
+}
+
+template <double AntagonistRecord::*Member>
+Number of_other(const TraceRow& row) {
+  return row.record.antagonist ? Number((*row.record.antagonist).*Member) : std::nullopt;
+}
+
+template <int Place>
+Number theta(const TraceRow& row) {
+  return row.estimate ? Number(row.estimate->theta[Place]) : std::nullopt;
+}
+
+/// Least squares tell how far they may be off, the others do not.
+bool deviates(const TraceRow& row) {
+  return row.estimate && std::isfinite(row.estimate->bias_deviation_W);
+}
+
+template <int Place>
+Number deviation(const TraceRow& row) {
+  return deviates(row) ? Number(row.estimate->deviation[Place]) : std::nullopt;
+}
+
+template <double control::Estimate::*Member>
+Number bias(const TraceRow& row) {
+  return deviates(row) ? Number((*row.estimate).*Member) : std::nullopt;
+}
+
+template <double TickRecord::*Member>
+Number of_tracking(const TraceRow& row) {
+  return row.record.open_loop ? std::nullopt : Number(row.record.*Member);
+}
+
+Number flag(bool set) {
+  return set ? 1.0 : 0.0;
+}
+
+constexpr std::array columns{
+    TraceColumn{"time_s", of_record<&TickRecord::time_s>},
+    TraceColumn{"reference_m", of_tracking<&TickRecord::reference>},
+    TraceColumn{"model_m", of_tracking<&TickRecord::model_m>},
+    TraceColumn{"position_m", of_record<&TickRecord::position_m>},
+    TraceColumn{"measured_m", of_record<&TickRecord::measured_m>},
+    TraceColumn{"power_W", of_record<&TickRecord::power_W>},
+    TraceColumn{"applied_power_W", of_record<&TickRecord::applied_power_W>},
+    TraceColumn{"temperature_rise_K", of_record<&TickRecord::temperature_rise_K>},
+    TraceColumn{"limited", [](const TraceRow& row) { return flag(row.record.limited); }},
+    TraceColumn{"theta1", theta<0>},
+    TraceColumn{"theta2", theta<1>},
+    TraceColumn{"theta3", theta<2>},
+    TraceColumn{"theta4", theta<3>},
+    TraceColumn{"trusted",
+                [](const TraceRow& row) {
+                  return row.estimate ? flag(row.estimate->trusted) : std::nullopt;
+                }},
+    TraceColumn{"reference_power_W",
+                [](const TraceRow& row) {
+                  return row.record.commands_power ? Number(row.record.reference) : std::nullopt;
+                }},
+    TraceColumn{"coldest_K", of_record<&TickRecord::coldest_K>},
+    TraceColumn{"hottest_K", of_record<&TickRecord::hottest_K>},
+    TraceColumn{"state", nullptr, [](const TraceRow& row) { return name(row.record.state); }},
+    TraceColumn{"fault", nullptr, [](const TraceRow& row) { return name(row.record.fault); }},
+    TraceColumn{"limited_by", nullptr,
+                [](const TraceRow& row) { return name(row.record.limited_by); }},
+    TraceColumn{"bias_W", bias<&control::Estimate::bias_W>},
+    TraceColumn{"theta1_deviation", deviation<0>},
+    TraceColumn{"theta2_deviation", deviation<1>},
+    TraceColumn{"theta3_deviation", deviation<2>},
+    TraceColumn{"theta4_deviation", deviation<3>},
+    TraceColumn{"bias_deviation_W", bias<&control::Estimate::bias_deviation_W>},
+    TraceColumn{"thermometer_C",
+                [](const TraceRow& row) { return if_finite(row.record.thermometer_C); }},
+    TraceColumn{"antagonist_applied_power_W", of_other<&AntagonistRecord::applied_power_W>},
+    TraceColumn{"antagonist_temperature_rise_K", of_other<&AntagonistRecord::temperature_rise_K>},
+    TraceColumn{"antagonist_coldest_K", of_other<&AntagonistRecord::coldest_K>},
+    TraceColumn{"antagonist_hottest_K", of_other<&AntagonistRecord::hottest_K>},
+};
+
+}  // namespace
+
+std::span<const TraceColumn> trace_columns(bool of_joint) {
+  return std::span(columns).first(columns.size() - (of_joint ? 0 : of_antagonist));
+}
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,28 @@
+// What a trace tells of each tick, column by column.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "runner/simulation.hpp"
+
+namespace supercoil::host_sim {
+
+struct TraceRow {
+  const TickRecord& record;
+  const std::optional<control::Estimate>& estimate;
+};
+
+/// Of numbers or of words: the other one is null.
+struct TraceColumn {
+  std::string_view name;
+  /// Empty: there is nothing to tell.
+  std::optional<double> (*number)(const TraceRow&) = nullptr;
+  std::string_view (*word)(const TraceRow&) = nullptr;
+};
+
+/// of_joint: with those of the antagonist, which its rows have to have.
+std::span<const TraceColumn> trace_columns(bool of_joint);
+
+}  // namespace supercoil::host_sim

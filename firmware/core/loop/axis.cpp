@@ -97,7 +97,8 @@ Opposition Axis::opposition(double gain_ratio) const {
           acting.limited,
           {gain_ratio * own.min_W, gain_ratio * own.max_W},
           heater_.heat().expected_m(),
-          heater_.heat().hottest_K()};
+          heater_.heat().hottest_K(),
+          inputs_.recalibrated};
 }
 
 void Axis::prove(std::int64_t periods) {

@@ -36,7 +36,8 @@ struct Opposition {
   control::PowerRange range{0.0, 0.0};  ///< of power_W
   /// By how much its heat moves the joint against this muscle, as HeaterInputs::expected_m.
   detectors::NotResponding::Expected expected_m{};
-  double hottest_K = 0.0;  ///< above the air
+  double hottest_K = 0.0;     ///< above the air
+  bool recalibrated = false;  ///< as AxisInputs': expected_m jumped
 };
 
 /// Reads the channel's state, and never changes it: what ends by itself is told to the channel.
@@ -52,6 +53,7 @@ class Axis {
   void oppose(const Opposition& other) {
     other_ = other;
     inputs_.in_joint = true;
+    inputs_.recalibrated = inputs_.recalibrated || other.recalibrated;
   }
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);

@@ -40,7 +40,7 @@ enum KnownPlace : std::uint8_t {
   known_unexplained_ratio = 14,
   known_configured,  ///< the first of the configured ones
   known_joint_lever = 22,
-  known_joint_other_node,
+  known_joint_other_node_offset,
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 

@@ -60,9 +60,9 @@ std::uint8_t Identify::reasons_against(const Fit& fit) const {
 
 ModeResult Identify::judge() {
   if (excitation_.too_little_motion()) {
+    if (excitation_.moved_backwards()) return ModeResult::moved_backwards;
     notes_ = note_too_little_motion;
-    return excitation_.moved_backwards() ? ModeResult::moved_backwards
-                                         : ModeResult::too_little_motion;
+    return ModeResult::too_little_motion;
   }
   const auto fit = fit_.fit();
   notes_ = fit ? reasons_against(*fit) : uncertain;

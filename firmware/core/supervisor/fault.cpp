@@ -33,7 +33,7 @@ const std::array<FaultInfo, 32>& all_faults() {
       {resistance_drift, "resistance_drift", "muscle", channel,
        "the cold resistance moved away from its calibration: the silver wears off"},
       {muscle_loose, "muscle_loose", "muscle", channel,
-       "a muscle of a joint pulls with all that it may, and the joint does not move"},
+       "a muscle of a joint pulls with all that it may, and the joint does not follow"},
       {under_voltage, "under_voltage", "supply", board, "the supply is below its limit"},
       {over_voltage, "over_voltage", "supply", board, "the supply is above its limit"},
       {power_limit_exceeded, "power_limit_exceeded", "supply", channel,

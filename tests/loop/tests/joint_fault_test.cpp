@@ -134,8 +134,31 @@ TEST(JointFault, IdentifyTellsThatHeatMovesTheJointTheOtherWay) {
       },
       60.0));
   CHECK(of(agonist).result == ModeResult::moved_backwards);
+  LONGS_EQUAL(0, of(agonist).identify_notes & note_too_little_motion);
   CHECK_FALSE(both(State::fault));
   CHECK_COMPARE(hottest_C, <, 50.0);
+}
+
+/// What one muscle is expected to do the other one's detectors take away.
+TEST(JointFault, BothMusclesWindowsBeginAnewWhereIdentifyFoundOne) {
+  RigSettings settings = joint_board();
+  settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 1.4;
+  Rig fresh(settings);
+  begin(fresh);
+  CHECK(fresh.answer_of(agonist, Verb::identify) == Refusal::none);
+  CHECK(fresh.run_until(
+      [&] {
+        fresh.send(Verb::renew);
+        return fresh.state() != State::active;
+      },
+      400.0));
+  CHECK(fresh.snapshot().result == ModeResult::found);
+  fresh.run_ticks(3);
+  for (const std::uint8_t channel : {agonist, antagonist}) {
+    const auto margin = fresh.loop.channel(channel).verdict().margin(Fault::heater_not_responding);
+    CHECK_COMPARE(margin.measured, <, 1e-4);
+    CHECK_FALSE(margin.judged);
+  }
 }
 
 /// A load that comes at once is no loose muscle, whether the muscle can hold it or gives all that

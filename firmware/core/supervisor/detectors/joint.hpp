@@ -28,7 +28,8 @@ class MovesAway {
       expected_m = std::min(expected_m, motions_m[i] - expected_from_m_[i]);
     if (expected_m >= expected_each_m_) {
       begins_ = true;
-      count_ = position_m - from_m_ <= -min_ratio_ * expected_m ? count_ + 1 : 0;
+      margin_ = {from_m_ - position_m, min_ratio_ * expected_m, false, true};
+      count_ = margin_.measured >= margin_.limit ? count_ + 1 : 0;
     }
     return count_ >= times;
   }
@@ -36,6 +37,8 @@ class MovesAway {
     begins_ = true;
     count_ = 0;
   }
+  /// Of the last time: how far it moved the other way.
+  Margin margin() const { return margin_; }
 
  private:
   static constexpr int times = 3;
@@ -46,6 +49,7 @@ class MovesAway {
   int count_ = 0;
   double from_m_ = 0.0;
   NotResponding::Motions expected_from_m_{};
+  Margin margin_{0.0, 0.0, false, false};
 };
 
 /// A muscle of a joint gets hotter, is asked for more than it can give, and the joint stays where
@@ -79,7 +83,8 @@ class MuscleLoose final : public Detector {
     margin_ = motion_.margin();
     if (margin_.measured >= moved_m_) motion_.reset();
     const bool away = away_.step(position_m, NotResponding::possible(expected_m, &opposed_m));
-    return held_.step(margin_.judged && !(margin_.measured >= margin_.limit)) || away;
+    if (away) margin_ = away_.margin();
+    return away || held_.step(margin_.judged && !(margin_.measured >= margin_.limit));
   }
   /// Every position moved.
   void reset() {

@@ -889,8 +889,8 @@ heater_not_responding alone."""
     remedy = """\
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, calibrate both.
-3. Did it move the wrong way? Swap both heaters with their current senses, or agonist and antagonist in [joint], or change the
-   sign of m_per_count. identify then says found, not moved_backwards.
+3. Did it move the wrong way? Let identify tell whether heat moves it so: moved_backwards. Then swap both heaters with their current senses, or agonist and antagonist in [joint], or change the
+   sign of m_per_count.
 4. Are both taut? What held the joint? Set max_travel_m so that it lies within the end stops.
 5. Reset, arm."""
     page = """\
@@ -906,9 +906,10 @@ at least 3 mm (three times `responding_min_m`) and the joint has moved by less t
 expected is the least of what the models of the muscle's heat do, with no help of the other muscle or with its heat times anything
 up to ten, as heater_not_responding has it. Simulated: 0.9 to 1.8 s after a muscle tore ([joints](../joints.md#safety)).
 
-It trips as well where the joint **moves the other way**: three times in a row, while one more millimetre was expected of a limited muscle,
-the joint moved by at least 0.3 of that in the other direction. So swapped heaters, or a sensor with the wrong sign, are found at
-the first motion.
+It trips as well where the joint **moves the other way**: three times in a row, while one more millimetre was expected of a limited muscle by
+every model, the joint moved by at least 0.3 of that in the other direction. So swapped heaters, or a sensor with the wrong sign,
+are found when the controller has driven a muscle to its limit: simulated, 1 to 13 s after arming, where the limit moves the joint by 3 mm
+at all ([attacks](../attacks.md#joints)).
 
 **Torn or slack is one fault**, because one position sensor cannot tell them apart: a torn muscle moves nothing, a slack one moves
 nothing until its slack is taken up, and whether more heat would take it up is found out only by giving it.
@@ -925,20 +926,22 @@ joint that stands below its reference has lost its agonist, above it its antagon
 - the joint is held: at an end stop short of where it was sent, or by something stronger than the muscle
 - the sensor's magnet turns on its axle
 - the joint moves away from where it is sent: both heaters are swapped, or the position has the wrong sign
+- a load that grows, for seconds, while the muscle is at its limit
 
 ## Remedy
 
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, `calibrate` both.
-3. Did it move the wrong way? Swap both heaters with their current senses, or `agonist` and `antagonist` in `[[joint]]`, or change the
-   sign of `m_per_count`. `identify` then says `found`, not `moved_backwards`.
+3. Did it move the wrong way? Let `identify` tell whether heat moves it so: `moved_backwards`. Then swap both heaters with their current senses, or `agonist` and `antagonist` in `[[joint]]`, or change the
+   sign of `m_per_count`.
 4. Are both taut? What held the joint? Set `max_travel_m` so that it lies within the end stops.
 5. Reset, arm.
 
 ## Margin
 
 In metres, a least value: how far the joint moved since what is expected counts, and 0.3 of what the muscle should have moved it. While
-less than 3 mm are expected, or nothing is limited, used is 0.
+less than 3 mm are expected, or nothing is limited, used is 0. Where the joint moved the other way: how far of the last millimetre that was
+expected, and 0.3 of it, a greatest value.
 
 ## Not detected
 
@@ -948,6 +951,8 @@ less than 3 mm are expected, or nothing is limited, used is 0.
 - A demand that falls below the limit again and again, as a noisy one may: what is expected then counts anew each time.
 - Slack that the other muscle takes up at once, since both stay taut: the joint jumps by a part of it and follows on. Less pretension is
   left; `calibrate` again.
+- A joint that moves the wrong way with muscles whose limit moves it by less than 3 mm. [over_travel](over_travel.md) ends its way, and
+  `identify` tells.
 - Where the other muscle draws the joint out of its travel, [over_travel](over_travel.md) comes first, within 0.1 s.
 """
 

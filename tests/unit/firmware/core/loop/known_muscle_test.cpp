@@ -42,5 +42,5 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   DOUBLES_EQUAL(14.0, known[known_configured + 2], 0.0);
   DOUBLES_EQUAL(8.0, known[known_joint_lever - 1], 0.0);
   DOUBLES_EQUAL(-0.015, known[known_joint_lever], 0.0);
-  DOUBLES_EQUAL(-1.0, known[known_joint_other_node], 0.0);
+  DOUBLES_EQUAL(-1.0, known[known_joint_other_node_offset], 0.0);
 }

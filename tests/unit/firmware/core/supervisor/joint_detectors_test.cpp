@@ -85,6 +85,11 @@ TEST(JointDetectors, LooseIsAMuscleThatMovesTheJointTheOtherWay) {
   });
   CHECK_COMPARE(ticks, >=, 1000);
   CHECK_COMPARE(ticks, <=, 1010);
+  // How far it went the other way, of the last millimetre, and which part of that is too far.
+  const Margin margin = detector.margin();
+  DOUBLES_EQUAL(0.0004, margin.measured, 5e-6);
+  DOUBLES_EQUAL(0.0003, margin.limit, 5e-6);
+  CHECK_COMPARE(margin.used(), >, 1.3);
   // What counted before the muscle got what it asked for does not count.
   CHECK_FALSE(detector.step(false, 0.0, rising(0), nothing));
   CHECK_FALSE(detector.step(true, 0.0, rising(0), nothing));
@@ -102,11 +107,27 @@ TEST(JointDetectors, LooseIsNoMuscleThatALoadDrawsOutForAWhile) {
                       20'000));
 }
 
-TEST(JointDetectors, TheOtherMuscleMayMoveTheJointTheOtherWay) {
-  LONGS_EQUAL(-1, tripped_at(
-                      [&](int tick) {
-                        return detector.step(true, -0.4 * rising(tick)[0], rising(tick),
-                                             rising(tick));
-                      },
-                      20'000));
+/// With any of the models: a slow muscle that still cools, or another one that is stronger.
+TEST(JointDetectors, LooseIsNoMuscleIfAModelExplainsThatTheJointMovesTheOtherWay) {
+  using Expected = NotResponding::Expected;
+  const auto moves_away = [&](const Expected& of_rise, const Expected& opposed_of_rise) {
+    detector = MuscleLoose({0.3, 0.003}, tick_s);
+    return tripped_at(
+        [&](int tick) {
+          const double rise_m = rising(tick)[0];
+          Expected expected_m = of_rise;
+          Expected opposed_m = opposed_of_rise;
+          for (std::size_t i = 0; i < expected_m.size(); ++i) {
+            expected_m[i] *= rise_m;
+            opposed_m[i] *= rise_m;
+          }
+          return detector.step(true, -0.4 * rise_m, expected_m, opposed_m);
+        },
+        20'000);
+  };
+  CHECK_COMPARE(moves_away({1.0, 1.0, 1.0}, {0.0, 0.0, 0.0}), >, 0);
+  LONGS_EQUAL(-1, moves_away({1.0, 1.0, -0.1}, {0.0, 0.0, 0.0}));
+  LONGS_EQUAL(-1, moves_away({1.0, -0.1, 1.0}, {0.0, 0.0, 0.0}));
+  LONGS_EQUAL(-1, moves_away({1.0, 1.0, 1.0}, {1.0, 1.0, 1.0}));
+  LONGS_EQUAL(-1, moves_away({1.0, 1.0, 1.0}, {0.2, 0.2, 0.2}));
 }

@@ -12,7 +12,7 @@ namespace supercoil::test {
 
 namespace {
 
-constexpr double press_ratio = 1.5;  ///< likewise: more than it can
+constexpr double press_ratio = 1.5;  ///< of the same: more than it can
 constexpr double sine_Hz = 0.1;
 /// Of the sensor and of the pulley: nothing but heat ends a run.
 constexpr double half_range_m = 0.060;
@@ -165,6 +165,7 @@ void AttackedJoint::command_active() {
 void AttackedJoint::command() {
   if (activity_ == JointActivity::disarmed && attacked()) return send(Verb::disarm);
   if (state() == State::disarmed) return send(Verb::arm);
+  if (state() == State::armed && identify_asked_) return send(Verb::power, muscle_.max_W);
   if (state() == State::armed) return follow(0.5);
   if (state() == State::active) command_active();
 }

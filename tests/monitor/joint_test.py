@@ -9,6 +9,7 @@ import json
 import math
 import pathlib
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -145,11 +146,18 @@ class ByHand(OfJoint):
         until(lambda: command(self.source, "1", "arm").returncode == 0)
         held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "-6deg", "--for", "15", "--can", self.source],
                                 stderr=subprocess.PIPE, text=True)
+        self.addCleanup(held.kill)
         until(lambda: abs(self.told_angle_deg() + 6.0) < 0.5)
         self.assertEqual((held.communicate(timeout=2 * SLACK_S)[1], held.returncode), ("", 0))
         self.assertIn("out_of_range; 0.007992 would be obeyed", command(self.source, "1", "position", "90deg").stderr)
-        # About -3 to +7 degrees.
-        self.assertEqual(command(self.source, "1", "position", "2deg", "--amplitude", "5", "--period", "4", "--for", "5").returncode, 0)
+        # About -3 to +7 degrees, in a period in which the joint follows.
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "2deg", "--amplitude", "5", "--period", "11", "--hold", "--can", self.source],
+                                stderr=subprocess.PIPE, text=True)
+        self.addCleanup(held.kill)
+        until(lambda: 5.5 < self.told_angle_deg() < 8.0, 40.0)
+        until(lambda: -4.0 < self.told_angle_deg() < -1.5, 40.0)
+        held.send_signal(signal.SIGINT)
+        self.assertEqual(held.communicate(timeout=2 * SLACK_S)[1].strip(), "")
 
 
 class Picture(OfJoint):

@@ -16,15 +16,8 @@ std::optional<double> degrees_of(std::string_view text) {
   return number && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
-tl::expected<double, std::string> metres_per_degree(BoardLink& board, const std::string& channel) {
-  const auto muscle = board.muscle(channel);
-  if (!muscle) return tl::unexpected(muscle.error());
-  const double lever_m = muscle->at(known_joint_lever);
-  if (!std::isfinite(lever_m)) {
-    return tl::unexpected("channel " + channel +
-                          " is in no joint: its position is in metres, not in degrees");
-  }
-  return lever_m * std::numbers::pi / 180.0;
+double metres_per_degree(const KnownMuscle& muscle) {
+  return muscle[known_joint_lever] * std::numbers::pi / 180.0;
 }
 
 }  // namespace supercoil::operating

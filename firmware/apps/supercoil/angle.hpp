@@ -2,20 +2,16 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <string_view>
 
-#include <tl/expected.hpp>
-
-#include "apps/supercoil/board_link.hpp"
+#include "loop/known_muscle.hpp"
 
 namespace supercoil::operating {
 
 /// The number of "20deg"; empty: it is no angle.
 std::optional<double> degrees_of(std::string_view text);
 
-/// The arc at the joint's lever, as the board tells the lever. channel: as in a line. The error:
-/// the board does not answer, or the channel is in no joint.
-tl::expected<double, std::string> metres_per_degree(BoardLink& board, const std::string& channel);
+/// The arc at the joint's lever, which a board tells of a muscle; NaN: it is in no joint.
+double metres_per_degree(const KnownMuscle& muscle);
 
 }  // namespace supercoil::operating

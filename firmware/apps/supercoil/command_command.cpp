@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -154,23 +155,34 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
   return exit_done;
 }
 
-/// A position in degrees becomes one in metres, and so does its sine's amplitude.
-tl::expected<void, std::string> in_metres(BoardLink& board, CommandOptions& options) {
-  if (options.words.size() != 3 || options.words[1] != name(Verb::position)) return {};
-  const auto angle_deg = degrees_of(options.words[2]);
-  if (!angle_deg) return {};
-  const auto m_per_deg = metres_per_degree(board, options.words[0]);
-  if (!m_per_deg) return tl::unexpected(m_per_deg.error());
-  options.words[2] = shortest(*angle_deg * *m_per_deg);
-  options.sine_amplitude *= *m_per_deg;
-  return {};
+std::optional<double> angle_of(const std::vector<std::string>& words) {
+  const bool position = words.size() == 3 && words[1] == name(Verb::position);
+  return position ? degrees_of(words[2]) : std::nullopt;
+}
+
+/// A position in degrees becomes one in metres, and so does its sine's amplitude. Returns an exit
+/// status where it cannot.
+int in_metres(BoardLink& board, CommandOptions& options) {
+  const auto angle_deg = angle_of(options.words);
+  if (!angle_deg) return exit_done;
+  const auto muscle = board.muscle(options.words[0]);
+  if (!muscle) return refused(options, exit_failed, muscle.error());
+  const double m_per_deg = metres_per_degree(*muscle);
+  if (!std::isfinite(m_per_deg)) {
+    return refused(options, exit_wrong_input,
+                   joined(options.words) + ": channel " + options.words[0] +
+                       " is in no joint: its position is in metres");
+  }
+  options.words[2] = shortest(*angle_deg * m_per_deg);
+  options.sine_amplitude *= m_per_deg;
+  return exit_done;
 }
 
 }  // namespace
 
 int command_command(CommandOptions options) {
   const bool number =
-      options.words.size() == 3 && (is_number(options.words[2]) || degrees_of(options.words[2]));
+      options.words.size() == 3 && (is_number(options.words[2]) || angle_of(options.words));
   if (options.sine_period_s > 0.0 && !number) {
     return refused(options, exit_wrong_input,
                    joined(options.words) + ": a sine needs a number as its middle");
@@ -179,8 +191,7 @@ int command_command(CommandOptions options) {
     return refused(options, exit_wrong_input, "a sine needs --for or --hold");
   const auto board = open_link(options.can, options.socket);
   if (!board) return refused(options, exit_failed, board.error());
-  if (const auto metres = in_metres(**board, options); !metres)
-    return refused(options, exit_wrong_input, metres.error());
+  if (const int status = in_metres(**board, options); status != exit_done) return status;
   const std::string line = joined(options.words);
   if (line == "state") return tell_state(**board, options);
   if (options.hold_s > 0.0) return hold(**board, options);

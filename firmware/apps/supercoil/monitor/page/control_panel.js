@@ -93,12 +93,18 @@ export class ControlPanel {
   /** Number and slider end at the limit of the detector, where the board has told it. */
   #scale() {
     const { factor, steps: [finest], opcode, both_ways } = this.modes[this.mode];
-    const most = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
+    const limit = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
     const step = Number(this.step.value);
-    // A slider counts its steps from its least value: 0 must be among them.
-    for (const [input, unit] of [[this.number, finest], [this.slider, both_ways ? Math.max(step, finest) : finest]]) {
-      const reach = (Math.floor((most * factor) / unit) * unit).toFixed(2);
-      Object.assign(input, { min: both_ways ? -reach : 0, step, max: reach });
+    const reach = (unit) => (Math.floor((limit * factor) / unit) * unit).toFixed(2);
+    Object.assign(this.number, { step, max: reach(finest) });
+    this.min = both_ways ? -Number(this.number.max) : 0;
+    // Steps are counted from the minimum, and 0 must be among them: a slider's is a multiple of the step, and the number has none.
+    if (both_ways) {
+      this.number.removeAttribute("min");
+      Object.assign(this.slider, { min: -reach(step), step, max: reach(step) });
+    } else {
+      this.number.min = 0;
+      Object.assign(this.slider, { min: 0, step, max: reach(finest) });
     }
   }
 
@@ -111,7 +117,7 @@ export class ControlPanel {
   nudge(sign) {
     if (!this.may.command || !this.modes[this.mode].unit) return;
     const wanted = (this.number.valueAsNumber || 0) + sign * Number(this.step.value);
-    this.number.value = this.slider.value = Number(Math.min(Math.max(wanted, Number(this.number.min)), Number(this.number.max)).toFixed(2));
+    this.number.value = this.slider.value = Number(Math.min(Math.max(wanted, this.min), Number(this.number.max)).toFixed(2));
     this.#go();
   }
 
@@ -120,8 +126,7 @@ export class ControlPanel {
     if (!unit) return this.#send(opcode);
     const value = this.number.valueAsNumber;
     if (Number.isNaN(value)) return this.#answer("a number is missing", false);
-    const { rangeOverflow, rangeUnderflow } = this.number.validity;
-    if (rangeOverflow || rangeUnderflow) return this.#answer(`allowed: ${this.number.min} to ${this.number.max} ${unit}`, false);
+    if (value < this.min || value > Number(this.number.max)) return this.#answer(`allowed: ${this.min} to ${this.number.max} ${unit}`, false);
     this.#send(opcode, value / factor, `${this.number.value} ${unit}`);
   }
 
@@ -140,8 +145,8 @@ export class ControlPanel {
 
   /** A muscle that turns out to be in a joint: its numbers are angles from now on. */
   #take_joint(joint) {
-    if (this.joint_told || !joint) return;
-    this.joint_told = true;
+    if (!joint || (joint.lever_m === this.joint?.lever_m && joint.other === this.joint.other)) return;
+    this.joint = joint;
     this.modes = modes_in(joint);
     Object.assign(this, { values: {}, steps: {} });
     this.number.value = "0";

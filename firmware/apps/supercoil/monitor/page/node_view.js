@@ -75,9 +75,10 @@ export class NodeView {
     for (const card of this.cards) card.update(now_s);
     this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();
-    const joint = joint_of(this.store, this.node, now_s);
-    this.panel.update(this.status, this.margins.limits, joint);
-    this.waveform.update(this.margins.limits, measure_of(joint));
+    // What was told stays, while a board that starts again has not told it yet.
+    this.joint = joint_of(this.store, this.node, now_s) ?? this.joint;
+    this.panel.update(this.status, this.margins.limits, this.joint);
+    this.waveform.update(this.margins.limits, measure_of(this.joint));
     for (const plot of this.plots) plot.show_values();
   }
 }

@@ -36,7 +36,7 @@ const RESULTS = {
   implausible: "what was found is out of range, nothing is changed",
   not_stored: "used, but not stored: the disk is behind",
   too_little_motion: "the muscle hardly moved with all the power that it may have",
-  moved_backwards: "heat moved the muscle the wrong way: the sensor's sign, or a joint's heaters, are swapped",
+  moved_backwards: "heat moved the muscle the wrong way: the sensor's sign is wrong, or a joint's heaters are swapped",
 };
 
 // What else identify has to say: the bits of identify_notes.

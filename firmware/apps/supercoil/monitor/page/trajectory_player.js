@@ -25,8 +25,8 @@ export class TrajectoryPlayer extends EventTarget {
     return this.run !== null;
   }
 
-  /** motion: of trajectory.js. most_m: the channel's travel. */
-  async start(motion, most_m) {
+  /** motion: of trajectory.js. max_m: the channel's travel. */
+  async start(motion, max_m) {
     this.stop("another one begins");
     const knots = motion.knots();
     const next = [knots.next().value];
@@ -34,7 +34,7 @@ export class TrajectoryPlayer extends EventTarget {
     const run = { motion, knots, next, first_m: next[0].position_m, room: KNOTS_AT_ONCE, taken_s: 0, buffered_s: 0, told_ms: 0, started: false };
     this.run = run;
     this.#draw(run);
-    const why = (await this.#arrive(run, NEAR * most_m)) ?? (await this.#play(run));
+    const why = (await this.#arrive(run, NEAR * max_m)) ?? (await this.#play(run));
     if (run !== this.run) return;
     if (run.ended) this.stop(why);
     else this.hold(why);

@@ -29,8 +29,8 @@ export function waveform(shape, values, measure = LENGTH) {
   return { at: swing(values, (time_s) => time_s / values.period, shape === "sine" ? sine : square, measure), end_s: Infinity };
 }
 
-/** What is wrong with the values, in words, or "". most_m: the channel's travel. */
-export function refuse_values(shape, values, most_m, { unit, per_m, both_ways } = LENGTH) {
+/** What is wrong with the values, in words, or "". max_m: the channel's travel. */
+export function refuse_values(shape, values, max_m, { unit, per_m, both_ways } = LENGTH) {
   for (const [name, [label]] of Object.entries(SHAPES[shape])) {
     const value = values[name];
     if (!Number.isFinite(value)) return `${label}: a number is missing`;
@@ -38,9 +38,9 @@ export function refuse_values(shape, values, most_m, { unit, per_m, both_ways } 
   }
   const low = values.offset - Math.abs(values.amplitude);
   const high = values.offset + Math.abs(values.amplitude);
-  const most = most_m * per_m, least = both_ways ? -most : 0;
-  if (low < least || high > most) {
-    return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} ${unit}; allowed: ${both_ways ? least.toFixed(2) : 0} to ${most.toFixed(2)} ${unit}`;
+  const max = max_m * per_m, min = both_ways ? -max : 0;
+  if (low < min || high > max) {
+    return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} ${unit}; allowed: ${both_ways ? min.toFixed(2) : 0} to ${max.toFixed(2)} ${unit}`;
   }
   return "";
 }
@@ -48,8 +48,8 @@ export function refuse_values(shape, values, most_m, { unit, per_m, both_ways } 
 const COLUMNS = ["time_s", "position_m"];
 
 /** A file's rows, and as a waveform, straight between them. Throws an Error that names line and value. */
-export function waveform_of_file(text, most_m, { both_ways } = LENGTH) {
-  const least_m = both_ways ? -most_m : 0;
+export function waveform_of_file(text, max_m, { both_ways } = LENGTH) {
+  const min_m = both_ways ? -max_m : 0;
   const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(",").map((cell) => cell.trim()));
   const places = COLUMNS.map((name) => lines[0].indexOf(name));
   if (places.includes(-1)) throw new Error(`line 1: "${lines[0].join(",")}": the first line must name the columns time_s and position_m`);
@@ -62,7 +62,7 @@ export function waveform_of_file(text, most_m, { both_ways } = LENGTH) {
       return value;
     });
     if (rows.length > 0 && time_s <= rows.at(-1)[0]) throw new Error(`line ${i + 1}: time_s ${time_s} is not later than ${rows.at(-1)[0]} before it`);
-    if (position_m < least_m || position_m > most_m) throw new Error(`line ${i + 1}: position_m ${position_m}; allowed: ${Number(least_m.toPrecision(4))} to ${Number(most_m.toPrecision(4))} m`);
+    if (position_m < min_m || position_m > max_m) throw new Error(`line ${i + 1}: position_m ${position_m}; allowed: ${Number(min_m.toPrecision(4))} to ${Number(max_m.toPrecision(4))} m`);
     rows.push([time_s, position_m]);
   });
   if (rows.length < 2) throw new Error(`line ${lines.length}: two rows at least are needed`);

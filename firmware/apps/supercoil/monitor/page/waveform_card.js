@@ -11,7 +11,7 @@ export class WaveformCard {
   /** may: {command, why}; log: is told (text, kind) of what was done; position(): where the muscle is, in m. */
   constructor(manual, may, log, position) {
     const [set_points, trajectory] = [new WavePlayer(manual), new TrajectoryPlayer(manual, position)];
-    Object.assign(this, { log, most_m: NaN, measure: LENGTH, shape: "sine", set_points, trajectory, player: trajectory, fields: new Map() });
+    Object.assign(this, { log, max_m: NaN, measure: LENGTH, shape: "sine", set_points, trajectory, player: trajectory, fields: new Map() });
     const disabled = !may.command;
     const id = (name) => `wave-${name}-${manual.node}`;
     const radios = Object.keys(SHAPES).map((shape) => element("label", {},
@@ -62,7 +62,7 @@ export class WaveformCard {
       const why = this.by_set_points.checked && this.shape !== "steps" ? "it was chosen" : motion.why;
       this.player.stop("another one begins");
       this.player = why ? this.set_points : this.trajectory;
-      this.player.start(why ? wave : motion, this.most_m);
+      this.player.start(why ? wave : motion, this.max_m);
       this.stop_button.disabled = false;
       this.#say_way(why);
       this.log(`waveform ${this.shape}: started ${why ? "as set points" : "as a trajectory"}`);
@@ -78,15 +78,15 @@ export class WaveformCard {
 
   /** What is to be played, as set points and as a trajectory, or why not; throws what is wrong with it. */
   async #wave() {
-    if (!(this.most_m > 0)) throw new Error("the board has not told yet how far its muscle may travel");
+    if (!(this.max_m > 0)) throw new Error("the board has not told yet how far its muscle may travel");
     if (this.shape === "file") {
       const [file] = this.file.files;
       if (!file) throw new Error("choose a file first");
-      const wave = waveform_of_file(await file.text(), this.most_m, this.measure);
+      const wave = waveform_of_file(await file.text(), this.max_m, this.measure);
       return { wave, motion: through(wave.rows, wave.at) };
     }
     const values = Object.fromEntries([...this.fields].map(([name, { input }]) => [name, input.valueAsNumber]));
-    const why = refuse_values(this.shape, values, this.most_m, this.measure);
+    const why = refuse_values(this.shape, values, this.max_m, this.measure);
     if (why) throw new Error(why);
     const wave = waveform(this.shape, values, this.measure);
     const no_way = jumps(this.shape, values);
@@ -100,7 +100,7 @@ export class WaveformCard {
 
   /** limits: of the detectors, by fault; measure: in which positions are typed. */
   update(limits, measure) {
-    this.most_m = limits.get("over_travel");
+    this.max_m = limits.get("over_travel");
     if (measure.per_m === this.measure.per_m) return;
     this.measure = measure;
     for (const { typed_unit } of this.fields.values()) if (typed_unit) show(typed_unit, measure.unit);

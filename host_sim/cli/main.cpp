@@ -60,7 +60,7 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(1, 16))
       ->capture_default_str()
       ->needs(board);
-  CLI::Option* no_trace = run->add_flag("!--no-trace", options.trace, "Write no trace.csv");
+  CLI::Option* no_trace = run->add_flag("!--no-trace", options.trace, "Write no trace");
   run->add_flag_callback(
          "--npy", [&] { options.trace_format = TraceFormat::npy; },
          "Write trace.npy for numpy and pandas in place of trace.csv")

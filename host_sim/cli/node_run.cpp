@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "cli/run_results.hpp"
@@ -61,6 +63,11 @@ int NodeRun::conclude(double wall_s, storage::LearnedStore& store) {
   if (trace_) {
     if (const auto finished = trace_->finish(); !finished)
       return fail(exit_failed, (folder_->path() / finished.error()).string());
+    // An earlier run's, which would stand beside this one's summary.
+    const bool csv = options_->trace_format == TraceFormat::csv;
+    std::error_code ignored;
+    std::filesystem::remove(folder_->path() / trace_file(csv ? TraceFormat::npy : TraceFormat::csv),
+                            ignored);
   }
   if (plot_) draw_into(*folder_, plot_->figure(), "plot.svg");
   const auto concluded =

@@ -131,8 +131,8 @@ void add_tune(CLI::App& app, TuneOptions& options) {
   tune->add_option("CHANNEL", options.channel, "From 1; over CAN its node")
       ->required()
       ->check(CLI::Range(1, can::max_nodes));
-  tune->add_option("NAME=VALUE", options.assignments,
-                   "e.g. bandwidth_rad_per_s=6 or kind=pi [show all]")
+  tune->add_option("ASSIGNMENT", options.assignments,
+                   "NAME=VALUE, e.g. bandwidth_rad_per_s=6 or kind=pi [show all]")
       ->type_name("");
   CLI::Option* controller =
       tune->add_option("--controller", options.controller,

@@ -5,8 +5,13 @@ import pathlib
 import re
 import subprocess
 import unittest
+from unittest import mock
+
+import can
+from can.interfaces.socketcand import socketcand
 
 import supercoil
+from supercoil import address
 from supercoil.generated import faults, names, refusals, results, tunables
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -62,6 +67,19 @@ class Errors(unittest.TestCase):
             self.assertIn(f"node 7 speaks version {of_board} ", text)
             self.assertIn(f"speaks {supercoil.PROTOCOL_VERSION}: {older}", text)
             self.assertIn("Install", text)
+
+
+class PythonCan(unittest.TestCase):
+    def test_socketcand_wants_4_4_also_where_its_version_is_not_told(self):
+        for version, reliable in (("4.1.0", False), ("4.3.1", False), ("4.4.0", True), ("4.10.0", True), ("5.0", True),
+                                  ("0.0.0", True)):
+            with mock.patch.object(can, "__version__", version):
+                self.assertEqual(address._is_reliable(), reliable, version)
+        with mock.patch.object(can, "__version__", "0.0.0"), mock.patch.object(socketcand, "detect_beacon"):
+            del socketcand.detect_beacon
+            self.assertFalse(address._is_reliable())
+            with self.assertRaisesRegex(supercoil.BusError, "needs python-can 4.4"):
+                address.open_bus("socketcand:1", {})
 
 
 if __name__ == "__main__":

@@ -102,8 +102,8 @@ class Files(unittest.TestCase):
 
     def test_a_trace_for_numpy_has_the_same_rows(self):
         for options in ([], ["--npy"]):  # an earlier run's is not left beside it
-            subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", "npy", "--every", "10", *options,
-                            "--no-plot", "--no-can", "--allow-fault", "--quiet"], cwd=self.path, check=True, timeout=300)
+            subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "s.toml", "--out", "npy", "--every", "10", "--no-plot",
+                            "--no-can", "--allow-fault", "--quiet", *options], cwd=self.path, check=True, timeout=300)
         self.assertFalse((self.path / "npy" / "trace.csv").exists())
         table, same = supercoil.load(self.path / "npy" / "trace.npy"), supercoil.load(self.path / "trace.csv")
         pandas.testing.assert_frame_equal(table, same, check_exact=True, check_dtype=False)

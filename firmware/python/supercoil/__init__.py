@@ -106,7 +106,7 @@ __all__ = [
 
 
 def load(path: str | Path, *, node: int | None = None) -> "pandas.DataFrame":
-    """A can.log, a flight recording, a trace.csv or a trace.npy as a table of pandas; attrs["units"] has each column's unit.
+    """A can.log, a flight recording or a trace (CSV or npy) as a table of pandas; attrs["units"]: each column's unit.
 
     node: of which node of a can.log, where it has several."""
     from supercoil import loading

@@ -5,6 +5,7 @@ import re
 import socket
 
 import can
+from can.interfaces.socketcand import socketcand
 
 from supercoil.errors import BusError
 
@@ -17,8 +18,11 @@ _FIRST_RELIABLE = (4, 4)
 logging.getLogger("can.interfaces.socketcand.socketcand").setLevel(logging.ERROR)
 
 
-def _version() -> tuple[int, ...]:
-    return tuple(int(number) for number in re.findall(r"\d+", can.__version__)[:2])
+def _is_reliable() -> bool:
+    """Whether this python-can's socketcand is. Debian 13's 4.5 says that it is 0.0.0: what came with 4.4 tells then."""
+    if can.__version__ == "0.0.0":
+        return hasattr(socketcand, "detect_beacon")
+    return tuple(int(number) for number in re.findall(r"\d+", can.__version__)[:2]) >= _FIRST_RELIABLE
 
 
 def is_local(address: object) -> bool:
@@ -27,7 +31,7 @@ def is_local(address: object) -> bool:
 
 
 def _open_socketcand(host: str, port: int, channel: str) -> can.BusABC:
-    if _version() < _FIRST_RELIABLE:
+    if not _is_reliable():
         raise BusError(f"socketcand needs python-can 4.4 or newer, this is {can.__version__}: older ones lose frames "
                        "that TCP brings in two parts")
     # python-can asks for 10 s without a pause where nobody listens.

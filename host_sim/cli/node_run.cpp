@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "cli/run_results.hpp"
@@ -25,6 +23,9 @@ NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& win
   if (options.trace) {
     trace_ = write_trace(folder.temporary(trace_file(options.trace_format)), options.trace_format,
                          options.every, scenario_.start.joint.has_value());
+    // It would stand beside this run's summary.
+    const bool csv = options.trace_format == TraceFormat::csv;
+    folder.supersede(trace_file(csv ? TraceFormat::npy : TraceFormat::csv));
   }
   if (options.plot) plot_.emplace(scenario_);
 }
@@ -63,11 +64,6 @@ int NodeRun::conclude(double wall_s, storage::LearnedStore& store) {
   if (trace_) {
     if (const auto finished = trace_->finish(); !finished)
       return fail(exit_failed, (folder_->path() / finished.error()).string());
-    // An earlier run's, which would stand beside this one's summary.
-    const bool csv = options_->trace_format == TraceFormat::csv;
-    std::error_code ignored;
-    std::filesystem::remove(folder_->path() / trace_file(csv ? TraceFormat::npy : TraceFormat::csv),
-                            ignored);
   }
   if (plot_) draw_into(*folder_, plot_->figure(), "plot.svg");
   const auto concluded =

@@ -54,6 +54,7 @@ OutputFolder::OutputFolder(OutputFolder&& other) noexcept
     : folder_(std::move(other.folder_)),
       made_(std::exchange(other.made_, {})),
       names_(std::exchange(other.names_, {})),
+      superseded_(std::exchange(other.superseded_, {})),
       lock_(std::exchange(other.lock_, -1)) {}
 
 OutputFolder::~OutputFolder() {
@@ -105,6 +106,9 @@ tl::expected<void, std::string> OutputFolder::commit() {
       return tl::unexpected((folder_ / name).string() + ": cannot be written: " + error.message());
     }
   }
+  std::error_code ignored;
+  for (const std::string& name : superseded_)
+    fs::remove(folder_ / name, ignored);
   names_.clear();
   made_.clear();
   return {};

@@ -34,6 +34,8 @@ class OutputFolder {
                                         const std::function<void(std::ostream&)>& content);
   /// Gives up a file that temporary() announced; the others are kept.
   void drop(const std::string& name);
+  /// With commit() a file of an earlier run goes that this one has no successor of.
+  void supersede(const std::string& name) { superseded_.push_back(name); }
   /// Gives every file its name.
   tl::expected<void, std::string> commit();
 
@@ -45,6 +47,7 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> made_;  ///< folders made for this run, innermost first
   std::vector<std::string> names_;
+  std::vector<std::string> superseded_;
   int lock_ = -1;  ///< the folder itself, locked: two runs would mix their temporary files
 };
 

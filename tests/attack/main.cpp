@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <span>
 
 #include "attack/attacked_joint.hpp"
 #include "attack/attacked_muscle.hpp"
@@ -31,30 +32,21 @@ bool heats_disarmed(const JointAttack& attack) {
   return attack.muscles[0].switch_leak_ratio > 0.0 || attack.muscles[1].switch_leak_ratio > 0.0;
 }
 
-void add_muscles(std::vector<Case>& cases) {
-  for (const Muscle& muscle : muscles) {
-    for (const Attack& attack : all_attacks()) {
-      for (std::size_t i = 0; i < activity_names.size(); ++i) {
-        const auto activity = static_cast<Activity>(i);
-        if (activity == Activity::disarmed && !heats_disarmed(attack)) continue;
-        cases.push_back({std::string(muscle.name), attack.name, std::string(activity_names[i]),
-                         std::string(guard_in(activity, attack)), std::string(attack.blindness),
-                         [=] { return AttackedMuscle(attack, muscle, activity).run(); }});
-      }
-    }
-  }
+std::string_view guard_in(JointActivity /*activity*/, const JointAttack& attack) {
+  return attack.guard;
 }
 
-void add_joints(std::vector<Case>& cases) {
+/// of: "", or what stands behind the muscle's name. activities: their names, disarmed first.
+template <class Attacked, class Activity, class AnyAttack>
+void add(std::vector<Case>& cases, const std::string& of, const std::vector<AnyAttack>& attacks,
+         std::span<const std::string_view> activities) {
   for (const Muscle& muscle : muscles) {
-    for (const JointAttack& attack : all_joint_attacks()) {
-      for (std::size_t i = 0; i < joint_activity_names.size(); ++i) {
-        const auto activity = static_cast<JointActivity>(i);
-        if (activity == JointActivity::disarmed && !heats_disarmed(attack)) continue;
-        cases.push_back({std::string(muscle.name) + " joint", attack.name,
-                         std::string(joint_activity_names[i]), std::string(attack.guard),
-                         std::string(attack.blindness),
-                         [=] { return AttackedJoint(attack, muscle, activity).run(); }});
+    for (const AnyAttack& attack : attacks) {
+      for (std::size_t i = heats_disarmed(attack) ? 0 : 1; i < activities.size(); ++i) {
+        const auto activity = static_cast<Activity>(i);
+        cases.push_back({std::string(muscle.name) + of, attack.name, std::string(activities[i]),
+                         std::string(guard_in(activity, attack)), std::string(attack.blindness),
+                         [=] { return Attacked(attack, muscle, activity).run(); }});
       }
     }
   }
@@ -73,8 +65,8 @@ void print(const Case& c, const Damage& damage) {
 int main(int argc, char** argv) {
   const int every = argc > 1 ? std::atoi(argv[1]) : 1;
   std::vector<Case> all;
-  add_muscles(all);
-  add_joints(all);
+  add<AttackedMuscle, Activity>(all, "", all_attacks(), activity_names);
+  add<AttackedJoint, JointActivity>(all, " joint", all_joint_attacks(), joint_activity_names);
   std::vector<Case> cases;
   for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every))
     cases.push_back(all[i]);

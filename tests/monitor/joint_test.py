@@ -135,7 +135,6 @@ class ByHand(OfJoint):
         page.wait(page.is_off, STOP_S, "off")
         self.assertEqual(page.errors(), [])
 
-
     def told_angle_deg(self):
         agonist, _ = json.loads(command(self.source, "state", "--json").stdout)["nodes"]
         return math.degrees(agonist["Measurement"]["position_m"] / 0.015)

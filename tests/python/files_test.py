@@ -113,6 +113,11 @@ class Files(unittest.TestCase):
         numpy.save(self.path / "other.npy", numpy.zeros(3))
         with self.assertRaisesRegex(ValueError, "is no trace"):
             supercoil.load(self.path / "other.npy")
+        whole = (self.path / "other.npy").read_bytes()
+        for length in (7, 60, len(whole) - 1):
+            (self.path / "damaged.npy").write_bytes(whole[:length])
+            with self.assertRaisesRegex(ValueError, "damaged.npy: "):
+                supercoil.load(self.path / "damaged.npy")
         with self.assertRaisesRegex(ValueError, "no can.log"):
             supercoil.load(self.path / "s.toml")
 

@@ -4,13 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/common/progress.hpp"
-#include "apps/supercoil/angle.hpp"
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
@@ -44,10 +45,11 @@ int ask(BoardLink& board, const CommandOptions& options, const std::string& line
   return concluded(options, line, board.ask(line));
 }
 
-bool is_number(const std::string& text) {
+std::optional<double> number_of(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -155,9 +157,13 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
   return exit_done;
 }
 
+/// Of "1 position 20deg".
 std::optional<double> angle_of(const std::vector<std::string>& words) {
-  const bool position = words.size() == 3 && words[1] == name(Verb::position);
-  return position ? degrees_of(words[2]) : std::nullopt;
+  constexpr std::string_view unit = "deg";
+  const bool given = words.size() == 3 && words[1] == name(Verb::position) &&
+                     std::string_view(words[2]).ends_with(unit);
+  if (!given) return std::nullopt;
+  return number_of(std::string_view(words[2]).substr(0, words[2].size() - unit.size()));
 }
 
 /// A position in degrees becomes one in metres, and so does its sine's amplitude. Returns an exit
@@ -167,7 +173,7 @@ int in_metres(BoardLink& board, CommandOptions& options) {
   if (!angle_deg) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
   if (!muscle) return refused(options, exit_failed, muscle.error());
-  const double m_per_deg = metres_per_degree(*muscle);
+  const double m_per_deg = muscle->at(known_joint_lever) * std::numbers::pi / 180.0;
   if (!std::isfinite(m_per_deg)) {
     return refused(options, exit_wrong_input,
                    joined(options.words) + ": channel " + options.words[0] +
@@ -182,7 +188,7 @@ int in_metres(BoardLink& board, CommandOptions& options) {
 
 int command_command(CommandOptions options) {
   const bool number =
-      options.words.size() == 3 && (is_number(options.words[2]) || angle_of(options.words));
+      options.words.size() == 3 && (number_of(options.words[2]) || angle_of(options.words));
   if (options.sine_period_s > 0.0 && !number) {
     return refused(options, exit_wrong_input,
                    joined(options.words) + ": a sine needs a number as its middle");

@@ -38,7 +38,7 @@ class Excitation {
   bool done() const { return cycle_ >= cycles || too_still_; }
   /// The muscle has moved by less than is needed, and no more power is allowed.
   bool too_little_motion() const { return too_still_; }
-  /// It has, but away from where heat should draw it.
+  /// Of those: it moved by as much as is needed, away from where heat should draw it.
   bool moved_backwards() const { return too_still_ && reach_m_ <= -min_m(); }
   /// From 0; the first one searches for the power, and teaches little.
   std::size_t cycle() const { return cycle_; }

@@ -74,7 +74,10 @@ def _load_csv(file: Path) -> pandas.DataFrame:
 
 
 def _load_npy(file: Path) -> pandas.DataFrame:
-    rows = numpy.load(file, allow_pickle=False)
+    try:
+        rows = numpy.load(file, allow_pickle=False)
+    except (ValueError, OSError, EOFError) as error:
+        raise ValueError(f"{file}: {error}") from error
     if not rows.dtype.names or rows.dtype.names[0] != "time_s":
         raise ValueError(f"{file}: is no trace: its records do not begin with time_s")
     return _with_units(pandas.DataFrame({name: _decoded(rows[name]) for name in rows.dtype.names}))

@@ -111,8 +111,12 @@ class NotResponding final : public Detector {
   /// is believed of both gains may be wrong, and two muscles then hold still what believed ones
   /// would move: that is judged only if no gain of the other muscle explains it.
   bool step(double position_m, const Expected& expected_m, const Expected* opposed_m = nullptr) {
-    count_ = opposed_m != nullptr ? std::tuple_size_v<Motions> : steps + 2;
-    const Motions motions = possible(expected_m, opposed_m);
+    return step(position_m, possible(expected_m, opposed_m),
+                opposed_m != nullptr ? std::tuple_size_v<Motions> : steps + 2);
+  }
+  /// count: of the motions that are possible.
+  bool step(double position_m, const Motions& motions, std::size_t count) {
+    count_ = count;
     if (elapsed_s_ == 0.0) {
       low_ = high_ = position_m;
       expected_low_ = expected_high_ = motions;

@@ -54,9 +54,9 @@ class MovesAway {
 
 /// A muscle of a joint gets hotter, is asked for more than it can give, and the joint stays where
 /// it is or moves the other way: the muscle is torn, its cable slack, or its heater or the sensor's
-/// sign is the other muscle's. In seconds, where NotResponding takes a window:
-/// it must not take a muscle that holds a growing load still for a dead one, and no load is held
-/// still by a muscle that has no more to give.
+/// sign is the other muscle's. In seconds, where NotResponding takes a window: it must not take a
+/// muscle that holds a growing load still for a dead one, and no load is held still by a muscle
+/// that has no more to give.
 class MuscleLoose final : public Detector {
  public:
   struct Settings {
@@ -79,10 +79,11 @@ class MuscleLoose final : public Detector {
       margin_ = {0.0, 0.0, true, false};
       return held_.step(false);
     }
-    motion_.step(position_m, expected_m, &opposed_m);
+    const NotResponding::Motions motions = NotResponding::possible(expected_m, &opposed_m);
+    motion_.step(position_m, motions, motions.size());
     margin_ = motion_.margin();
     if (margin_.measured >= moved_m_) motion_.reset();
-    const bool away = away_.step(position_m, NotResponding::possible(expected_m, &opposed_m));
+    const bool away = away_.step(position_m, motions);
     if (away) margin_ = away_.margin();
     return away || held_.step(margin_.judged && !(margin_.measured >= margin_.limit));
   }

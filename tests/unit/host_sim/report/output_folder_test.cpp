@@ -65,6 +65,18 @@ TEST(OutputFolder, NamesItsFilesOnlyWhenAllAreComplete) {
   STRCMP_EQUAL("1", content(parent / "a" / "b" / "one.txt").c_str());
 }
 
+TEST(OutputFolder, WhatARunSupersedesStaysUntilItIsComplete) {
+  for (const bool completes : {false, true}) {
+    std::ofstream(parent / "old.txt") << "0";
+    auto folder = OutputFolder::open(parent);
+    folder->supersede("old.txt");
+    folder->supersede("never.txt");
+    CHECK(fs::exists(parent / "old.txt"));
+    if (completes) CHECK(folder->commit().has_value());
+    CHECK_EQUAL(!completes, fs::exists(parent / "old.txt"));
+  }
+}
+
 TEST(OutputFolder, LeavesNothingWhenItIsGivenUp) {
   {
     auto folder = OutputFolder::open(parent / "given-up");

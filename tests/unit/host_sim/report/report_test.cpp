@@ -90,6 +90,22 @@ TEST(Report, TraceHoldsOneRowATickWithAllDigits) {
       content(folder / "trace.csv").c_str());
 }
 
+TEST(Report, EveryFaultsNameFitsInATraceForNumpy) {
+  const auto writer = write_trace(folder / "trace.npy", TraceFormat::npy, 1);
+  TickRecord record;
+  for (const FaultInfo& info : all_faults()) {
+    record.fault = info.fault;
+    writer->add(record, std::nullopt);
+  }
+  CHECK(writer->finish().has_value());
+  const std::string text = content(folder / "trace.npy");
+  for (const FaultInfo& info : all_faults()) {
+    const std::string name(info.name);
+    CHECK_TEXT(text.find(name + std::string(24 - name.size(), '\0')) != std::string::npos,
+               name.c_str());
+  }
+}
+
 TEST(Report, TraceReportsADiskThatIsFull) {
   for (const TraceFormat format : {TraceFormat::csv, TraceFormat::npy}) {
     const auto writer = write_trace("/dev/full", format, 1);

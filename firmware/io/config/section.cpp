@@ -1,12 +1,12 @@
 #include "config/section.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <sstream>
+
+#include "text/shortest_text.hpp"
 
 namespace supercoil::config {
 
@@ -34,11 +34,7 @@ std::string shown(const toml::node& node) {
       text += (text.empty() ? "" : ", ") + shown(element);
     return "[" + text + "]";
   }
-  if (const auto number = node.as_floating_point()) {
-    std::array<char, 32> text{};
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), number->get()).ptr;
-    return {text.data(), end};
-  }
+  if (const auto number = node.as_floating_point()) return shortest_text(number->get());
   std::ostringstream out;
   node.visit([&](const auto& value) { out << value; });
   return out.str();

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "storage/crc32.hpp"
+#include "text/shortest_text.hpp"
 
 namespace supercoil::recorder {
 
@@ -25,13 +26,6 @@ std::string hexadecimal(std::uint32_t value) {
 std::string first_line(std::string_view rest) {
   return std::string(magic) + std::to_string(recording_format) + ", CRC-32 " +
          hexadecimal(storage::crc32(rest)) + "\n";
-}
-
-/// Shortest text that gives the same number back.
-template <class Number>
-std::string text_of(Number number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
 /// What stands behind "key = ", up to the line's end.
@@ -90,11 +84,11 @@ std::string encode(const Header& h) {
   std::string rest =
       "# Rows follow at byte 512. To read them: supercoil log FILE\n"
       "row_bytes = " +
-      std::to_string(sizeof(Row)) + "\nrows = " + text_of(h.rows) +
-      "\nchannels = " + text_of(h.channels) + "\nrate_Hz = " + text_of(h.rate_Hz) +
+      std::to_string(sizeof(Row)) + "\nrows = " + shortest_text(h.rows) +
+      "\nchannels = " + shortest_text(h.channels) + "\nrate_Hz = " + shortest_text(h.rate_Hz) +
       "\nfault = " + std::to_string(h.fault) + "\nfault_name = \"" + h.fault_name +
-      "\"\nfault_channel = " + text_of(h.fault_channel + 1) +
-      "\nfault_time_ns = " + text_of(h.fault_time_ns) + "\nrows_CRC32 = \"" +
+      "\"\nfault_channel = " + shortest_text(h.fault_channel + 1) +
+      "\nfault_time_ns = " + shortest_text(h.fault_time_ns) + "\nrows_CRC32 = \"" +
       hexadecimal(h.rows_crc32) + "\"\n";
   if (!h.program.empty()) rest += "program = \"" + h.program + "\"\n";
   rest.resize(header_bytes - first_line("").size() - 1, ' ');

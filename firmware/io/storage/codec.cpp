@@ -11,6 +11,7 @@
 #include "storage/fields.hpp"
 #include "storage/number.hpp"
 #include "storage/tuning_tables.hpp"
+#include "text/shortest_text.hpp"
 
 namespace supercoil::storage {
 
@@ -79,9 +80,10 @@ tl::expected<board::Learned, std::string> read(const toml::table& file, unsigned
   }
   if (auto wrong = read_tuning(file, learned.tuning)) return tl::unexpected(std::move(*wrong));
   if (const auto violation = check(learned)) {
-    return tl::unexpected(std::string(violation->quantity) + " = " + shown(violation->value) +
-                          " is out of range: must be " + shown(violation->lowest) + " to " +
-                          shown(violation->highest));
+    return tl::unexpected(std::string(violation->quantity) + " = " +
+                          shortest_text(violation->value) + " is out of range: must be " +
+                          shortest_text(violation->lowest) + " to " +
+                          shortest_text(violation->highest));
   }
   return learned;
 }

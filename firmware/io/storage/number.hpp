@@ -8,8 +8,6 @@
 
 namespace supercoil::storage {
 
-/// As short as it can be.
-std::string shown(double value);
 /// With a point or exponent: "-0" would be read as the integer 0, without its sign.
 std::string number_text(double value);
 /// The message of what is wrong, or nothing, with the number in value.

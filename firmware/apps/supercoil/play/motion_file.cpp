@@ -1,7 +1,6 @@
 #include "apps/supercoil/play/motion_file.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <map>
@@ -14,6 +13,7 @@
 #include "apps/supercoil/user_file.hpp"
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
+#include "text/shortest_text.hpp"
 
 namespace supercoil::operating {
 
@@ -34,11 +34,6 @@ double largest(can::SignalOf<can::message::knot> signal) {
 }
 /// Its times are whole milliseconds.
 constexpr double min_row_step_s = 0.001;
-
-std::string text_of(double value) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
-}
 
 class MotionReader {
  public:
@@ -130,8 +125,8 @@ class MotionReader {
     const double max_row_step_s = largest("after_s");
     if (!(step_s > 0.5 * min_row_step_s && step_s < max_row_step_s + 0.5 * min_row_step_s)) {
       return at_line("time_s is " + std::to_string(step_s) +
-                     " s after the row before; it must be " + text_of(min_row_step_s) + " to " +
-                     text_of(max_row_step_s) + " s");
+                     " s after the row before; it must be " + shortest_text(min_row_step_s) +
+                     " to " + shortest_text(max_row_step_s) + " s");
     }
     rows_.push_back(std::move(row));
     return std::nullopt;
@@ -166,8 +161,8 @@ class MotionReader {
       return std::abs(knot.velocity_m_per_s) > max_velocity;
     });
     if (fast == motion.knots.end()) return std::nullopt;
-    return whose + "at " + text_of(fast->time_s) + " s it moves by " +
-           std::to_string(fast->velocity_m_per_s) + " m/s; at most " + text_of(max_velocity) +
+    return whose + "at " + shortest_text(fast->time_s) + " s it moves by " +
+           std::to_string(fast->velocity_m_per_s) + " m/s; at most " + shortest_text(max_velocity) +
            " can be sent";
   }
 

@@ -8,7 +8,9 @@ using namespace supercoil;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   constexpr std::size_t channels = 4;
-  const auto command = parse_command(fuzz::text(data, size), channels);
+  const auto text = fuzz::text(data, size);
+  const auto of_trajectory = parse_trajectory_command(text, channels);
+  const auto command = of_trajectory ? *of_trajectory : parse_command(text, channels);
   if (!command) {
     fuzz::require(!command.error().empty(), "what is refused is refused with a reason");
     return 0;

@@ -57,7 +57,8 @@ int command_command(CommandOptions options);
 
 struct PlayOptions {
   std::string file;
-  std::string can;
+  std::string can;  ///< a bus; empty: the board's own socket
+  std::string socket = "/run/supercoil/commands";
   int node = 1;           ///< of columns without a number
   double settle_s = 3.0;  ///< at the first knot, before the start
   bool hold = false;      ///< the last knot, until Ctrl-C

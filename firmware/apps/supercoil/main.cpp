@@ -90,14 +90,19 @@ void add_command(CLI::App& app, CommandOptions& options) {
 void add_play(CLI::App& app, PlayOptions& options) {
   CLI::App* play = app.add_subcommand(
       "play", "Play a motion of a file on muscles that are armed, several of them in step");
-  play->add_option("FILE", options.file,
-                   "CSV: time_s, position_m and, if wanted, velocity_m_per_s; for several nodes "
-                   "2:position_m and so on")
+  play->add_option(
+          "FILE", options.file,
+          "CSV: time_s, position_m and, if wanted, velocity_m_per_s; for several channels or "
+          "nodes 2:position_m and so on")
       ->required();
-  play->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
+  CLI::Option* socket = play->add_option("--socket", options.socket, "Where supercoild listens")
+                            ->capture_default_str();
+  play->add_option("--can", options.can,
+                   "Play over this bus instead, where the numbers of columns are nodes: can0, or "
+                   "socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
-      ->required();
-  play->add_option("--node", options.node, "Of columns without a number")
+      ->excludes(socket);
+  play->add_option("--node,--channel", options.node, "Of columns without a number")
       ->check(CLI::Range(1, can::max_nodes))
       ->capture_default_str();
   play->add_option("--settle", options.settle_s, "At the first row before the start, in s")

@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iomanip>
 #include <iterator>
 #include <sstream>
 #include <system_error>
@@ -66,6 +67,19 @@ std::string muscle_text(const Loop& loop) {
     for (std::size_t quantity = 0; quantity < known_quantities.size(); ++quantity)
       text << ' ' << loop.channel(i).known(quantity);
     text << '\n';
+  }
+  return text.str();
+}
+
+/// A line for each channel, "1 loaded 61 0.04 1234.567890123": number, playback, room for knots, s
+/// until the last one, and the board's time in s, which is that of its newest tick.
+std::string playback_text(const Loop& loop, double board_s) {
+  std::ostringstream text;
+  for (std::size_t i = 0; i < loop.channels(); ++i) {
+    const PlaybackStatus s = loop.channel(i).playback();
+    text << i + 1 << ' ' << playback_state_names[static_cast<std::size_t>(s.state)] << ' '
+         << int{s.room} << ' ' << s.buffered_s << ' ' << std::fixed << std::setprecision(9)
+         << board_s << std::defaultfloat << std::setprecision(6) << '\n';
   }
   return text.str();
 }
@@ -148,7 +162,12 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
     answer(client.number(), *told);
     return true;
   }
-  auto command = parse_command(text, loop.channels());
+  if (text == "playback") {
+    answer(client.number(), playback_text(loop, rows.newest_s()));
+    return true;
+  }
+  const auto of_trajectory = parse_trajectory_command(text, loop.channels());
+  auto command = of_trajectory ? *of_trajectory : parse_command(text, loop.channels());
   if (!command) {
     answer(client.number(), "wrong: " + command.error());
     return true;

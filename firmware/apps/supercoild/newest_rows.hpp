@@ -16,7 +16,10 @@ class NewestRows {
 
   void put(const Row& row) {
     if (row.channel < rows_.size()) rows_[row.channel] = row;
+    newest_s_ = 1e-9 * static_cast<double>(row.time_ns);
   }
+  /// The board's time of the newest tick.
+  double newest_s() const { return newest_s_; }
   /// A line for each channel, of the words that state_words.hpp names:
   /// "1 active position none 0.012 0.0118 0.0119 1.25 66.1 78.2 0.5 none -". The result is a
   /// ModeResult, the notes are IdentifyNotes.
@@ -27,6 +30,7 @@ class NewestRows {
 
  private:
   std::vector<Row> rows_;
+  double newest_s_ = 0.0;
 };
 
 }  // namespace supercoil::daemon

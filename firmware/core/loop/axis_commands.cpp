@@ -75,8 +75,11 @@ void Axis::enter(Mode mode) {
 
 Reply Axis::play(const Command& command) {
   if (mode_ != Mode::position) return Refusal::wrong_state;
-  if (command.verb == Verb::start)
-    return playback_.start(hal::duration_from(command.value), now_, reference_);
+  if (command.verb == Verb::start) {
+    constexpr double max_time_s = 9e9;  // that whole nanoseconds can tell
+    if (!(std::abs(command.value) <= max_time_s)) return Refusal::out_of_range;
+    return playback_.start(hal::duration_from(command.value), now_, reference_, command.source);
+  }
   return playback_.add(command, {control::theta_from(muscle_), muscle_.moving_mass_kg,
                                  settings_.supervision.max_travel_m, range()});
 }

@@ -35,7 +35,8 @@ Reply Playback::add(const Command& command, const Able& able) {
   const auto after_s = static_cast<double>(command.after_s);
   if (!(std::abs(command.value) <= max_m))
     return {Refusal::out_of_range, std::clamp(command.value, -max_m, max_m)};
-  if (!std::isfinite(velocity) || !(after_s >= 0.0)) return Refusal::out_of_range;
+  if (!std::isfinite(velocity) || !(after_s >= 0.0 && after_s <= max_after_s))
+    return Refusal::out_of_range;
   if (after_s == 0.0) return begin(command.value, velocity);
   if (state_ == PlaybackState::empty) return Refusal::wrong_state;
   const control::Knot next{trajectory_.last().time_s + after_s, command.value, velocity};
@@ -61,12 +62,13 @@ Reply Playback::begin(double position_m, double velocity_m_per_s) {
   return Refusal::none;
 }
 
-Reply Playback::start(hal::Time at, hal::Time now, double reference_m) {
+Reply Playback::start(hal::Time at, hal::Time now, double reference_m, Source source) {
   if (state_ != PlaybackState::loaded) return Refusal::wrong_state;
   if (at < now) return Refusal::out_of_range;
   if (hal::seconds(at - now) > max_ahead_s) return {Refusal::out_of_range, max_ahead_s};
   if (std::abs(reference_m - trajectory_.passed().position_m) > same_m) return Refusal::not_ready;
   wanted_ahead_s_.store(0.0, std::memory_order_relaxed);
+  aligns_ = source == Source::can;
   starts_ = at;
   last_tick_ = now;
   state_ = PlaybackState::waiting;
@@ -93,7 +95,7 @@ double Playback::step(hal::Time now, double reference_m) {
   } else {
     const double off_s = wanted_ahead_s_.load(std::memory_order_relaxed) - ahead_s_;
     const double max_s = max_slew_ratio * elapsed_s;
-    if (std::abs(off_s) <= max_align_s) ahead_s_ += std::clamp(off_s, -max_s, max_s);
+    if (aligns_ && std::abs(off_s) <= max_align_s) ahead_s_ += std::clamp(off_s, -max_s, max_s);
     time_s_ = hal::seconds(now - starts_) + ahead_s_;
   }
   const control::Knot& last = trajectory_.last();

@@ -48,8 +48,9 @@ class Playback {
   /// The next knot of `command`. One at once (0 s after the last) is the first of a new trajectory,
   /// at rest.
   Reply add(const Command& command, const Able& able);
-  /// At a time of the board's clock, from the position that is followed now.
-  Reply start(hal::Time at, hal::Time now, double reference_m);
+  /// At a time of the board's clock, from the position that is followed now. source: a start from
+  /// the board itself goes by the board's clock, whatever a bus's master tells.
+  Reply start(hal::Time at, hal::Time now, double reference_m, Source source);
   /// From one other thread: its time goes on until it is so far ahead of the board's clock since
   /// the start. No command: it needs no answer, and takes no room from commands. More than 10 ms at
   /// once are another clock's, and ignored.
@@ -68,6 +69,7 @@ class Playback {
 
  private:
   static constexpr double max_ahead_s = 60.0;
+  static constexpr double max_after_s = 60.0;
   static constexpr double hold_dry_s = 1.0;
   /// What the 24 bits of a position leave open, and the reading of a reference.
   static constexpr double same_m = 2e-6;
@@ -92,6 +94,7 @@ class Playback {
   hal::Time last_tick_{};
   double time_s_ = 0.0;  ///< since it started, aligned
   double ahead_s_ = 0.0;
+  bool aligns_ = false;
   std::atomic<double> wanted_ahead_s_{0.0};
   double dry_s_ = 0.0;
   std::optional<control::TrajectoryPoint> point_;

@@ -1,9 +1,10 @@
 #include "text/command_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
+#include <span>
 #include <sstream>
 
 #include "text/words.hpp"
@@ -35,15 +36,32 @@ std::string known_verbs() {
   return all + ", clear, store tuning, clear tuning";
 }
 
+/// From 0.
+tl::expected<std::uint8_t, std::string> channel_in(std::string_view word, std::size_t channels) {
+  const auto channel = number<std::size_t>(word);
+  if (channel && *channel >= 1 && *channel <= channels)
+    return static_cast<std::uint8_t>(*channel - 1);
+  return tl::unexpected("channel '" + std::string(word) + "': must be 1 to " +
+                        std::to_string(channels));
+}
+
+tl::expected<double, std::string> finite_number(std::string_view word, Verb verb,
+                                                std::string_view needs) {
+  const auto value = number<double>(word);
+  if (value && std::isfinite(*value)) return *value;
+  return tl::unexpected("'" + std::string(word) + "': " + std::string(name(verb)) + " needs " +
+                        std::string(needs));
+}
+
+std::string too_much(std::string_view rest) {
+  return "'" + std::string(rest) + "' is too much";
+}
+
 }  // namespace
 
 tl::expected<Command, std::string> parse_command(std::string_view text, std::size_t channels) {
-  const std::string_view channel_word = next_word(text);
-  const auto channel = number<std::size_t>(channel_word);
-  if (!channel || *channel < 1 || *channel > channels) {
-    return tl::unexpected("channel '" + std::string(channel_word) + "': must be 1 to " +
-                          std::to_string(channels));
-  }
+  const auto channel = channel_in(next_word(text), channels);
+  if (!channel) return tl::unexpected(channel.error());
   const std::string_view verb_word = next_word(text);
   // To store nothing has a word of its own.
   const bool clears = verb_word == "clear";
@@ -57,22 +75,46 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
                           known_verbs());
   }
   const bool stores = verb == Verb::store && !clears;
-  Command command{static_cast<std::uint8_t>(*channel - 1), verb, stores ? 1.0 : 0.0};
+  Command command{*channel, verb, stores ? 1.0 : 0.0};
   std::string_view value_word = next_word(text);
   if (verb == Verb::store && value_word == "tuning") {
     command.value = stores ? store_tuning : clear_tuning;
     value_word = next_word(text);
   }
   if (has_value(verb)) {
-    const auto value = number<double>(value_word);
-    if (!value || !std::isfinite(*value)) {
-      return tl::unexpected("'" + std::string(value_word) + "': " + std::string(name(verb)) +
-                            " needs a number");
-    }
+    const auto value = finite_number(value_word, verb, "a number");
+    if (!value) return tl::unexpected(value.error());
     command.value = *value;
   }
   const std::string_view rest = has_value(verb) ? next_word(text) : value_word;
-  if (!rest.empty()) return tl::unexpected("'" + std::string(rest) + "' is too much");
+  if (!rest.empty()) return tl::unexpected(too_much(rest));
+  return command;
+}
+
+std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::string_view text,
+                                                                           std::size_t channels) {
+  const std::string_view channel_word = next_word(text);
+  const std::string_view verb_word = next_word(text);
+  const bool is_knot = verb_word == name(Verb::knot);
+  if (!is_knot && verb_word != name(Verb::start)) return std::nullopt;
+  const auto channel = channel_in(channel_word, channels);
+  if (!channel) return tl::unexpected(channel.error());
+  Command command{*channel, is_knot ? Verb::knot : Verb::start};
+  const std::array<double*, 1> of_start{&command.value};
+  double after_s = 0.0;
+  double velocity_m_per_s = 0.0;
+  const std::array<double*, 3> of_knot{&after_s, &command.value, &velocity_m_per_s};
+  const std::string_view needs =
+      is_knot ? "three numbers: s after the one before, m, m/s" : "a time of the board, in s";
+  for (double* wanted : is_knot ? std::span<double* const>(of_knot) : std::span(of_start)) {
+    const auto value = finite_number(next_word(text), command.verb, needs);
+    if (!value) return tl::unexpected(value.error());
+    *wanted = *value;
+  }
+  command.after_s = static_cast<float>(after_s);
+  command.velocity_m_per_s = static_cast<float>(velocity_m_per_s);
+  const std::string_view rest = next_word(text);
+  if (!rest.empty()) return tl::unexpected(too_much(rest));
   return command;
 }
 

@@ -49,7 +49,8 @@ Player::Problem play(Player& player, const PlayOptions& options, Progress& progr
 int play_command(const PlayOptions& options) {
   auto motions = read_motions(options.file, static_cast<std::uint8_t>(options.node));
   if (!motions) return fail(exit_wrong_input, motions.error());
-  auto player = Player::open(options.can, std::move(*motions));
+  auto player = options.can.empty() ? Player::open_local(options.socket, std::move(*motions))
+                                    : Player::open(options.can, std::move(*motions));
   if (!player) return fail(exit_failed, player.error());
   watch_for_interrupts();
   Progress progress("play", false);

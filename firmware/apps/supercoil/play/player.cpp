@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <future>
 #include <random>
+#include <utility>
 
 #include "apps/supercoil/bus/bus_name.hpp"
 #include "text/command_text.hpp"
@@ -17,8 +18,9 @@ constexpr auto renew_every = 80ms;
 constexpr auto sync_every = 1s;
 /// So many are sent before all are renewed.
 constexpr int knots_in_a_row = 6;
-/// Between Play and the start: each node has heard of it, and Sync was sent.
+/// Between Play and the start: each node has heard of it, one after the other, and Sync was sent.
 constexpr double start_after_s = 0.1;
+constexpr double start_after_s_per_node = 0.05;
 constexpr auto started_within = 2s;
 
 std::string seconds_text(double time_s) {
@@ -28,26 +30,42 @@ std::string seconds_text(double time_s) {
 
 }  // namespace
 
+Player::Player(std::string_view kind)
+    : kind_(kind), sync_(static_cast<std::uint8_t>(std::random_device()())) {}
+
 tl::expected<Player, std::string> Player::open(const std::string& bus,
                                                std::vector<Motion> motions) {
-  Player player;
+  Player player("node");
   for (Motion& motion : motions) {
     auto opened = open_bus(bus, can_client::answer_ids(motion.node));
     if (!opened) return tl::unexpected(opened.error());
-    Node node;
-    node.commander = std::make_unique<Commander>(std::move(*opened), motion.node);
-    node.motion = std::move(motion);
-    player.nodes_.push_back(std::move(node));
+    auto link = std::make_unique<CanMotionLink>(Commander(std::move(*opened), motion.node));
+    player.nodes_.push_back({std::move(link), std::move(motion)});
   }
-  player.sync_ = static_cast<std::uint8_t>(std::random_device()());
   return player;
 }
 
-Player::Problem Player::take(Node& node, const std::string& what, const Commander::Played& played) {
-  const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
-  if (!played) return whose + what + ": " + played.error();
+tl::expected<Player, std::string> Player::open_local(const std::string& socket,
+                                                     std::vector<Motion> motions) {
+  Player player("channel");
+  for (Motion& motion : motions) {
+    auto opened = BoardSocket::open(socket);
+    if (!opened) return tl::unexpected(opened.error());
+    auto link = std::make_unique<LocalMotionLink>(std::move(*opened), motion.node);
+    player.nodes_.push_back({std::move(link), std::move(motion)});
+  }
+  return player;
+}
+
+std::string Player::whose(const Node& node) const {
+  return kind_ + " " + std::to_string(node.motion.node) + ": ";
+}
+
+Player::Problem Player::take(Node& node, const std::string& what,
+                             const MotionLink::Played& played) {
+  if (!played) return whose(node) + what + ": " + played.error();
   if (played->refusal != Refusal::none)
-    return whose + what + ": " + answer_text(played->refusal, NAN);
+    return whose(node) + what + ": " + answer_text(played->refusal, NAN);
   node.played = *played;
   return std::nullopt;
 }
@@ -55,14 +73,11 @@ Player::Problem Player::take(Node& node, const std::string& what, const Commande
 Player::Problem Player::go_to_start() {
   for (Node& node : nodes_) {
     const double first_m = node.motion.knots.front().position_m;
-    const auto answer = node.commander->ask(Verb::position, first_m);
-    const std::string what =
-        "node " + std::to_string(node.motion.node) + ": position " + std::to_string(first_m) + ": ";
+    const auto answer = node.link->ask(Verb::position, first_m);
+    const std::string what = whose(node) + "position " + std::to_string(first_m) + ": ";
     if (!answer) return what + answer.error();
-    if (*answer != Refusal::none) {
-      const bool out = *answer == Refusal::out_of_range;
-      return what + answer_text(*answer, out ? node.commander->nearest() : NAN);
-    }
+    if (answer->refusal != Refusal::none)
+      return what + answer_text(answer->refusal, answer->nearest);
     node.renewed = Clock::now();
   }
   return std::nullopt;
@@ -71,12 +86,11 @@ Player::Problem Player::go_to_start() {
 Player::Problem Player::renew(Node& node) {
   if (Clock::now() - node.renewed < renew_every) return std::nullopt;
   node.renewed = Clock::now();
-  const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
-  const auto answer = node.commander->ask(Verb::renew, 0.0);
-  if (!answer) return whose + answer.error();
-  if (*answer != Refusal::none)
-    return whose + "the board stopped it (" + answer_text(*answer, NAN) + ")";
-  return take(node, "playback", node.commander->playback());
+  const auto answer = node.link->ask(Verb::renew, 0.0);
+  if (!answer) return whose(node) + answer.error();
+  if (answer->refusal != Refusal::none)
+    return whose(node) + "the board stopped it (" + answer_text(answer->refusal, NAN) + ")";
+  return take(node, "playback", node.link->playback());
 }
 
 // Each answer takes a board some 10 ms: one node after the other, two would not get 50 knots a
@@ -104,7 +118,7 @@ Player::Problem Player::load(Node& node) {
     if (!first && node.played.room == 0) break;
     const control::Knot& knot = knots[node.next];
     const double after_s = first ? 0.0 : knot.time_s - knots[node.next - 1].time_s;
-    const auto played = node.commander->add_knot(after_s, knot);
+    const auto played = node.link->add_knot(after_s, knot);
     if (played && played->refusal == Refusal::queue_full) break;
     if (played && !first && played->refusal == Refusal::wrong_state) {
       node.played = *played;
@@ -130,10 +144,13 @@ bool Player::loaded() const {
 }
 
 Player::Problem Player::start() {
-  const auto sync = static_cast<std::uint8_t>(sync_ + 1);
+  const auto board_s = nodes_.front().link->board_s();
+  if (!board_s) return whose(nodes_.front()) + board_s.error();
+  const double after_s =
+      start_after_s + start_after_s_per_node * static_cast<double>(nodes_.size());
+  const MotionLink::Start start{static_cast<std::uint8_t>(sync_ + 1), after_s, *board_s};
   for (Node& node : nodes_) {
-    if (auto problem = take(node, "play", node.commander->start_at_sync(sync, start_after_s)))
-      return problem;
+    if (auto problem = take(node, "play", node.link->start(start))) return problem;
   }
   send_sync();
   started_ = synced_;
@@ -144,7 +161,7 @@ void Player::send_sync() {
   synced_ = Clock::now();
   ++sync_;
   const double time_s = std::chrono::duration<double>(synced_.time_since_epoch()).count();
-  static_cast<void>(nodes_.front().commander->send_sync(sync_, time_s));
+  nodes_.front().link->send_sync(sync_, time_s);
 }
 
 Player::Problem Player::go_on() {
@@ -157,17 +174,17 @@ Player::Problem Player::go_on() {
 }
 
 Player::Problem Player::stopped(const Node& node) const {
-  const std::string whose = "node " + std::to_string(node.motion.node) + ": ";
   const PlaybackState state = node.played.state;
   // At rest in the middle it has ended as well, as far as the board knows.
   if (state == PlaybackState::dry || (state == PlaybackState::ended && !node.has_sent_all())) {
     const double last_s = node.motion.knots[node.next - 1].time_s;
-    return whose + "ran dry: the knot after the one at " + seconds_text(last_s) + " came too late";
+    return whose(node) + "ran dry: the knot after the one at " + seconds_text(last_s) +
+           " came too late";
   }
-  if (state == PlaybackState::empty) return whose + "was told something else meanwhile";
+  if (state == PlaybackState::empty) return whose(node) + "was told something else meanwhile";
   const bool waits = state == PlaybackState::loaded || state == PlaybackState::waiting;
   if (waits && Clock::now() - started_ > started_within)
-    return whose + "has not started: no Sync came, or too late";
+    return whose(node) + "has not started: no Sync came, or too late";
   return std::nullopt;
 }
 
@@ -186,8 +203,8 @@ double Player::progress() const {
 
 void Player::rest() {
   for (Node& node : nodes_) {
-    static_cast<void>(node.commander->ask(Verb::rest, 0.0));
-    node.commander->release();
+    static_cast<void>(node.link->ask(Verb::rest, 0.0));
+    node.link->release();
   }
 }
 

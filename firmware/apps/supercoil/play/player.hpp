@@ -1,4 +1,4 @@
-// Plays motions on nodes of a bus, all in step.
+// Plays motions on nodes of a bus, or on channels of this board, all in step.
 #pragma once
 
 #include <chrono>
@@ -10,13 +10,13 @@
 
 #include <tl/expected.hpp>
 
-#include "apps/supercoil/bus/commander.hpp"
 #include "apps/supercoil/play/motion_file.hpp"
+#include "apps/supercoil/play/motion_link.hpp"
 
 namespace supercoil::operating {
 
 /// Each step waits for the nodes' answers alone; one is to be called every 20 ms or so, as commands
-/// to heat expire. Errors name the node and what it was asked.
+/// to heat expire. Errors name the node, or the channel, and what it was asked.
 class Player {
  public:
   using Problem = std::optional<std::string>;
@@ -24,6 +24,9 @@ class Player {
   /// bus: by its name.
   static tl::expected<Player, std::string> open(const std::string& bus,
                                                 std::vector<Motion> motions);
+  /// Of the supercoild that listens at this socket; a motion's node is the channel.
+  static tl::expected<Player, std::string> open_local(const std::string& socket,
+                                                      std::vector<Motion> motions);
 
   /// Tells all to go to their first knot.
   Problem go_to_start();
@@ -46,7 +49,7 @@ class Player {
  private:
   using Clock = std::chrono::steady_clock;
   struct Node {
-    std::unique_ptr<Commander> commander;
+    std::unique_ptr<MotionLink> link;
     Motion motion;
     std::size_t next = 0;  ///< of its knots
     can_client::Played played{};
@@ -55,8 +58,10 @@ class Player {
     bool has_sent_all() const { return next == motion.knots.size(); }
   };
 
-  Player() = default;
-  Problem take(Node& node, const std::string& what, const Commander::Played& played);
+  explicit Player(std::string_view kind);
+  /// "node 5: "
+  std::string whose(const Node& node) const;
+  Problem take(Node& node, const std::string& what, const MotionLink::Played& played);
   /// Each on a thread of its own, as each has a connection to the bus of its own. The first
   /// problem in the order of the nodes.
   Problem for_each_at_once(Problem (Player::*step)(Node&));
@@ -66,6 +71,7 @@ class Player {
   Problem stopped(const Node& node) const;
   void send_sync();
 
+  std::string kind_;  ///< "node" or "channel"
   std::vector<Node> nodes_;
   std::uint8_t sync_ = 0;
   Clock::time_point synced_{};

@@ -190,3 +190,20 @@ TEST(LocalCommands, WhatIsKnownOfEachMuscleIsALine) {
       "0.162 0.089 16 2 0.09 0.0086 10 nan nan\n2 ",
       answer.c_str());
 }
+
+TEST(LocalCommands, WhatBecomesOfATrajectoryIsTold) {
+  const Client one = client();
+  Row row{};
+  row.time_ns = 123456789012345;
+  rows.put(row);
+  STRCMP_EQUAL("1 empty 0 0 123456.789012345\n2 empty 0 0 123456.789012345\n",
+               answer_to(one, "playback").c_str());
+  STRCMP_EQUAL("wrong: channel '3': must be 1 to 2", answer_to(one, "3 knot 0 0.005 0").c_str());
+  // At rest there is nothing that it could follow.
+  for (const char* line : {"1 knot 0 0.005 0", "1 start 1e300"}) {
+    STRCMP_EQUAL("", answer_to(one, line).c_str());
+    rig.executive.run_tick();
+    pass_answers();
+    STRCMP_EQUAL("refused: wrong_state", one.heard().c_str());
+  }
+}

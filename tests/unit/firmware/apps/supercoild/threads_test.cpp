@@ -14,8 +14,8 @@
 #include "apps/supercoild/loop_thread.hpp"
 #include "apps/supercoild/storage_worker.hpp"
 #include "apps/supercoild/telemetry.hpp"
-#include "loop/support/rig.hpp"
 #include "unit/firmware/apps/supercoild/support/meeting_bus.hpp"
+#include "unit/firmware/apps/supercoild/support/patient_board.hpp"
 #include "unit/firmware/apps/supercoild/support/real_time_board.hpp"
 #include "unit/firmware/io/telemetry/support/master.hpp"
 #include "unit/hal_linux/support/temporary_folder.hpp"
@@ -24,42 +24,10 @@ using namespace supercoil;
 using namespace supercoil::daemon;
 using operating::BoardSocket;
 
-namespace {
-
-/// 200 Hz and patient: a machine that is busy with something else is no fault here.
-test::RigSettings patient_board() {
-  test::RigSettings s = test::rough_board();
-  s.board.rate_Hz = s.firmware.rate_Hz = 200.0;
-  BoardSupervision& board = s.firmware.supervision;
-  s.board.charge_pump_decay_s = board.charge_pump_decay_s = 1.01;
-  board.overruns_in_a_row = 100;
-  board.late_in_a_row = 1000;
-  board.telemetry_timeout_s = 30.0;
-  for (ChannelSettings& channel : s.firmware.channels) {
-    channel.thermal.boot_rise_K = 0.0;
-    channel.supervision.command_timeout_s = 2.0;
-    channel.position.max_age_s = channel.heater.current.max_age_s = 5.0;
-  }
-  s.firmware.supply.max_age_s = 5.0;
-  return s;
-}
-
-config::BoardConfig config_of(const BoardSettings& settings, const std::string& folder) {
-  config::BoardConfig config;
-  config.name = "test";
-  config.settings = settings;
-  config.storage_folder = folder;
-  for (std::size_t i = 0; i < settings.channels.size(); ++i)
-    config.labels.emplace_back().name = "muscle " + std::to_string(i + 1);
-  return config;
-}
-
-}  // namespace
-
 TEST_GROUP(DaemonThreads) {
   test::TemporaryFolder folder;
-  test::RigSettings settings = patient_board();
-  config::BoardConfig config = config_of(settings.firmware, folder.path());
+  test::RigSettings settings = test::patient_board();
+  config::BoardConfig config = test::config_of(settings.firmware, folder.path());
   storage::PosixFiles files;
   std::vector<storage::LearnedStore> stores;
   test::RealTimeBoard board{settings.board};

@@ -27,8 +27,8 @@ TEST_GROUP(Playback) {
     CHECK(add(0.0, 0.005) == Refusal::none);
     CHECK(add(2.0, 0.006) == Refusal::none);
   }
-  Refusal start(hal::Duration after = 10ms) {
-    return playback.start(now + after, now, 0.005).refusal;
+  Refusal start(hal::Duration after = 10ms, Source source = Source::can) {
+    return playback.start(now + after, now, 0.005, source).refusal;
   }
   /// Where it is so much later.
   double step(hal::Duration later) {
@@ -126,7 +126,7 @@ TEST(Playback, StartsOnceFromItsFirstKnotAndNotInThePast) {
   load();
   CHECK(start(-1ms) == Refusal::out_of_range);
   CHECK(start(61s) == Refusal::out_of_range);
-  CHECK(playback.start(now + 1ms, now, 0.00501).refusal == Refusal::not_ready);
+  CHECK(playback.start(now + 1ms, now, 0.00501, Source::can).refusal == Refusal::not_ready);
   CHECK(start() == Refusal::none);
   CHECK(start() == Refusal::wrong_state);
   CHECK(add(0.0, 0.005) == Refusal::busy);
@@ -168,4 +168,20 @@ TEST(Playback, FollowsTheClockOfItsBusWithoutAJump) {
   const double y = 1.4002 / 2.0;
   DOUBLES_EQUAL(0.005 + 0.001 * y * y * y * (10.0 - 15.0 * y + 6.0 * y * y),
                 playback.step(now, 0.005), 1e-9);
+}
+
+TEST(Playback, ThatTheBoardItselfStartedGoesByTheBoardsClock) {
+  load();
+  start(1ms, Source::local);
+  step(1ms);
+  playback.align(0.009);  // by a start over a bus before it
+  step(1000ms);
+  DOUBLES_EQUAL(0.0055, playback.step(now, 0.005), 1e-9);
+}
+
+TEST(Playback, KnotsThatAreNoTimeApartOrTooLongAreRefused) {
+  CHECK(add(0.0, 0.005) == Refusal::none);
+  for (const double after_s : {-1.0, 60.1, 1e300, std::nan("")})
+    CHECK(add(after_s, 0.005) == Refusal::out_of_range);
+  CHECK(add(60.0, 0.005) == Refusal::none);
 }

@@ -4,13 +4,17 @@
 
 using namespace supercoil;
 
+namespace {
+constexpr std::size_t channels = 4;
+}
+
 TEST_GROUP(CommandText){
-    static Command read(std::string_view text){const auto command = parse_command(text, 4);
+    static Command read(std::string_view text){const auto command = parse_command(text, channels);
 if (!command) FAIL(command.error().c_str());
 return *command;
 }
 static void check_wrong(std::string_view text, const char* why) {
-  const auto command = parse_command(text, 4);
+  const auto command = parse_command(text, channels);
   CHECK_FALSE(command.has_value());
   STRCMP_EQUAL(why, command.error().c_str());
 }
@@ -52,6 +56,35 @@ TEST(CommandText, WhatIsWrongIsSaid) {
               "rest, identify, calibrate, scale, controller, estimator, store, compare_supply, "
               "compare_current, compare_rise, tune, clear, store tuning, clear tuning");
   check_wrong("1 store 1", "'1' is too much");
+}
+
+TEST(CommandText, KnotsAndStartsOfATrajectoryAreForTheSocketAlone) {
+  const auto knot = parse_trajectory_command("2 knot 0.02 0.0051 -0.001", channels);
+  CHECK(knot && *knot);
+  CHECK((*knot)->verb == Verb::knot);
+  LONGS_EQUAL(1, (*knot)->channel);
+  DOUBLES_EQUAL(0.02, (*knot)->after_s, 1e-9);
+  DOUBLES_EQUAL(0.0051, (*knot)->value, 0.0);
+  DOUBLES_EQUAL(-0.001, (*knot)->velocity_m_per_s, 1e-9);
+  const auto start = parse_trajectory_command("1 start 86400.123456789", channels);
+  CHECK(start && *start);
+  CHECK((*start)->verb == Verb::start);
+  DOUBLES_EQUAL(86400.123456789, (*start)->value, 0.0);
+  CHECK_FALSE(parse_trajectory_command("1 position 0.001", channels).has_value());
+  CHECK_FALSE(parse_trajectory_command("", channels).has_value());
+  check_wrong("1 start 5",
+              "'start' is not a command; there are arm, disarm, reset, position, power, renew, "
+              "rest, identify, calibrate, scale, controller, estimator, store, compare_supply, "
+              "compare_current, compare_rise, tune, clear, store tuning, clear tuning");
+  for (const auto& [text, why] :
+       {std::pair{"5 knot 0 0 0", "channel '5': must be 1 to 4"},
+        std::pair{"1 knot 0.02 0.005",
+                  "'': knot needs three numbers: s after the one before, m, m/s"},
+        std::pair{"1 knot 0.02 0.005 inf",
+                  "'inf': knot needs three numbers: s after the one before, m, m/s"},
+        std::pair{"1 start soon", "'soon': start needs a time of the board, in s"},
+        std::pair{"1 start 5 6", "'6' is too much"}})
+    STRCMP_EQUAL(why, parse_trajectory_command(text, channels).value().error().c_str());
 }
 
 TEST(CommandText, EveryRefusalHasAName) {

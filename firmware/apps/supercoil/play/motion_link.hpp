@@ -1,0 +1,91 @@
+// How one muscle is told to play a motion: over a bus, or by the socket of this board.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "apps/supercoil/board_socket.hpp"
+#include "apps/supercoil/bus/commander.hpp"
+
+namespace supercoil::operating {
+
+/// Each call waits for the answer. Errors say that there was none.
+class MotionLink {
+ public:
+  MotionLink() = default;
+  MotionLink(const MotionLink&) = delete;
+  MotionLink& operator=(const MotionLink&) = delete;
+  virtual ~MotionLink() = default;
+
+  struct Answer {
+    Refusal refusal;
+    double nearest;  ///< that would have been obeyed; NaN: none is known
+  };
+  using Answered = tl::expected<Answer, std::string>;
+  using Played = Commander::Played;
+
+  /// position, renew, rest.
+  virtual Answered ask(Verb verb, double value) = 0;
+  virtual Played add_knot(double after_s, const control::Knot& knot) = 0;
+  virtual Played playback() = 0;
+  /// What all that start together have in common.
+  struct Start {
+    std::uint8_t sync;  ///< number of a Sync that is still to be sent
+    double after_s;     ///< after that, or after board_s
+    double board_s;     ///< time() of one of them, taken for all
+  };
+  virtual Played start(const Start& start) = 0;
+  /// The board's time, where it has one that all of its channels share; else NaN.
+  virtual tl::expected<double, std::string> board_s() = 0;
+  virtual void send_sync(std::uint8_t number, double master_time_s) = 0;
+  virtual void release() = 0;
+};
+
+class CanMotionLink final : public MotionLink {
+ public:
+  explicit CanMotionLink(Commander commander) : commander_(std::move(commander)) {}
+  Answered ask(Verb verb, double value) override;
+  Played add_knot(double after_s, const control::Knot& knot) override;
+  Played playback() override { return commander_.playback(); }
+  Played start(const Start& start) override;
+  tl::expected<double, std::string> board_s() override { return NAN; }
+  void send_sync(std::uint8_t number, double master_time_s) override;
+  void release() override { commander_.release(); }
+
+ private:
+  Commander commander_;
+};
+
+/// Nothing but the board's own clock is needed to start its channels together.
+class LocalMotionLink final : public MotionLink {
+ public:
+  /// channel: from 1.
+  LocalMotionLink(BoardSocket socket, int channel)
+      : socket_(std::move(socket)), channel_(std::to_string(channel)) {}
+  Answered ask(Verb verb, double value) override;
+  Played add_knot(double after_s, const control::Knot& knot) override;
+  Played playback() override;
+  Played start(const Start& start) override;
+  tl::expected<double, std::string> board_s() override;
+  void send_sync(std::uint8_t /*number*/, double /*master_time_s*/) override {}
+  void release() override {}
+
+ private:
+  struct Told {
+    can_client::Played played;
+    double board_s;
+  };
+  tl::expected<Told, std::string> told();
+  Answered command(const std::string& words);
+  /// The command, and then what became of the trajectory.
+  Played told_after(const std::string& words);
+
+  BoardSocket socket_;
+  std::string channel_;
+};
+
+}  // namespace supercoil::operating

@@ -1,0 +1,123 @@
+"""supercoil play by the board's own socket: supercoild's threads over a simulated board in real time, without CAN."""
+
+import math
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from local_board import DEADLINE_S, LocalBoard, Watch, apart_m
+
+SUPERCOIL = os.environ["SUPERCOIL"]
+TRIES = 5
+REST_M = 0.003
+# What a busy machine does to whoever commands in real time.
+STARVED = ("the board stopped it", "ran dry", "was told something else", "has not started", "not_ready", "busy",
+           "out_of_range", "wrong_state", "does not answer")
+
+
+def motion(folder, of_channels):
+    """There and back by 1 mm in 3 s, in part."""
+    rows = [[f"{i * 0.02:.3f}", *(f"{REST_M + scale * 0.0005 * (1.0 - math.cos(2.0 * math.pi * i / 150)):.7f}"
+                                  for scale in of_channels.values())] for i in range(151)]
+    path = pathlib.Path(folder) / "motion.csv"
+    path.write_text("\n".join(map(",".join, [["time_s", *(f"{n}:position_m" for n in of_channels)], *rows])) + "\n")
+    return path
+
+
+class LocalPlay(unittest.TestCase):
+    def setUp(self):
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
+        board = LocalBoard()
+        self.addCleanup(board.end)
+        self.path = board.path
+
+    def supercoil(self, *arguments):
+        return subprocess.run([SUPERCOIL, *arguments, "--socket", self.path], capture_output=True, text=True,
+                              timeout=DEADLINE_S)
+
+    def arm(self):
+        for channel in ("1", "2"):
+            self.supercoil("command", channel, "reset")
+            self.supercoil("command", channel, "disarm")
+            end = time.monotonic() + DEADLINE_S
+            while self.supercoil("command", channel, "arm").returncode:
+                self.assertLess(time.monotonic(), end)
+
+    def play(self, *arguments, wanted=None):
+        """Again where the machine was too busy, unless it says what is wanted."""
+        for _ in range(TRIES):
+            self.arm()
+            done = self.supercoil("play", *arguments)
+            if (wanted and wanted in done.stderr) or not any(why in done.stderr for why in STARVED):
+                return done
+        self.fail(f"the machine is too busy: {done.stderr}")
+
+    def test_two_channels_go_their_ways_in_the_same_ticks(self):
+        watch = Watch(self.path)
+        watch.start()
+        done = self.play(motion(self.folder, {1: 1.0, 2: 0.5}))
+        seen = watch.end()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        apart, way_m = apart_m(seen, REST_M, 2.0)
+        self.assertGreater(way_m, 0.0009)
+        # In a tick of 5 ms the first goes 5 um; the rows of both may be of two ticks.
+        self.assertLess(apart, 1.5e-5)
+
+    def test_one_channel_holds_its_last_row_until_it_is_interrupted(self):
+        path = pathlib.Path(self.folder) / "one.csv"
+        path.write_text("time_s,position_m\n0,0.003\n0.5,0.0031\n1,0.0032\n")
+        self.arm()
+        player = subprocess.Popen([SUPERCOIL, "play", path, "--channel", "2", "--settle", "0.2", "--hold", "--socket",
+                                   self.path], stderr=subprocess.PIPE, text=True)
+        end = time.monotonic() + DEADLINE_S
+        while " 0.0032 " not in self.supercoil("command", "state").stdout.splitlines()[1]:
+            self.assertIsNone(player.poll(), "the machine is too busy")
+            self.assertLess(time.monotonic(), end)
+        player.send_signal(signal.SIGINT)
+        self.assertEqual(player.communicate()[1].replace("\r", "").strip(), "")
+        self.assertEqual(player.returncode, 0)
+        self.assertIn("2 armed rest none", self.supercoil("command", "state").stdout)
+
+    def test_what_a_muscle_cannot_do_is_refused_with_its_time(self):
+        path = pathlib.Path(self.folder) / "fast.csv"
+        path.write_text("time_s,position_m\n0,0.002\n1,0.0022\n1.2,0.02\n1.4,0.02\n")
+        why = "channel 1: the knot at 1.000 s: refused: infeasible"
+        done = self.play(path, "--settle", "0.2", wanted=why)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(why, done.stderr)
+        self.assertIn("1 armed rest", self.supercoil("command", "state").stdout)
+
+    def test_muscles_must_be_armed_and_the_socket_be_there(self):
+        done = self.supercoil("play", motion(self.folder, {2: 1.0}))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("channel 2: position 0.003000: refused: wrong_state", done.stderr)
+        done = self.supercoil("play", motion(self.folder, {3: 1.0}))
+        self.assertIn("channel 3: position 0.003000: wrong: channel '3': must be 1 to 2", done.stderr)
+        self.path = f"{self.folder}/nothing"
+        done = self.supercoil("play", motion(self.folder, {1: 1.0}))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("does supercoild run?", done.stderr)
+
+    def test_one_that_is_killed_lets_the_muscle_cool(self):
+        for _ in range(TRIES):
+            self.arm()
+            player = subprocess.Popen([SUPERCOIL, "play", motion(self.folder, {1: 1.0}), "--settle", "1", "--socket",
+                                       self.path], stderr=subprocess.DEVNULL)
+            self.addCleanup(player.wait)
+            time.sleep(2.0)
+            played = player.poll() is None  # else the machine was too busy for it
+            player.kill()
+            if played:
+                break
+        self.assertTrue(played)
+        end = time.monotonic() + DEADLINE_S
+        while "command_timeout" not in self.supercoil("command", "state").stdout:
+            self.assertLess(time.monotonic(), end)
+
+
+if __name__ == "__main__":
+    unittest.main()

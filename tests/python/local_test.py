@@ -111,8 +111,9 @@ class Local(unittest.TestCase):
                                                  Setting.sense_error_ratio: 0.021})
             with self.assertRaisesRegex(supercoil.SupercoilError, "only over CAN"):
                 muscle.change(Setting.max_power_W, 1.0)
-            with self.assertRaisesRegex(supercoil.SupercoilError, "trajectories .* only over CAN"):
-                muscle.play([0.0, 1.0], [0.003, 0.003])
+            self.daemon.answers["playback"] = "wrong: channel 'playback': must be 1 to 2"  # an older board
+            with self.assertRaisesRegex(supercoil.BusError, "nothing is known of channel 2: wrong: channel 'playback'"):
+                muscle.play([0.0, 1.0], [0.003, 0.003], settle_s=0.0)
 
     def test_a_controller_is_tuned_and_the_boards_reason_for_a_refusal_is_told(self):
         for of, value in (("in_use", "1500"), ("configured", "2000"), ("stored", "2000"), ("prepared", "1500")):

@@ -10,7 +10,7 @@ import can
 
 from supercoil import codec
 from supercoil.address import has_ended, open_bus
-from supercoil.clock import Clock
+from supercoil.clock import BusClock
 from supercoil.errors import BusError
 
 Take = Callable[[int, float, bytes], None]  # base, time in seconds, data
@@ -34,7 +34,7 @@ class Bus:
         self._everybody: list[Callable[[int, int, float, bytes], None]] = []
         self._closing = False
         self._broken: str | None = None
-        self.clock = Clock(self.send)
+        self.clock = BusClock(self.send)
         self._thread = threading.Thread(target=self._read, name="supercoil bus", daemon=True)
         self._thread.start()
 

@@ -7,12 +7,12 @@ import socket
 import time
 
 from supercoil import codec
-from supercoil.clock import Clock
+from supercoil.clock import SocketClock
 from supercoil.errors import BusError, NoAnswerError, RefusalError, SupercoilError
 from supercoil.generated import messages, names, refusals
 from supercoil.generated.names import Opcode, Quantity, Refusal, Setting, Tunable, When
 from supercoil.heartbeat import Heartbeat
-from supercoil.local_text import command_line, frames_of
+from supercoil.local_text import command_line, frames_of, trajectory_of
 from supercoil.telemetry import Telemetry
 
 _ANSWER_WITHIN_S = 2.0
@@ -29,6 +29,8 @@ class SocketLink:
     def __init__(self, path: str, channel: int) -> None:
         self.telemetry = Telemetry(channel)
         self.heartbeat = Heartbeat(channel)
+        self.trajectory = trajectory_of(["empty", "0", "0"])
+        self.clock = SocketClock.of(path)
         self.holds_lease = False  # something was commanded
         self._path = path
         self._channel = channel
@@ -64,11 +66,13 @@ class SocketLink:
             self._socket = None
 
     async def command(self, opcode: Opcode, value: float) -> None:
-        line = command_line(opcode, value)
+        await self._obey(command_line(opcode, value))
+        self.holds_lease = True
+
+    async def _obey(self, line: str) -> None:
         answer = await self._ask(f"{self._channel} {line}")
         if answer != "ok":
             raise self._refused(line, answer)
-        self.holds_lease = True
 
     async def disarm(self) -> None:
         await self.command(Opcode.disarm, 0.0)
@@ -103,22 +107,23 @@ class SocketLink:
             raise self._refused(line, answer) from None
 
     async def knot(self, after_s: float, position_m: float, velocity_m_per_s: float) -> messages.Trajectory:
-        raise self._over_can_only()
+        await self._obey(f"knot {after_s!r} {position_m!r} {velocity_m_per_s!r}")
+        await self._look_at_playback()
+        return self.trajectory
 
     async def play(self, when: When, sync: int = 0, after_s: float = 0.0) -> messages.Trajectory:
-        raise self._over_can_only()
+        board_s = await self._look_at_playback()
+        if when != When.never:
+            at_s = self.clock.start_s(sync, board_s, after_s) if when == When.at_sync else board_s + after_s
+            await self._obey(f"start {at_s!r}")
+            await self._look_at_playback()
+        return self.trajectory
 
-    @property
-    def trajectory(self) -> messages.Trajectory:
-        raise self._over_can_only()
-
-    @property
-    def clock(self) -> Clock:
-        raise self._over_can_only()
-
-    def _over_can_only(self) -> SupercoilError:
-        return SupercoilError(f"channel {self._channel}: trajectories cannot be played by the board's socket, only "
-                              "over CAN")
+    async def _look_at_playback(self) -> float:
+        """The board's time."""
+        *words, board_s = await self._words("playback")
+        self.trajectory = trajectory_of(words)
+        return float(board_s)
 
     async def keep(self) -> None:
         pass

@@ -3,9 +3,10 @@
 import math
 from collections.abc import Iterator, Mapping
 
+from supercoil import codec
 from supercoil.codec import FORGET, FORGET_TUNING, RISES_FROM, STORE, STORE_TUNING, TUNES_FROM
 from supercoil.generated import messages, results
-from supercoil.generated.names import Fault, Mode, Opcode, Parameter, Result, State
+from supercoil.generated.names import Fault, Mode, Opcode, Parameter, Playback, Result, State
 from supercoil.generated.version import PROTOCOL_VERSION
 
 _STORE = {FORGET: "clear", STORE: "store", STORE_TUNING: "store tuning", FORGET_TUNING: "clear tuning"}
@@ -28,6 +29,14 @@ def command_line(opcode: Opcode, value: float) -> str:
 def _notes(word: str) -> int:
     names = word.split(",")
     return sum(1 << bit for bit, name in enumerate(results.NOTES) if name in names)
+
+
+def trajectory_of(words: list[str]) -> messages.Trajectory:
+    """A channel's line of "playback", but for the board's time at its end."""
+    told = {"playback": Playback[words[0]], "room": int(words[1]), "buffered_s": float(words[2])}
+    decoded = codec.decode(messages.TRAJECTORY, codec.encode(codec.LAYOUTS[messages.TRAJECTORY], told))
+    assert isinstance(decoded, messages.Trajectory)
+    return decoded
 
 
 def frames_of(words: list[str], *, probing: bool) -> Iterator[tuple[int, Mapping[str, float]]]:

@@ -27,13 +27,17 @@ TICK_MS = 10.0
 ROUND_MS = 5.0  # of the telemetry thread
 MARK_MS = 10.0
 STEP_MS = 2.0
-QUANTITIES = 15  # that MuscleRead may ask for
 CONFIGURED = {"thermal_mass_J_per_K": 0.162, "heat_transfer_W_per_K": 0.089, "stiffness_N_per_m": 16, "damping_Ns_per_m": 2,
               "moving_mass_kg": 0.09, "cold_resistance_Ohm": 10, "position_scale": 1}
 
 
 def protocol():
     return cantools.database.load_file(rig.ROOT / "firmware" / "io" / "can" / "supercoil.dbc")
+
+
+def quantities(dbc):
+    """That MuscleRead may ask for."""
+    return len(dbc.get_message_by_name("Muscle").get_signal_by_name("quantity").choices)
 
 
 def disarm_frame(dbc):
@@ -95,7 +99,7 @@ def judge(table, run, dbc, log):
     table.row("    and at its end", witness.at(witness.looks(run.witness), marks["by_bus_ended"]).channels[0].power_W, 0, 0, "W")
     table.row("    the other end sees it armed", bool(re.search(r"^seen node 5: armed", run.console, re.M)), 1, 1, "")
     judge_crowded(table, run, marks, frames)
-    judge_muscle(table, frames)
+    judge_muscle(table, frames, quantities(dbc) + 1)
     table.row("wire open: arm tells the fault and its page",
               "wire open: supercoil: 5 arm: fault heater_open; docs/faults/heater_open.md" in run.console, 1, 1, "")
     table.row("SIGTERM ended it with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
@@ -124,16 +128,16 @@ def judge_crowded(table, run, marks, frames):
     table.row("    disarmed", str(heard[-1]["state"]) == "disarmed", 1, 1, "")
 
 
-def judge_muscle(table, frames):
+def judge_muscle(table, frames, asked):
     """What the board goes by of its muscle: as board.toml and the defaults say, as nothing was identified."""
     told = [(signals["quantity"], signals["value"]) for _, node, message, signals in frames
             if message.name == "Muscle" and node == FIRST_NODE]
-    table.row("questions about the muscle: answered", len(told), QUANTITIES + 1, QUANTITIES + 1, "")
+    table.row("questions about the muscle: answered", len(told), asked, asked, "")
     known = {str(quantity): value for quantity, value in told}
     table.row("    each with its own quantity", len(known), len(told), len(told), "")
     for quantity, value in CONFIGURED.items():
         table.row(f"    {quantity}", known[quantity], 0.999 * value, 1.001 * value, "")
-    table.row("    not identified, or no such quantity: not known", sum(value != value for value in known.values()), 6, 6, "")
+    table.row("    not identified, in no joint, no such quantity: not known", sum(value != value for value in known.values()), 8, 8, "")
 
 
 def judge_python(table, run):
@@ -144,17 +148,24 @@ def judge_python(table, run):
     looks = [look for look in witness.looks(run.witness) if marks["begins"] <= look.time_s <= marks["ended"]]
     table.row("    where the muscle was at most", max(look.channels[0].position_m for look in looks) * 1e3, 4.5, 6.5, "mm")
     table.row("    power at its end", witness.at(looks, marks["ended"]).channels[0].power_W, 0, 0, "W")
+    table.row("the Python package ended with", int(re.search(r"^package ended with (\d+)", run.console, re.M)[1]), 0, 0, "")
+    for name in ("bus", "socket"):
+        for what, low_mm, high_mm in (("moved to", 3.7, 4.3), ("played up to", 4.45, 4.501)):
+            told = re.search(rf"^package: {name} {what} ([\d.]+) mm", run.console, re.M)
+            table.row(f"    by its {name} it {what}", float(told[1]) if told else None, low_mm, high_mm, "mm")
     table.row("SIGTERM ended supercoild with", int(re.search(r"firmware ended with (\d+)", run.console)[1]), 0, 0, "")
 
 
 def run_python(architecture):
-    """The example and Python lie beside the script, as links: QEMU shares one folder."""
+    """Programs and Python lie beside the script, as links: QEMU shares one folder."""
     build = rig.ARCHITECTURES[architecture].build
     share = build / "python_test"
     shutil.rmtree(share, ignore_errors=True)
-    for name in ("examples/python/move_muscle.py", "firmware/io/can/supercoil.dbc"):
+    for name in ("examples/python/move_muscle.py", "firmware/io/can/supercoil.dbc", "tests/hil/board_program.py"):
         (share / "source" / name).parent.mkdir(parents=True)
         shutil.copy(rig.ROOT / name, share / "source" / name)
+    shutil.copytree(rig.ROOT / "firmware" / "python", share / "source" / "firmware" / "python",
+                    ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(build / "python", share / "python", copy_function=os.link, symlinks=True)
     settings = rig.Settings(architecture, share, watchdog=True, can=2, time_out_s=900.0)
     return rig.run(rig.HERE / "scripts" / "python", (), settings)
@@ -169,7 +180,7 @@ def main():
     settings = rig.Settings(architecture, "telemetry_test", watchdog=True, can=2, time_out_s=900.0)
     log = settings.share / "can.log"
     log.unlink(missing_ok=True)
-    run = rig.run(rig.HERE / "scripts" / "telemetry", (disarm_frame(dbc),), settings)
+    run = rig.run(rig.HERE / "scripts" / "telemetry", (disarm_frame(dbc), quantities(dbc)), settings)
     table.judge("telemetry", lambda t, r: judge(t, r, dbc, log.read_text()), run)
     table.judge("Python", judge_python, run_python(architecture))
     table.end()

@@ -31,7 +31,7 @@ def looks(run, share):
 
 def told(console):
     """Exit status by what ended with it."""
-    lines = re.findall(r"^(arm \d|arm dead \d|held \d|played|first ended with|second ended with) (\d+)$", console, re.M)
+    lines = re.findall(r"^(arm \d|arm dead \d|held \d|played|drifted|local|first ended with|second ended with) (\d+)$", console, re.M)
     return {what: int(status) for what, status in lines}
 
 

@@ -53,6 +53,16 @@ class Told(ModulesCase):
                                    "node 3, turns right: 1.25 W, 40 … 61 °C", "node 2, turns left: 0.50 W, – … – °C"])
         self.assertEqual(told[1], told[0])
 
+    def test_how_far_the_other_muscle_may_contract_is_told(self):
+        told = self.ask(TOLD + """muscle(1, 0.015, 1);
+            const { joint_of } = await import("/joint.js");
+            const words = ({ lever_m, ...rest }) => [lever_m.toFixed(6), rest.other, rest.other_travel_m?.toFixed(6)];
+            const before = words(joint_of(store, 1, 1));
+            const over_travel = Number(Object.entries(protocol.Limit.fault.values).find(([, is]) => is === "over_travel")[0]);
+            hear(2, "Limit", { fault: over_travel, limit: 0.006 });
+            return [before, words(joint_of(store, 1, 1))];""")
+        self.assertEqual(told, [["0.015000", 2, None], ["0.015000", 2, "0.006000"]])
+
     def test_a_muscle_alone_and_one_that_was_not_asked_have_no_joint(self):
         self.assertEqual(self.ask(TOLD + "muscle(1, null, null); return [shown(1), shown(2)];"), [None, None])
 
@@ -77,6 +87,10 @@ class Angles(ModulesCase):
         self.assertEqual(why, "")
         self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, offset: 15 }, 0.008, agonist);"""),
                          "offset and amplitude reach from -5.00 to 35.00 °; allowed: -30.56 to 30.56 °")
+
+    def test_it_goes_no_further_back_than_its_other_muscle_may_contract(self):
+        self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, amplitude: 25 }, 0.008, measure_of({ lever_m: 0.015, other: 2, other_travel_m: 0.006 }));"""),
+                         "offset and amplitude reach from -30.00 to 20.00 °; allowed: -22.92 to 30.56 °")
 
     def test_a_file_of_a_joint_may_have_negative_positions(self):
         told = self.ask(self.SCRIPT + """const why = (row, measure) => { try { waveform_of_file(`time_s,position_m\n0,0\n1,${row}\n`, 0.008, measure); return ""; } catch ({ message }) { return message; } };

@@ -97,6 +97,9 @@ class Axis {
   Reply pull_with(double power_W);
   /// The most of that; what the heater may have bounds it as well.
   void limit_pull(double max_W) { max_pull_W_ = max_W; }
+  double max_travel_m() const { return settings_.supervision.max_travel_m; }
+  /// In a joint, of its agonist: how far the other muscle may pull it.
+  void limit_back(double max_m) { max_back_m_ = max_m; }
   /// m, or W in open loop and in Mode::joint.
   double reference() const { return reference_; }
   /// Follows what was admitted. value: m, or W in open loop.
@@ -194,6 +197,8 @@ class Axis {
   Playback playback_;
   double reference_ = 0.0;  ///< m, or W in open loop
   double max_pull_W_ = std::numeric_limits<double>::infinity();
+  /// Below rest. Of a single muscle as far as above it.
+  double max_back_m_ = settings_.supervision.max_travel_m;
   control::ControllerOutput demanded_;
   double share_W_ = 0.0;  ///< of that, from its own heater
   modes::Identify identify_;

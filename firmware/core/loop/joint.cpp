@@ -20,7 +20,9 @@ Joint::Joint(const JointSettings& settings, Axis& agonist, Axis& antagonist, dou
       antagonist_(antagonist),
       first_W_(settings.co_contraction_W),
       max_W_(settings.max_co_contraction_W),
-      lag_ratio_(step_s / co_contraction_lag_s) {}
+      lag_ratio_(step_s / co_contraction_lag_s) {
+  agonist_.limit_back(antagonist_.max_travel_m());
+}
 
 void Joint::observe() {
   const double ratio = gain_ratio(agonist_, antagonist_);

@@ -22,7 +22,8 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able)
                             able.theta[3] * 0.5 * (from.position + to.position);
     const bool possible = needed_W >= able.range.min_W - margin_W &&
                           needed_W <= able.range.max_W + margin_W &&
-                          std::abs(to.position) <= float_rounding * able.max_travel_m;
+                          to.position >= -float_rounding * able.max_back_m &&
+                          to.position <= float_rounding * able.max_travel_m;
     if (!possible) return false;  // a NaN as well
     from = to;
   }
@@ -30,11 +31,12 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able)
 }
 
 Reply Playback::add(const Command& command, const Able& able) {
+  const double min_m = -float_rounding * able.max_back_m;
   const double max_m = float_rounding * able.max_travel_m;
   const auto velocity = static_cast<double>(command.velocity_m_per_s);
   const auto after_s = static_cast<double>(command.after_s);
-  if (!(std::abs(command.value) <= max_m))
-    return {Refusal::out_of_range, std::clamp(command.value, -max_m, max_m)};
+  if (!(command.value >= min_m && command.value <= max_m))
+    return {Refusal::out_of_range, std::clamp(command.value, min_m, max_m)};
   if (!std::isfinite(velocity) || !(after_s >= 0.0 && after_s <= max_after_s))
     return Refusal::out_of_range;
   if (after_s == 0.0) return begin(command.value, velocity);

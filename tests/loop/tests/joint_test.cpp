@@ -63,6 +63,17 @@ TEST(Joint, SettlesAtSetPointsOfBothSigns) {
   CHECK_FALSE(rig.interval_missed);
 }
 
+TEST(Joint, GoesNoFurtherBackThanTheAntagonistMayContract) {
+  RigSettings settings = joint_board();
+  settings.firmware.channels[antagonist].supervision.max_travel_m = 0.005;
+  Rig stiff(settings);
+  begin(stiff);
+  CHECK(stiff.answer_of(agonist, Verb::position, -0.0051) == Refusal::out_of_range);
+  CHECK(stiff.answer_of(agonist, Verb::position, -0.0049) == Refusal::none);
+  CHECK(stiff.answer_of(agonist, Verb::position, 0.0079) == Refusal::none);
+  CHECK(stiff.answer_of(agonist, Verb::position, 0.0081) == Refusal::out_of_range);
+}
+
 TEST(Joint, PowerToTheAntagonistChangesWithWhatBothPullAndHardlyTheAngle) {
   arm();
   hold(5.0 * degree_m, 60.0);

@@ -16,10 +16,11 @@ const MODES = {
 };
 
 /** The modes of a muscle in a joint, which the agonist's node commands. */
-function modes_in({ lever_m, other }) {
-  const { unit, per_m } = measure_of({ lever_m });
+function modes_in(joint) {
+  const { lever_m, other } = joint;
+  const { unit, per_m, min_m } = measure_of(joint);
   const position = lever_m > 0
-    ? { ...MODES.position, unit, factor: per_m, both_ways: true, steps: [0.05, 0.1, 0.5, 1, 5], step: 0.5, label: "Angle",
+    ? { ...MODES.position, unit, factor: per_m, min: min_m, steps: [0.05, 0.1, 0.5, 1, 5], step: 0.5, label: "Angle",
       hint: "The controller makes the joint follow this angle." }
     : { ...MODES.position, hint: `Node ${other} commands the joint; a position is refused here.` };
   const power = lever_m > 0 ? MODES.power
@@ -92,16 +93,17 @@ export class ControlPanel {
 
   /** Number and slider end at the limit of the detector, where the board has told it. */
   #scale() {
-    const { factor, steps: [finest], opcode, both_ways } = this.modes[this.mode];
+    const { factor, steps: [finest], opcode, min } = this.modes[this.mode];
     const limit = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
     const step = Number(this.step.value);
-    const reach = (unit) => (Math.floor((limit * factor) / unit) * unit).toFixed(2);
+    const whole = (way, unit) => (Math.floor((way * factor) / unit) * unit).toFixed(2);
+    const reach = (unit) => whole(limit, unit), back = (unit) => -whole(-min(limit), unit);
     Object.assign(this.number, { step, max: reach(finest) });
-    this.min = both_ways ? -Number(this.number.max) : 0;
+    this.min = min ? back(finest) : 0;
     // Steps are counted from the minimum, and 0 must be among them: a slider's is a multiple of the step, and the number has none.
-    if (both_ways) {
+    if (min) {
       this.number.removeAttribute("min");
-      Object.assign(this.slider, { min: -reach(step), step, max: reach(step) });
+      Object.assign(this.slider, { min: back(step), step, max: reach(step) });
     } else {
       this.number.min = 0;
       Object.assign(this.slider, { min: 0, step, max: reach(finest) });
@@ -145,7 +147,7 @@ export class ControlPanel {
 
   /** A muscle that turns out to be in a joint: its numbers are angles from now on. */
   #take_joint(joint) {
-    if (!joint || (joint.lever_m === this.joint?.lever_m && joint.other === this.joint.other)) return;
+    if (!joint || Object.keys(joint).every((key) => joint[key] === this.joint?.[key])) return;
     this.joint = joint;
     this.modes = modes_in(joint);
     Object.assign(this, { values: {}, steps: {} });

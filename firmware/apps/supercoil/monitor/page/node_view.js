@@ -76,7 +76,8 @@ export class NodeView {
     this.element.classList.toggle("stale", !this.status || this.status.state === "silent");
     if (this.margins.limits.size !== limits) this.draw();
     // What was told stays, while a board that starts again has not told it yet.
-    this.joint = joint_of(this.store, this.node, now_s) ?? this.joint;
+    const joint = joint_of(this.store, this.node, now_s);
+    if (joint) this.joint = { ...this.joint, ...joint };
     this.panel.update(this.status, this.margins.limits, this.joint);
     this.waveform.update(this.margins.limits, measure_of(this.joint));
     for (const plot of this.plots) plot.show_values();

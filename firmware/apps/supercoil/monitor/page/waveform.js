@@ -30,7 +30,7 @@ export function waveform(shape, values, measure = LENGTH) {
 }
 
 /** What is wrong with the values, in words, or "". max_m: the channel's travel. */
-export function refuse_values(shape, values, max_m, { unit, per_m, both_ways } = LENGTH) {
+export function refuse_values(shape, values, max_m, { unit, per_m, min_m } = LENGTH) {
   for (const [name, [label]] of Object.entries(SHAPES[shape])) {
     const value = values[name];
     if (!Number.isFinite(value)) return `${label}: a number is missing`;
@@ -38,9 +38,9 @@ export function refuse_values(shape, values, max_m, { unit, per_m, both_ways } =
   }
   const low = values.offset - Math.abs(values.amplitude);
   const high = values.offset + Math.abs(values.amplitude);
-  const max = max_m * per_m, min = both_ways ? -max : 0;
+  const max = max_m * per_m, min = min_m(max_m) * per_m;
   if (low < min || high > max) {
-    return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} ${unit}; allowed: ${both_ways ? min.toFixed(2) : 0} to ${max.toFixed(2)} ${unit}`;
+    return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} ${unit}; allowed: ${min ? min.toFixed(2) : 0} to ${max.toFixed(2)} ${unit}`;
   }
   return "";
 }
@@ -48,8 +48,8 @@ export function refuse_values(shape, values, max_m, { unit, per_m, both_ways } =
 const COLUMNS = ["time_s", "position_m"];
 
 /** A file's rows, and as a waveform, straight between them. Throws an Error that names line and value. */
-export function waveform_of_file(text, max_m, { both_ways } = LENGTH) {
-  const min_m = both_ways ? -max_m : 0;
+export function waveform_of_file(text, max_m, measure = LENGTH) {
+  const min_m = measure.min_m(max_m);
   const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line) => line.split(",").map((cell) => cell.trim()));
   const places = COLUMNS.map((name) => lines[0].indexOf(name));
   if (places.includes(-1)) throw new Error(`line 1: "${lines[0].join(",")}": the first line must name the columns time_s and position_m`);

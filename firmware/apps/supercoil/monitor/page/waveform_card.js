@@ -101,8 +101,9 @@ export class WaveformCard {
   /** limits: of the detectors, by fault; measure: in which positions are typed. */
   update(limits, measure) {
     this.max_m = limits.get("over_travel");
-    if (measure.per_m === this.measure.per_m) return;
+    const same = measure.per_m === this.measure.per_m;
     this.measure = measure;
+    if (same) return;
     for (const { typed_unit } of this.fields.values()) if (typed_unit) show(typed_unit, measure.unit);
     // About the middle of where it may go, and little of it.
     if (measure.both_ways) [this.fields.get("offset").input.value, this.fields.get("amplitude").input.value] = [0, 5];

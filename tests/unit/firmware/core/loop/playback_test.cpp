@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 TEST_GROUP(Playback) {
   const control::PhysicalParameters muscle{};
-  Playback::Able able{control::theta_from(muscle), muscle.moving_mass_kg, 0.025, {0.0, 4.5}};
+  Playback::Able able{control::theta_from(muscle), muscle.moving_mass_kg, 0.020, 0.025, {0.0, 4.5}};
   supercoil::Playback playback;
   hal::Time now = 100s;
 
@@ -108,7 +108,7 @@ TEST(Playback, RefusesWhatTheMuscleCannotDoWhenItComes) {
   CHECK(add(0.2, 0.001) == Refusal::infeasible);  // cooling
   CHECK(add(2.0, 0.006, 0.1) == Refusal::infeasible);
   CHECK(add(1.0, 0.0251) == Refusal::out_of_range);
-  CHECK(add(1.0, -0.0251) == Refusal::out_of_range);
+  CHECK(add(1.0, -0.0201) == Refusal::out_of_range);
   CHECK(add(1.0, std::nan("")) == Refusal::out_of_range);
   CHECK(add(1.0, 0.005, std::nan("")) == Refusal::out_of_range);
   CHECK(add(std::nan(""), 0.005) == Refusal::out_of_range);

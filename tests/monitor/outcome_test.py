@@ -4,7 +4,7 @@ import unittest
 
 from modules import ModulesCase
 
-OUTCOME = """const { limits_told, never_armed_told, swing_told } = await import("/outcome.js");
+OUTCOME = """const { infeasible_told, limits_told, never_armed_told, swing_told } = await import("/outcome.js");
     const { protocol } = await (await fetch("/api/about")).json();
     const number = (message, signal, name) => Number(Object.entries(protocol[message][signal].values).find(([, is]) => is === name)[0]);
     const store = new Store(protocol, true);
@@ -26,6 +26,13 @@ class OutcomeTest(ModulesCase):
             hear("Power", 0, 500, 0.02, (time) => by(time < 5 ? "cooling" : time < 6 ? "maximum" : time < 6.5 ? "slew" : "nothing"));
             return [limits_told(store, 1, range), limits_told(store, 1, { from_s: 7, to_s: 10 }), limits_told(store, 2, range)];"""),
             ["At a limit in 30.0 % of the time that it heated: maximum 20.0 %, slew 10.0 %.", "", ""])
+
+    def test_a_reference_that_was_not_feasible_is_told_of_while_a_position_is_followed(self):
+        self.assertEqual(self.ask(OUTCOME + """const mode = (name) => ({ ...state("active"), mode: number("Status", "mode", name) });
+            hear("Status", 0, 100, 0.1, (time) => mode(time < 5 ? "power" : "position"));
+            hear("Power", 0, 500, 0.02, (time) => by(time < 5.5 ? "maximum" : time < 6 ? "cooling" : time < 8 ? "slew" : "nothing"));
+            return [infeasible_told(store, 1, range), infeasible_told(store, 1, { from_s: 6.1, to_s: 10 }), infeasible_told(store, 1, { from_s: 0, to_s: 4 })];"""),
+            ["The reference asked for more than the muscle can do in 20.0 % of the time that it was followed: take a slower or a smaller one, or shape_reference.", "", ""])
 
     def test_why_it_was_never_armed(self):
         self.assertEqual(self.ask(OUTCOME + """const told = [never_armed_told(store, 1, range)];

@@ -1,4 +1,4 @@
-// What was, in the time that is shown: limits that took power, an arming that never came, a swing that does not end.
+// What was, in the time that is shown: limits that took power, a reference that was not feasible, an arming that never came, a swing that does not end.
 
 import { fixed, significant, words } from "./format.js";
 import { refusal_words } from "./manual_control.js";
@@ -8,6 +8,9 @@ const SWING_S = 60;
 const STILL_M = 1e-5;
 const LEAST_PERIODS = 4;
 const LEAST_SHARE = 0.0005; // else 0.0 %
+// A rise of the power that is limited ends by itself.
+const FEASIBLE = new Set(["nothing", "slew", "invalid"]);
+const INFEASIBLE_SHARE = 0.01;
 // Of the periods' spread over their mean: noise crosses at no rhythm.
 const RHYTHM = 0.2;
 
@@ -23,24 +26,40 @@ function* samples(table, columns, from_s, to_s) {
 
 const number_of = (store, message, signal, name) => Number(Object.entries(store.protocol[message]?.[signal]?.values ?? {}).find(([, is]) => is === name)?.[0]);
 
-/** "at a limit in 12.3 % of the time that it heated: maximum 10.0 %, slew 2.3 %", or "". */
-export function limits_told(store, node, { from_s, to_s }) {
-  const active = number_of(store, "Status", "state", "active");
-  const states = [...samples(store.table(node, "Status"), ["state"], from_s, to_s)];
+/** What limited the power while the channel was active, and in a mode if one is named: counts by name, and their sum. */
+function limit_counts(store, node, { from_s, to_s }, mode) {
+  const wanted = [number_of(store, "Status", "state", "active"), ...(mode ? [number_of(store, "Status", "mode", mode)] : [])];
+  const states = [...samples(store.table(node, "Status"), mode ? ["state", "mode"] : ["state"], from_s, to_s)];
   const counts = new Map();
   let all = 0;
   let place = 0;
   for (const [time_s, by] of samples(store.table(node, "Power"), ["limited_by"], from_s, to_s)) {
     while (place < states.length - 1 && states[place + 1][0] <= time_s) ++place;
-    if (states[place]?.[1] !== active) continue;
+    if (!states[place] || wanted.some((is, i) => states[place][1 + i] !== is)) continue;
     ++all;
-    counts.set(by, (counts.get(by) ?? 0) + 1);
+    const name = store.word("Power", "limited_by", by);
+    counts.set(name, (counts.get(name) ?? 0) + 1);
   }
-  const percent = (count) => `${fixed((100 * count) / all, 1)} %`;
-  const names = [...counts].map(([by, count]) => [store.word("Power", "limited_by", by), count]).filter(([name, count]) => name !== "nothing" && count / all >= LEAST_SHARE).sort((a, b) => b[1] - a[1]);
+  return { counts, all };
+}
+
+const percent = (count, all) => `${fixed((100 * count) / all, 1)} %`;
+
+/** "at a limit in 12.3 % of the time that it heated: maximum 10.0 %, slew 2.3 %", or "". */
+export function limits_told(store, node, range) {
+  const { counts, all } = limit_counts(store, node, range);
+  const names = [...counts].filter(([name, count]) => name !== "nothing" && count / all >= LEAST_SHARE).sort((a, b) => b[1] - a[1]);
   if (names.length === 0) return "";
   const sum = names.reduce((total, [, count]) => total + count, 0);
-  return `At a limit in ${percent(sum)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count)}`).join(", ")}.`;
+  return `At a limit in ${percent(sum, all)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count, all)}`).join(", ")}.`;
+}
+
+/** That the reference was none that the muscle can follow, as the simulator's summary counts it; or "". */
+export function infeasible_told(store, node, range) {
+  const { counts, all } = limit_counts(store, node, range, "position");
+  const missed = [...counts].reduce((sum, [name, count]) => sum + (FEASIBLE.has(name) ? 0 : count), 0);
+  if (!(missed / all >= INFEASIBLE_SHARE)) return "";
+  return `The reference asked for more than the muscle can do in ${percent(missed, all)} of the time that it was followed: take a slower or a smaller one, or shape_reference.`;
 }
 
 /** Why it was never armed, or "" when it was. */

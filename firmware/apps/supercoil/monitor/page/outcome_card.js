@@ -1,7 +1,7 @@
 // What was, in words, for the time that is shown.
 
 import { element, show } from "./dom.js";
-import { limits_told, never_armed_told, swing_told } from "./outcome.js";
+import { infeasible_told, limits_told, never_armed_told, swing_told } from "./outcome.js";
 
 // It looks at all that is shown: of an hour less often, so that the plots do not wait for it.
 const every_ms = (span_s) => Math.max(2000, 5 * span_s);
@@ -9,7 +9,7 @@ const every_ms = (span_s) => Math.max(2000, 5 * span_s);
 export class OutcomeCard {
   constructor(node, store, view) {
     Object.assign(this, { node, store, view, told_ms: -Infinity });
-    this.lines = [limits_told, never_armed_told, swing_told].map((tell) => ({ tell, line: element("p") }));
+    this.lines = [limits_told, infeasible_told, never_armed_told, swing_told].map((tell) => ({ tell, line: element("p") }));
     this.none = element("p", { class: "hint" }, "Armed, at no limit, and no swing by itself.");
     this.element = element("section", { class: "card full-only outcome", "aria-label": `what was, node ${node}` },
       element("h2", {}, "In the time shown"), this.none, ...this.lines.map(({ line }) => line));

@@ -67,7 +67,7 @@ def _time_of_run_s(text: str) -> float:
 
 
 def _load_csv(file: Path) -> pandas.DataFrame:
-    table = pandas.read_csv(file)
+    table = pandas.read_csv(file, float_precision="round_trip")  # pandas 2 is off by a bit else
     if not len(table.columns) or table.columns[0] != "time_s":
         raise ValueError(f"{file}: is no can.log, no flight recording, and no CSV whose first column is time_s")
     return _with_units(table)

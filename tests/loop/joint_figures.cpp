@@ -142,22 +142,20 @@ class Operated {
       run(1.0);
     }
   }
-  /// Each muscle by itself; false: one was not found.
+  /// Both muscles in one run; false: one was not found.
   bool identify() {
-    for (const std::uint8_t channel : {std::uint8_t{0}, std::uint8_t{1}}) {
-      send(channel, Verb::identify);
-      do {
-        tick();
-        send(channel, Verb::renew);
-      } while (state(channel) == State::active);
+    send(0, Verb::identify);
+    do {
+      tick();
+      send(0, Verb::renew);
+    } while (state(0) == State::active);
+    for (const std::size_t channel : {0U, 1U}) {
       const Snapshot& ended = simulation_.loop().channel(channel).snapshot();
-      if (ended.result != ModeResult::found) {
-        std::printf("  channel %d: %s\n", channel + 1,
-                    describe_notes(ended.identify_notes).c_str());
-        return false;
-      }
-      run(15.0);
+      if (ended.result == ModeResult::found) continue;
+      std::printf("  channel %zu: %s\n", channel + 1, describe_notes(ended.identify_notes).c_str());
+      return false;
     }
+    run(15.0);
     return true;
   }
   Found follow(const Motion& motion) {

@@ -1,5 +1,7 @@
 #include "apps/supercoil/board_link.hpp"
 
+#include <cmath>
+
 namespace supercoil::operating {
 
 BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
@@ -15,6 +17,14 @@ BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
     board.wait(std::chrono::milliseconds(50));
   }
   return tl::unexpected<std::string>("its heater is still being measured after 2 s");
+}
+
+tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel) {
+  const auto known = board.muscle(channel);
+  if (!known) return tl::unexpected(known.error());
+  const double offset = (*known)[known_joint_other_node_offset];
+  if (!((*known)[known_joint_lever] > 0.0) || !std::isfinite(offset)) return "";
+  return std::to_string(std::stol(channel) + std::lround(offset));
 }
 
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,

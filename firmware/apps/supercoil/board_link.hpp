@@ -144,6 +144,10 @@ class CanBoardLink final : public BoardLink {
 /// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
+/// Of the agonist of a joint the other channel, as in a line: identify and calibrate of the agonist
+/// go on with it. Empty: there is none.
+tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel);
+
 /// can: a bus by its name; empty: the supercoild that listens at this socket.
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,
                                                                 const std::string& socket);

@@ -97,10 +97,16 @@ int ended(BoardLink& board, const CommandOptions& options) {
   }
   if (!ending) return fail(exit_failed, ending.error());
   const std::string notes = ending->notes.empty() ? "" : " (" + ending->notes + ")";
-  const bool found = ending->result == "found";
-  if (found && !notes.empty() && !options.json)
+  if (ending->result != "found")
+    return fail(exit_failed, line + " ended: " + ending->result + notes);
+  if (!notes.empty() && !options.json)
     std::printf("%s ended: found%s\n", line.c_str(), notes.c_str());
-  return found ? exit_done : fail(exit_failed, line + " ended: " + ending->result + notes);
+  const auto antagonist = antagonist_of(board, options.words[0]);
+  if (!antagonist) return fail(exit_failed, antagonist.error());
+  if (antagonist->empty()) return exit_done;
+  CommandOptions other = options;
+  other.words[0] = *antagonist;
+  return ended(board, other);
 }
 
 /// Of a mode that ends by itself what the board says, otherwise of the time.

@@ -99,7 +99,7 @@ class Axis {
   void limit_pull(double max_W) { max_pull_W_ = max_W; }
   double max_travel_m() const { return settings_.supervision.max_travel_m; }
   /// In a joint, of its agonist: how far the other muscle may pull it.
-  void limit_back(double max_m) { max_back_m_ = max_m; }
+  void limit_reverse_travel(double max_m) { max_reverse_travel_m_ = max_m; }
   /// m, or W in open loop and in Mode::joint.
   double reference() const { return reference_; }
   /// Follows what was admitted. value: m, or W in open loop.
@@ -115,6 +115,10 @@ class Axis {
   /// Of the muscle as it is known.
   double dc_gain_m_per_W() const { return muscle_.dc_gain_m_per_W(); }
   Mode mode() const { return mode_; }
+  /// The last identify or calibrate did.
+  bool has_found() const {
+    return result_ == ModeResult::found || result_ == ModeResult::not_stored;
+  }
   bool follows_position() const { return state_.may_heat() && mode_ == Mode::position; }
 
   const Estimation& estimation() const { return estimation_; }
@@ -198,7 +202,7 @@ class Axis {
   double reference_ = 0.0;  ///< m, or W in open loop
   double max_pull_W_ = std::numeric_limits<double>::infinity();
   /// Below rest. Of a single muscle as far as above it.
-  double max_back_m_ = settings_.supervision.max_travel_m;
+  double max_reverse_travel_m_ = settings_.supervision.max_travel_m;
   control::ControllerOutput demanded_;
   double share_W_ = 0.0;  ///< of that, from its own heater
   modes::Identify identify_;

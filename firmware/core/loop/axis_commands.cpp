@@ -26,8 +26,8 @@ Reply Axis::admits(Mode mode, double& value) const {
   if (mode == Mode::position) {
     const double max_m = max_travel_m();
     const bool reachable =
-        value >= -float_rounding * max_back_m_ && value <= float_rounding * max_m;
-    value = std::clamp(value, -max_back_m_, max_m);
+        value >= -float_rounding * max_reverse_travel_m_ && value <= float_rounding * max_m;
+    value = std::clamp(value, -max_reverse_travel_m_, max_m);
     if (!reachable) return {Refusal::out_of_range, value};  // a NaN as well
   } else if (mode == Mode::power) {
     if (!std::isfinite(value)) return Refusal::out_of_range;
@@ -80,8 +80,11 @@ Reply Axis::play(const Command& command) {
     if (!(std::abs(command.value) <= max_time_s)) return Refusal::out_of_range;
     return playback_.start(hal::duration_from(command.value), now_, reference_, command.source);
   }
-  return playback_.add(command, {control::theta_from(muscle_), muscle_.moving_mass_kg, max_back_m_,
-                                 max_travel_m(), range()});
+  return playback_.add(command, {.theta = control::theta_from(muscle_),
+                                 .moving_mass_kg = muscle_.moving_mass_kg,
+                                 .max_reverse_travel_m = max_reverse_travel_m_,
+                                 .max_travel_m = max_travel_m(),
+                                 .range = range()});
 }
 
 Reply Axis::obey(const Command& command) {

@@ -60,12 +60,14 @@ void Channel::supervise(const BoardTick& board) {
   }
   if (!reset_requested_) state_.reset(false, true);
   // A probe whose value is judged to be no muscle's has made the channel safe by now.
-  if (axis_.end_probe()) state_.rest();
+  if (axis_.end_probe() && !hand_over(Mode::calibrate)) state_.rest();
 }
 
 void Channel::control() {
+  if (waits_for_other()) return follow_other();
   const bool moved_joint = moves_joint();
-  if (!axis_.control()) return;
+  const Mode mode = axis_.mode();
+  if (!axis_.control() || hand_over(mode)) return;
   state_.rest();
   if (moved_joint) other_->rest_now();
 }
@@ -80,6 +82,7 @@ void Channel::make_safe(Fault cause, const detectors::Margin& margin) {
     first_margin_ = margin;
     cause_is_new_ = cause != Fault::none;
   }
+  handed_over_ = Mode::rest;
   state_.disarm(cause);
   axis_.disarm();
 }
@@ -92,6 +95,7 @@ const Snapshot& Channel::publish(const BoardTick& board, const Verdict& board_ve
   s.fault = state_.first_cause();
   selector_ += golden_ratio;
   axis_.publish(selector_, s);
+  publish_joint(s);
   const auto& faults = all_faults();
   s.margin_selector = faults[(std::uint64_t{selector_} * faults.size()) >> 32U].fault;
   const Verdict& judge =
@@ -184,7 +188,7 @@ Refusal Channel::may_heat(const BoardTick& board) const {
 }
 
 Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
-  if (mode == Mode::power && led()) return axis_.pull_with(value);
+  if (mode == Mode::power && !leads_ && moves_joint()) return axis_.pull_with(value);
   if (const Refusal own = may_heat(board); own != Refusal::none) return own;
   if (const Refusal joint = joint_admits(mode, board); joint != Refusal::none) return joint;
   if (const Reply reply = axis_.admits(mode, value); reply.refusal != Refusal::none) return reply;
@@ -217,10 +221,11 @@ Refusal Channel::renew() {
 }
 
 Refusal Channel::rest() {
-  const bool moved_joint = moves_joint();
+  const bool both = moves_joint() || waits_for_other();
   if (state_.rest() != Refusal::none) return Refusal::wrong_state;
   axis_.rest();
-  if (moved_joint) other_->rest_now();
+  handed_over_ = Mode::rest;
+  if (both) other_->rest_now();
   return Refusal::none;
 }
 

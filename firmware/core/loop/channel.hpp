@@ -119,16 +119,25 @@ class Channel {
   // In a joint (channel_in_joint.cpp):
   /// It follows the joint's position, or is led by the other one that does.
   bool moves_joint() const;
+  /// What it does is part of what the other one was told: that one is renewed for both.
   bool led() const;
   /// Whether the other one lets this one heat.
   Refusal joint_admits(Mode mode, const BoardTick& board) const;
   /// Before this one's mode changes: the other one begins, or ends, to be led.
   void lead(Mode mode);
+  /// After identify or calibrate of the one that leads: the other one does the same. False: it does
+  /// not, and this one is done.
+  bool hand_over(Mode ended);
+  bool waits_for_other() const { return handed_over_ != Mode::rest; }
+  void follow_other();
+  /// In a joint what leads tells how far both are.
+  void publish_joint(Snapshot& s) const;
   void rest_now();
 
   std::uint8_t index_;
   Channel* other_ = nullptr;  ///< of its joint; null: it is in none
   bool leads_ = true;
+  Mode handed_over_ = Mode::rest;  ///< what the other one does for this one, if anything
   ChannelState state_;
   Axis axis_;
   Tuner tuner_;

@@ -9,13 +9,14 @@ bool Channel::moves_joint() const {
 }
 
 bool Channel::led() const {
-  return !leads_ && moves_joint();
+  return !leads_ && (moves_joint() || (other_ != nullptr && other_->waits_for_other()));
 }
 
 /// To follow a position takes both muscles. All else is done by one of them, while the other one is
 /// not led; what measures the muscle wants it cold.
 Refusal Channel::joint_admits(Mode mode, const BoardTick& board) const {
   if (other_ == nullptr) return Refusal::none;
+  if (waits_for_other()) return Refusal::busy;
   const bool other_is_alone = other_->state_.may_heat() && !other_->moves_joint();
   if (mode == Mode::position) {
     if (!leads_) return Refusal::wrong_state;
@@ -32,6 +33,31 @@ void Channel::lead(Mode mode) {
   } else if (moves_joint()) {
     other_->rest_now();
   }
+}
+
+bool Channel::hand_over(Mode ended) {
+  const bool measures = ended == Mode::identify || ended == Mode::calibrate;
+  if (other_ == nullptr || !leads_ || !measures || !axis_.has_found()) return false;
+  if (other_->state_.state() != State::armed || other_->axis_.heater().probing()) return false;
+  other_->enter(ended, 0.0);
+  handed_over_ = ended;
+  return true;
+}
+
+void Channel::follow_other() {
+  if (other_->state_.may_heat()) return;
+  handed_over_ = Mode::rest;
+  state_.rest();
+}
+
+void Channel::publish_joint(Snapshot& s) const {
+  if (other_ == nullptr || !leads_) return;
+  const bool measures = s.mode == Mode::identify || s.mode == Mode::calibrate;
+  if (measures) s.progress *= 0.5F;
+  if (!waits_for_other()) return;
+  s.mode = handed_over_;
+  s.result = ModeResult::running;
+  s.progress = 0.5F * (1.0F + other_->snapshot_.progress);
 }
 
 void Channel::rest_now() {

@@ -21,7 +21,7 @@ Joint::Joint(const JointSettings& settings, Axis& agonist, Axis& antagonist, dou
       first_W_(settings.co_contraction_W),
       max_W_(settings.max_co_contraction_W),
       lag_ratio_(step_s / co_contraction_lag_s) {
-  agonist_.limit_back(antagonist_.max_travel_m());
+  agonist_.limit_reverse_travel(antagonist_.max_travel_m());
 }
 
 void Joint::observe() {

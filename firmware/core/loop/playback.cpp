@@ -22,7 +22,7 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able)
                             able.theta[3] * 0.5 * (from.position + to.position);
     const bool possible = needed_W >= able.range.min_W - margin_W &&
                           needed_W <= able.range.max_W + margin_W &&
-                          to.position >= -float_rounding * able.max_back_m &&
+                          to.position >= -float_rounding * able.max_reverse_travel_m &&
                           to.position <= float_rounding * able.max_travel_m;
     if (!possible) return false;  // a NaN as well
     from = to;
@@ -31,7 +31,7 @@ bool Playback::is_feasible(const control::QuinticPiece& piece, const Able& able)
 }
 
 Reply Playback::add(const Command& command, const Able& able) {
-  const double min_m = -float_rounding * able.max_back_m;
+  const double min_m = -float_rounding * able.max_reverse_travel_m;
   const double max_m = float_rounding * able.max_travel_m;
   const auto velocity = static_cast<double>(command.velocity_m_per_s);
   const auto after_s = static_cast<double>(command.after_s);
@@ -56,7 +56,7 @@ Reply Playback::add(const Command& command, const Able& able) {
 
 Reply Playback::begin(double position_m, double velocity_m_per_s) {
   if (state_ == PlaybackState::waiting || state_ == PlaybackState::playing) return Refusal::busy;
-  if (velocity_m_per_s != 0.0) return {Refusal::out_of_range, 0.0};
+  if (velocity_m_per_s != 0.0) return Refusal::out_of_range;
   forget();
   trajectory_.start(position_m);
   state_ = PlaybackState::loaded;
@@ -67,7 +67,7 @@ Reply Playback::begin(double position_m, double velocity_m_per_s) {
 Reply Playback::start(hal::Time at, hal::Time now, double reference_m, Source source) {
   if (state_ != PlaybackState::loaded) return Refusal::wrong_state;
   if (at < now) return Refusal::out_of_range;
-  if (hal::seconds(at - now) > max_ahead_s) return {Refusal::out_of_range, max_ahead_s};
+  if (hal::seconds(at - now) > max_ahead_s) return Refusal::out_of_range;
   if (std::abs(reference_m - trajectory_.passed().position_m) > same_m) return Refusal::not_ready;
   wanted_ahead_s_.store(0.0, std::memory_order_relaxed);
   aligns_ = source == Source::can;

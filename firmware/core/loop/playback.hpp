@@ -41,7 +41,7 @@ class Playback {
   struct Able {
     control::Theta theta;
     double moving_mass_kg;
-    double max_back_m;  ///< below rest
+    double max_reverse_travel_m;  ///< below rest
     double max_travel_m;
     control::PowerRange range;
   };

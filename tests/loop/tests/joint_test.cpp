@@ -66,12 +66,12 @@ TEST(Joint, SettlesAtSetPointsOfBothSigns) {
 TEST(Joint, GoesNoFurtherBackThanTheAntagonistMayContract) {
   RigSettings settings = joint_board();
   settings.firmware.channels[antagonist].supervision.max_travel_m = 0.005;
-  Rig stiff(settings);
-  begin(stiff);
-  CHECK(stiff.answer_of(agonist, Verb::position, -0.0051) == Refusal::out_of_range);
-  CHECK(stiff.answer_of(agonist, Verb::position, -0.0049) == Refusal::none);
-  CHECK(stiff.answer_of(agonist, Verb::position, 0.0079) == Refusal::none);
-  CHECK(stiff.answer_of(agonist, Verb::position, 0.0081) == Refusal::out_of_range);
+  Rig narrow(settings);
+  begin(narrow);
+  CHECK(narrow.answer_of(agonist, Verb::position, -0.0051) == Refusal::out_of_range);
+  CHECK(narrow.answer_of(agonist, Verb::position, -0.0049) == Refusal::none);
+  CHECK(narrow.answer_of(agonist, Verb::position, 0.0079) == Refusal::none);
+  CHECK(narrow.answer_of(agonist, Verb::position, 0.0081) == Refusal::out_of_range);
 }
 
 TEST(Joint, PowerToTheAntagonistChangesWithWhatBothPullAndHardlyTheAngle) {
@@ -274,4 +274,77 @@ TEST(Joint, IdentifiesEachMuscleInTheJoint) {
   CHECK(both(State::active));
   DOUBLES_EQUAL(10.0, angle_deg(), 0.1);
   CHECK_FALSE(rig.interval_missed);
+}
+
+TEST(Joint, IdentifyOfTheAgonistGoesOnWithTheAntagonist) {
+  arm();
+  CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
+  float progress = 0.0F;
+  double agonist_s = 0.0;
+  bool first = true;
+  CHECK(rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        first = first && of(antagonist).mode == Mode::rest;
+        if (first) agonist_s = rig.time_s();
+        if (state_of(agonist) != State::active) return true;
+        CHECK(of(agonist).mode == Mode::identify && of(agonist).result == ModeResult::running);
+        CHECK(first ? of(agonist).progress <= 0.5F : of(agonist).progress >= 0.5F);
+        progress = std::max(progress, of(agonist).progress);
+        return false;
+      },
+      400.0));
+  CHECK(both(State::armed));
+  for (const std::uint8_t channel : {agonist, antagonist}) {
+    CHECK(of(channel).result == ModeResult::found);
+    CHECK_COMPARE(rig.loop.channel(channel).known(known_theta1_deviation + 3), <, 0.1);
+  }
+  CHECK_COMPARE(progress, >, 0.9F);
+  CHECK_COMPARE(rig.time_s() - agonist_s, >, 20.0);
+}
+
+TEST(Joint, CalibrateOfTheAgonistGoesOnWithTheAntagonist) {
+  arm();
+  CHECK(rig.answer_of(agonist, Verb::calibrate) == Refusal::none);
+  CHECK(rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        return state_of(agonist) != State::active;
+      },
+      200.0));
+  for (const std::uint8_t channel : {agonist, antagonist})
+    CHECK(of(channel).result == ModeResult::found);
+}
+
+TEST(Joint, WhatGoesOnWithTheAntagonistEndsWithTheAgonist) {
+  const auto identify_antagonist = [&] {
+    CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
+    CHECK(rig.run_until(
+        [&] {
+          rig.send(Verb::renew);
+          return of(antagonist).mode == Mode::identify;
+        },
+        200.0));
+    rig.tick();
+    CHECK(both(State::active));
+  };
+  arm();
+  identify_antagonist();
+  CHECK(rig.answer_of(antagonist, Verb::renew) == Refusal::wrong_state);
+  CHECK(rig.answer_of(agonist, Verb::position, 0.001) == Refusal::busy);
+  CHECK(rig.answer_of(agonist, Verb::power, 1.0) == Refusal::busy);
+  CHECK(rig.answer_of(antagonist, Verb::power, 1.0) == Refusal::busy);
+  CHECK(rig.answer_of(agonist, Verb::rest) == Refusal::none);
+  CHECK(both(State::armed));
+  rig.tick();
+  CHECK(of(antagonist).result == ModeResult::interrupted);
+  CHECK(of(agonist).result == ModeResult::found);
+  identify_antagonist();
+  CHECK(rig.answer_of(antagonist, Verb::rest) == Refusal::none);
+  rig.run_ticks(2);
+  CHECK(both(State::armed));
+  identify_antagonist();
+  rig.run(1.0);  // nothing is renewed
+  CHECK(both(State::fault) && both_off());
+  CHECK(fault_of(agonist) == Fault::command_timeout);
 }

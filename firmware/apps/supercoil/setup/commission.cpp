@@ -80,7 +80,16 @@ std::string Commission::present_fault() {
 
 Commission::Done Commission::only_found(const std::string& mode, const OrWhy& result) {
   if (!result) return tl::unexpected(result.error());
-  if (*result == "found") return {};
+  if (*result == "found") {
+    const auto antagonist = antagonist_of(board_, channel_);
+    if (!antagonist) return tl::unexpected(antagonist.error());
+    if (antagonist->empty()) return {};
+    const auto ending = board_.ending(*antagonist);
+    if (!ending) return tl::unexpected(ending.error());
+    if (ending->result == "found") return {};
+    return tl::unexpected(mode + " of channel " + *antagonist + " ended: " + ending->result +
+                          "; docs/running.md says what each result means");
+  }
   const std::string fault = present_fault();
   return tl::unexpected(mode + " ended: " + *result +
                         (fault.empty() ? "; docs/running.md says what each result means" : fault));

@@ -12,7 +12,11 @@ using namespace std::chrono_literals;
 
 TEST_GROUP(Playback) {
   const control::PhysicalParameters muscle{};
-  Playback::Able able{control::theta_from(muscle), muscle.moving_mass_kg, 0.020, 0.025, {0.0, 4.5}};
+  Playback::Able able{.theta = control::theta_from(muscle),
+                      .moving_mass_kg = muscle.moving_mass_kg,
+                      .max_reverse_travel_m = 0.020,
+                      .max_travel_m = 0.025,
+                      .range = {0.0, 4.5}};
   supercoil::Playback playback;
   hal::Time now = 100s;
 
@@ -179,7 +183,7 @@ TEST(Playback, ThatTheBoardItselfStartedGoesByTheBoardsClock) {
   DOUBLES_EQUAL(0.0055, playback.step(now, 0.005), 1e-9);
 }
 
-TEST(Playback, KnotsThatAreNoTimeApartOrTooLongAreRefused) {
+TEST(Playback, KnotsThatAreBackInTimeOrMoreThanAMinuteApartAreRefused) {
   CHECK(add(0.0, 0.005) == Refusal::none);
   for (const double after_s : {-1.0, 60.1, 1e300, std::nan("")})
     CHECK(add(after_s, 0.005) == Refusal::out_of_range);

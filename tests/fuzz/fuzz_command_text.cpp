@@ -18,6 +18,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require(command->channel < channels, "a command is for a channel of the board");
   fuzz::require(command->verb != Verb::none && !name(command->verb).empty(), "it has a verb");
   fuzz::require(std::isfinite(command->value), "its value is a number");
+  fuzz::require(std::isfinite(command->after_s) && std::isfinite(command->velocity_m_per_s),
+                "so are a knot's time and velocity");
   fuzz::require(command->source == Source::local, "its answer goes back to the socket");
   return 0;
 }

@@ -106,6 +106,8 @@ def judge(table, run, share):
     first, second = two_boards.looks(run, share)
     lags_ms = reference_lags_ms((share / "can.log").read_text())
     judge_step(table, "of one clock", first, second, marks["played"], lags_ms[0])
+    drift = re.search(r"^drift ([\d.]+)$", console, re.M)
+    table.row("the clock of the second is faster by", float(drift[1]) if drift else None, DRIFT_PPM, DRIFT_PPM, "ppm")
     table.row("with two clocks play ended with", ended["drifted"], 0, 0, "")
     judge_step(table, f"of clocks {DRIFT_PPM:g} ppm apart", first, second, marks["drifted"], lags_ms[1])
     for name, looks in (("first", first), ("second", second)):

@@ -34,13 +34,14 @@ class LocalBoard:
 
 
 class Watch(threading.Thread):
-    """References of both channels, from one answer each, while both follow a position."""
+    """seen: references of both channels, from one answer each, while both follow a position."""
 
     def __init__(self, path):
         super().__init__(daemon=True)
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self._socket.settimeout(DEADLINE_S)
         self._socket.connect(path)
-        self._seen = []
+        self.seen = []
         self._stopping = False
 
     def run(self):
@@ -48,14 +49,17 @@ class Watch(threading.Thread):
             self._socket.send(b"state")
             lines = [line.split() for line in self._socket.recv(8192).decode().splitlines()]
             if all(words[2] == "position" for words in lines):
-                self._seen.append(tuple(float(words[4]) for words in lines))
+                self.seen.append(tuple(float(words[4]) for words in lines))
             time.sleep(0.002)
 
-    def end(self):
+    def __enter__(self):
+        self.start()
+        return self
+
+    def __exit__(self, *_):
         self._stopping = True
         self.join()
         self._socket.close()
-        return self._seen
 
 
 def apart_m(seen, rests_m, scale):

@@ -48,19 +48,25 @@ class LocalPlay(unittest.TestCase):
                 self.assertLess(time.monotonic(), end)
 
     def play(self, *arguments, wanted=None):
-        """Again where the machine was too busy, unless it says what is wanted."""
+        """And what was seen meanwhile. Again where the machine was too busy, unless it says what is wanted."""
         for _ in range(TRIES):
             self.arm()
-            done = self.supercoil("play", *arguments)
+            with Watch(self.path) as watch:
+                done = self.supercoil("play", *arguments)
             if (wanted and wanted in done.stderr) or not any(why in done.stderr for why in STARVED):
-                return done
+                return done, watch.seen
         self.fail(f"the machine is too busy: {done.stderr}")
 
+    def until_state(self, of_channel, wanted, player=None):
+        end = time.monotonic() + DEADLINE_S
+        while wanted not in self.supercoil("command", "state").stdout.splitlines()[of_channel - 1]:
+            self.assertLess(time.monotonic(), end)
+            if player and player.poll() is not None:
+                return False
+        return True
+
     def test_two_channels_go_their_ways_in_the_same_ticks(self):
-        watch = Watch(self.path)
-        watch.start()
-        done = self.play(motion(self.folder, {1: 1.0, 2: 0.5}))
-        seen = watch.end()
+        done, seen = self.play(motion(self.folder, {1: 1.0, 2: 0.5}))
         self.assertEqual(done.returncode, 0, done.stderr)
         apart, way_m = apart_m(seen, REST_M, 2.0)
         self.assertGreater(way_m, 0.0009)
@@ -70,13 +76,13 @@ class LocalPlay(unittest.TestCase):
     def test_one_channel_holds_its_last_row_until_it_is_interrupted(self):
         path = pathlib.Path(self.folder) / "one.csv"
         path.write_text("time_s,position_m\n0,0.003\n0.5,0.0031\n1,0.0032\n")
-        self.arm()
-        player = subprocess.Popen([SUPERCOIL, "play", path, "--channel", "2", "--settle", "0.2", "--hold", "--socket",
-                                   self.path], stderr=subprocess.PIPE, text=True)
-        end = time.monotonic() + DEADLINE_S
-        while " 0.0032 " not in self.supercoil("command", "state").stdout.splitlines()[1]:
-            self.assertIsNone(player.poll(), "the machine is too busy")
-            self.assertLess(time.monotonic(), end)
+        for _ in range(TRIES):
+            self.arm()
+            player = subprocess.Popen([SUPERCOIL, "play", path, "--channel", "2", "--settle", "0.2", "--hold",
+                                       "--socket", self.path], stderr=subprocess.PIPE, text=True)
+            if self.until_state(2, " 0.0032 ", player):
+                break
+            player.communicate()
         player.send_signal(signal.SIGINT)
         self.assertEqual(player.communicate()[1].replace("\r", "").strip(), "")
         self.assertEqual(player.returncode, 0)
@@ -86,7 +92,7 @@ class LocalPlay(unittest.TestCase):
         path = pathlib.Path(self.folder) / "fast.csv"
         path.write_text("time_s,position_m\n0,0.002\n1,0.0022\n1.2,0.02\n1.4,0.02\n")
         why = "channel 1: the knot at 1.000 s: refused: infeasible"
-        done = self.play(path, "--settle", "0.2", wanted=why)
+        done, _ = self.play(path, "--settle", "0.2", wanted=why)
         self.assertEqual(done.returncode, 1)
         self.assertIn(why, done.stderr)
         self.assertIn("1 armed rest", self.supercoil("command", "state").stdout)
@@ -108,15 +114,12 @@ class LocalPlay(unittest.TestCase):
             player = subprocess.Popen([SUPERCOIL, "play", motion(self.folder, {1: 1.0}), "--settle", "1", "--socket",
                                        self.path], stderr=subprocess.DEVNULL)
             self.addCleanup(player.wait)
-            time.sleep(2.0)
-            played = player.poll() is None  # else the machine was too busy for it
+            played = self.until_state(1, "active position", player)
             player.kill()
             if played:
                 break
         self.assertTrue(played)
-        end = time.monotonic() + DEADLINE_S
-        while "command_timeout" not in self.supercoil("command", "state").stdout:
-            self.assertLess(time.monotonic(), end)
+        self.until_state(1, "command_timeout")
 
 
 if __name__ == "__main__":

@@ -17,6 +17,15 @@ namespace {
 constexpr time_t max_answer_s = 2;
 constexpr std::size_t max_answer = 8192;
 
+/// A signal, as Ctrl-C is, ends a call that waits with a limit of time, SA_RESTART or not.
+template <class Call>
+ssize_t uninterrupted(const Call& call) {
+  for (;;) {
+    const ssize_t result = call();
+    if (result >= 0 || errno != EINTR) return result;
+  }
+}
+
 std::string reason() {
   return std::generic_category().message(errno);
 }
@@ -46,11 +55,16 @@ BoardSocket::~BoardSocket() {
 }
 
 tl::expected<std::string, std::string> BoardSocket::ask(const std::string& line) const {
-  if (::send(file_, line.data(), line.size(), MSG_NOSIGNAL) < 0) {
-    return tl::unexpected("supercoild does not listen: " + reason());
-  }
+  const auto sent =
+      uninterrupted([&] { return ::send(file_, line.data(), line.size(), MSG_NOSIGNAL); });
+  // Who was turned away is told why before the connection ends: that end shows first.
+  if (sent < 0 && errno != EPIPE) return tl::unexpected("supercoild does not listen: " + reason());
   std::array<char, max_answer> answer{};
-  const ssize_t size = ::recv(file_, answer.data(), answer.size(), 0);
+  const auto receive = [&] {
+    return uninterrupted([&] { return ::recv(file_, answer.data(), answer.size(), 0); });
+  };
+  ssize_t size = receive();
+  if (size < 0 && errno == ECONNRESET) size = receive();
   if (size == 0) return tl::unexpected(std::string("supercoild has ended"));
   if (size < 0) return tl::unexpected("supercoild does not answer: " + reason());
   return std::string(answer.data(), static_cast<std::size_t>(size));

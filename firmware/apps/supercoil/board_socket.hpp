@@ -8,7 +8,7 @@
 
 namespace supercoil::operating {
 
-/// The socket for local commands (docs/commands.md). Move-only.
+/// The socket for local commands (docs/running.md). Move-only.
 class BoardSocket {
  public:
   static tl::expected<BoardSocket, std::string> open(const std::string& path);

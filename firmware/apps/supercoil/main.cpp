@@ -47,6 +47,13 @@ void add_log(CLI::App& app, LogOptions& options) {
     summary->excludes(of_csv);
 }
 
+/// An empty name, as of a variable that is not set, must not mean the board on which this runs.
+const CLI::Validator is_named(
+    [](const std::string& name) {
+      return std::string(name.empty() ? "a bus has a name: can0, or socketcand:PORT" : "");
+    },
+    "");
+
 void add_command(CLI::App& app, CommandOptions& options) {
   CLI::App* command = app.add_subcommand("command",
                                          "Give one command to the board on which this runs or to "
@@ -83,6 +90,7 @@ void add_command(CLI::App& app, CommandOptions& options) {
                    "Command over this bus instead, where CHANNEL is the node: can0, or "
                    "socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
+      ->check(is_named)
       ->excludes(socket);
   command->add_flag("--json", options.json, "Print the answer as one line of JSON too");
 }
@@ -101,6 +109,7 @@ void add_play(CLI::App& app, PlayOptions& options) {
                    "Play over this bus instead, where the numbers of columns are nodes: can0, or "
                    "socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
+      ->check(is_named)
       ->excludes(socket);
   play->add_option("--node,--channel", options.node, "Of columns without a number")
       ->check(CLI::Range(1, can::max_nodes))
@@ -165,6 +174,7 @@ void add_tune(CLI::App& app, TuneOptions& options) {
   tune->add_option("--can", options.can,
                    "Over this bus instead: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
+      ->check(is_named)
       ->excludes(socket);
   tune->add_flag("--json", options.json, "Print one JSON object");
 }

@@ -21,7 +21,8 @@ namespace supercoil::daemon {
 
 namespace {
 
-constexpr std::size_t max_clients = 8;
+/// As many as a board may have channels, each of which may be played to, and some more.
+constexpr std::size_t max_clients = 20;
 constexpr int backlog = 4;
 /// Longer lines are cut, and are then no command.
 constexpr std::size_t max_line = 200;

@@ -48,8 +48,7 @@ inline constexpr std::array<std::string_view, 20> verb_names{
     "renew",     "rest",  "identify",       "calibrate",       "scale",        "controller",
     "estimator", "store", "compare_supply", "compare_current", "compare_rise", "tune",
     "knot",      "start"};
-/// Those that have all of their meaning in their value: the rest comes from a trajectory's frames
-/// alone.
+/// Those that have all of their meaning in their value: the rest are of trajectories.
 inline constexpr auto plain_verb_names = std::span(verb_names).first<18>();
 static_assert(verb_names[plain_verb_names.size()] == "knot");
 constexpr std::string_view name(Verb verb) {

@@ -4,9 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <sstream>
 
+#include "text/shortest_text.hpp"
 #include "text/words.hpp"
 
 namespace supercoil {
@@ -53,7 +55,7 @@ tl::expected<double, std::string> finite_number(std::string_view word, Verb verb
                         std::string(needs));
 }
 
-std::string too_much(std::string_view rest) {
+std::string unexpected_word(std::string_view rest) {
   return "'" + std::string(rest) + "' is too much";
 }
 
@@ -87,7 +89,7 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
     command.value = *value;
   }
   const std::string_view rest = has_value(verb) ? next_word(text) : value_word;
-  if (!rest.empty()) return tl::unexpected(too_much(rest));
+  if (!rest.empty()) return tl::unexpected(unexpected_word(rest));
   return command;
 }
 
@@ -111,10 +113,17 @@ std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::
     if (!value) return tl::unexpected(value.error());
     *wanted = *value;
   }
+  constexpr double min_after_s = 1e-3;
+  constexpr double max_float = std::numeric_limits<float>::max();
+  if (is_knot && after_s != 0.0 && !(after_s >= min_after_s && after_s <= max_float))
+    return tl::unexpected(shortest_text(after_s) +
+                          " s after the one before: must be 0.001 or more, or 0 of the first");
+  if (std::abs(velocity_m_per_s) > max_float)
+    return tl::unexpected(shortest_text(velocity_m_per_s) + " m/s is no velocity");
   command.after_s = static_cast<float>(after_s);
   command.velocity_m_per_s = static_cast<float>(velocity_m_per_s);
   const std::string_view rest = next_word(text);
-  if (!rest.empty()) return tl::unexpected(too_much(rest));
+  if (!rest.empty()) return tl::unexpected(unexpected_word(rest));
   return command;
 }
 

@@ -8,7 +8,7 @@ import time
 
 from supercoil import codec
 from supercoil.clock import SocketClock
-from supercoil.errors import BusError, NoAnswerError, RefusalError, SupercoilError
+from supercoil.errors import BusError, NoAnswerError, PlaybackError, RefusalError, SupercoilError
 from supercoil.generated import messages, names, refusals
 from supercoil.generated.names import Opcode, Quantity, Refusal, Setting, Tunable, When
 from supercoil.heartbeat import Heartbeat
@@ -36,6 +36,7 @@ class SocketLink:
         self._channel = channel
         self._socket: socket.socket | None = None
         self._asking = asyncio.Lock()
+        self._exchanges: set[asyncio.Future[str]] = set()
         self._looking: asyncio.Task[None] | None = None
 
     async def open(self) -> None:
@@ -115,7 +116,11 @@ class SocketLink:
         board_s = await self._look_at_playback()
         if when != When.never:
             at_s = self.clock.start_s(sync, board_s, after_s) if when == When.at_sync else board_s + after_s
-            await self._obey(f"start {at_s!r}")
+            try:
+                await self._obey(f"start {at_s!r}")
+            except refusals.OutOfRange:  # all that a time can be out of range by
+                raise PlaybackError(f"node {self._channel}: has not started: it was told too late, this machine was "
+                                    "busy") from None
             await self._look_at_playback()
         return self.trajectory
 
@@ -132,6 +137,13 @@ class SocketLink:
         self.holds_lease = False
 
     async def _ask(self, line: str) -> str:
+        """To its end also where the task that asks is cancelled: a late answer would pass for the next one's."""
+        exchange = asyncio.ensure_future(self._exchange(line))
+        self._exchanges.add(exchange)
+        exchange.add_done_callback(self._exchanges.discard)
+        return await asyncio.shield(exchange)
+
+    async def _exchange(self, line: str) -> str:
         loop = asyncio.get_running_loop()
         async with self._asking:
             if self._socket is None:
@@ -141,7 +153,7 @@ class SocketLink:
                     await loop.sock_sendall(self._socket, line.encode())
                     answer = (await loop.sock_recv(self._socket, _MOST_BYTES)).decode()
             except TimeoutError:
-                self._end()  # a late answer would pass for the next one's
+                self._end()  # as above
                 raise NoAnswerError(f"supercoild does not answer within {_ANSWER_WITHIN_S:g} s") from None
             except OSError as error:
                 self._end()

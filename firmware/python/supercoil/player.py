@@ -93,7 +93,8 @@ class Player:
         except RefusalError as refused:
             if isinstance(refused, refusals.WrongState):
                 await self._raise_cause()
-            raise type(refused)(refused.node, f"the knot at {knot.time_s:.3f} s", time_s=knot.time_s) from None
+            raise type(refused)(refused.node, f"the knot at {knot.time_s:.3f} s", refused.nearest,
+                                time_s=knot.time_s) from None
         self.muscle._kept.heats()
         return True
 

@@ -18,8 +18,7 @@ class Playing(Tuning):
                    velocities_m_per_s: Iterable[float] | None = None, *, settle_s: float = 3.0,
                    hold: bool = False) -> None:
         """A motion that the board goes by itself from knot to knot, in time also where this program and its bus are a
-        little late. Goes to the first knot, waits there for settle_s seconds, plays, and returns at the end. Over CAN
-        only: the board's own socket takes no trajectories (SupercoilError).
+        little late. Goes to the first knot, waits there for settle_s seconds, plays, and returns at the end.
 
         times_s, positions_m, velocities_m_per_s: one column each, with a number for each knot: a list, or an array of
         one dimension. 2 knots or more, each 0.001 to 4.094 s after the one before (sent as whole milliseconds); 50 a
@@ -44,7 +43,8 @@ class Playing(Tuning):
 
 async def play(motions: Sequence[Motion], *, settle_s: float = 3.0, hold: bool = False) -> None:
     """Motions of several muscles, in step: all on one bus start in the same tick, and a Sync a second keeps their
-    clocks together. Those on other buses start as soon after as this program can send.
+    clocks together; so do all of one board that is commanded by its socket, whose clock is one. Those on other buses
+    start as soon after as this program can send.
 
     motions: what make_motion() of each muscle gives, each muscle once. They need not be equally long: whichever ends
     first waits at its last knot. All else is as with play() of one muscle, and one that cannot go on ends all."""

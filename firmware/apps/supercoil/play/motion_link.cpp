@@ -63,7 +63,7 @@ MotionLink::Answered LocalMotionLink::ask(Verb verb, double value) {
   return command(verb == Verb::position ? word + " " + shortest_text(value) : word);
 }
 
-MotionLink::Played LocalMotionLink::told_after(const std::string& words) {
+MotionLink::Played LocalMotionLink::command_then_status(const std::string& words) {
   const auto answer = command(words);
   if (!answer) return tl::unexpected(answer.error());
   auto played = playback();
@@ -72,37 +72,42 @@ MotionLink::Played LocalMotionLink::told_after(const std::string& words) {
 }
 
 MotionLink::Played LocalMotionLink::add_knot(double after_s, const control::Knot& knot) {
-  return told_after("knot " + shortest_text(after_s) + " " + shortest_text(knot.position_m) + " " +
-                    shortest_text(knot.velocity_m_per_s));
+  return command_then_status("knot " + shortest_text(after_s) + " " +
+                             shortest_text(knot.position_m) + " " +
+                             shortest_text(knot.velocity_m_per_s));
 }
 
+/// A time that is over is all that it can be out of range by.
 MotionLink::Played LocalMotionLink::start(const Start& start) {
-  return told_after("start " + shortest_text(start.board_s + start.after_s));
+  auto played = command_then_status("start " + shortest_text(start.board_s + start.after_s));
+  if (played && played->refusal == Refusal::out_of_range)
+    return tl::unexpected(std::string("the start was told too late: this machine was busy"));
+  return played;
 }
 
-tl::expected<LocalMotionLink::Told, std::string> LocalMotionLink::told() {
+tl::expected<LocalMotionLink::Status, std::string> LocalMotionLink::read_status() {
   const auto lines = socket_.ask("playback");
   if (!lines) return tl::unexpected(lines.error());
   std::istringstream text(*lines);
   std::string channel, state;
   int room = 0;
-  Told told{{Refusal::none, PlaybackState::empty, 0, NAN}, NAN};
-  while (text >> channel >> state >> room >> told.played.buffered_s >> told.board_s) {
+  Status status{{Refusal::none, PlaybackState::empty, 0, NAN}, NAN};
+  while (text >> channel >> state >> room >> status.played.buffered_s >> status.board_s) {
     const auto found = std::ranges::find(playback_state_names, state);
     if (channel != channel_ || found == playback_state_names.end()) continue;
-    told.played.state = static_cast<PlaybackState>(found - playback_state_names.begin());
-    told.played.room = static_cast<std::uint8_t>(room);
-    return told;
+    status.played.state = static_cast<PlaybackState>(found - playback_state_names.begin());
+    status.played.room = static_cast<std::uint8_t>(room);
+    return status;
   }
   return tl::unexpected("nothing is told of its trajectory: " + *lines);
 }
 
 MotionLink::Played LocalMotionLink::playback() {
-  return told().map([](const Told& told) { return told.played; });
+  return read_status().map([](const Status& status) { return status.played; });
 }
 
 tl::expected<double, std::string> LocalMotionLink::board_s() {
-  return told().map([](const Told& told) { return told.board_s; });
+  return read_status().map([](const Status& status) { return status.board_s; });
 }
 
 }  // namespace supercoil::operating

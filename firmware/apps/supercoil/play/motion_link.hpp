@@ -1,10 +1,10 @@
 // How one muscle is told to play a motion: over a bus, or by the socket of this board.
 #pragma once
 
-#include <chrono>
+#include <cmath>
 #include <cstdint>
-#include <memory>
 #include <string>
+#include <utility>
 
 #include <tl/expected.hpp>
 
@@ -13,7 +13,8 @@
 
 namespace supercoil::operating {
 
-/// Each call waits for the answer. Errors say that there was none.
+/// Each call waits for the answer. Errors say that there was none, or what the board says that is
+/// no answer to a command.
 class MotionLink {
  public:
   MotionLink() = default;
@@ -36,12 +37,14 @@ class MotionLink {
   struct Start {
     std::uint8_t sync;  ///< number of a Sync that is still to be sent
     double after_s;     ///< after that, or after board_s
-    double board_s;     ///< time() of one of them, taken for all
+    double board_s;     ///< of one of them, for all
   };
   virtual Played start(const Start& start) = 0;
   /// The board's time, where it has one that all of its channels share; else NaN.
   virtual tl::expected<double, std::string> board_s() = 0;
   virtual void send_sync(std::uint8_t number, double master_time_s) = 0;
+  /// Why one that was told to start has not.
+  virtual std::string why_not_started() const = 0;
   virtual void release() = 0;
 };
 
@@ -54,6 +57,7 @@ class CanMotionLink final : public MotionLink {
   Played start(const Start& start) override;
   tl::expected<double, std::string> board_s() override { return NAN; }
   void send_sync(std::uint8_t number, double master_time_s) override;
+  std::string why_not_started() const override { return "no Sync came, or too late"; }
   void release() override { commander_.release(); }
 
  private:
@@ -72,17 +76,18 @@ class LocalMotionLink final : public MotionLink {
   Played start(const Start& start) override;
   tl::expected<double, std::string> board_s() override;
   void send_sync(std::uint8_t /*number*/, double /*master_time_s*/) override {}
+  std::string why_not_started() const override { return "the board's time does not go on"; }
   void release() override {}
 
  private:
-  struct Told {
+  struct Status {
     can_client::Played played;
     double board_s;
   };
-  tl::expected<Told, std::string> told();
+  tl::expected<Status, std::string> read_status();
   Answered command(const std::string& words);
   /// The command, and then what became of the trajectory.
-  Played told_after(const std::string& words);
+  Played command_then_status(const std::string& words);
 
   BoardSocket socket_;
   std::string channel_;

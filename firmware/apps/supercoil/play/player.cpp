@@ -1,6 +1,7 @@
 #include "apps/supercoil/play/player.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <future>
 #include <random>
 #include <utility>
@@ -20,7 +21,8 @@ constexpr auto sync_every = 1s;
 constexpr int knots_in_a_row = 6;
 /// Between Play and the start: each node has heard of it, one after the other, and Sync was sent.
 constexpr double start_after_s = 0.1;
-constexpr double start_after_s_per_node = 0.05;
+/// A channel by the socket counts from the time at which the first of them was told.
+constexpr double start_after_s_per_channel = 0.05;
 constexpr auto started_within = 2s;
 
 std::string seconds_text(double time_s) {
@@ -146,9 +148,10 @@ bool Player::loaded() const {
 Player::Problem Player::start() {
   const auto board_s = nodes_.front().link->board_s();
   if (!board_s) return whose(nodes_.front()) + board_s.error();
-  const double after_s =
-      start_after_s + start_after_s_per_node * static_cast<double>(nodes_.size());
-  const MotionLink::Start start{static_cast<std::uint8_t>(sync_ + 1), after_s, *board_s};
+  const bool by_socket = std::isfinite(*board_s);
+  const double channels = by_socket ? static_cast<double>(nodes_.size()) : 0.0;
+  const MotionLink::Start start{static_cast<std::uint8_t>(sync_ + 1),
+                                start_after_s + start_after_s_per_channel * channels, *board_s};
   for (Node& node : nodes_) {
     if (auto problem = take(node, "play", node.link->start(start))) return problem;
   }
@@ -184,7 +187,7 @@ Player::Problem Player::stopped(const Node& node) const {
   if (state == PlaybackState::empty) return whose(node) + "was told something else meanwhile";
   const bool waits = state == PlaybackState::loaded || state == PlaybackState::waiting;
   if (waits && Clock::now() - started_ > started_within)
-    return whose(node) + "has not started: no Sync came, or too late";
+    return whose(node) + "has not started: " + node.link->why_not_started();
   return std::nullopt;
 }
 

@@ -35,7 +35,7 @@ class Player {
   /// Sends knots for which there is room; loaded(): no more have any.
   Problem load();
   bool loaded() const;
-  /// All start at the Sync that this sends.
+  /// All start together: at the Sync that this sends, or at a time of the board.
   Problem start();
   /// As load() and renew(), with a Sync a second.
   Problem go_on();
@@ -62,7 +62,7 @@ class Player {
   /// "node 5: "
   std::string whose(const Node& node) const;
   Problem take(Node& node, const std::string& what, const MotionLink::Played& played);
-  /// Each on a thread of its own, as each has a connection to the bus of its own. The first
+  /// Each on a thread of its own, as each has a connection of its own. The first
   /// problem in the order of the nodes.
   Problem for_each_at_once(Problem (Player::*step)(Node&));
   Problem renew(Node& node);

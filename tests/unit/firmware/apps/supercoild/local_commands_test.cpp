@@ -66,6 +66,13 @@ TEST_GROUP(LocalCommands) {
     for (Answer answer; rig.loop.answer(answer);)
       commands.pass(answer, rig.loop);
   }
+  /// The answer of the loop's next tick.
+  std::string obeyed(const Client& client, const std::string& line) {
+    STRCMP_EQUAL("", answer_to(client, line).c_str());
+    rig.executive.run_tick();
+    pass_answers();
+    return client.heard();
+  }
   /// As accepted.
   Client client() {
     Client made(path);
@@ -172,13 +179,14 @@ TEST(LocalCommands, AnAnswerThatIsLostMovesNoOther) {
   STRCMP_EQUAL("refused: wrong_state", other.heard().c_str());
 }
 
-TEST(LocalCommands, ANinthClientIsRefusedWithAReason) {
+TEST(LocalCommands, OneClientTooManyIsRefusedWithAReason) {
+  constexpr std::size_t max_clients = 20;
   std::vector<Client> clients;
-  clients.reserve(8);
-  for (int i = 0; i < 8; ++i)
+  clients.reserve(max_clients);
+  while (clients.size() < max_clients)
     clients.push_back(client());
-  const Client ninth = client();
-  STRCMP_EQUAL("refused: too many clients", ninth.heard().c_str());
+  const Client one_more = client();
+  STRCMP_EQUAL("refused: too many clients", one_more.heard().c_str());
   CHECK_FALSE(answer_to(clients.back(), "state").empty());
 }
 
@@ -200,10 +208,19 @@ TEST(LocalCommands, WhatBecomesOfATrajectoryIsTold) {
                answer_to(one, "playback").c_str());
   STRCMP_EQUAL("wrong: channel '3': must be 1 to 2", answer_to(one, "3 knot 0 0.005 0").c_str());
   // At rest there is nothing that it could follow.
-  for (const char* line : {"1 knot 0 0.005 0", "1 start 1e300"}) {
-    STRCMP_EQUAL("", answer_to(one, line).c_str());
-    rig.executive.run_tick();
-    pass_answers();
-    STRCMP_EQUAL("refused: wrong_state", one.heard().c_str());
-  }
+  STRCMP_EQUAL("refused: wrong_state", obeyed(one, "1 knot 0 0.005 0").c_str());
+}
+
+TEST(LocalCommands, AStartIsAtATimeOfTheBoard) {
+  rig.boot();
+  rig.arm();
+  rig.run(0.2);
+  const Client one = client();
+  STRCMP_EQUAL("ok", obeyed(one, "1 position 0.002").c_str());
+  STRCMP_EQUAL("ok", obeyed(one, "1 knot 0 0.002 0").c_str());
+  const double now_s = hal::seconds(rig.board.now());
+  for (const std::string& when : {std::string("1e300"), std::string("-1e300"), std::string("0"),
+                                  std::to_string(now_s + 61.0)})
+    STRCMP_EQUAL("refused: out_of_range", obeyed(one, "1 start " + when).c_str());
+  STRCMP_EQUAL("ok", obeyed(one, "1 start " + std::to_string(now_s + 0.1)).c_str());
 }

@@ -82,6 +82,11 @@ TEST(CommandText, KnotsAndStartsOfATrajectoryAreForTheSocketAlone) {
                   "'': knot needs three numbers: s after the one before, m, m/s"},
         std::pair{"1 knot 0.02 0.005 inf",
                   "'inf': knot needs three numbers: s after the one before, m, m/s"},
+        std::pair{"1 knot 1e-50 0.005 0",
+                  "1e-50 s after the one before: must be 0.001 or more, or 0 of the first"},
+        std::pair{"1 knot 1e300 0.005 0",
+                  "1e+300 s after the one before: must be 0.001 or more, or 0 of the first"},
+        std::pair{"1 knot 0.02 0.005 1e300", "1e+300 m/s is no velocity"},
         std::pair{"1 start soon", "'soon': start needs a time of the board, in s"},
         std::pair{"1 start 5 6", "'6' is too much"}})
     STRCMP_EQUAL(why, parse_trajectory_command(text, channels).value().error().c_str());

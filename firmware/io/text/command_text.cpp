@@ -115,9 +115,10 @@ std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::
   }
   constexpr double min_after_s = 1e-3;
   constexpr double max_float = std::numeric_limits<float>::max();
-  if (is_knot && after_s != 0.0 && !(after_s >= min_after_s && after_s <= max_float))
+  if (is_knot && after_s != 0.0 && !(after_s >= min_after_s && after_s <= max_float)) {
     return tl::unexpected(shortest_text(after_s) +
                           " s after the one before: must be 0.001 or more, or 0 of the first");
+  }
   if (std::abs(velocity_m_per_s) > max_float)
     return tl::unexpected(shortest_text(velocity_m_per_s) + " m/s is no velocity");
   command.after_s = static_cast<float>(after_s);

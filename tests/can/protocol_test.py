@@ -47,6 +47,13 @@ class Protocol(unittest.TestCase):
         self.assertEqual(seen, self.names.keys() - {"version"})
         self.assertEqual(self.database.dbc.attributes["ProtocolVersion"].value, self.names["version"])
 
+    def test_every_value_that_has_a_name_is_in_its_signals_range(self):
+        for message, signal, choices in self.signals():
+            named = [raw for raw, name in choices.items() if name != "not_available"]
+            if named:
+                self.assertLessEqual(signal.minimum, min(named) * signal.scale, f"{message.name}.{signal.name}")
+                self.assertGreaterEqual(signal.maximum, max(named) * signal.scale, f"{message.name}.{signal.name}")
+
     def test_identifiers_are_node_1_of_distinct_bases(self):
         bases = [message.frame_id - 1 for message in self.database.messages]
         self.assertEqual(len(set(bases)), len(bases))

@@ -4555,12 +4555,12 @@ double supercoil_status_result_decode(uint8_t value)
 
 bool supercoil_status_result_is_in_range(uint8_t value)
 {
-    return (value <= 10u);
+    return (value <= 11u);
 }
 
 bool supercoil_status_result_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 10.0));
+    return ((value >= 0.0) && (value <= 11.0));
 }
 
 uint8_t supercoil_status_proof_off_encode(double value)

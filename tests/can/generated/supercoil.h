@@ -2238,7 +2238,7 @@ struct supercoil_status_t {
     /**
      * How identify or calibrate ended, the last time that either was asked for; found: it is used from then on and stored; not_stored: used; all else changes nothing.
      *
-     * Range: 0..10 (0..10 -)
+     * Range: 0..11 (0..11 -)
      * Scale: 1
      * Offset: 0
      */

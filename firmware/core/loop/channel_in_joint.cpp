@@ -13,7 +13,7 @@ bool Channel::led() const {
 }
 
 /// To follow a position takes both muscles. All else is done by one of them, while the other one is
-/// not led; what measures the muscle wants it cold.
+/// not led; what measures a muscle wants the other one cold.
 Refusal Channel::joint_admits(Mode mode, const BoardTick& board) const {
   if (other_ == nullptr) return Refusal::none;
   if (waits_for_other()) return Refusal::busy;
@@ -23,7 +23,8 @@ Refusal Channel::joint_admits(Mode mode, const BoardTick& board) const {
     return other_is_alone ? Refusal::busy : other_->may_heat(board);
   }
   if (led()) return Refusal::busy;
-  return other_is_alone && mode != Mode::power ? Refusal::busy : Refusal::none;
+  const bool disturbs = mode != Mode::power || measures(other_->axis_.mode());
+  return other_is_alone && disturbs ? Refusal::busy : Refusal::none;
 }
 
 void Channel::lead(Mode mode) {
@@ -36,9 +37,8 @@ void Channel::lead(Mode mode) {
 }
 
 bool Channel::hand_over(Mode ended) {
-  const bool measures = ended == Mode::identify || ended == Mode::calibrate;
-  if (other_ == nullptr || !leads_ || !measures || !axis_.has_found()) return false;
-  if (other_->state_.state() != State::armed || other_->axis_.heater().probing()) return false;
+  if (other_ == nullptr || !leads_ || !measures(ended) || !axis_.has_found()) return false;
+  if (other_->state_.state() != State::armed) return false;
   other_->enter(ended, 0.0);
   handed_over_ = ended;
   return true;
@@ -52,8 +52,7 @@ void Channel::follow_other() {
 
 void Channel::publish_joint(Snapshot& s) const {
   if (other_ == nullptr || !leads_) return;
-  const bool measures = s.mode == Mode::identify || s.mode == Mode::calibrate;
-  if (measures) s.progress *= 0.5F;
+  if (measures(s.mode)) s.progress *= 0.5F;
   if (!waits_for_other()) return;
   s.mode = handed_over_;
   s.result = ModeResult::running;

@@ -26,6 +26,11 @@ enum class Mode : std::uint8_t {
   joint,  ///< does its part of what the other channel of its joint follows
 };
 
+/// Wants the muscle's own motion, and ends by itself with a ModeResult.
+constexpr bool measures(Mode mode) {
+  return mode == Mode::identify || mode == Mode::calibrate;
+}
+
 inline constexpr std::array<std::string_view, 6> mode_names{"rest",     "position",  "power",
                                                             "identify", "calibrate", "joint"};
 

@@ -303,6 +303,15 @@ TEST(Joint, IdentifyOfTheAgonistGoesOnWithTheAntagonist) {
   CHECK_COMPARE(rig.time_s() - agonist_s, >, 20.0);
 }
 
+TEST(Joint, NeitherMuscleIsHeatedBesideOneThatIsMeasured) {
+  arm();
+  CHECK(rig.answer_of(agonist, Verb::identify) == Refusal::none);
+  CHECK(rig.answer_of(antagonist, Verb::power, 1.0) == Refusal::busy);
+  CHECK(rig.answer_of(agonist, Verb::rest) == Refusal::none);
+  CHECK(rig.answer_of(antagonist, Verb::calibrate) == Refusal::none);
+  CHECK(rig.answer_of(agonist, Verb::power, 1.0) == Refusal::busy);
+}
+
 TEST(Joint, CalibrateOfTheAgonistGoesOnWithTheAntagonist) {
   arm();
   CHECK(rig.answer_of(agonist, Verb::calibrate) == Refusal::none);

@@ -149,6 +149,13 @@ class ByHand(OfJoint):
         page.wait(page.is_off, STOP_S, "off")
         self.assertEqual(page.errors(), [])
 
+    def test_calibrate_measures_both_muscles(self):
+        until(lambda: command(self.source, "1", "arm").returncode == 0)
+        done = command(self.source, "1", "calibrate", "--for", "120", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([json.loads(line) for line in done.stdout.splitlines()],
+                         [{"command": f"{node} calibrate", "result": "found"} for node in (1, 2)])
+
     def told_angle_deg(self):
         agonist, _ = json.loads(command(self.source, "state", "--json").stdout)["nodes"]
         return math.degrees(agonist["Measurement"]["position_m"] / 0.015)

@@ -4,6 +4,19 @@
 
 namespace supercoil::operating {
 
+namespace {
+
+/// As in a line; empty: the channel is no agonist of a joint.
+tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel) {
+  const auto known = board.muscle(channel);
+  if (!known) return tl::unexpected(known.error());
+  const double offset = (*known)[known_joint_other_node_offset];
+  if (!((*known)[known_joint_lever] > 0.0) || !std::isfinite(offset)) return "";
+  return std::to_string(std::stol(channel) + std::lround(offset));
+}
+
+}  // namespace
+
 BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
   auto answer = board.ask(channel + " arm");
   if (!answer || *answer != "ok") return answer;
@@ -19,12 +32,24 @@ BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
   return tl::unexpected<std::string>("its heater is still being measured after 2 s");
 }
 
-tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel) {
-  const auto known = board.muscle(channel);
-  if (!known) return tl::unexpected(known.error());
-  const double offset = (*known)[known_joint_other_node_offset];
-  if (!((*known)[known_joint_lever] > 0.0) || !std::isfinite(offset)) return "";
-  return std::to_string(std::stol(channel) + std::lround(offset));
+tl::expected<std::vector<ChannelEnding>, std::string> endings(BoardLink& board,
+                                                              const std::string& channel) {
+  auto ending = board.ending(channel);
+  // What is known of the board's state may be a moment older than its refusal.
+  for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
+    board.wait(std::chrono::milliseconds(100));
+    ending = board.ending(channel);
+  }
+  if (!ending) return tl::unexpected(ending.error());
+  std::vector<ChannelEnding> told{{channel, *ending}};
+  if (ending->result != "found") return told;
+  const auto antagonist = antagonist_of(board, channel);
+  if (!antagonist) return tl::unexpected(antagonist.error());
+  if (antagonist->empty()) return told;
+  const auto others = board.ending(*antagonist);
+  if (!others) return tl::unexpected(others.error());
+  told.push_back({*antagonist, *others});
+  return told;
 }
 
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,

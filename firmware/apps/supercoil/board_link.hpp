@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -144,9 +145,14 @@ class CanBoardLink final : public BoardLink {
 /// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
-/// Of the agonist of a joint the other channel, as in a line: identify and calibrate of the agonist
-/// go on with it. Empty: there is none.
-tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel);
+struct ChannelEnding {
+  std::string channel;  ///< as in a line
+  BoardLink::Ending ending;
+};
+/// How identify or calibrate of a channel ended, once the board tells it. Both go on with the
+/// antagonist where the channel is the agonist of a joint: that is then the second one.
+tl::expected<std::vector<ChannelEnding>, std::string> endings(BoardLink& board,
+                                                              const std::string& channel);
 
 /// can: a bus by its name; empty: the supercoild that listens at this socket.
 tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::string& can,

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "apps/supercoil/number_text.hpp"
 #include "can/codec.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

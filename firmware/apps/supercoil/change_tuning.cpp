@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "apps/supercoil/number_text.hpp"
 #include "text/command_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

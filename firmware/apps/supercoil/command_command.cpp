@@ -1,5 +1,5 @@
 // supercoil command: one command to a board, once or again and again.
-#include <array>
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cmath>
@@ -16,12 +16,15 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "text/command_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr int digits = 9;  // of a position in metres: nanometres
 
 /// A board's answer as an exit status; anything but "ok" is also said.
 int judged(const std::string& line, const std::string& answer) {
@@ -59,19 +62,22 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
-std::string shortest(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
-}
-
 /// Channel and verb as they are; the value on its sine, if there is one.
 std::string line_at(const CommandOptions& options, double time_s) {
   if (options.sine_period_s <= 0.0) return joined(options.words);
   constexpr double turn = 6.283185307179586;
   const double value = std::stod(options.words[2]) +
                        options.sine_amplitude * std::sin(turn * time_s / options.sine_period_s);
-  return joined({options.words[0], options.words[1], shortest(value)});
+  return joined({options.words[0], options.words[1], number_text(value, digits)});
+}
+
+/// What was asked wrongly, or of nobody; as JSON too where that is wanted.
+int refused(const CommandOptions& options, int status, const std::string& why) {
+  if (options.json) {
+    const nlohmann::ordered_json told{{"command", joined(options.words)}, {"error", why}};
+    std::printf("%s\n", told.dump().c_str());
+  }
+  return fail(status, why);
 }
 
 /// identify and calibrate end by themselves, with a result.
@@ -79,34 +85,30 @@ bool has_result(const CommandOptions& options) {
   return options.words[1] == name(Verb::identify) || options.words[1] == name(Verb::calibrate);
 }
 
+/// One channel's, as text or as JSON.
+int tell_ending(const CommandOptions& options, const ChannelEnding& of) {
+  const auto& [result, notes] = of.ending;
+  const std::string line = of.channel + " " + options.words[1];
+  if (options.json) {
+    nlohmann::ordered_json json{{"command", line}, {"result", result}};
+    if (!notes.empty()) json["notes"] = notes;
+    std::printf("%s\n", json.dump().c_str());
+  }
+  const std::string all = line + " ended: " + result + (notes.empty() ? "" : " (" + notes + ")");
+  if (result != "found") return fail(exit_failed, all);
+  if (!notes.empty() && !options.json) std::printf("%s\n", all.c_str());
+  return exit_done;
+}
+
 /// A mode ended by itself, or was ended: if it has a result, which.
 int ended(BoardLink& board, const CommandOptions& options) {
   if (!has_result(options)) return exit_done;
-  const std::string line = joined(options.words);
-  auto ending = board.ending(options.words[0]);
-  // What is known of the board's state may be a moment older than its refusal.
-  for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ending = board.ending(options.words[0]);
-  }
-  if (options.json) {
-    nlohmann::ordered_json told{{"command", line}};
-    told[ending ? "result" : "error"] = ending ? ending->result : ending.error();
-    if (ending && !ending->notes.empty()) told["notes"] = ending->notes;
-    std::printf("%s\n", told.dump().c_str());
-  }
-  if (!ending) return fail(exit_failed, ending.error());
-  const std::string notes = ending->notes.empty() ? "" : " (" + ending->notes + ")";
-  if (ending->result != "found")
-    return fail(exit_failed, line + " ended: " + ending->result + notes);
-  if (!notes.empty() && !options.json)
-    std::printf("%s ended: found%s\n", line.c_str(), notes.c_str());
-  const auto antagonist = antagonist_of(board, options.words[0]);
-  if (!antagonist) return fail(exit_failed, antagonist.error());
-  if (antagonist->empty()) return exit_done;
-  CommandOptions other = options;
-  other.words[0] = *antagonist;
-  return ended(board, other);
+  const auto all = endings(board, options.words[0]);
+  if (!all) return refused(options, exit_failed, all.error());
+  int status = exit_done;
+  for (const ChannelEnding& each : *all)
+    status = std::max(status, tell_ending(options, each));
+  return status;
 }
 
 /// Of a mode that ends by itself what the board says, otherwise of the time.
@@ -147,15 +149,6 @@ int hold(BoardLink& board, const CommandOptions& options) {
   return answer ? ended(board, options) : concluded(options, rest, answer);
 }
 
-/// What was asked wrongly, or of nobody; as JSON too where that is wanted.
-int refused(const CommandOptions& options, int status, const std::string& why) {
-  if (options.json) {
-    const nlohmann::ordered_json told{{"command", joined(options.words)}, {"error", why}};
-    std::printf("%s\n", told.dump().c_str());
-  }
-  return fail(status, why);
-}
-
 int tell_state(BoardLink& board, const CommandOptions& options) {
   const auto answer = options.json ? board.state_json() : board.state();
   if (!answer) return refused(options, exit_failed, answer.error());
@@ -185,7 +178,7 @@ int in_metres(BoardLink& board, CommandOptions& options) {
                    joined(options.words) + ": channel " + options.words[0] +
                        " is in no joint: its position is in metres");
   }
-  options.words[2] = shortest(*angle_deg * m_per_deg);
+  options.words[2] = number_text(*angle_deg * m_per_deg, digits);
   options.sine_amplitude *= m_per_deg;
   return exit_done;
 }

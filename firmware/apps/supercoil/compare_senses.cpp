@@ -6,10 +6,10 @@
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
-#include "apps/supercoil/number_text.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "apps/supercoil/setup/terminal_operator.hpp"
 #include "config/board_config.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

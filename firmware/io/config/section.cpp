@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "text/shortest_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::config {
 

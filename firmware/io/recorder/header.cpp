@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "storage/crc32.hpp"
-#include "text/shortest_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::recorder {
 

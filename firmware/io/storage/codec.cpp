@@ -11,7 +11,7 @@
 #include "storage/fields.hpp"
 #include "storage/number.hpp"
 #include "storage/tuning_tables.hpp"
-#include "text/shortest_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::storage {
 
@@ -101,7 +101,7 @@ std::string encode(const board::Learned& learned) {
     if (!is_stored(field, learned)) continue;
     if (field.table != table) body += "\n[" + std::string(field.table) + "]\n";
     table = field.table;
-    body += std::string(field.key) + " = " + number_text(field.of(copy)) + "\n";
+    body += std::string(field.key) + " = " + toml_number(field.of(copy)) + "\n";
   }
   return seal(body + encode_tuning(learned.tuning));
 }

@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-#include "text/shortest_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::storage {
 
-std::string number_text(double value) {
+std::string toml_number(double value) {
   const std::string text = shortest_text(value);
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }

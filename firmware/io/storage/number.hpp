@@ -9,7 +9,7 @@
 namespace supercoil::storage {
 
 /// With a point or exponent: "-0" would be read as the integer 0, without its sign.
-std::string number_text(double value);
+std::string toml_number(double value);
 /// The message of what is wrong, or nothing, with the number in value.
 std::optional<std::string> read_number(const toml::node* node, double& value);
 

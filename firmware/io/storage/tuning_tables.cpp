@@ -16,7 +16,7 @@ std::string table_of(std::string_view of, std::size_t place) {
 }
 
 std::string line(std::string_view key, double value) {
-  return std::string(key) + " = " + number_text(value) + "\n";
+  return std::string(key) + " = " + toml_number(value) + "\n";
 }
 
 /// By reference in whichever direction: what is written is what is read.

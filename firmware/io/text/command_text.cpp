@@ -8,7 +8,7 @@
 #include <span>
 #include <sstream>
 
-#include "text/shortest_text.hpp"
+#include "text/number_text.hpp"
 #include "text/words.hpp"
 
 namespace supercoil {

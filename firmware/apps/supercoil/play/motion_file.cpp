@@ -13,7 +13,7 @@
 #include "apps/supercoil/user_file.hpp"
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
-#include "text/shortest_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

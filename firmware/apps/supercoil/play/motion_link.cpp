@@ -6,7 +6,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "text/shortest_text.hpp"
+#include "text/number_text.hpp"
 #include "text/words.hpp"
 
 namespace supercoil::operating {

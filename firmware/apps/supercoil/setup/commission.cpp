@@ -5,13 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/supercoil/number_text.hpp"
 #include "apps/supercoil/setup/channel_now.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/describe.hpp"
 #include "modes/calibrate.hpp"
 #include "text/command_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 
@@ -80,16 +80,7 @@ std::string Commission::present_fault() {
 
 Commission::Done Commission::only_found(const std::string& mode, const OrWhy& result) {
   if (!result) return tl::unexpected(result.error());
-  if (*result == "found") {
-    const auto antagonist = antagonist_of(board_, channel_);
-    if (!antagonist) return tl::unexpected(antagonist.error());
-    if (antagonist->empty()) return {};
-    const auto ending = board_.ending(*antagonist);
-    if (!ending) return tl::unexpected(ending.error());
-    if (ending->result == "found") return {};
-    return tl::unexpected(mode + " of channel " + *antagonist + " ended: " + ending->result +
-                          "; docs/running.md says what each result means");
-  }
+  if (*result == "found") return {};
   const std::string fault = present_fault();
   return tl::unexpected(mode + " ended: " + *result +
                         (fault.empty() ? "; docs/running.md says what each result means" : fault));
@@ -131,14 +122,15 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
     if (!answer) return tl::unexpected(answer.error());
     if (*answer != "ok") break;
   }
-  auto ending = board_.ending(channel_);
-  for (int i = 0; ending && ending->result == "running" && i < 10; ++i) {
-    board_.wait(renewal);
-    ending = board_.ending(channel_);
+  const auto all = endings(board_, channel_);
+  if (!all) return tl::unexpected(all.error());
+  for (const auto& [channel, ending] : *all) {
+    std::string whose = mode;
+    if (all->size() > 1) whose += " of channel " + channel;
+    if (all->size() > 1) who_.say(whose + ": " + ending.result);
+    if (!ending.notes.empty()) who_.say(whose + " notes: " + ending.notes);
   }
-  if (!ending) return tl::unexpected(ending.error());
-  if (!ending->notes.empty()) who_.say(mode + " notes: " + ending->notes);
-  return ending->result;
+  return all->back().ending.result;
 }
 
 Commission::OrWhy Commission::calibrate_when_cold() {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <sstream>
 
-#include "apps/supercoil/number_text.hpp"
 #include "apps/supercoil/setup/recommended_controller.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

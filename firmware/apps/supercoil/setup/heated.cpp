@@ -1,6 +1,6 @@
 #include "apps/supercoil/setup/heated.hpp"
 
-#include "apps/supercoil/number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

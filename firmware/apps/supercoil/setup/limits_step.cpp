@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/supercoil/number_text.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/heated.hpp"
 #include "apps/supercoil/setup/stall_watch.hpp"
 #include "loop/feasibility.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/supercoil/number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/supercoil/number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "apps/supercoil/number_text.hpp"
 #include "apps/supercoil/setup/heated.hpp"
 #include "board/meter_comparison.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "apps/supercoil/interrupted.hpp"
-#include "apps/supercoil/number_text.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 

@@ -1,7 +1,5 @@
 """The board's own socket, with the threads of supercoild and a simulated board of two channels behind it."""
 
-import asyncio
-import contextlib
 import time
 import unittest
 
@@ -58,21 +56,6 @@ class Local(unittest.TestCase):
         self.assertGreater(way_m, 0.00045)
         # In a tick of 5 ms the first goes 3 um; the rows of both may be of two ticks.
         self.assertLess(apart, 1e-5)
-
-    def test_one_that_is_cancelled_leaves_no_answer_behind(self):
-        async def cancelled():
-            async with supercoil.Muscle(self.path, 1, deadline_s=DEADLINE_S) as muscle:
-                await muscle.arm()
-                playing = asyncio.create_task(muscle.play(TIMES_S, there_and_back_m(1.0), settle_s=0.1))
-                for _ in range(20):
-                    await asyncio.sleep(0.011)
-                    playing.cancel()
-                with contextlib.suppress(asyncio.CancelledError):
-                    await playing
-                self.assertEqual((await muscle.tuning())["kind"].in_use, "pi")
-                await muscle.rest()
-                return muscle.state
-        self.assertEqual(asyncio.run(cancelled()), State.armed)
 
     def test_what_it_cannot_do_is_refused_with_its_time(self):
         with self.muscle(2) as muscle:

@@ -82,7 +82,9 @@ class LocalPlay(unittest.TestCase):
                                        "--socket", self.path], stderr=subprocess.PIPE, text=True)
             if self.until_state(2, " 0.0032 ", player):
                 break
-            player.communicate()
+            self.addCleanup(player.stderr.close)
+        else:
+            self.fail("the machine is too busy")
         player.send_signal(signal.SIGINT)
         self.assertEqual(player.communicate()[1].replace("\r", "").strip(), "")
         self.assertEqual(player.returncode, 0)

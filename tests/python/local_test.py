@@ -1,17 +1,20 @@
 """The board's own socket, against a server that speaks as firmware/apps/supercoild/local_commands.cpp does."""
 
+import asyncio
 import math
 import pathlib
 import re
 import socket
 import tempfile
 import threading
+import time
 import unittest
 
 from patience import patient_tests
 
 import supercoil
 from supercoil import Setting, State, sync
+from supercoil.clock import SocketClock
 from supercoil.generated.names import Mode, Opcode
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -23,6 +26,7 @@ class FakeDaemon:
     def __init__(self, path):
         self.answers = {"senses": "1 1 1 0\n2 1.02 0.985 0.021\n",
                         "muscle": "1 nan\n2 " + " ".join(map(str, range(14))) + " nan\n"}
+        self.waits_s = {}  # before it answers a line
         self.lines = []
         self.tell("disarmed", "rest")
         self._listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -57,6 +61,7 @@ class FakeDaemon:
                                 "position": ("active", "position"),
                                 "identify": ("armed", "rest", "none", "found", "theta2_uncertain,friction"),
                                 }[line.split()[1]])
+                time.sleep(self.waits_s.get(line, 0.0))
                 client.send(answer.encode())
 
 
@@ -143,6 +148,28 @@ class Local(unittest.TestCase):
             self.daemon.answers["tuning 2 0 kind prepared"] = "wrong: 'tuning' is not a command"
             with self.assertRaisesRegex(supercoil.SupercoilError, "not a command"):
                 muscle.tuning()
+
+    def test_one_that_is_cancelled_leaves_no_answer_for_the_next(self):
+        self.daemon.waits_s["2 store"] = 0.2
+        self.daemon.answers.update({"2 store": "refused: not_ready", "tuning 2 0 kind in_use": "1"})
+
+        async def cancelled():
+            async with supercoil.Muscle(self.path, 2, deadline_s=60.0) as muscle:
+                storing = asyncio.create_task(muscle.store())
+                await asyncio.sleep(0.05)
+                storing.cancel()
+                with self.assertRaises(asyncio.CancelledError):
+                    await storing
+                await muscle.rest()
+                return (await muscle.tuning())["kind"].in_use
+        self.assertEqual(asyncio.run(cancelled()), "pi")
+
+    def test_channels_of_one_board_start_at_one_of_its_times(self):
+        clock = SocketClock.of(self.path)
+        self.assertIs(SocketClock.of(self.path), clock)
+        first = clock.next_number()
+        self.assertEqual([clock.start_s(first, board_s, 0.1) for board_s in (10.0, 10.02)], [10.1, 10.1])
+        self.assertEqual(clock.start_s(clock.next_number(), 20.0, 0.1), 20.1)
 
     def test_every_command_is_one_of_the_boards_lines(self):
         with self.muscle() as muscle:

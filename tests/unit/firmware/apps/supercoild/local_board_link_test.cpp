@@ -1,7 +1,13 @@
 // What `supercoil` understands of the answers that supercoild gives on the board's socket.
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <thread>
+
+#include <sys/socket.h>
+#include <sys/un.h>
 
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
@@ -102,4 +108,33 @@ TEST(LocalBoardLink, TellsAllOfItAsJson) {
   DOUBLES_EQUAL(0.25, channel["progress"].get<double>(), 1e-9);
   STRCMP_EQUAL("none", channel["result"].get<std::string>().c_str());
   STRCMP_EQUAL("", channel["notes"].get<std::string>().c_str());
+}
+
+TEST(LocalBoardLink, ASignalLosesNoAnswer) {
+  const test::TemporaryFolder folder;
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  (folder / "commands").copy(address.sun_path, sizeof(address.sun_path) - 1);
+  const hal_linux::Descriptor listener(::socket(AF_UNIX, SOCK_SEQPACKET, 0));
+  const auto* where = reinterpret_cast<const sockaddr*>(&address);
+  LONGS_EQUAL(0, ::bind(listener.number(), where, sizeof(address)));
+  LONGS_EQUAL(0, ::listen(listener.number(), 1));
+  auto socket = BoardSocket::open(folder / "commands");
+  CHECK(socket.has_value());
+  const auto before = std::signal(SIGUSR1, [](int) {});
+  const pthread_t asks = pthread_self();
+  std::thread board([&] {
+    const hal_linux::Descriptor client(::accept(listener.number(), nullptr, nullptr));
+    std::array<char, 8> line{};
+    CHECK(::recv(client.number(), line.data(), line.size(), 0) > 0);
+    for (int i = 0; i < 5; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      pthread_kill(asks, SIGUSR1);
+    }
+    CHECK(::send(client.number(), "ok", 2, 0) == 2);
+  });
+  const auto answer = socket->ask("1 renew");
+  board.join();
+  std::signal(SIGUSR1, before);
+  STRCMP_EQUAL("ok", answer ? answer->c_str() : answer.error().c_str());
 }

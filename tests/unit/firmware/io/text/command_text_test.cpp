@@ -88,8 +88,11 @@ TEST(CommandText, KnotsAndStartsOfATrajectoryAreForTheSocketAlone) {
                   "1e+300 s after the one before: must be 0.001 or more, or 0 of the first"},
         std::pair{"1 knot 0.02 0.005 1e300", "1e+300 m/s is no velocity"},
         std::pair{"1 start soon", "'soon': start needs a time of the board, in s"},
-        std::pair{"1 start 5 6", "'6' is too much"}})
-    STRCMP_EQUAL(why, parse_trajectory_command(text, channels).value().error().c_str());
+        std::pair{"1 start 5 6", "'6' is too much"}}) {
+    const auto read = parse_trajectory_command(text, channels);
+    CHECK(read && !*read);
+    STRCMP_EQUAL(why, read->error().c_str());
+  }
 }
 
 TEST(CommandText, EveryRefusalHasAName) {

@@ -15,6 +15,8 @@ namespace supercoil {
 
 namespace {
 
+constexpr std::string_view refused = "refused: ";
+
 /// The others take none.
 bool has_value(Verb verb) {
   return verb == Verb::position || verb == Verb::power || verb == Verb::scale ||
@@ -131,9 +133,21 @@ std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::
 std::string answer_text(Refusal refusal, double nearest) {
   if (refusal == Refusal::none) return "ok";
   std::ostringstream text;
-  text << "refused: " << name(refusal);
+  text << refused << name(refusal);
   if (!std::isnan(nearest)) text << "; " << nearest << " would be obeyed";
   return text.str();
+}
+
+std::optional<Reply> parse_answer(std::string_view text) {
+  if (text == "ok") return Refusal::none;
+  if (!text.starts_with(refused)) return std::nullopt;
+  text.remove_prefix(refused.size());
+  const std::string_view word = text.substr(0, text.find_first_of(";:"));
+  const auto found = std::ranges::find(refusal_names, word);
+  if (found == refusal_names.end()) return std::nullopt;
+  text.remove_prefix(std::min(text.size(), word.size() + 1));
+  return Reply(static_cast<Refusal>(found - refusal_names.begin()),
+               number<double>(next_word(text)).value_or(NAN));
 }
 
 }  // namespace supercoil

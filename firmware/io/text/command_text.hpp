@@ -24,4 +24,7 @@ std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::
 /// Answer.
 std::string answer_text(Refusal refusal, double nearest);
 
+/// What answer_text() says, also with a reason behind it. Empty: the text is no such answer.
+std::optional<Reply> parse_answer(std::string_view text);
+
 }  // namespace supercoil

@@ -1,45 +1,17 @@
 #include "apps/supercoil/play/motion_link.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <sstream>
-#include <string_view>
 
+#include "text/command_text.hpp"
 #include "text/number_text.hpp"
-#include "text/words.hpp"
 
 namespace supercoil::operating {
-
-namespace {
-
-/// What answer_text() of the board's command_text.hpp says; the error: it says something else.
-MotionLink::Answered answer_in(const std::string& told) {
-  if (told == "ok") return MotionLink::Answer{Refusal::none, NAN};
-  constexpr std::string_view refused = "refused: ";
-  std::string_view rest = told;
-  if (rest.starts_with(refused)) {
-    rest.remove_prefix(refused.size());
-    const std::string_view word = rest.substr(0, rest.find(';'));
-    const auto found = std::ranges::find(refusal_names, word);
-    if (found != refusal_names.end()) {
-      const auto refusal = static_cast<Refusal>(found - refusal_names.begin());
-      rest.remove_prefix(std::min(rest.size(), word.size() + 1));
-      const std::string_view nearest_word = next_word(rest);
-      double nearest = NAN;
-      std::from_chars(nearest_word.data(), nearest_word.data() + nearest_word.size(), nearest);
-      return MotionLink::Answer{refusal, nearest};
-    }
-  }
-  return tl::unexpected(told);
-}
-
-}  // namespace
 
 MotionLink::Answered CanMotionLink::ask(Verb verb, double value) {
   const auto answer = commander_.ask(verb, value);
   if (!answer) return tl::unexpected(answer.error());
-  return Answer{*answer, *answer == Refusal::out_of_range ? commander_.nearest() : NAN};
+  return Reply(*answer, *answer == Refusal::out_of_range ? commander_.nearest() : NAN);
 }
 
 MotionLink::Played CanMotionLink::add_knot(double after_s, const control::Knot& knot) {
@@ -55,7 +27,11 @@ void CanMotionLink::send_sync(std::uint8_t number, double master_time_s) {
 }
 
 MotionLink::Answered LocalMotionLink::command(const std::string& words) {
-  return socket_.ask(channel_ + " " + words).and_then(answer_in);
+  const auto told = socket_.ask(channel_ + " " + words);
+  if (!told) return tl::unexpected(told.error());
+  const auto reply = parse_answer(*told);
+  if (!reply) return tl::unexpected(*told);
+  return *reply;
 }
 
 MotionLink::Answered LocalMotionLink::ask(Verb verb, double value) {

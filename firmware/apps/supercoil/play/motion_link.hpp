@@ -22,11 +22,7 @@ class MotionLink {
   MotionLink& operator=(const MotionLink&) = delete;
   virtual ~MotionLink() = default;
 
-  struct Answer {
-    Refusal refusal;
-    double nearest;  ///< that would have been obeyed; NaN: none is known
-  };
-  using Answered = tl::expected<Answer, std::string>;
+  using Answered = tl::expected<Reply, std::string>;
   using Played = Commander::Played;
 
   /// position, renew, rest.

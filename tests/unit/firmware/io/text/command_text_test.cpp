@@ -1,5 +1,7 @@
 #include "text/command_text.hpp"
 
+#include <cmath>
+
 #include <CppUTest/TestHarness.h>
 
 using namespace supercoil;
@@ -101,4 +103,19 @@ TEST(CommandText, EveryRefusalHasAName) {
   STRCMP_EQUAL("refused: no_such_channel", answer_text(Refusal::no_such_channel, NAN).c_str());
   STRCMP_EQUAL("refused: out_of_range; 0.025 would be obeyed",
                answer_text(Refusal::out_of_range, 0.025).c_str());
+}
+
+TEST(CommandText, AnAnswerIsReadAsItWasGiven) {
+  for (std::size_t i = 0; i < refusal_names.size(); ++i) {
+    const auto refusal = static_cast<Refusal>(i);
+    const auto read = parse_answer(answer_text(refusal, NAN));
+    CHECK(read && read->refusal == refusal && std::isnan(read->nearest));
+  }
+  const auto nearest = parse_answer(answer_text(Refusal::out_of_range, 0.025));
+  CHECK(nearest && nearest->refusal == Refusal::out_of_range);
+  DOUBLES_EQUAL(0.025, nearest->nearest, 0.0);
+  const auto reason = parse_answer("refused: unsuitable: kind is unstable on this muscle");
+  CHECK(reason && reason->refusal == Refusal::unsuitable && std::isnan(reason->nearest));
+  for (const char* other : {"", "refused: ", "refused: too many clients", "wrong: channel '3'"})
+    CHECK_FALSE(parse_answer(other).has_value());
 }

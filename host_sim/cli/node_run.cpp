@@ -16,13 +16,13 @@ NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& win
       scenario_(std::move(scenario)),
       folder_(&folder),
       simulation_(scenario_),
-      recorder_(folder.path().string(), scenario_.start.joint ? 2 : 1, scenario_.rate_Hz, files_),
+      recorder_(folder.path().string(), scenario_.channels(), scenario_.rate_Hz, files_),
       summary_(window) {
   simulation_.record_to(recorder_);
   if (options.real_time) return;
   if (options.trace) {
     trace_ = write_trace(folder.temporary(trace_file(options.trace_format)), options.trace_format,
-                         options.every, scenario_.start.joint.has_value());
+                         options.every, scenario_.channels() == 2);
     // It would stand beside this run's summary.
     const bool csv = options.trace_format == TraceFormat::csv;
     folder.supersede(trace_file(csv ? TraceFormat::npy : TraceFormat::csv));

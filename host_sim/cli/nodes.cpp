@@ -11,7 +11,7 @@ tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options, const S
   for (int i = 0; i < options.nodes; ++i) {
     Scenario its = scenario;
     its.seed += static_cast<std::uint64_t>(i);
-    its.can.first_node = static_cast<can::Node>(scenario.can.first_node + i);
+    its.can.first_node = static_cast<can::Node>(scenario.can.first_node + i * scenario.channels());
     OutputFolder* its_folder = &folder;
     if (options.nodes > 1) {
       const std::string number = std::to_string(int{its.can.first_node});

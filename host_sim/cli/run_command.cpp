@@ -100,15 +100,12 @@ int run_command(const RunOptions& options) {
                                       ": must be FROM:TO in seconds, a tick or more within 0 to " +
                                       std::to_string(scenario->duration_s));
   }
-  if (const int last = scenario->can.first_node + options.nodes - 1; last > can::max_nodes) {
+  const int of_each = scenario->channels();
+  const int most = (can::max_nodes + 1 - scenario->can.first_node) / of_each;
+  if (options.nodes > most) {
     return fail(exit_wrong_input, "--nodes " + std::to_string(options.nodes) + ": must be 1 to " +
-                                      std::to_string(options.nodes - (last - can::max_nodes)) +
-                                      ", as the first is node " +
+                                      std::to_string(most) + ", as the first is node " +
                                       std::to_string(int{scenario->can.first_node}));
-  }
-  if (scenario->start.joint && options.nodes > 1) {
-    return fail(exit_wrong_input, "--nodes " + std::to_string(options.nodes) +
-                                      ": must be 1 for a scenario with a [joint]");
   }
   if (options.check) {
     std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenario.c_str(),

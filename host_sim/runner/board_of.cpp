@@ -33,6 +33,10 @@ PositionSensorSettings mirrored(PositionSensorSettings sensor) {
   return sensor;
 }
 
+board::Scaling mirrored(const board::Scaling& scaling) {
+  return {-scaling.per_count, -scaling.offset};
+}
+
 /// The muscle's effects in its air.
 PlantEffects effects_of(const Scenario& scenario, const Conditions& c, const PlantSettings& plant) {
   PlantEffects effects = plant.effects;
@@ -104,9 +108,12 @@ board::ThermalSettings thermal_of(const Conditions& c, const control::PhysicalPa
 BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated) {
   board.supply.scaling = scaling_of(simulated.supply);
   if (simulated.air) board.air.scaling = scaling_of(*simulated.air);
-  ChannelSettings& channel = board.channels[0];
-  channel.position.scaling = scaling_of(simulated.channels[0].position);
-  channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
+  const board::Scaling position = scaling_of(simulated.channels[0].position);
+  board.channels[0].position.scaling = position;
+  // A joint's antagonist sees it from the other side.
+  if (!board.joints.empty()) board.channels[1].position.scaling = mirrored(position);
+  for (std::size_t i = 0; i < board.channels.size(); ++i)
+    board.channels[i].heater.current.scaling = scaling_of(simulated.channels[i].current);
   return board;
 }
 
@@ -140,19 +147,18 @@ MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
 ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
                               const MuscleChannelSettings& simulated) {
   const Conditions& c = scenario.start;
-  const JointConditions& joint = *c.joint;
-  const double resistance_Ohm = joint.antagonist.resistance_Ohm;
-  channel.muscle = joint.antagonist_muscle;
+  const AntagonistConditions& antagonist = *c.antagonist();
+  const double resistance_Ohm = antagonist.plant.resistance_Ohm;
+  channel.muscle = antagonist.muscle;
   channel.muscle_identified = false;
   channel.response_ratio = 0.0;
-  board::Scaling& scaling = channel.position.scaling;
-  scaling = {-scaling.per_count, -scaling.offset};
+  channel.position.scaling = mirrored(channel.position.scaling);
   channel.heater.current.scaling = scaling_of(simulated.current);
   channel.heater.cold_resistance_Ohm = resistance_Ohm;
-  channel.heater.temperature_coefficient_per_K = joint.antagonist.temperature_coefficient_per_K;
+  channel.heater.temperature_coefficient_per_K = antagonist.plant.temperature_coefficient_per_K;
   channel.calibration = {};
   channel.calibration.cold_resistance_Ohm = resistance_Ohm;
-  channel.thermal = thermal_of(c, joint.antagonist_muscle);
+  channel.thermal = thermal_of(c, antagonist.muscle);
   channel.supervision = supervision_of(scenario, mirrored(c.position_sensor), resistance_Ohm);
   return channel;
 }
@@ -164,12 +170,13 @@ MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditio
 }
 
 MuscleChannelSettings antagonist_channel_of(const Scenario& scenario, const Conditions& c) {
-  return channel_of(scenario, c, c.joint->antagonist);
+  return channel_of(scenario, c, c.antagonist()->plant);
 }
 
 SimulatedJointSettings simulated_joint_of(const Conditions& c) {
   SimulatedJointSettings joint;
   joint.plant = c.joint->plant;
+  if (!c.joint->antagonist) joint.antagonist.reset();
   joint.plant.substeps = c.plant.effects.substeps;
   joint.load_Nm = c.joint->load_Nm;
   return joint;
@@ -185,10 +192,9 @@ SimulatedBoardSettings simulated_board_of(const Scenario& scenario) {
   s.charge_pump_decay_s = pump_decay_s(scenario);
   s.seed = scenario.seed;
   s.channels = {muscle_channel_of(scenario, scenario.start)};
-  if (scenario.start.joint) {
+  if (scenario.start.antagonist() != nullptr)
     s.channels.push_back(antagonist_channel_of(scenario, scenario.start));
-    s.joints = {simulated_joint_of(scenario.start)};
-  }
+  if (scenario.start.joint) s.joints = {simulated_joint_of(scenario.start)};
   return s;
 }
 
@@ -230,9 +236,9 @@ BoardSettings firmware_of(const Scenario& scenario) {
     if (event.new_controller) channel.controllers.push_back(event.conditions.controller);
     if (event.new_estimator) channel.estimators.push_back(event.conditions.estimator);
   }
-  if (c.joint) {
+  if (const AntagonistConditions* antagonist = c.antagonist()) {
     board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
-    JointSettings joint{0, 1, c.joint->plant.lever_m, c.joint->co_contraction_W};
+    JointSettings joint{0, 1, c.joint->plant.lever_m, antagonist->co_contraction_W};
     joint.max_co_contraction_W =
         std::max(joint.co_contraction_W,
                  JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));

@@ -82,6 +82,10 @@ void Simulation::housekeep() {
   if (link_) link_->poll(board_.now());
   while (loop_.channel(0).take_learned_update(learned_)) {
   }
+  // Of an antagonist nobody keeps it; left where it is it would fill its queue.
+  board::LearnedUpdate forgotten;
+  while (conditions_->antagonist() != nullptr && loop_.channel(1).take_learned_update(forgotten)) {
+  }
 }
 
 void Simulation::pass_rows() {
@@ -111,20 +115,22 @@ void Simulation::apply_event(const Event& event) {
 }
 
 void Simulation::change_joint(const Conditions& before) {
-  board_.channel(1).set(antagonist_channel_of(*scenario_, *conditions_));
+  const AntagonistConditions* antagonist = conditions_->antagonist();
+  if (antagonist != nullptr) board_.channel(1).set(antagonist_channel_of(*scenario_, *conditions_));
   board_.joint(0).set(simulated_joint_of(*conditions_));
+  if (antagonist == nullptr) return;
   loop_.channel(1).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
-  const double wanted_W = conditions_->joint->co_contraction_W;
-  if (wanted_W == before.joint->co_contraction_W) return;
+  const double wanted_W = antagonist->co_contraction_W;
+  if (wanted_W == before.antagonist()->co_contraction_W) return;
   // The operator commands it in watts of the antagonist.
-  const double gain_ratio = conditions_->joint->antagonist_muscle.dc_gain_m_per_W() /
-                            conditions_->muscle.dc_gain_m_per_W();
+  const double gain_ratio =
+      antagonist->muscle.dc_gain_m_per_W() / conditions_->muscle.dc_gain_m_per_W();
   loop_.send({1, Verb::power, wanted_W / gain_ratio});
 }
 
 double Simulation::peak_temperature_rise_K() const {
   const double first_K = board_.channel(0).peak_temperature_rise_K();
-  if (!conditions_->joint) return first_K;
+  if (conditions_->antagonist() == nullptr) return first_K;
   return std::fmax(first_K, board_.channel(1).peak_temperature_rise_K());
 }
 
@@ -138,7 +144,7 @@ void Simulation::inject_faults(const InjectedFaults& faults) {
                    faults.switch_stuck_on, false,
                    faults.muscle_slack,    faults.switch_leak_ratio,
                    faults.agonist_torn,    faults.agonist_slack_m};
-  if (conditions_->joint) {
+  if (conditions_->antagonist() != nullptr) {
     board_.channel(1).faults.wire_open = faults.antagonist_heater_open;
     board_.channel(1).faults.torn = faults.antagonist_torn;
     board_.channel(1).faults.slack_m = faults.antagonist_slack_m;
@@ -212,8 +218,8 @@ void Simulation::ask(double reference) {
   last_action_ = conditions_->action;
 }
 
-Answer Simulation::command(Verb verb, double value) {
-  loop_.send({0, verb, value, Source::local, commanded});
+Answer Simulation::command(Verb verb, double value, std::uint8_t channel) {
+  loop_.send({channel, verb, value, Source::local, commanded});
   step();
   return answer_;
 }
@@ -257,7 +263,7 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.fault = s.fault;
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
-  if (conditions_->joint) r.antagonist = antagonist_record();
+  if (conditions_->antagonist() != nullptr) r.antagonist = antagonist_record();
   return r;
 }
 

@@ -64,7 +64,7 @@ class Simulation {
   /// One tick: events, what is asked for, and the firmware's tick.
   TickRecord step();
   /// One tick as well, with a command beside the scenario's, and what the board answers to it.
-  Answer command(Verb verb, double value);
+  Answer command(Verb verb, double value, std::uint8_t channel = 0);
 
   std::int64_t tick() const { return tick_; }
   std::int64_t ticks() const { return ticks_; }

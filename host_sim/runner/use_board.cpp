@@ -52,9 +52,53 @@ void put(Conditions& c, const ChannelSettings& channel, const config::ChannelWir
   c.muscle = channel.muscle;
 }
 
-OrRefused check_joint(const Scenario& scenario) {
-  if (!scenario.start.joint) return {};
-  return tl::unexpected<std::string>("the scenario has a [joint]: its board is its own");
+/// As put(), of the muscle that pulls against it. What the operator asks of both under way stays.
+void put_antagonist(Conditions& c, const BoardSettings& board, double configured_W) {
+  AntagonistConditions& antagonist = *c.joint->antagonist;
+  antagonist.muscle = board.channels[1].muscle;
+  if (antagonist.co_contraction_W == configured_W)
+    antagonist.co_contraction_W = board.joints[0].co_contraction_W;
+}
+
+/// The joint of the file that turns what the scenario's [joint] is; empty: neither has one.
+tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditions& c,
+                                                                   const BoardSettings& board,
+                                                                   std::size_t channel) {
+  const JointSettings* found = board.joint_of(channel);
+  std::ostringstream why;
+  if (c.antagonist() == nullptr) {
+    if (found == nullptr) return std::nullopt;
+    why << "channel " << channel + 1 << " of the board's file is one of a joint, and the scenario "
+        << "has no [joint] of two muscles";
+    return tl::unexpected(why.str());
+  }
+  if (found == nullptr) {
+    why << "the scenario has a [joint] of two muscles, and channel " << channel + 1
+        << " of the board's file is in none";
+    return tl::unexpected(why.str());
+  }
+  if (found->lever_m != c.joint->plant.lever_m) {
+    why << "the scenario's joint.lever_m = " << c.joint->plant.lever_m << " is not the board's, "
+        << found->lever_m << ": positions are arcs at the lever";
+    return tl::unexpected(why.str());
+  }
+  return *found;
+}
+
+/// The file's board with the channels that the scenario has, an agonist first.
+BoardSettings board_of_one(const BoardSettings& all, std::size_t channel,
+                           std::optional<JointSettings> joint) {
+  BoardSettings board = all;
+  board.joints.clear();
+  if (!joint) {
+    board.channels = {all.channels[channel]};
+    return board;
+  }
+  board.channels = {all.channels[joint->agonist], all.channels[joint->antagonist]};
+  joint->agonist = 0;
+  joint->antagonist = 1;
+  add_joint(board, *joint);
+  return board;
 }
 
 }  // namespace
@@ -63,9 +107,10 @@ OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::
                     const std::optional<board::Learned>& learned) {
   if (auto checked = check_supply(scenario.start, config.settings); !checked) return checked;
   if (auto checked = check_events(scenario); !checked) return checked;
-  if (auto checked = check_joint(scenario); !checked) return checked;
-  BoardSettings board = config.settings;
-  board.channels = {config.settings.channels[channel]};
+  const auto joint = find_joint(scenario.start, config.settings, channel);
+  if (!joint) return tl::unexpected(joint.error());
+  if (*joint) channel = (*joint)->agonist;
+  BoardSettings board = board_of_one(config.settings, channel, *joint);
   if (learned) apply_learned(board.channels[0], *learned);
   scenario.rate_Hz = board.rate_Hz;
   if (config.can) scenario.can = *config.can;
@@ -73,6 +118,12 @@ OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::
   put(scenario.start, board.channels[0], config.wiring.channels[channel]);
   for (Event& event : scenario.events)
     put(event.conditions, board.channels[0], config.wiring.channels[channel]);
+  if (*joint) {
+    const double configured_W = scenario.start.antagonist()->co_contraction_W;
+    put_antagonist(scenario.start, board, configured_W);
+    for (Event& event : scenario.events)
+      put_antagonist(event.conditions, board, configured_W);
+  }
   scenario.board = std::move(board);
   return {};
 }

@@ -1,4 +1,4 @@
-// A scenario's muscle on a board of the user's own.
+// A scenario's muscle, or its joint, on a board of the user's own.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,10 @@
 
 namespace supercoil::host_sim {
 
-/// Lets the scenario run the firmware as this file configures one of its channels, over devices
-/// that measure and switch as the file's do. The muscle, its air, the supply and what is asked for
-/// stay the scenario's. channel: from 0. The error says which of the two must change, and how.
+/// Lets the scenario run the firmware as this file configures one of its channels, or the joint in
+/// which that is, over devices that measure and switch as the file's do. The muscle, its air, the
+/// supply and what is asked for stay the scenario's. channel: from 0. The error says which of the
+/// two must change, and how.
 tl::expected<void, std::string> use_board(Scenario& scenario, const config::BoardConfig& config,
                                           std::size_t channel,
                                           const std::optional<board::Learned>& learned);

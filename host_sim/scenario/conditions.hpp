@@ -26,13 +26,18 @@ struct PlantSettings {
   friend bool operator==(const PlantSettings&, const PlantSettings&) = default;
 };
 
-/// A joint that the muscle turns against another one.
-struct JointConditions {
-  JointPlantSettings plant;  ///< without its muscles
-  double load_Nm = 0.0;      ///< turns it towards negative angles
+/// The muscle that pulls against the scenario's own.
+struct AntagonistConditions {
+  PlantSettings plant;
+  control::PhysicalParameters muscle;  ///< what the board believes it to be
   double co_contraction_W = 1.0;
-  PlantSettings antagonist;
-  control::PhysicalParameters antagonist_muscle;  ///< what the board believes it to be
+};
+
+/// A joint that the muscle turns against another one, or against a spring.
+struct JointConditions {
+  JointPlantSettings plant;                        ///< without its muscles
+  double load_Nm = 0.0;                            ///< turns it towards negative angles
+  std::optional<AntagonistConditions> antagonist;  ///< empty: the spring opposes alone
 };
 
 struct PositionSensorSettings {
@@ -119,6 +124,11 @@ struct Conditions {
   Reference reference;
   control::ControllerSettings controller;
   control::EstimatorSettings estimator;
+
+  /// Null where the muscle is alone or a spring opposes it.
+  const AntagonistConditions* antagonist() const {
+    return joint && joint->antagonist ? &*joint->antagonist : nullptr;
+  }
 };
 
 }  // namespace supercoil::host_sim

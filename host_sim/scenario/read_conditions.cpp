@@ -22,12 +22,17 @@ constexpr double default_min_ratio = -0.25;
 constexpr double slowest_position_Hz = 20.0;
 /// To both sides.
 constexpr double joint_range_m = 0.008;
+constexpr double spring_joint_range_m = 0.011;
 
-enum class Moves { paper_muscle, muscle, joint };
+Moves what_moves(const Conditions& c) {
+  if (c.joint) return c.joint->antagonist ? Moves::joint : Moves::spring_joint;
+  return c.plant.effects.any() ? Moves::load : Moves::paper_load;
+}
 
 PositionSensorSettings read_position_sensor(Section section, Moves moves) {
   PositionSensorSettings sensor;
   if (moves == Moves::joint) sensor.range_m = joint_range_m;
+  if (moves == Moves::spring_joint) sensor.range_m = spring_joint_range_m;
   sensor.noise_rms_m = section.number("noise_rms_m", sensor.noise_rms_m, {0.0, 0.1});
   sensor.resolution_bits =
       static_cast<int>(section.integer("resolution_bits", sensor.resolution_bits, 0, 32));
@@ -38,8 +43,7 @@ PositionSensorSettings read_position_sensor(Section section, Moves moves) {
   sensor.rate_Hz = section.number("rate_Hz", sensor.rate_Hz, {0.0, 10e3});
   if (sensor.rate_Hz > 0.0 && sensor.rate_Hz < slowest_position_Hz)
     section.wrong("rate_Hz", "must be 0 (whenever the board asks) or 20 to 10000");
-  double min_m = 0.0;
-  if (moves == Moves::muscle) min_m = default_min_ratio * sensor.range_m;
+  double min_m = moves == Moves::paper_load ? 0.0 : default_min_ratio * sensor.range_m;
   if (moves == Moves::joint) min_m = -sensor.range_m;
   // A joint moves to both sides, and its antagonist's travel is what lies below zero.
   sensor.min_m = section.number("min_m", min_m, {-10.0, moves == Moves::joint ? -1e-4 : 0.0});
@@ -126,13 +130,19 @@ double read_senses(Section section) {
   return error_ratio;
 }
 
-InjectedFaults read_injected_faults(Section section, bool of_joint) {
+InjectedFaults read_injected_faults(Section section, const Conditions& c) {
+  const auto refuse_missing = [&](const std::string& key) {
+    if (!section.has(key)) return;
+    if (!c.joint) return section.wrong(key, "needs a [joint]");
+    if (key.starts_with("antagonist") && !c.joint->antagonist)
+      section.wrong(key, "needs a joint that is opposed_by \"muscle\"");
+  };
   InjectedFaults injected_faults;
   for (const InjectedFaultName& known : injected_fault_names)
     injected_faults.*known.member = section.flag(known.name, false);
   for (const InjectedFaultName& known : joint_fault_names) {
     injected_faults.*known.member = section.flag(known.name, false);
-    if (!of_joint && section.has(known.name)) section.wrong(known.name, "needs a [joint]");
+    refuse_missing(known.name);
   }
   const auto read_number = [&](const InjectedFaultNumber& known) {
     injected_faults.*known.member =
@@ -142,7 +152,7 @@ InjectedFaults read_injected_faults(Section section, bool of_joint) {
     read_number(known);
   for (const InjectedFaultNumber& known : joint_fault_numbers) {
     read_number(known);
-    if (!of_joint && section.has(known.name)) section.wrong(known.name, "needs a [joint]");
+    refuse_missing(known.name);
   }
   section.finish();
   return injected_faults;
@@ -193,22 +203,23 @@ Conditions read_conditions(const toml::table& document, const BelievedMuscles& b
   c.plant = read_plant(root.section("plant"));
   c.joint = read_joint(document, c.plant, believed.antagonist, diagnostics);
   Section sensor = root.section("sensor");
-  const Moves alone = c.plant.effects.any() ? Moves::muscle : Moves::paper_muscle;
-  c.position_sensor =
-      read_position_sensor(sensor.section("position"), c.joint ? Moves::joint : alone);
+  const Moves moves = what_moves(c);
+  c.position_sensor = read_position_sensor(sensor.section("position"), moves);
   c.thermometer = read_thermometer(sensor.section("temperature"));
   sensor.finish();
-  const double other_Ohm = c.joint ? c.joint->antagonist.resistance_Ohm : 0.0;
+  const double other_Ohm = c.antagonist() != nullptr ? c.antagonist()->plant.resistance_Ohm : 0.0;
   c.power = read_power(root.section("power"), std::max(c.plant.resistance_Ohm, other_Ohm), step_s);
-  if (c.joint)
-    c.joint->co_contraction_W = read_co_contraction_W(document, c.power.max_W, diagnostics);
+  if (c.antagonist() != nullptr) {
+    c.joint->antagonist->co_contraction_W =
+        read_co_contraction_W(document, c.power.max_W, diagnostics);
+  }
   c.thermal = read_thermal(root.section("thermal"));
   c.ambient = read_ambient(root.section("ambient"));
   c.sense_error_ratio = read_senses(root.section("senses"));
-  c.injected_faults = read_injected_faults(root.section("injected_fault"), c.joint.has_value());
+  c.injected_faults = read_injected_faults(root.section("injected_fault"), c);
   c.action = read_operator(root.section("operator"));
   Section reference = root.section("reference");
-  c.reference = read_reference(reference, c.joint.has_value());
+  c.reference = read_reference(reference, moves);
   Section estimator = root.section("estimator");
   c.estimator = config::read_estimator(estimator, believed.muscle, c.power.max_W);
   const auto model = config::read_reference_model(root.section("reference_model"));

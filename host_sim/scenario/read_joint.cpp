@@ -1,4 +1,4 @@
-// [joint]: two muscles that turn one lever against each other.
+// [joint]: two muscles that turn one lever against each other, or one against a spring.
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -15,6 +15,13 @@ using config::Diagnostics;
 using config::Section;
 
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
+/// Where nothing else opposes: as stiff as the paper's muscle at the default lever.
+constexpr double default_spring_Nm_per_rad = 0.0036;
+constexpr double min_spring_Nm_per_rad = 1e-6;
+
+enum class OpposedBy { muscle, spring };
+constexpr control::Names<OpposedBy, 2> opposed_by_names{
+    {{"muscle", OpposedBy::muscle}, {"spring", OpposedBy::spring}}};
 
 /// Of [plant], what has another name in a joint.
 struct RenamedInJoint {
@@ -28,10 +35,14 @@ constexpr std::array<RenamedInJoint, 4> renamed_in_joint{{{"load_N", "load_Nm"},
 
 JointPlantSettings read_lever(Section& section) {
   JointPlantSettings p;
+  const bool pair =
+      section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::muscle;
+  if (pair) p.antagonist.emplace();
   p.lever_m = section.number("lever_m", p.lever_m, {1e-3, 1.0});
   p.inertia_kg_m2 = section.number("inertia_kg_m2", p.inertia_kg_m2, {1e-9, 100.0});
   p.damping_Nms_per_rad = section.number("damping_Nms_per_rad", 0.0, {0.0, 100.0});
-  p.spring_Nm_per_rad = section.number("spring_Nm_per_rad", 0.0, {0.0, 1e3});
+  p.spring_Nm_per_rad = section.number("spring_Nm_per_rad", pair ? 0.0 : default_spring_Nm_per_rad,
+                                       {pair ? 0.0 : min_spring_Nm_per_rad, 1e3});
   p.friction_ratio = section.number("friction_ratio", 0.0, {0.0, 1.0});
   p.pretension_N = section.number("pretension_N", p.pretension_N, {0.0, 1e3});
   p.weight_Nm = section.number("weight_Nm", 0.0, {-100.0, 100.0});
@@ -69,16 +80,27 @@ void refuse_keys_of_one_muscle(Section section) {
   }
 }
 
-/// As an inertia and two springs beside each other move along the arc.
+/// As an inertia and its springs beside each other move along the arc. other: null, there is none.
 control::PhysicalParameters along_the_arc(const JointPlantSettings& joint,
                                           const control::PhysicalParameters& muscle,
-                                          const control::PhysicalParameters& other) {
+                                          const control::PhysicalParameters* other) {
   const double lever2 = joint.lever_m * joint.lever_m;
   control::PhysicalParameters p = muscle;
-  p.stiffness_N_per_m += other.stiffness_N_per_m + joint.spring_Nm_per_rad / lever2;
-  p.damping_Ns_per_m += other.damping_Ns_per_m + joint.damping_Nms_per_rad / lever2;
+  p.stiffness_N_per_m += joint.spring_Nm_per_rad / lever2;
+  p.damping_Ns_per_m += joint.damping_Nms_per_rad / lever2;
+  if (other != nullptr) {
+    p.stiffness_N_per_m += other->stiffness_N_per_m;
+    p.damping_Ns_per_m += other->damping_Ns_per_m;
+  }
   p.moving_mass_kg = joint.inertia_kg_m2 / lever2;
   return p;
+}
+
+void refuse_keys_of_two_muscles(Section& section) {
+  for (const char* key : {"antagonist", "antagonist_muscle", "co_contraction_W"}) {
+    if (section.has(key)) section.wrong(key, "needs a joint that is opposed_by \"muscle\"");
+    section.allow({key});
+  }
 }
 
 void refuse_impossible(const control::PhysicalParameters& believed, const std::string& table,
@@ -103,26 +125,29 @@ std::optional<JointConditions> read_joint(const toml::table& document, const Pla
   JointConditions joint;
   joint.plant = read_lever(section);
   joint.load_Nm = section.number("load_Nm", 0.0, {-100.0, 100.0});
-  joint.antagonist_muscle = believed;
-  section.section("antagonist_muscle");  // read elsewhere
-  joint.antagonist = plant;
   refuse_keys_of_one_muscle(Section(document["plant"].as_table(), "plant", diagnostics));
-  const Section own = section.section("antagonist");
-  if (own.table() != nullptr) {
-    refuse_keys_of_one_muscle(own);
-    Diagnostics found(diagnostics.file());
-    joint.antagonist = read_plant(laid_over(document, "antagonist", "plant", found));
-    add_new(found, diagnostics);
+  if (joint.plant.antagonist) {
+    joint.antagonist = {plant, believed};
+    section.section("antagonist_muscle");  // read elsewhere
+    const Section own = section.section("antagonist");
+    if (own.table() != nullptr) {
+      refuse_keys_of_one_muscle(own);
+      Diagnostics found(diagnostics.file());
+      joint.antagonist->plant = read_plant(laid_over(document, "antagonist", "plant", found));
+      add_new(found, diagnostics);
+    }
+    section.allow({"co_contraction_W"});  // once the power's limits are known
+  } else {
+    refuse_keys_of_two_muscles(section);
   }
-  section.allow({"co_contraction_W"});  // once the power's limits are known
   section.finish();
   return joint;
 }
 
 double read_co_contraction_W(const toml::table& document, double max_W, Diagnostics& diagnostics) {
   Section section(document["joint"].as_table(), "joint", diagnostics);
-  return section.number("co_contraction_W", std::min(JointSettings{}.co_contraction_W, max_W),
-                        {0.0, max_W});
+  return section.number("co_contraction_W",
+                        std::min(AntagonistConditions{}.co_contraction_W, max_W), {0.0, max_W});
 }
 
 BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnostics) {
@@ -137,16 +162,22 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
   }
   Section section(document["joint"].as_table(), "joint", elsewhere);
   const JointPlantSettings lever = read_lever(section);
+  if (!lever.antagonist) {
+    const auto believed = config::read_parameters(muscle, along_the_arc(lever, agonist, nullptr));
+    muscle.finish();
+    if (elsewhere.empty()) refuse_impossible(believed, "muscle", document, diagnostics);
+    return {believed, believed};
+  }
   Section other = laid_over(document, "antagonist", "plant", elsewhere);
   const auto antagonist = read_plant_parameters(other);
 
   BelievedMuscles believed;
-  believed.muscle = config::read_parameters(muscle, along_the_arc(lever, agonist, antagonist));
+  believed.muscle = config::read_parameters(muscle, along_the_arc(lever, agonist, &antagonist));
   muscle.finish();
   Diagnostics found(diagnostics.file());
   Section other_muscle = laid_over(document, "antagonist_muscle", "muscle", found);
   believed.antagonist =
-      config::read_parameters(other_muscle, along_the_arc(lever, antagonist, agonist));
+      config::read_parameters(other_muscle, along_the_arc(lever, antagonist, &agonist));
   other_muscle.finish();
   add_new(found, diagnostics);
   if (elsewhere.empty()) {

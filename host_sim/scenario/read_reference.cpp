@@ -1,3 +1,5 @@
+#include <array>
+
 #include "scenario/read_tables.hpp"
 
 namespace supercoil::host_sim {
@@ -13,9 +15,26 @@ constexpr Range allowed_power_W{-1e3, 1e3};
 constexpr Range frequency_rad_per_s{1e-4, 1e3};
 constexpr std::size_t max_terms = 32;
 
-std::vector<double> default_levels_m(bool of_joint) {
-  if (of_joint) return {0.003, -0.004, 0.002, -0.005};
-  return {0.005, 0.015, 0.008, 0.020};
+/// In m.
+struct Defaults {
+  double offset;
+  double amplitude;
+  double to;
+  std::vector<double> levels;
+  std::array<double, 2> amplitudes;
+};
+
+Defaults defaults_of(Moves moves) {
+  switch (moves) {
+    case Moves::joint:
+      return {0.0, 0.005, 0.005, {0.003, -0.004, 0.002, -0.005}, {0.003, 0.002}};
+    case Moves::spring_joint:
+      return {0.004, 0.003, 0.005, {0.003, 0.006, 0.002, 0.005}, {0.002, 0.001}};
+    case Moves::paper_load:
+    case Moves::load:
+      break;
+  }
+  return {Reference{}.offset, 0.009, 0.011, {0.005, 0.015, 0.008, 0.020}, {0.004, 0.003}};
 }
 
 std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, Range amplitudes,
@@ -43,30 +62,29 @@ std::vector<Sinusoid> read_terms(Section& section, const char* amplitudes_key, R
 
 }  // namespace
 
-Reference read_reference(Section& section, bool of_joint) {
+Reference read_reference(Section& section, Moves moves) {
   Reference r;
-  const double offset_m = of_joint ? 0.0 : r.offset;
+  const Defaults defaults = defaults_of(moves);
   r.kind = section.choice("kind", r.kind, reference_names);
   switch (r.kind) {
     case ReferenceKind::sine:
-      r.offset = section.number("offset_m", offset_m, allowed_position_m);
-      r.terms = {{section.number("amplitude_m", of_joint ? 0.005 : 0.009, amplitude_m),
+      r.offset = section.number("offset_m", defaults.offset, allowed_position_m);
+      r.terms = {{section.number("amplitude_m", defaults.amplitude, amplitude_m),
                   section.number("angular_frequency_rad_per_s", 0.25, frequency_rad_per_s)}};
       break;
     case ReferenceKind::step:
       r.levels = {section.number("from_m", 0.0, allowed_position_m),
-                  section.number("to_m", of_joint ? 0.005 : 0.011, allowed_position_m)};
+                  section.number("to_m", defaults.to, allowed_position_m)};
       r.hold_s = section.number("at_s", 0.0, {0.0, 1e6});
       break;
     case ReferenceKind::steps:
-      r.levels =
-          section.numbers("levels_m", default_levels_m(of_joint), allowed_position_m, 1, max_terms);
+      r.levels = section.numbers("levels_m", defaults.levels, allowed_position_m, 1, max_terms);
       r.hold_s = section.number("hold_s", 20.0, {1e-3, 1e6});
       break;
     case ReferenceKind::multisine:
-      r.offset = section.number("offset_m", offset_m, allowed_position_m);
+      r.offset = section.number("offset_m", defaults.offset, allowed_position_m);
       r.terms = read_terms(section, "amplitudes_m", amplitude_m,
-                           {{of_joint ? 0.003 : 0.004, 0.25}, {of_joint ? 0.002 : 0.003, 0.6}});
+                           {{defaults.amplitudes[0], 0.25}, {defaults.amplitudes[1], 0.6}});
       break;
     case ReferenceKind::power: {
       const Reference paper = paper_excitation();

@@ -19,14 +19,18 @@ PlantSettings read_plant(config::Section section);
 /// Its physical parameters alone. Does not finish the section.
 control::PhysicalParameters read_plant_parameters(config::Section& section);
 
-/// of_joint: its defaults go to both sides of zero.
-Reference read_reference(config::Section& section, bool of_joint);
+/// What the muscle moves, by which defaults differ: of the paper's and of others a load, a joint
+/// that another muscle draws back, one that a spring does.
+enum class Moves { paper_load, load, joint, spring_joint };
+
+Reference read_reference(config::Section& section, Moves moves);
 
 /// [joint] but for its co-contraction; empty: there is none. plant: its agonist. believed: its
 /// antagonist.
 std::optional<JointConditions> read_joint(const toml::table& document, const PlantSettings& plant,
                                           const control::PhysicalParameters& believed,
                                           config::Diagnostics& diagnostics);
+/// Of a joint of two muscles.
 double read_co_contraction_W(const toml::table& document, double max_W,
                              config::Diagnostics& diagnostics);
 

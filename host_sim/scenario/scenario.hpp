@@ -33,13 +33,16 @@ struct Scenario {
   bool muscle_identified = false;  ///< identified before: not only believed
   double response_ratio = 0.0;     ///< of small motions, learned before
   board::Calibration calibration;  ///< learned before; its resistance is [plant]'s otherwise
-  /// The firmware of a board of the user's own, with one channel; empty: one for the scenario.
+  /// The firmware of a board of the user's own, with one channel or one
+  /// joint; empty: one for the scenario.
   std::optional<BoardSettings> board;
   telemetry::CanSettings can;
   Conditions start;
   std::vector<Event> events;  ///< in the order of their times
 
   double step_s() const { return 1.0 / rate_Hz; }
+  /// Of its board, each a node: two of a joint of two muscles.
+  int channels() const { return start.antagonist() != nullptr ? 2 : 1; }
   /// Number of ticks, the one at time 0 included, the one at duration_s not.
   std::int64_t ticks() const { return std::llround(duration_s * rate_Hz); }
 };

@@ -12,8 +12,9 @@ SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
   for (const MuscleChannelSettings& channel : settings.channels)
     channels_.push_back(std::make_unique<MuscleChannel>(channel, step_, now_, seed++));
   for (const SimulatedJointSettings& joint : settings.joints) {
-    joints_.push_back(std::make_unique<SimulatedJoint>(joint, *channels_[joint.agonist],
-                                                       *channels_[joint.antagonist], step_));
+    MuscleChannel* antagonist = joint.antagonist ? channels_[*joint.antagonist].get() : nullptr;
+    joints_.push_back(
+        std::make_unique<SimulatedJoint>(joint, *channels_[joint.agonist], antagonist, step_));
   }
   supply.offer(supply_V_, now_);
 }
@@ -53,7 +54,8 @@ board::Devices SimulatedBoard::devices() {
   // The antagonist's channel reads the joint's one sensor, with the other sign.
   for (const auto& joint : joints_) {
     const SimulatedJointSettings& its = joint->settings();
-    devices.channels[its.antagonist].position = &channels_[its.agonist]->position;
+    if (its.antagonist)
+      devices.channels[*its.antagonist].position = &channels_[its.agonist]->position;
   }
   if (air) devices.air = &*air;
   return devices;

@@ -12,25 +12,26 @@ JointMuscle muscle_of(const MuscleChannel& channel) {
 }  // namespace
 
 SimulatedJoint::SimulatedJoint(const SimulatedJointSettings& settings, MuscleChannel& agonist,
-                               MuscleChannel& antagonist, hal::Duration step)
+                               MuscleChannel* antagonist, hal::Duration step)
     : settings_(settings),
       agonist_(&agonist),
-      antagonist_(&antagonist),
+      antagonist_(antagonist),
       plant_(plant_settings(), hal::seconds(step)) {
   agonist.join(plant_, 0);
-  antagonist.join(plant_, 1);
+  if (antagonist_ != nullptr) antagonist_->join(plant_, 1);
 }
 
 JointPlantSettings SimulatedJoint::plant_settings() const {
   JointPlantSettings plant = settings_.plant;
   plant.agonist = muscle_of(*agonist_);
-  plant.antagonist = muscle_of(*antagonist_);
+  plant.antagonist.reset();
+  if (antagonist_ != nullptr) plant.antagonist = muscle_of(*antagonist_);
   return plant;
 }
 
 std::array<SimulatedJoint::Hold, 2> SimulatedJoint::held() const {
   const auto hold = [](const MuscleFaults& faults) { return Hold{faults.torn, faults.slack_m}; };
-  return {hold(agonist_->faults), hold(antagonist_->faults)};
+  return {hold(agonist_->faults), antagonist_ != nullptr ? hold(antagonist_->faults) : Hold{}};
 }
 
 void SimulatedJoint::set(const SimulatedJointSettings& settings) {
@@ -41,7 +42,8 @@ void SimulatedJoint::set(const SimulatedJointSettings& settings) {
 
 void SimulatedJoint::advance() {
   if (held() != joined_) set(settings_);
-  plant_.step(agonist_->true_power_W(), antagonist_->true_power_W(), settings_.load_Nm);
+  const double antagonist_W = antagonist_ != nullptr ? antagonist_->true_power_W() : 0.0;
+  plant_.step(agonist_->true_power_W(), antagonist_W, settings_.load_Nm);
 }
 
 }  // namespace supercoil::host_sim

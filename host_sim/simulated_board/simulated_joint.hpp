@@ -1,8 +1,9 @@
-// Two muscles of the board that turn one joint.
+// Two muscles of the board that turn one joint, or one against a spring.
 #pragma once
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "plant/joint_plant.hpp"
@@ -11,8 +12,8 @@
 namespace supercoil::host_sim {
 
 struct SimulatedJointSettings {
-  std::size_t agonist = 0;     ///< its channel
-  std::size_t antagonist = 1;  ///< its channel
+  std::size_t agonist = 0;                    ///< its channel
+  std::optional<std::size_t> antagonist = 1;  ///< its channel; empty: a spring opposes alone
   JointPlantSettings
       plant;             ///< its muscles are the channels' own, torn and slack as their faults say
   double load_Nm = 0.0;  ///< turns the joint towards negative angles
@@ -21,9 +22,10 @@ struct SimulatedJointSettings {
 /// The agonist's position sensor is the joint's; the antagonist's channel reads it as well.
 class SimulatedJoint {
  public:
-  /// The board's channels are those of the settings, and outlive it.
+  /// The board's channels are those of the settings, and outlive it. antagonist: null where the
+  /// settings have none.
   SimulatedJoint(const SimulatedJointSettings& settings, MuscleChannel& agonist,
-                 MuscleChannel& antagonist, hal::Duration step);
+                 MuscleChannel* antagonist, hal::Duration step);
   SimulatedJoint(const SimulatedJoint&) = delete;
   SimulatedJoint& operator=(const SimulatedJoint&) = delete;
 

@@ -1,8 +1,9 @@
 // How joints of two muscles `real` that differ by 20 % follow, of which the board believes up to
-// half too much or too little, as they are told and once they are identified:
-//   joint_figures [SEEDS [MOTION]]
-// MOTION: a part of its name. What faults is told, and not among the figures. The table of
-// docs/joints.md.
+// half too much or too little, as they are told and once they are identified; and joints of one
+// such muscle and a spring:
+//   joint_figures [SEEDS [MOTION [CONTROLLER]]]
+// MOTION, CONTROLLER: a part of its name. What faults, and beside a spring what may not get as hot
+// as it is asked for, is told and not among the figures. The tables of docs/joints.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -95,24 +96,43 @@ const std::array<Motion, 3> motions{{
      [](double t) { return t > 120.0; }, 120.0},
 }};
 
-std::string scenario_of(int seed, const std::string& controller) {
+enum class OpposedBy { muscle, spring };
+
+/// A muscle only pulls: beside a spring a joint turns as far, around this angle instead of 0.
+double middle_deg(OpposedBy opposed_by) {
+  return opposed_by == OpposedBy::spring ? 21.0 : 0.0;
+}
+
+/// Of one seed both kinds of joint have the same agonist; the spring is as stiff as a new, cold
+/// muscle.
+std::string scenario_of(int seed, const std::string& controller, OpposedBy opposed_by) {
   Drawn drawn(seed);
   const control::PhysicalParameters agonist = drawn.muscle();
-  const control::PhysicalParameters antagonist = drawn.muscle();
+  control::PhysicalParameters antagonist = drawn.muscle();
+  const bool spring = opposed_by == OpposedBy::spring;
+  if (spring) {
+    antagonist = {};
+    antagonist.damping_Ns_per_m = 0.0;
+  }
   std::string text = "[simulation]\nseed = " + std::to_string(seed) +
                      "\nduration_s = 2000.0\n[operator]\naction = 'none'\n[controller]\nkind = '" +
                      controller + "'\n";
   text += "[power]\npwm_bits = 12\n[sensor.position]\n" +
           line("noise_rms_m", noise_deg * degree_m) +
           "[thermal]\nmass_ratio = [0.45, 2.5]\ntransfer_ratio = [0.3, 4.4]\n";
-  text += table("plant", agonist) + "preset = 'real'\n";
-  text +=
-      "[joint]\npretension_N = 0.4\n" + table("joint.antagonist", antagonist) + "preset = 'real'\n";
+  text += table("plant", agonist) + "preset = 'real'\n[joint]\npretension_N = 0.4\n";
+  if (spring) {
+    text += "opposed_by = 'spring'\n" +
+            line("spring_Nm_per_rad", antagonist.stiffness_N_per_m * lever_m * lever_m);
+  } else {
+    text += table("joint.antagonist", antagonist) + "preset = 'real'\n";
+  }
   // What is believed of the joint along its arc, each up to half off; of the force, of that at the
   // middle of what the muscle does.
   const std::array<std::pair<const char*, const control::PhysicalParameters*>, 2> beliefs{
       {{"muscle", &agonist}, {"joint.antagonist_muscle", &antagonist}}};
   for (const auto& [title, truth] : beliefs) {
+    if (spring && truth == &antagonist) continue;
     control::PhysicalParameters believed = *truth;
     believed.stiffness_N_per_m = agonist.stiffness_N_per_m + antagonist.stiffness_N_per_m;
     believed.damping_Ns_per_m = agonist.damping_Ns_per_m + antagonist.damping_Ns_per_m;
@@ -129,12 +149,16 @@ struct Found {
   double hottest_C = 0.0;
   long outside = 0;
   Fault fault = Fault::none;
+  bool held_back = false;  ///< by what is known of the muscle's heat, while it counts
 };
 
 /// What an operator does with a joint.
 class Operated {
  public:
-  explicit Operated(const host_sim::Scenario& scenario) : simulation_(scenario) {}
+  Operated(const host_sim::Scenario& scenario, OpposedBy opposed_by)
+      : simulation_(scenario),
+        middle_deg_(middle_deg(opposed_by)),
+        channels_(opposed_by == OpposedBy::spring ? 1U : 2U) {}
 
   void arm() {
     while (state(0) != State::armed) {
@@ -142,14 +166,14 @@ class Operated {
       run(1.0);
     }
   }
-  /// Both muscles in one run; false: one was not found.
+  /// Every muscle in one run; false: one was not found.
   bool identify() {
     send(0, Verb::identify);
     do {
       tick();
       send(0, Verb::renew);
     } while (state(0) == State::active);
-    for (const std::size_t channel : {0U, 1U}) {
+    for (std::size_t channel = 0; channel < channels_; ++channel) {
       const Snapshot& ended = simulation_.loop().channel(channel).snapshot();
       if (ended.result == ModeResult::found) continue;
       std::printf("  channel %zu: %s\n", channel + 1, describe_notes(ended.identify_notes).c_str());
@@ -165,13 +189,15 @@ class Operated {
     const long ticks = std::lround(motion.duration_s * 1e3);
     for (long i = 0; i < ticks; ++i) {
       const double time_s = 1e-3 * static_cast<double>(i);
-      send(0, Verb::position, motion.reference_deg(time_s) * degree_m);
+      send(0, Verb::position, (middle_deg_ + motion.reference_deg(time_s)) * degree_m);
       if (!pulls && time_s >= motion.pull_at_s) {
         send(1, Verb::power, 2.0 * simulation_.loop().channel(1).snapshot().reference);
         pulls = true;
       }
       const TickRecord now = tick();
       if (!motion.counts(time_s)) continue;
+      found_.held_back = found_.held_back || now.limited_by == LimitedBy::temperature ||
+                         now.limited_by == LimitedBy::unproven;
       const double error_deg = (now.position_m - now.model_m) / degree_m;
       squares += error_deg * error_deg;
       count += 1.0;
@@ -197,7 +223,8 @@ class Operated {
     const TickRecord now = simulation_.step();
     if (found_.fault == Fault::none) found_.fault = now.fault;
     watch(now.temperature_rise_K, now.coldest_K, now.hottest_K);
-    watch(now.antagonist->temperature_rise_K, now.antagonist->coldest_K, now.antagonist->hottest_K);
+    if (const auto& other = now.antagonist)
+      watch(other->temperature_rise_K, other->coldest_K, other->hottest_K);
     return now;
   }
   void watch(double rise_K, double coldest_K, double hottest_K) {
@@ -206,29 +233,35 @@ class Operated {
   }
 
   Simulation simulation_;
+  double middle_deg_;
+  std::size_t channels_;
   Found found_;
 };
 
 /// Empty: a muscle was not identified.
-std::optional<Found> run_one(const std::string& text, const Motion& motion, bool identified) {
+std::optional<Found> run_one(const std::string& text, OpposedBy opposed_by, const Motion& motion,
+                             bool identified) {
   const auto scenario = host_sim::parse_scenario(text, "joint.toml");
   if (!scenario) {
     std::fputs(config::to_text(scenario.error()).c_str(), stderr);
     std::exit(2);
   }
-  Operated joint(*scenario);
+  Operated joint(*scenario, opposed_by);
   joint.arm();
   if (identified && !joint.identify()) return std::nullopt;
   return joint.follow(motion);
 }
 
-void print_row(const Motion& motion, const std::string& controller, bool identified, int seeds) {
+void print_row(const Motion& motion, const std::string& controller, OpposedBy opposed_by,
+               bool identified, int seeds) {
   std::vector<double> rms;
   Found worst;
   int faults = 0;
   int not_identified = 0;
+  int held_back = 0;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const auto found = run_one(scenario_of(seed, controller), motion, identified);
+    const auto found =
+        run_one(scenario_of(seed, controller, opposed_by), opposed_by, motion, identified);
     if (!found) {
       ++not_identified;
       continue;
@@ -240,16 +273,19 @@ void print_row(const Motion& motion, const std::string& controller, bool identif
       std::printf("  seed %d: %s\n", seed, std::string(name(found->fault)).c_str());
       continue;
     }
+    held_back += found->held_back ? 1 : 0;
+    if (found->held_back && opposed_by == OpposedBy::spring) continue;
     rms.push_back(found->rms_deg);
     worst.max_deg = std::max(worst.max_deg, found->max_deg);
   }
   if (rms.empty()) rms.push_back(NAN);
   std::sort(rms.begin(), rms.end());
   std::printf(
-      "%-25s %-11s %-10s rms %.4f (median), %.4f deg (worst), at most %.4f; %2.0f C, "
-      "%ld ticks outside, %d faults, %d not identified\n",
-      motion.name, controller.c_str(), identified ? "identified" : "told", rms[rms.size() / 2],
-      rms.back(), worst.max_deg, worst.hottest_C, worst.outside, faults, not_identified);
+      "%-25s %-11s %-6s %-10s rms %.4f (median), %.4f deg (worst), at most %.4f; %2.0f C, "
+      "%ld ticks outside, %d faults, %d not identified, %d held back by their heat\n",
+      motion.name, controller.c_str(), opposed_by == OpposedBy::spring ? "spring" : "muscle",
+      identified ? "identified" : "told", rms[rms.size() / 2], rms.back(), worst.max_deg,
+      worst.hottest_C, worst.outside, faults, not_identified, held_back);
   std::fflush(stdout);
 }
 
@@ -261,8 +297,12 @@ int main(int argc, char** argv) {
     for (const Motion& motion : motions) {
       if (argc > 2 && std::string(motion.name).find(argv[2]) == std::string::npos) continue;
       for (const bool identified : {false, true}) {
-        for (const char* controller : {"learned_ff", "adaptive_ff", "pi"})
-          print_row(motion, controller, identified, seeds);
+        for (const char* controller : {"learned_ff", "adaptive_ff", "pi", "mrac"}) {
+          if (argc > 3 && std::string(controller).find(argv[3]) == std::string::npos) continue;
+          print_row(motion, controller, OpposedBy::muscle, identified, seeds);
+          if (motion.pull_at_s == never_s)
+            print_row(motion, controller, OpposedBy::spring, identified, seeds);
+        }
       }
     }
     return 0;

@@ -38,7 +38,7 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
   for (std::size_t i = 0; i < settings.channels.size(); ++i) {
     channels_.push_back(std::make_unique<Channel>(
         settings.channels[i], settings, devices.channels[i], static_cast<std::uint8_t>(i)));
-    if (!settings.in_joint(i)) single_.push_back(channels_.back().get());
+    if (settings.joint_of(i) == nullptr) single_.push_back(channels_.back().get());
   }
   for (const JointSettings& joint : settings.joints) {
     Channel& agonist = *channels_[joint.agonist];

@@ -68,10 +68,11 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings) {
 
 }  // namespace
 
-bool BoardSettings::in_joint(std::size_t channel) const {
-  return std::any_of(joints.begin(), joints.end(), [channel](const JointSettings& joint) {
+const JointSettings* BoardSettings::joint_of(std::size_t channel) const {
+  const auto found = std::ranges::find_if(joints, [channel](const JointSettings& joint) {
     return joint.agonist == channel || joint.antagonist == channel;
   });
+  return found == joints.end() ? nullptr : &*found;
 }
 
 double feasible_co_contraction_W(const BoardSettings& board, const JointSettings& joint) {

@@ -95,7 +95,8 @@ struct BoardSettings {
   std::vector<JointSettings> joints;  ///< no channel is in two; see add_joint()
 
   double step_s() const { return 1.0 / rate_Hz; }
-  bool in_joint(std::size_t channel) const;
+  /// The joint that this channel's muscle turns; null: none.
+  const JointSettings* joint_of(std::size_t channel) const;
 };
 
 /// The co-contraction that both heaters can give, by what is configured of the muscles.

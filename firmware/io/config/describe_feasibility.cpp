@@ -56,7 +56,7 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
 }
 
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel) {
-  if (board.in_joint(channel)) return {};
+  if (board.joint_of(channel) != nullptr) return {};
   const ChannelSettings& c = board.channels[channel];
   const FirstMotion motion = plan_first_motion(feasibility(c, board));
   if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};

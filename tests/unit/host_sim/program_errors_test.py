@@ -30,6 +30,10 @@ class Errors(ProgramCase):
         (self.path / "board.toml").write_text(re.sub(r"first_node = \d+", "first_node = 62", board))
         self.check_refused("--nodes 8: must be 1 to 2, as the first is node 62", "run", scenario, "--board", "board.toml",
                            "--out", "out", "--nodes", 8)
+        board = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
+        (self.path / "board.toml").write_text(re.sub(r"first_node = \d+", "first_node = 60", board))
+        self.check_refused("--nodes 3: must be 1 to 2, as the first is node 60", "run", self.scenario(SHORT + "[joint]\n"), "--board",
+                           "board.toml", "--out", "out", "--nodes", 3)
 
     def check_refused(self, message, *arguments):
         done = self.run_program(*arguments)
@@ -72,6 +76,15 @@ class Errors(ProgramCase):
         done = self.run_program("run", self.scenario(SHORT), "--board", "board.toml")
         self.assertEqual(done.returncode, 2)
         self.assertIn("board.toml:1: bord", done.stderr)
+
+    def test_a_joint_and_a_board_that_do_not_go_together(self):
+        pair, alone = (EXAMPLES / f"{name}.toml" for name in ("joint-as5600-ads1115", "raspberry-pi-pwm-ads1115"))
+        for text, board, told in (
+                ("", pair, "channel 2 of the board's file is one of a joint, and the scenario has no [joint] of two muscles"),
+                ("joint.opposed_by = 'spring'\n", pair, "the scenario has no [joint] of two muscles"),
+                ("[joint]\n", alone, "the scenario has a [joint] of two muscles, and channel 2 of the board's file is in none"),
+                ("joint.lever_m = 0.02\n", pair, "joint.lever_m = 0.02 is not the board's, 0.015")):
+            self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--channel", 2, "--out", "out")
 
     def test_a_window_outside_the_run(self):
         for window in ["1:99", "2:1", "x:y", "5"]:

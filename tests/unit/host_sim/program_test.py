@@ -166,6 +166,34 @@ class Results(ProgramCase):
         self.assertAlmostEqual(min(steps_m), 1.515e-6, delta=2e-9)
         self.assertGreater(len(steps_m), 100)
 
+    def test_a_joint_under_the_firmware_of_a_boards_own_file(self):
+        example = EXAMPLES / "joint-as5600-ads1115.toml"
+        text = "simulation.duration_s = 120.0\nreference.amplitude_m = 0.002\n[joint]\n[[event]]\nat_s = 60.0\njoint.co_contraction_W = 1.8\n"
+        done = self.run_program("run", self.scenario(text), "--board", example, "--out", "out", "--no-plot")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        summary = json.loads((self.path / "out/summary.json").read_text())
+        self.assertEqual((summary["controller"], summary["faults"]), ("learned_ff", []))
+        self.assertLess(summary["tracking_rms_deg"], 0.05)
+        with (self.path / "out/trace.csv").open(newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 12000)  # at the board's 100 Hz
+
+        # The file's 0.9 W of each, on so small a sine that neither is at 0 W; after the event what that says. It follows slowly.
+        def both_W(begin_s, end_s):
+            found = [float(row["applied_power_W"]) + float(row["antagonist_applied_power_W"]) for row in rows
+                     if begin_s <= float(row["time_s"]) < end_s]
+            return sum(found) / len(found)
+        self.assertLess(abs(both_W(50.0, 60.0) - 1.8), 0.15)
+        self.assertLess(abs(both_W(110.0, 120.0) - 3.6), 0.3)
+
+    def test_joints_on_one_bus_have_two_nodes_each(self):
+        text = "simulation.duration_s = 2.0\n[joint]\n"
+        done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--nodes", 2)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(sorted(p.name for p in (self.path / "out").iterdir()), ["can.log", "node-1", "node-3"])
+        heard = {int(identifier, 16) for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
+        self.assertEqual({identifier & 0x3F for identifier in heard}, {1, 2, 3, 4})
+
     def test_a_run_in_real_time_has_the_same_exit_status_where_something_is_asked_for(self):
         broken = "simulation.duration_s = 1.5\ninjected_fault.heater_open = true\n"
         for text, options, status in ((broken, [], 1), (broken, ["--allow-fault"], 0),

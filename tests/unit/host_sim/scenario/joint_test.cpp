@@ -45,7 +45,7 @@ TEST(JointScenario, TheBoardBelievesBothMusclesAndTheLever) {
       "damping_Nms_per_rad = 0.0002\n[joint.antagonist]\nstiffness_N_per_m = 20.0\n"
       "thermal_mass_J_per_K = 0.2\n");
   const control::PhysicalParameters& agonist = s.start.muscle;
-  const control::PhysicalParameters& antagonist = s.start.joint->antagonist_muscle;
+  const control::PhysicalParameters& antagonist = s.start.antagonist()->muscle;
   for (const control::PhysicalParameters* muscle : {&agonist, &antagonist}) {
     DOUBLES_EQUAL(16.0 + 20.0 + 10.0, muscle->stiffness_N_per_m, 1e-9);
     DOUBLES_EQUAL(2.0 + 2.0 + 0.5, muscle->damping_Ns_per_m, 1e-9);
@@ -60,9 +60,9 @@ TEST(JointScenario, WhatTheBoardIsToldOfTheMusclesIsLaidOverThat) {
       "[muscle]\nstiffness_N_per_m = 30.0\nheat_transfer_W_per_K = 0.1\n[joint]\n"
       "[joint.antagonist_muscle]\nstiffness_N_per_m = 40.0\n");
   DOUBLES_EQUAL(30.0, s.start.muscle.stiffness_N_per_m, 0.0);
-  DOUBLES_EQUAL(40.0, s.start.joint->antagonist_muscle.stiffness_N_per_m, 0.0);
-  DOUBLES_EQUAL(0.1, s.start.joint->antagonist_muscle.heat_transfer_W_per_K, 0.0);
-  DOUBLES_EQUAL(4.0, s.start.joint->antagonist_muscle.damping_Ns_per_m, 0.0);
+  DOUBLES_EQUAL(40.0, s.start.antagonist()->muscle.stiffness_N_per_m, 0.0);
+  DOUBLES_EQUAL(0.1, s.start.antagonist()->muscle.heat_transfer_W_per_K, 0.0);
+  DOUBLES_EQUAL(4.0, s.start.antagonist()->muscle.damping_Ns_per_m, 0.0);
 }
 
 TEST(JointScenario, TheAntagonistIsTheAgonistButForWhatIsSaid) {
@@ -71,7 +71,7 @@ TEST(JointScenario, TheAntagonistIsTheAgonistButForWhatIsSaid) {
       "creep_ratio = 0.2\n");
   PlantSettings expected = s.start.plant;
   expected.effects.creep_ratio = 0.2;
-  CHECK(expected == s.start.joint->antagonist);
+  CHECK(expected == s.start.antagonist()->plant);
 }
 
 TEST(JointScenario, ItsSensorAndReferenceGoToBothSides) {
@@ -92,7 +92,7 @@ TEST(JointScenario, AnEventMayChangeLoadsDampingAndTheAntagonist) {
   DOUBLES_EQUAL(0.002, joint.load_Nm, 0.0);
   DOUBLES_EQUAL(0.001, joint.plant.weight_Nm, 0.0);
   DOUBLES_EQUAL(0.0001, joint.plant.damping_Nms_per_rad, 0.0);
-  DOUBLES_EQUAL(12.0, joint.antagonist.parameters.stiffness_N_per_m, 0.0);
+  DOUBLES_EQUAL(12.0, joint.antagonist->plant.parameters.stiffness_N_per_m, 0.0);
   DOUBLES_EQUAL(32.0, s.events[0].conditions.muscle.stiffness_N_per_m, 0.0);
 }
 
@@ -154,6 +154,45 @@ TEST(JointScenario, ItsFaultsNeedAJoint) {
                      "[injected_fault]\nantagonist_slack_m = 0.003");
   check_joint_answer("3: injected_fault.antagonist_slack_m = -0.1: must be 0 to 1",
                      "[joint]\n[injected_fault]\nantagonist_slack_m = -0.1");
+}
+
+TEST(JointScenario, ASpringOpposesOneMuscle) {
+  const Scenario s = read(
+      "simulation.duration_s = 20.0\n[joint]\nopposed_by = 'spring'\nspring_Nm_per_rad = 0.009\n"
+      "[reference]\nkind = 'step'\nto_m = 0.004\n[controller]\nkind = 'pi'\n"
+      "[[event]]\nat_s = 10.0\njoint.load_Nm = 0.0005\n");
+  DOUBLES_EQUAL(16.0 + 40.0, s.start.muscle.stiffness_N_per_m, 1e-9);
+  DOUBLES_EQUAL(2.0, s.start.muscle.damping_Ns_per_m, 0.0);
+  DOUBLES_EQUAL(2e-5 / (0.015 * 0.015), s.start.muscle.moving_mass_kg, 1e-12);
+  const BoardSettings board = firmware_of(s);
+  LONGS_EQUAL(1, board.channels.size());
+  LONGS_EQUAL(0, board.joints.size());
+
+  Simulation simulation(s);
+  Summary summary({});
+  const TickRecord last = last_of(simulation, summary);
+  CHECK(last.fault == Fault::none);
+  CHECK_FALSE(last.antagonist.has_value());
+  DOUBLES_EQUAL(0.004, last.position_m, 1e-4);
+  DOUBLES_EQUAL(last.position_m, simulation.joint()->position_m(), 0.0);
+  // At rest the muscle's heat holds spring, own stiffness and load.
+  const double force_N = 56.0 * last.position_m + 0.0005 / 0.015;
+  DOUBLES_EQUAL(force_N, 8.6e-3 * last.temperature_rise_K, 0.02 * force_N);
+}
+
+TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
+  const std::string spring = "[joint]\nopposed_by = 'spring'\n";
+  const std::string needs = ": needs a joint that is opposed_by \"muscle\"";
+  check_joint_answer(("3: joint.co_contraction_W = 1" + needs).c_str(),
+                     spring + "co_contraction_W = 1.0");
+  check_joint_answer(("3: joint.antagonist" + needs).c_str(),
+                     spring + "[joint.antagonist]\nstiffness_N_per_m = 20.0");
+  check_joint_answer(("4: injected_fault.antagonist_torn = true" + needs).c_str(),
+                     spring + "[injected_fault]\nantagonist_torn = true");
+  check_joint_answer("3: joint.spring_Nm_per_rad = 0: must be 1e-06 to 1000",
+                     spring + "spring_Nm_per_rad = 0.0");
+  check_joint_answer("4: event.joint.opposed_by: cannot change during a run",
+                     "[joint]\n[[event]]\nat_s = 1.0\njoint.opposed_by = 'spring'");
 }
 
 TEST(JointScenario, ASlackCableOfAnEventTurnsItByHalf) {

@@ -49,8 +49,10 @@ TEST(BoardSettingsCheck, AJointTakesTwoChannelsOfTheBoard) {
     channel.supervision.proof_of_response = false;
   settings.joints = {{.agonist = 2, .antagonist = 1}};
   CHECK_FALSE(check(settings).has_value());
-  CHECK(settings.in_joint(1) && settings.in_joint(2));
-  CHECK_FALSE(settings.in_joint(0) || settings.in_joint(3));
+  for (const std::size_t channel : {1U, 2U})
+    POINTERS_EQUAL(&settings.joints[0], settings.joint_of(channel));
+  for (const std::size_t channel : {0U, 3U})
+    POINTERS_EQUAL(nullptr, settings.joint_of(channel));
 
   settings.joints[0].antagonist = 4;
   check_says("channel 5 is none of the board's 4", "joint");

@@ -238,6 +238,34 @@ class SetupProgram(unittest.TestCase):
         state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertRegex(state.stdout, "node 1: disarmed")
 
+    def test_a_joint_is_set_up_by_its_agonist(self):
+        self.example = (EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text()
+        self.board.write_text(self.example)
+        script = self.script(heated_mm=6.5, stretch_mm=30, max_travel_mm=8)
+        for channel in ("1", "2"):
+            done = self.setup_program("describe", "--channel", channel, *script)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("it turns a joint: answer as it moves the joint alone", done.stdout)
+            self.assertIn("Weights hang at the lever, 15 mm from the axis", done.stdout)
+        scenario = self.path / "joint.toml"
+        scenario.write_text("simulation.duration_s = 1e5\noperator.action = 'none'\njoint.lever_m = 0.015\n")
+        simulator = Simulator(self.path, scenario, "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        done = self.setup_program("move", "--channel", "2", *bus)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("move: channel 2 is a joint's antagonist, which its agonist leads: supercoil setup move --channel 1", done.stderr)
+
+        def calibrated():
+            subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
+            return self.setup_program("calibrate", *bus)
+
+        told = self.patiently(calibrated).stdout
+        self.assertRegex(told, r"(?s)the agonist, channel 1:.*cold resistance: 10 Ohm .*the antagonist, channel 2:.*cold resistance: 10 Ohm ")
+        state = subprocess.run([SUPERCOIL, "command", "state", *bus], capture_output=True, text=True, timeout=DEADLINE_S).stdout
+        self.assertEqual(re.findall(r"node (\d): disarmed", state), ["1", "2"])
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -23,9 +23,7 @@ class HeldOutBoard {
   host_sim::Simulation& simulation() { return simulation_; }
   const BoardSettings& settings() const { return *scenario_.board; }
   const ChannelSettings& channel() const { return settings().channels[0]; }
-  operating::Commission steps(operating::Operator& who) {
-    return {link_, "1", channel(), settings(), who};
-  }
+  operating::Commission steps(operating::Operator& who) { return {link_, "1", settings(), 0, who}; }
 
  private:
   config::BoardConfig config_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "apps/supercoil/board_link.hpp"
 #include "runner/simulation.hpp"
@@ -17,41 +18,41 @@ class SimulatedLink final : public operating::BoardLink {
       : simulation_(simulation), rate_Hz_(rate_Hz) {}
 
   Answer ask(const std::string& line) override {
-    const auto command = parse_command(line, 1);
+    const auto command = parse_command(line, simulation_.loop().channels());
     if (!command) return "wrong: " + command.error();
-    const supercoil::Answer answer = simulation_.command(command->verb, command->value);
+    const supercoil::Answer answer =
+        simulation_.command(command->verb, command->value, command->channel);
     watch();
     return answer_text(answer.refusal, answer.nearest);
   }
   Answer state() override { return std::string(); }
   Answer state_json() override { return std::string(); }
-  tl::expected<Status, std::string> status(const std::string&) override {
-    const Snapshot& s = snapshot();
+  tl::expected<Status, std::string> status(const std::string& channel) override {
+    const Snapshot& s = at(channel).snapshot();
     return Status{std::string(name(s.state)),
                   std::string(s.fault == Fault::none ? "none" : name(s.fault)), s.probing};
   }
-  tl::expected<Ending, std::string> ending(const std::string&) override {
-    const Snapshot& s = snapshot();
+  tl::expected<Ending, std::string> ending(const std::string& channel) override {
+    const Snapshot& s = at(channel).snapshot();
     return Ending{std::string(mode_result_names.at(static_cast<std::size_t>(s.result))),
                   describe_notes(s.identify_notes, ",")};
   }
-  tl::expected<board::SenseComparison, std::string> senses(const std::string&) override {
-    return simulation_.loop().channel(0).senses();
+  tl::expected<board::SenseComparison, std::string> senses(const std::string& channel) override {
+    return at(channel).senses();
   }
-  tl::expected<KnownMuscle, std::string> muscle(const std::string&) override {
+  tl::expected<KnownMuscle, std::string> muscle(const std::string& channel) override {
     KnownMuscle known;
     for (std::size_t i = 0; i < known.size(); ++i)
-      known[i] = simulation_.loop().channel(0).known(i);
+      known[i] = at(channel).known(i);
     return known;
   }
-  tl::expected<double, std::string> tuning(const std::string&, int place, std::size_t tunable,
-                                           TuningSet set) override {
-    return simulation_.loop().channel(0).tuner().value(set, static_cast<std::size_t>(place),
-                                                       tunable);
+  tl::expected<double, std::string> tuning(const std::string& channel, int place,
+                                           std::size_t tunable, TuningSet set) override {
+    return at(channel).tuner().value(set, static_cast<std::size_t>(place), tunable);
   }
-  Answer prepare(const std::string&, int place, const std::string& name,
+  Answer prepare(const std::string& channel, int place, const std::string& name,
                  const std::string& value) override {
-    Tuner& tuner = simulation_.loop().channel(0).tuner();
+    Tuner& tuner = at(channel).tuner();
     const auto at = static_cast<std::size_t>(place);
     if (name == "all") {
       const auto set = std::ranges::find(tuning_set_names, value) - tuning_set_names.begin();
@@ -60,14 +61,14 @@ class SimulatedLink final : public operating::BoardLink {
     const Reply reply = tuner.prepare(at, control::tunable_named(name), std::stod(value));
     return answer_text(reply.refusal, reply.nearest);
   }
-  tl::expected<double, std::string> progress(const std::string&) override {
-    return static_cast<double>(simulation_.loop().channel(0).snapshot().progress);
+  tl::expected<double, std::string> progress(const std::string& channel) override {
+    return static_cast<double>(at(channel).snapshot().progress);
   }
-  tl::expected<double, std::string> position_m(const std::string&) override {
-    return static_cast<double>(snapshot().position_m);
+  tl::expected<double, std::string> position_m(const std::string& channel) override {
+    return static_cast<double>(at(channel).snapshot().position_m);
   }
-  tl::expected<double, std::string> error_m(const std::string&) override {
-    const Snapshot& s = snapshot();
+  tl::expected<double, std::string> error_m(const std::string& channel) override {
+    const Snapshot& s = at(channel).snapshot();
     return s.mode == Mode::position ? s.position_m - s.model_m : NAN;
   }
   void wait(std::chrono::milliseconds time) override {
@@ -80,10 +81,13 @@ class SimulatedLink final : public operating::BoardLink {
   double time_s() const override { return static_cast<double>(simulation_.tick()) / rate_Hz_; }
 
   double hottest_rise_K() const { return hottest_rise_K_; }
-  Fault fault() const { return snapshot().fault; }
+  Fault fault() const { return simulation_.loop().channel(0).snapshot().fault; }
 
  private:
-  const Snapshot& snapshot() const { return simulation_.loop().channel(0).snapshot(); }
+  /// channel: as in a line.
+  Channel& at(const std::string& channel) {
+    return simulation_.loop().channel(std::stoul(channel) - 1);
+  }
   void watch() {
     hottest_rise_K_ = std::max(hottest_rise_K_, simulation_.plant().temperature_rise_K());
   }

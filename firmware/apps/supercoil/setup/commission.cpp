@@ -47,12 +47,13 @@ Json number(double value) {
 
 }  // namespace
 
-Commission::Commission(BoardLink& board, std::string channel, const ChannelSettings& configured,
-                       const BoardSettings& settings, Operator& who)
+Commission::Commission(BoardLink& board, std::string channel, const BoardSettings& settings,
+                       std::size_t index, Operator& who)
     : board_(board),
       channel_(std::move(channel)),
-      configured_(configured),
       settings_(settings),
+      index_(index),
+      configured_(settings.channels[index]),
       who_(who) {}
 
 StepResult Commission::run(const std::string& step) {
@@ -148,16 +149,35 @@ Commission::OrWhy Commission::calibrate_when_cold() {
   }
 }
 
+StepResult Commission::tell(Tell found) {
+  const JointSettings* joint = settings_.joint_of(index_);
+  if (joint == nullptr || joint->agonist != index_) return (this->*found)({channel_, configured_});
+  const auto other = antagonist_of(board_, channel_);
+  if (!other) return tl::unexpected(other.error());
+  who_.say("the agonist, channel " + channel_ + ":");
+  auto own = (this->*found)({channel_, configured_});
+  if (!own) return own;
+  who_.say("the antagonist, channel " + *other + ":");
+  auto others = (this->*found)({*other, settings_.channels[joint->antagonist]});
+  if (!others) return others;
+  (*own)["antagonist"] = std::move(*others);
+  return own;
+}
+
 StepResult Commission::calibrate() {
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   if (auto done = only_found("calibrate", calibrate_when_cold()); !done)
     return tl::unexpected(done.error());
-  const auto known = board_.muscle(channel_);
+  return tell(&Commission::tell_calibration);
+}
+
+StepResult Commission::tell_calibration(const Measured& whose) {
+  const auto known = board_.muscle(whose.first);
   if (!known) return tl::unexpected(known.error());
   const double cold_Ohm = (*known)[known_cold_resistance];
   const double offset_m = (*known)[known_position_offset];
   who_.say("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there");
-  who_.say("cold resistance: " + beside(cold_Ohm, configured_.heater.cold_resistance_Ohm, "Ohm"));
+  who_.say("cold resistance: " + beside(cold_Ohm, whose.second.heater.cold_resistance_Ohm, "Ohm"));
   return Json{{"position_offset_m", number(offset_m)}, {"cold_resistance_Ohm", number(cold_Ohm)}};
 }
 
@@ -204,12 +224,16 @@ StepResult Commission::identify() {
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   if (auto done = only_found("identify", run_mode("identify", max_identify_s)); !done)
     return tl::unexpected(done.error());
-  const auto known = board_.muscle(channel_);
+  return tell(&Commission::tell_muscle);
+}
+
+StepResult Commission::tell_muscle(const Measured& whose) {
+  const auto known = board_.muscle(whose.first);
   if (!known) return tl::unexpected(known.error());
   Json found;
   for (std::size_t i = 0; i < control::physical_ranges.size(); ++i) {
     const control::PhysicalRange& range = control::physical_ranges[i];
-    const double configured = configured_.muscle.*range.member;
+    const double configured = whose.second.muscle.*range.member;
     found[range.name] = number((*known)[i]);
     constexpr double float_rounding_ratio = 1e-6;
     if (std::abs((*known)[i] / configured - 1.0) > float_rounding_ratio)
@@ -236,8 +260,10 @@ StepResult Commission::move() {
   if (!now) return tl::unexpected(now.error());
   const FirstMotion motion = plan_first_motion(feasibility(now->settings, settings_));
   const auto promise = now->promise(now->settings.controllers.front(), settings_, motion);
+  const char* unpromised =
+      now->in_joint() ? "of a joint none is" : "controller 0 is not learned_ff";
   who_.say(promise ? "promised: " + config::describe_promise(*promise, motion)
-                   : "no error is promised: controller 0 is not learned_ff");
+                   : std::string("no error is promised: ") + unpromised);
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   double square_sum = 0.0;
   int samples = 0;

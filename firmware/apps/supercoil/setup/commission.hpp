@@ -1,7 +1,9 @@
 // The steps by which a muscle on a running board comes to follow.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <utility>
 
 #include <nlohmann/json_fwd.hpp>
 #include <tl/expected.hpp>
@@ -17,17 +19,18 @@ using StepResult = tl::expected<nlohmann::ordered_json, std::string>;
 
 class Commission {
  public:
-  /// channel: as in a line of a command. configured: as the board's file has it, of this channel.
-  /// All outlive it.
-  Commission(BoardLink& board, std::string channel, const ChannelSettings& configured,
-             const BoardSettings& settings, Operator& who);
+  /// channel: as in a line of a command. settings: as the board's file has them; index: of this
+  /// channel there. All outlive it.
+  Commission(BoardLink& board, std::string channel, const BoardSettings& settings,
+             std::size_t index, Operator& who);
 
   /// One of setup_steps that needs a running board, by its name.
   StepResult run(const std::string& step);
 
   /// The senses of voltage and current, by a meter.
   StepResult compare_senses();
-  /// Zero and resistance of the cold muscle.
+  /// Zero and resistance of the cold muscle; as identify(), of an agonist also the antagonist's, as
+  /// "antagonist".
   StepResult calibrate();
   /// The position sensor's scale, by a second known place.
   StepResult scale();
@@ -54,13 +57,22 @@ class Commission {
   Done arm();
   /// identify or calibrate, until it ends; how it did.
   OrWhy run_mode(const std::string& mode, double max_s);
+  /// Whose muscle, as in a line of a command, and as the file has it.
+  using Measured = std::pair<std::string, const ChannelSettings&>;
+  using Tell = StepResult (Commission::*)(const Measured& whose);
+
+  /// What was found, of an agonist also the antagonist's: identify and calibrate go on with it.
+  StepResult tell(Tell found);
+  StepResult tell_calibration(const Measured& whose);
+  StepResult tell_muscle(const Measured& whose);
   /// calibrate again and again, until the muscle must be cold.
   OrWhy calibrate_when_cold();
 
   BoardLink& board_;
   std::string channel_;
-  const ChannelSettings& configured_;
   const BoardSettings& settings_;
+  std::size_t index_;
+  const ChannelSettings& configured_;
   Operator& who_;
 };
 

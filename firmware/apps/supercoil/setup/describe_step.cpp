@@ -8,6 +8,7 @@
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
 #include "config/toml_file.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::operating {
 
@@ -56,6 +57,19 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
     const auto read = read_script(options.script);
     if (!read) return tl::unexpected(read.error());
     answers = read->muscle;
+  }
+  // A file that is not yet complete is judged when it is written.
+  if (const auto before = config::parse_board_config(*text, options.config)) {
+    const JointSettings* joint =
+        before->settings.joint_of(static_cast<std::size_t>(options.channel) - 1);
+    if (joint != nullptr) {
+      who.say(
+          "it turns a joint: answer as it moves the joint alone, with the other muscle cold. "
+          "Weights hang at the lever, " +
+          number_text(1e3 * joint->lever_m, 4) +
+          " mm from the axis; mm are arcs there; what it lifts is the joint's inertia over the "
+          "lever's square");
+    }
   }
   const auto completed = complete(answers, options, who);
   if (!completed) return tl::unexpected(completed.error());

@@ -1,11 +1,13 @@
 #include "apps/supercoil/setup/setup_board.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/steps.hpp"
 
 namespace supercoil::operating {
 
@@ -15,9 +17,8 @@ SetupBoard::~SetupBoard() {
 
 StepResult SetupBoard::run(const std::string& step) {
   if (auto ready = open(); !ready) return tl::unexpected(ready.error());
-  const auto index = static_cast<std::size_t>(options_.channel) - 1;
-  Commission commission(*link_, address(), config_->settings.channels[index], config_->settings,
-                        who_);
+  if (const std::string why = left_to_agonist(step); !why.empty()) return tl::unexpected(why);
+  Commission commission(*link_, address(), config_->settings, index(), who_);
   auto found = commission.run(step);
   if (!found || !found->contains(travel_key)) return found;
   const auto text = read_board_text(options_.config);
@@ -28,8 +29,18 @@ StepResult SetupBoard::run(const std::string& step) {
   return found;
 }
 
-tl::expected<void, std::string> SetupBoard::open() {
-  if (link_) return {};
+std::string SetupBoard::left_to_agonist(const std::string& step) {
+  const auto found = std::ranges::find(setup_steps, step, &SetupStep::name);
+  if (!found->of_agonist || !read()) return "";
+  const JointSettings* joint = config_->settings.joint_of(index());
+  if (joint == nullptr || joint->antagonist != index()) return "";
+  return "channel " + std::to_string(options_.channel) +
+         " is a joint's antagonist, which its agonist leads: supercoil setup " + step +
+         " --channel " + std::to_string(joint->agonist + 1);
+}
+
+tl::expected<void, std::string> SetupBoard::read() {
+  if (config_) return {};
   auto config = config::read_board_config(options_.config);
   if (!config) return tl::unexpected(config::to_text(config.error()));
   const auto channels = static_cast<int>(config->settings.channels.size());
@@ -37,12 +48,18 @@ tl::expected<void, std::string> SetupBoard::open() {
     return tl::unexpected(options_.config + " has no channel " + std::to_string(options_.channel) +
                           ", but " + std::to_string(channels));
   }
+  config_ = std::move(*config);
+  return {};
+}
+
+tl::expected<void, std::string> SetupBoard::open() {
+  if (link_) return {};
+  if (auto done = read(); !done) return done;
   auto link = open_link(options_.can, options_.socket);
   if (!link) {
     return tl::unexpected(link.error() + "; start the board with " + options_.config +
                           " first (supercoild --config, or supercoil-sim run bench --board)");
   }
-  config_ = std::move(*config);
   link_ = std::move(*link);
   return {};
 }

@@ -73,8 +73,11 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   for (const SetupStep& step : setup_steps) {
     if (!wanted(step, options, record)) continue;
     const std::string name(step.name);
-    std::fprintf(out, "%s: %s\n", name.c_str(), std::string(step.does).c_str());
+    const std::string left = options.steps.empty() ? board.left_to_agonist(name) : "";
+    const std::string said = left.empty() ? std::string(step.does) : left;
+    std::fprintf(out, "%s: %s\n", name.c_str(), said.c_str());
     std::fflush(out);
+    if (!left.empty()) continue;
     if (!takes(step, options, terminal)) {
       if (terminal.interrupted()) return concluded(options, results, exit_failed, "interrupted");
       continue;

@@ -96,6 +96,8 @@ int run_program(int count, char** arguments) {
   rig::PlantSettings& plant = options.plant;
   CLI::App app{"The muscles and the power stage of the emulated board.", "supercoil-rig-plant"};
   app.add_option("--channels", plant.channels)->check(CLI::Range(1, 4))->capture_default_str();
+  app.add_flag("--joint", plant.joint,
+               "The first two channels are a joint's, of the default lever");
   app.add_option("--rate-Hz", plant.rate_Hz)->check(CLI::Range(100, 2000))->capture_default_str();
   app.add_option("--supply-V", plant.supply_V)->capture_default_str();
   app.add_option("--decay-ms", plant.charge_pump_decay_ms, "Of the charge pump")
@@ -110,6 +112,10 @@ int run_program(int count, char** arguments) {
   app.add_option("--witness", options.witness, "Where lines are written; else standard output");
   app.add_option("--faults", options.injected_faults, "FIFO of faults to inject");
   CLI11_PARSE(app, count, arguments);
+  if (plant.joint && plant.channels < 2) {
+    std::fputs("supercoil-rig-plant: --joint needs two channels\n", stderr);
+    return EXIT_FAILURE;
+  }
   run(options);
 }
 

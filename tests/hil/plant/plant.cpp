@@ -1,13 +1,22 @@
 #include "plant.hpp"
 
+#include <numbers>
+
 namespace supercoil::rig {
 
 namespace {
 
 // An ADS1115 whose full scale is 4.096 V: 125 uV a count, none below 0 V.
-host_sim::ConverterSettings converter(double unit_per_V, double noise_rms) {
+host_sim::ConverterSettings converter(double unit_per_V, double noise_rms, double at_0_V = 0.0) {
   constexpr double full_scale_V = 32767 * 125e-6;
-  return {0.0, full_scale_V * unit_per_V, 15, noise_rms};
+  return {at_0_V, at_0_V + full_scale_V * unit_per_V, 15, noise_rms};
+}
+
+// An AS5600 as in firmware/io/config/examples/joint-as5600-ads1115.toml: 90 degrees over 3.3 V, as
+// an arc.
+host_sim::ConverterSettings angle_sensor(double lever_m, double noise_rms_m) {
+  const double range_m = lever_m * 0.5 * std::numbers::pi;
+  return converter(range_m / 3.3, noise_rms_m, -0.5 * range_m);
 }
 
 // Sensors as in firmware/io/config/examples/raspberry-pi-pca9685-ads1115.toml.
@@ -24,6 +33,12 @@ host_sim::SimulatedBoardSettings board_of(const PlantSettings& settings) {
   board.charge_pump_decay_s = settings.charge_pump_decay_ms / 1000.0;
   board.seed = settings.seed;
   board.channels.assign(static_cast<std::size_t>(settings.channels), channel);
+  if (settings.joint) {
+    const host_sim::SimulatedJointSettings joint;
+    board.channels[joint.agonist].position =
+        angle_sensor(joint.plant.lever_m, settings.position_noise_m);
+    board.joints = {joint};
+  }
   return board;
 }
 

@@ -18,6 +18,7 @@ struct PlantSettings {
   int first_converter = 0x48;  ///< the supply's; position and current of each channel follow
   std::string lines = "/run/rig/lines";  ///< one folder for each line, by its name
   int channels = 2;                      ///< 1 to 4
+  bool joint = false;  ///< the first two turn one joint; the first's position sensor is its angle's
   double rate_Hz = 1000.0;
   double supply_V = 12.0;
   double charge_pump_decay_ms = 20.0;

@@ -91,8 +91,8 @@ void Witness::look(const Plant& plant, hal::Time now) {
     const host_sim::MuscleChannel& channel = board.channel(i);
     line.add(plant.enabled(i) ? 1 : 0).add(plant.duty_4096(i));
     line.add_thousandths(channel.true_power_W());
-    line.add_thousandths(channel.plant().position_m() * 1e3);
-    line.add_thousandths(channel.plant().temperature_rise_K());
+    line.add_thousandths(channel.position_m() * 1e3);
+    line.add_thousandths(channel.temperature_rise_K());
     line.add_thousandths(channel.current_A());
   }
   const char* text = line.end_line();

@@ -185,10 +185,13 @@ class Workshop:
         return self.objects_of.get(str(self.tree / file), set())
 
     def objects_with_code(self, file):
-        """Of a header, those that have code from it, by their line tables."""
+        """Of a header, those that have code from it, by their line tables, and its own source's: that tells whether a
+        changed declaration compiles."""
         if file.endswith(".cpp"):
             return self.objects(file)
-        return self.objects(file) & self.with_code.get(pathlib.Path(file).name, set())
+        path = pathlib.Path(file)
+        own = {target for target in self.objects(file) if pathlib.Path(target).name.startswith(f"{path.stem}.cpp")}
+        return self.objects(file) & (self.with_code.get(path.name, set()) | own)
 
     def code_hash(self, target):
         stripped = self.folder / "stripped.o"
@@ -240,10 +243,11 @@ class Workshop:
     def judge(self, mutant, programs, patience_s):
         """("invalid" | "same code" | "survived" | "killed", by which part). What nothing noticed in time has survived."""
         ends = time.monotonic() + patience_s
-        verdict = self.judge_by(mutant, programs, self.objects_with_code(mutant.file), ends)
-        if verdict[0] in ("same code", "in no program"):
-            # A constant may be elsewhere, where no line of its own tells of it.
-            verdict = self.judge_by(mutant, programs, self.objects(mutant.file), ends)
+        targets = self.objects_with_code(mutant.file)
+        verdict = self.judge_by(mutant, programs, targets, ends)
+        if verdict[0] in ("same code", "in no program", "survived") and targets != self.objects(mutant.file):
+            # A constant or a default argument may be elsewhere, where no line of its own tells of it.
+            verdict = self.judge_by(mutant, programs, self.objects(mutant.file), time.monotonic() + patience_s)
         # What no test program is linked with, none can notice.
         return ("survived", "") if verdict[0] == "in no program" else verdict
 

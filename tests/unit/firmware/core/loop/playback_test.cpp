@@ -123,6 +123,28 @@ TEST(Playback, RefusesWhatTheMuscleCannotDoWhenItComes) {
   LONGS_EQUAL(control::Trajectory::capacity - 2, playback.status().room);
 }
 
+TEST(Playback, LeavesAMarginOfPowerForHowItFollows) {
+  const double hold_W = able.theta[3] * 0.006;  // 6 mm for good
+  able.range.max_W = hold_W / 1.04;
+  CHECK(add(0.0, 0.006) == Refusal::none);
+  CHECK(add(5.0, 0.006) == Refusal::none);
+  able.range.max_W = hold_W / 1.06;
+  CHECK(add(5.0, 0.006) == Refusal::infeasible);
+}
+
+TEST(Playback, RefusesAWayThatLeavesTheTravelBetweenItsKnots) {
+  able.range = {-9.0, 9.0};  // of a joint
+  CHECK(add(0.0, 0.0229) == Refusal::none);
+  CHECK(add(2.0, 0.0249, 0.001) == Refusal::none);
+  CHECK(add(2.0, 0.0249, -0.001) == Refusal::infeasible);
+  CHECK(add(2.0, 0.0229, 0.0) == Refusal::infeasible);
+  playback.forget();
+  CHECK(add(0.0, -0.0179) == Refusal::none);
+  CHECK(add(2.0, -0.0199, -0.001) == Refusal::none);
+  CHECK(add(2.0, -0.0199, 0.001) == Refusal::infeasible);
+  CHECK(add(2.0, -0.0179, 0.0) == Refusal::infeasible);
+}
+
 TEST(Playback, StartsOnceFromItsFirstKnotAndNotInThePast) {
   CHECK(start() == Refusal::wrong_state);
   CHECK(add(1.0, 0.006) == Refusal::wrong_state);

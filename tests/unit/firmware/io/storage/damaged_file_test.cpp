@@ -4,6 +4,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include "storage/codec.hpp"
+#include "storage/envelope.hpp"
 #include "unit/firmware/io/storage/support/store_on_a_disk.hpp"
 
 using namespace supercoil::storage;
@@ -21,6 +22,14 @@ TEST(DamagedFile, UsesThePreviousVersionWhenTheCurrentOneIsDamagedAndSaysWhy) {
   check_loaded(Source::previous, 1, "/d/learned-3.toml: is empty");
   disk.names.erase(path);
   check_loaded(Source::previous, 1, "/d/learned-3.toml: is not there");
+}
+
+TEST(DamagedFile, OneByteTooManyIsSeen) {
+  save(1);
+  save(2);
+  text_of(path).append(max_file_bytes - text_of(path).size() + 1, '#');
+  check_loaded(Source::previous, 1,
+               "/d/learned-3.toml: is larger than 64 KiB, which no stored set is");
 }
 
 TEST(DamagedFile, SaysThatThePreviousVersionIsDamagedWhileTheCurrentOneIsGood) {

@@ -29,6 +29,15 @@ void describe_wiring(std::ostream& out, const ChannelWiring& w, const ChannelSet
       << " mA a count; up to " << 1e3 * c.supervision.off_current_A << " mA counts as zero\n";
 }
 
+void describe_bundle(std::ostream& out, const Bundle& bundle) {
+  const bool parallel = bundle.threads == Wired::parallel;
+  out << "  bundle      " << bundle.muscles << " muscles, their threads in "
+      << (parallel ? "parallel: when one breaks" : "series: when one is shorted")
+      << " the resistance is " << std::nearbyint(100.0 * bundle.one_lost_ratio()) << " % "
+      << (parallel ? "more" : "less") << ", and each of the others gets "
+      << bundle.others_power_ratio() << " times its share until that is a fault\n";
+}
+
 void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSettings& board,
                      const ChannelLabel& label) {
   const ChannelSupervision& s = c.supervision;
@@ -37,6 +46,7 @@ void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSet
   if (label.thermal_fuse_C.value_or(0.0) > 0.0) {
     out << "              its thermal fuse opens at " << *label.thermal_fuse_C << " °C\n";
   }
+  if (label.bundle) describe_bundle(out, *label.bundle);
   out << "  power       " << c.limiter.min_W << " to " << c.limiter.max_W << " W; more than "
       << s.max_measured_W << " W measured is a fault, and more than " << s.energy_J << " J in "
       << s.energy_window_s << " s\n"

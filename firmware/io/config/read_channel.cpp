@@ -109,6 +109,7 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
   read_limits(section.section("limits"), context, c, channel.label);
   read_muscle(section.section("muscle"), section.section("thermal"), context, c);
   read_detectors(section.section("detectors"), context, channel.wiring, c);
+  channel.label.bundle = read_bundle(section.section("bundle"), c);
   read_control(section, context.board.step_s(), c);
   section.finish();
   return channel;

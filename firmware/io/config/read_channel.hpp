@@ -48,5 +48,7 @@ void read_heater(Section section, const BoardContext& context, const PwmAddress&
 /// [channel.detectors]. After everything else but control.
 void read_detectors(Section section, const BoardContext& context, const ChannelWiring& wiring,
                     ChannelSettings& c);
+/// [channel.bundle]; empty: there is none. After the detectors.
+std::optional<Bundle> read_bundle(Section section, const ChannelSettings& c);
 
 }  // namespace supercoil::config

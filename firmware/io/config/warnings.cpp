@@ -107,6 +107,17 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
   findings.add("thermal fuse", reason.str());
 }
 
+/// Of parallel threads one that breaks is always seen: others are refused.
+void judge_bundle(const Bundle& bundle, double resistance_ratio, Findings& findings) {
+  if (bundle.threads == Wired::parallel || bundle.one_lost_ratio() > resistance_ratio) return;
+  std::ostringstream reason;
+  reason << "one shorted muscle of " << bundle.muscles << " in series is "
+         << std::nearbyint(100.0 * bundle.one_lost_ratio())
+         << " % less resistance, within resistance_ratio: the others get "
+         << bundle.others_power_ratio() << " times their share unseen, but for their thermal fuses";
+  findings.add(Fault::resistance_drift, reason.str());
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const BoardConfig& config) {
@@ -119,6 +130,8 @@ std::vector<std::string> warnings(const BoardConfig& config) {
     judge_proof(c, config.settings, findings);
     judge_muscle(c, findings);
     judge_thermal_fuse(config.labels[i].thermal_fuse_C, c.supervision.trip_C, findings);
+    if (const auto& bundle = config.labels[i].bundle)
+      judge_bundle(*bundle, c.supervision.resistance_ratio, findings);
   }
   std::vector<std::string> lines = findings.lines();
   lines.push_back("board: " + std::string(name(Fault::duty_wrong)) +

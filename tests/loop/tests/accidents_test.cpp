@@ -66,6 +66,18 @@ TEST(Accidents, SensorsWireComesOffWhileFullPowerIsAskedFor) {
   DOUBLES_EQUAL(20.005, by_position.fault_s, 0.005);
 }
 
+TEST(Accidents, OneOfThreeThreadsInParallelBreaksAndTheOthersGetItsShare) {
+  // By the power that is measured each gets a third of it; the two that are left get a half.
+  for (const char* asked : {"kind = 'pi'", "kind = 'learned_ff'"}) {
+    const Aftermath after =
+        aftermath_of(std::string("simulation.duration_s = 60.0\nreference = ") + constant("0.020") +
+                     "[controller]\n" + asked +
+                     "\n[[event]]\nat_s = 20.0\nplant.resistance_Ohm = 15.0\npower.gain = 1.5\n");
+    check_cold(after, Fault::resistance_drift);
+    DOUBLES_EQUAL(20.8, after.fault_s, 0.3);
+  }
+}
+
 TEST(Accidents, DetachedSensorShowsFourKelvinTooLittleForEver) {
   // The muscle moves by 0.54 mm per kelvin. At 1 K the sensor comes off and stays there; then 5 K
   // are asked for, which it will never show.

@@ -32,6 +32,22 @@ void check_says(const std::string& text, const std::string& part) {
 
 TEST_GROUP(BoardConfig){};
 
+TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
+  const auto described = [](const std::string& keys) {
+    return describe(read(test::small_board_with(
+        "[channel.heater]\n", "[channel.bundle]\n" + keys + "\n[channel.heater]\n")));
+  };
+  check_says(
+      described("muscles = 3\nwired = 'parallel'"),
+      "bundle      3 muscles, their threads in parallel: when one breaks the resistance is 50 "
+      "% more, and each of the others gets 1.5 times its share until that is a fault");
+  check_says(described("muscles = 2"), "series: when one is shorted the resistance is 50 % less");
+  CHECK(described("muscles = 3").find("one shorted muscle") == std::string::npos);
+  check_says(described("muscles = 5"),
+             "channel 1: resistance_drift: one shorted muscle of 5 in series is 20 % less "
+             "resistance, within resistance_ratio: the others get 1.25 times their share unseen");
+}
+
 TEST(BoardConfig, JointExampleIsTwoChannelsAtOneSensor) {
   const BoardConfig c = example("joint-as5600-ads1115.toml");
   UNSIGNED_LONGS_EQUAL(2, c.settings.channels.size());

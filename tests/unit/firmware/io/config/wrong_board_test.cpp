@@ -103,6 +103,25 @@ TEST(WrongBoard, ThermalFuseOfAnImpossibleTemperature) {
                  "there is no thermal fuse");
 }
 
+TEST(WrongBoard, ABundleOfWhichABrokenThreadIsNotSeen) {
+  const std::string before = "[channel.heater]\n";
+  const auto bundle = [&](const std::string& keys) {
+    return "[channel.bundle]\n" + keys + "\n" + before;
+  };
+  check_replaced(before, bundle("muscles = 5\nwired = 'parallel'"),
+                 "b.toml:33: channel[1].bundle.muscles = 5: of so many in parallel a broken thread "
+                 "adds 25 % of resistance, which detectors.resistance_ratio = 0.3 lets pass, and "
+                 "each of the others gets 1.25 times its share: wire them in series, or make that "
+                 "smaller");
+  check_replaced(before, bundle("muscles = 1"),
+                 "b.toml:33: channel[1].bundle.muscles = 1: must be 2 to 32");
+  check_replaced(
+      before, bundle("wired = 'parallel'"),
+      "b.toml:32: channel[1].bundle.muscles: is missing: it must be a whole number, 2 to 32");
+  check_replaced(before, bundle("muscles = 3\nwired = 'both'"),
+                 "b.toml:34: channel[1].bundle.wired = 'both': must be one of: series, parallel");
+}
+
 TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
   check_replaced("min_mass_J_per_K = 0.13",
                  "min_mass_J_per_K = 0.13\nweighed_mass_error_ratio = 0.03",

@@ -265,6 +265,12 @@ class SetupProgram(unittest.TestCase):
         self.assertRegex(told, r"(?s)the agonist, channel 1:.*cold resistance: 10 Ohm .*the antagonist, channel 2:.*cold resistance: 10 Ohm ")
         state = subprocess.run([SUPERCOIL, "command", "state", *bus], capture_output=True, text=True, timeout=DEADLINE_S).stdout
         self.assertEqual(re.findall(r"node (\d): disarmed", state), ["1", "2"])
+        for _ in range(TRIES):
+            for words in (("arm",), ("position", "80deg")):
+                done = subprocess.run([SUPERCOIL, "command", "1", *words, *bus], capture_output=True, text=True, timeout=DEADLINE_S)
+            if not any(why in done.stderr for why in STARVED):
+                break
+        self.assertRegex(done.stderr, r"refused: out_of_range; 0\.008\d* would be obeyed \(30\.\d+deg\)")
 
 
 if __name__ == "__main__":

@@ -33,6 +33,13 @@ int judged(const std::string& line, const std::string& answer) {
   return fail(refused ? exit_failed : exit_wrong_input, line + ": " + answer);
 }
 
+/// With the nearest that would be obeyed in degrees too, where degrees were asked for.
+std::string in_degrees(const CommandOptions& options, const std::string& answer) {
+  const auto reply = parse_answer(answer);
+  if (std::isnan(options.m_per_deg) || !reply || std::isnan(reply->nearest)) return answer;
+  return answer + " (" + number_text(reply->nearest / options.m_per_deg, 4) + "deg)";
+}
+
 /// One command's end, as text or as JSON on standard output.
 int concluded(const CommandOptions& options, const std::string& line,
               const BoardLink::Answer& answer) {
@@ -41,7 +48,7 @@ int concluded(const CommandOptions& options, const std::string& line,
     told[answer ? "answer" : "error"] = answer ? *answer : answer.error();
     std::printf("%s\n", told.dump().c_str());
   }
-  return answer ? judged(line, *answer) : fail(exit_failed, answer.error());
+  return answer ? judged(line, in_degrees(options, *answer)) : fail(exit_failed, answer.error());
 }
 
 int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
@@ -180,6 +187,7 @@ int in_metres(BoardLink& board, CommandOptions& options) {
   }
   options.words[2] = number_text(*angle_deg * m_per_deg, digits);
   options.sine_amplitude *= m_per_deg;
+  options.m_per_deg = m_per_deg;
   return exit_done;
 }
 

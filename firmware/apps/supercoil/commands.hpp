@@ -1,6 +1,7 @@
 // The commands of supercoil. Each returns the program's exit status.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -52,6 +53,7 @@ struct CommandOptions {
   double hold_s = 0.0;             ///< 0: once
   double sine_amplitude = 0.0;
   double sine_period_s = 0.0;  ///< 0: no sine
+  double m_per_deg = NAN;      ///< of the joint's arc, where the words had degrees
 };
 int command_command(CommandOptions options);
 

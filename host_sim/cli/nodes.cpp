@@ -10,7 +10,7 @@ tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options, const S
   Nodes all(folder);
   for (int i = 0; i < options.nodes; ++i) {
     Scenario its = scenario;
-    its.seed += static_cast<std::uint64_t>(i);
+    its.seed += static_cast<std::uint64_t>(i * scenario.channels());
     its.can.first_node = static_cast<can::Node>(scenario.can.first_node + i * scenario.channels());
     OutputFolder* its_folder = &folder;
     if (options.nodes > 1) {

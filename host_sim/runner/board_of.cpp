@@ -120,6 +120,10 @@ BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated)
 /// In °C; beside its error, as good as any.
 const ConverterSettings air_sensor{.low = -100.0, .high = 200.0};
 
+double whole_ticks_s(const Scenario& scenario, double time_s) {
+  return std::nearbyint(time_s * scenario.rate_Hz) / scenario.rate_Hz;
+}
+
 MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
                                  const PlantSettings& plant) {
   MuscleChannelSettings m;
@@ -135,7 +139,7 @@ MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
   m.load_N = plant.load_N;
   m.power_gain = c.power.gain;
   if (c.power.pwm_steps > 0) m.pwm_steps = c.power.pwm_steps;
-  m.pwm_delay_s = std::nearbyint(c.power.delay_s * scenario.rate_Hz) / scenario.rate_Hz;
+  m.pwm_delay_s = whole_ticks_s(scenario, c.power.delay_s);
   m.position = converter_of(c.position_sensor);
   if (scenario.board) m.sense_filter_s = scenario.board->channels[0].heater.sense_filter_s;
   m.current.high = 20.0 * c.power.supply_V / plant.resistance_Ohm;
@@ -170,7 +174,14 @@ MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditio
 }
 
 MuscleChannelSettings antagonist_channel_of(const Scenario& scenario, const Conditions& c) {
-  return channel_of(scenario, c, c.antagonist()->plant);
+  MuscleChannelSettings m = channel_of(scenario, c, c.antagonist()->plant);
+  if (c.antagonist()->pwm_steps > 0) m.pwm_steps = c.antagonist()->pwm_steps;
+  if (scenario.board) {
+    const HeaterSettings& heater = scenario.board->channels[1].heater;
+    m.sense_filter_s = heater.sense_filter_s;
+    m.pwm_delay_s = whole_ticks_s(scenario, heater.delay_s);
+  }
+  return m;
 }
 
 SimulatedJointSettings simulated_joint_of(const Conditions& c) {

@@ -119,7 +119,9 @@ void Simulation::change_joint(const Conditions& before) {
   if (antagonist != nullptr) board_.channel(1).set(antagonist_channel_of(*scenario_, *conditions_));
   board_.joint(0).set(simulated_joint_of(*conditions_));
   if (antagonist == nullptr) return;
-  loop_.channel(1).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
+  // A board of its own has a range of its own for each, which no event changes.
+  if (!scenario_->board)
+    loop_.channel(1).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
   const double wanted_W = antagonist->co_contraction_W;
   if (wanted_W == before.antagonist()->co_contraction_W) return;
   // The operator commands it in watts of the antagonist.

@@ -52,12 +52,21 @@ void put(Conditions& c, const ChannelSettings& channel, const config::ChannelWir
   c.muscle = channel.muscle;
 }
 
-/// As put(), of the muscle that pulls against it. What the operator asks of both under way stays.
-void put_antagonist(Conditions& c, const BoardSettings& board, double configured_W) {
+/// As put(), of the muscle that pulls against it. scenario_W: what the scenario begins with, which
+/// is the file's; what an event asks of both instead stays.
+OrRefused put_antagonist(Conditions& c, const BoardSettings& board,
+                         const config::ChannelWiring& wiring, double scenario_W) {
   AntagonistConditions& antagonist = *c.joint->antagonist;
+  const JointSettings& joint = board.joints[0];
   antagonist.muscle = board.channels[1].muscle;
-  if (antagonist.co_contraction_W == configured_W)
-    antagonist.co_contraction_W = board.joints[0].co_contraction_W;
+  antagonist.pwm_steps = wiring.pwm.steps;
+  if (antagonist.co_contraction_W == scenario_W)
+    antagonist.co_contraction_W = joint.co_contraction_W;
+  if (antagonist.co_contraction_W <= joint.max_co_contraction_W) return {};
+  std::ostringstream why;
+  why << "an event's joint.co_contraction_W = " << antagonist.co_contraction_W
+      << " is more than the board's max_co_contraction_W, " << joint.max_co_contraction_W;
+  return refuse(why);
 }
 
 /// The joint of the file that turns what the scenario's [joint] is; empty: neither has one.
@@ -68,8 +77,8 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
   std::ostringstream why;
   if (c.antagonist() == nullptr) {
     if (found == nullptr) return std::nullopt;
-    why << "channel " << channel + 1 << " of the board's file is one of a joint, and the scenario "
-        << "has no [joint] of two muscles";
+    why << "channel " << channel + 1 << " of the board's file turns a joint: the scenario needs a "
+        << "[joint] that is opposed_by \"muscle\"";
     return tl::unexpected(why.str());
   }
   if (found == nullptr) {
@@ -80,6 +89,12 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
   if (found->lever_m != c.joint->plant.lever_m) {
     why << "the scenario's joint.lever_m = " << c.joint->plant.lever_m << " is not the board's, "
         << found->lever_m << ": positions are arcs at the lever";
+    return tl::unexpected(why.str());
+  }
+  if (found->antagonist != found->agonist + 1) {
+    why << "channels " << found->agonist + 1 << " and " << found->antagonist + 1
+        << " of the board's file turn a joint: only neighbours, whose CAN nodes are, can be "
+        << "simulated";
     return tl::unexpected(why.str());
   }
   return *found;
@@ -119,10 +134,13 @@ OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::
   for (Event& event : scenario.events)
     put(event.conditions, board.channels[0], config.wiring.channels[channel]);
   if (*joint) {
-    const double configured_W = scenario.start.antagonist()->co_contraction_W;
-    put_antagonist(scenario.start, board, configured_W);
-    for (Event& event : scenario.events)
-      put_antagonist(event.conditions, board, configured_W);
+    const double scenario_W = scenario.start.antagonist()->co_contraction_W;
+    const config::ChannelWiring& wiring = config.wiring.channels[(*joint)->antagonist];
+    static_cast<void>(put_antagonist(scenario.start, board, wiring, scenario_W));
+    for (Event& event : scenario.events) {
+      if (auto put_in = put_antagonist(event.conditions, board, wiring, scenario_W); !put_in)
+        return put_in;
+    }
   }
   scenario.board = std::move(board);
   return {};

@@ -31,6 +31,7 @@ struct AntagonistConditions {
   PlantSettings plant;
   control::PhysicalParameters muscle;  ///< what the board believes it to be
   double co_contraction_W = 1.0;
+  int pwm_steps = 0;  ///< 0: as [power] says of both
 };
 
 /// A joint that the muscle turns against another one, or against a spring.

@@ -172,8 +172,10 @@ void check_reach(Section& section, const Conditions& c) {
   if (c.joint) {
     const double lever_m = c.joint->plant.lever_m;
     const PositionSensorSettings& sensor = c.position_sensor;
-    const double min_m =
-        std::max(Conditions::travel_ratio * sensor.min_m, lever_m * c.joint->plant.min_angle_rad);
+    const bool pair = c.antagonist() != nullptr;  // beside a spring the muscle only pulls
+    const double min_m = pair ? std::max(Conditions::travel_ratio * sensor.min_m,
+                                         lever_m * c.joint->plant.min_angle_rad)
+                              : 0.0;
     const double max_m =
         std::min(Conditions::travel_ratio * sensor.range_m, lever_m * c.joint->plant.max_angle_rad);
     if (c.reference.lowest() >= min_m && c.reference.highest() <= max_m) return;

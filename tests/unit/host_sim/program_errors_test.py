@@ -80,8 +80,10 @@ class Errors(ProgramCase):
     def test_a_joint_and_a_board_that_do_not_go_together(self):
         pair, alone = (EXAMPLES / f"{name}.toml" for name in ("joint-as5600-ads1115", "raspberry-pi-pwm-ads1115"))
         for text, board, told in (
-                ("", pair, "channel 2 of the board's file is one of a joint, and the scenario has no [joint] of two muscles"),
-                ("joint.opposed_by = 'spring'\n", pair, "the scenario has no [joint] of two muscles"),
+                ("", pair, "channel 2 of the board's file turns a joint: the scenario needs a [joint] that is opposed_by \"muscle\""),
+                ("joint.opposed_by = 'spring'\n", pair, "channel 2 of the board's file turns a joint"),
+                ("[joint]\n[[event]]\nat_s = 1.0\njoint.co_contraction_W = 4.0\n", pair,
+                 "an event's joint.co_contraction_W = 4 is more than the board's max_co_contraction_W, 2.2"),
                 ("[joint]\n", alone, "the scenario has a [joint] of two muscles, and channel 2 of the board's file is in none"),
                 ("joint.lever_m = 0.02\n", pair, "joint.lever_m = 0.02 is not the board's, 0.015")):
             self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--channel", 2, "--out", "out")

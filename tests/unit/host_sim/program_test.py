@@ -186,6 +186,21 @@ class Results(ProgramCase):
         self.assertLess(abs(both_W(50.0, 60.0) - 1.8), 0.15)
         self.assertLess(abs(both_W(110.0, 120.0) - 3.6), 0.3)
 
+    def test_each_muscle_of_a_joint_has_the_limits_of_its_own_channel(self):
+        text = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
+        last = 'current.device = "i2c-3/3-0049"\n'
+        (self.path / "board.toml").write_text(text.replace(last, f"{last}limits.max_W = 2.0\n"))
+        steps = "[reference]\nkind = 'steps'\nlevels_m = [0.007, -0.007]\nhold_s = 6.0\n"
+        event = "[[event]]\nat_s = 0.5\njoint.load_Nm = 0.0001\n"  # which changes no limit
+        for channel in (1, 2):
+            self.run_program("run", self.scenario(f"simulation.duration_s = 24.0\n[joint]\n{steps}{event}"), "--board", "board.toml",
+                             "--channel", channel, "--out", "out", "--no-plot")
+            with (self.path / "out/trace.csv").open(newline="") as file:
+                rows = list(csv.DictReader(file))
+            most_W = [max(float(row[key]) for row in rows) for key in ("applied_power_W", "antagonist_applied_power_W")]
+            self.assertGreater(most_W[0], 3.0)
+            self.assertLess(abs(most_W[1] - 2.0), 0.05)
+
     def test_joints_on_one_bus_have_two_nodes_each(self):
         text = "simulation.duration_s = 2.0\n[joint]\n"
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--nodes", 2)

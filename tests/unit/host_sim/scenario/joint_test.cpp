@@ -189,6 +189,11 @@ TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
                      spring + "[joint.antagonist]\nstiffness_N_per_m = 20.0");
   check_joint_answer(("4: injected_fault.antagonist_torn = true" + needs).c_str(),
                      spring + "[injected_fault]\nantagonist_torn = true");
+  check_joint_answer(
+      "4: reference.kind = 'step': the reference goes from -5 to 5 mm, and sensor.position and the "
+      "joint's "
+      "end stops allow 0 to 10.989 mm",
+      spring + "[reference]\nkind = 'step'\nfrom_m = -0.005");
   check_joint_answer("3: joint.spring_Nm_per_rad = 0: must be 1e-06 to 1000",
                      spring + "spring_Nm_per_rad = 0.0");
   check_joint_answer("4: event.joint.opposed_by: cannot change during a run",

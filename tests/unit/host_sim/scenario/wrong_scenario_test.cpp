@@ -261,6 +261,7 @@ TEST(WrongScenario, NameThatNoBuiltInScenarioHas) {
   STRCMP_EQUAL(
       "sinus: there is no such file\n"
       "sinus: and no built-in scenario has that name; they are: b, bench, c, disturbances, "
-      "first-motion, fixed-point, identify, joint, pwm, real, real_hard, sine, steps\n",
+      "first-motion, fixed-point, identify, joint-bench, joint, pwm, real, real_hard, sine, "
+      "steps\n",
       supercoil::config::to_text(scenario.error()).c_str());
 }

@@ -30,12 +30,12 @@ void describe_wiring(std::ostream& out, const ChannelWiring& w, const ChannelSet
 }
 
 void describe_bundle(std::ostream& out, const Bundle& bundle) {
-  const bool parallel = bundle.threads == Wired::parallel;
+  const bool parallel = bundle.parallel();
   out << "  bundle      " << bundle.muscles << " muscles, their threads in "
       << (parallel ? "parallel: when one breaks" : "series: when one is shorted")
       << " the resistance is " << std::nearbyint(100.0 * bundle.one_lost_ratio()) << " % "
       << (parallel ? "more" : "less") << ", and each of the others gets "
-      << bundle.others_power_ratio() << " times its share until that is a fault\n";
+      << bundle.others_power_ratio() << " times its share\n";
 }
 
 void describe_limits(std::ostream& out, const ChannelSettings& c, const BoardSettings& board,

@@ -8,8 +8,17 @@ namespace supercoil::config {
 namespace {
 
 constexpr int max_muscles = 32;
-constexpr control::Names<Wired, 2> wired_names{
-    {{"series", Wired::series}, {"parallel", Wired::parallel}}};
+constexpr control::Names<Wiring, 2> wiring_names{
+    {{"series", Wiring::series}, {"parallel", Wiring::parallel}}};
+
+/// By how much more than calibrated resistance_drift lets pass in a muscle that is cold, but by its
+/// bounds may be as hot as the limit.
+double unseen_ratio(const ChannelSettings& c) {
+  const double max_rise_K = c.supervision.trip_C - c.thermal.air.coldest_C;
+  return (1.0 + c.supervision.resistance_ratio) *
+             (1.0 + c.heater.temperature_coefficient_per_K * max_rise_K) -
+         1.0;
+}
 
 }  // namespace
 
@@ -17,15 +26,16 @@ std::optional<Bundle> read_bundle(Section section, const ChannelSettings& c) {
   if (section.table() == nullptr) return std::nullopt;
   Bundle bundle;
   bundle.muscles = static_cast<int>(section.required_integer("muscles", 2, max_muscles));
-  bundle.threads = section.choice("wired", Wired::series, wired_names);
+  bundle.wired = section.choice("wired", Wiring::series, wiring_names);
   section.finish();
-  const double allowed = c.supervision.resistance_ratio;
-  if (bundle.threads == Wired::parallel && bundle.one_lost_ratio() <= allowed) {
+  if (bundle.parallel() && bundle.one_lost_ratio() <= unseen_ratio(c)) {
     std::ostringstream message;
-    message << "of so many in parallel a broken thread adds " << 100.0 * bundle.one_lost_ratio()
-            << " % of resistance, which detectors.resistance_ratio = " << allowed
-            << " lets pass, and each of the others gets " << bundle.others_power_ratio()
-            << " times its share: wire them in series, or make that smaller";
+    message << "with this many in parallel, a broken thread adds "
+            << 100.0 * bundle.one_lost_ratio() << " % of resistance, and each of the others gets "
+            << bundle.others_power_ratio()
+            << " times its share; detectors.resistance_ratio = " << c.supervision.resistance_ratio
+            << " and heater.temperature_coefficient_per_K let up to " << 100.0 * unseen_ratio(c)
+            << " % pass: wire them in series, or lower resistance_ratio";
     section.wrong("muscles", message.str());
   }
   return bundle;

@@ -107,9 +107,9 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
   findings.add("thermal fuse", reason.str());
 }
 
-/// Of parallel threads one that breaks is always seen: others are refused.
+/// Parallel threads of which one could break unseen are refused: read_bundle.cpp.
 void judge_bundle(const Bundle& bundle, double resistance_ratio, Findings& findings) {
-  if (bundle.threads == Wired::parallel || bundle.one_lost_ratio() > resistance_ratio) return;
+  if (bundle.parallel() || bundle.one_lost_ratio() > resistance_ratio) return;
   std::ostringstream reason;
   reason << "one shorted muscle of " << bundle.muscles << " in series is "
          << std::nearbyint(100.0 * bundle.one_lost_ratio())

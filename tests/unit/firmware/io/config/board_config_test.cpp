@@ -40,7 +40,7 @@ TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
   check_says(
       described("muscles = 3\nwired = 'parallel'"),
       "bundle      3 muscles, their threads in parallel: when one breaks the resistance is 50 "
-      "% more, and each of the others gets 1.5 times its share until that is a fault");
+      "% more, and each of the others gets 1.5 times its share\n");
   check_says(described("muscles = 2"), "series: when one is shorted the resistance is 50 % less");
   CHECK(described("muscles = 3").find("one shorted muscle") == std::string::npos);
   check_says(described("muscles = 5"),

@@ -108,11 +108,19 @@ TEST(WrongBoard, ABundleOfWhichABrokenThreadIsNotSeen) {
   const auto bundle = [&](const std::string& keys) {
     return "[channel.bundle]\n" + keys + "\n" + before;
   };
-  check_replaced(before, bundle("muscles = 5\nwired = 'parallel'"),
-                 "b.toml:33: channel[1].bundle.muscles = 5: of so many in parallel a broken thread "
-                 "adds 25 % of resistance, which detectors.resistance_ratio = 0.3 lets pass, and "
-                 "each of the others gets 1.25 times its share: wire them in series, or make that "
-                 "smaller");
+  check_replaced(
+      before, bundle("muscles = 5\nwired = 'parallel'"),
+      "b.toml:33: channel[1].bundle.muscles = 5: with this many in parallel, a broken "
+      "thread adds 25 % of resistance, and each of the others gets 1.25 times its share; "
+      "detectors.resistance_ratio = 0.3 and heater.temperature_coefficient_per_K let up "
+      "to 30 % pass: wire them in series, or lower resistance_ratio");
+  // A cold muscle that might be at 160 °C may have 1.3 times 1.29 of its resistance.
+  const std::string warm = "temperature_coefficient_per_K = 0.002\n";
+  check_replaced(before, bundle("muscles = 3\nwired = 'parallel'") + warm,
+                 "b.toml:33: channel[1].bundle.muscles = 3: with this many in parallel, a broken "
+                 "thread adds 50 % of resistance, and each of the others gets 1.5 times its share; "
+                 "detectors.resistance_ratio = 0.3 and heater.temperature_coefficient_per_K let up "
+                 "to 67.7 % pass: wire them in series, or lower resistance_ratio");
   check_replaced(before, bundle("muscles = 1"),
                  "b.toml:33: channel[1].bundle.muscles = 1: must be 2 to 32");
   check_replaced(

@@ -247,30 +247,41 @@ class SetupProgram(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("it turns a joint: answer as it moves the joint alone", done.stdout)
             self.assertIn("Weights hang at the lever, 15 mm from the axis", done.stdout)
-        scenario = self.path / "joint.toml"
-        scenario.write_text("simulation.duration_s = 1e5\noperator.action = 'none'\njoint.lever_m = 0.015\n")
-        simulator = Simulator(self.path, scenario, "--board", self.board)
+        for step, channel, told in (("move", "2", "channel 2 is a joint's antagonist: set up its agonist instead, --channel 1"),
+                                    ("scale", "1", "channel 1 turns a joint: the file's m_per_count and lever_m are its scale"),
+                                    ("move", "1", "start the board with")):
+            done = self.setup_program(step, "--channel", channel, "--socket", self.path / "none")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"{step}: ", done.stderr)
+            self.assertIn(told, done.stderr)
+        simulator = Simulator(self.path, "joint-bench", "--board", self.board)
         self.addCleanup(simulator.end)
         bus = ("--can", f"socketcand:{simulator.port}")
-
-        done = self.setup_program("move", "--channel", "2", *bus)
-        self.assertEqual(done.returncode, 1)
-        self.assertIn("move: channel 2 is a joint's antagonist, which its agonist leads: supercoil setup move --channel 1", done.stderr)
 
         def calibrated():
             subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
             return self.setup_program("calibrate", *bus)
 
-        told = self.patiently(calibrated).stdout
-        self.assertRegex(told, r"(?s)the agonist, channel 1:.*cold resistance: 10 Ohm .*the antagonist, channel 2:.*cold resistance: 10 Ohm ")
+        self.assertRegex(self.patiently(calibrated).stdout, r"(?s)the agonist, channel 1:.*cold resistance: 10 Ohm .*"
+                         r"the antagonist, channel 2:.*cold resistance: 10 Ohm ")
+        done_steps = json.loads(self.record.read_text())
+        self.assertEqual([set(done_steps[f"channel-{number}"]) for number in (1, 2)], 2 * [{"describe", "calibrate"}])
         state = subprocess.run([SUPERCOIL, "command", "state", *bus], capture_output=True, text=True, timeout=DEADLINE_S).stdout
         self.assertEqual(re.findall(r"node (\d): disarmed", state), ["1", "2"])
-        for _ in range(TRIES):
-            for words in (("arm",), ("position", "80deg")):
-                done = subprocess.run([SUPERCOIL, "command", "1", *words, *bus], capture_output=True, text=True, timeout=DEADLINE_S)
-            if not any(why in done.stderr for why in STARVED):
-                break
-        self.assertRegex(done.stderr, r"refused: out_of_range; 0\.008\d* would be obeyed \(30\.\d+deg\)")
+
+        def command(*words):
+            return subprocess.run([SUPERCOIL, "command", "1", *words, *bus], capture_output=True, text=True, timeout=DEADLINE_S)
+
+        def positioned(angle):
+            for _ in range(TRIES):
+                command("arm")
+                done = command("position", angle)
+                if not any(why in done.stderr for why in STARVED):
+                    break
+            return done
+
+        told = re.search(r"refused: out_of_range; 0\.008\d* would be obeyed \((30\.\d+deg)\)", positioned("80deg").stderr)
+        self.assertEqual(positioned(told[1]).returncode, 0)  # to the digit
 
 
 if __name__ == "__main__":

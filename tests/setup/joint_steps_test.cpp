@@ -1,5 +1,7 @@
 // The steps of setup on a joint: its agonist's go on with the antagonist; in lockstep.
+#include <functional>
 #include <string>
+#include <utility>
 
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
@@ -71,6 +73,7 @@ TEST(JointSteps, BothMusclesAreMeasuredAndToldAndTheJointFollows) {
   CHECK_TRUE(calibrated.has_value());
   DOUBLES_EQUAL(10.0, (*calibrated)["cold_resistance_Ohm"].get<double>(), 0.05);
   DOUBLES_EQUAL(9.5, (*calibrated)["antagonist"]["cold_resistance_Ohm"].get<double>(), 0.05);
+  LONGS_EQUAL(2, (*calibrated)["antagonist"]["channel"].get<int>());
   STRCMP_CONTAINS("the antagonist, channel 2:\n", listener.take().c_str());
 
   const auto found = steps.identify();
@@ -82,7 +85,7 @@ TEST(JointSteps, BothMusclesAreMeasuredAndToldAndTheJointFollows) {
 
   const auto moved = steps.move();
   CHECK_TRUE(moved.has_value());
-  STRCMP_CONTAINS("no error is promised: of a joint none is\n", listener.take().c_str());
+  STRCMP_CONTAINS("no error is promised for a joint\n", listener.take().c_str());
   CHECK_FALSE(moved->contains("promised_m"));
   DOUBLES_EQUAL(0.0, (*moved)["error_m"].get<double>(), 20e-6);
   CHECK(link.fault() == Fault::none);

@@ -4,6 +4,9 @@
 
 namespace supercoil::operating {
 
+namespace {
+
+/// As in a line; empty: the channel is no agonist of a joint.
 tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel) {
   const auto known = board.muscle(channel);
   if (!known) return tl::unexpected(known.error());
@@ -11,6 +14,8 @@ tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std
   if (!((*known)[known_joint_lever] > 0.0) || !std::isfinite(offset)) return "";
   return std::to_string(std::stol(channel) + std::lround(offset));
 }
+
+}  // namespace
 
 BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
   auto answer = board.ask(channel + " arm");

@@ -145,9 +145,6 @@ class CanBoardLink final : public BoardLink {
 /// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
-/// Of the joint whose agonist this is, as in a line; empty: it is none's.
-tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel);
-
 struct ChannelEnding {
   std::string channel;  ///< as in a line
   BoardLink::Ending ending;

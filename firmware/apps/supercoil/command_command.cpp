@@ -33,11 +33,14 @@ int judged(const std::string& line, const std::string& answer) {
   return fail(refused ? exit_failed : exit_wrong_input, line + ": " + answer);
 }
 
-/// With the nearest that would be obeyed in degrees too, where degrees were asked for.
-std::string in_degrees(const CommandOptions& options, const std::string& answer) {
+/// With the nearest that would be obeyed in degrees too, where degrees were asked for: rounded
+/// towards 0, so that it is obeyed.
+std::string with_degrees(const CommandOptions& options, const std::string& answer) {
   const auto reply = parse_answer(answer);
   if (std::isnan(options.m_per_deg) || !reply || std::isnan(reply->nearest)) return answer;
-  return answer + " (" + number_text(reply->nearest / options.m_per_deg, 4) + "deg)";
+  constexpr double per_deg = 1e4;
+  const double nearest_deg = std::trunc(per_deg * reply->nearest / options.m_per_deg) / per_deg;
+  return answer + " (" + number_text(nearest_deg, 7) + "deg)";
 }
 
 /// One command's end, as text or as JSON on standard output.
@@ -48,7 +51,7 @@ int concluded(const CommandOptions& options, const std::string& line,
     told[answer ? "answer" : "error"] = answer ? *answer : answer.error();
     std::printf("%s\n", told.dump().c_str());
   }
-  return answer ? judged(line, in_degrees(options, *answer)) : fail(exit_failed, answer.error());
+  return answer ? judged(line, with_degrees(options, *answer)) : fail(exit_failed, answer.error());
 }
 
 int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {

@@ -144,10 +144,12 @@ std::optional<Reply> parse_answer(std::string_view text) {
   text.remove_prefix(refused.size());
   const std::string_view word = text.substr(0, text.find_first_of(";:"));
   const auto found = std::ranges::find(refusal_names, word);
-  if (found == refusal_names.end()) return std::nullopt;
-  text.remove_prefix(std::min(text.size(), word.size() + 1));
-  return Reply(static_cast<Refusal>(found - refusal_names.begin()),
-               number<double>(next_word(text)).value_or(NAN));
+  const auto refusal = static_cast<Refusal>(found - refusal_names.begin());
+  if (found == refusal_names.end() || refusal == Refusal::none) return std::nullopt;
+  text.remove_prefix(word.size());
+  if (!text.starts_with(';')) return refusal;
+  text.remove_prefix(1);
+  return Reply(refusal, number<double>(next_word(text)).value_or(NAN));
 }
 
 }  // namespace supercoil

@@ -7,6 +7,7 @@
 
 #include "apps/supercoil/setup/channel_now.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/describe.hpp"
 #include "modes/calibrate.hpp"
@@ -23,7 +24,7 @@ constexpr std::chrono::milliseconds renewal{100};
 constexpr std::chrono::milliseconds reference_step{20};
 /// A muscle that is cold by all bounds is armed at once; the file says how long it may take else.
 constexpr double arming_s = 5.0;
-/// As in firmware: calibrate waits for a cold muscle, identify judges after 1200 s.
+/// As in firmware, of each muscle: calibrate waits for a cold one, identify judges after 1200 s.
 constexpr double max_calibrate_s = 130.0;
 constexpr double max_identify_s = 1400.0;
 /// Above the air, from which on calibrate takes a zero.
@@ -39,6 +40,13 @@ std::string beside(double found, double configured, const std::string& unit) {
   return in_digits(found) + (unit.empty() ? "" : " ") + unit +
          " (configured: " + in_digits(configured) + ", " + (percent < 0.0 ? "" : "+") +
          number_text(percent, 3) + " %)";
+}
+
+/// However hot it was at boot.
+double cold_after(const ChannelSettings& channel) {
+  const control::ThermalBounds& b = channel.thermal.bounds;
+  const double max_tau_s = b.max_mass_J_per_K / b.min_transfer_W_per_K;
+  return max_tau_s * std::log(std::max(1.0, channel.thermal.boot_rise_K / cold_K));
 }
 
 Json number(double value) {
@@ -89,7 +97,10 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
 
 /// A board that was just started waits until its muscle must be cool.
 Commission::Done Commission::arm() {
-  const double max_s = arming_s + feasibility(configured_, settings_).armable_s;
+  double armable_s = feasibility(configured_, settings_).armable_s;
+  if (const auto other = antagonist())
+    armable_s = std::max(armable_s, feasibility(other->configured, settings_).armable_s);
+  const double max_s = arming_s + armable_s;
   const double begin_s = board_.time_s();
   for (;;) {
     const double elapsed_s = board_.time_s() - begin_s;
@@ -109,6 +120,7 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
   // The first time takes a moment, in which a command to heat would expire.
   if (who_.sees_progress()) done();
   if (auto begun = ask(mode); !begun) return tl::unexpected(begun.error());
+  if (antagonist()) max_s *= 2.0;
   const double begin_s = board_.time_s();
   for (;;) {
     board_.wait(renewal);
@@ -135,10 +147,9 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
 }
 
 Commission::OrWhy Commission::calibrate_when_cold() {
-  const control::ThermalBounds& b = configured_.thermal.bounds;
-  const double max_tau_s = b.max_mass_J_per_K / b.min_transfer_W_per_K;
-  const double cold_after_s =
-      max_tau_s * std::log(std::max(1.0, configured_.thermal.boot_rise_K / cold_K));
+  double cold_after_s = cold_after(configured_);
+  if (const auto other = antagonist())
+    cold_after_s = std::max(cold_after_s, cold_after(other->configured));
   const double begin_s = board_.time_s();
   for (;;) {
     auto result = run_mode("calibrate", max_calibrate_s);
@@ -149,18 +160,25 @@ Commission::OrWhy Commission::calibrate_when_cold() {
   }
 }
 
-StepResult Commission::tell(Tell found) {
+std::optional<Commission::Measured> Commission::antagonist() const {
   const JointSettings* joint = settings_.joint_of(index_);
-  if (joint == nullptr || joint->agonist != index_) return (this->*found)({channel_, configured_});
-  const auto other = antagonist_of(board_, channel_);
-  if (!other) return tl::unexpected(other.error());
+  if (joint == nullptr || joint->agonist != index_) return std::nullopt;
+  const std::size_t apart = joint->antagonist - joint->agonist;
+  return Measured{std::to_string(std::stoul(channel_) + apart),
+                  settings_.channels[joint->antagonist]};
+}
+
+StepResult Commission::tell(Tell found) {
+  const auto other = antagonist();
+  if (!other) return (this->*found)({channel_, configured_});
   who_.say("the agonist, channel " + channel_ + ":");
   auto own = (this->*found)({channel_, configured_});
   if (!own) return own;
-  who_.say("the antagonist, channel " + *other + ":");
-  auto others = (this->*found)({*other, settings_.channels[joint->antagonist]});
+  who_.say("the antagonist, channel " + other->channel + ":");
+  auto others = (this->*found)(*other);
   if (!others) return others;
-  (*own)["antagonist"] = std::move(*others);
+  (*others)["channel"] = settings_.joint_of(index_)->antagonist + 1;
+  (*own)[SetupRecord::antagonist_key] = std::move(*others);
   return own;
 }
 
@@ -172,12 +190,13 @@ StepResult Commission::calibrate() {
 }
 
 StepResult Commission::tell_calibration(const Measured& whose) {
-  const auto known = board_.muscle(whose.first);
+  const auto known = board_.muscle(whose.channel);
   if (!known) return tl::unexpected(known.error());
   const double cold_Ohm = (*known)[known_cold_resistance];
   const double offset_m = (*known)[known_position_offset];
   who_.say("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there");
-  who_.say("cold resistance: " + beside(cold_Ohm, whose.second.heater.cold_resistance_Ohm, "Ohm"));
+  who_.say("cold resistance: " +
+           beside(cold_Ohm, whose.configured.heater.cold_resistance_Ohm, "Ohm"));
   return Json{{"position_offset_m", number(offset_m)}, {"cold_resistance_Ohm", number(cold_Ohm)}};
 }
 
@@ -228,12 +247,12 @@ StepResult Commission::identify() {
 }
 
 StepResult Commission::tell_muscle(const Measured& whose) {
-  const auto known = board_.muscle(whose.first);
+  const auto known = board_.muscle(whose.channel);
   if (!known) return tl::unexpected(known.error());
   Json found;
   for (std::size_t i = 0; i < control::physical_ranges.size(); ++i) {
     const control::PhysicalRange& range = control::physical_ranges[i];
-    const double configured = whose.second.muscle.*range.member;
+    const double configured = whose.configured.muscle.*range.member;
     found[range.name] = number((*known)[i]);
     constexpr double float_rounding_ratio = 1e-6;
     if (std::abs((*known)[i] / configured - 1.0) > float_rounding_ratio)
@@ -260,10 +279,9 @@ StepResult Commission::move() {
   if (!now) return tl::unexpected(now.error());
   const FirstMotion motion = plan_first_motion(feasibility(now->settings, settings_));
   const auto promise = now->promise(now->settings.controllers.front(), settings_, motion);
-  const char* unpromised =
-      now->in_joint() ? "of a joint none is" : "controller 0 is not learned_ff";
-  who_.say(promise ? "promised: " + config::describe_promise(*promise, motion)
-                   : std::string("no error is promised: ") + unpromised);
+  const char* unpromised = now->in_joint() ? "no error is promised for a joint"
+                                           : "no error is promised: controller 0 is not learned_ff";
+  who_.say(promise ? "promised: " + config::describe_promise(*promise, motion) : unpromised);
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   double square_sum = 0.0;
   int samples = 0;

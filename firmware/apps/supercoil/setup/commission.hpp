@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
-#include <utility>
 
 #include <nlohmann/json_fwd.hpp>
 #include <tl/expected.hpp>
@@ -57,11 +57,15 @@ class Commission {
   Done arm();
   /// identify or calibrate, until it ends; how it did.
   OrWhy run_mode(const std::string& mode, double max_s);
-  /// Whose muscle, as in a line of a command, and as the file has it.
-  using Measured = std::pair<std::string, const ChannelSettings&>;
+  struct Measured {
+    std::string channel;  ///< as in a line of a command
+    const ChannelSettings& configured;
+  };
   using Tell = StepResult (Commission::*)(const Measured& whose);
 
-  /// What was found, of an agonist also the antagonist's: identify and calibrate go on with it.
+  /// Which identify and calibrate go on with; empty: this channel is no agonist.
+  std::optional<Measured> antagonist() const;
+  /// What was found, of an agonist also the antagonist's.
   StepResult tell(Tell found);
   StepResult tell_calibration(const Measured& whose);
   StepResult tell_muscle(const Measured& whose);

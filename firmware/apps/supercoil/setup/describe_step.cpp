@@ -39,6 +39,20 @@ Or<MuscleAnswers> complete(MuscleAnswers answers, const SetupOptions& options, O
   return answers;
 }
 
+/// Of the joint that a channel, from 1, turns; empty: it turns none. The file need not be complete.
+std::optional<double> lever_of(const std::string& text, int channel) {
+  const toml::table document = toml::parse(text);
+  const toml::array* joints = document["joint"].as_array();
+  if (joints == nullptr) return std::nullopt;
+  for (const toml::node& node : *joints) {
+    const toml::table* joint = node.as_table();
+    if (joint == nullptr) continue;
+    const auto is = [&](const char* key) { return (*joint)[key].value<int>() == channel; };
+    if (is("agonist") || is("antagonist")) return (*joint)["lever_m"].value<double>();
+  }
+  return std::nullopt;
+}
+
 /// A list of controllers was chosen by somebody: it stays.
 bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
   const toml::table document = toml::parse(text);
@@ -58,18 +72,13 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
     if (!read) return tl::unexpected(read.error());
     answers = read->muscle;
   }
-  // A file that is not yet complete is judged when it is written.
-  if (const auto before = config::parse_board_config(*text, options.config)) {
-    const JointSettings* joint =
-        before->settings.joint_of(static_cast<std::size_t>(options.channel) - 1);
-    if (joint != nullptr) {
-      who.say(
-          "it turns a joint: answer as it moves the joint alone, with the other muscle cold. "
-          "Weights hang at the lever, " +
-          number_text(1e3 * joint->lever_m, 4) +
-          " mm from the axis; mm are arcs there; what it lifts is the joint's inertia over the "
-          "lever's square");
-    }
+  if (const auto lever_m = lever_of(*text, options.channel)) {
+    who.say(
+        "it turns a joint: answer as it moves the joint alone, with the other muscle cold. "
+        "Weights hang at the lever, " +
+        number_text(1e3 * *lever_m, 4) +
+        " mm from the axis; mm are arcs there; what it lifts is the joint's inertia over the "
+        "lever's square");
   }
   const auto completed = complete(answers, options, who);
   if (!completed) return tl::unexpected(completed.error());

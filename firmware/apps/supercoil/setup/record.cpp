@@ -13,11 +13,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+std::string name_of(int channel) {
+  return "channel-" + std::to_string(channel);
+}
+
 }  // namespace
 
 tl::expected<SetupRecord, std::string> SetupRecord::open(const std::string& config, int channel) {
   const std::string path = path_of(config);
-  const std::string name = "channel-" + std::to_string(channel);
+  const std::string name = name_of(channel);
   Json document = Json::object();
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) {
@@ -49,7 +53,17 @@ Json SetupRecord::found(const std::string& step) const {
 
 tl::expected<void, std::string> SetupRecord::add(const std::string& step, const Json& found) {
   document_["schema_version"] = 1;
-  Json& channel = document_[channel_];
+  Json own = found;
+  if (const auto other = own.find(antagonist_key); other != own.end()) {
+    put(name_of(other->at("channel").get<int>()), step, *other);
+    own.erase(other);
+  }
+  put(channel_, step, own);
+  return write_whole(path_, document_.dump(2) + "\n");
+}
+
+void SetupRecord::put(const std::string& name, const std::string& step, const Json& found) {
+  Json& channel = document_[name];
   if (channel.is_null()) channel = Json::object();
   bool after = false;
   for (const SetupStep& known : setup_steps) {
@@ -57,7 +71,6 @@ tl::expected<void, std::string> SetupRecord::add(const std::string& step, const 
     after = after || known.name == step;
   }
   channel[step] = found;
-  return write_whole(path_, document_.dump(2) + "\n");
 }
 
 }  // namespace supercoil::operating

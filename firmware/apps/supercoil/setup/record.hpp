@@ -21,12 +21,18 @@ class SetupRecord {
   bool is_past(const std::string& step) const;
   /// What a step found; null: it was not done.
   nlohmann::ordered_json found(const std::string& step) const;
-  /// Written at once, whole. What follows the step is to be done anew.
+  /// In what a step found: the same of a joint's other muscle, which was measured with it, and its
+  /// "channel".
+  static constexpr const char* antagonist_key = "antagonist";
+  /// Written at once, whole; what was found of an antagonist goes to its channel. What follows the
+  /// step is to be done anew.
   tl::expected<void, std::string> add(const std::string& step, const nlohmann::ordered_json& found);
 
  private:
   SetupRecord(std::string path, std::string channel, nlohmann::ordered_json document)
       : path_(std::move(path)), channel_(std::move(channel)), document_(std::move(document)) {}
+
+  void put(const std::string& name, const std::string& step, const nlohmann::ordered_json& found);
 
   std::string path_;
   std::string channel_;

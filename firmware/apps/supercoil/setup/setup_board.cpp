@@ -16,8 +16,8 @@ SetupBoard::~SetupBoard() {
 }
 
 StepResult SetupBoard::run(const std::string& step) {
+  if (const std::string why = not_for_this(step); !why.empty()) return tl::unexpected(why);
   if (auto ready = open(); !ready) return tl::unexpected(ready.error());
-  if (const std::string why = left_to_agonist(step); !why.empty()) return tl::unexpected(why);
   Commission commission(*link_, address(), config_->settings, index(), who_);
   auto found = commission.run(step);
   if (!found || !found->contains(travel_key)) return found;
@@ -29,14 +29,18 @@ StepResult SetupBoard::run(const std::string& step) {
   return found;
 }
 
-std::string SetupBoard::left_to_agonist(const std::string& step) {
+std::string SetupBoard::not_for_this(const std::string& step) {
+  using InJoint = SetupStep::InJoint;
   const auto found = std::ranges::find(setup_steps, step, &SetupStep::name);
-  if (!found->of_agonist || !read()) return "";
+  if (found->in_joint == InJoint::of_each || !read()) return "";
   const JointSettings* joint = config_->settings.joint_of(index());
-  if (joint == nullptr || joint->antagonist != index()) return "";
-  return "channel " + std::to_string(options_.channel) +
-         " is a joint's antagonist, which its agonist leads: supercoil setup " + step +
-         " --channel " + std::to_string(joint->agonist + 1);
+  if (joint == nullptr) return "";
+  const std::string channel = "channel " + std::to_string(options_.channel);
+  if (found->in_joint == InJoint::never)
+    return channel + " turns a joint: the file's m_per_count and lever_m are its scale";
+  if (joint->agonist == index()) return "";
+  return channel + " is a joint's antagonist: set up its agonist instead, --channel " +
+         std::to_string(joint->agonist + 1);
 }
 
 tl::expected<void, std::string> SetupBoard::read() {
@@ -58,7 +62,8 @@ tl::expected<void, std::string> SetupBoard::open() {
   auto link = open_link(options_.can, options_.socket);
   if (!link) {
     return tl::unexpected(link.error() + "; start the board with " + options_.config +
-                          " first (supercoild --config, or supercoil-sim run bench --board)");
+                          " first (supercoild --config, or supercoil-sim run bench --board; "
+                          "joint-bench for a joint)");
   }
   link_ = std::move(*link);
   return {};

@@ -24,8 +24,8 @@ class SetupBoard {
 
   /// A step of setup_steps, all but the first. The board is looked for when it is first needed.
   StepResult run(const std::string& step);
-  /// Why a step of setup_steps is not done with this channel, and with which it is; empty: it is.
-  std::string left_to_agonist(const std::string& step);
+  /// Why a step of setup_steps is not done with this channel; empty: it is.
+  std::string not_for_this(const std::string& step);
 
  private:
   tl::expected<void, std::string> read();

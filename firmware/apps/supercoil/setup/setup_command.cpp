@@ -70,14 +70,18 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   SetupBoard board(options, terminal);
   Json results = Json::object();
   int status = exit_done;
+  bool some_left = false;
   for (const SetupStep& step : setup_steps) {
     if (!wanted(step, options, record)) continue;
     const std::string name(step.name);
-    const std::string left = options.steps.empty() ? board.left_to_agonist(name) : "";
+    const std::string left = options.steps.empty() ? board.not_for_this(name) : "";
     const std::string said = left.empty() ? std::string(step.does) : left;
     std::fprintf(out, "%s: %s\n", name.c_str(), said.c_str());
     std::fflush(out);
-    if (!left.empty()) continue;
+    if (!left.empty()) {
+      some_left = true;
+      continue;
+    }
     if (!takes(step, options, terminal)) {
       if (terminal.interrupted()) return concluded(options, results, exit_failed, "interrupted");
       continue;
@@ -100,7 +104,8 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
       break;
     }
   }
-  if (results.empty()) std::fprintf(out, "every step is done; name one to do it again\n");
+  if (results.empty() && !some_left)
+    std::fprintf(out, "every step is done; name one to do it again\n");
   return concluded(options, results, status, "");
 }
 

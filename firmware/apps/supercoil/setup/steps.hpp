@@ -11,7 +11,7 @@ struct SetupStep {
   std::string_view does;      ///< said before it begins
   bool optional = false;      ///< may be left
   bool needs_person = false;  ///< who is asked first whether it is to be left; a script leaves it
-  bool of_agonist = false;    ///< of a joint: its antagonist has none of its own
+  enum class InJoint { of_each, of_agonist, never } in_joint = InJoint::of_each;
 };
 
 inline constexpr std::array<SetupStep, 8> setup_steps{{
@@ -26,7 +26,7 @@ inline constexpr std::array<SetupStep, 8> setup_steps{{
      "takes the zero and the resistance of the cold muscle; heats it for 50 ms; seconds, up to two "
      "minutes if it must cool"},
     {"scale", "takes the scale of the position from a second known place; heats nothing", true,
-     true, true},
+     true, SetupStep::InJoint::never},
     {"limits",
      "finds how far it may move: pulls with a power that rises slowly until you say that its end "
      "has come as far as it may, or touches something; makes the file's limit smaller, never "
@@ -38,11 +38,11 @@ inline constexpr std::array<SetupStep, 8> setup_steps{{
     {"gains",
      "compares the controller in use with the one that suits the muscle that was found, and takes "
      "that one over if it differs and you want it; heats nothing",
-     true, false, true},
+     true, false, SetupStep::InJoint::of_agonist},
     {"move",
      "follows a slow sine over a third of the travel, three periods; compares the error "
      "with the promised one",
-     false, false, true},
+     false, false, SetupStep::InJoint::of_agonist},
 }};
 
 }  // namespace supercoil::operating

@@ -116,6 +116,9 @@ TEST(CommandText, AnAnswerIsReadAsItWasGiven) {
   DOUBLES_EQUAL(0.025, nearest->nearest, 0.0);
   const auto reason = parse_answer("refused: unsuitable: kind is unstable on this muscle");
   CHECK(reason && reason->refusal == Refusal::unsuitable && std::isnan(reason->nearest));
-  for (const char* other : {"", "refused: ", "refused: too many clients", "wrong: channel '3'"})
+  const auto numbered = parse_answer("refused: unsuitable: 3 poles are unstable");
+  CHECK(numbered && std::isnan(numbered->nearest));
+  for (const char* other :
+       {"", "refused: ", "refused: none", "refused: too many clients", "wrong: channel '3'"})
     CHECK_FALSE(parse_answer(other).has_value());
 }

@@ -18,9 +18,9 @@ from firmware_test import MARK_MS, STEP_MS, TICK_MS, states
 from table import Table
 
 EXAMPLE = rig.ROOT / "firmware" / "io" / "config" / "examples" / "joint-as5600-ads1115.toml"
-M_PER_DEG = 0.015 * math.pi / 180.0
+M_PER_DEG = 0.015 * math.pi / 180.0  # of the example's lever, which is the plant's default too
 SETTLED_S = 8.0  # before a mark
-# The supervisor sees a heater that carries no current after 20 ms, of a current that is filtered and sampled.
+# A current that is low-passed with 10 ms has to fall below a quarter, and 20 ms pass then; the rest is margin for ticks of 10 ms.
 CUT_MS = 100.0
 
 
@@ -33,13 +33,14 @@ def rms(values):
     return math.sqrt(sum(value * value for value in values) / len(values)) if values else None
 
 
-def holds(table, looks, marks):
+def holds(table, looks, marks, ended):
     for mark, degrees in (("up", 10.0), ("down", -15.0), ("held", 10.0)):
         found = angles_deg(looks, marks[mark] - SETTLED_S, marks[mark])
         table.row(f"holds {degrees:g} deg: true angle less that, rms", rms([angle - degrees for angle in found]), 0, 0.05, "deg")
     found = angles_deg(looks, marks["held"], marks["pulled"])
     table.row("both pull twice as much: moved from 10 deg by at most", max(abs(angle - 10.0) for angle in found), 0, 0.1, "deg")
     before, after = (witness.at(looks, marks[name] - 0.1).channels for name in ("held", "pulled"))
+    table.row("    the command to pull ended with", ended["pulled"], 0, 0, "")
     table.row("    power of both, over that before", sum(c.power_W for c in after) / sum(c.power_W for c in before), 1.5, 2.5, "")
 
 
@@ -74,7 +75,7 @@ def judge(table, run):
     table.row("the script ended with", run.status, 0, 0, "")
     table.row("identify of both ended with", ended["identified"], 0, 0, "")
     table.row("    after", marks["identified"] - marks["armed"], 60, 400, "s")
-    holds(table, looks, marks)
+    holds(table, looks, marks, ended)
     follows(table, run.console)
     table.row("the command to follow ended with", ended["tracked"], 0, 0, "")
     cut(table, run, looks, marks)

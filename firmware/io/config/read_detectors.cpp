@@ -33,11 +33,10 @@ class Thresholds {
   double step_s_;
 };
 
-/// Only the thread that sets a duty reads a current of the time for which the duty is known: each
-/// bus keeps its own time between two ticks.
-bool current_may_be_ahead(const ChannelWiring& wiring) {
-  const Access& duty = wiring.pwm.access;
-  return duty.buffered() && wiring.current.access.bus != duty.bus;
+/// Each bus keeps its own time between two ticks, and its thread may be a moment late: then a tick
+/// has a current from before the duty that it is judged by, or behind it.
+bool current_may_be_of_another_tick(const ChannelWiring& wiring) {
+  return wiring.pwm.access.buffered() || wiring.current.access.buffered();
 }
 
 void read_heater_detectors(Section& section, Thresholds& read, const BoardContext& context,
@@ -51,7 +50,8 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   if (s.min_resistance_Ohm >= cold_Ohm) {
     section.wrong("min_resistance_Ohm", "must be less than heater.cold_resistance_Ohm");
   }
-  read.time("short_ms", s.short_s, current_may_be_ahead(wiring) ? 2.0 : 1.0, {0.1, 100.0});
+  read.time("short_ms", s.short_s, current_may_be_of_another_tick(wiring) ? 2.0 : 1.0,
+            {0.1, 100.0});
   // 50 ms is what the way to the charge pump is promised within.
   read.time("stuck_on_ms", s.stuck_on_s, 2.0, {5.0, 50.0});
   const double full_A = context.board.supervision.min_supply_V / cold_Ohm;

@@ -1,6 +1,7 @@
 #include "loop/heater.hpp"
 
 #include <cmath>
+#include <string>
 
 #include <CppUTest/TestHarness.h>
 
@@ -35,6 +36,28 @@ TEST(Heater, TellsHowOldItsResistanceIs) {
   rig.run(1.0);
   DOUBLES_EQUAL(age_s + 1.0, rig.snapshot().resistance_age_s, 1e-6);
   CHECK(rig.state() == State::armed);
+}
+
+TEST(Heater, ACurrentOfOneTickBeforeIsNoShortWhereTwoTicksAreAsked) {
+  // As behind a bus. Probes end with a fall of the duty, and nothing flows behind them.
+  const auto fault_with = [](double short_ticks) {
+    RigSettings slow = rough_board(100.0);
+    host_sim::MuscleChannelSettings& simulated = slow.board.channels[0];
+    ChannelSettings& channel = slow.firmware.channels[0];
+    simulated.sense_filter_s = channel.heater.sense_filter_s = 0.010;
+    simulated.current.period_s = 0.002;
+    simulated.current.latency_s = 0.008;
+    channel.heater.current.max_age_s = 0.05;
+    channel.supervision.off_current_A = 0.005;
+    channel.supervision.short_s = short_ticks * 0.010;
+    Rig rig(slow);
+    rig.boot();
+    rig.arm();
+    rig.hold_power(0.02, 30.0);  // below a probe's: it is probed every 5 s
+    return rig.fault();
+  };
+  STRCMP_EQUAL("heater_short", std::string(name(fault_with(1.0))).c_str());
+  STRCMP_EQUAL("none", std::string(name(fault_with(2.0))).c_str());
 }
 
 TEST(Heater, AResistanceOfAMuscleThatHasCooledSinceIsNotJudged) {

@@ -345,8 +345,8 @@ More current flows than the least resistance of a muscle explains.
 
 **Detected** when, while the channel is on, the current exceeds duty × supply / 5 Ω by more than 50 mA for 2 ms
 (`min_resistance_Ohm`, `off_current_A`, `short_s`). The duty is averaged with the time constant of the current sense,
-so that both are of the same time. Behind a bus a duty acts at any moment between two ticks: where another thread reads the
-current, or the tick itself, `short_s` is two ticks at least.
+so that both are of the same time. Behind a bus that is so to a tick only: the duty acts, or the current is read, at any moment
+between two ticks. There `short_s` is two ticks at least: when a probe ends, a current of one tick before is above that for one tick.
 
 **Reaction:** the channel goes cold. The switch's own protection must be faster than this: 2 ms are long for a
 transistor. See [wiring](../wiring.md).

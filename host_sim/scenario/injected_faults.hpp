@@ -28,11 +28,15 @@ struct InjectedFaults {
   friend bool operator==(const InjectedFaults&, const InjectedFaults&) = default;
 };
 
+/// What a fault can happen to.
+enum class Needs { muscle, joint, antagonist };
+
 struct InjectedFaultName {
   const char* name;  ///< as in [injected_fault]
   bool InjectedFaults::*member;
+  Needs needs = Needs::muscle;
 };
-inline constexpr std::array<InjectedFaultName, 10> injected_fault_names{{
+inline constexpr std::array<InjectedFaultName, 13> injected_fault_names{{
     {"heater_open", &InjectedFaults::heater_open},
     {"heater_short", &InjectedFaults::heater_short},
     {"switch_stuck_on", &InjectedFaults::switch_stuck_on},
@@ -43,13 +47,9 @@ inline constexpr std::array<InjectedFaultName, 10> injected_fault_names{{
     {"pwm_refuses", &InjectedFaults::pwm_refuses},
     {"stop_pressed", &InjectedFaults::stop_pressed},
     {"commands_stop", &InjectedFaults::commands_stop},
-}};
-
-/// Of a joint only; the others are of its agonist's channel.
-inline constexpr std::array<InjectedFaultName, 3> joint_fault_names{{
-    {"agonist_torn", &InjectedFaults::agonist_torn},
-    {"antagonist_torn", &InjectedFaults::antagonist_torn},
-    {"antagonist_heater_open", &InjectedFaults::antagonist_heater_open},
+    {"agonist_torn", &InjectedFaults::agonist_torn, Needs::joint},
+    {"antagonist_torn", &InjectedFaults::antagonist_torn, Needs::antagonist},
+    {"antagonist_heater_open", &InjectedFaults::antagonist_heater_open, Needs::antagonist},
 }};
 
 struct InjectedFaultNumber {
@@ -57,17 +57,14 @@ struct InjectedFaultNumber {
   double InjectedFaults::*member;
   double min;
   double max;
+  Needs needs = Needs::muscle;
 };
-inline constexpr std::array<InjectedFaultNumber, 3> injected_fault_numbers{{
+inline constexpr std::array<InjectedFaultNumber, 5> injected_fault_numbers{{
     {"current_gain", &InjectedFaults::current_gain, 0.0, 10.0},
     {"supply_gain", &InjectedFaults::supply_gain, 0.0, 10.0},
     {"switch_leak_ratio", &InjectedFaults::switch_leak_ratio, 0.0, 1.0},
-}};
-
-/// Of a joint only.
-inline constexpr std::array<InjectedFaultNumber, 2> joint_fault_numbers{{
-    {"agonist_slack_m", &InjectedFaults::agonist_slack_m, 0.0, 1.0},
-    {"antagonist_slack_m", &InjectedFaults::antagonist_slack_m, 0.0, 1.0},
+    {"agonist_slack_m", &InjectedFaults::agonist_slack_m, 0.0, 1.0, Needs::joint},
+    {"antagonist_slack_m", &InjectedFaults::antagonist_slack_m, 0.0, 1.0, Needs::antagonist},
 }};
 
 }  // namespace supercoil::host_sim

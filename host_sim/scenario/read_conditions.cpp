@@ -131,28 +131,21 @@ double read_senses(Section section) {
 }
 
 InjectedFaults read_injected_faults(Section section, const Conditions& c) {
-  const auto refuse_missing = [&](const std::string& key) {
-    if (!section.has(key)) return;
+  const auto refuse_missing = [&](const char* key, Needs needs) {
+    if (!section.has(key) || needs == Needs::muscle) return;
     if (!c.joint) return section.wrong(key, "needs a [joint]");
-    if (key.starts_with("antagonist") && !c.joint->antagonist)
+    if (needs == Needs::antagonist && c.antagonist() == nullptr)
       section.wrong(key, "needs a joint that is opposed_by \"muscle\"");
   };
   InjectedFaults injected_faults;
-  for (const InjectedFaultName& known : injected_fault_names)
+  for (const InjectedFaultName& known : injected_fault_names) {
     injected_faults.*known.member = section.flag(known.name, false);
-  for (const InjectedFaultName& known : joint_fault_names) {
-    injected_faults.*known.member = section.flag(known.name, false);
-    refuse_missing(known.name);
+    refuse_missing(known.name, known.needs);
   }
-  const auto read_number = [&](const InjectedFaultNumber& known) {
+  for (const InjectedFaultNumber& known : injected_fault_numbers) {
     injected_faults.*known.member =
         section.number(known.name, InjectedFaults{}.*known.member, {known.min, known.max});
-  };
-  for (const InjectedFaultNumber& known : injected_fault_numbers)
-    read_number(known);
-  for (const InjectedFaultNumber& known : joint_fault_numbers) {
-    read_number(known);
-    refuse_missing(known.name);
+    refuse_missing(known.name, known.needs);
   }
   section.finish();
   return injected_faults;

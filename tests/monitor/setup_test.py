@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 import unittest
+import urllib.request
 
 import accessibility_test
 from page_test import PICTURES, Page, TRIES
@@ -83,9 +84,9 @@ class SetupCase(unittest.TestCase):
         self.file.write_text(self.text)
         self.boards = []
 
-    def start_board(self, port=0):
+    def start_board(self, port=0, scenario="bench"):
         """With the file as it is now; its senses were never compared with a meter."""
-        board = Program([SIMULATOR, "run", "bench", "--board", self.file, "--real-time",
+        board = Program([SIMULATOR, "run", scenario, "--board", self.file, "--real-time",
                          "--can", f"socketcand:{port or free_ports()}"], r"serving can0 on 127\.0\.0\.1:(\d+)")
         self.addCleanup(board.stop)
         return board
@@ -288,6 +289,17 @@ class SetupTest(SetupCase):
         page.click("#open-setup")
         page.wait(lambda: page.step("identify")["problem"] != "", SLACK_S, "told")
         self.assertIn("interrupted: no page watched it", page.step("identify")["problem"])
+
+    def test_of_a_joints_antagonist_it_has_no_step_that_is_the_agonists(self):
+        self.file.write_text((EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text())
+        board = self.start_board(scenario="joint-bench")
+        for channel, missing in (("1", {"scale"}), ("2", {"scale", "gains", "move"})):
+            program = monitor(f"socketcand:{board.found[1]}", "--setup", self.file, "--channel", channel)
+            self.addCleanup(program.stop)
+            with urllib.request.urlopen(f"{program.found[1]}api/setup", timeout=SLACK_S) as answer:
+                names = [step["name"] for step in json.load(answer)["steps"]]
+            self.assertEqual(names, [name for name in STEPS if name not in missing])
+            program.stop()
 
     def test_what_setup_cannot_be_for_is_told_at_the_start(self):
         for words, told in ((("--setup", "missing.toml"), "missing.toml"),

@@ -124,15 +124,17 @@ class Judged(unittest.TestCase):
             (shop.tree / "h.hpp").write_text("inline int f(int a) { return a > 3 ? a : 7; }\nstruct S;\n")
             (shop.tree / "with.cpp").write_text('#include "h.hpp"\nint g(int a) { return f(a) * f(a + 1); }\n')
             (shop.tree / "without.cpp").write_text('#include "h.hpp"\nint k() { return 1; }\n')
+            (shop.tree / "h.cpp").write_text('#include "h.hpp"\nint own() { return 2; }\n')
             (shop.build / "build.ninja").write_text(
                 "rule cxx\n command = c++ -O0 -g1 -MD -MF $out.d -c $in -o $out\n depfile = $out.d\n deps = gcc\n"
-                + "".join(f"build {name}.o: cxx {shop.tree}/{name}.cpp\n" for name in ("with", "without")))
-            shop.ninja(["with.o", "without.o"], check=True)
+                + "".join(f"build {name}.o: cxx {shop.tree}/{name}.cpp\n" for name in ("with", "without", "h")).replace("build h.o:", "build h.cpp.o:"))
+            shop.ninja(["with.o", "without.o", "h.cpp.o"], check=True)
             shop.read_dependencies()
             shop.lock.close()
             (shop.build / "with.o").unlink()
-            self.assertEqual(shop.objects("h.hpp"), {"with.o", "without.o"})
-            self.assertEqual(shop.objects_with_code("h.hpp"), {"with.o"})
+            self.assertEqual(shop.objects("h.hpp"), {"with.o", "without.o", "h.cpp.o"})
+            # Its own source has no line of it, and is where a changed declaration does not compile.
+            self.assertEqual(shop.objects_with_code("h.hpp"), {"with.o", "h.cpp.o"})
 
     def judge(self, *verdicts):
         shop = mock.Mock(spec=workshop.Workshop)
@@ -143,6 +145,11 @@ class Judged(unittest.TestCase):
         self.assertEqual(self.judge("in no program", "in no program"), "survived")
         self.assertEqual(self.judge("same code", "killed"), "killed")
         self.assertEqual(self.judge("same code", "same code"), "same code")
+
+    def test_survives_only_what_all_that_includes_it_does_not_notice(self):
+        self.assertEqual(self.judge("survived", "killed"), "killed")
+        self.assertEqual(self.judge("survived", "invalid"), "invalid")
+        self.assertEqual(self.judge("survived", "survived"), "survived")
 
 
 class Equivalents(unittest.TestCase):

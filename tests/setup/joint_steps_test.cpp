@@ -1,5 +1,8 @@
 // The steps of setup on a joint: its agonist's go on with the antagonist; in lockstep.
+#include <fstream>
 #include <functional>
+#include <iterator>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -8,6 +11,7 @@
 
 #include "apps/supercoil/setup/commission.hpp"
 #include "config/board_config.hpp"
+#include "config/edit_toml.hpp"
 #include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
 #include "setup/simulated_link.hpp"
@@ -33,8 +37,13 @@ class Listener final : public operating::Operator {
   std::string told_;
 };
 
-config::BoardConfig example() {
-  auto config = config::read_board_config(SUPERCOIL_EXAMPLES "/joint-as5600-ads1115.toml");
+/// slow: of this channel, from 0, the muscle may by its bounds need 20 s until it is cool.
+config::BoardConfig example(std::optional<std::size_t> slow = std::nullopt) {
+  std::ifstream file(SUPERCOIL_EXAMPLES "/joint-as5600-ads1115.toml");
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (slow)
+    text = config::with_channel_value(text, *slow, "thermal.max_mass_J_per_K", "2.0").value();
+  auto config = config::parse_board_config(text, "joint.toml");
   if (!config) FAIL(config::to_text(config.error()).c_str());
   return std::move(*config);
 }
@@ -89,6 +98,19 @@ TEST(JointSteps, BothMusclesAreMeasuredAndToldAndTheJointFollows) {
   CHECK_FALSE(moved->contains("promised_m"));
   DOUBLES_EQUAL(0.0, (*moved)["error_m"].get<double>(), 20e-6);
   CHECK(link.fault() == Fault::none);
+}
+
+TEST(JointSteps, WhoeverIsArmedWaitsForTheSlowerMuscle) {
+  for (const std::size_t slow : {0U, 1U}) {
+    const host_sim::Scenario slow_scenario = scenario_on(example(slow));
+    host_sim::Simulation slow_simulation{slow_scenario};
+    SimulatedLink slow_link{slow_simulation, slow_scenario.rate_Hz};
+    const std::string quick = slow == 0 ? "2" : "1";
+    operating::Commission of_quick{slow_link, quick, *slow_scenario.board, 1 - slow, listener};
+    const auto calibrated = of_quick.calibrate();
+    CHECK_TEXT(calibrated.has_value(), calibrated ? "" : calibrated.error().c_str());
+    CHECK_COMPARE(slow_link.time_s(), >, 60.0);
+  }
 }
 
 TEST(JointSteps, TheAntagonistAloneIsMeasuredByItself) {

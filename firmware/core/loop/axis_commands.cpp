@@ -153,6 +153,8 @@ Reply Axis::choose_estimator(double place) {
 
 Reply Axis::scale(double true_m) {
   const double measured_m = inputs_.position.value;
+  // Its other muscle reads the same sensor, by a scale of its own.
+  if (inputs_.in_joint) return Refusal::unsuitable;
   // A controller would jump at the new scale.
   if (mode_ == Mode::position) return Refusal::wrong_state;
   if (!inputs_.position.present) return Refusal::not_ready;

@@ -40,7 +40,7 @@ enum class Refusal : std::uint8_t {
   queue_full = 11,         ///< more commands than a tick can take
   claim_again = 12,        ///< over CAN: the lease is free; claim it with the number in the answer
   protocol_mismatch = 13,  ///< over CAN: of another version of the protocol
-  unsuitable = 14,         ///< the prepared controller contradicts itself, or is unstable
+  unsuitable = 14,         ///< a prepared controller that is unstable; the scale of a joint
   infeasible = 15,  ///< a knot: the muscle cannot move there so fast, or would have to be cooled
 };
 

@@ -7,6 +7,7 @@
 
 #include <tl/expected.hpp>
 
+#include "config/bundle.hpp"
 #include "config/diagnostics.hpp"
 #include "config/wiring.hpp"
 #include "loop/settings.hpp"
@@ -15,21 +16,6 @@
 namespace supercoil::config {
 
 enum class Preset { nylon, skin };
-
-enum class Wiring { series, parallel };
-
-/// Equal muscles that pull together under one heater. To the loop they are one muscle.
-struct Bundle {
-  int muscles = 1;
-  Wiring wired = Wiring::series;
-
-  bool parallel() const { return wired == Wiring::parallel; }
-  /// Of the bundle's resistance: by how much it rises when one of parallel threads breaks, or falls
-  /// when one of those in series is shorted.
-  double one_lost_ratio() const { return parallel() ? 1.0 / (muscles - 1) : 1.0 / muscles; }
-  /// What each of the others gets then, over what is taken for its share.
-  double others_power_ratio() const { return static_cast<double>(muscles) / (muscles - 1); }
-};
 
 /// What describes a channel and the loop does not need.
 struct ChannelLabel {

@@ -11,16 +11,14 @@ constexpr int max_muscles = 32;
 constexpr control::Names<Wiring, 2> wiring_names{
     {{"series", Wiring::series}, {"parallel", Wiring::parallel}}};
 
-/// By how much more than calibrated resistance_drift lets pass in a muscle that is cold, but by its
-/// bounds may be as hot as the limit.
-double unseen_ratio(const ChannelSettings& c) {
-  const double max_rise_K = c.supervision.trip_C - c.thermal.air.coldest_C;
-  return (1.0 + c.supervision.resistance_ratio) *
-             (1.0 + c.heater.temperature_coefficient_per_K * max_rise_K) -
-         1.0;
-}
-
 }  // namespace
+
+double Bundle::unseen_ratio(const ChannelSettings& channel) const {
+  const double max_rise_K = channel.supervision.trip_C - channel.thermal.air.coldest_C;
+  const double warm = 1.0 + channel.heater.temperature_coefficient_per_K * max_rise_K;
+  const double drift = channel.supervision.resistance_ratio;
+  return parallel() ? (1.0 + drift) * warm - 1.0 : 1.0 - (1.0 - drift) / warm;
+}
 
 std::optional<Bundle> read_bundle(Section section, const ChannelSettings& c) {
   if (section.table() == nullptr) return std::nullopt;
@@ -28,13 +26,14 @@ std::optional<Bundle> read_bundle(Section section, const ChannelSettings& c) {
   bundle.muscles = static_cast<int>(section.required_integer("muscles", 2, max_muscles));
   bundle.wired = section.choice("wired", Wiring::series, wiring_names);
   section.finish();
-  if (bundle.parallel() && bundle.one_lost_ratio() <= unseen_ratio(c)) {
+  const double unseen_ratio = bundle.unseen_ratio(c);
+  if (bundle.parallel() && bundle.one_lost_ratio() <= unseen_ratio) {
     std::ostringstream message;
     message << "with this many in parallel, a broken thread adds "
             << 100.0 * bundle.one_lost_ratio() << " % of resistance, and each of the others gets "
             << bundle.others_power_ratio()
             << " times its share; detectors.resistance_ratio = " << c.supervision.resistance_ratio
-            << " and heater.temperature_coefficient_per_K let up to " << 100.0 * unseen_ratio(c)
+            << " and heater.temperature_coefficient_per_K let up to " << 100.0 * unseen_ratio
             << " % pass: wire them in series, or lower resistance_ratio";
     section.wrong("muscles", message.str());
   }

@@ -108,12 +108,12 @@ void judge_thermal_fuse(const std::optional<double>& opens_at_C, double trip_C,
 }
 
 /// Parallel threads of which one could break unseen are refused: read_bundle.cpp.
-void judge_bundle(const Bundle& bundle, double resistance_ratio, Findings& findings) {
-  if (bundle.parallel() || bundle.one_lost_ratio() > resistance_ratio) return;
+void judge_bundle(const Bundle& bundle, const ChannelSettings& c, Findings& findings) {
+  if (bundle.parallel() || bundle.one_lost_ratio() > bundle.unseen_ratio(c)) return;
   std::ostringstream reason;
   reason << "one shorted muscle of " << bundle.muscles << " in series is "
          << std::nearbyint(100.0 * bundle.one_lost_ratio())
-         << " % less resistance, within resistance_ratio: the others get "
+         << " % less resistance, which resistance_drift lets pass: the others get "
          << bundle.others_power_ratio() << " times their share unseen, but for their thermal fuses";
   findings.add(Fault::resistance_drift, reason.str());
 }
@@ -130,8 +130,7 @@ std::vector<std::string> warnings(const BoardConfig& config) {
     judge_proof(c, config.settings, findings);
     judge_muscle(c, findings);
     judge_thermal_fuse(config.labels[i].thermal_fuse_C, c.supervision.trip_C, findings);
-    if (const auto& bundle = config.labels[i].bundle)
-      judge_bundle(*bundle, c.supervision.resistance_ratio, findings);
+    if (const auto& bundle = config.labels[i].bundle) judge_bundle(*bundle, c, findings);
   }
   std::vector<std::string> lines = findings.lines();
   lines.push_back("board: " + std::string(name(Fault::duty_wrong)) +

@@ -129,6 +129,16 @@ TEST(Joint, AntagonistIsNotCommandedByItselfWhileItIsLed) {
   CHECK(both(State::active));
 }
 
+TEST(Joint, TakesNoScaleForOneOfTheMusclesThatReadItsSensor) {
+  arm();
+  hold(0.002, 0.5);
+  CHECK(rig.answer_of(agonist, Verb::rest) == Refusal::none);
+  for (const std::uint8_t channel : {agonist, antagonist}) {
+    CHECK(rig.answer_of(channel, Verb::scale, 0.002) == Refusal::unsuitable);
+    DOUBLES_EQUAL(1.0, rig.loop.channel(channel).known(known_position_scale), 0.0);
+  }
+}
+
 TEST(Joint, OneMuscleMayBeDrivenAlone) {
   arm();
   CHECK(rig.answer_of(antagonist, Verb::power, 1.0) == Refusal::none);

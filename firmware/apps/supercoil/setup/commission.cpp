@@ -97,10 +97,9 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
 
 /// A board that was just started waits until its muscle must be cool.
 Commission::Done Commission::arm() {
-  double armable_s = feasibility(configured_, settings_).armable_s;
-  if (const auto other = antagonist())
-    armable_s = std::max(armable_s, feasibility(other->configured, settings_).armable_s);
-  const double max_s = arming_s + armable_s;
+  const double max_s = arming_s + longest_s([&](const ChannelSettings& channel) {
+                         return feasibility(channel, settings_).armable_s;
+                       });
   const double begin_s = board_.time_s();
   for (;;) {
     const double elapsed_s = board_.time_s() - begin_s;
@@ -147,9 +146,7 @@ Commission::OrWhy Commission::run_mode(const std::string& mode, double max_s) {
 }
 
 Commission::OrWhy Commission::calibrate_when_cold() {
-  double cold_after_s = cold_after(configured_);
-  if (const auto other = antagonist())
-    cold_after_s = std::max(cold_after_s, cold_after(other->configured));
+  const double cold_after_s = longest_s(cold_after);
   const double begin_s = board_.time_s();
   for (;;) {
     auto result = run_mode("calibrate", max_calibrate_s);
@@ -166,6 +163,13 @@ std::optional<Commission::Measured> Commission::antagonist() const {
   const std::size_t apart = joint->antagonist - joint->agonist;
   return Measured{std::to_string(std::stoul(channel_) + apart),
                   settings_.channels[joint->antagonist]};
+}
+
+double Commission::longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const {
+  const JointSettings* joint = settings_.joint_of(index_);
+  if (joint == nullptr) return time_s_of(configured_);
+  return std::max(time_s_of(settings_.channels[joint->agonist]),
+                  time_s_of(settings_.channels[joint->antagonist]));
 }
 
 StepResult Commission::tell(Tell found) {

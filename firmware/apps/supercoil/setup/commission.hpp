@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -65,6 +66,8 @@ class Commission {
 
   /// Which identify and calibrate go on with; empty: this channel is no agonist.
   std::optional<Measured> antagonist() const;
+  /// The longest of its own muscle and, in a joint, of the other one: both have to be cold.
+  double longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
   /// What was found, of an agonist also the antagonist's.
   StepResult tell(Tell found);
   StepResult tell_calibration(const Measured& whose);

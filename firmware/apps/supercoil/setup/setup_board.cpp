@@ -16,7 +16,7 @@ SetupBoard::~SetupBoard() {
 }
 
 StepResult SetupBoard::run(const std::string& step) {
-  if (const std::string why = not_for_this(step); !why.empty()) return tl::unexpected(why);
+  if (const std::string why = left_out(step); !why.empty()) return tl::unexpected(why);
   if (auto ready = open(); !ready) return tl::unexpected(ready.error());
   Commission commission(*link_, address(), config_->settings, index(), who_);
   auto found = commission.run(step);
@@ -29,18 +29,9 @@ StepResult SetupBoard::run(const std::string& step) {
   return found;
 }
 
-std::string SetupBoard::not_for_this(const std::string& step) {
-  using InJoint = SetupStep::InJoint;
+std::string SetupBoard::left_out(const std::string& step) {
   const auto found = std::ranges::find(setup_steps, step, &SetupStep::name);
-  if (found->in_joint == InJoint::of_each || !read()) return "";
-  const JointSettings* joint = config_->settings.joint_of(index());
-  if (joint == nullptr) return "";
-  const std::string channel = "channel " + std::to_string(options_.channel);
-  if (found->in_joint == InJoint::never)
-    return channel + " turns a joint: the file's m_per_count and lever_m are its scale";
-  if (joint->agonist == index()) return "";
-  return channel + " is a joint's antagonist: set up its agonist instead, --channel " +
-         std::to_string(joint->agonist + 1);
+  return read() ? operating::left_out(*found, config_->settings, index()) : "";
 }
 
 tl::expected<void, std::string> SetupBoard::read() {

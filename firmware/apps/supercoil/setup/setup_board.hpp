@@ -25,7 +25,7 @@ class SetupBoard {
   /// A step of setup_steps, all but the first. The board is looked for when it is first needed.
   StepResult run(const std::string& step);
   /// Why a step of setup_steps is not done with this channel; empty: it is.
-  std::string not_for_this(const std::string& step);
+  std::string left_out(const std::string& step);
 
  private:
   tl::expected<void, std::string> read();

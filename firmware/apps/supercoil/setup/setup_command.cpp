@@ -74,7 +74,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   for (const SetupStep& step : setup_steps) {
     if (!wanted(step, options, record)) continue;
     const std::string name(step.name);
-    const std::string left = options.steps.empty() ? board.not_for_this(name) : "";
+    const std::string left = options.steps.empty() ? board.left_out(name) : "";
     const std::string said = left.empty() ? std::string(step.does) : left;
     std::fprintf(out, "%s: %s\n", name.c_str(), said.c_str());
     std::fflush(out);

@@ -8,6 +8,7 @@
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/setup_board.hpp"
 #include "apps/supercoil/setup/steps.hpp"
+#include "config/board_config.hpp"
 
 namespace supercoil::operating {
 
@@ -47,7 +48,10 @@ Json SetupSession::state() const {
   Json told{{"file", options_.config}, {"channel", options_.channel}};
   const auto record = SetupRecord::open(options_.config, options_.channel);
   Json steps = Json::array();
+  const auto config = config::read_board_config(options_.config);
+  const auto channel = static_cast<std::size_t>(options_.channel) - 1;
   for (const SetupStep& step : setup_steps) {
+    if (config && !left_out(step, config->settings, channel).empty()) continue;
     steps.push_back({{"name", step.name},
                      {"does", step.does},
                      {"optional", step.optional},

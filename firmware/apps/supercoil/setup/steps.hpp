@@ -2,7 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <string>
 #include <string_view>
+
+#include "loop/settings.hpp"
 
 namespace supercoil::operating {
 
@@ -13,6 +17,9 @@ struct SetupStep {
   bool needs_person = false;  ///< who is asked first whether it is to be left; a script leaves it
   enum class InJoint { of_each, of_agonist, never } in_joint = InJoint::of_each;
 };
+
+/// Why a step is not done with this channel, from 0; empty: it is.
+std::string left_out(const SetupStep& step, const BoardSettings& board, std::size_t channel);
 
 inline constexpr std::array<SetupStep, 8> setup_steps{{
     {"describe",

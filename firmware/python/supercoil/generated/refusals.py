@@ -123,12 +123,12 @@ the frame is of another version of the protocol"""
 
 
 class Unsuitable(RefusalError):
-    """to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic"""
+    """to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint: both muscles read one sensor"""
 
     number = 14
     name = "unsuitable"
     meaning = """\
-to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic"""
+to tune: the prepared controller contradicts itself, or is unstable on the muscle that is known; the prepared estimator does not run in its arithmetic. To scale in a joint: both muscles read one sensor"""
 
 
 class Infeasible(RefusalError):

@@ -33,9 +33,9 @@ void check_says(const std::string& text, const std::string& part) {
 TEST_GROUP(BoardConfig){};
 
 TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
-  const auto described = [](const std::string& keys) {
+  const auto described = [](const std::string& keys, const std::string& heater = "") {
     return describe(read(test::small_board_with(
-        "[channel.heater]\n", "[channel.bundle]\n" + keys + "\n[channel.heater]\n")));
+        "[channel.heater]\n", "[channel.bundle]\n" + keys + "\n[channel.heater]\n" + heater)));
   };
   check_says(
       described("muscles = 3\nwired = 'parallel'"),
@@ -45,7 +45,11 @@ TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
   CHECK(described("muscles = 3").find("one shorted muscle") == std::string::npos);
   check_says(described("muscles = 5"),
              "channel 1: resistance_drift: one shorted muscle of 5 in series is 20 % less "
-             "resistance, within resistance_ratio: the others get 1.25 times their share unseen");
+             "resistance, which resistance_drift lets pass: the others get 1.25 times their share "
+             "unseen");
+  // A muscle of three that is hot, but by its bounds may be cold, has as much as all three cold.
+  check_says(described("muscles = 3", "temperature_coefficient_per_K = 0.002\n"),
+             "one shorted muscle of 3 in series is 33 % less resistance");
 }
 
 TEST(BoardConfig, JointExampleIsTwoChannelsAtOneSensor) {

@@ -1,4 +1,6 @@
 // What a mistaken board configuration is answered: file, line, key, value and what is allowed.
+#include "unit/firmware/io/config/support/wrong_board.hpp"
+
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -6,25 +8,12 @@
 
 #include "config/renamed_keys.hpp"
 #include "config/section.hpp"
-#include "unit/firmware/io/config/support/small_board.hpp"
 
+using supercoil::test::check_problems;
+using supercoil::test::check_replaced;
 using supercoil::test::problems_of;
 using supercoil::test::small_board;
 using supercoil::test::small_board_with;
-
-namespace {
-
-void check_answer(const std::string& expected, const std::string& text) {
-  STRCMP_EQUAL((expected + "\n").c_str(), problems_of(text).c_str());
-}
-
-/// The small board with a part of it replaced.
-void check_replaced(const std::string& old, const std::string& replacement,
-                    const std::string& expected) {
-  check_answer(expected, small_board_with(old, replacement));
-}
-
-}  // namespace
 
 TEST_GROUP(WrongBoard){};
 
@@ -51,11 +40,11 @@ TEST(WrongBoard, KeyThatWasRenamedNamesTheNewOne) {
   check_replaced("max_m = 0.041", "highest_m = 0.041",
                  "b.toml:27: channel[1].position.highest_m = 0.041: was renamed in 0.2.0: write "
                  "channel[1].position.max_m");
-  check_answer(
+  check_problems(
       "b.toml:44: channel[1].estimator.lowest_part = 0.2: was renamed in 0.2.0: write "
       "channel[1].estimator.min_ratio",
       small_board + "[channel.estimator]\nkind = 'least_squares'\nlowest_part = 0.2\n");
-  check_answer(
+  check_problems(
       "b.toml:43: every_channel.detectors.resistance_part = 0.3: was renamed in 0.2.0: write "
       "every_channel.detectors.resistance_ratio",
       small_board + "[every_channel.detectors]\nresistance_part = 0.3\n");
@@ -160,72 +149,6 @@ TEST(WrongBoard, MissingTextIsNotEmptyText) {
                  "b.toml:5: lines.heartbeat.line = '': must not be empty");
 }
 
-TEST(WrongBoard, LineGivenTwice) {
-  check_replaced("EN1", "STOP",
-                 "b.toml:20: channel[1].enable.line = 'STOP': is already the stop circuit: line "
-                 "STOP of gpio");
-}
-
-TEST(WrongBoard, ConverterInputGivenTwice) {
-  check_replaced("voltage2", "voltage1",
-                 "b.toml:30: channel[1].current.input = 'voltage1': is already channel 1's "
-                 "position: input voltage1 of adc");
-}
-
-TEST(WrongBoard, PwmOutputGivenTwice) {
-  const std::string other = small_board.substr(small_board.find("[[channel]]"));
-  std::string text = small_board + other;
-  const auto replace_last = [&text](const std::string& old, const std::string& replacement) {
-    text.replace(text.rfind(old), old.size(), replacement);
-  };
-  replace_last("EN1", "EN2");
-  replace_last("voltage1", "voltage3");
-  replace_last("voltage2", "voltage4");
-  check_answer("b.toml:44: channel[2].pwm.number = 0: is already channel 1's PWM: output 0 of pwm",
-               text);
-}
-
-TEST(WrongBoard, BufferedHeartbeat) {
-  check_replaced(
-      "line = \"BEAT\"", "line = \"BEAT\", buffered = true",
-      "b.toml:5: lines.heartbeat.buffered = true: must be false: lines are direct (20 us "
-      "or less), because they, not the duty, are the timed cut");
-}
-
-TEST(WrongBoard, BufferedWithoutABus) {
-  check_replaced("number = 0", "number = 0, buffered = true",
-                 "b.toml:21: channel[1].pwm.buffered = true: needs bus = \"…\"");
-  check_replaced("number = 0", "number = 0, bus = 'i2c-7'",
-                 "b.toml:21: channel[1].pwm.bus = 'i2c-7': is not the name of a [[bus]]");
-  check_replaced("number = 0", "number = 0, bus = 'i2c-1', buffered = false",
-                 "b.toml:21: channel[1].pwm.buffered = false: must be true: devices on a bus are "
-                 "served by its thread");
-}
-
-TEST(WrongBoard, PumpThatOpensBeforeToleratedOverrunsAreOver) {
-  check_replaced("charge_pump_decay_ms = 20", "charge_pump_decay_ms = 8",
-                 "b.toml:2: board.charge_pump_decay_ms = 8: must exceed twice the tolerated "
-                 "overruns: 5 in a row at 1000 Hz are 5 ms, so more than 10 ms, not 8");
-}
-
-TEST(WrongBoard, BusThatIsTooSlow) {
-  check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nwait_ms = 1.2",
-                 "b.toml:11: bus[1].name = 'i2c-1': the bus would be busy for 1.34 ms of a tick of "
-                 "1 ms (134 %), and 70 % is the most");
-}
-
-TEST(WrongBoard, BusTimeOfADirectDevice) {
-  check_replaced("voltage1\"", "voltage1\"\nwait_ms = 1.2",
-                 "b.toml:25: channel[1].position.wait_ms = 1.2: is for buffered devices: needs bus "
-                 "= \"…\"");
-}
-
-TEST(WrongBoard, AgeThatABufferedValueAlwaysHas) {
-  check_replaced("voltage1\"", "voltage1\"\nbus = 'i2c-1'\nmax_age_ms = 0.5",
-                 "b.toml:26: channel[1].position.max_age_ms = 0.5: must be at least a tick: a "
-                 "buffered value is older than that before the next one comes");
-}
-
 TEST(WrongBoard, SeventeenChannels) {
   std::string text = small_board;
   for (int i = 2; i <= 17; ++i) {
@@ -245,12 +168,12 @@ TEST(WrongBoard, SeventeenChannels) {
       "thermal = {min_mass_J_per_K = 0.13, max_mass_J_per_K = 0.2, "
       "min_transfer_W_per_K = 0.045, max_transfer_W_per_K = 0.18}\n"
       "limits = {max_W = 4.5, max_travel_m = 0.025}\n";
-  check_answer("b.toml:117: channel: a board has 1 to 16 [[channel]], not 17", text);
+  check_problems("b.toml:117: channel: a board has 1 to 16 [[channel]], not 17", text);
 }
 
 TEST(WrongBoard, NoChannel) {
-  check_answer("b.toml: channel: a board has 1 to 16 [[channel]], not 0",
-               small_board.substr(0, small_board.find("[[channel]]")));
+  check_problems("b.toml: channel: a board has 1 to 16 [[channel]], not 0",
+                 small_board.substr(0, small_board.find("[[channel]]")));
 }
 
 TEST(WrongBoard, ThermalBoundsThatDoNotContainTheMuscle) {
@@ -348,28 +271,11 @@ TEST(WrongBoard, MistakeInEveryChannelIsSaidOnce) {
   CHECK_TEXT(answer.find("max_w = 3", at + message.size()) == std::string::npos, answer.c_str());
 }
 
-TEST(WrongBoard, CaptureOfSomeInputsOfADevice) {
-  check_replaced(
-      "input = \"voltage1\"", "input = \"voltage1\"\ncapture = {trigger = 'clock'}",
-      "b.toml:23: channel[1].position.device = 'adc': has another input with another "
-      "capture: all its inputs are converted together, and none can be read beside that");
-}
-
-TEST(WrongBoard, CaptureBehindABus) {
-  check_replaced(
-      "device = \"adc\"\ninput = \"voltage1\"",
-      "device = \"fast\"\ninput = \"voltage1\"\nbus = 'i2c-1'\ncapture = {trigger = 'clock', "
-      "length = 1}",
-      "b.toml:25: channel[1].position.bus = 'i2c-1': and capture exclude each other: the kernel "
-      "reads, not a bus's thread\n"
-      "b.toml:26: channel[1].position.capture.length = 1: must be 2 to 65536");
-}
-
 TEST(WrongBoard, EveryMistakeIsSaidInTheOrderOfTheFile) {
   std::string text = small_board_with("charge_pump_decay_ms = 20", "charge_pump_decay_ms = -1");
   text.replace(text.find("max_W = 4.5"), 11, "max_W = 0.0");
   text += "[operator]\nport = 8080\n";
-  check_answer(
+  check_problems(
       "b.toml:2: board.charge_pump_decay_ms = -1: must be 0.1 to 1000\n"
       "b.toml:40: channel[1].limits.max_W = 0: must be 0.001 to 1000\n"
       "b.toml:42: operator: is not a key of this file; its keys are: bus, board, lines, supply, "
@@ -381,44 +287,4 @@ TEST(WrongBoard, FileThatIsNotThere) {
   const auto config = supercoil::config::read_board_config("/nowhere/b.toml");
   STRCMP_EQUAL("/nowhere/b.toml: there is no such file\n",
                supercoil::config::to_text(config.error()).c_str());
-}
-
-TEST(WrongBoard, CanBusThatWouldBeTooBusy) {
-  check_answer(
-      "b.toml:43: can.bit_rate = 50000: the bus would be busy for 90 % with what is sent at a "
-      "rate, and 50 % is the most (max_load): choose lower rates",
-      small_board + "[can]\nbit_rate = 50000\n");
-}
-
-TEST(WrongBoard, NodesOfCanThatThereAreNot) {
-  check_answer("b.toml:43: can.first_node = 64: must be 1 to 63",
-               small_board + "[can]\nfirst_node = 64\n");
-}
-
-TEST(WrongBoard, RatesOfCanThatThereAreNot) {
-  check_answer("b.toml:43: can.rates.status_Hz = 0: must be 1 to 1000",
-               small_board + "[can]\nrates = {status_Hz = 0}\n");
-  check_answer(
-      "b.toml:43: can.rates.powr_Hz = 10: is not a key of [can.rates]; did you mean "
-      "power_Hz?",
-      small_board + "[can]\nrates = {powr_Hz = 10}\n");
-}
-
-TEST(WrongBoard, NameOfAnInterfaceThatTheKernelCannotHave) {
-  check_answer(
-      "b.toml:43: can.interface = 'a-name-of-16-char': must be a name of 1 to 15 characters",
-      small_board + "[can]\ninterface = 'a-name-of-16-char'\n");
-}
-
-TEST(WrongBoard, SensorOfTheAirWithoutAScaleOrWithAnInputThatIsTaken) {
-  check_replaced(
-      "warmest_C = 30\n", "warmest_C = 30\n[ambient.sensor]\ndevice = 'adc'\ninput = 'voltage3'\n",
-      "b.toml:10: ambient.sensor.C_per_count: is missing: it must be a number, -10 to 10");
-  check_replaced("warmest_C = 30\n",
-                 "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage3', C_per_count = 0}\n",
-                 "b.toml:10: ambient.sensor.C_per_count = 0: must not be 0");
-  check_replaced("warmest_C = 30\n",
-                 "warmest_C = 30\nsensor = {device = 'adc', input = 'voltage0', C_per_count = 1}\n",
-                 "b.toml:10: ambient.sensor.input = 'voltage0': is already the supply: input "
-                 "voltage0 of adc");
 }

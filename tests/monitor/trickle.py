@@ -1,6 +1,6 @@
 """Connections to a port that send a byte now and then and never end a request, opened anew when they are closed.
 
-    trickle.py PORT COUNT       until it is killed; prints "trickling" when all were open once
+    trickle.py PORT COUNT       until it is killed; prints "trickling" when all were begun and have had time to open
 """
 
 import contextlib
@@ -15,23 +15,30 @@ BYTE_EVERY_S = 0.1
 
 
 class Trickle:
+    """Never waits for its peer: whoever has no room for more connections lets those that knock wait for seconds."""
+
     def __init__(self, port):
         self.port = port
         self.connection = None
 
     def drip(self):
         try:
-            if self.connection and self.connection.recv(64, socket.MSG_DONTWAIT) == b"":
+            if self.connection is None:
+                self.open()
+            elif self.connection.recv(64) == b"":
                 raise ConnectionResetError
         except BlockingIOError:
-            pass
+            pass  # nothing was said, or it is not open yet
         except OSError:
             self.close()
-        try:
-            self.connection = self.connection or socket.create_connection(("127.0.0.1", self.port), timeout=5)
-            self.connection.send(b"P")
-        except OSError:
-            self.close()
+        with contextlib.suppress(OSError):
+            if self.connection:
+                self.connection.send(b"P")
+
+    def open(self):
+        self.connection = socket.socket()
+        self.connection.setblocking(False)
+        self.connection.connect(("127.0.0.1", self.port))
 
     def close(self):
         if self.connection:
@@ -49,7 +56,7 @@ def main(port, count):
         begin_s = time.monotonic()
         for trickle in trickles:
             trickle.drip()
-        if turn == 0:
+        if turn == 1:
             print("trickling", flush=True)
         time.sleep(max(0.0, begin_s + BYTE_EVERY_S - time.monotonic()))
 

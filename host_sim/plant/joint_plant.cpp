@@ -24,61 +24,78 @@ JointPlant::JointPlant(const JointPlantSettings& settings, double step_s) : slow
 
 void JointPlant::set(const JointPlantSettings& settings) {
   settings_ = settings;
+  radius_m_ = settings.lever.zero_radius_m();
   per_substep_ = 1.0 / settings.substeps;
   const std::array<const JointMuscle*, 2> muscles{
       &settings.agonist, settings.antagonist ? &*settings.antagonist : nullptr};
-  const double lever2 = settings.lever_m * settings.lever_m;
-  std::array<double, 2> damping{};
-  double stiffness = settings.spring_Nm_per_rad / lever2;
+  const double lever2 = radius_m_ * radius_m_;
+  const double max_ratio = settings.lever.max_radius_m() / radius_m_;
+  muscle_damping_Ns_per_m_ = {};
+  max_stiffness_N_per_m_ = settings.spring_Nm_per_rad / lever2;
   for (std::size_t i = 0; i < muscles.size(); ++i) {
     pulls_[i] = muscles[i] != nullptr && !muscles[i]->torn;
     if (muscles[i] == nullptr) continue;
     slack_m_[i] = muscles[i]->slack_m;
     bodies_[i].set(muscles[i]->parameters, pulled(muscles[i]->effects, settings.pretension_N),
                    slow_.step_s);
-    damping[i] = muscles[i]->parameters.damping_Ns_per_m;
-    stiffness += bodies_[i].max_stiffness_N_per_m();
+    muscle_damping_Ns_per_m_[i] = muscles[i]->parameters.damping_Ns_per_m;
+    max_stiffness_N_per_m_ += max_ratio * max_ratio * bodies_[i].max_stiffness_N_per_m();
   }
+  for (std::size_t taut = 0; taut < mechanics_.size(); ++taut)
+    set_mechanics(taut, 1.0);
   control::PhysicalParameters mass;
   mass.moving_mass_kg = settings.inertia_kg_m2 / lever2;
-  for (std::size_t taut = 0; taut < mechanics_.size(); ++taut) {
-    damping_Ns_per_m_[taut] = settings.damping_Nms_per_rad / lever2 +
-                              ((taut & 1U) != 0 ? damping[0] : 0.0) +
-                              ((taut & 2U) != 0 ? damping[1] : 0.0);
-    mass.damping_Ns_per_m = damping_Ns_per_m_[taut];
-    mechanics_[taut].set(mass, stiffness, slow_.step_s * per_substep_);
-  }
   PlantEffects rubbing;
   rubbing.friction_ratio = settings.friction_ratio;
   friction_.set(mass, pulled(rubbing, settings.pretension_N));
 }
 
+void JointPlant::set_mechanics(std::size_t taut, double lever_ratio) {
+  const double lever2 = radius_m_ * radius_m_;
+  const double ratio2 = lever_ratio * lever_ratio;
+  control::PhysicalParameters joint;
+  joint.moving_mass_kg = settings_.inertia_kg_m2 / lever2;
+  joint.damping_Ns_per_m = settings_.damping_Nms_per_rad / lever2 +
+                           ((taut & 1U) != 0 ? ratio2 * muscle_damping_Ns_per_m_[0] : 0.0) +
+                           ((taut & 2U) != 0 ? ratio2 * muscle_damping_Ns_per_m_[1] : 0.0);
+  damping_Ns_per_m_[taut] = joint.damping_Ns_per_m;
+  mechanics_[taut].set(joint, max_stiffness_N_per_m_, slow_.step_s * per_substep_);
+}
+
 void JointPlant::step(double agonist_W, double antagonist_W, double load_Nm) {
   for (int i = 0; i < slow_.count; ++i)
-    slow_step({agonist_W, antagonist_W}, load_Nm / settings_.lever_m);
+    slow_step({agonist_W, antagonist_W}, load_Nm / radius_m_);
 }
 
 void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) {
-  const double before_m = motion_.position_m;
+  const double before_m = position_m();
   Drives drives{};
   for (std::size_t i = 0; i < drives.size(); ++i) {
     Drive& d = drives[i];
     d = bodies_[i].step(power_W[i], -settings_.pretension_N, direction[i] * before_m + slack_m_[i]);
-    // From now on along the joint's arc.
+    // From now on at the joint's contraction, without the slack.
     d.force_N -= d.stiffness_N_per_m * slack_m_[i];
     d.force_end_N -= d.stiffness_end_N_per_m * slack_m_[i];
   }
   move(drives, load_N);
+  const double after_m = position_m();
   for (std::size_t i = 0; i < drives.size(); ++i)
-    bodies_[i].moved(0.5 * direction[i] * (before_m + motion_.position_m) + slack_m_[i]);
+    bodies_[i].moved(0.5 * direction[i] * (before_m + after_m) + slack_m_[i]);
 }
 
-double JointPlant::weight_N(double position_m) const {
+JointPlant::Leverage JointPlant::leverage(double reading_m) const {
+  if (settings_.lever.is_constant()) return {};
+  const double ratio = settings_.lever.radius_m(reading_m / radius_m_) / radius_m_;
+  return {ratio, contraction_m(reading_m) - ratio * reading_m};
+}
+
+double JointPlant::weight_N(double reading_m) const {
   if (settings_.weight_Nm == 0.0) return 0.0;
-  return settings_.weight_Nm / settings_.lever_m * std::sin(position_m / settings_.lever_m);
+  return settings_.weight_Nm / radius_m_ * std::sin(reading_m / radius_m_);
 }
 
-void JointPlant::pull(const Drives& drives, double position_m) {
+void JointPlant::pull(const Drives& drives, double reading_m) {
+  const double position_m = contraction_m(reading_m);
   for (std::size_t i = 0; i < drives.size(); ++i) {
     const double spring_N = drives[i].stiffness_N_per_m * direction[i] * position_m;
     tension_N_[i] = pulls_[i] ? std::max(0.0, drives[i].force_N - spring_N) : 0.0;
@@ -86,11 +103,11 @@ void JointPlant::pull(const Drives& drives, double position_m) {
 }
 
 void JointPlant::move(Drives drives, double load_N) {
-  const double lever2 = settings_.lever_m * settings_.lever_m;
+  const double lever2 = radius_m_ * radius_m_;
   const double spring_N_per_m = settings_.spring_Nm_per_rad / lever2;
   const bool alone = !settings_.antagonist;
-  const double min_m = settings_.min_angle_rad * settings_.lever_m;
-  const double max_m = settings_.max_angle_rad * settings_.lever_m;
+  const double min_m = settings_.min_angle_rad * radius_m_;
+  const double max_m = settings_.max_angle_rad * radius_m_;
   Drives step{};
   for (std::size_t i = 0; i < drives.size(); ++i) {
     step[i] = {per_substep_ * (drives[i].stiffness_end_N_per_m - drives[i].stiffness_N_per_m), 0.0,
@@ -103,6 +120,8 @@ void JointPlant::move(Drives drives, double load_N) {
     const double then_m = motion.position_m + mechanics_[0].step_s() * motion.velocity_m_per_s;
     Drive sum{spring_N_per_m, spring_N_per_m, beside_N - weight_N(motion.position_m),
               beside_N - weight_N(then_m)};
+    const Leverage now = leverage(motion.position_m);
+    const Leverage then = leverage(then_m);
     std::size_t taut = 0;
     pull(drives, motion.position_m);
     for (std::size_t i = 0; i < drives.size(); ++i) {
@@ -112,10 +131,19 @@ void JointPlant::move(Drives drives, double load_N) {
       d.force_N += step[i].force_N;
       if (tension_N_[i] <= 0.0) continue;
       taut |= std::size_t{1} << i;
-      sum.stiffness_N_per_m += from.stiffness_N_per_m;
-      sum.stiffness_end_N_per_m += d.stiffness_N_per_m;
-      sum.force_N += direction[i] * from.force_N;
-      sum.force_end_N += direction[i] * d.force_N;
+      sum.stiffness_N_per_m += now.ratio * now.ratio * from.stiffness_N_per_m;
+      sum.stiffness_end_N_per_m += then.ratio * then.ratio * d.stiffness_N_per_m;
+      sum.force_N +=
+          now.ratio * (direction[i] * from.force_N - from.stiffness_N_per_m * now.beside_m);
+      sum.force_end_N +=
+          then.ratio * (direction[i] * d.force_N - d.stiffness_N_per_m * then.beside_m);
+    }
+    if (!settings_.lever.is_constant()) {
+      // The step takes the stiffness of its middle: both ends' own forces are to be met.
+      const double middle = 0.5 * (sum.stiffness_N_per_m + sum.stiffness_end_N_per_m);
+      sum.force_N += (middle - sum.stiffness_N_per_m) * motion.position_m;
+      sum.force_end_N += (middle - sum.stiffness_end_N_per_m) * then_m;
+      set_mechanics(taut, 0.5 * (now.ratio + then.ratio));
     }
     const Mechanics& mechanics = mechanics_[taut];
     friction_.set_viscous(damping_Ns_per_m_[taut]);

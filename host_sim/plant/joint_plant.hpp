@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 
+#include "supercoil/control/joint/lever.hpp"
+
 #include "plant/guide_friction.hpp"
 #include "plant/mechanics.hpp"
 #include "plant/muscle_body.hpp"
@@ -24,7 +26,7 @@ struct JointMuscle {
 struct JointPlantSettings {
   JointMuscle agonist;
   std::optional<JointMuscle> antagonist;  ///< otherwise the spring opposes alone
-  double lever_m = 0.015;                 ///< of both muscles; constant over the angle
+  control::Lever lever;                   ///< of both muscles
   double inertia_kg_m2 = 2e-5;
   double damping_Nms_per_rad = 0.0;  ///< beside the muscles'
   double spring_Nm_per_rad = 0.0;    ///< towards the angle 0, beside the muscles
@@ -36,8 +38,9 @@ struct JointPlantSettings {
   int substeps = 4;  ///< of the mechanics, in each step of heat
 };
 
-/// (I/r²) ẍ = T₁ − T₂ − c ẋ − k x − (w sin(x/r) + load)/r with x = rα, T ≥ 0 the muscles' tensions
-/// at the contractions x and −x. Steps as NonlinearPlant's. Which muscles are taut is asked at the
+/// (I/r²) ẍ = ρ (T₁ − T₂) − c ẋ − k x − (w sin α + load)/r with x = rα, r the lever at the angle 0
+/// and ρ the lever at α over it; T ≥ 0 are the muscles' tensions at the contractions ∫ρ dx and its
+/// negative. Steps as NonlinearPlant's. Which muscles are taut, and their lever, is asked at the
 /// beginning of each step of the mechanics.
 class JointPlant {
  public:
@@ -49,10 +52,13 @@ class JointPlant {
   /// From now on; whatever the muscles remember stays.
   void set(const JointPlantSettings& settings);
 
-  /// Arc at the lever, as its muscles' contractions are.
-  double position_m() const { return motion_.position_m; }
-  double angle_rad() const { return motion_.position_m / settings_.lever_m; }
-  double velocity_rad_per_s() const { return motion_.velocity_m_per_s / settings_.lever_m; }
+  const JointPlantSettings& settings() const { return settings_; }
+  /// The agonist's contraction, and the negative of the antagonist's.
+  double position_m() const { return contraction_m(motion_.position_m); }
+  /// The angle times the lever at 0: what the sensor of the angle reads.
+  double reading_m() const { return motion_.position_m; }
+  double angle_rad() const { return motion_.position_m / radius_m_; }
+  double velocity_rad_per_s() const { return motion_.velocity_m_per_s / radius_m_; }
   /// 0: the agonist; above the air as it was at the start.
   double temperature_rise_K(std::size_t muscle) const { return bodies_[muscle].rise_K(); }
   /// The hottest that the muscle was.
@@ -62,24 +68,40 @@ class JointPlant {
 
  private:
   using Drives = std::array<Drive, 2>;
+  /// A muscle's pull as it acts along x: by how much more, and its contraction beside ratio·x.
+  struct Leverage {
+    double ratio = 1.0;
+    double beside_m = 0.0;
+  };
 
+  double contraction_m(double reading_m) const {
+    return settings_.lever.is_constant() ? reading_m : settings_.lever.arc_m(reading_m / radius_m_);
+  }
+  Leverage leverage(double reading_m) const;
+
+  /// lever_ratio: of the lever to the one at 0.
+  void set_mechanics(std::size_t taut, double lever_ratio);
   void slow_step(const std::array<double, 2>& power_W, double load_N);
   void move(Drives drives, double load_N);
-  void pull(const Drives& drives, double position_m);
-  double weight_N(double position_m) const;
+  void pull(const Drives& drives, double reading_m);
+  double weight_N(double reading_m) const;
 
   JointPlantSettings settings_;
+  double radius_m_ = 0.015;  ///< of the lever at the angle 0
   SlowSteps slow_;
   double per_substep_ = 0.25;
   std::array<MuscleBody, 2> bodies_;
   std::array<bool, 2> pulls_{};  ///< there, and not torn
   std::array<double, 2> slack_m_{};
-  /// By which muscles are taut, as bits: a slack one does not damp.
+  double max_stiffness_N_per_m_ = 0.0;
+  /// By which muscles are taut, as bits: a slack one does not damp. At the lever of the angle 0; of
+  /// one that depends on it, as set last.
   std::array<Mechanics, 4> mechanics_;
   std::array<double, 4> damping_Ns_per_m_{};
+  std::array<double, 2> muscle_damping_Ns_per_m_{};
   GuideFriction friction_;
   std::array<double, 2> tension_N_{};
-  Motion motion_;
+  Motion motion_;  ///< of x
 };
 
 }  // namespace supercoil::host_sim

@@ -249,7 +249,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
   }
   if (const AntagonistConditions* antagonist = c.antagonist()) {
     board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
-    JointSettings joint{0, 1, c.joint->plant.lever_m, antagonist->co_contraction_W};
+    JointSettings joint{0, 1, c.joint->plant.lever, antagonist->co_contraction_W};
     joint.max_co_contraction_W =
         std::max(joint.co_contraction_W,
                  JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));

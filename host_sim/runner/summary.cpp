@@ -83,7 +83,8 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
   json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
   if (scenario.start.joint) {
-    const double deg_per_m = 180.0 / std::numbers::pi / scenario.start.joint->plant.lever_m;
+    const double deg_per_m =
+        180.0 / std::numbers::pi / scenario.start.joint->plant.lever.zero_radius_m();
     json["tracking_rms_deg"] = measured ? finite(tracking_.rms() * deg_per_m) : nullptr;
     json["tracking_max_deg"] = measured ? finite(tracking_.largest() * deg_per_m) : nullptr;
   }

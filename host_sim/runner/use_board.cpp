@@ -1,6 +1,7 @@
 #include "runner/use_board.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -69,6 +70,21 @@ OrRefused put_antagonist(Conditions& c, const BoardSettings& board,
   return refuse(why);
 }
 
+/// As it is written in a file.
+std::string text_of(const control::Lever& lever) {
+  std::ostringstream out;
+  if (lever.is_constant()) {
+    out << lever.zero_radius_m();
+    return out.str();
+  }
+  constexpr double deg_per_rad = 180.0 / std::numbers::pi;
+  for (const double radius_m : lever.radii_m())
+    out << (out.tellp() == 0 ? "[" : ", ") << radius_m;
+  out << "] over " << deg_per_rad * lever.first_rad() << " to " << deg_per_rad * lever.last_rad()
+      << " deg";
+  return out.str();
+}
+
 /// The joint of the file that turns what the scenario's [joint] is; empty: neither has one.
 tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditions& c,
                                                                    const BoardSettings& board,
@@ -86,9 +102,10 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
         << " of the board's file is in none";
     return tl::unexpected(why.str());
   }
-  if (found->lever_m != c.joint->plant.lever_m) {
-    why << "the scenario's joint.lever_m = " << c.joint->plant.lever_m << " is not the board's, "
-        << found->lever_m << ": positions are arcs at the lever";
+  const control::Lever& lever = c.joint->plant.lever;
+  if (found->lever != lever) {
+    why << "the scenario's joint.lever_m = " << text_of(lever) << " is not the board's, "
+        << text_of(found->lever) << ": positions are arcs at the lever";
     return tl::unexpected(why.str());
   }
   if (found->antagonist != found->agonist + 1) {

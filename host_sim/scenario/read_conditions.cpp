@@ -163,14 +163,14 @@ void check_reach(Section& section, const Conditions& c) {
   if (c.reference.kind == ReferenceKind::power) return;
   std::ostringstream message;
   if (c.joint) {
-    const double lever_m = c.joint->plant.lever_m;
+    const control::Lever& lever = c.joint->plant.lever;
     const PositionSensorSettings& sensor = c.position_sensor;
     const bool pair = c.antagonist() != nullptr;  // beside a spring the muscle only pulls
     const double min_m = pair ? std::max(Conditions::travel_ratio * sensor.min_m,
-                                         lever_m * c.joint->plant.min_angle_rad)
+                                         lever.arc_m(c.joint->plant.min_angle_rad))
                               : 0.0;
-    const double max_m =
-        std::min(Conditions::travel_ratio * sensor.range_m, lever_m * c.joint->plant.max_angle_rad);
+    const double max_m = std::min(Conditions::travel_ratio * sensor.range_m,
+                                  lever.arc_m(c.joint->plant.max_angle_rad));
     if (c.reference.lowest() >= min_m && c.reference.highest() <= max_m) return;
     message << "the reference goes from " << c.reference.lowest() * 1e3 << " to "
             << c.reference.highest() * 1e3 << " mm, and sensor.position and the joint's end stops "

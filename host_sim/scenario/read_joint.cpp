@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "config/read_control.hpp"
+#include "config/read_lever.hpp"
 #include "scenario/read_tables.hpp"
 
 namespace supercoil::host_sim {
@@ -38,7 +39,7 @@ JointPlantSettings read_lever(Section& section) {
   const bool pair =
       section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::muscle;
   if (pair) p.antagonist.emplace();
-  p.lever_m = section.number("lever_m", p.lever_m, {1e-3, 1.0});
+  p.lever = config::read_lever(section, {1e-3, 1.0}, p.lever.zero_radius_m());
   p.inertia_kg_m2 = section.number("inertia_kg_m2", p.inertia_kg_m2, {1e-9, 100.0});
   p.damping_Nms_per_rad = section.number("damping_Nms_per_rad", 0.0, {0.0, 100.0});
   p.spring_Nm_per_rad = section.number("spring_Nm_per_rad", pair ? 0.0 : default_spring_Nm_per_rad,
@@ -84,7 +85,8 @@ void refuse_keys_of_one_muscle(Section section) {
 control::PhysicalParameters along_the_arc(const JointPlantSettings& joint,
                                           const control::PhysicalParameters& muscle,
                                           const control::PhysicalParameters* other) {
-  const double lever2 = joint.lever_m * joint.lever_m;
+  const double lever_m = joint.lever.zero_radius_m();
+  const double lever2 = lever_m * lever_m;
   control::PhysicalParameters p = muscle;
   p.stiffness_N_per_m += joint.spring_Nm_per_rad / lever2;
   p.damping_Ns_per_m += joint.damping_Nms_per_rad / lever2;

@@ -29,6 +29,11 @@ double MuscleChannel::position_m() const {
   return muscle_ == 0 ? joint_->position_m() : -joint_->position_m();
 }
 
+double MuscleChannel::reading_m() const {
+  if (joint_ == nullptr) return plant_.position_m();
+  return muscle_ == 0 ? joint_->reading_m() : -joint_->reading_m();
+}
+
 double MuscleChannel::temperature_rise_K() const {
   return joint_ == nullptr ? plant_.temperature_rise_K() : joint_->temperature_rise_K(muscle_);
 }
@@ -56,7 +61,7 @@ void MuscleChannel::move(hal::Time to) {
   if (joint_ == nullptr) plant_.step(power_W_, settings_.load_N);
   if (settings_.thermometer)
     thermometer_.step(settings_.rise_from_C + temperature_rise_K(), hal::seconds(step_));
-  if (!faults.slack) slack_at_m_ = position_m();
+  if (!faults.slack) slack_at_m_ = reading_m();
   position.offer(slack_at_m_, to);
   current.offer(sense_A_, to);
 }

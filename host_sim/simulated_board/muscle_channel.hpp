@@ -80,6 +80,9 @@ class MuscleChannel {
   MuscleFaults faults;
 
  private:
+  /// What the position sensor sees: of a joint the angle, at the lever of 0.
+  double reading_m() const;
+
   MuscleChannelSettings settings_;
   hal::Duration step_;
   Plant plant_;

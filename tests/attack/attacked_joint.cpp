@@ -32,7 +32,7 @@ host_sim::SimulatedBoardSettings simulated_joint(const Muscle& muscle) {
   channel.current = {-0.5, 30.0, 16, 0.0005};
   s.channels = {channel, channel};
   host_sim::JointPlantSettings joint;
-  joint.max_angle_rad = half_range_m / joint.lever_m;
+  joint.max_angle_rad = half_range_m / joint.lever.zero_radius_m();
   joint.min_angle_rad = -joint.max_angle_rad;
   s.joints = {{0, 1, joint, 0.0}};
   return s;
@@ -41,7 +41,7 @@ host_sim::SimulatedBoardSettings simulated_joint(const Muscle& muscle) {
 /// As a file's defaults leave it. What is soldered is the simulated board's.
 BoardSettings joint_firmware(const Muscle& muscle,
                              const host_sim::SimulatedBoardSettings& simulated, bool identified) {
-  const double lever_m = simulated.joints[0].plant.lever_m;
+  const double lever_m = simulated.joints[0].plant.lever.zero_radius_m();
   std::string text = board_with_joint;
   const auto state = [&text](const std::string& key, const std::string& before, double value) {
     text = replaced(text, key + before, key + std::to_string(value));

@@ -61,7 +61,7 @@ class Bench {
       channel.supervision.open_s = INFINITY;
       channel.supervision.saturated_s = INFINITY;
     }
-    if (joint) add_joint(settings, {0, 1, 0.015, 0.5});
+    if (joint) add_joint(settings, {0, 1, control::Lever(0.015), 0.5});
     board::Devices devices{&clock_, &supply_, &heartbeat_, &stop_, nullptr, nullptr, {}};
     supply_.clock = &clock_;
     supply_.counts = 12000;

@@ -247,6 +247,10 @@ class SetupProgram(unittest.TestCase):
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("it turns a joint: answer as it moves the joint alone", done.stdout)
             self.assertIn("Weights hang at the lever, 15 mm from the axis", done.stdout)
+        self.board.write_text(self.example.replace("lever_m = 0.015", "lever_m = [0.012, 0.016, 0.012]\nlever_range_deg = [-40, 40]"))
+        done = self.setup_program("describe", "--channel", "1", *script)
+        self.assertIn("Weights hang at the lever, 16 mm from the axis", done.stdout)
+        self.board.write_text(self.example)
         for step, channel, told in (("move", "2", "channel 2 is a joint's antagonist: set up its agonist instead, --channel 1"),
                                     ("scale", "1", "channel 1 turns a joint: the file's m_per_count and lever_m are its scale"),
                                     ("move", "1", "start the board with")):

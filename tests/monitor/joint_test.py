@@ -63,6 +63,20 @@ class Told(ModulesCase):
             return [before, words(joint_of(store, 1, 1))];""")
         self.assertEqual(told, [["0.015000", 2, None], ["0.015000", 2, "0.006000"]])
 
+    def test_a_lever_that_depends_on_the_angle_is_told_by_its_table(self):
+        shown, typed_m = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
+            const table = { first_rad: -0.5, last_rad: 0.5, "1_m": 0.012, "2_m": 0.015, "3_m": 0.011, "4_m": null };
+            Object.entries(table).forEach(([name, value], i) => {
+                for (const node of [2, 3]) hear(node, "Muscle", { quantity: quantity(`joint_lever_${name}`), value }, 0.1 + 0.01 * i);
+            });
+            muscle(3, 0.015, -1); muscle(2, -0.015, 1);
+            hear(3, "Measurement", { position_m: 0.0065 + 0.0011 }); hear(3, "Tracking", { reference_m: -0.00675 + 0.012 * 0.25 + 0.003 * 0.25 ** 2 });
+            const { to_m } = measure_of(joint_of(store, 3, 1));
+            return [[shown(3), shown(2)], to_m(0.25 * 180 / Math.PI)];""")
+        # By hand: 6.5 mm to the right end, then 0.1 rad at 11 mm; to the left -6.75 mm, and half of the way back.
+        self.assertEqual([card[:3] for card in shown], 2 * [["rotate(34.38)", "angle: 34.38°", "reference: −14.32°"]])
+        self.assertAlmostEqual(typed_m, 0.015 * 0.25 - 0.004 * 0.25 ** 2, 9)
+
     def test_a_muscle_alone_and_one_that_was_not_asked_have_no_joint(self):
         self.assertEqual(self.ask(TOLD + "muscle(1, null, null); return [shown(1), shown(2)];"), [None, None])
 
@@ -71,9 +85,9 @@ class Told(ModulesCase):
 
 
 class Angles(ModulesCase):
-    SCRIPT = """const { measure_of } = await import("/joint.js");
+    SCRIPT = """const { Lever, measure_of } = await import("/joint.js");
         const { waveform, refuse_values, waveform_of_file } = await import("/waveform.js");
-        const agonist = measure_of({ lever_m: 0.015, other: 2 });
+        const agonist = measure_of({ lever_m: 0.015, lever: new Lever([0.015]), other: 2 });
         const values = { offset: -5, amplitude: 20, period: 10 };
         """
 
@@ -89,7 +103,7 @@ class Angles(ModulesCase):
                          "offset and amplitude reach from -5.00 to 35.00 °; allowed: -30.56 to 30.56 °")
 
     def test_it_goes_no_further_back_than_its_other_muscle_may_contract(self):
-        self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, amplitude: 25 }, 0.008, measure_of({ lever_m: 0.015, other: 2, other_travel_m: 0.006 }));"""),
+        self.assertEqual(self.ask(self.SCRIPT + """return refuse_values("sine", { ...values, amplitude: 25 }, 0.008, measure_of({ lever_m: 0.015, lever: new Lever([0.015]), other: 2, other_travel_m: 0.006 }));"""),
                          "offset and amplitude reach from -30.00 to 20.00 °; allowed: -22.92 to 30.56 °")
 
     def test_a_file_of_a_joint_may_have_negative_positions(self):
@@ -178,6 +192,34 @@ class ByHand(OfJoint):
         until(lambda: -4.0 < self.told_angle_deg() < -1.5, 40.0)
         held.send_signal(signal.SIGINT)
         self.assertEqual(held.communicate(timeout=2 * SLACK_S)[1].strip(), "")
+
+
+class ByALeverTable(OfJoint):
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        file = pathlib.Path(folder, "joint.toml")
+        file.write_text("[simulation]\nduration_s = 86400.0\n[joint]\nlever_m = [0.012, 0.015, 0.011]\nlever_range_deg = [-30.0, 30.0]\n"
+                        "[operator]\naction = 'none'\n[controller]\nkind = 'learned_ff'\n")
+        cls.scenario = str(file)
+        super().setUpClass()
+
+    def test_an_angle_is_commanded_as_the_levers_integral(self):
+        angle = math.radians(-12.0)
+        arc_m = 0.015 * angle + 0.5 * 0.003 / math.radians(30.0) * angle ** 2
+        until(lambda: command(self.source, "1", "arm").returncode == 0)
+        # The range's end too is told in degrees: 7.992 mm, where a lever of 15 mm would make them 30.5.
+        self.assertIn("(36.1", command(self.source, "1", "position", "90deg").stderr)
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "-12deg", "--hold", "--can", self.source])
+        self.addCleanup(held.wait)
+        self.addCleanup(held.kill)
+
+        def reference_m():
+            return json.loads(command(self.source, "state", "--json").stdout)["nodes"][0]["Tracking"]["reference_m"]
+        until(lambda: abs((reference_m() or 0.0) - arc_m) < 1e-7)
+        page = self.page()
+        page.wait(lambda: abs((self.angle_deg(page, 1) or (99.0, 99.0))[1] + 12.0) < 0.011, READY_S, "the page shows -12 degrees")
+        page.wait(lambda: abs((self.angle_deg(page, 1) or (99.0, 99.0))[0] + 12.0) < 0.3, FOLLOWS_S, "it is there")
 
 
 class Picture(OfJoint):

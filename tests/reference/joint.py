@@ -20,13 +20,27 @@ STRONGER = Muscle(thermal_mass_J_per_K=0.2, heat_transfer_W_per_K=0.11, stiffnes
 
 @dataclasses.dataclass(frozen=True)
 class Joint:
-    lever_m: float = 0.015
+    lever_m: float = 0.015  # at the angle 0
+    table_m: tuple = ()  # of levers, evenly spaced over table_rad; empty: constant
+    table_rad: tuple = (-0.8, 0.7)
     inertia_kg_m2: float = 2e-5
     damping_Nms_per_rad: float = 0.0
     spring_Nm_per_rad: float = 0.0
     pretension_N: float = 0.883
     friction_ratio: float = 0.0
     weight_Nm: float = 0.0
+
+    def radius(self, angle):
+        return np.interp(angle, np.linspace(*self.table_rad, len(self.table_m)), self.table_m) if self.table_m else self.lever_m
+
+    def contraction(self, angle):
+        """The lever's integral from the angle 0, exact by trapezoids from kink to kink."""
+        if not self.table_m:
+            return self.lever_m * angle
+        kinks = [at for at in np.linspace(*self.table_rad, len(self.table_m)) if min(0.0, angle) < at < max(0.0, angle)]
+        at = np.array(sorted([0.0, *kinks, angle], reverse=bool(angle < 0.0)))
+        radii = np.array([self.radius(a) for a in at])
+        return float(np.sum(0.5 * (radii[1:] + radii[:-1]) * np.diff(at)))
 
 
 PAIR = (Muscle(), Muscle())
@@ -42,6 +56,8 @@ CASES = {  # joint, muscles, effects, load in Nm
     "friction": (Joint(friction_ratio=0.02), PAIR, {}, 0.0),
     "slack": (Joint(pretension_N=0.05), PAIR, {}, 0.006),
     "slack_friction": (Joint(pretension_N=0.05, friction_ratio=0.2), PAIR, {}, 0.007),
+    "lever_table": (Joint(table_m=(0.010, 0.014, 0.016, 0.015, 0.011), lever_m=0.016 - 0.001 * 2.0 / 15.0),
+                    (Muscle(), STRONGER), SMOOTH, 0.004),
 }
 
 
@@ -70,16 +86,17 @@ def run(joint, muscles, effects, power, load):
 
     def slope(_, state, watts, newton_metres):
         rises, x, v, z, branches = split(state)
+        gain, arc = joint.radius(x / joint.lever_m) / joint.lever_m, joint.contraction(x / joint.lever_m)
         force = -newton_metres / joint.lever_m - joint.weight_Nm / joint.lever_m * np.sin(x / joint.lever_m)
         force -= (joint.damping_Nms_per_rad * v + joint.spring_Nm_per_rad * x) / joint.lever_m ** 2
         if alone:
             force -= joint.pretension_N
-        for p, sign, tension in zip(muscles, (1.0, -1.0), tensions(joint, muscles, effects, x, rises, branches)):
+        for p, sign, tension in zip(muscles, (1.0, -1.0), tensions(joint, muscles, effects, arc, rises, branches)):
             if tension > 0.0:
-                force += sign * tension - p.damping_Ns_per_m * v
+                force += gain * (sign * tension - p.damping_Ns_per_m * gain * v)
         rubs, bristle = lugre(lump, rubbing, v, z)
         heating = [heat_slope(p, effects, phi, w) for p, phi, w in zip(muscles, rises, watts)]
-        creeping = [(sign * x - at) / effects[time] for sign, pair in zip((1.0, -1.0), branches)
+        creeping = [(sign * arc - at) / effects[time] for sign, pair in zip((1.0, -1.0), branches)
                     for at, time in zip(pair, ("creep_fast_s", "creep_slow_s"))]
         return [*heating, *[0.0] * alone, v, (force - rubs) / mass, bristle, *creeping]
 
@@ -89,7 +106,7 @@ def run(joint, muscles, effects, power, load):
         state = solve_ivp(slope, (0.0, HOLD_S), state, method="DOP853", rtol=1e-10, atol=1e-13,
                           args=(power[hold], load[hold])).y[:, -1]
         rises, x, v, _, branches = split(state)
-        pulls = np.maximum(0.0, tensions(joint, muscles, effects, x, rises, branches))
+        pulls = np.maximum(0.0, tensions(joint, muscles, effects, joint.contraction(x / joint.lever_m), rises, branches))
         ends.append([x / joint.lever_m, v / joint.lever_m, *rises, *pulls, *[0.0] * alone])
     return np.array(ends)
 

@@ -10,9 +10,9 @@ namespace {
 tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std::string& channel) {
   const auto known = board.muscle(channel);
   if (!known) return tl::unexpected(known.error());
-  const double offset = (*known)[known_joint_other_node_offset];
-  if (!((*known)[known_joint_lever] > 0.0) || !std::isfinite(offset)) return "";
-  return std::to_string(std::stol(channel) + std::lround(offset));
+  const PlaceInJoint joint = told_joint(*known);
+  if (joint.direction < 1 || !std::isfinite(joint.other_channel_offset)) return "";
+  return std::to_string(std::stol(channel) + std::lround(joint.other_channel_offset));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int digits = 9;  // of a position in metres: nanometres
+constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
 /// A board's answer as an exit status; anything but "ok" is also said.
 int judged(const std::string& line, const std::string& answer) {
@@ -37,9 +38,10 @@ int judged(const std::string& line, const std::string& answer) {
 /// towards 0, so that it is obeyed.
 std::string with_degrees(const CommandOptions& options, const std::string& answer) {
   const auto reply = parse_answer(answer);
-  if (std::isnan(options.m_per_deg) || !reply || std::isnan(reply->nearest)) return answer;
+  if (options.joint.direction == 0 || !reply || std::isnan(reply->nearest)) return answer;
   constexpr double per_deg = 1e4;
-  const double nearest_deg = std::trunc(per_deg * reply->nearest / options.m_per_deg) / per_deg;
+  const double angle_deg = deg_per_rad * options.joint.angle_rad(reply->nearest);
+  const double nearest_deg = std::trunc(per_deg * angle_deg) / per_deg;
   return answer + " (" + number_text(nearest_deg, 7) + "deg)";
 }
 
@@ -72,12 +74,26 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
-/// Channel and verb as they are; the value on its sine, if there is one.
+/// Of "1 position 20deg".
+std::optional<double> angle_of(const std::vector<std::string>& words) {
+  constexpr std::string_view unit = "deg";
+  const bool given = words.size() == 3 && words[1] == name(Verb::position) &&
+                     std::string_view(words[2]).ends_with(unit);
+  if (!given) return std::nullopt;
+  return number_of(std::string_view(words[2]).substr(0, words[2].size() - unit.size()));
+}
+
+/// As the board takes it: channel and verb as they are; the value on its sine, if there is one, and
+/// in metres.
 std::string line_at(const CommandOptions& options, double time_s) {
-  if (options.sine_period_s <= 0.0) return joined(options.words);
-  constexpr double turn = 6.283185307179586;
-  const double value = std::stod(options.words[2]) +
-                       options.sine_amplitude * std::sin(turn * time_s / options.sine_period_s);
+  const auto angle_deg = angle_of(options.words);
+  if (options.sine_period_s <= 0.0 && !angle_deg) return joined(options.words);
+  double value = angle_deg ? *angle_deg : std::stod(options.words[2]);
+  if (options.sine_period_s > 0.0) {
+    value +=
+        options.sine_amplitude * std::sin(2.0 * std::numbers::pi * time_s / options.sine_period_s);
+  }
+  if (angle_deg) value = options.joint.position_m(value / deg_per_rad);
   return joined({options.words[0], options.words[1], number_text(value, digits)});
 }
 
@@ -166,31 +182,18 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
   return exit_done;
 }
 
-/// Of "1 position 20deg".
-std::optional<double> angle_of(const std::vector<std::string>& words) {
-  constexpr std::string_view unit = "deg";
-  const bool given = words.size() == 3 && words[1] == name(Verb::position) &&
-                     std::string_view(words[2]).ends_with(unit);
-  if (!given) return std::nullopt;
-  return number_of(std::string_view(words[2]).substr(0, words[2].size() - unit.size()));
-}
-
-/// A position in degrees becomes one in metres, and so does its sine's amplitude. Returns an exit
-/// status where it cannot.
-int in_metres(BoardLink& board, CommandOptions& options) {
-  const auto angle_deg = angle_of(options.words);
-  if (!angle_deg) return exit_done;
+/// Of a position in degrees; its channel must be in a joint. Returns an exit status where it is
+/// not.
+int take_joint(BoardLink& board, CommandOptions& options) {
+  if (!angle_of(options.words)) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
   if (!muscle) return refused(options, exit_failed, muscle.error());
-  const double m_per_deg = muscle->at(known_joint_lever) * std::numbers::pi / 180.0;
-  if (!std::isfinite(m_per_deg)) {
+  options.joint = told_joint(*muscle);
+  if (options.joint.direction == 0) {
     return refused(options, exit_wrong_input,
                    joined(options.words) + ": channel " + options.words[0] +
                        " is in no joint: its position is in metres");
   }
-  options.words[2] = number_text(*angle_deg * m_per_deg, digits);
-  options.sine_amplitude *= m_per_deg;
-  options.m_per_deg = m_per_deg;
   return exit_done;
 }
 
@@ -207,8 +210,8 @@ int command_command(CommandOptions options) {
     return refused(options, exit_wrong_input, "a sine needs --for or --hold");
   const auto board = open_link(options.can, options.socket);
   if (!board) return refused(options, exit_failed, board.error());
-  if (const int status = in_metres(**board, options); status != exit_done) return status;
-  const std::string line = joined(options.words);
+  if (const int status = take_joint(**board, options); status != exit_done) return status;
+  const std::string line = line_at(options, 0.0);
   if (line == "state") return tell_state(**board, options);
   if (options.hold_s > 0.0) return hold(**board, options);
   const bool arms = options.words.size() == 2 && options.words[1] == name(Verb::arm);

@@ -12,6 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "apps/common/exit_status.hpp"
+#include "loop/settings.hpp"
 #include "recorder/recording.hpp"
 
 namespace supercoil::operating {
@@ -53,7 +54,7 @@ struct CommandOptions {
   double hold_s = 0.0;             ///< 0: once
   double sine_amplitude = 0.0;
   double sine_period_s = 0.0;  ///< 0: no sine
-  double m_per_deg = NAN;      ///< of the joint's arc, where the words had degrees
+  PlaceInJoint joint;          ///< where value and sine are in degrees
 };
 int command_command(CommandOptions options);
 

@@ -135,7 +135,8 @@ class Axis {
  private:
   /// What a reading of the sensor is by the present calibration.
   double calibrated(double sensor_m) const {
-    return (sensor_m - calibration_.position_offset_m) * calibration_.position_scale;
+    return settings_.joint.position_of_reading_m((sensor_m - calibration_.position_offset_m) *
+                                                 calibration_.position_scale);
   }
   /// That moves the muscle, in watts of its own.
   double moving_W() const { return heater_.acting().power_W - other_.power_W; }

@@ -92,7 +92,8 @@ bool Axis::end_probe() {
   const ModeResult now = calibrate_.probed(heater_.probed_Ohm());
   if (now != ModeResult::found) return end_mode(now);
   board::Calibration found = calibration_;
-  found.position_offset_m += calibrate_.zero_m() / calibration_.position_scale;
+  found.position_offset_m +=
+      settings_.joint.reading_of_position_m(calibrate_.zero_m()) / calibration_.position_scale;
   found.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
   return end_mode(keep(muscle_, found));
 }

@@ -1,6 +1,7 @@
 // What a channel goes by, and what its file says of it, as other threads may ask for it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -16,7 +17,7 @@ namespace supercoil {
 
 /// In the order of Muscle.quantity in the DBC. What identify told of its own result is NaN until it
 /// has found a muscle since the start.
-inline constexpr std::array<std::string_view, 24> known_quantities{
+inline constexpr std::array<std::string_view, 33> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
     "position_scale",
@@ -28,8 +29,11 @@ inline constexpr std::array<std::string_view, 24> known_quantities{
     "configured_thermal_mass_J_per_K", "configured_heat_transfer_W_per_K",
     "configured_stiffness_N_per_m", "configured_damping_Ns_per_m", "configured_moving_mass_kg",
     "configured_force_per_kelvin_N_per_K", "configured_cold_resistance_Ohm",
-    "joint_lever_m",  ///< < 0 of the antagonist: the angle is position / lever; NaN: no joint
-    "joint_other_node_offset"};  ///< of the other muscle, minus this one's
+    "joint_lever_m",            ///< at the angle 0; < 0 of the antagonist; NaN: no joint
+    "joint_other_node_offset",  ///< of the other muscle, minus this one's
+    // As control::Lever has them, of a lever that depends on the angle; NaN: it has fewer.
+    "joint_lever_first_rad", "joint_lever_last_rad", "joint_lever_1_m", "joint_lever_2_m",
+    "joint_lever_3_m", "joint_lever_4_m", "joint_lever_5_m", "joint_lever_6_m", "joint_lever_7_m"};
 /// Places of those that follow the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
@@ -41,6 +45,9 @@ enum KnownPlace : std::uint8_t {
   known_configured,  ///< the first of the configured ones
   known_joint_lever = 22,
   known_joint_other_node_offset,
+  known_lever_first,
+  known_lever_last,
+  known_lever_points,  ///< the first of control::Lever::max_points
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
@@ -51,34 +58,66 @@ struct ConfiguredMuscle {
   PlaceInJoint joint;
 };
 
+inline void tell_lever(const PlaceInJoint& joint, KnownMuscle& known) {
+  const control::Lever& lever = joint.lever;
+  std::fill(known.begin() + known_lever_first, known.end(), NAN);
+  if (joint.direction == 0) return;
+  known[known_joint_lever] = joint.direction * lever.zero_radius_m();
+  if (lever.is_constant()) return;
+  known[known_lever_first] = lever.first_rad();
+  known[known_lever_last] = lever.last_rad();
+  std::ranges::copy(lever.radii_m(), known.begin() + known_lever_points);
+}
+
+/// As tell_lever() told it, however wrong; direction 0: the muscle turns no joint.
+inline PlaceInJoint told_joint(const KnownMuscle& known) {
+  PlaceInJoint joint;
+  const double lever_m = known[known_joint_lever];
+  if (!(std::abs(lever_m) > 0.0)) return joint;
+  joint.direction = lever_m > 0.0 ? 1 : -1;
+  joint.other_channel_offset = known[known_joint_other_node_offset];
+  const auto* const first = known.data() + known_lever_points;
+  const auto* const last = std::find_if(first, known.data() + known.size(),
+                                        [](double radius_m) { return !(radius_m > 0.0); });
+  const double first_rad = known[known_lever_first];
+  const double last_rad = known[known_lever_last];
+  const bool table = last - first > 1 && first_rad <= 0.0 && last_rad >= 0.0 &&
+                     last_rad > first_rad && std::isfinite(last_rad - first_rad);
+  joint.lever = table ? control::Lever(first_rad, last_rad, {first, last})
+                      : control::Lever(std::abs(lever_m));
+  return joint;
+}
+
 inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const board::Calibration& c,
                                 double response_ratio, const modes::Identify::Quality& q,
                                 const ConfiguredMuscle& configured) {
   const control::PhysicalParameters& file = configured.muscle;
-  return {m.thermal_mass_J_per_K,
-          m.heat_transfer_W_per_K,
-          m.stiffness_N_per_m,
-          m.damping_Ns_per_m,
-          m.moving_mass_kg,
-          m.force_per_kelvin_N_per_K,
-          c.cold_resistance_Ohm,
-          c.position_offset_m,
-          c.position_scale,
-          response_ratio,
-          q.deviation_ratio[0],
-          q.deviation_ratio[1],
-          q.deviation_ratio[2],
-          q.deviation_ratio[3],
-          q.unexplained_ratio,
-          file.thermal_mass_J_per_K,
-          file.heat_transfer_W_per_K,
-          file.stiffness_N_per_m,
-          file.damping_Ns_per_m,
-          file.moving_mass_kg,
-          file.force_per_kelvin_N_per_K,
-          configured.cold_resistance_Ohm,
-          configured.joint.lever_m,
-          configured.joint.other_channel_offset};
+  KnownMuscle known{m.thermal_mass_J_per_K,
+                    m.heat_transfer_W_per_K,
+                    m.stiffness_N_per_m,
+                    m.damping_Ns_per_m,
+                    m.moving_mass_kg,
+                    m.force_per_kelvin_N_per_K,
+                    c.cold_resistance_Ohm,
+                    c.position_offset_m,
+                    c.position_scale,
+                    response_ratio,
+                    q.deviation_ratio[0],
+                    q.deviation_ratio[1],
+                    q.deviation_ratio[2],
+                    q.deviation_ratio[3],
+                    q.unexplained_ratio,
+                    file.thermal_mass_J_per_K,
+                    file.heat_transfer_W_per_K,
+                    file.stiffness_N_per_m,
+                    file.damping_Ns_per_m,
+                    file.moving_mass_kg,
+                    file.force_per_kelvin_N_per_K,
+                    configured.cold_resistance_Ohm,
+                    NAN,
+                    configured.joint.other_channel_offset};
+  tell_lever(configured.joint, known);
+  return known;
 }
 
 /// From the loop to other threads; each quantity is whole, all of them together may be of two

@@ -58,7 +58,7 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings) {
                                "channel " + number + " cannot prove by itself that it responds"};
       }
     }
-    if (!(joint.lever_m > 0.0) || !(joint.co_contraction_W >= 0.0))
+    if (!(joint.lever.min_radius_m() > 0.0) || !(joint.co_contraction_W >= 0.0))
       return SettingsProblem{"joint", "lever_m must exceed 0, and co_contraction_W be 0 or more"};
     if (!(joint.co_contraction_W <= joint.max_co_contraction_W))
       return SettingsProblem{"joint", "co_contraction_W must not exceed max_co_contraction_W"};
@@ -85,8 +85,8 @@ double feasible_co_contraction_W(const BoardSettings& board, const JointSettings
 void add_joint(BoardSettings& board, const JointSettings& joint) {
   board.joints.push_back(joint);
   const double apart = static_cast<double>(joint.antagonist) - static_cast<double>(joint.agonist);
-  board.channels[joint.agonist].joint = {joint.lever_m, apart};
-  board.channels[joint.antagonist].joint = {-joint.lever_m, -apart};
+  board.channels[joint.agonist].joint = {1, joint.lever, apart};
+  board.channels[joint.antagonist].joint = {-1, joint.lever, -apart};
   for (const std::size_t channel : {joint.agonist, joint.antagonist})
     board.channels[channel].supervision.proof_of_response = false;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "supercoil/control/estimation/estimator.hpp"
+#include "supercoil/control/joint/lever.hpp"
 #include "supercoil/control/tracking/controller.hpp"
 #include "supercoil/control/tracking/loop_margin.hpp"
 
@@ -40,10 +41,25 @@ struct HeaterSettings {
   double delay_s = 0.0;        ///< from a duty's setting to its acting
 };
 
-/// What a channel tells of the joint that it is in; NaN: in none.
+/// The joint that a channel's muscle turns.
 struct PlaceInJoint {
-  double lever_m = NAN;  ///< the joint's angle in rad is position / lever_m: < 0 of the antagonist
+  int direction =
+      0;  ///< the joint turns with the position (1) or against it (-1); 0: there is none
+  control::Lever lever{};
   double other_channel_offset = NAN;  ///< from this one: 1 is the next
+
+  /// Of the joint; position_m: how far this muscle has contracted.
+  double angle_rad(double position_m) const { return lever.angle_rad(direction * position_m); }
+  double position_m(double angle_rad) const { return direction * lever.arc_m(angle_rad); }
+  /// Of what a sensor of the angle reads: the angle times the lever at 0, with the muscle's sign.
+  double position_of_reading_m(double reading_m) const {
+    const bool as_read = direction == 0 || lever.is_constant();
+    return as_read ? reading_m : position_m(direction * reading_m / lever.zero_radius_m());
+  }
+  double reading_of_position_m(double position_m) const {
+    const bool as_read = direction == 0 || lever.is_constant();
+    return as_read ? position_m : direction * angle_rad(position_m) * lever.zero_radius_m();
+  }
 };
 
 struct ChannelSettings {
@@ -70,12 +86,13 @@ struct ChannelSettings {
   std::vector<control::EstimatorSettings> configured_estimators;
 };
 
-/// Two channels whose muscles turn one joint against each other. Positions of both are arcs at the
-/// lever, as the contractions are: the antagonist's is the agonist's with the other sign.
+/// Two channels whose muscles turn one joint against each other. Positions of both are how far the
+/// muscles have contracted, arcs at the lever: the antagonist's is the agonist's with the other
+/// sign.
 struct JointSettings {
   std::size_t agonist = 0;     ///< its channel; turns the joint towards positive positions
   std::size_t antagonist = 1;  ///< its channel
-  double lever_m = 0.015;
+  control::Lever lever{};
   /// The power of the agonist while the joint asks for no effort; the antagonist's has the same
   /// effect. By it they pull against each other.
   double co_contraction_W = 1.0;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <sstream>
 
+#include "config/read_lever.hpp"
+
 namespace supercoil::config {
 
 namespace {
@@ -76,10 +78,10 @@ void JointReader::finish(BoardConfig& config) {
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     Section& section = sections_[i];
     const std::string name = section.text("name", "joint " + std::to_string(i + 1));
-    const double lever_m = section.required_number("lever_m", {1e-4, 1.0});
+    const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
     section.allow({"co_contraction_W", "max_co_contraction_W"});
     if (joints_[i]) {
-      joints_[i]->lever_m = lever_m;
+      joints_[i]->lever = lever;
       read_co_contraction(section, config.settings, *joints_[i]);
       add_joint(config.settings, *joints_[i]);
       config.joints.push_back({name});

@@ -30,9 +30,12 @@ Nearest nearest_name(std::string_view written, const std::vector<std::string>& k
   Nearest best;
   std::size_t fewest = 0;
   for (const std::string& name : known) {
-    if (name.starts_with(with_unit)) return {name, true};
+    // The shortest has nothing but a unit beside it.
+    if (name.starts_with(with_unit) && (!best.lacks_unit || name.size() < best.name.size()))
+      best = {name, true};
     const std::size_t distance = edits(written, name);
-    if (distance <= name.size() / 3 && (best.name.empty() || distance < fewest)) {
+    if (!best.lacks_unit && distance <= name.size() / 3 &&
+        (best.name.empty() || distance < fewest)) {
       best.name = name;
       fewest = distance;
     }

@@ -12,8 +12,8 @@ struct Nearest {
   bool lacks_unit = false;  ///< what was written is the name without its unit
 };
 
-/// The known name that starts with what was written and "_", or else the one with the fewest
-/// edits, up to a third of its length.
+/// The shortest known name that starts with what was written and "_", or else the one with the
+/// fewest edits, up to a third of its length.
 Nearest nearest_name(std::string_view written, const std::vector<std::string>& known);
 
 /// What to say after "…; ": "did you mean NAME?", or where nothing is near all: "OTHERWISE: a, b".

@@ -43,7 +43,7 @@ from supercoil.generated.names import (
     State,
 )
 from supercoil.generated.version import PROTOCOL_VERSION, __version__
-from supercoil.joints import Joint
+from supercoil.joints import Joint, LeverTable
 from supercoil.learning import Outcome
 from supercoil.muscle import Muscle
 from supercoil.player import Motion
@@ -66,6 +66,7 @@ __all__ = [
     "Found",
     "Gain",
     "Joint",
+    "LeverTable",
     "LimitedBy",
     "Mode",
     "Motion",

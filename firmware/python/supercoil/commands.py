@@ -8,7 +8,7 @@ from supercoil.connection import FRESH_BEATS, HEARTBEAT_S, Connection
 from supercoil.errors import NoAnswerError, NotReachedError
 from supercoil.generated import messages, refusals
 from supercoil.generated.names import Opcode, Quantity, Setting, State
-from supercoil.joints import Joint, joint_of
+from supercoil.joints import TOLD, Joint, joint_of
 
 _LOOK_EVERY_S = 0.02
 _SETTLED_S = 0.2
@@ -126,8 +126,7 @@ class Commands(Connection):
 
     async def joint(self) -> Joint | None:
         """The joint that it turns with another muscle; None: it moves alone."""
-        return joint_of(self.node, await self._link.quantity(Quantity.joint_lever_m),
-                        await self._link.quantity(Quantity.joint_other_node_offset))
+        return joint_of(self.node, {quantity: await self._link.quantity(quantity) for quantity in TOLD})
 
     def make_position(self, position_m: float) -> Order:
         return Order(self, Opcode.position, position_m)

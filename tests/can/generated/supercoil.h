@@ -486,6 +486,15 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_QUANTITY_CONFIGURED_COLD_RESISTANCE_OHM_CHOICE (21u)
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_M_CHOICE (22u)
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_OTHER_NODE_OFFSET_CHOICE (23u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_FIRST_RAD_CHOICE (24u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_LAST_RAD_CHOICE (25u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_1_M_CHOICE (26u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_2_M_CHOICE (27u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_3_M_CHOICE (28u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_4_M_CHOICE (29u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_5_M_CHOICE (30u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_6_M_CHOICE (31u)
+#define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_7_M_CHOICE (32u)
 
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -576,6 +585,15 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_CONFIGURED_COLD_RESISTANCE_OHM_CHOICE (21u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_M_CHOICE (22u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_OTHER_NODE_OFFSET_CHOICE (23u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_FIRST_RAD_CHOICE (24u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_LAST_RAD_CHOICE (25u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_1_M_CHOICE (26u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_2_M_CHOICE (27u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_3_M_CHOICE (28u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_4_M_CHOICE (29u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_5_M_CHOICE (30u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_6_M_CHOICE (31u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_7_M_CHOICE (32u)
 
 #define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
@@ -1878,14 +1896,14 @@ struct supercoil_muscle_t {
     /**
      * Which one.
      *
-     * Range: 0..23 (0..23 -)
+     * Range: 0..32 (0..32 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -2040,7 +2058,7 @@ struct supercoil_muscle_read_t {
     /**
      * Which one.
      *
-     * Range: 0..23 (0..23 -)
+     * Range: 0..32 (0..32 -)
      * Scale: 1
      * Offset: 0
      */

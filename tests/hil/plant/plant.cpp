@@ -36,7 +36,7 @@ host_sim::SimulatedBoardSettings board_of(const PlantSettings& settings) {
   if (settings.joint) {
     const host_sim::SimulatedJointSettings joint;
     board.channels[joint.agonist].position =
-        angle_sensor(joint.plant.lever_m, settings.position_noise_m);
+        angle_sensor(joint.plant.lever.zero_radius_m(), settings.position_noise_m);
     board.joints = {joint};
   }
   return board;

@@ -80,9 +80,9 @@ RigSettings joint_board(double rate_Hz) {
   constexpr double travel_m = 0.008;
   RigSettings s = rough_board(rate_Hz);
   host_sim::JointPlantSettings joint;
-  joint.lever_m = lever_m;
+  joint.lever = control::Lever(lever_m);
   s.board.joints = {{0, 1, joint, 0.0}};
-  add_joint(s.firmware, {0, 1, lever_m, 0.8});
+  add_joint(s.firmware, {0, 1, joint.lever, 0.8});
   const host_sim::ConverterSettings sensor{-0.012, 0.012, 16, 5e-6};
   for (std::size_t i = 0; i < s.firmware.channels.size(); ++i) {
     const double way = i == 0 ? 1.0 : -1.0;

@@ -85,7 +85,9 @@ class Errors(ProgramCase):
                 ("[joint]\n[[event]]\nat_s = 1.0\njoint.co_contraction_W = 4.0\n", pair,
                  "an event's joint.co_contraction_W = 4 is more than the board's max_co_contraction_W, 2.2"),
                 ("[joint]\n", alone, "the scenario has a [joint] of two muscles, and channel 2 of the board's file is in none"),
-                ("joint.lever_m = 0.02\n", pair, "joint.lever_m = 0.02 is not the board's, 0.015")):
+                ("joint.lever_m = 0.02\n", pair, "joint.lever_m = 0.02 is not the board's, 0.015"),
+                ("[joint]\nlever_m = [0.012, 0.015]\nlever_range_deg = [-20.0, 20.0]\n", pair,
+                 "joint.lever_m = [0.012, 0.015] over -20 to 20 deg is not the board's, 0.015")):
             self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--channel", 2, "--out", "out")
 
     def test_a_window_outside_the_run(self):

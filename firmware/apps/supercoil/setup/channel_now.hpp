@@ -18,7 +18,7 @@ struct ChannelNow {
   ChannelSettings settings;
   double unexplained_ratio = NAN;  ///< by identify; NaN: it found nothing since the start
 
-  bool in_joint() const { return !std::isnan(settings.joint.lever_m); }
+  bool in_joint() const { return settings.joint.direction != 0; }
   /// Of a controller in the place of the first; empty: its law promises none, or the muscle turns a
   /// joint.
   std::optional<Promise> promise(const control::ControllerSettings& controller,

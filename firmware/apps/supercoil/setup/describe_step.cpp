@@ -7,6 +7,7 @@
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
+#include "config/read_lever.hpp"
 #include "config/toml_file.hpp"
 #include "text/number_text.hpp"
 
@@ -39,7 +40,8 @@ Or<MuscleAnswers> complete(MuscleAnswers answers, const SetupOptions& options, O
   return answers;
 }
 
-/// Of the joint that a channel, from 1, turns; empty: it turns none. The file need not be complete.
+/// At the angle 0, of the joint that a channel, from 1, turns; empty: it turns none. The file need
+/// not be complete.
 std::optional<double> lever_of(const std::string& text, int channel) {
   const toml::table document = toml::parse(text);
   const toml::array* joints = document["joint"].as_array();
@@ -48,7 +50,12 @@ std::optional<double> lever_of(const std::string& text, int channel) {
     const toml::table* joint = node.as_table();
     if (joint == nullptr) continue;
     const auto is = [&](const char* key) { return (*joint)[key].value<int>() == channel; };
-    if (is("agonist") || is("antagonist")) return (*joint)["lever_m"].value<double>();
+    if (!is("agonist") && !is("antagonist")) continue;
+    config::Diagnostics told_elsewhere("");
+    config::Section section(joint, "joint", told_elsewhere);
+    const double lever_m =
+        config::read_lever(section, config::lever_range_m, std::nullopt).zero_radius_m();
+    return lever_m > 0.0 ? std::optional(lever_m) : std::nullopt;
   }
   return std::nullopt;
 }

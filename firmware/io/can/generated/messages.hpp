@@ -131,7 +131,7 @@ inline constexpr std::array<ValueName, 6> names_of_playback{{
     {5, "dry"},
 }};
 
-inline constexpr std::array<ValueName, 24> names_of_quantity{{
+inline constexpr std::array<ValueName, 33> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
     {2, "stiffness_N_per_m"},
@@ -156,6 +156,15 @@ inline constexpr std::array<ValueName, 24> names_of_quantity{{
     {21, "configured_cold_resistance_Ohm"},
     {22, "joint_lever_m"},
     {23, "joint_other_node_offset"},
+    {24, "joint_lever_first_rad"},
+    {25, "joint_lever_last_rad"},
+    {26, "joint_lever_1_m"},
+    {27, "joint_lever_2_m"},
+    {28, "joint_lever_3_m"},
+    {29, "joint_lever_4_m"},
+    {30, "joint_lever_5_m"},
+    {31, "joint_lever_6_m"},
+    {32, "joint_lever_7_m"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_refusal{{

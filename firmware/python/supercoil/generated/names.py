@@ -156,6 +156,15 @@ class Quantity(Named):
     configured_cold_resistance_Ohm = 21
     joint_lever_m = 22
     joint_other_node_offset = 23
+    joint_lever_first_rad = 24
+    joint_lever_last_rad = 25
+    joint_lever_1_m = 26
+    joint_lever_2_m = 27
+    joint_lever_3_m = 28
+    joint_lever_4_m = 29
+    joint_lever_5_m = 30
+    joint_lever_6_m = 31
+    joint_lever_7_m = 32
 
 
 class Refusal(Named):

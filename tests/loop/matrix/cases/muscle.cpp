@@ -17,7 +17,7 @@ const std::vector<Situation> no_surplus{disarmed, arming,   armed,     pi,
 void load(Rig& rig, double load_N) {
   if (rig.board.joints() > 0) {
     host_sim::SimulatedJointSettings joint = rig.board.joint(0).settings();
-    joint.load_Nm = load_N * joint.plant.lever_m;
+    joint.load_Nm = load_N * joint.plant.lever.zero_radius_m();
     rig.board.joint(0).set(joint);
     return;
   }

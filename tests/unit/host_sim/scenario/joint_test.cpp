@@ -121,6 +121,21 @@ TEST(JointScenario, WrongOnesAreToldWhatIsAllowed) {
       "[joint]\nlever_m = 0.1\ninertia_kg_m2 = 100.0");
 }
 
+TEST(JointScenario, ItsLeverMayDependOnTheAngle) {
+  const Scenario s =
+      read("[joint]\nlever_m = [0.012, 0.015, 0.012]\nlever_range_deg = [-30.0, 30.0]\n");
+  const control::Lever& lever = s.start.joint->plant.lever;
+  DOUBLES_EQUAL(0.015, lever.zero_radius_m(), 1e-12);
+  CHECK(firmware_of(s).joints[0].lever == lever);
+  // The muscles move an inertia at the lever of the angle 0.
+  DOUBLES_EQUAL(s.start.joint->plant.inertia_kg_m2 / (0.015 * 0.015), s.start.muscle.moving_mass_kg,
+                1e-12);
+  check_joint_answer(
+      "2: joint.lever_m = [0.01, 0.02]: needs lever_range_deg, the angles of its first and its "
+      "last lever",
+      "[joint]\nlever_m = [0.01, 0.02]");
+}
+
 TEST(JointScenario, AMistakeInPlantIsToldOnce) {
   check_joint_answer("2: plant.force_ratio = 50: must be 0.1 to 20",
                      "[plant]\nforce_ratio = 50.0\n[joint]\nantagonist.creep_ratio = 0.1\n");
@@ -137,6 +152,11 @@ TEST(JointScenario, WhatCannotBeReachedIsRefused) {
 TEST(JointScenario, WhatIsSolderedCannotChange) {
   check_joint_answer("4: event.joint.lever_m: cannot change during a run",
                      "[joint]\n[[event]]\nat_s = 1.0\njoint.lever_m = 0.02");
+  check_joint_answer(
+      "4: event.joint.lever_m: cannot change during a run\n"
+      "s.toml:5: event.joint.lever_range_deg: cannot change during a run",
+      "[joint]\n[[event]]\nat_s = 1.0\njoint.lever_m = [0.02, 0.03]\n"
+      "joint.lever_range_deg = [-1.0, 1.0]");
   check_joint_answer("3: event.joint: needs a [joint] from the start",
                      "[[event]]\nat_s = 1.0\njoint.load_Nm = 0.02");
 }
@@ -219,7 +239,7 @@ TEST(JointScenario, ItsBoardHasTwoChannelsThatSeeItFromBothSides) {
   LONGS_EQUAL(1, board.joints.size());
   LONGS_EQUAL(0, board.joints[0].agonist);
   LONGS_EQUAL(1, board.joints[0].antagonist);
-  DOUBLES_EQUAL(0.012, board.joints[0].lever_m, 0.0);
+  DOUBLES_EQUAL(0.012, board.joints[0].lever.zero_radius_m(), 0.0);
   DOUBLES_EQUAL(0.7, board.joints[0].co_contraction_W, 0.0);
   // As of a board whose file says nothing of it.
   DOUBLES_EQUAL(0.5 * 4.5, board.joints[0].max_co_contraction_W, 1e-12);

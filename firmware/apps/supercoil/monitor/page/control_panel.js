@@ -1,14 +1,14 @@
 // The panel by which a muscle is commanded: state, arm, mode, set-point.
 
 import { element, show } from "./dom.js";
-import { LENGTH, measure_of } from "./joint.js";
+import { LENGTH, measure_of, same_joint } from "./joint.js";
 
 // While the board has not told its limits: the stroke and the power of the paper's muscle.
 const USUAL = { position: 0.02, power: 4.5 };
 const MODES = {
-  position: { opcode: "position", button: "move", unit: LENGTH.unit, factor: LENGTH.per_m, steps: [0.01, 0.1, 0.5, 1, 5], step: 0.1, label: "Position",
+  position: { opcode: "position", button: "move", unit: LENGTH.unit, to_board: LENGTH.to_m, of_board: LENGTH.of_m, steps: [0.01, 0.1, 0.5, 1, 5], step: 0.1, label: "Position",
     hint: "The controller makes the muscle follow this position." },
-  power: { opcode: "power", button: "heat", unit: "W", factor: 1, steps: [0.01, 0.05, 0.1, 0.5], step: 0.05, label: "Power",
+  power: { opcode: "power", button: "heat", unit: "W", to_board: (W) => W, of_board: (W) => W, steps: [0.01, 0.05, 0.1, 0.5], step: 0.05, label: "Power",
     hint: "Open loop: the muscle gets this power, within its limits." },
   rest: { opcode: "rest", button: "rest", hint: "No power; the muscle cools and stays armed." },
   identify: { opcode: "identify", button: "identify", hint: "Excites the muscle and learns its parameters." },
@@ -18,9 +18,9 @@ const MODES = {
 /** The modes of a muscle in a joint, which the agonist's node commands. */
 function modes_in(joint) {
   const { lever_m, other } = joint;
-  const { unit, per_m, min_m } = measure_of(joint);
+  const { unit, to_m, of_m, min_m } = measure_of(joint);
   const position = lever_m > 0
-    ? { ...MODES.position, unit, factor: per_m, min: min_m, steps: [0.05, 0.1, 0.5, 1, 5], step: 0.5, label: "Angle",
+    ? { ...MODES.position, unit, to_board: to_m, of_board: of_m, min: min_m, steps: [0.05, 0.1, 0.5, 1, 5], step: 0.5, label: "Angle",
       hint: "The controller makes the joint follow this angle." }
     : { ...MODES.position, hint: `Node ${other} commands the joint; a position is refused here.` };
   const power = lever_m > 0 ? MODES.power
@@ -93,11 +93,11 @@ export class ControlPanel {
 
   /** Number and slider end at the limit of the detector, where the board has told it. */
   #scale() {
-    const { factor, steps: [finest], opcode, min } = this.modes[this.mode];
+    const { of_board, steps: [finest], opcode, min } = this.modes[this.mode];
     const limit = this.limits.get(opcode === "position" ? "over_travel" : "power_limit_exceeded") ?? USUAL[opcode];
     const step = Number(this.step.value);
-    const whole = (way, unit) => (Math.floor((way * factor) / unit) * unit).toFixed(2);
-    const reach = (unit) => whole(limit, unit), back = (unit) => -whole(-min(limit), unit);
+    const whole = (reached, unit) => (Math.floor(reached / unit) * unit).toFixed(2);
+    const reach = (unit) => whole(of_board(limit), unit), back = (unit) => -whole(-of_board(min(limit)), unit);
     Object.assign(this.number, { step, max: reach(finest) });
     this.min = min ? back(finest) : 0;
     // Steps are counted from the minimum, and 0 must be among them: a slider's is a multiple of the step, and the number has none.
@@ -124,12 +124,12 @@ export class ControlPanel {
   }
 
   #go() {
-    const { opcode, unit, factor } = this.modes[this.mode];
+    const { opcode, unit, to_board } = this.modes[this.mode];
     if (!unit) return this.#send(opcode);
     const value = this.number.valueAsNumber;
     if (Number.isNaN(value)) return this.#answer("a number is missing", false);
     if (value < this.min || value > Number(this.number.max)) return this.#answer(`allowed: ${this.min} to ${this.number.max} ${unit}`, false);
-    this.#send(opcode, value / factor, `${this.number.value} ${unit}`);
+    this.#send(opcode, to_board(value), `${this.number.value} ${unit}`);
   }
 
   async #send(opcode, value = 0, said = "") {
@@ -147,7 +147,7 @@ export class ControlPanel {
 
   /** A muscle that turns out to be in a joint: its numbers are angles from now on. */
   #take_joint(joint) {
-    if (!joint || Object.keys(joint).every((key) => joint[key] === this.joint?.[key])) return;
+    if (!joint || same_joint(joint, this.joint)) return;
     this.joint = joint;
     this.modes = modes_in(joint);
     Object.assign(this, { values: {}, steps: {} });

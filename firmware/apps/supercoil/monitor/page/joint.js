@@ -1,23 +1,78 @@
 // A joint of two muscles, as boards tell of it; and the unit in which set points are typed: lengths, or a joint's angles.
 
-/** The joint of a node's muscle, {lever_m, other, other_travel_m}: lever_m < 0 of the antagonist; other is its partner's node, and
-    other_travel_m how far that may contract, if it is told. null: it is in none, or the board has not told yet. */
+export const DEGREES = 180 / Math.PI;
+const MAX_POINTS = 7;
+
+/** The lever of a joint by its angle: levers_m at angles evenly spaced from first_rad to last_rad, straight lines between them
+    and constant beyond. Alone, a number: constant. */
+export class Lever {
+  constructor(levers_m, first_rad = 0, last_rad = 0) {
+    const step_rad = (last_rad - first_rad) / Math.max(1, levers_m.length - 1);
+    let arc_m = 0;
+    this.corners = levers_m.map((lever_m, i) => {
+      if (i > 0) arc_m += 0.5 * (levers_m[i - 1] + lever_m) * step_rad;
+      const slope = i + 1 < levers_m.length ? (levers_m[i + 1] - lever_m) / step_rad : 0;
+      return { rad: first_rad + i * step_rad, lever_m, slope, arc_m };
+    });
+    this.zero_m = this.#from_first(0);
+  }
+
+  /** The last corner that is passed; before the first one its lever holds on. */
+  #corner(passed) {
+    const [first] = this.corners;
+    return this.corners.findLast(passed) ?? { ...first, slope: 0 };
+  }
+
+  #from_first(angle_rad) {
+    const { rad, lever_m, slope, arc_m } = this.#corner((corner) => corner.rad <= angle_rad);
+    const turned = angle_rad - rad;
+    return arc_m + (lever_m + 0.5 * slope * turned) * turned;
+  }
+
+  /** The lever's integral from the angle 0. */
+  arc_m(angle_rad) {
+    return this.#from_first(angle_rad) - this.zero_m;
+  }
+
+  angle_rad(arc_m) {
+    const wanted_m = arc_m + this.zero_m;
+    const corner = this.#corner((at) => at.arc_m <= wanted_m), left_m = wanted_m - corner.arc_m;
+    return corner.rad + (2 * left_m) / (corner.lever_m + Math.sqrt(corner.lever_m ** 2 + 2 * corner.slope * left_m));
+  }
+}
+
+/** As the board has told it; constant, until it has told all. */
+function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever_last_rad: last_rad, ...told }) {
+  const levers_m = [];
+  for (let i = 1; i <= MAX_POINTS && told[`joint_lever_${i}_m`] > 0; ++i) levers_m.push(told[`joint_lever_${i}_m`]);
+  return levers_m.length > 1 && first_rad < last_rad ? new Lever(levers_m, first_rad, last_rad) : new Lever([Math.abs(joint_lever_m)]);
+}
+
+/** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: lever_m at the angle 0, < 0 of the antagonist; other is its
+    partner's node, and other_travel_m how far that may contract, if it is told. null: it is in none, or the board has not told yet. */
 export function joint_of(store, node, now_s) {
   const told = {};
   for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) told[store.word("Muscle", "quantity", number)] = value;
   const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
   if (!(Math.abs(lever_m) > 0 && Number.isFinite(offset))) return null;
-  const joint = { lever_m, other: node + offset };
+  const joint = { lever_m, lever: lever_of(told), other: node + offset };
   for (const [number, { limit }] of store.round(joint.other, "Limit", "fault", now_s))
     if (store.word("Limit", "fault", number) === "over_travel") joint.other_travel_m = limit;
   return joint;
 }
 
-export const DEGREES = 180 / Math.PI;
-/** per_m: of the unit; both_ways: set points may be negative; min_m: the least, of a muscle that may travel so far. */
-export const LENGTH = { unit: "mm", per_m: 1e3, both_ways: false, min_m: () => 0 };
-const angle_at = ({ lever_m, other_travel_m }) =>
-  ({ unit: "°", per_m: DEGREES / lever_m, both_ways: true, min_m: (max_m) => -(other_travel_m ?? max_m) });
+/** What joint_of() says, by its numbers: the same joint is told anew all the time. */
+export const same_joint = (joint, other) => JSON.stringify(joint) === JSON.stringify(other);
+
+/** to_m, of_m: a value of the unit, and back; both_ways: set points may be negative; min_m: the least, of a muscle that may travel so far. */
+export const LENGTH = { unit: "mm", to_m: (mm) => mm / 1e3, of_m: (m) => m * 1e3, both_ways: false, min_m: () => 0 };
+const angle_at = ({ lever, other_travel_m }) => ({
+  unit: "°",
+  to_m: (degrees) => lever.arc_m(degrees / DEGREES),
+  of_m: (m) => lever.angle_rad(m) * DEGREES,
+  both_ways: true,
+  min_m: (max_m) => -(other_travel_m ?? max_m),
+});
 
 /** In which a node's positions are commanded; joint: of joint_of(). */
 export const measure_of = (joint) => (joint && joint.lever_m > 0 ? angle_at(joint) : LENGTH);

@@ -39,7 +39,7 @@ export class JointCard {
     if (!joint) return;
     const { lever_m, other } = joint;
     const [right, left] = lever_m > 0 ? [this.node, other] : [other, this.node];
-    const degrees = (message, column) => (this.store.at(right, message, now_s)?.[column] / Math.abs(lever_m)) * DEGREES;
+    const degrees = (message, column) => joint.lever.angle_rad(this.store.at(right, message, now_s)?.[column]) * DEGREES;
     const angle_deg = degrees("Measurement", "position_m"), reference_deg = degrees("Tracking", "reference_m");
     this.limb.setAttribute("transform", turned(angle_deg));
     this.reference.setAttribute("transform", turned(reference_deg));

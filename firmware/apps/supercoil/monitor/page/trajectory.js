@@ -26,7 +26,7 @@ const in_ms = (time_s) => Math.round(1e3 * time_s) / 1e3;
 /** {at, end_s, knots()}: a swing that grows within its first period, and a chirp's fades within its last one. */
 export function swinging(shape, values, measure = LENGTH) {
   const wave = waveform(shape, values, measure);
-  const middle_m = values.offset / measure.per_m;
+  const middle_m = measure.to_m(values.offset);
   const { period, last_period } = values;
   const fade = (time_s) => ease(time_s / period) * (shape === "chirp" ? ease((wave.end_s - time_s) / last_period) : 1);
   const at = (time_s) => middle_m + fade(time_s) * (wave.at(time_s) - middle_m);

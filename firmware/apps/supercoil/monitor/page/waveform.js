@@ -16,8 +16,8 @@ export const SHAPES = {
 const chirped = ({ period, last_period, duration }) => (time_s) =>
   time_s / period + ((1 / last_period - 1 / period) * time_s ** 2) / (2 * duration);
 
-function swing({ offset, amplitude }, phase, shape, { per_m }) {
-  return (time_s) => (offset + amplitude * shape(phase(time_s))) / per_m;
+function swing({ offset, amplitude }, phase, shape, { to_m }) {
+  return (time_s) => to_m(offset + amplitude * shape(phase(time_s)));
 }
 
 const sine = (phase) => Math.sin(2 * Math.PI * phase);
@@ -30,7 +30,7 @@ export function waveform(shape, values, measure = LENGTH) {
 }
 
 /** What is wrong with the values, in words, or "". max_m: the channel's travel. */
-export function refuse_values(shape, values, max_m, { unit, per_m, min_m } = LENGTH) {
+export function refuse_values(shape, values, max_m, { unit, of_m, min_m } = LENGTH) {
   for (const [name, [label]] of Object.entries(SHAPES[shape])) {
     const value = values[name];
     if (!Number.isFinite(value)) return `${label}: a number is missing`;
@@ -38,7 +38,7 @@ export function refuse_values(shape, values, max_m, { unit, per_m, min_m } = LEN
   }
   const low = values.offset - Math.abs(values.amplitude);
   const high = values.offset + Math.abs(values.amplitude);
-  const max = max_m * per_m, min = min_m(max_m) * per_m;
+  const max = of_m(max_m), min = of_m(min_m(max_m));
   if (low < min || high > max) {
     return `offset and amplitude reach from ${low.toFixed(2)} to ${high.toFixed(2)} ${unit}; allowed: ${min ? min.toFixed(2) : 0} to ${max.toFixed(2)} ${unit}`;
   }

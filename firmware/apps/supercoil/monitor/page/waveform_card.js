@@ -101,7 +101,7 @@ export class WaveformCard {
   /** limits: of the detectors, by fault; measure: in which positions are typed. */
   update(limits, measure) {
     this.max_m = limits.get("over_travel");
-    const same = measure.per_m === this.measure.per_m;
+    const same = measure.unit === this.measure.unit;
     this.measure = measure;
     if (same) return;
     for (const { typed_unit } of this.fields.values()) if (typed_unit) show(typed_unit, measure.unit);

@@ -1,5 +1,6 @@
 #include "loop/known_muscle.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <CppUTest/TestHarness.h>
@@ -31,10 +32,13 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   CHECK(known_quantities[known_configured] == "configured_thermal_mass_J_per_K");
   CHECK(known_quantities[known_joint_lever - 1] == "configured_cold_resistance_Ohm");
   CHECK(known_quantities[known_joint_lever] == "joint_lever_m");
-  CHECK(known_quantities.back() == "joint_other_node_offset");
+  CHECK(known_quantities[known_joint_other_node_offset] == "joint_other_node_offset");
+  CHECK(known_quantities[known_lever_first] == "joint_lever_first_rad");
+  CHECK(known_quantities[known_lever_points] == "joint_lever_1_m");
+  LONGS_EQUAL(control::Lever::max_points, known_quantities.size() - known_lever_points);
   const KnownMuscle known = known_muscle(
       {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, {},
-      {{.stiffness_N_per_m = 14.0}, 8.0, {-0.015, -1.0}});
+      {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}});
   DOUBLES_EQUAL(9.0, known[known_cold_resistance], 0.0);
   DOUBLES_EQUAL(0.25, known[known_position_offset], 0.0);
   DOUBLES_EQUAL(1.5, known[known_position_scale], 0.0);
@@ -43,4 +47,47 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   DOUBLES_EQUAL(8.0, known[known_joint_lever - 1], 0.0);
   DOUBLES_EQUAL(-0.015, known[known_joint_lever], 0.0);
   DOUBLES_EQUAL(-1.0, known[known_joint_other_node_offset], 0.0);
+}
+
+namespace {
+
+KnownMuscle known_in(const PlaceInJoint& joint) {
+  return known_muscle({}, {}, 0.0, {}, {{}, 8.0, joint});
+}
+
+}  // namespace
+
+TEST_GROUP(ToldJoint){};
+
+TEST(ToldJoint, IsTheOneThatItsBoardHas) {
+  const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
+  for (const control::Lever& lever : {control::Lever(0.02), control::Lever(-0.5, 0.25, radii_m)}) {
+    for (const int direction : {1, -1}) {
+      const PlaceInJoint told = told_joint(known_in({direction, lever, 2.0}));
+      LONGS_EQUAL(direction, told.direction);
+      DOUBLES_EQUAL(2.0, told.other_channel_offset, 0.0);
+      for (const double angle_rad : {-1.0, -0.2, 0.0, 0.1, 2.0})
+        DOUBLES_EQUAL(direction * lever.arc_m(angle_rad), told.position_m(angle_rad), 1e-15);
+    }
+  }
+  LONGS_EQUAL(0, told_joint(known_in({})).direction);
+}
+
+TEST(ToldJoint, ATableThatCannotBeIsLeftOut) {
+  const std::array<double, 3> radii_m{0.010, 0.014, 0.008};
+  const KnownMuscle right = known_in({1, control::Lever(-0.5, 0.5, radii_m), 1.0});
+  CHECK_FALSE(told_joint(right).lever.is_constant());
+  const auto with = [&right](std::size_t place, double value) {
+    KnownMuscle wrong = right;
+    wrong[place] = value;
+    return told_joint(wrong);
+  };
+  for (const double wrong : {static_cast<double>(NAN), 0.1, static_cast<double>(-INFINITY)})
+    CHECK(with(known_lever_first, wrong).lever == control::Lever(0.014));
+  for (const double wrong : {static_cast<double>(NAN), -0.5, static_cast<double>(INFINITY)})
+    CHECK(with(known_lever_last, wrong).lever == control::Lever(0.014));
+  for (const double wrong : {static_cast<double>(NAN), -0.01, 0.0})
+    CHECK(with(known_lever_points + 1, wrong).lever == control::Lever(0.014));
+  for (const double wrong : {static_cast<double>(NAN), 0.0})
+    LONGS_EQUAL(0, with(known_joint_lever, wrong).direction);
 }

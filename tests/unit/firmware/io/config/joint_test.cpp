@@ -39,7 +39,7 @@ TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
   const JointSettings& joint = c.settings.joints[0];
   UNSIGNED_LONGS_EQUAL(0, joint.agonist);
   UNSIGNED_LONGS_EQUAL(1, joint.antagonist);
-  DOUBLES_EQUAL(0.015, joint.lever_m, 0.0);
+  DOUBLES_EQUAL(0.015, joint.lever.zero_radius_m(), 0.0);
   STRCMP_EQUAL("elbow", c.joints[0].name.c_str());
   const ChannelSettings& antagonist = c.settings.channels[1];
   DOUBLES_EQUAL(-1e-6, antagonist.position.scaling.per_count, 0.0);
@@ -97,6 +97,51 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
                            "lever of 15 mm", "with 0.9 W and 0.7 W", "at most with 2.2 W and 1.8 W",
                            "heat adds 0.22 N and 0.22 N", "stiffness   16 N/m"})
     STRCMP_CONTAINS(part, text.c_str());
+}
+
+TEST(JointConfig, ALeverMayDependOnTheAngle) {
+  const BoardConfig c = read_joint_board(
+      replaced(board_with_joint, "lever_m = 0.015\n",
+               "lever_m = [0.012, 0.016, 0.014]\nlever_range_deg = [-40, 40.0]\n"));
+  const control::Lever& lever = c.settings.joints[0].lever;
+  DOUBLES_EQUAL(0.014, lever.radius_m(-20.0 * 3.14159265358979 / 180.0), 1e-12);
+  DOUBLES_EQUAL(0.016, lever.zero_radius_m(), 1e-12);
+  CHECK(c.settings.channels[0].joint.lever == lever && c.settings.channels[1].joint.lever == lever);
+  LONGS_EQUAL(-1, c.settings.channels[1].joint.direction);
+  const std::string text = describe(c);
+  for (const char* part : {"lever of 12 to 16 mm, of the angle from -40° to 40°; 16 mm at 0°",
+                           "0.002304 to 0.004096 Nm/rad"})
+    STRCMP_CONTAINS(part, text.c_str());
+}
+
+TEST(JointConfig, ALeverThatCannotBeIsNamed) {
+  const auto check_lever = [](const std::string& part, const std::string& lines) {
+    check_answer(part, replaced(board_with_joint, "lever_m = 0.015\n", lines));
+  };
+  check_lever(
+      "joint[1].lever_m = [0.012, 0.016]: needs lever_range_deg, the angles of its first and its "
+      "last lever",
+      "lever_m = [0.012, 0.016]\n");
+  check_lever(
+      "joint[1].lever_range_deg = [-40, 40]: needs a list of levers as lever_m, the first one at "
+      "its first angle",
+      "lever_m = 0.012\nlever_range_deg = [-40.0, 40.0]\n");
+  check_lever(
+      "joint[1].lever_range_deg = [10, 40]: must go from an angle of at most 0 to one of at least "
+      "0",
+      "lever_m = [0.012, 0.016]\nlever_range_deg = [10.0, 40.0]\n");
+  check_lever(
+      "joint[1].lever_range_deg = [0, 0]: must go from an angle of at most 0 to one of at least 0",
+      "lever_m = [0.012, 0.016]\nlever_range_deg = [0.0, 0.0]\n");
+  check_lever(
+      "joint[1].lever_m = [0.012, 0]: must be a list of 2 to 7 numbers, each 0.0001 to 1; 0 is not",
+      "lever_m = [0.012, 0]\nlever_range_deg = [-40.0, 40.0]\n");
+  check_lever(
+      "joint[1].lever_m = [0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01]: must be a list of 2 to "
+      "7 numbers, each 0.0001 to 1",
+      "lever_m = [0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01]\nlever_range_deg = [-40.0, "
+      "40.0]\n");
+  check_lever("joint[1].lever_m = 'long': must be a number, 0.0001 to 1", "lever_m = 'long'\n");
 }
 
 TEST(JointConfig, WhatCannotBeIsNamed) {

@@ -12,6 +12,15 @@ TEST(Nearest, ForgottenUnitComesFirst) {
   CHECK(nearest.lacks_unit);
 }
 
+TEST(Nearest, OfSeveralThatLackMoreThanAUnitIsTheShortest) {
+  for (const auto& known : {std::vector<std::string>{"lever_range_deg", "lever_m", "leverr"},
+                            std::vector<std::string>{"leverr", "lever_m", "lever_range_deg"}}) {
+    const Nearest nearest = nearest_name("lever", known);
+    STRCMP_EQUAL("lever_m", nearest.name.c_str());
+    CHECK(nearest.lacks_unit);
+  }
+}
+
 TEST(Nearest, OtherwiseTheFewestEdits) {
   const Nearest nearest = nearest_name("rate_hz", {"duration_s", "rate_Hz", "seed"});
   STRCMP_EQUAL("rate_Hz", nearest.name.c_str());

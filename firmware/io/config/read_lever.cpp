@@ -1,0 +1,43 @@
+#include "config/read_lever.hpp"
+
+#include <numbers>
+
+namespace supercoil::config {
+
+namespace {
+
+constexpr const char* lever_key = "lever_m";
+constexpr const char* range_key = "lever_range_deg";
+constexpr double rad_per_deg = std::numbers::pi / 180.0;
+constexpr double max_angle_deg = 180.0;
+
+}  // namespace
+
+control::Lever read_lever(Section& section, Range radius_m, std::optional<double> fallback_m) {
+  const bool table = section.has(lever_key) && section.table() != nullptr &&
+                     (*section.table())[lever_key].is_array();
+  if (!table) {
+    if (section.has(range_key)) {
+      section.wrong(range_key,
+                    "needs a list of levers as lever_m, the first one at its first angle");
+    }
+    section.allow({range_key});
+    return control::Lever(fallback_m ? section.number(lever_key, *fallback_m, radius_m)
+                                     : section.required_number(lever_key, radius_m));
+  }
+  const auto radii_m = section.numbers(lever_key, {radius_m.highest, radius_m.highest}, radius_m, 2,
+                                       control::Lever::max_points);
+  if (!section.has(range_key)) {
+    section.wrong(lever_key, "needs lever_range_deg, the angles of its first and its last lever");
+    return control::Lever(radii_m.front());
+  }
+  const auto range_deg =
+      section.numbers(range_key, {-1.0, 1.0}, {-max_angle_deg, max_angle_deg}, 2, 2);
+  if (!(range_deg[0] <= 0.0 && range_deg[1] >= 0.0 && range_deg[0] < range_deg[1])) {
+    section.wrong(range_key, "must go from an angle of at most 0 to one of at least 0");
+    return control::Lever(radii_m.front());
+  }
+  return {rad_per_deg * range_deg[0], rad_per_deg * range_deg[1], radii_m};
+}
+
+}  // namespace supercoil::config

@@ -39,7 +39,7 @@ tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Nodes& nodes,
 }  // namespace
 
 int live_run(const RunOptions& options, const Scenario& scenario, const Window& window,
-             OutputFolder& folder, storage::LearnedStore& store) {
+             OutputFolder& folder, LearnedFolder& learned) {
   catch_interrupts();  // before the first line tells others that it runs
   const pid_t parent = getppid();
   auto nodes = Nodes::start(options, scenario, window, folder);
@@ -69,7 +69,7 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
     std::fprintf(stderr, "supercoil-sim: warning: this machine was too slow %" PRId64 " times\n",
                  pace.slips());
   }
-  return nodes->conclude(pace.elapsed_s(), store);
+  return nodes->conclude(pace.elapsed_s(), learned);
 }
 
 }  // namespace supercoil::host_sim

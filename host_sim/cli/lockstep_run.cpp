@@ -30,7 +30,7 @@ bool simulate(Nodes& nodes, Progress& progress) {
 }  // namespace
 
 int lockstep_run(const RunOptions& options, const Scenario& scenario, const Window& window,
-                 OutputFolder& folder, storage::LearnedStore& store) {
+                 OutputFolder& folder, LearnedFolder& learned) {
   Progress progress(scenario.name, options.quiet);
   auto nodes = Nodes::start(options, scenario, window, folder);
   if (!nodes) return fail(exit_wrong_input, nodes.error());
@@ -52,7 +52,7 @@ int lockstep_run(const RunOptions& options, const Scenario& scenario, const Wind
     if (const auto finished = can_log->finish(); !finished)
       return fail(exit_failed, (folder.path() / finished.error()).string());
   }
-  return nodes->conclude(progress.elapsed_s(), store);
+  return nodes->conclude(progress.elapsed_s(), learned);
 }
 
 }  // namespace supercoil::host_sim

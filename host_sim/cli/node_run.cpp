@@ -57,9 +57,9 @@ void NodeRun::warn() const {
   }
 }
 
-int NodeRun::conclude(double wall_s, storage::LearnedStore& store) {
+int NodeRun::conclude(double wall_s, LearnedFolder& learned) {
   if (!options_->real_time) warn();
-  if (const auto kept = keep(recorder_, simulation_, store, *options_); !kept)
+  if (const auto kept = keep(recorder_, simulation_, learned, *options_); !kept)
     return fail(exit_failed, kept.error());
   if (trace_) {
     if (const auto finished = trace_->finish(); !finished)

@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/learned_folder.hpp"
 #include "recorder/flight_recorder.hpp"
 #include "report/output_folder.hpp"
 #include "report/run_plot.hpp"
 #include "report/trace_writer.hpp"
 #include "runner/summary.hpp"
 #include "storage/posix_files.hpp"
-#include "storage/store.hpp"
 
 namespace supercoil::host_sim {
 
@@ -27,7 +27,7 @@ class NodeRun {
   Simulation& simulation() { return simulation_; }
   const Simulation& simulation() const { return simulation_; }
   /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
-  int conclude(double wall_s, storage::LearnedStore& store);
+  int conclude(double wall_s, LearnedFolder& learned);
 
  private:
   void warn() const;

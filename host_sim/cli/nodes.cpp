@@ -38,10 +38,10 @@ void Nodes::step() {
     node->step();
 }
 
-int Nodes::conclude(double wall_s, storage::LearnedStore& store) {
+int Nodes::conclude(double wall_s, LearnedFolder& learned) {
   int status = exit_done;
   for (const auto& node : nodes_)
-    status = std::max(status, node->conclude(wall_s, store));
+    status = std::max(status, node->conclude(wall_s, learned));
   if (folders_.empty()) return status;
   if (const auto done = folder_->commit(); !done) return fail(exit_failed, done.error());
   return status;

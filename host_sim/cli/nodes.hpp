@@ -27,7 +27,7 @@ class Nodes {
   const Simulation& first() const { return nodes_.front()->simulation(); }
   void step();
   /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
-  int conclude(double wall_s, storage::LearnedStore& store);
+  int conclude(double wall_s, LearnedFolder& learned);
 
  private:
   explicit Nodes(OutputFolder& folder) : folder_(&folder) {}

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/learned_folder.hpp"
 #include "cli/runs.hpp"
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
@@ -12,8 +13,6 @@
 #include "runner/summary.hpp"
 #include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
-#include "storage/posix_files.hpp"
-#include "storage/store.hpp"
 
 namespace supercoil::host_sim {
 
@@ -56,8 +55,7 @@ void tell_feasibility(const Scenario& scenario, bool in_brief) {
 
 /// Of --board, if there is one. The error is whole lines.
 tl::expected<void, std::string> use_own_board(const RunOptions& options,
-                                              const std::optional<board::Learned>& learned,
-                                              Scenario& scenario) {
+                                              const LearnedMuscles& learned, Scenario& scenario) {
   if (options.board.empty()) return {};
   const auto config = config::read_board_config(options.board);
   if (!config) return tl::unexpected(config::to_text(config.error()));
@@ -75,22 +73,15 @@ tl::expected<void, std::string> use_own_board(const RunOptions& options,
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  storage::PosixFiles files;
-  storage::LearnedStore store(options.learned, 1, files);
-  std::optional<board::Learned> learned;
-  if (!options.learned.empty()) {
-    const auto loaded = store.load();
-    if (!loaded) return fail(exit_wrong_input, loaded.error());
-    for (const std::string& problem : loaded->problems)
-      std::fprintf(stderr, "supercoil-sim: %s\n", problem.c_str());
-    learned = loaded->learned;
-  }
-  auto scenario = read_scenario(options.scenario, learned);
+  LearnedFolder folder_of_learned(options.learned);
+  const auto learned = folder_of_learned.load();
+  if (!learned) return fail(exit_wrong_input, learned.error());
+  auto scenario = read_scenario(options.scenario, *learned);
   if (!scenario) {
     std::fputs(config::to_text(scenario.error()).c_str(), stderr);
     return exit_wrong_input;
   }
-  if (const auto used = use_own_board(options, learned, *scenario); !used) {
+  if (const auto used = use_own_board(options, *learned, *scenario); !used) {
     std::fputs(used.error().c_str(), stderr);
     return exit_wrong_input;
   }
@@ -117,9 +108,9 @@ int run_command(const RunOptions& options) {
       OutputFolder::open(options.out.empty() ? "supercoil-out/" + scenario->name : options.out);
   if (!folder) return fail(exit_wrong_input, folder.error());
 
-  if (options.real_time) return live_run(options, *scenario, *window, *folder, store);
+  if (options.real_time) return live_run(options, *scenario, *window, *folder, folder_of_learned);
   if (!options.quiet) tell_feasibility(*scenario, true);
-  return lockstep_run(options, *scenario, *window, *folder, store);
+  return lockstep_run(options, *scenario, *window, *folder, folder_of_learned);
 }
 
 }  // namespace supercoil::host_sim

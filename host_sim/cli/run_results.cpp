@@ -106,17 +106,14 @@ std::string prefix(const RunOptions& options, const Scenario& scenario) {
 }
 
 tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
-                                     const Simulation& simulation, storage::LearnedStore& store,
+                                     const Simulation& simulation, LearnedFolder& learned,
                                      const RunOptions& options) {
   recorder.finish();
   for (const recorder::RecorderNote& note : recorder.take_notes()) {
     if (note.problem || !options.quiet)
       std::fprintf(note.problem ? stderr : stdout, "%s\n", note.text.c_str());
   }
-  if (options.learned.empty() || !simulation.learned()) return {};
-  if (const auto saved = store.save(*simulation.learned()); !saved)
-    return tl::unexpected(saved.error());
-  return {};
+  return learned.save(simulation);
 }
 
 tl::expected<void, std::string> conclude(const Summary& summary, const Scenario& scenario,

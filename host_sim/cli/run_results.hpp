@@ -6,11 +6,11 @@
 #include <tl/expected.hpp>
 
 #include "cli/commands.hpp"
+#include "cli/learned_folder.hpp"
 #include "plot/figure.hpp"
 #include "recorder/flight_recorder.hpp"
 #include "report/output_folder.hpp"
 #include "runner/summary.hpp"
-#include "storage/store.hpp"
 
 namespace supercoil::host_sim {
 
@@ -27,7 +27,7 @@ std::string prefix(const RunOptions& options, const Scenario& scenario);
 /// All that happened: the recorder's last file, its notes, what the board learned.
 /// The error says what could not be kept.
 tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
-                                     const Simulation& simulation, storage::LearnedStore& store,
+                                     const Simulation& simulation, LearnedFolder& learned,
                                      const RunOptions& options);
 
 /// summary.json in the folder, which is then committed; prints its figures unless quiet.

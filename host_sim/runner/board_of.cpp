@@ -147,6 +147,12 @@ MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
   return m;
 }
 
+void set_known(ChannelSettings& channel, const KnownBefore& known) {
+  channel.muscle_identified = known.muscle_identified;
+  channel.response_ratio = known.response_ratio;
+  channel.calibration = known.calibration;
+}
+
 /// The other channel of a joint: the same position with the other sign, and a muscle of its own.
 ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
                               const MuscleChannelSettings& simulated) {
@@ -154,14 +160,11 @@ ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
   const AntagonistConditions& antagonist = *c.antagonist();
   const double resistance_Ohm = antagonist.plant.resistance_Ohm;
   channel.muscle = antagonist.muscle;
-  channel.muscle_identified = false;
-  channel.response_ratio = 0.0;
+  set_known(channel, scenario.known[1]);
   channel.position.scaling = mirrored(channel.position.scaling);
   channel.heater.current.scaling = scaling_of(simulated.current);
   channel.heater.cold_resistance_Ohm = resistance_Ohm;
   channel.heater.temperature_coefficient_per_K = antagonist.plant.temperature_coefficient_per_K;
-  channel.calibration = {};
-  channel.calibration.cold_resistance_Ohm = resistance_Ohm;
   channel.thermal = thermal_of(c, antagonist.muscle);
   channel.supervision = supervision_of(scenario, mirrored(c.position_sensor), resistance_Ohm);
   return channel;
@@ -224,8 +227,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
 
   ChannelSettings& channel = board.channels[0];
   channel.muscle = c.muscle;
-  channel.muscle_identified = scenario.muscle_identified;
-  channel.response_ratio = scenario.response_ratio;
+  set_known(channel, scenario.known[0]);
   channel.position.scaling = scaling_of(simulated.channels[0].position);
   channel.heater.current.scaling = scaling_of(simulated.channels[0].current);
   channel.position.max_age_s = max_age_s(scenario, simulated.channels[0].position);
@@ -233,7 +235,6 @@ BoardSettings firmware_of(const Scenario& scenario) {
   board.supply.max_age_s = max_age_s(scenario, simulated.supply);
   channel.heater.cold_resistance_Ohm = c.plant.resistance_Ohm;
   channel.heater.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
-  channel.calibration = scenario.calibration;
   channel.senses.error_ratio = c.sense_error_ratio;
   channel.heater.error_feedback = c.power.error_feedback;
   channel.heater.delay_s = c.power.delay_s;

@@ -80,11 +80,9 @@ void Simulation::housekeep() {
     if (answer.command.id == commanded) answer_ = answer;
   }
   if (link_) link_->poll(board_.now());
-  while (loop_.channel(0).take_learned_update(learned_)) {
-  }
-  // Of an antagonist nobody keeps it; left where it is it would fill its queue.
-  board::LearnedUpdate forgotten;
-  while (conditions_->antagonist() != nullptr && loop_.channel(1).take_learned_update(forgotten)) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(scenario_->channels()); ++i) {
+    while (loop_.channel(i).take_learned_update(learned_[i])) {
+    }
   }
 }
 

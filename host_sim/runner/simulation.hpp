@@ -91,8 +91,11 @@ class Simulation {
   SimulatedCanBus* bus() { return bus_ ? &*bus_ : nullptr; }
   /// The board's clock at the scenario's time 0.
   hal::Time start() const { return start_; }
-  /// What identify or calibrate found last; empty when nothing was.
-  const std::optional<board::Learned>& learned() const { return learned_; }
+  /// What identify or calibrate found last of a channel's muscle, 1: a joint's antagonist's; empty
+  /// when nothing was.
+  const std::optional<board::Learned>& learned(std::size_t channel = 0) const {
+    return learned_[channel];
+  }
   /// The last first motion; empty when none began.
   const std::optional<FirstMotionRun>& first_motion() const { return first_motion_; }
 
@@ -132,7 +135,7 @@ class Simulation {
   hal::Time start_{};
   std::optional<SimulatedCanBus> bus_;
   std::optional<telemetry::CanEndpoint> link_;
-  std::optional<board::Learned> learned_;
+  LearnedMuscles learned_;
   std::optional<FirstMotionRun> first_motion_;
 };
 

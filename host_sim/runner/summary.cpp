@@ -99,6 +99,10 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   }
   const auto& learned = simulation.learned();
   json["learned"] = learned ? learned_json(*learned) : ordered_json();
+  if (scenario.start.antagonist() != nullptr) {
+    const auto& other = simulation.learned(1);
+    json["learned_antagonist"] = other ? learned_json(*other) : ordered_json();
+  }
   json["first_motion"] = ordered_json();
   if (const auto& motion = simulation.first_motion()) {
     json["first_motion"] = {{"promised_rms_m", finite(motion->promised_rms_m())},

@@ -136,14 +136,16 @@ BoardSettings board_of_one(const BoardSettings& all, std::size_t channel,
 }  // namespace
 
 OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::size_t channel,
-                    const std::optional<board::Learned>& learned) {
+                    const LearnedMuscles& learned) {
   if (auto checked = check_supply(scenario.start, config.settings); !checked) return checked;
   if (auto checked = check_events(scenario); !checked) return checked;
   const auto joint = find_joint(scenario.start, config.settings, channel);
   if (!joint) return tl::unexpected(joint.error());
   if (*joint) channel = (*joint)->agonist;
   BoardSettings board = board_of_one(config.settings, channel, *joint);
-  if (learned) apply_learned(board.channels[0], *learned);
+  for (std::size_t i = 0; i < board.channels.size(); ++i) {
+    if (learned[i]) apply_learned(board.channels[i], *learned[i]);
+  }
   scenario.rate_Hz = board.rate_Hz;
   if (config.can) scenario.can = *config.can;
   scenario.can.first_node = static_cast<can::Node>(scenario.can.first_node + channel);

@@ -7,7 +7,6 @@
 
 #include <tl/expected.hpp>
 
-#include "board/learned.hpp"
 #include "config/board_config.hpp"
 #include "scenario/scenario.hpp"
 
@@ -18,7 +17,6 @@ namespace supercoil::host_sim {
 /// supply and what is asked for stay the scenario's. channel: from 0. The error says which of the
 /// two must change, and how.
 tl::expected<void, std::string> use_board(Scenario& scenario, const config::BoardConfig& config,
-                                          std::size_t channel,
-                                          const std::optional<board::Learned>& learned);
+                                          std::size_t channel, const LearnedMuscles& learned = {});
 
 }  // namespace supercoil::host_sim

@@ -134,8 +134,24 @@ void apply_changes(toml::table& document, toml::table&& changes) {
   }
 }
 
+namespace {
+
+KnownBefore known_before(const std::optional<board::Learned>& learned,
+                         const control::PhysicalParameters& configured,
+                         const PlantSettings& plant) {
+  KnownBefore known;
+  known.calibration.cold_resistance_Ohm = plant.resistance_Ohm;
+  if (!learned) return known;
+  known.calibration = learned->calibration;
+  known.muscle_identified = !(learned->muscle == configured);
+  known.response_ratio = learned->response_ratio;
+  return known;
+}
+
+}  // namespace
+
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
-                                  const std::optional<board::Learned>& learned) {
+                                  const LearnedMuscles& learned) {
   config::Diagnostics diagnostics(name);
   toml::table document = config::parse(text, diagnostics);
   if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
@@ -143,7 +159,7 @@ ScenarioOrProblems parse_scenario(const std::string& text, const std::string& na
 }
 
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
-                                 const std::optional<board::Learned>& learned) {
+                                 const LearnedMuscles& learned) {
   config::Diagnostics diagnostics(name);
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
@@ -152,14 +168,14 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   std::vector<WrittenEvent> events = take_events(document, scenario.duration_s, diagnostics);
   const BelievedMuscles configured = read_muscles(document, diagnostics);
   BelievedMuscles believed = configured;
-  if (learned) believed.muscle = learned->muscle;
+  if (learned[0]) believed.muscle = learned[0]->muscle;
+  if (learned[1]) believed.antagonist = learned[1]->muscle;
   scenario.start = read_conditions(document, believed, scenario.step_s(), diagnostics);
-  scenario.calibration.cold_resistance_Ohm = scenario.start.plant.resistance_Ohm;
-  if (learned) {
-    scenario.calibration = learned->calibration;
-    scenario.muscle_identified = !(learned->muscle == configured.muscle);
-    scenario.response_ratio = learned->response_ratio;
-  }
+  scenario.known = {
+      known_before(learned[0], configured.muscle, scenario.start.plant),
+      known_before(learned[1], configured.antagonist,
+                   scenario.start.antagonist() != nullptr ? scenario.start.antagonist()->plant
+                                                          : scenario.start.plant)};
   // Each event is laid over all before it, and the whole is read and checked again. Events at one
   // time are one change: what the first alone would make impossible, the second may put right.
   for (auto event = events.begin(); event != events.end() && diagnostics.empty(); ++event) {
@@ -182,8 +198,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   return scenario;
 }
 
-ScenarioOrProblems read_scenario(const std::string& path,
-                                 const std::optional<board::Learned>& learned) {
+ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned) {
   if (const auto text = builtin_scenario(path)) {
     return parse_scenario(std::string(*text), path, learned);
   }

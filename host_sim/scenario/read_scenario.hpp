@@ -1,7 +1,6 @@
 // Scenarios from TOML.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,13 +16,12 @@ namespace supercoil::host_sim {
 using ScenarioOrProblems = tl::expected<Scenario, std::vector<config::Problem>>;
 
 /// path: a .toml file, or the name of a built-in scenario.
-/// learned: what a board learned before takes the place of [muscle].
-ScenarioOrProblems read_scenario(const std::string& path,
-                                 const std::optional<board::Learned>& learned = {});
+/// learned: takes the place of [muscle], and of [joint.antagonist_muscle].
+ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& learned = {});
 
 /// The same from text; name: how messages call it.
 ScenarioOrProblems parse_scenario(const std::string& text, const std::string& name,
-                                  const std::optional<board::Learned>& learned = {});
+                                  const LearnedMuscles& learned = {});
 
 /// Lays one document over another, as an event is laid over what was before it: a table that names
 /// its kind replaces the old one, other keys come beside those that are there.
@@ -31,6 +29,6 @@ void apply_changes(toml::table& document, toml::table&& changes);
 
 /// The same from a document.
 ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
-                                 const std::optional<board::Learned>& learned = {});
+                                 const LearnedMuscles& learned = {});
 
 }  // namespace supercoil::host_sim

@@ -1,6 +1,7 @@
 // A simulation run as its author wrote it, checked and complete.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -23,6 +24,16 @@ struct Event {
   bool reset;           ///< the operator resets a fault and arms again, where it is possible
 };
 
+/// What a channel knew of its muscle before it started.
+struct KnownBefore {
+  bool muscle_identified = false;  ///< not only believed
+  double response_ratio = 0.0;     ///< of small motions
+  board::Calibration calibration;  ///< its resistance is the plant's unless learned
+};
+
+/// What a board learned before: of its muscle, or of a joint's agonist and antagonist.
+using LearnedMuscles = std::array<std::optional<board::Learned>, 2>;
+
 struct Scenario {
   std::string name;
   std::uint32_t crc32 = 0;  ///< of what is written, without comments and order of keys
@@ -30,9 +41,7 @@ struct Scenario {
   double rate_Hz = 1000.0;
   std::uint64_t seed = 1;
   int substeps = 1;
-  bool muscle_identified = false;  ///< identified before: not only believed
-  double response_ratio = 0.0;     ///< of small motions, learned before
-  board::Calibration calibration;  ///< learned before; its resistance is [plant]'s otherwise
+  std::array<KnownBefore, 2> known;  ///< likewise
   /// The firmware of a board of the user's own, with one channel or one
   /// joint; empty: one for the scenario.
   std::optional<BoardSettings> board;

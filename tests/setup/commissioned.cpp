@@ -54,7 +54,7 @@ host_sim::Scenario scenario_of(const HeldOut& muscle, const config::BoardConfig&
   board::Learned compared;
   compared.has_muscle = false;
   compared.senses = {1.0, 1.0, sense_error_ratio, 1.0};
-  if (const auto used = host_sim::use_board(*scenario, config, 0, compared); !used)
+  if (const auto used = host_sim::use_board(*scenario, config, 0, {compared}); !used)
     throw std::runtime_error(used.error());
   return std::move(*scenario);
 }

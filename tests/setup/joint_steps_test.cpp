@@ -61,7 +61,7 @@ host_sim::Scenario scenario_on(const config::BoardConfig& config) {
       "[joint.antagonist]\nresistance_Ohm = 9.5\nforce_per_kelvin_N_per_K = 0.0095\n",
       "joint.toml");
   if (!scenario) FAIL(config::to_text(scenario.error()).c_str());
-  const auto used = host_sim::use_board(*scenario, config, 0, std::nullopt);
+  const auto used = host_sim::use_board(*scenario, config, 0);
   if (!used) FAIL(used.error().c_str());
   return std::move(*scenario);
 }

@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import time
+import tomllib
 import unittest
 
 from sim_program import EXAMPLES, PROGRAM, SHORT, ProgramCase
@@ -73,6 +74,19 @@ class Results(ProgramCase):
         done = self.run_program("run", "s.toml", "--out", "third", *options)
         self.assertEqual(done.returncode, 0)
         self.assertIn("memory/learned-1.toml:", done.stderr)
+
+    def test_what_is_learned_of_both_muscles_of_a_joint_is_kept(self):
+        (self.path / "memory").mkdir()
+        text = "simulation.duration_s = 240.0\noperator.action = 'identify'\n[joint]\nantagonist.force_per_kelvin_N_per_K = 0.01\n"
+        for extra in ([], ["--board", EXAMPLES / "joint-as5600-ads1115.toml"]):
+            done = self.run_program("run", self.scenario(text), "--out", "out", "--learned", "memory", "--no-plot", "--no-trace", "--quiet", *extra)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            summary = json.loads((self.path / "out/summary.json").read_text())
+            for channel, told in ((1, "learned"), (2, "learned_antagonist")):
+                stored = tomllib.loads((self.path / f"memory/learned-{channel}.toml").read_text())
+                self.assertEqual(stored["muscle"]["stiffness_N_per_m"], summary[told]["stiffness_N_per_m"])
+                self.assertAlmostEqual(summary[told]["stiffness_N_per_m"], 32.0, delta=3.0)
+        self.assertEqual(stored["version"], 2)
 
     def test_run_writes_trace_summary_and_plot(self):
         done = self.run_program("run", self.scenario(SHORT), "--out", "out", "--window", "1:2")

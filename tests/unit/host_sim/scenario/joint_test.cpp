@@ -121,6 +121,26 @@ TEST(JointScenario, WrongOnesAreToldWhatIsAllowed) {
       "[joint]\nlever_m = 0.1\ninertia_kg_m2 = 100.0");
 }
 
+TEST(JointScenario, WhatWasLearnedOfEitherMuscleIsUsed) {
+  const std::string text = "[joint]\nantagonist.resistance_Ohm = 7.0\n";
+  LearnedMuscles learned;
+  learned[1].emplace();
+  learned[1]->muscle = read(text).start.antagonist()->muscle;
+  learned[1]->muscle.stiffness_N_per_m = 27.0;
+  learned[1]->calibration.cold_resistance_Ohm = 7.5;
+  learned[1]->response_ratio = 0.8;
+  const auto known = parse_scenario(text, "s.toml", learned);
+  CHECK(known.has_value());
+  const BoardSettings board = firmware_of(*known);
+  DOUBLES_EQUAL(32.0, board.channels[0].muscle.stiffness_N_per_m, 0.0);
+  CHECK_FALSE(board.channels[0].muscle_identified);
+  DOUBLES_EQUAL(27.0, board.channels[1].muscle.stiffness_N_per_m, 0.0);
+  CHECK(board.channels[1].muscle_identified);
+  DOUBLES_EQUAL(7.5, board.channels[1].calibration.cold_resistance_Ohm, 0.0);
+  DOUBLES_EQUAL(7.0, board.channels[1].heater.cold_resistance_Ohm, 0.0);
+  DOUBLES_EQUAL(0.8, board.channels[1].response_ratio, 0.0);
+}
+
 TEST(JointScenario, ItsLeverMayDependOnTheAngle) {
   const Scenario s =
       read("[joint]\nlever_m = [0.012, 0.015, 0.012]\nlever_range_deg = [-30.0, 30.0]\n");

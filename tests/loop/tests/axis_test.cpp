@@ -260,3 +260,23 @@ TEST(Axis, ANewScaleIsNoMotionOfTheMuscle) {
     CHECK(rig().fault() == Fault::heater_not_responding);
   }
 }
+
+/// While the muscle rests it cools, and its estimator does not look: how it lies then is no motion.
+TEST(Axis, TheEstimatorBeginsWhereAMuscleThatHadCooledIs) {
+  const auto follow = [this](double position_m, double time_s) {
+    CHECK_FALSE(rig().run_until(
+        [&] {
+          rig().send(Verb::position, position_m);
+          return rig().state() == State::fault;
+        },
+        time_s));
+  };
+  follow(0.010, 20.0);
+  const auto before = rig().snapshot().theta;
+  CHECK(answer_to(Verb::rest) == Refusal::none);
+  rig().run(30.0);
+  follow(0.001, 0.5);
+  for (Eigen::Index i = 0; i < before.size(); ++i) {
+    DOUBLES_EQUAL(before[i], rig().snapshot().theta[i], 0.02 * std::abs(before[i]));
+  }
+}

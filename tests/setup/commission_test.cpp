@@ -37,6 +37,17 @@ TEST(Commission, AMuscleFollowsAsPromisedFromADescriptionThatIsHalfWrong) {
   }
 }
 
+/// A linear model explains too little of their full strokes.
+TEST(Commission, AMuscleFarFromLinearFollowsAsPromisedAfterShorterStrokes) {
+  for (const unsigned seed : {1035U, 1097U, 1191U}) {
+    const Commissioned c = commission(held_out_muscle(seed, error));
+    STRCMP_EQUAL("", c.refused.c_str());
+    CHECK(c.fault == Fault::none);
+    CHECK(c.error_m <= c.promised_m);
+    CHECK(c.unexplained_m > 0.0);
+  }
+}
+
 TEST(Commission, NothingIsPromisedOfALawThatWasNotTried) {
   const Commissioned c = commission(held_out_muscle(24, error), "adaptive_ff");
   STRCMP_EQUAL("", c.refused.c_str());

@@ -31,6 +31,16 @@ class Excitation {
     position_m_ = position_m;
     begin(Phase::rest);
   }
+  /// Once more, with the power and the reach that are known by now, and shorter strokes: they show
+  /// less of what is not linear.
+  void start_shorter(double position_m) {
+    Excitation shorter(settings_);
+    shorter.position_m_ = position_m;
+    shorter.power_W_ = power_W_;
+    shorter.reach_m_ = shorter_ratio * reach_m_;
+    shorter.begin(Phase::rest);
+    *this = shorter;
+  }
 
   /// One tick: this tick's position. max_W: allowed now. Returns the power to give.
   double step(double position_m, double max_W);
@@ -67,6 +77,7 @@ class Excitation {
   /// with hysteresis depends least on the order in which they come.
   static constexpr std::array<double, 2> highs{0.85, 0.75};
   static constexpr std::array<double, 2> lows{0.15, 0.25};
+  static constexpr double shorter_ratio = 0.7;
   static constexpr double first_check_s = 0.4;
   static constexpr double min_phase_s = 2.0;
   static constexpr double max_still_s = 25.0;
@@ -101,7 +112,7 @@ class Excitation {
   double position_m_ = 0.0;  ///< smoothed
   double speed_m_per_s_ = 0.0;
   double cold_m_ = 0.0;
-  double reach_m_ = 0.0;  ///< from cold_m_
+  double reach_m_ = 0.0;  ///< from cold_m_; 0: not known yet
   double power_W_ = 0.0;
   double begin_m_ = 0.0;  ///< where this phase began
   double check_s_ = 0.0;  ///< after which time of the phase it is judged next

@@ -14,7 +14,8 @@ namespace supercoil::modes {
 /// Excites the muscle at its own pace, fits it, and judges each parameter by itself. A muscle is
 /// found when θ2 to θ4, which controllers use, are known (θ2 roughly), explain the last third of
 /// the experiment, and lie within a span of what is believed. What is not known of θ1 stays as
-/// believed; position and power never give γ and m̂, so they do too.
+/// believed; position and power never give γ and m̂, so they do too. A muscle of which the model
+/// explains too little is excited once more, with shorter strokes.
 class Identify {
  public:
   struct Settings {
@@ -32,7 +33,8 @@ class Identify {
   /// How sure the last muscle that was found is. NaN: none was.
   struct Quality {
     control::Theta deviation_ratio = control::Theta::Constant(NAN);  ///< standard; NaN: kept
-    double unexplained_ratio = NAN;  ///< as BatchLeastSquares::Fit has it
+    /// As BatchLeastSquares::Fit has it; of full strokes, also where it took shorter ones.
+    double unexplained_ratio = NAN;
   };
 
   /// max_travel_m: of the channel.
@@ -49,6 +51,8 @@ class Identify {
     elapsed_s_ = 0.0;
     notes_ = 0;
     power_W_ = 0.0;
+    shorter_ = false;
+    unexplained_ratio_ = 0.0;
     excitation_.start(position_m);
     fit_.start(position_m);
   }
@@ -61,17 +65,28 @@ class Identify {
     fit_.step(position_m, applied_power_W,
               cycle > 0 ? std::optional(cycle - 1) : std::optional<std::size_t>());
     power_W_ = excitation_.step(position_m, max_W);
-    const bool goes_on = !excitation_.done() && elapsed_s_ < settings_.max_s;
-    return goes_on ? ModeResult::running : judge();
+    const bool in_time = elapsed_s_ < settings_.max_s;
+    if (!excitation_.done() && in_time) return ModeResult::running;
+    const ModeResult result = judge();
+    if (result != ModeResult::poor_fit || shorter_ || !in_time) return result;
+    shorter_ = true;
+    excitation_.start_shorter(position_m);
+    fit_.start(position_m);
+    power_W_ = 0.0;
+    return ModeResult::running;
   }
 
   double power_W() const { return power_W_; }
-  float progress() const { return excitation_.progress(); }
+  /// 0 to 1; that it is excited once more is not known beforehand.
+  float progress() const {
+    return shorter_ ? 0.5F * (1.0F + excitation_.progress()) : excitation_.progress();
+  }
   /// Above the cold muscle's position, smoothed.
   double risen_m() const { return excitation_.risen_m(); }
   const control::PhysicalParameters& found() const { return found_; }
   const Quality& quality() const { return quality_; }
-  /// IdentifyNotes of the last judgement; 0 while it runs.
+  /// IdentifyNotes of the last judgement; 0 while it runs. With a muscle that was found, poor_fit
+  /// says that it took shorter strokes.
   std::uint8_t notes() const { return notes_; }
 
  private:
@@ -87,6 +102,8 @@ class Identify {
   double step_s_;
   double elapsed_s_ = 0.0;
   double power_W_ = 0.0;
+  bool shorter_ = false;            ///< the second time, with shorter strokes
+  double unexplained_ratio_ = 0.0;  ///< the most that a fit has left
   std::uint8_t notes_ = 0;
   Excitation excitation_;
   control::BatchLeastSquares fit_;

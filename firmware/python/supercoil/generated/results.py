@@ -11,7 +11,7 @@ MEANINGS = {
     Result.interrupted: "by a command or a fault",
     Result.not_cold: "the muscle did not cool within two minutes",
     Result.moved: "the position changed by more than 0.1 mm while its zero was taken",
-    Result.poor_fit: "the muscle did not do what the fit predicted: play, a load that changes, a sensor that slips",
+    Result.poor_fit: "the muscle did not do what the fit predicted: play, a load that changes, a sensor that slips; not even in shorter strokes",
     Result.uncertain: "θ3 or θ4, which controllers need, is not known well enough, or θ2 hardly at all: the sensor is too noisy for this motion",
     Result.implausible: "out of range; of identify also: far from what the configuration says",
     Result.not_stored: "used, but the results before it still wait for the disk",

@@ -40,8 +40,8 @@ struct JointPlantSettings {
 
 /// (I/r²) ẍ = ρ (T₁ − T₂) − c ẋ − k x − (w sin α + load)/r with x = rα, r the lever at the angle 0
 /// and ρ the lever at α over it; T ≥ 0 are the muscles' tensions at the contractions ∫ρ dx and its
-/// negative. Steps as NonlinearPlant's. Which muscles are taut, and their lever, is asked at the
-/// beginning of each step of the mechanics.
+/// negative. Steps as NonlinearPlant's. Which muscles are taut is asked at
+/// the beginning of each step of the mechanics, their lever there and at its expected end.
 class JointPlant {
  public:
   /// step_s > 0, the tick; settings as their comments say, with valid muscles.

@@ -40,6 +40,8 @@ JointPlantSettings read_lever(Section& section) {
       section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::muscle;
   if (pair) p.antagonist.emplace();
   p.lever = config::read_lever(section, {1e-3, 1.0}, p.lever.zero_radius_m());
+  if (!pair && !p.lever.is_constant())
+    section.wrong("lever_m", "may be a list only where the joint is opposed_by \"muscle\"");
   p.inertia_kg_m2 = section.number("inertia_kg_m2", p.inertia_kg_m2, {1e-9, 100.0});
   p.damping_Nms_per_rad = section.number("damping_Nms_per_rad", 0.0, {0.0, 100.0});
   p.spring_Nm_per_rad = section.number("spring_Nm_per_rad", pair ? 0.0 : default_spring_Nm_per_rad,

@@ -30,6 +30,7 @@ TOLD = """const { JointCard } = await import("/joint_card.js");
     const hear = (node, message, row, time_s = 1) =>
         store.append({ newest_s: 1, nodes: { [node]: { [message]: { time_s: [time_s], ...Object.fromEntries(Object.entries(row).map(([name, value]) => [name, [value]])) } } } });
     const muscle = (node, lever_m, other) => {
+        hear(node, "Muscle", { quantity: quantity("joint_lever_7_m"), value: null }, 0.4);
         hear(node, "Muscle", { quantity: quantity("joint_lever_m"), value: lever_m }, 0.5);
         hear(node, "Muscle", { quantity: quantity("joint_other_node_offset"), value: other });
     };
@@ -76,6 +77,16 @@ class Told(ModulesCase):
         # By hand: 6.5 mm to the right end, then 0.1 rad at 11 mm; to the left -6.75 mm, and half of the way back.
         self.assertEqual([card[:3] for card in shown], 2 * [["rotate(34.38)", "angle: 34.38°", "reference: −14.32°"]])
         self.assertAlmostEqual(typed_m, 0.015 * 0.25 - 0.004 * 0.25 ** 2, 9)
+
+    def test_half_of_what_a_board_tells_is_no_joint_yet(self):
+        told = self.ask(TOLD + """const names = ["joint_lever_m", "joint_other_node_offset", "joint_lever_first_rad", "joint_lever_last_rad",
+                ...Array.from({ length: 7 }, (_, i) => `joint_lever_${i + 1}_m`)];
+            const values = [0.015, 1, -0.5, 0.5, 0.012, 0.015, 0.011, null, null, null, null];
+            return names.map((name, i) => {
+                hear(1, "Muscle", { quantity: quantity(name), value: values[i] }, 0.1 + 0.01 * i);
+                return shown(1) !== null;
+            });""")
+        self.assertEqual(told, 10 * [False] + [True])
 
     def test_a_muscle_alone_and_one_that_was_not_asked_have_no_joint(self):
         self.assertEqual(self.ask(TOLD + "muscle(1, null, null); return [shown(1), shown(2)];"), [None, None])

@@ -20,6 +20,7 @@ class Trickle:
     def __init__(self, port):
         self.port = port
         self.connection = None
+        self.sent = 0
 
     def drip(self):
         try:
@@ -33,7 +34,7 @@ class Trickle:
             self.close()
         with contextlib.suppress(OSError):
             if self.connection:
-                self.connection.send(b"P")
+                self.sent += self.connection.send(b"P")
 
     def open(self):
         self.connection = socket.socket()
@@ -57,6 +58,8 @@ def main(port, count):
         for trickle in trickles:
             trickle.drip()
         if turn == 1:
+            if not any(trickle.sent for trickle in trickles):
+                sys.exit(f"nobody takes connections at port {port}")
             print("trickling", flush=True)
         time.sleep(max(0.0, begin_s + BYTE_EVERY_S - time.monotonic()))
 

@@ -77,8 +77,9 @@ inline PlaceInJoint told_joint(const KnownMuscle& known) {
   joint.direction = lever_m > 0.0 ? 1 : -1;
   joint.other_channel_offset = known[known_joint_other_node_offset];
   const auto* const first = known.data() + known_lever_points;
-  const auto* const last = std::find_if(first, known.data() + known.size(),
-                                        [](double radius_m) { return !(radius_m > 0.0); });
+  const auto* const last = std::find_if(first, known.data() + known.size(), [](double radius_m) {
+    return !(radius_m > 0.0 && std::isfinite(radius_m));
+  });
   const double first_rad = known[known_lever_first];
   const double last_rad = known[known_lever_last];
   const bool table = last - first > 1 && first_rad <= 0.0 && last_rad >= 0.0 &&

@@ -25,9 +25,15 @@ constexpr double noise_gain = 2.5;
 constexpr double telling_deviations = 20.0;
 /// As dither_for has it.
 constexpr double max_dither_m = 20e-6;
-/// Of what the linear model leaves unexplained before identify: four of five random muscles
-/// (tests/setup/setup_study.cpp, 1001 to 1200) leave less.
+/// What the linear model leaves unexplained where identify has not told it yet: four of five random
+/// muscles (tests/setup/setup_study.cpp, 1001 to 1200) leave less.
 constexpr double usual_unexplained_ratio = 0.015;
+
+/// What identify told before the last start is not kept.
+double untold_ratio(const ChannelSettings& channel) {
+  return channel.muscle_identified ? modes::Identify::Settings{}.max_unexplained
+                                   : usual_unexplained_ratio;
+}
 
 }  // namespace
 
@@ -72,7 +78,7 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
     p.probe_m = gain * probe_W * std::min(1.0, channel.heater.probe_s / tau_s);
 
   const double unexplained =
-      std::isnan(unexplained_ratio) ? usual_unexplained_ratio : unexplained_ratio;
+      std::isnan(unexplained_ratio) ? untold_ratio(channel) : unexplained_ratio;
   // Where the motion itself tells too little, a dither asks whether the muscle still answers.
   const double quick_m = motion.amplitude_m * turn / std::hypot(turn, motion_corner_rad_per_s);
   if (channel.supervision.proof_of_response && quick_m < telling_deviations * reading_m)

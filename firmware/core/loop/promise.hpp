@@ -34,8 +34,8 @@ struct Promise {
 constexpr bool is_promised_for(const control::ControllerSettings& controller) {
   return controller.kind == control::ControllerKind::learned_ff;
 }
-/// channel: with what identify found in it. unexplained_ratio: of that; NaN: it has not found one
-/// yet.
+/// channel: with what identify found in it. unexplained_ratio: of that; NaN: it has found none
+/// since the start.
 Promise promise_error(const control::LearnedFeedforwardSettings& law,
                       const ChannelSettings& channel, const BoardSettings& board,
                       const FirstMotion& motion, double unexplained_ratio);

@@ -58,7 +58,8 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings) {
                                "channel " + number + " cannot prove by itself that it responds"};
       }
     }
-    if (!(joint.lever.min_radius_m() > 0.0) || !(joint.co_contraction_W >= 0.0))
+    const auto positive = [](double radius_m) { return radius_m > 0.0; };
+    if (!std::ranges::all_of(joint.lever.radii_m(), positive) || !(joint.co_contraction_W >= 0.0))
       return SettingsProblem{"joint", "lever_m must exceed 0, and co_contraction_W be 0 or more"};
     if (!(joint.co_contraction_W <= joint.max_co_contraction_W))
       return SettingsProblem{"joint", "co_contraction_W must not exceed max_co_contraction_W"};

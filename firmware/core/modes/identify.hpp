@@ -68,8 +68,10 @@ class Identify {
     const bool in_time = elapsed_s_ < settings_.max_s;
     if (!excitation_.done() && in_time) return ModeResult::running;
     const ModeResult result = judge();
+    if (shorter_ && result != ModeResult::found) return still_poor();
     if (result != ModeResult::poor_fit || shorter_ || !in_time) return result;
     shorter_ = true;
+    notes_ = 0;
     excitation_.start_shorter(position_m);
     fit_.start(position_m);
     power_W_ = 0.0;
@@ -91,6 +93,11 @@ class Identify {
 
  private:
   ModeResult judge();
+  /// The full strokes did not fit, and the shorter ones do not tell.
+  ModeResult still_poor() {
+    notes_ |= note_poor_fit;
+    return ModeResult::poor_fit;
+  }
   bool knows(const control::BatchLeastSquares::Fit& fit, int i) const;
   bool usable_theta2(const control::BatchLeastSquares::Fit& fit) const;
   bool plausible(double theta, double believed) const;

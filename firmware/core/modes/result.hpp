@@ -29,7 +29,8 @@ inline constexpr std::array<std::string_view, 12> mode_result_names{
     "poor_fit", "uncertain", "implausible", "not_stored",  "too_little_motion", "moved_backwards"};
 
 /// Bits: everything that identify has to say of its last fit. Each is a reason for a refusal, but
-/// for theta1_kept and friction, and for theta2_uncertain unless θ2 is hardly known at all.
+/// for theta1_kept and friction, for theta2_uncertain unless θ2 is hardly known at all, and for
+/// poor_fit where shorter strokes found the muscle.
 enum IdentifyNote : std::uint8_t {
   note_theta1_kept = 1,       ///< not known well enough: the believed one is kept
   note_theta2_uncertain = 2,  ///< its deviation is too large, or the unseen third says another

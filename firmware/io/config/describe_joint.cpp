@@ -41,9 +41,9 @@ std::string radius(const control::Lever& lever) {
     out << 1e3 * lever.zero_radius_m() << " mm";
     return out.str();
   }
-  out << 1e3 * lever.min_radius_m() << " to " << 1e3 * lever.max_radius_m()
-      << " mm, of the angle from " << to_tenth(degrees(lever.first_rad())) << "° to "
-      << to_tenth(degrees(lever.last_rad())) << "°; " << 1e3 * lever.zero_radius_m() << " mm at 0°";
+  out << 1e3 * lever.min_radius_m() << " to " << 1e3 * lever.max_radius_m() << " mm over "
+      << to_tenth(degrees(lever.first_rad())) << "° to " << to_tenth(degrees(lever.last_rad()))
+      << "°; " << 1e3 * lever.zero_radius_m() << " mm at 0°";
   return out.str();
 }
 

@@ -30,6 +30,22 @@ void read_co_contraction(Section& section, const BoardSettings& board, JointSett
   joint.co_contraction_W = joint.max_co_contraction_W;
 }
 
+/// What its muscles may contract by is within what the sensor can read: of a constant lever that is
+/// asked where the limits are read.
+void check_reach(Section& section, const BoardSettings& board, const JointSettings& joint) {
+  for (const std::size_t i : {joint.agonist, joint.antagonist}) {
+    const ChannelSettings& channel = board.channels[i];
+    const double travel_m = channel.supervision.max_travel_m;
+    const double reading_m = channel.joint.reading_of_position_m(travel_m);
+    if (joint.lever.is_constant() || !(reading_m > channel.supervision.max_position_m)) continue;
+    std::ostringstream message;
+    message << "lets channel " << i + 1 << " contract by limits.max_travel_m = " << travel_m
+            << " only where the sensor reads " << reading_m << ", and it can read "
+            << channel.supervision.max_position_m;
+    section.wrong("lever_m", message.str());
+  }
+}
+
 }  // namespace
 
 JointReader::JointReader(std::vector<Section> sections, std::size_t channels)
@@ -84,6 +100,7 @@ void JointReader::finish(BoardConfig& config) {
       joints_[i]->lever = lever;
       read_co_contraction(section, config.settings, *joints_[i]);
       add_joint(config.settings, *joints_[i]);
+      check_reach(section, config.settings, *joints_[i]);
       config.joints.push_back({name});
     }
     section.finish();

@@ -18,8 +18,7 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
                      (*section.table())[lever_key].is_array();
   if (!table) {
     if (section.has(range_key)) {
-      section.wrong(range_key,
-                    "needs a list of levers as lever_m, the first one at its first angle");
+      section.wrong(range_key, "needs lever_m to be a list");
     }
     section.allow({range_key});
     return control::Lever(fallback_m ? section.number(lever_key, *fallback_m, radius_m)
@@ -34,7 +33,7 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
   const auto range_deg =
       section.numbers(range_key, {-1.0, 1.0}, {-max_angle_deg, max_angle_deg}, 2, 2);
   if (!(range_deg[0] <= 0.0 && range_deg[1] >= 0.0 && range_deg[0] < range_deg[1])) {
-    section.wrong(range_key, "must go from an angle of at most 0 to one of at least 0");
+    section.wrong(range_key, "must be two angles, and 0 between them or one of them");
     return control::Lever(radii_m.front());
   }
   return {rad_per_deg * range_deg[0], rad_per_deg * range_deg[1], radii_m};

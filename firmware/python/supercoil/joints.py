@@ -84,8 +84,8 @@ def joint_of(node: int, told: Mapping[Quantity, float]) -> Joint | None:
     lever_m, offset = told[Quantity.joint_lever_m], told[Quantity.joint_other_node_offset]
     if math.isnan(lever_m) or math.isnan(offset):
         return None
-    levers_m = tuple(told[point] for point in _POINTS if told[point] > 0.0)
+    levers_m = tuple(itertools.takewhile(lambda lever_m: lever_m > 0.0, (told[point] for point in _POINTS)))
     first, last = told[Quantity.joint_lever_first_rad], told[Quantity.joint_lever_last_rad]
-    told_all = len(levers_m) > 1 and first < last
+    told_all = len(levers_m) > 1 and first <= 0.0 <= last and first < last
     table = LeverTable(math.degrees(first), math.degrees(last), levers_m) if told_all else None
     return Joint(lever_m, node + round(offset), table)

@@ -1579,7 +1579,7 @@ struct supercoil_estimate_t {
     uint8_t trusted;
 
     /**
-     * All that the last identify has to say, as bits: 1 theta1 was not known well enough, and the believed one was kept (no refusal); 2: theta2 is known to 10 to 50 % only (a refusal beyond); refused because 4, 8: theta3, theta4 is uncertain; 16: the motion was not explained; 32: implausible; 64: the muscle hardly moved.
+     * All that the last identify has to say, as bits: 1 theta1 was not known well enough, and the believed one was kept (no refusal); 2: theta2 is known to 10 to 50 % only (a refusal beyond); refused because 4, 8: theta3, theta4 is uncertain; 16: the motion was not explained (beside found: not that of full strokes, but of shorter ones); 32: implausible; 64: the muscle hardly moved.
      *
      * Range: 0..127 (0..127 -)
      * Scale: 1
@@ -1903,7 +1903,7 @@ struct supercoil_muscle_t {
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) and unexplained_ratio are of the last identify that found a muscle. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1

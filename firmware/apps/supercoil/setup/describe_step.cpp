@@ -84,7 +84,8 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
         "it turns a joint: answer as it moves the joint alone, with the other muscle cold. "
         "Weights hang at the lever, " +
         number_text(1e3 * *lever_m, 4) +
-        " mm from the axis; mm are arcs there; what it lifts is the joint's inertia over the "
+        " mm from the axis; mm are by how much it contracts; what it lifts is the joint's inertia "
+        "over the "
         "lever's square");
   }
   const auto completed = complete(answers, options, who);

@@ -156,6 +156,13 @@ TEST(JointScenario, ItsLeverMayDependOnTheAngle) {
       "[joint]\nlever_m = [0.01, 0.02]");
 }
 
+TEST(JointScenario, BesideASpringTheLeverIsConstant) {
+  check_joint_answer(
+      "3: joint.lever_m = [0.01, 0.02]: may be a list only where the joint is opposed_by "
+      "\"muscle\"",
+      "[joint]\nopposed_by = 'spring'\nlever_m = [0.01, 0.02]\nlever_range_deg = [-9.0, 9.0]");
+}
+
 TEST(JointScenario, AMistakeInPlantIsToldOnce) {
   check_joint_answer("2: plant.force_ratio = 50: must be 0.1 to 20",
                      "[plant]\nforce_ratio = 50.0\n[joint]\nantagonist.creep_ratio = 0.1\n");

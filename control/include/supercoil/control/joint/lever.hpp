@@ -15,7 +15,7 @@ class Lever {
  public:
   static constexpr std::size_t max_points = 7;
 
-  /// Of the joint that the scenarios have by default.
+  /// Constant, of 15 mm.
   Lever() : Lever(0.015) {}
   /// radius_m > 0.
   explicit Lever(double radius_m) : radii_m_{radius_m} {}

@@ -41,11 +41,12 @@ export class Lever {
   }
 }
 
-/** As the board has told it; constant, until it has told all. */
+/** As the board has told it; constant where that is no table. */
 function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever_last_rad: last_rad, ...told }) {
   const levers_m = [];
   for (let i = 1; i <= MAX_POINTS && told[`joint_lever_${i}_m`] > 0; ++i) levers_m.push(told[`joint_lever_${i}_m`]);
-  return levers_m.length > 1 && first_rad < last_rad ? new Lever(levers_m, first_rad, last_rad) : new Lever([Math.abs(joint_lever_m)]);
+  const is_table = levers_m.length > 1 && first_rad <= 0 && last_rad >= 0 && first_rad < last_rad;
+  return is_table ? new Lever(levers_m, first_rad, last_rad) : new Lever([Math.abs(joint_lever_m)]);
 }
 
 /** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: lever_m at the angle 0, < 0 of the antagonist; other is its
@@ -55,6 +56,8 @@ export function joint_of(store, node, now_s) {
   for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) told[store.word("Muscle", "quantity", number)] = value;
   const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
   if (!(Math.abs(lever_m) > 0 && Number.isFinite(offset))) return null;
+  // The last of all: half of a table would turn degrees into wrong metres.
+  if (!(`joint_lever_${MAX_POINTS}_m` in told)) return null;
   const joint = { lever_m, lever: lever_of(told), other: node + offset };
   for (const [number, { limit }] of store.round(joint.other, "Limit", "fault", now_s))
     if (store.word("Limit", "fault", number) === "over_travel") joint.other_travel_m = limit;

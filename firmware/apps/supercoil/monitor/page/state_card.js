@@ -42,7 +42,7 @@ const RESULTS = {
 // What else identify has to say: the bits of identify_notes.
 const NOTES = [
   "θ1 was not known well enough, its believed value is kept", "θ2 is uncertain", "θ3 is uncertain", "θ4 is uncertain",
-  "the motion was not explained", "implausible", "too little motion",
+  "full strokes were not explained", "implausible", "too little motion",
 ];
 
 // Status has this one.

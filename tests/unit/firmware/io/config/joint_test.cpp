@@ -109,8 +109,8 @@ TEST(JointConfig, ALeverMayDependOnTheAngle) {
   CHECK(c.settings.channels[0].joint.lever == lever && c.settings.channels[1].joint.lever == lever);
   LONGS_EQUAL(-1, c.settings.channels[1].joint.direction);
   const std::string text = describe(c);
-  for (const char* part : {"lever of 12 to 16 mm, of the angle from -40° to 40°; 16 mm at 0°",
-                           "0.002304 to 0.004096 Nm/rad"})
+  for (const char* part :
+       {"lever of 12 to 16 mm over -40° to 40°; 16 mm at 0°", "0.002304 to 0.004096 Nm/rad"})
     STRCMP_CONTAINS(part, text.c_str());
 }
 
@@ -122,16 +122,13 @@ TEST(JointConfig, ALeverThatCannotBeIsNamed) {
       "joint[1].lever_m = [0.012, 0.016]: needs lever_range_deg, the angles of its first and its "
       "last lever",
       "lever_m = [0.012, 0.016]\n");
+  check_lever("joint[1].lever_range_deg = [-40, 40]: needs lever_m to be a list",
+              "lever_m = 0.012\nlever_range_deg = [-40.0, 40.0]\n");
   check_lever(
-      "joint[1].lever_range_deg = [-40, 40]: needs a list of levers as lever_m, the first one at "
-      "its first angle",
-      "lever_m = 0.012\nlever_range_deg = [-40.0, 40.0]\n");
-  check_lever(
-      "joint[1].lever_range_deg = [10, 40]: must go from an angle of at most 0 to one of at least "
-      "0",
+      "joint[1].lever_range_deg = [10, 40]: must be two angles, and 0 between them or one of them",
       "lever_m = [0.012, 0.016]\nlever_range_deg = [10.0, 40.0]\n");
   check_lever(
-      "joint[1].lever_range_deg = [0, 0]: must go from an angle of at most 0 to one of at least 0",
+      "joint[1].lever_range_deg = [0, 0]: must be two angles, and 0 between them or one of them",
       "lever_m = [0.012, 0.016]\nlever_range_deg = [0.0, 0.0]\n");
   check_lever(
       "joint[1].lever_m = [0.012, 0]: must be a list of 2 to 7 numbers, each 0.0001 to 1; 0 is not",
@@ -141,6 +138,11 @@ TEST(JointConfig, ALeverThatCannotBeIsNamed) {
       "7 numbers, each 0.0001 to 1",
       "lever_m = [0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01]\nlever_range_deg = [-40.0, "
       "40.0]\n");
+  // 25 mm of the sensor's 41 are enough for max_travel_m by a lever of 15 mm, not by this one.
+  check_lever(
+      "joint[1].lever_m = [0.015, 0.015, 0.004]: lets channel 1 contract by limits.max_travel_m = "
+      "0.025 only where the sensor reads 0.079351, and it can read 0.041",
+      "lever_m = [0.015, 0.015, 0.004]\nlever_range_deg = [-40.0, 40.0]\n");
   check_lever("joint[1].lever_m = 'long': must be a number, 0.0001 to 1", "lever_m = 'long'\n");
 }
 

@@ -230,7 +230,7 @@ class ModulesTest(ModulesCase):
         last = "Last identify or calibrate: "
         self.assertEqual(told, [
             True, last + "found and kept.", last + "found and kept; θ1 was not known well enough, its believed value is kept.",
-            last + "the muscle did not do what the fit predicted; θ2 is uncertain; θ4 is uncertain; the motion was not explained.",
+            last + "the muscle did not do what the fit predicted; θ2 is uncertain; θ4 is uncertain; full strokes were not explained.",
             last + "found and kept; friction takes more than half of a small motion, and the power may be held to less for it."])
 
     def test_page_of_a_fault_becomes_elements_and_never_script(self):

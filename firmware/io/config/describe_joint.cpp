@@ -34,7 +34,7 @@ std::string arc(double arc_m, const control::Lever& lever) {
   return out.str();
 }
 
-/// "15 mm", or "12 to 15 mm, of the angle from -40° to 40°; 14.5 mm at 0°"
+/// "15 mm", or "12 to 15 mm over -40° to 40°; 14.5 mm at 0°"
 std::string radius(const control::Lever& lever) {
   std::ostringstream out;
   if (lever.is_constant()) {

@@ -163,14 +163,17 @@ void check_reach(Section& section, const Conditions& c) {
   if (c.reference.kind == ReferenceKind::power) return;
   std::ostringstream message;
   if (c.joint) {
-    const control::Lever& lever = c.joint->plant.lever;
+    const PlaceInJoint agonist{.direction = 1, .lever = c.joint->plant.lever};
+    const auto contracted_m = [&](double reading_m) {
+      return agonist.position_of_reading_m(Conditions::travel_ratio * reading_m);
+    };
     const PositionSensorSettings& sensor = c.position_sensor;
     const bool pair = c.antagonist() != nullptr;  // beside a spring the muscle only pulls
-    const double min_m = pair ? std::max(Conditions::travel_ratio * sensor.min_m,
-                                         lever.arc_m(c.joint->plant.min_angle_rad))
+    const double min_m = pair ? std::max(contracted_m(sensor.min_m),
+                                         agonist.position_m(c.joint->plant.min_angle_rad))
                               : 0.0;
-    const double max_m = std::min(Conditions::travel_ratio * sensor.range_m,
-                                  lever.arc_m(c.joint->plant.max_angle_rad));
+    const double max_m =
+        std::min(contracted_m(sensor.range_m), agonist.position_m(c.joint->plant.max_angle_rad));
     if (c.reference.lowest() >= min_m && c.reference.highest() <= max_m) return;
     message << "the reference goes from " << c.reference.lowest() * 1e3 << " to "
             << c.reference.highest() * 1e3 << " mm, and sensor.position and the joint's end stops "

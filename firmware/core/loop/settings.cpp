@@ -83,13 +83,19 @@ double feasible_co_contraction_W(const BoardSettings& board, const JointSettings
   return std::min(agonist.limiter.max_W, gain_ratio * antagonist.limiter.max_W);
 }
 
+PlaceInJoint JointSettings::place_of(std::size_t channel) const {
+  const double apart = static_cast<double>(antagonist) - static_cast<double>(agonist);
+  if (channel == agonist) return {1, lever, apart};
+  if (channel == antagonist) return {-1, lever, -apart};
+  return {};
+}
+
 void add_joint(BoardSettings& board, const JointSettings& joint) {
   board.joints.push_back(joint);
-  const double apart = static_cast<double>(joint.antagonist) - static_cast<double>(joint.agonist);
-  board.channels[joint.agonist].joint = {1, joint.lever, apart};
-  board.channels[joint.antagonist].joint = {-1, joint.lever, -apart};
-  for (const std::size_t channel : {joint.agonist, joint.antagonist})
+  for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
+    board.channels[channel].joint = joint.place_of(channel);
     board.channels[channel].supervision.proof_of_response = false;
+  }
 }
 
 void apply_learned(ChannelSettings& channel, const board::Learned& learned) {

@@ -101,6 +101,9 @@ struct JointSettings {
   static constexpr double usual_limit_ratio = 0.5;
   /// That may be commanded, likewise in watts of the agonist.
   double max_co_contraction_W = std::numeric_limits<double>::infinity();
+
+  /// channel: any of the board's.
+  PlaceInJoint place_of(std::size_t channel) const;
 };
 
 struct BoardSettings {

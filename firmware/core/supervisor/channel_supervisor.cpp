@@ -75,7 +75,7 @@ void ChannelSupervisor::judge_sensors(const AxisInputs& axis, const HeaterInputs
   if (axis.position_elapsed_s > 0.0 && inside(axis.sensor_m)) {
     verdict_.note(sensor_jump, jump_.step(axis.sensor_m, axis.position_elapsed_s), jump_);
   }
-  verdict_.note(sensor_frozen, frozen_.step(axis.position.value, heater.hot), frozen_);
+  verdict_.note(sensor_frozen, frozen_.step(axis.sensor_m, heater.hot), frozen_);
   verdict_.note(sensors_disagree, disagree_.step(heater.from_resistance_K, axis.from_position_K),
                 disagree_);
 }

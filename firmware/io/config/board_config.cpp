@@ -37,7 +37,7 @@ void read_channels(std::vector<Section> sections, Section& every, const BoardCon
     }
     ReadChannel channel =
         read_channel(sections[i].over(every.table(), "every_channel"), static_cast<int>(i + 1),
-                     context, agonist ? &*agonist : nullptr);
+                     context, joints.place_of(i), agonist ? &*agonist : nullptr);
     config.settings.channels.push_back(std::move(channel.settings));
     config.wiring.channels.push_back(std::move(channel.wiring));
     config.labels.push_back(std::move(channel.label));

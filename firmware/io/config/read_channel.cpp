@@ -89,10 +89,11 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
 }  // namespace
 
 ReadChannel read_channel(Section section, int number, const BoardContext& context,
-                         const ReadAgonist* agonist) {
+                         const PlaceInJoint& joint, const ReadAgonist* agonist) {
   const std::string owner = "channel " + std::to_string(number);
   ReadChannel channel;
   ChannelSettings& c = channel.settings;
+  c.joint = joint;
   c.supervision.command_timeout_s = context.command_timeout_s;
   c.supervision.damaged_in_a_row = context.damaged_in_a_row;
   c.supervision.refused_in_a_row = context.refused_in_a_row;

@@ -33,7 +33,7 @@ struct ReadAgonist {
 
 /// number: from 1, as messages call it. agonist: null for every channel but an antagonist.
 ReadChannel read_channel(Section section, int number, const BoardContext& context,
-                         const ReadAgonist* agonist);
+                         const PlaceInJoint& joint, const ReadAgonist* agonist);
 
 // Its tables; each finishes its section.
 

@@ -30,22 +30,6 @@ void read_co_contraction(Section& section, const BoardSettings& board, JointSett
   joint.co_contraction_W = joint.max_co_contraction_W;
 }
 
-/// What its muscles may contract by is within what the sensor can read: of a constant lever that is
-/// asked where the limits are read.
-void check_reach(Section& section, const BoardSettings& board, const JointSettings& joint) {
-  for (const std::size_t i : {joint.agonist, joint.antagonist}) {
-    const ChannelSettings& channel = board.channels[i];
-    const double travel_m = channel.supervision.max_travel_m;
-    const double reading_m = channel.joint.reading_of_position_m(travel_m);
-    if (joint.lever.is_constant() || !(reading_m > channel.supervision.max_position_m)) continue;
-    std::ostringstream message;
-    message << "lets channel " << i + 1 << " contract by limits.max_travel_m = " << travel_m
-            << " only where the sensor reads " << reading_m << ", and it can read "
-            << channel.supervision.max_position_m;
-    section.wrong("lever_m", message.str());
-  }
-}
-
 }  // namespace
 
 JointReader::JointReader(std::vector<Section> sections, std::size_t channels)
@@ -73,12 +57,14 @@ void JointReader::read_places(std::size_t channels) {
   for (Section& section : sections_) {
     const auto agonist = read_place(section, "agonist", channels);
     const auto antagonist = read_place(section, "antagonist", channels);
+    const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
     joints_.emplace_back();
     if (!agonist || !antagonist || std::max(*agonist, *antagonist) >= channels) continue;
     if (*antagonist < *agonist) {
       section.wrong("antagonist", "must come after the agonist, whose position it has");
     } else {
-      joints_.back() = JointSettings{.agonist = *agonist, .antagonist = *antagonist};
+      joints_.back() =
+          JointSettings{.agonist = *agonist, .antagonist = *antagonist, .lever = lever};
     }
   }
 }
@@ -90,17 +76,21 @@ std::optional<std::size_t> JointReader::agonist_of(std::size_t channel) const {
   return std::nullopt;
 }
 
+PlaceInJoint JointReader::place_of(std::size_t channel) const {
+  for (const auto& joint : joints_) {
+    if (joint && joint->place_of(channel).direction != 0) return joint->place_of(channel);
+  }
+  return {};
+}
+
 void JointReader::finish(BoardConfig& config) {
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     Section& section = sections_[i];
     const std::string name = section.text("name", "joint " + std::to_string(i + 1));
-    const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
     section.allow({"co_contraction_W", "max_co_contraction_W"});
     if (joints_[i]) {
-      joints_[i]->lever = lever;
       read_co_contraction(section, config.settings, *joints_[i]);
       add_joint(config.settings, *joints_[i]);
-      check_reach(section, config.settings, *joints_[i]);
       config.joints.push_back({name});
     }
     section.finish();

@@ -20,6 +20,8 @@ class JointReader {
 
   /// The agonist of the joint in which this channel is the antagonist; both from 0.
   std::optional<std::size_t> agonist_of(std::size_t channel) const;
+  /// Likewise, of any channel.
+  PlaceInJoint place_of(std::size_t channel) const;
   /// After the channels. Finishes the sections.
   void finish(BoardConfig& config);
 

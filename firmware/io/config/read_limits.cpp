@@ -77,9 +77,11 @@ void read_limits(Section section, const BoardContext& context, ChannelSettings& 
   read_temperatures(section, context, c, label.preset);
   ChannelSupervision& s = c.supervision;
   s.max_travel_m = section.required_number("max_travel_m", {1e-5, 10.0});
-  if (s.max_travel_m > s.max_position_m) {
+  const double reading_m = c.joint.reading_of_position_m(s.max_travel_m);
+  if (reading_m > s.max_position_m) {
     std::ostringstream message;
     message << "must be within what the sensor can read: position.max_m = " << s.max_position_m;
+    if (reading_m != s.max_travel_m) message << ", and by its lever it reads " << reading_m;
     section.wrong("max_travel_m", message.str());
   }
   section.finish();

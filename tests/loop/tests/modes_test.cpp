@@ -29,6 +29,10 @@ Ending ending(const std::string& text) {
   const Snapshot& snapshot = simulation.loop().channel(0).snapshot();
   while (!simulation.done()) {
     simulation.step();
+    if (snapshot.result == ModeResult::running && snapshot.progress < 1.0F) {
+      LONGS_EQUAL(0, snapshot.identify_notes & ~unsigned{note_friction});
+      CHECK(snapshot.progress >= 0.0F && snapshot.progress <= 1.0F);
+    }
     if (snapshot.gain.gain == control::Gain::proportional)
       ended.proportional_W_per_m = snapshot.gain.value;
   }
@@ -129,6 +133,15 @@ TEST(Modes, IdentifyStoresNothingWhenTheMuscleChangesAgainAndAgain) {
     }
     check_nothing("poor_fit", identify + events);
   }
+}
+
+/// A time constant of 45 s: after the full strokes there is no time for enough shorter ones.
+TEST(Modes, APoorFitIsToldAlsoWhereShorterStrokesTellNothing) {
+  const Ending ended = check_nothing(
+      "poor_fit",
+      "simulation.duration_s = 1400.0\noperator.action = 'identify'\n[plant]\n"
+      "thermal_mass_J_per_K = 4.0\n[[event]]\nat_s = 500.0\nplant.stiffness_N_per_m = 11.0\n");
+  STRCMP_CONTAINS("theta3_uncertain", ended.notes.c_str());
 }
 
 TEST(Modes, IdentifyStoresNothingWhenTheMuscleIsNotTheOneThatWasConfigured) {

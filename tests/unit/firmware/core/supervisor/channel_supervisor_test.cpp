@@ -48,7 +48,7 @@ class Channel {
   Fault step() {
     if (sensor_lives) noise_m_ = -noise_m_;
     ChannelInputs now = inputs;
-    now.axis.position.value += noise_m_;
+    now.axis.position.value += 0.1 * noise_m_;  // at a short lever
     now.axis.sensor_m += noise_m_;
     return supervisor.step(now.axis, now.heater, now.commands);
   }

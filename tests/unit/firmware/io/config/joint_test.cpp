@@ -138,12 +138,23 @@ TEST(JointConfig, ALeverThatCannotBeIsNamed) {
       "7 numbers, each 0.0001 to 1",
       "lever_m = [0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01, 0.01]\nlever_range_deg = [-40.0, "
       "40.0]\n");
-  // 25 mm of the sensor's 41 are enough for max_travel_m by a lever of 15 mm, not by this one.
-  check_lever(
-      "joint[1].lever_m = [0.015, 0.015, 0.004]: lets channel 1 contract by limits.max_travel_m = "
-      "0.025 only where the sensor reads 0.079351, and it can read 0.041",
-      "lever_m = [0.015, 0.015, 0.004]\nlever_range_deg = [-40.0, 40.0]\n");
   check_lever("joint[1].lever_m = 'long': must be a number, 0.0001 to 1", "lever_m = 'long'\n");
+}
+
+TEST(JointConfig, TheSensorMustReachAsFarAsItsLeverLetsTheMuscleContract) {
+  const auto with_lever = [](const std::string& levers, const std::string& travel_m) {
+    const std::string board =
+        replaced(board_with_joint, "lever_m = 0.015\n",
+                 "lever_m = " + levers + "\nlever_range_deg = [-40.0, 40.0]\n");
+    return replaced(board, "max_travel_m = 0.025", "max_travel_m = " + travel_m);
+  };
+  // By a lever of 15 mm all the way, 25 mm are read as 25 mm.
+  check_answer(
+      "channel[1].limits.max_travel_m = 0.025: must be within what the sensor can read: "
+      "position.max_m = 0.041, and by its lever it reads 0.079351",
+      with_lever("[0.015, 0.015, 0.004]", "0.025"));
+  // And more than it reads where the lever grows.
+  read_joint_board(with_lever("[0.015, 0.015, 0.03]", "0.05"));
 }
 
 TEST(JointConfig, WhatCannotBeIsNamed) {

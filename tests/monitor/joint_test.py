@@ -219,8 +219,8 @@ class ByALeverTable(OfJoint):
         angle = math.radians(-12.0)
         arc_m = 0.015 * angle + 0.5 * 0.003 / math.radians(30.0) * angle ** 2
         until(lambda: command(self.source, "1", "arm").returncode == 0)
-        # The range's end too is told in degrees: 7.992 mm, where a lever of 15 mm would make them 30.5.
-        self.assertIn("(36.1", command(self.source, "1", "position", "90deg").stderr)
+        # As far as the sensor reads, 7.992 mm of the lever at 0: the muscle contracts by less on the way there.
+        self.assertIn("0.006908 would be obeyed (30.52", command(self.source, "1", "position", "90deg").stderr)
         held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "-12deg", "--hold", "--can", self.source])
         self.addCleanup(held.wait)
         self.addCleanup(held.kill)

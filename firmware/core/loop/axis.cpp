@@ -21,6 +21,18 @@ control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
           channel.limiter.max_W};
 }
 
+/// Two muscles of a joint can cool against each other without a motion, and a resistance that is to
+/// tell a temperature must be that of a cold muscle whatever holds it.
+modes::Calibrate::Settings calibrate_settings(const ChannelSettings& channel) {
+  modes::Calibrate::Settings s;
+  constexpr double still_K = 20.0, left_ratio = 1e-3;
+  if (channel.joint.direction == 0 && channel.heater.temperature_coefficient_per_K == 0.0)
+    s.still_K = still_K;
+  s.max_left_m = left_ratio * channel.supervision.max_travel_m;
+  s.count_m = std::abs(channel.position.scaling.per_count);
+  return s;
+}
+
 }  // namespace
 
 Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
@@ -41,6 +53,7 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
       response_ratio_(settings.response_ratio),
       stored_tuning_(settings.tuning),
       identify_({}, settings.muscle, settings.supervision.max_travel_m, step_s_),
+      calibrate_(calibrate_settings(settings)),
       comparison_(comparison_settings(settings, board), step_s_),
       steady_state_(settings.thermal, step_s_) {
   publish_muscle();
@@ -98,7 +111,7 @@ Opposition Axis::opposition(double gain_ratio) const {
           {gain_ratio * own.min_W, gain_ratio * own.max_W},
           heater_.heat().expected_m(),
           heater_.heat().hottest_K(),
-          inputs_.recalibrated};
+          inputs_.expected_anew};
 }
 
 void Axis::prove(std::int64_t periods) {

@@ -36,8 +36,8 @@ struct Opposition {
   control::PowerRange range{0.0, 0.0};  ///< of power_W
   /// By how much its heat moves the joint against this muscle, as HeaterInputs::expected_m.
   detectors::NotResponding::Expected expected_m{};
-  double hottest_K = 0.0;     ///< above the air
-  bool recalibrated = false;  ///< as AxisInputs': expected_m jumped
+  double hottest_K = 0.0;      ///< above the air
+  bool expected_anew = false;  ///< as AxisInputs'
 };
 
 /// Reads the channel's state, and never changes it: what ends by itself is told to the channel.
@@ -53,7 +53,7 @@ class Axis {
   void oppose(const Opposition& other) {
     other_ = other;
     inputs_.in_joint = true;
-    inputs_.recalibrated = inputs_.recalibrated || other.recalibrated;
+    inputs_.expected_anew = inputs_.expected_anew || other.expected_anew;
   }
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
@@ -61,7 +61,8 @@ class Axis {
   /// The supervisor has judged what happened since the last tick.
   void judged() {
     inputs_.position_elapsed_s = 0.0;
-    inputs_.recalibrated = false;
+    inputs_.recalibrated.reset();
+    inputs_.expected_anew = false;
   }
   /// A sensor that is well cannot give this position.
   void reject_position() { inputs_.position.present = false; }
@@ -209,7 +210,7 @@ class Axis {
   modes::Identify identify_;
   std::unique_ptr<control::CoolingFit> cooling_fit_;  ///< of a weighed muscle; 36 kB
   SmallSignal small_signal_;                          ///< the end of identify
-  modes::Calibrate calibrate_{{}};
+  modes::Calibrate calibrate_;
   ModeResult result_ = ModeResult::none;  ///< of either
   board::MeterComparison comparison_;
   board::SteadyState steady_state_;

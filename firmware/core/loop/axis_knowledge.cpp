@@ -42,15 +42,19 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   learned.calibration = found;
   learned.has_muscle = true;
   if (board::check(learned)) return ModeResult::implausible;
-  if (found != calibration_) {
-    inputs_.recalibrated = true;
-    proof_.recalibrated();
-  }
+  const double before_m = inputs_.position.value;
+  const double before_scale = calibration_.position_scale;
+  const bool recalibrated = found != calibration_;
   const double response_ratio = response_ratio_ > 0.0 ? response_ratio_ : 1.0;
   if (!(muscle == muscle_) || response_ratio != proof_.settings().response_ratio)
     proof_.learn(muscle, response_ratio);
   muscle_ = muscle;
   calibrate(found);
+  if (recalibrated) {
+    inputs_.recalibrated = {before_m, calibrated(inputs_.sensor_m),
+                            found.position_scale / before_scale};
+    proof_.recalibrated();
+  }
   has_muscle_ = true;
   return learned_updates_.push(learned) ? ModeResult::found : ModeResult::not_stored;
 }

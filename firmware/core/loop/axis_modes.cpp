@@ -49,14 +49,16 @@ ModeResult Axis::keep_identified() {
   const ModeResult kept = keep(identify_.found(), calibration_);
   if (kept == ModeResult::found || kept == ModeResult::not_stored) {
     heater_.believe(muscle_);
-    inputs_.recalibrated = true;
+    inputs_.expected_anew = true;
   }
   return kept;
 }
 
 /// Whether its motion is linear does not matter here.
 void Axis::update_cooling_fit() {
-  if (cooling_fit_) cooling_fit_->step(inputs_.position.value, moving_W());
+  // Short strokes of a muscle that is far from linear tell a time constant that is too short.
+  if (cooling_fit_ && !identify_.shortened())
+    cooling_fit_->step(inputs_.position.value, moving_W());
 }
 
 /// Position and power alone give the muscle's time constant only; a weighed mass makes its heat

@@ -6,22 +6,28 @@
 #include <limits>
 
 #include "modes/result.hpp"
+#include "modes/stillness.hpp"
 
 namespace supercoil::modes {
 
-/// Waits until the muscle must be cold, takes the mean position over a second as its zero, and asks
-/// for a probe. A zero that moves while it is taken, or a resistance out of range, is refused.
+/// Waits until the muscle must be cold, or cannot be warm and yet as still as it is; takes the mean
+/// position over a second as its zero, and asks for a probe. A zero that moves while it is taken,
+/// or a resistance out of range, is refused.
 class Calibrate {
  public:
   struct Settings {
     double cold_K = 1.0;
+    double still_K = cold_K;  ///< cold, where it is still: no more than a jammed one may be
+    double max_left_m = 0.0;  ///< that it may still move by, then
+    double count_m = 0.0;     ///< resolution of the position
     double max_wait_s = 120.0;
     double mean_s = 1.0;
     double max_motion_m = 100e-6;  ///< between the two halves of the mean
     double min_Ohm = 0.1;
     double max_Ohm = 1e4;
   };
-  explicit Calibrate(const Settings& settings) : settings_(settings) {}
+  explicit Calibrate(const Settings& settings)
+      : settings_(settings), stillness_(settings.mean_s, settings.count_m) {}
 
   void start() { *this = Calibrate(settings_); }
   /// Grows with time as evenly as the muscle cools exponentially: what is left can be told from it.
@@ -36,7 +42,8 @@ class Calibrate {
   ModeResult step(double hottest_K, double position_m, double step_s) {
     if (elapsed_s_ == 0.0) begins_K_ = hottest_K;
     elapsed_s_ += step_s;
-    if (count_ == 0 && hottest_K > settings_.cold_K) {
+    if (count_ == 0) stillness_.step(hottest_K, position_m, step_s);
+    if (count_ == 0 && !is_cold(hottest_K)) {
       show_progress(cooling_s(hottest_K));
       return elapsed_s_ > settings_.max_wait_s ? ModeResult::not_cold : ModeResult::running;
     }
@@ -63,9 +70,14 @@ class Calibrate {
   }
 
  private:
+  bool is_cold(double hottest_K) const {
+    return hottest_K <= settings_.cold_K ||
+           (hottest_K <= settings_.still_K && stillness_.left_m() <= settings_.max_left_m);
+  }
   /// From the start until it must be cold, by how far it has cooled: infinity while it has not.
   double cooling_s(double hottest_K) const {
-    const double cooled = std::log(begins_K_ / hottest_K) / std::log(begins_K_ / settings_.cold_K);
+    const double ends_K = hottest_K > settings_.still_K ? settings_.still_K : settings_.cold_K;
+    const double cooled = std::log(begins_K_ / hottest_K) / std::log(begins_K_ / ends_K);
     return cooled > 0.0 ? std::fmin(elapsed_s_ / cooled, settings_.max_wait_s)
                         : std::numeric_limits<double>::infinity();
   }
@@ -76,6 +88,7 @@ class Calibrate {
   }
 
   Settings settings_;
+  Stillness stillness_;
   double begins_K_ = 0.0;
   double elapsed_s_ = 0.0;
   double cold_after_s_ = 0.0;

@@ -1,6 +1,8 @@
 // What a channel's supervisor judges by: the axis, the heater and the commands each fill their own.
 #pragma once
 
+#include <optional>
+
 #include "board/measurement.hpp"
 #include "supervisor/detectors/heater.hpp"
 #include "supervisor/detectors/margin.hpp"
@@ -19,7 +21,8 @@ struct AxisInputs {
   double from_position_K = 0.0;  ///< temperature that the position tells, beside the resistance's
   bool unanswered = false;       ///< the muscle was asked to prove that it answers, and did not,
   detectors::Margin answer;      ///< and by how much
-  bool recalibrated = false;     ///< positions, or what is expected of them, jumped
+  std::optional<detectors::Recalibration> recalibrated;  ///< positions jumped
+  bool expected_anew = false;                            ///< what is expected of them jumped
 };
 
 /// Of the heater, at this tick.

@@ -101,10 +101,9 @@ void ChannelSupervisor::judge_heater(const HeaterInputs& e) {
 
 void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs& heater) {
   using enum Fault;
-  if (axis.recalibrated) {
-    not_responding_.reset();
-    loose_.reset();
-  }
+  if (axis.recalibrated) not_responding_.recalibrate(*axis.recalibrated);
+  if (axis.expected_anew) not_responding_.reset();
+  if (axis.recalibrated || axis.expected_anew) loose_.reset();
   if (!heater.current.present) return;
   if (axis.position.present) {
     verdict_.note(heater_not_responding,

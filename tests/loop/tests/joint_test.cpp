@@ -191,6 +191,27 @@ TEST(Joint, ItsZeroIsTakenWhenBothMusclesAreCold) {
   DOUBLES_EQUAL(0.0, rig.loop.channel(agonist).known(known_position_offset), 50e-6);
 }
 
+/// Two muscles may cool against each other.
+TEST(Joint, ThatItIsStillDoesNotTellThatItsMusclesAreCold) {
+  const RigSettings settings = known_joint(3.0);
+  Rig fresh(settings);
+  begin(fresh);
+  const auto hottest_K = [&] {
+    return fresh.loop.channel(antagonist).snapshot().hottest_C -
+           settings.firmware.channels[antagonist].thermal.air.warmest_C;
+  };
+  CHECK_COMPARE(hottest_K(), >, 20.0);
+  CHECK(fresh.answer_of(agonist, Verb::calibrate) == Refusal::none);
+  CHECK(fresh.run_until(
+      [&] {
+        fresh.send(Verb::renew);
+        return fresh.state() != State::active;
+      },
+      600.0));
+  CHECK(fresh.loop.channel(agonist).snapshot().result == ModeResult::found);
+  CHECK_COMPARE(hottest_K(), <, 1.0);
+}
+
 TEST(Joint, PullsAgainstItselfForMinutesWithoutAFault) {
   for (const bool known : {false, true}) {
     RigSettings settings = known_joint(3.0);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "supervisor/detectors/limits.hpp"
 
@@ -69,6 +70,15 @@ class StuckOn final : public Detector {
 /// Power in, no motion: compares how far the muscle moved over a window with how far it must have,
 /// by the models of its heat. Trips when it moved less than a part of what each muscle did that
 /// they allow. "Rose 0.3 of the 2.0 mm expected in 20 s."
+/// By how much a calibration changed the positions that are told of the same places.
+struct Recalibration {
+  double before_m = 0.0;  ///< of one place
+  double after_m = 0.0;   ///< of the same
+  double ratio = 1.0;     ///< of distances
+
+  double after(double position_m) const { return after_m + ratio * (position_m - before_m); }
+};
+
 class NotResponding final : public Detector {
  public:
   struct Settings {
@@ -137,6 +147,13 @@ class NotResponding final : public Detector {
     return seen.judged && !(seen.measured >= seen.limit);
   }
   void reset() { elapsed_s_ = 0.0; }
+  /// That positions are others from now on is no motion, and no reason to begin anew: who
+  /// calibrates again and again would never be judged.
+  void recalibrate(const Recalibration& change) {
+    low_ = change.after(low_);
+    high_ = change.after(high_);
+    if (low_ > high_) std::swap(low_, high_);
+  }
   /// Of the window so far.
   Margin margin() const override {
     double expected = expected_high_[0] - expected_low_[0];

@@ -465,8 +465,8 @@ the one did that moved least, it trips (`responding_window_s`, `responding_ratio
 muscle as it is believed: configured, or found by the last `identify`. Nine are mixtures of the fastest and the slowest that its `[thermal]` bounds allow:
 until `identify` nothing but a belief is known, and where a muscle within the bounds may stand still nothing is asked of it. They are
 driven with the power that was applied. What they do in the window's last second is not expected any more: they have heat
-and no inertia. Windows follow each other from boot on, or from a calibration or an `identify` that found a muscle, whether the channel is armed or not, so it
-takes 20 to 40 s. Arming does not restart the window.
+and no inertia. Windows follow each other from boot on, or from an `identify` that found a muscle, whether the channel is armed or not, so it
+takes 20 to 40 s. Neither arming nor a calibration restarts the window.
 
 **A muscle that was identified must also answer while it is hot and still** (mode position or power; loaded from a
 learned file counts, unless that holds the configuration's own parameters). This is decided within seconds:

@@ -1,7 +1,8 @@
-// How far calibrate says that it is, while the muscle cools.
+// When calibrate takes the zero, and how far it says that it is until then.
 #include "modes/calibrate.hpp"
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include <CppUTest/TestHarness.h>
@@ -52,4 +53,76 @@ TEST(CalibrateProgress, StaysWhereTheMuscleDoesNotCool) {
   CHECK(before > 0.0F);
   calibrate.step(19.0, 0.0, step_s);
   DOUBLES_EQUAL(before, calibrate.progress(), 0.0);
+}
+
+namespace {
+
+/// A muscle that may have been this hot, and whose hottest end cools as slowly as its bounds allow.
+struct Resting {
+  double begins_K = 135.0;
+  double noise_rms_m = 10e-6;
+  Calibrate::Settings settings{.still_K = 20.0, .max_left_m = 20e-6, .count_m = 1e-6};
+
+  /// The hottest that it may be when its zero is taken, where it moves like this in time.
+  template <typename PositionOf>
+  double hottest_K_at_zero(PositionOf position_m) const {
+    Calibrate calibrate(settings);
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0.0, noise_rms_m);
+    double hottest_K = begins_K;
+    for (double time_s = 0.0; !calibrate.knows_zero() && time_s < 100.0; time_s += step_s) {
+      hottest_K = begins_K * std::exp(-time_s / tau_s);
+      calibrate.step(hottest_K, position_m(time_s) + noise(random), step_s);
+    }
+    return hottest_K;
+  }
+};
+
+double at_rest(double) {
+  return -0.002;
+}
+
+}  // namespace
+
+TEST_GROUP(CalibrateStillness){};
+
+TEST(CalibrateStillness, AMuscleThatDoesNotMoveIsColdBeforeItMustBe) {
+  const double mean = std::exp(-Calibrate::Settings{}.mean_s / tau_s);
+  DOUBLES_EQUAL(20.0 * mean, Resting{}.hottest_K_at_zero(at_rest), 0.2);
+  // Nothing is concluded where it is not asked for, as of a joint.
+  Resting strict;
+  strict.settings.still_K = 1.0;
+  DOUBLES_EQUAL(1.0 * mean, strict.hottest_K_at_zero(at_rest), 0.01);
+}
+
+TEST(CalibrateStillness, OneThatStillCoolsIsWaitedFor) {
+  for (const double faster : {1.0, 1.5, 3.0}) {
+    double zero_s = 0.0;
+    const auto position_m = [&](double time_s) {
+      zero_s = time_s;
+      return 0.01 * std::exp(-faster * time_s / tau_s);
+    };
+    const double hottest_K = Resting{}.hottest_K_at_zero(position_m);
+    CHECK_COMPARE(hottest_K, <, 15.0);
+    // What was left of its motion when the mean began, but for the noise.
+    const double left_m = position_m(zero_s - Calibrate::Settings{}.mean_s);
+    if (hottest_K > 1.0) CHECK_COMPARE(left_m, <, 20e-6);
+  }
+}
+
+TEST(CalibrateStillness, WhatASensorDoesNotShowIsNoRest) {
+  const double mean = std::exp(-Calibrate::Settings{}.mean_s / tau_s);
+  Resting coarse;
+  coarse.settings.count_m = 1e-3;
+  DOUBLES_EQUAL(1.0 * mean, coarse.hottest_K_at_zero(at_rest), 0.01);
+  Resting noisy;
+  noisy.noise_rms_m = 0.5e-3;
+  DOUBLES_EQUAL(1.0 * mean, noisy.hottest_K_at_zero(at_rest), 0.01);
+}
+
+TEST(CalibrateStillness, BoundsThatDoNotFallTellNothing) {
+  Calibrate calibrate({.still_K = 20.0, .max_left_m = 20e-6});
+  for (int i = 0; i < 6000; ++i)
+    calibrate.step(15.0, 0.0, step_s);
+  CHECK_FALSE(calibrate.knows_zero());
 }

@@ -52,6 +52,9 @@ class Channel {
     now.axis.sensor_m += noise_m_;
     return supervisor.step(now.axis, now.heater, now.commands);
   }
+  double moved_m() const {
+    return supervisor.verdict().margin(Fault::heater_not_responding).measured;
+  }
 
  private:
   double noise_m_ = 15e-6;
@@ -276,11 +279,34 @@ TEST(ChannelSupervisor, ANewCalibrationIsNoAnswerOfTheMuscle) {
     Channel channel;
     for (int i = 0; i < 1000; ++i)
       channel.step();
+    const double before_m = channel.inputs.axis.position.value;
     channel.inputs.axis.position.value += 0.002;
-    channel.inputs.axis.recalibrated = told;
+    if (told) channel.inputs.axis.recalibrated = {before_m, before_m + 0.002, 1.0};
     check_fault(Fault::none, channel.step());
-    const double moved_m =
-        channel.supervisor.verdict().margin(Fault::heater_not_responding).measured;
-    DOUBLES_EQUAL(told ? 0.0 : 0.002, moved_m, 50e-6);
+    DOUBLES_EQUAL(told ? 0.0 : 0.002, channel.moved_m(), 50e-6);
+  }
+}
+
+/// Or it would never be judged.
+TEST(ChannelSupervisor, ANewCalibrationForgetsNoMotionOfTheWindow) {
+  for (const double ratio : {1.0, 2.0, -1.0}) {
+    Channel channel;
+    channel.step();
+    double& position_m = channel.inputs.axis.position.value;
+    position_m += 0.0005;
+    channel.step();
+    channel.inputs.axis.recalibrated = {position_m, 0.003, ratio};
+    position_m = 0.003;
+    channel.step();
+    channel.inputs.axis.recalibrated.reset();
+    DOUBLES_EQUAL(std::abs(ratio) * 0.0005, channel.moved_m(), 10e-6);
+    // Back to where it was.
+    position_m = 0.003 - ratio * 0.0005;
+    channel.step();
+    DOUBLES_EQUAL(std::abs(ratio) * 0.0005, channel.moved_m(), 10e-6);
+    // Another muscle is expected: that begins anew.
+    channel.inputs.axis.expected_anew = true;
+    channel.step();
+    DOUBLES_EQUAL(0.0, channel.moved_m(), 10e-6);
   }
 }

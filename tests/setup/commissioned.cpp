@@ -83,7 +83,9 @@ Commissioned commission(const HeldOut& muscle, const std::string& controller) {
     return c;
   };
   if (const auto done = steps.calibrate(); !done) return conclude(done.error());
+  c.calibrated_s = link.time_s();
   if (const auto done = steps.identify(); !done) return conclude(done.error());
+  c.identified_s = link.time_s();
   const auto moved = steps.move();
   if (!moved) return conclude(moved.error());
   c.promised_m = moved->value("promised_m", NAN);

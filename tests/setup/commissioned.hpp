@@ -38,7 +38,9 @@ struct Commissioned {
   double probe_m = 0.0;        ///< part of that
   double unexplained_m = 0.0;  ///< likewise
   double error_m = 0.0;
-  double took_s = 0.0;          ///< of the muscle's time
+  double calibrated_s = 0.0;    ///< after which time of the muscle
+  double identified_s = 0.0;    ///< likewise
+  double took_s = 0.0;          ///< likewise, all of it
   double hottest_rise_K = 0.0;  ///< truly
   double travel_m = 0.0;        ///< that it was promised to hold
   Fault fault = Fault::none;

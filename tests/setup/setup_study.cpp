@@ -16,18 +16,19 @@ int main(int argc, char** argv) {
   const int first = argc > 3 ? std::atoi(argv[3]) : 1;
   int followed = 0, kept = 0, near = 0, in_time = 0;
   std::printf(
-      "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um ratio took_s "
-      "rise_K\n");
+      "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um ratio "
+      "calibrated_s identified_s took_s rise_K\n");
   try {
     for (int seed = first; seed < first + muscles; ++seed) {
       const HeldOut muscle = held_out_muscle(static_cast<unsigned>(seed), error);
       const Commissioned c = commission(muscle);
       const double ratio = c.error_m / c.promised_m;
-      std::printf("%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %5.2f %6.0f %6.0f %s %s\n", seed,
-                  muscle.linear ? "yes" : "no", muscle.time_constant_s, 1e3 * c.travel_m,
-                  1e6 * c.promised_m, 1e6 * c.probe_m, 1e6 * c.unexplained_m, 1e6 * c.error_m,
-                  ratio, c.took_s, c.hottest_rise_K,
-                  c.fault == Fault::none ? "" : name(c.fault).data(), c.refused.c_str());
+      std::printf(
+          "%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %5.2f %12.0f %12.0f %6.0f %6.0f %s %s\n",
+          seed, muscle.linear ? "yes" : "no", muscle.time_constant_s, 1e3 * c.travel_m,
+          1e6 * c.promised_m, 1e6 * c.probe_m, 1e6 * c.unexplained_m, 1e6 * c.error_m, ratio,
+          c.calibrated_s, c.identified_s, c.took_s, c.hottest_rise_K,
+          c.fault == Fault::none ? "" : name(c.fault).data(), c.refused.c_str());
       std::fflush(stdout);
       if (!c.refused.empty()) continue;
       ++followed;

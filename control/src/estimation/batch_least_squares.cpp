@@ -97,6 +97,15 @@ BatchLeastSquares::Regressors BatchLeastSquares::solve(const Sums& sums) {
   return sums.instrumental.partialPivLu().solve(sums.correlation);
 }
 
+double BatchLeastSquares::unexplained_ratio(const Sums& experiment, const Theta& theta) const {
+  Regressors solution;
+  solution << theta.cwiseQuotient(nominal_), 0.0;
+  // The column of ones tells the mean of what is left.
+  solution[4] =
+      (experiment.projection[4] - experiment.information.row(4).dot(solution)) / experiment.count;
+  return std::fmax(experiment.missed(solution), 0.0) / experiment.variance();
+}
+
 std::optional<BatchLeastSquares::Fit> BatchLeastSquares::fit() const {
   if (blocks_ < min_blocks) return std::nullopt;
   const std::size_t seen = (2 * blocks_ + 1) / 3;
@@ -115,16 +124,14 @@ std::optional<BatchLeastSquares::Fit> BatchLeastSquares::fit() const {
   const auto n = static_cast<double>(blocks_);
   const Regressors deviation = (spread * ((n - 1.0) / n)).cwiseSqrt();
 
-  const double missed =
-      unseen.energy - 2.0 * before.dot(unseen.projection) + before.dot(unseen.information * before);
-  const double variance = unseen.energy - unseen.mean * unseen.mean / unseen.count;
+  const double variance = unseen.variance();
   Fit fit;
   fit.theta = found.head<4>().cwiseProduct(nominal_);
   fit.bias_W = found[4];
   fit.deviation = deviation.head<4>().cwiseQuotient(found.head<4>().cwiseAbs());
   fit.unseen_difference =
       (after - before).head<4>().cwiseAbs().cwiseQuotient(before.head<4>().cwiseAbs());
-  fit.unexplained_ratio = std::fmax(missed, 0.0) / variance;
+  fit.unexplained_ratio = std::fmax(unseen.missed(before), 0.0) / variance;
   const bool finite = fit.theta.allFinite() && fit.deviation.allFinite() &&
                       fit.unseen_difference.allFinite() && variance > 0.0;
   return finite ? std::optional(fit) : std::nullopt;

@@ -19,7 +19,8 @@ struct FirstMotion {
   double settled_s() const { return 2.0 * period_s; }
   double end_s() const { return settled_s() + period_s; }
 };
-FirstMotion plan_first_motion(const Feasibility& feasibility);
+/// unexplained_ratio: by identify; NaN: it has found none since the start.
+FirstMotion plan_first_motion(const Feasibility& feasibility, double unexplained_ratio);
 
 /// Tracking error of that motion, rms, as the board's sensor shows it, from what causes it.
 struct Promise {

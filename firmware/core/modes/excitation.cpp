@@ -28,7 +28,15 @@ void Excitation::adapt_power(bool reached, double max_W) {
   power_W_ = std::min(power_W_, max_W);
 }
 
-double Excitation::step(double position_m, double max_W) {
+/// A linear muscle is held by as much power a metre as it got so far: over whole strokes what it
+/// stores of it hardly counts.
+double Excitation::cooling_W() const {
+  const double ratio_W = cooling_ratio * power_W_;
+  if (risen_m_s_ <= 0.0) return ratio_W;
+  return std::min(ratio_W, held_ratio * reach_m_ * energy_J_ / risen_m_s_);
+}
+
+double Excitation::next_W(double position_m, double max_W) {
   time_s_ += settings_.step_s;
   phase_s_ += settings_.step_s;
   const double part = std::min(1.0, settings_.step_s / smoothing_s);
@@ -66,7 +74,7 @@ double Excitation::step(double position_m, double max_W) {
         ++cycle_;
         begin(Phase::heat);
       }
-      return power_W_ * 0.05 * (1.0 + sines());
+      return cooling_W() * (1.0 + sines());
   }
   return 0.0;
 }

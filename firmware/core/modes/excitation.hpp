@@ -38,12 +38,19 @@ class Excitation {
     shorter.position_m_ = position_m;
     shorter.power_W_ = power_W_;
     shorter.reach_m_ = shorter_ratio * reach_m_;
+    shorter.energy_J_ = energy_J_;
+    shorter.risen_m_s_ = risen_m_s_;
     shorter.begin(Phase::rest);
     *this = shorter;
   }
 
   /// One tick: this tick's position. max_W: allowed now. Returns the power to give.
-  double step(double position_m, double max_W);
+  double step(double position_m, double max_W) {
+    const double power_W = next_W(position_m, max_W);
+    energy_J_ += power_W * settings_.step_s;
+    if (phase_ != Phase::rest) risen_m_s_ += risen_m() * settings_.step_s;
+    return power_W;
+  }
 
   bool done() const { return cycle_ >= cycles || too_still_; }
   /// The muscle has moved by less than is needed, and no more power is allowed.
@@ -69,7 +76,12 @@ class Excitation {
   /// Likewise: a muscle that softens as it warms may give way a little at first.
   static constexpr double backwards_ratio = 0.1;
   static constexpr double first_ratio = 0.02;  ///< of the power
-  static constexpr double growth_s = 0.75;     ///< of the power in the search, e-fold
+  /// Of the power that heats, mean, while it cools.
+  static constexpr double cooling_ratio = 0.05;
+  /// Of the reach: what that power may hold, or the muscle would hardly come to its lows. 0.05 to
+  /// 0.08 find as many of the random muscles of docs/setup.md.
+  static constexpr double held_ratio = 0.06;
+  static constexpr double growth_s = 0.75;  ///< of the power in the search, e-fold
   static constexpr double smoothing_s = 0.05;
   /// How far a muscle's position lags behind its heat: mechanics of 7 rad/s.
   static constexpr double lag_s = 0.15;
@@ -82,6 +94,7 @@ class Excitation {
   static constexpr double min_phase_s = 2.0;
   static constexpr double max_still_s = 25.0;
 
+  double next_W(double position_m, double max_W);
   void begin(Phase phase) {
     phase_ = phase;
     phase_s_ = 0.0;
@@ -95,6 +108,8 @@ class Excitation {
   void end_search(double ahead_m);
   /// A level that is reached at once is passed by far; one that is not reached wants more.
   void adapt_power(bool reached, double max_W);
+  /// While it cools, mean.
+  double cooling_W() const;
   double level_m(const std::array<double, 2>& ratios) const {
     return cold_m_ + ratios[cycle_ % ratios.size()] * reach_m_;
   }
@@ -114,9 +129,11 @@ class Excitation {
   double cold_m_ = 0.0;
   double reach_m_ = 0.0;  ///< from cold_m_; 0: not known yet
   double power_W_ = 0.0;
-  double begin_m_ = 0.0;  ///< where this phase began
-  double check_s_ = 0.0;  ///< after which time of the phase it is judged next
-  double check_m_ = 0.0;  ///< where it was at the last check
+  double energy_J_ = 0.0;   ///< given since the search began
+  double risen_m_s_ = 0.0;  ///< integral of the rise since then
+  double begin_m_ = 0.0;    ///< where this phase began
+  double check_s_ = 0.0;    ///< after which time of the phase it is judged next
+  double check_m_ = 0.0;    ///< where it was at the last check
 };
 
 }  // namespace supercoil::modes

@@ -66,7 +66,12 @@ ModeResult Identify::judge() {
   }
   const auto fit = fit_.fit();
   notes_ = fit ? reasons_against(*fit) : uncertain;
-  if (fit) unexplained_ratio_ = std::fmax(unexplained_ratio_, fit->unexplained_ratio);
+  double unexplained_ratio = fit ? fit->unexplained_ratio : NAN;
+  if (fit && shortened()) {
+    const double of_full_ratio = fit_.unexplained_ratio(full_strokes_, fit->theta);
+    if (!(of_full_ratio <= settings_.max_unexplained_full)) notes_ |= note_poor_fit;
+    unexplained_ratio = std::fmax(unexplained_ratio, of_full_ratio);
+  }
   if ((notes_ & note_poor_fit) != 0) return ModeResult::poor_fit;
   if ((notes_ & uncertain) != 0 || !usable_theta2(*fit)) return ModeResult::uncertain;
   if ((notes_ & note_implausible) != 0) return ModeResult::implausible;
@@ -80,9 +85,9 @@ ModeResult Identify::judge() {
     return ModeResult::implausible;
   }
   found_ = *physical;
-  quality_ = {fit->deviation, unexplained_ratio_};
+  quality_ = {fit->deviation, unexplained_ratio};
   if ((notes_ & note_theta1_kept) != 0) quality_.deviation_ratio[0] = NAN;
-  if (shorter_) notes_ |= note_poor_fit;
+  if (shortened()) notes_ |= note_poor_fit;
   return ModeResult::found;
 }
 

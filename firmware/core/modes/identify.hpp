@@ -15,7 +15,7 @@ namespace supercoil::modes {
 /// found when θ2 to θ4, which controllers use, are known (θ2 roughly), explain the last third of
 /// the experiment, and lie within a span of what is believed. What is not known of θ1 stays as
 /// believed; position and power never give γ and m̂, so they do too. A muscle of which the model
-/// explains too little is excited once more, with shorter strokes.
+/// explains too little is excited again, with shorter strokes, twice at most.
 class Identify {
  public:
   struct Settings {
@@ -23,6 +23,8 @@ class Identify {
     /// Of the unseen third's variance. Muscles with the effects of docs/muscles.md leave up to
     /// 0.02; one whose stiffness changes by a third under way, 0.13 and more.
     double max_unexplained = 0.06;
+    /// Likewise, of the full strokes, by a muscle that shorter ones found.
+    double max_unexplained_full = 0.5;
     double max_deviation = 0.1;         ///< standard, of each parameter, relative
     double max_difference = 0.25;       ///< of the unseen third's own fit, relative
     double max_theta2_deviation = 0.5;  ///< more than this refuses it; between, it is noted
@@ -33,7 +35,8 @@ class Identify {
   /// How sure the last muscle that was found is. NaN: none was.
   struct Quality {
     control::Theta deviation_ratio = control::Theta::Constant(NAN);  ///< standard; NaN: kept
-    /// As BatchLeastSquares::Fit has it; of full strokes, also where it took shorter ones.
+    /// As BatchLeastSquares::Fit has it. Where it took shorter strokes, what the muscle that they
+    /// found leaves of the full ones, if that is more.
     double unexplained_ratio = NAN;
   };
 
@@ -51,8 +54,7 @@ class Identify {
     elapsed_s_ = 0.0;
     notes_ = 0;
     power_W_ = 0.0;
-    shorter_ = false;
-    unexplained_ratio_ = 0.0;
+    shortened_ = 0;
     excitation_.start(position_m);
     fit_.start(position_m);
   }
@@ -68,9 +70,10 @@ class Identify {
     const bool in_time = elapsed_s_ < settings_.max_s;
     if (!excitation_.done() && in_time) return ModeResult::running;
     const ModeResult result = judge();
-    if (shorter_ && result != ModeResult::found) return still_poor();
-    if (result != ModeResult::poor_fit || shorter_ || !in_time) return result;
-    shorter_ = true;
+    if (result == ModeResult::found || (result != ModeResult::poor_fit && shortened_ == 0))
+      return result;
+    if (shortened_ == max_shortened || !in_time) return poor_fit();
+    if (shortened_++ == 0) full_strokes_ = fit_.experiment();
     notes_ = 0;
     excitation_.start_shorter(position_m);
     fit_.start(position_m);
@@ -79,10 +82,12 @@ class Identify {
   }
 
   double power_W() const { return power_W_; }
-  /// 0 to 1; that it is excited once more is not known beforehand.
+  /// 0 to 1; that it is excited again is not known beforehand: each time is half of what was left.
   float progress() const {
-    return shorter_ ? 0.5F * (1.0F + excitation_.progress()) : excitation_.progress();
+    return 1.0F - std::ldexp(1.0F - excitation_.progress(), -static_cast<int>(shortened_));
   }
+  /// The full strokes did not fit.
+  bool shortened() const { return shortened_ > 0; }
   /// Above the cold muscle's position, smoothed.
   double risen_m() const { return excitation_.risen_m(); }
   const control::PhysicalParameters& found() const { return found_; }
@@ -93,8 +98,10 @@ class Identify {
 
  private:
   ModeResult judge();
-  /// The full strokes did not fit, and the shorter ones do not tell.
-  ModeResult still_poor() {
+  static constexpr std::uint8_t max_shortened = 2;
+
+  /// The full strokes did not fit, whatever speaks against the shorter ones.
+  ModeResult poor_fit() {
     notes_ |= note_poor_fit;
     return ModeResult::poor_fit;
   }
@@ -109,8 +116,8 @@ class Identify {
   double step_s_;
   double elapsed_s_ = 0.0;
   double power_W_ = 0.0;
-  bool shorter_ = false;            ///< the second time, with shorter strokes
-  double unexplained_ratio_ = 0.0;  ///< the most that a fit has left
+  std::uint8_t shortened_ = 0;                     ///< so often
+  control::BatchLeastSquares::Sums full_strokes_;  ///< where they are shortened
   std::uint8_t notes_ = 0;
   Excitation excitation_;
   control::BatchLeastSquares fit_;

@@ -58,7 +58,7 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel) {
   if (board.joint_of(channel) != nullptr) return {};
   const ChannelSettings& c = board.channels[channel];
-  const FirstMotion motion = plan_first_motion(feasibility(c, board));
+  const FirstMotion motion = plan_first_motion(feasibility(c, board), NAN);
   if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {

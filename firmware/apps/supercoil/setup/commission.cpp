@@ -281,7 +281,8 @@ StepResult Commission::gains() {
 StepResult Commission::move() {
   const auto now = channel_now(board_, channel_, configured_);
   if (!now) return tl::unexpected(now.error());
-  const FirstMotion motion = plan_first_motion(feasibility(now->settings, settings_));
+  const FirstMotion motion =
+      plan_first_motion(feasibility(now->settings, settings_), now->unexplained_ratio);
   const auto promise = now->promise(now->settings.controllers.front(), settings_, motion);
   const char* unpromised = now->in_joint() ? "no error is promised for a joint"
                                            : "no error is promised: controller 0 is not learned_ff";

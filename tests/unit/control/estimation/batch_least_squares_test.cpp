@@ -32,6 +32,9 @@ struct PowerSteps {
   std::size_t blocks = 6;
 
   std::optional<BatchLeastSquares::Fit> run(unsigned seed = 1) const {
+    return experiment(seed).fit();
+  }
+  BatchLeastSquares experiment(unsigned seed = 1) const {
     constexpr double step_s = 1e-3;
     BatchLeastSquares fit(half_wrong_belief(), step_s);
     fit.start(0.0);
@@ -56,7 +59,7 @@ struct PowerSteps {
                 ((heats ? 3.5 : 0.4) +
                  0.1 * (std::sin(4.1 * time_s) + std::sin(9.3 * time_s) + std::sin(21.7 * time_s)));
     }
-    return fit.fit();
+    return fit;
   }
 };
 
@@ -78,6 +81,23 @@ TEST(BatchLeastSquares, FindsAMuscleThatItTookForAnother) {
   }
   DOUBLES_EQUAL(0.0, fit->bias_W, 1e-3);
   CHECK(fit->unexplained_ratio < 1e-4);
+}
+
+/// By the noise alone, as it is of the fit's own experiment; a bias is no fault of the muscle's.
+TEST(BatchLeastSquares, JudgesAMuscleByAnExperimentThatItWasNotFittedTo) {
+  for (const double bias_W : {0.0, 0.3}) {
+    const PowerSteps steps{.bias_W = bias_W};
+    BatchLeastSquares fit = steps.experiment();
+    const BatchLeastSquares::Sums before = fit.experiment();
+    CHECK_COMPARE(fit.unexplained_ratio(before, paper_theta()), <, 1e-4);
+    Theta wrong = paper_theta();
+    wrong[3] *= 1.5;  // half of the power that holds it
+    const double unexplained = fit.unexplained_ratio(before, wrong);
+    CHECK_COMPARE(unexplained, >, 0.01);
+    // Whatever was fitted since.
+    fit.start(0.0);
+    DOUBLES_EQUAL(unexplained, fit.unexplained_ratio(before, wrong), 1e-15);
+  }
 }
 
 TEST(BatchLeastSquares, FindsAConstantBiasOfThePower) {

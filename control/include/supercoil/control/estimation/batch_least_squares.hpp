@@ -57,10 +57,21 @@ class BatchLeastSquares {
   /// last block counts as complete.
   std::optional<Fit> fit() const;
 
+  class Sums;
+  /// All of the experiment, by which a fit to another one can be judged.
+  Sums experiment() const { return sum(0, blocks_); }
+  /// Of the filtered power's variance in that experiment of this muscle: what theta, beside the
+  /// constant power that suits it best, does not explain. NaN: of no sample.
+  double unexplained_ratio(const Sums& experiment, const Theta& theta) const;
+
  private:
   static constexpr int size = 5;  ///< θ and the bias
   using Regressors = Vector<double, size>;
-  struct Sums {
+
+ public:
+  /// What a fit needs of an experiment.
+  class Sums {
+    friend BatchLeastSquares;
     Matrix<double, size> instrumental = Matrix<double, size>::Zero();
     Regressors correlation = Regressors::Zero();
     // What judges a solution.
@@ -71,7 +82,13 @@ class BatchLeastSquares {
     double count = 0.0;
 
     void add(const Sums& other, double sign);
+    double variance() const { return energy - mean * mean / count; }
+    double missed(const Regressors& solution) const {
+      return energy - 2.0 * solution.dot(projection) + solution.dot(information * solution);
+    }
   };
+
+ private:
   Sums sum(std::size_t from, std::size_t to) const;
   Regressors regressors(const Vector<double, 5>& position) const;
   static Regressors solve(const Sums& sums);

@@ -20,7 +20,7 @@ TEST_GROUP(Promise) {
     channel.senses.error_ratio = 0.02;
     channel.muscle_identified = true;
     channel.controllers[0].kind = control::ControllerKind::learned_ff;
-    motion = plan_first_motion(feasibility(channel, board));
+    motion = plan_first_motion(feasibility(channel, board), NAN);
   }
 
   Promise promised(double unexplained_ratio = 0.0) const {
@@ -41,7 +41,7 @@ TEST(Promise, TheFirstMotionIsOneThatTheMuscleCanFollow) {
   for (const double factor : {0.2, 1.0, 8.0}) {
     channel.muscle.thermal_mass_J_per_K = factor * 0.162;
     const Feasibility f = feasibility(channel, board);
-    motion = plan_first_motion(f);
+    motion = plan_first_motion(f, 0.05);
     CHECK(motion.period_s >= 5.0);
     DOUBLES_EQUAL(0.4 * f.travel_m, motion.middle_m, 1e-12);
     constexpr int steps = 200;
@@ -51,6 +51,14 @@ TEST(Promise, TheFirstMotionIsOneThatTheMuscleCanFollow) {
       CHECK(wanted_W < 0.75 * f.held_W);
     }
   }
+}
+
+TEST(Promise, WhereFullStrokesDidNotFitTheFirstMotionStaysLower) {
+  const Feasibility f = feasibility(channel, board);
+  const FirstMotion lower = plan_first_motion(f, 0.07);
+  DOUBLES_EQUAL(0.7 * motion.middle_m, lower.middle_m, 1e-12);
+  DOUBLES_EQUAL(0.7 * motion.amplitude_m, lower.amplitude_m, 1e-12);
+  DOUBLES_EQUAL(motion.period_s, lower.period_s, 1e-12);
 }
 
 TEST(Promise, ASensorsNoiseIsInWhatItShows) {

@@ -1,0 +1,62 @@
+#include "modes/excitation.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil;
+using modes::Excitation;
+
+namespace {
+
+constexpr double tick_s = 0.01;
+constexpr double thermal_s = 10.0;
+constexpr double max_travel_m = 0.02;
+
+struct Strokes {
+  std::vector<double> lowest_m;  ///< of each cycle but the last, which ends as it cools
+  double took_s = 0.0;
+};
+
+/// A muscle that all power would draw to so many times the channel's travel.
+Strokes strokes_of(double overpowered) {
+  constexpr double max_W = 4.0;
+  Excitation excitation({max_travel_m, tick_s});
+  excitation.start(0.0);
+  Strokes all;
+  double position_m = 0.0;
+  double lowest_m = max_travel_m;
+  std::size_t cycle = 0;
+  while (!excitation.done() && all.took_s < 3000.0) {
+    const double power_W = excitation.step(position_m, max_W);
+    const double steady_m = overpowered * max_travel_m * power_W / max_W;
+    position_m += tick_s / thermal_s * (steady_m - position_m);
+    all.took_s += tick_s;
+    lowest_m = std::min(lowest_m, position_m);
+    if (excitation.cycle() == cycle) continue;
+    cycle = excitation.cycle();
+    all.lowest_m.push_back(lowest_m);
+    lowest_m = max_travel_m;
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_GROUP(Excitation){};
+
+/// Where little of the power holds the muscle up, the twentieth of it that shows its mechanics
+/// while it cools is less.
+TEST(Excitation, AMuscleComesToItsLowsHoweverMuchPowerThereIs) {
+  for (const double overpowered : {1.0, 3.0, 10.0}) {
+    const Strokes strokes = strokes_of(overpowered);
+    CHECK_EQUAL(Excitation::cycles, strokes.lowest_m.size());
+    // All cycles but the first, which searched: 0.15 and 0.25 of 0.55 of the travel in turn.
+    for (std::size_t i = 1; i < strokes.lowest_m.size(); ++i) {
+      const double low_m = (i % 2 == 0 ? 0.15 : 0.25) * 0.55 * max_travel_m;
+      CHECK_COMPARE(strokes.lowest_m[i], <, low_m + 0.02 * max_travel_m);
+    }
+    CHECK_COMPARE(strokes.took_s, <, 8 * 3.0 * thermal_s);
+  }
+}

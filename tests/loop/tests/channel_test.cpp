@@ -55,6 +55,16 @@ TEST(Channel, TellsTheMarginOfEveryDetectorWithin55Ticks) {
   UNSIGNED_LONGS_EQUAL(all_faults().size(), told.size());
 }
 
+TEST(Channel, TellsByHowMuchTheBoardsFaultWasPassed) {
+  heat(1.0);
+  rig.board.set_supply_V(9.0);
+  CHECK(rig.run_until([&] { return rig.fault() == Fault::under_voltage; }, 1.0));
+  const Snapshot& s = rig.snapshot();
+  CHECK(s.margin_selector == Fault::under_voltage);
+  DOUBLES_EQUAL(9.0, s.margin.measured, 0.5);
+  CHECK_COMPARE(s.margin.measured, <, s.margin.limit);
+}
+
 TEST(Channel, OnlyAnObeyedCommandEndsARowOfDamagedOnes) {
   heat(1.0);
   for (int i = 0; i < 3; ++i) {

@@ -132,10 +132,13 @@ TEST(Commands, AResetWithAValueResetsNoBoard) {
 
 TEST(Commands, ToAChannelThatIsNotThereAreRefused) {
   rig.boot();
-  rig.last_refusal = Refusal::none;
-  rig.loop.send({7, Verb::arm, 0.0});
-  rig.tick();
-  CHECK(rig.last_refusal == Refusal::no_such_channel);
+  const auto channels = static_cast<std::uint8_t>(rig.loop.channels());
+  for (const std::uint8_t none : {channels, std::uint8_t{7}, std::uint8_t{255}}) {
+    rig.last_refusal = Refusal::none;
+    rig.loop.send({none, Verb::arm, 0.0});
+    rig.tick();
+    CHECK(rig.last_refusal == Refusal::no_such_channel);
+  }
 }
 
 TEST(Commands, ThatAreNotRenewedExpire) {

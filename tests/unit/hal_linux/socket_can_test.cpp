@@ -212,7 +212,7 @@ TEST(SocketCan, RefusesPlacesThatCannotBe) {
   place.listen.assign(513, 1);
   STRCMP_EQUAL("can0: listens to 513 identifiers, and 512 are the most",
                problem_of_opening().c_str());
-  for (const char* name : {"", "../can0", "a_name_of_sixteen"}) {
+  for (const char* name : {"", "../can0", "sixteen_letters_"}) {
     place = {name, {}, kernel.net.path()};
     STRCMP_CONTAINS("is not a network interface name", problem_of_opening().c_str());
   }

@@ -39,6 +39,12 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   const KnownMuscle known = known_muscle(
       {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, {},
       {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}});
+  modes::Identify::Quality quality;
+  quality.deviation_ratio << 0.1, 0.2, 0.3, 0.4;
+  quality.unexplained_ratio = 0.5;
+  const KnownMuscle identified = known_muscle({}, {}, 0.0, quality, {{}, 8.0, {}});
+  for (std::size_t i = 0; i < 5; ++i)
+    DOUBLES_EQUAL(0.1 * static_cast<double>(i + 1), identified[known_theta1_deviation + i], 1e-15);
   DOUBLES_EQUAL(9.0, known[known_cold_resistance], 0.0);
   DOUBLES_EQUAL(0.25, known[known_position_offset], 0.0);
   DOUBLES_EQUAL(1.5, known[known_position_scale], 0.0);

@@ -63,6 +63,12 @@ TEST(BoardSettingsCheck, AJointTakesTwoChannelsOfTheBoard) {
   settings.joints.resize(1);
   settings.channels[1].supervision.proof_of_response = true;
   check_says("channel 2 cannot prove by itself that it responds", "joint");
+  settings.channels[1].supervision.proof_of_response = false;
+  settings.joints[0].co_contraction_W = -0.1;
+  check_says("co_contraction_W be 0 or more", "joint");
+  settings.joints[0].co_contraction_W = 2.1;
+  settings.joints[0].max_co_contraction_W = 2.0;
+  check_says("must not exceed max_co_contraction_W", "joint");
 }
 
 TEST(BoardSettingsCheck, AControllerThatContradictsItselfIsNamed) {

@@ -103,6 +103,7 @@ int __wrap_bind(int, const sockaddr* address, socklen_t size) {
   sockaddr_can can{};
   if (size != sizeof(can)) return refuse(EINVAL);
   std::memcpy(&can, address, sizeof(can));
+  if (can.can_family != AF_CAN) return refuse(EINVAL);
   current->bound_to = can.can_ifindex;
   return 0;
 }

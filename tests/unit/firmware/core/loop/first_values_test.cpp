@@ -12,6 +12,7 @@
 #include "loop/feasibility.hpp"
 #include "loop/loop.hpp"
 #include "loop/overrun_policy.hpp"
+#include "loop/playback.hpp"
 #include "loop/promise.hpp"
 #include "loop/self_test.hpp"
 #include "loop/snapshot.hpp"
@@ -44,6 +45,13 @@ TEST(FirstValues, OfWhatABoardIsJudgedByAccuseNobody) {
   CHECK(e.bus == hal::CanState::active);
   CHECK_TRUE(e.lines_ok);
   CHECK_FALSE(e.node_conflict || e.configuration_changed || e.self_test_failed);
+}
+
+TEST(FirstValues, OfAPlaybackAreThatNoKnotIsThereOrTaken) {
+  const PlaybackStatus status;
+  CHECK(status.state == PlaybackState::empty);
+  LONGS_EQUAL(0, status.room);
+  DOUBLES_EQUAL(0.0, status.buffered_s, 0.0);
 }
 
 TEST(FirstValues, OfWhatAChannelIsJudgedByAccuseNobody) {

@@ -51,6 +51,22 @@ TEST(SelfTest, FindsHalfAsMuchAgainAsAnIdleChannelMayShowInEitherPulse) {
   CHECK(outcome(past_enable) == SelfTest::Outcome::enable_does_not_cut);
 }
 
+/// What did not flow before it was interrupted makes up for nothing either.
+TEST(SelfTest, BeginsItsMeansAnewAfterAnInterruption) {
+  SelfTest test({0.02}, tick_s);
+  int pulse_ticks = 0;
+  while (pulse_ticks < 28) {
+    pulse_ticks += test.lines().pulse ? 1 : 0;
+    test.step(true, 0.0, idle_A);
+  }
+  test.step(false, 0.0, idle_A);
+  while (!test.passed() && !test.failed()) {
+    const auto lines = test.lines();
+    test.step(true, lines.pulse && lines.enable ? 1.5 * idle_A : 0.0, idle_A);
+  }
+  CHECK(test.outcome() == SelfTest::Outcome::pump_does_not_open);
+}
+
 TEST(SelfTest, NeverClosesBothSwitchesAtOnce) {
   SelfTest test({0.02}, tick_s);
   int pulses = 0;

@@ -56,6 +56,9 @@ TEST(BoardSettingsCheck, AJointTakesTwoChannelsOfTheBoard) {
 
   settings.joints[0].antagonist = 4;
   check_says("channel 5 is none of the board's 4", "joint");
+  settings.joints[0].agonist = 5;
+  check_says("channel 6 is none of the board's 4", "joint");
+  settings.joints[0].agonist = 2;
   settings.joints[0].antagonist = 2;
   check_says("channel 3 pulls twice", "joint");
   settings.joints = {{.agonist = 0, .antagonist = 1}, {.agonist = 2, .antagonist = 1}};

@@ -79,6 +79,7 @@ Commissioned commission(const HeldOut& muscle, const std::string& controller) {
     c.refused = refused;
     c.took_s = link.time_s();
     c.hottest_rise_K = link.hottest_rise_K();
+    c.untold_K = link.untold_K();
     c.fault = link.fault();
     return c;
   };

@@ -42,6 +42,7 @@ struct Commissioned {
   double identified_s = 0.0;    ///< likewise
   double took_s = 0.0;          ///< likewise, all of it
   double hottest_rise_K = 0.0;  ///< truly
+  double untold_K = 0.0;        ///< so much hotter than the board told that it may be
   double travel_m = 0.0;        ///< that it was promised to hold
   Fault fault = Fault::none;
 };

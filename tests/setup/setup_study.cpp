@@ -14,22 +14,24 @@ int main(int argc, char** argv) {
   const int muscles = argc > 1 ? std::atoi(argv[1]) : 20;
   const double error = argc > 2 ? 1e-2 * std::atof(argv[2]) : 0.5;
   const int first = argc > 3 ? std::atoi(argv[3]) : 1;
-  int followed = 0, kept = 0, near = 0, in_time = 0;
+  int followed = 0, kept = 0, near = 0, in_time = 0, untold = 0;
   std::printf(
       "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um ratio "
-      "calibrated_s identified_s took_s rise_K\n");
+      "calibrated_s identified_s took_s rise_K untold_K\n");
   try {
     for (int seed = first; seed < first + muscles; ++seed) {
       const HeldOut muscle = held_out_muscle(static_cast<unsigned>(seed), error);
       const Commissioned c = commission(muscle);
       const double ratio = c.error_m / c.promised_m;
       std::printf(
-          "%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %5.2f %12.0f %12.0f %6.0f %6.0f %s %s\n",
+          "%4d %6s %7.2f %9.2f %11.2f %8.2f %11.2f %8.2f %5.2f %12.0f %12.0f %6.0f %6.0f %8.2f %s "
+          "%s\n",
           seed, muscle.linear ? "yes" : "no", muscle.time_constant_s, 1e3 * c.travel_m,
           1e6 * c.promised_m, 1e6 * c.probe_m, 1e6 * c.unexplained_m, 1e6 * c.error_m, ratio,
-          c.calibrated_s, c.identified_s, c.took_s, c.hottest_rise_K,
+          c.calibrated_s, c.identified_s, c.took_s, c.hottest_rise_K, c.untold_K,
           c.fault == Fault::none ? "" : name(c.fault).data(), c.refused.c_str());
       std::fflush(stdout);
+      untold += c.untold_K > 0.0 ? 1 : 0;
       if (!c.refused.empty()) continue;
       ++followed;
       kept += ratio <= 1.0 ? 1 : 0;
@@ -41,7 +43,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::printf(
-      "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time\n",
-      followed, muscles, kept, near, in_time);
+      "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time\n"
+      "%d were hotter at times than their board told that they may be\n",
+      followed, muscles, kept, near, in_time, untold);
   return 0;
 }

@@ -74,13 +74,16 @@ class SimulatedLink final : public operating::BoardLink {
   void wait(std::chrono::milliseconds time) override {
     const double until_s = time_s() + 1e-3 * static_cast<double>(time.count());
     while (time_s() < until_s) {
-      simulation_.step();
+      const host_sim::TickRecord now = simulation_.step();
+      untold_K_ = std::max(untold_K_, now.temperature_rise_K - now.hottest_K);
       watch();
     }
   }
   double time_s() const override { return static_cast<double>(simulation_.tick()) / rate_Hz_; }
 
   double hottest_rise_K() const { return hottest_rise_K_; }
+  /// By how much the muscle was hotter than the board told that it may be, while it was waited for.
+  double untold_K() const { return untold_K_; }
   Fault fault() const { return simulation_.loop().channel(0).snapshot().fault; }
 
  private:
@@ -95,6 +98,7 @@ class SimulatedLink final : public operating::BoardLink {
   host_sim::Simulation& simulation_;
   double rate_Hz_;
   double hottest_rise_K_ = 0.0;
+  double untold_K_ = 0.0;
 };
 
 }  // namespace supercoil::test

@@ -51,8 +51,9 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   muscle_ = muscle;
   calibrate(found);
   if (recalibrated) {
-    inputs_.recalibrated = {before_m, calibrated(inputs_.sensor_m),
-                            found.position_scale / before_scale};
+    const detectors::Recalibration change{before_m, calibrated(inputs_.sensor_m),
+                                          found.position_scale / before_scale};
+    inputs_.recalibrated = inputs_.recalibrated ? inputs_.recalibrated->then(change) : change;
     proof_.recalibrated();
   }
   has_muscle_ = true;

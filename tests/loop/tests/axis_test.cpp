@@ -261,6 +261,22 @@ TEST(Axis, ANewScaleIsNoMotionOfTheMuscle) {
   }
 }
 
+TEST(Axis, TwoScalesInOneTickAreNoMotionEither) {
+  rig().heat(Task::power);
+  rig().run(10.0);
+  const auto moved_m = [&] {
+    return rig().loop.channel(0).verdict().margin(Fault::heater_not_responding).measured;
+  };
+  const double before_m = moved_m();
+  const double position_m = rig().snapshot().position_m;
+  CHECK_COMPARE(before_m, >, 0.002);
+  rig().send(Verb::scale, 1.5 * position_m);
+  rig().send(Verb::scale, 1.2 * position_m);
+  rig().run_ticks(2);
+  DOUBLES_EQUAL(1.2 * position_m, rig().snapshot().position_m, 1e-4);
+  DOUBLES_EQUAL(1.2 * before_m, moved_m(), 1e-4);
+}
+
 /// While the muscle rests it cools, and its estimator does not look: how it lies then is no motion.
 TEST(Axis, TheEstimatorBeginsWhereAMuscleThatHadCooledIs) {
   const auto follow = [this](double position_m, double time_s) {

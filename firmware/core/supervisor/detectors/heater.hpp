@@ -77,6 +77,10 @@ struct Recalibration {
   double ratio = 1.0;     ///< of distances
 
   double after(double position_m) const { return after_m + ratio * (position_m - before_m); }
+  /// Both, this one first.
+  Recalibration then(const Recalibration& next) const {
+    return {before_m, next.after(after_m), ratio * next.ratio};
+  }
 };
 
 class NotResponding final : public Detector {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <CppUTest/TestHarness.h>
+#include <nlohmann/json.hpp>
 
 #include "setup/commissioned.hpp"
 
@@ -46,6 +47,24 @@ TEST(Commission, AMuscleFarFromLinearFollowsAsPromisedAfterShorterStrokes) {
     CHECK(c.error_m <= c.promised_m);
     CHECK(c.unexplained_m > 0.0);
   }
+}
+
+/// Short strokes of such a muscle show a time constant that is too short.
+TEST(Commission, HowFastItCoolsIsLearnedOfItsFullStrokesAlone) {
+  const auto learned_s = [](const std::string& event) {
+    HeldOut muscle = held_out_muscle(1097, error);
+    muscle.scenario += event;
+    HeldOutBoard board(muscle, "learned_ff", 0.02);
+    Nobody nobody;
+    operating::Commission steps = board.steps(nobody);
+    CHECK_TRUE(steps.calibrate().has_value());
+    static_cast<void>(steps.identify());
+    return board.simulation().learned().value().heat.time_constant_s;
+  };
+  const double undisturbed_s = learned_s("");
+  CHECK(undisturbed_s > 0.0);
+  DOUBLES_EQUAL(undisturbed_s,
+                learned_s("[[event]]\nat_s = 90.0\nplant.heat_transfer_W_per_K = 0.2\n"), 0.0);
 }
 
 TEST(Commission, NothingIsPromisedOfALawThatWasNotTried) {

@@ -17,18 +17,6 @@ namespace supercoil::test {
 
 namespace {
 
-/// Nobody watches, and nothing is asked.
-class Nobody final : public operating::Operator {
- public:
-  void say(const std::string&) override {}
-  void show_progress(const std::string&, double) override {}
-  bool sees_progress() const override { return false; }
-  bool interrupted() const override { return false; }
-  OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
-    return tl::unexpected("asked: " + std::string(question.key));
-  }
-};
-
 config::BoardConfig described_board(const operating::MuscleAnswers& answers,
                                     const std::string& controller) {
   using operating::Asked;

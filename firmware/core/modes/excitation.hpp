@@ -95,6 +95,7 @@ class Excitation {
   static constexpr double max_still_s = 25.0;
 
   double next_W(double position_m, double max_W);
+
   void begin(Phase phase) {
     phase_ = phase;
     phase_s_ = 0.0;

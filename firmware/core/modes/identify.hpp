@@ -73,7 +73,8 @@ class Identify {
     if (result == ModeResult::found || (result != ModeResult::poor_fit && shortened_ == 0))
       return result;
     if (shortened_ == max_shortened || !in_time) return poor_fit();
-    if (shortened_++ == 0) full_strokes_ = fit_.experiment();
+    if (shortened_ == 0) full_strokes_ = fit_.experiment();
+    ++shortened_;
     notes_ = 0;
     excitation_.start_shorter(position_m);
     fit_.start(position_m);
@@ -97,9 +98,9 @@ class Identify {
   std::uint8_t notes() const { return notes_; }
 
  private:
-  ModeResult judge();
   static constexpr std::uint8_t max_shortened = 2;
 
+  ModeResult judge();
   /// The full strokes did not fit, whatever speaks against the shorter ones.
   ModeResult poor_fit() {
     notes_ |= note_poor_fit;

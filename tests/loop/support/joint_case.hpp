@@ -39,6 +39,17 @@ inline void begin(Rig& rig) {
   rig.run(0.2);
 }
 
+/// Identifies or calibrates the agonist, and what goes on with it; whether that ends before max_s.
+inline bool measures_to_the_end(Rig& rig, Verb mode, double max_s) {
+  CHECK(rig.answer_of(agonist, mode) == Refusal::none);
+  return rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        return rig.state() != State::active;
+      },
+      max_s);
+}
+
 /// Whether it ends in a fault before max_s.
 inline bool follows_until_fault(Rig& rig, double max_s,
                                 const std::function<double()>& reference_m) {

@@ -146,13 +146,7 @@ TEST(JointFault, BothMusclesWindowsBeginAnewWhereIdentifyFoundOne) {
   settings.firmware.channels[agonist].muscle.force_per_kelvin_N_per_K *= 1.4;
   Rig fresh(settings);
   begin(fresh);
-  CHECK(fresh.answer_of(agonist, Verb::identify) == Refusal::none);
-  CHECK(fresh.run_until(
-      [&] {
-        fresh.send(Verb::renew);
-        return fresh.state() != State::active;
-      },
-      400.0));
+  CHECK(measures_to_the_end(fresh, Verb::identify, 400.0));
   CHECK(fresh.snapshot().result == ModeResult::found);
   fresh.run_ticks(3);
   for (const std::uint8_t channel : {agonist, antagonist}) {

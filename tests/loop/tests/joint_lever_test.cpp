@@ -52,13 +52,7 @@ TEST(JointLever, FindsItsZeroWhereverTheLeverOfTheTableIs) {
   shifted.arm();
   CHECK_COMPARE(std::abs(shifted.loop.channel(agonist).snapshot().position_m), <, 0.995 * away_m);
   shifted.run(60.0);
-  CHECK(shifted.answer_of(agonist, Verb::calibrate) == Refusal::none);
-  CHECK(shifted.run_until(
-      [&] {
-        shifted.send(Verb::renew);
-        return shifted.state() != State::active;
-      },
-      600.0));
+  CHECK(measures_to_the_end(shifted, Verb::calibrate, 600.0));
   CHECK(shifted.loop.channel(agonist).snapshot().result == ModeResult::found);
   DOUBLES_EQUAL(away_m, shifted.loop.channel(agonist).known(known_position_offset), 10e-6);
 }

@@ -182,13 +182,7 @@ TEST(Joint, ItsZeroIsTakenWhenBothMusclesAreCold) {
     rig.run(0.1);
   }
   CHECK(rig.answer_of(antagonist, Verb::rest) == Refusal::none);
-  CHECK(rig.answer_of(agonist, Verb::calibrate) == Refusal::none);
-  CHECK(rig.run_until(
-      [&] {
-        rig.send(Verb::renew);
-        return state_of(agonist) != State::active;
-      },
-      600.0));
+  CHECK(measures_to_the_end(rig, Verb::calibrate, 600.0));
   CHECK(of(agonist).result == ModeResult::found);
   DOUBLES_EQUAL(0.0, rig.loop.channel(agonist).known(known_position_offset), 50e-6);
 }
@@ -203,13 +197,7 @@ TEST(Joint, ThatItIsStillDoesNotTellThatItsMusclesAreCold) {
            settings.firmware.channels[antagonist].thermal.air.warmest_C;
   };
   CHECK_COMPARE(hottest_K(), >, 20.0);
-  CHECK(fresh.answer_of(agonist, Verb::calibrate) == Refusal::none);
-  CHECK(fresh.run_until(
-      [&] {
-        fresh.send(Verb::renew);
-        return fresh.state() != State::active;
-      },
-      600.0));
+  CHECK(measures_to_the_end(fresh, Verb::calibrate, 600.0));
   CHECK(fresh.loop.channel(agonist).snapshot().result == ModeResult::found);
   CHECK_COMPARE(hottest_K(), <, 1.0);
 }
@@ -347,13 +335,7 @@ TEST(Joint, NeitherMuscleIsHeatedBesideOneThatIsMeasured) {
 
 TEST(Joint, CalibrateOfTheAgonistGoesOnWithTheAntagonist) {
   arm();
-  CHECK(rig.answer_of(agonist, Verb::calibrate) == Refusal::none);
-  CHECK(rig.run_until(
-      [&] {
-        rig.send(Verb::renew);
-        return state_of(agonist) != State::active;
-      },
-      200.0));
+  CHECK(measures_to_the_end(rig, Verb::calibrate, 200.0));
   for (const std::uint8_t channel : {agonist, antagonist})
     CHECK(of(channel).result == ModeResult::found);
 }

@@ -203,7 +203,8 @@ TEST(Modes, CalibrateFindsZeroAndColdResistance) {
   DOUBLES_EQUAL(9.5, found->calibration.cold_resistance_Ohm, 0.05);
 }
 
-/// But not that of a heater whose resistance is to tell its temperature.
+/// But not that of a heater whose resistance is to tell its temperature, nor by a sensor of so few
+/// steps that it shows no motion of half a millimetre.
 TEST(Modes, TheZeroOfAStillMuscleIsTakenBeforeItMustBeCold) {
   const auto hottest_C = [](const std::string& plant) {
     const auto scenario = parse_scenario(calibrate + "[plant]\n" + plant, "modes.toml");
@@ -220,6 +221,7 @@ TEST(Modes, TheZeroOfAStillMuscleIsTakenBeforeItMustBeCold) {
   CHECK_COMPARE(hottest_C(""), >, warmest_C + 4.0);
   CHECK_COMPARE(hottest_C(""), <, warmest_C + 20.0);
   CHECK_COMPARE(hottest_C("temperature_coefficient_per_K = 0.002\n"), <, warmest_C + 1.0);
+  CHECK_COMPARE(hottest_C("[sensor.position]\nresolution_bits = 6\n"), <, warmest_C + 1.0);
 }
 
 TEST(Modes, CalibrateStoresNothingWhileTheMuscleMoves) {

@@ -85,8 +85,7 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
         "Weights hang at the lever, " +
         number_text(1e3 * *lever_m, 4) +
         " mm from the axis; mm are by how much it contracts; what it lifts is the joint's inertia "
-        "over the "
-        "lever's square");
+        "over the lever's square");
   }
   const auto completed = complete(answers, options, who);
   if (!completed) return tl::unexpected(completed.error());

@@ -41,9 +41,8 @@ inline constexpr std::array<SetupStep, 8> setup_steps{{
      true, true},
     {"identify",
      "heats and lets cool nine times, up to 0.85 of its reach, and again in shorter strokes if it "
-     "is "
-     "far from linear; a minute for a quick muscle, up to 25 minutes for one with a time constant "
-     "of a minute"},
+     "is far from linear; a minute for a quick muscle, up to 25 minutes for one with a time "
+     "constant of a minute"},
     {"gains",
      "compares the controller in use with the one that suits the muscle that was found, and takes "
      "that one over if it differs and you want it; heats nothing",

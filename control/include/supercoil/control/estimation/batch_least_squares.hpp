@@ -22,6 +22,9 @@ namespace supercoil::control {
 /// much the result depends on which part of the experiment is left out. So it has the noise in it
 /// and as much of the model's own error as varies during the experiment.
 class BatchLeastSquares {
+  static constexpr int size = 5;  ///< θ and the bias
+  using Regressors = Vector<double, size>;
+
  public:
   static constexpr std::size_t max_blocks = 16;
   /// Less than these leave nothing to judge the fit by.
@@ -57,18 +60,6 @@ class BatchLeastSquares {
   /// last block counts as complete.
   std::optional<Fit> fit() const;
 
-  class Sums;
-  /// All of the experiment, by which a fit to another one can be judged.
-  Sums experiment() const { return sum(0, blocks_); }
-  /// Of the filtered power's variance in that experiment of this muscle: what theta, beside the
-  /// constant power that suits it best, does not explain. NaN: of no sample.
-  double unexplained_ratio(const Sums& experiment, const Theta& theta) const;
-
- private:
-  static constexpr int size = 5;  ///< θ and the bias
-  using Regressors = Vector<double, size>;
-
- public:
   /// What a fit needs of an experiment.
   class Sums {
     friend BatchLeastSquares;
@@ -87,6 +78,12 @@ class BatchLeastSquares {
       return energy - 2.0 * solution.dot(projection) + solution.dot(information * solution);
     }
   };
+
+  /// All of the experiment, by which a fit to another one can be judged.
+  Sums experiment() const { return sum(0, blocks_); }
+  /// Of the filtered power's variance in that experiment of this muscle: what theta, beside the
+  /// constant power that suits it best, does not explain. NaN: of no sample.
+  double unexplained_ratio(const Sums& experiment, const Theta& theta) const;
 
  private:
   Sums sum(std::size_t from, std::size_t to) const;

@@ -13,26 +13,6 @@ namespace {
 
 constexpr NotResponding::Expected nothing{};
 
-/// How far each possible muscle has moved, as the header says it.
-void check_possible_motions() {
-  const NotResponding::Expected expected{0.010, 0.012, 0.004};
-  const NotResponding::Expected opposed{0.003, 0.004, 0.001};
-  const auto motions = NotResponding::possible(expected, &opposed);
-  const std::size_t alone = NotResponding::steps + 2;
-  DOUBLES_EQUAL(0.007, motions[0], 1e-12);
-  DOUBLES_EQUAL(0.008, motions[1], 1e-12);
-  DOUBLES_EQUAL(0.003, motions[alone - 1], 1e-12);
-  double before = -1.0;
-  for (std::size_t i = 0; i < NotResponding::gains.size(); ++i) {
-    const double gain = NotResponding::gains[i];
-    CHECK_COMPARE(gain, >, before);
-    before = gain;
-    DOUBLES_EQUAL(0.010 - gain * 0.003, motions[alone + i], 1e-12);
-  }
-  // Of a muscle alone, nothing takes it back.
-  DOUBLES_EQUAL(0.010, NotResponding::possible(expected, nullptr)[0], 1e-12);
-}
-
 /// The models rise by 3 mm in 1 s and on.
 NotResponding::Expected rising(int tick) {
   const double expected_m = 0.003 * tick * tick_s;
@@ -55,7 +35,22 @@ TEST_GROUP(JointDetectors) {
 };
 
 TEST(JointDetectors, EveryGainOfTheOtherMuscleIsPossible) {
-  check_possible_motions();
+  const NotResponding::Expected expected{0.010, 0.012, 0.004};
+  const NotResponding::Expected opposed{0.003, 0.004, 0.001};
+  const auto motions = NotResponding::possible(expected, &opposed);
+  const std::size_t alone = NotResponding::steps + 2;
+  DOUBLES_EQUAL(0.007, motions[0], 1e-12);
+  DOUBLES_EQUAL(0.008, motions[1], 1e-12);
+  DOUBLES_EQUAL(0.003, motions[alone - 1], 1e-12);
+  double before = -1.0;
+  for (std::size_t i = 0; i < NotResponding::gains.size(); ++i) {
+    const double gain = NotResponding::gains[i];
+    CHECK_COMPARE(gain, >, before);
+    before = gain;
+    DOUBLES_EQUAL(0.010 - gain * 0.003, motions[alone + i], 1e-12);
+  }
+  // Of a muscle alone, nothing takes it back.
+  DOUBLES_EQUAL(0.010, NotResponding::possible(expected, nullptr)[0], 1e-12);
 }
 
 TEST(JointDetectors, LooseTripsHalfASecondAfterTheMotionShouldHaveBeenSeen) {

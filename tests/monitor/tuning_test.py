@@ -39,6 +39,14 @@ class ByCommand(PageCase):
         self.assertEqual(self.values("--clear")["adaptation_scale"]["stored"], 1.0)
         self.assertEqual(self.values("--from", "configured")["adaptation_scale"]["in_use"], 1.0)
 
+    def test_the_constants_of_mrac_are_values_of_its_own(self):
+        changed = self.values("gain_6=90", "lambda_1=44", "p0_rad_per_s=4.5", "model_pole_1_rad_per_s=4.5", "freeze_when_limited=false")
+        self.assertEqual([changed[name]["in_use"] for name in ("gain_6", "lambda_1", "p0_rad_per_s", "freeze_when_limited")],
+                         [90.0, 44.0, 4.5, False])
+        # The proof of its stability is for a model of the same poles.
+        self.assertIn("unsuitable", self.tune("p0_rad_per_s=5").stderr)
+        self.assertIn("unsuitable", self.tune("gain_1=1", "damping=-1").stderr)
+
     def test_what_differs_has_a_star(self):
         lines = self.tune("kind=pi", "integral_W_per_m_s=900").stdout.splitlines()
         self.assertEqual(lines[0], "controller 0: pi")

@@ -10,8 +10,6 @@ namespace supercoil::control {
 
 MracSettings MracSettings::scaled(double factor) const {
   MracSettings result = *this;
-  result.gain *= factor;
-  result.sigma_gain *= factor;
   result.adaptation_scale *= factor;
   return result;
 }
@@ -19,8 +17,9 @@ MracSettings MracSettings::scaled(double factor) const {
 std::optional<MracSettings> mrac_preset(std::string_view name) {
   if (name == "printed") return MracSettings{};
   if (name == "a") {
-    MracSettings a = MracSettings{}.scaled(20.0);
-    a.adaptation_scale = 1.0;
+    MracSettings a;
+    a.gain *= 20.0;
+    a.sigma_gain *= 20.0;
     a.alpha = {20.0, 400.0};
     a.lambda = {400.0, 40.0, 1.0};
     a.damping = 1.0;
@@ -53,11 +52,11 @@ void MracLaw::check_fit(FixedPointFit& fit, const Settings& s, const LawContext&
   // middle.
   fit.at_most("alpha", peak_W * std::abs(s.alpha[1] / s.lambda[0]), signal);
   fit.at_most("alpha", peak_W * std::abs(s.alpha[0] / s.lambda[1]), signal);
-  for (const double gain : s.gain)
+  for (const double gain : s.scaled_gain())
     fit.gain("gain", gain * step_s);
   for (const double value : s.initial)
     fit.at_most("initial", value, signal);
-  fit.at_most("sigma_gain", s.sigma_gain, state);
+  fit.at_most("sigma_gain", s.scaled_sigma_gain(), state);
   fit.at_most("initial_sigma", s.initial_sigma, state);
   fit.at_most("damping", s.damping, state);
   if (!s.bounds) return;

@@ -30,7 +30,7 @@ control::ControllerSettings read_controller(
 control::EstimatorSettings read_estimator(Section& section,
                                           const control::PhysicalParameters& muscle, double max_W);
 
-/// The single values of a controller or an estimator, but for kinds, reference models and gains,
+/// The single values of a controller or an estimator, but for kinds, reference models and lists,
 /// which are read apart. settings: whose kind is known.
 template <class Settings>
 void read_tunables(Section& section, Settings& settings) {

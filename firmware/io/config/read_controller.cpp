@@ -14,22 +14,15 @@ MracSettings::Parameters read_six(Section& section, const char* key,
   return Eigen::Map<const MracSettings::Parameters>(list.data());
 }
 
-void read_mrac_constants(Section& section, MracSettings& m) {
+/// Those that are no single values.
+void read_mrac_lists(Section& section, MracSettings& m) {
   const auto alpha = section.numbers("alpha", {m.alpha[0], m.alpha[1]}, {1e-6, 1e6}, 2, 2);
   m.alpha = {alpha[0], alpha[1]};
   const auto lambda = section.numbers("lambda", {m.lambda[1], m.lambda[0]}, {-1e6, 1e6}, 2, 2);
   m.lambda = {lambda[1], lambda[0], 1.0};
-  m.p0_rad_per_s = section.number("p0_rad_per_s", m.p0_rad_per_s, {-1e3, 1e3});
-  m.p1_rad_per_s = section.number("p1_rad_per_s", m.p1_rad_per_s, {-1e3, 1e3});
-  m.q0_rad_per_s = section.number("q0_rad_per_s", m.q0_rad_per_s, {-1e3, 1e3});
   m.gain = read_six(section, "gain", m.gain, {-1e9, 1e9});
-  m.sigma_gain = section.number("sigma_gain", m.sigma_gain, {-1e9, 1e9});
-  m.damping = section.number("damping", m.damping, {-1e6, 1e6});
   m.initial = read_six(section, "initial", m.initial, {-1e6, 1e6});
   m.initial_sigma = section.number("initial_sigma", m.initial_sigma, {-1e6, 1e6});
-  m.freeze_when_limited = section.flag("freeze_when_limited", m.freeze_when_limited);
-  m.sigma_modification = section.number("sigma_modification", m.sigma_modification, {0.0, 1e3});
-  m.dead_zone_W = section.number("dead_zone_W", m.dead_zone_W, {0.0, 1e3});
   const MracSettings::Parameters wide = MracSettings::Parameters::Constant(1e6);
   const bool bounded = section.has("lower") || section.has("upper");
   const auto lower = read_six(section, "lower", -wide, {-1e6, 1e6});
@@ -67,7 +60,7 @@ control::ControllerSettings read_controller(
     c.arithmetic = section.choice("arithmetic", c.arithmetic, control::arithmetic_names);
   c.mrac = c.kind == ControllerKind::mrac ? read_mrac_preset(section) : *control::mrac_preset("a");
   read_tunables(section, c);
-  if (c.kind == ControllerKind::mrac) read_mrac_constants(section, c.mrac);
+  if (c.kind == ControllerKind::mrac) read_mrac_lists(section, c.mrac);
   for (const SettingsProblem& problem : contradictions(c))
     section.wrong(problem.key, problem.message);
   section.finish();

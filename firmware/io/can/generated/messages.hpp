@@ -233,7 +233,7 @@ inline constexpr std::array<ValueName, 4> names_of_state{{
     {3, "fault"},
 }};
 
-inline constexpr std::array<ValueName, 35> names_of_tunable{{
+inline constexpr std::array<ValueName, 49> names_of_tunable{{
     {0, "kind"},
     {1, "proportional_W_per_m"},
     {2, "integral_W_per_m_s"},
@@ -268,6 +268,20 @@ inline constexpr std::array<ValueName, 35> names_of_tunable{{
     {31, "max_bias_W"},
     {32, "position_noise_m"},
     {33, "trusted_error"},
+    {34, "gain_5"},
+    {35, "gain_6"},
+    {36, "sigma_gain"},
+    {37, "damping"},
+    {38, "alpha_1"},
+    {39, "alpha_2"},
+    {40, "lambda_1"},
+    {41, "lambda_2"},
+    {42, "p0_rad_per_s"},
+    {43, "p1_rad_per_s"},
+    {44, "q0_rad_per_s"},
+    {45, "freeze_when_limited"},
+    {46, "sigma_modification"},
+    {47, "dead_zone_W"},
     {255, "all"},
 }};
 

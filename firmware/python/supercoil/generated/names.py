@@ -268,6 +268,20 @@ class Tunable(Named):
     max_bias_W = 31
     position_noise_m = 32
     trusted_error = 33
+    gain_5 = 34
+    gain_6 = 35
+    sigma_gain = 36
+    damping = 37
+    alpha_1 = 38
+    alpha_2 = 39
+    lambda_1 = 40
+    lambda_2 = 41
+    p0_rad_per_s = 42
+    p1_rad_per_s = 43
+    q0_rad_per_s = 44
+    freeze_when_limited = 45
+    sigma_modification = 46
+    dead_zone_W = 47
     all = 255
 
 

@@ -106,7 +106,8 @@ TEST(MracDesign, PresetAIsDesignA) {
 
 TEST(MracDesign, ScalingTouchesOnlyThePiAndNu) {
   const MracSettings s = MracSettings{}.scaled(10.0);
-  CHECK((s.gain == Parameters{60, 60, 60, 70, 20, 30}));
-  CHECK(s.sigma_gain == 40.0 && s.damping == 3.0);
+  CHECK((s.scaled_gain() == Parameters{60, 60, 60, 70, 20, 30}));
+  CHECK(s.scaled_sigma_gain() == 40.0 && s.damping == 3.0);
+  CHECK(s.gain == MracSettings{}.gain && s.sigma_gain == 4.0);
   CHECK_FALSE(mrac_preset("b").has_value());
 }

@@ -146,12 +146,13 @@ kind = "mrac"
 preset = "printed"
 adaptation_scale = 10.0
 damping = 1.5
+gain = [1, 2, 3, 4, 5, 6]
 lambda = [40.0, 400.0]
 dead_zone_W = 0.001
 )");
   const control::MracSettings& m = s.start.controller.mrac;
-  DOUBLES_EQUAL(60.0, m.gain[0], 1e-12);
-  DOUBLES_EQUAL(40.0, m.sigma_gain, 1e-12);
+  DOUBLES_EQUAL(60.0, m.scaled_gain()[5], 1e-12);
+  DOUBLES_EQUAL(40.0, m.scaled_sigma_gain(), 1e-12);
   DOUBLES_EQUAL(1.5, m.damping, 0.0);
   DOUBLES_EQUAL(40.0, m.lambda[1], 0.0);
   DOUBLES_EQUAL(400.0, m.lambda[0], 0.0);

@@ -83,13 +83,6 @@ class GradientEstimator {
   Scalar error_{};
 };
 
-/// One of Γ's diagonal.
-template <int I>
-constexpr SettingValue<GradientSettings> gain_value(std::string_view name) {
-  return {name, [](const GradientSettings& s) { return s.gain[I]; },
-          [](GradientSettings& s, double value) { s.gain[I] = value; }};
-}
-
 /// Trusted, and settled, by its ExcitationMonitor.
 struct GradientEstimation {
   using Settings = GradientSettings;
@@ -98,8 +91,11 @@ struct GradientEstimation {
   static constexpr std::string_view name = "gradient";
   static constexpr bool fixed_point = true;
   static constexpr std::array values{
-      gain_value<0>("gain_1"), gain_value<1>("gain_2"), gain_value<2>("gain_3"),
-      gain_value<3>("gain_4"), setting_value<Settings, &Settings::normalisation>("normalisation")};
+      element_value<Settings, &Settings::gain, 0>("gain_1"),
+      element_value<Settings, &Settings::gain, 1>("gain_2"),
+      element_value<Settings, &Settings::gain, 2>("gain_3"),
+      element_value<Settings, &Settings::gain, 3>("gain_4"),
+      setting_value<Settings, &Settings::normalisation>("normalisation")};
 
   static void set_nominal(Settings& s, const RegressionScale& scale, double /*max_W*/) {
     s.scale = scale;

@@ -28,4 +28,11 @@ constexpr SettingValue<Settings> setting_value(std::string_view name) {
           }};
 }
 
+/// Member: a list of the settings; of it the element at I.
+template <class Settings, auto Member, int I>
+constexpr SettingValue<Settings> element_value(std::string_view name) {
+  return {name, [](const Settings& s) { return static_cast<double>((s.*Member)[I]); },
+          [](Settings& s, double value) { (s.*Member)[I] = value; }};
+}
+
 }  // namespace supercoil::control

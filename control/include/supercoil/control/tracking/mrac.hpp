@@ -36,11 +36,12 @@ class Mrac {
         p0_(settings.p0_rad_per_s),
         p1_minus_p0_(settings.p1_rad_per_s - settings.p0_rad_per_s),
         q0_(settings.q0_rad_per_s),
-        gain_step_((settings.gain * step_s).template cast<Scalar>()),
-        sigma_gain_(settings.sigma_gain),
+        gain_step_((settings.scaled_gain() * step_s).template cast<Scalar>()),
+        sigma_gain_(settings.scaled_sigma_gain()),
         damping_(settings.damping),
         leaks_(settings.sigma_modification > 0.0),
-        leak_step_((settings.gain * (settings.sigma_modification * step_s)).template cast<Wide>()),
+        leak_step_((settings.scaled_gain() * (settings.sigma_modification * step_s))
+                       .template cast<Wide>()),
         dead_zone_(settings.dead_zone_W),
         freeze_when_limited_(settings.freeze_when_limited),
         initial_(settings.initial.template cast<Wide>()),
@@ -194,12 +195,27 @@ struct MracLaw : UsualLaw {
   static constexpr bool adapts = true;
   static constexpr std::string_view when_unstable =
       "take slower filters or a slower reference model";
-  static constexpr std::array values{SettingValue<Settings>{
-      "adaptation_scale", [](const Settings& s) { return s.adaptation_scale; },
-      [](Settings& s, double value) {
-        s = s.scaled(value / s.adaptation_scale);
-        s.adaptation_scale = value;  // without what the division rounded
-      }}};
+  static constexpr std::array values{
+      setting_value<Settings, &Settings::adaptation_scale>("adaptation_scale"),
+      element_value<Settings, &Settings::gain, 0>("gain_1"),
+      element_value<Settings, &Settings::gain, 1>("gain_2"),
+      element_value<Settings, &Settings::gain, 2>("gain_3"),
+      element_value<Settings, &Settings::gain, 3>("gain_4"),
+      element_value<Settings, &Settings::gain, 4>("gain_5"),
+      element_value<Settings, &Settings::gain, 5>("gain_6"),
+      setting_value<Settings, &Settings::sigma_gain>("sigma_gain"),
+      setting_value<Settings, &Settings::damping>("damping"),
+      element_value<Settings, &Settings::alpha, 0>("alpha_1"),
+      element_value<Settings, &Settings::alpha, 1>("alpha_2"),
+      element_value<Settings, &Settings::lambda, 1>("lambda_1"),
+      element_value<Settings, &Settings::lambda, 0>("lambda_2"),
+      setting_value<Settings, &Settings::p0_rad_per_s>("p0_rad_per_s"),
+      setting_value<Settings, &Settings::p1_rad_per_s>("p1_rad_per_s"),
+      setting_value<Settings, &Settings::q0_rad_per_s>("q0_rad_per_s"),
+      setting_value<Settings, &Settings::freeze_when_limited>("freeze_when_limited"),
+      setting_value<Settings, &Settings::sigma_modification>("sigma_modification"),
+      setting_value<Settings, &Settings::dead_zone_W>("dead_zone_W"),
+  };
 
   template <class Scalar>
   static Mrac<Scalar> make(const Settings& s, const LawContext&, double step_s) {

@@ -21,8 +21,9 @@ struct MracSettings {
   double p0_rad_per_s = 4.0;
   double p1_rad_per_s = 5.0;
   double q0_rad_per_s = 0.8;
-  Parameters gain{6.0, 6.0, 6.0, 7.0, 2.0, 3.0};  ///< diagonal of Π
-  double sigma_gain = 4.0;                        ///< ν
+  Parameters gain{6.0, 6.0, 6.0, 7.0, 2.0, 3.0};  ///< diagonal of Π, but for adaptation_scale
+  double sigma_gain = 4.0;                        ///< ν, but for adaptation_scale
+  double adaptation_scale = 1.0;                  ///< Π and ν are the two above multiplied by it
   double damping = 3.0;                           ///< α0 of Eq. (17); 0 leaves ua = θ̇ᵀφ1
   Parameters initial = Parameters::Zero();        ///< θ(0)
   double initial_sigma = 0.0;                     ///< σ(0)
@@ -33,8 +34,8 @@ struct MracSettings {
   std::optional<Box<double, 6>> bounds;  ///< θ is projected onto it
   bool accept_failed_premises = false;   ///< runs without the proof of its stability
 
-  double adaptation_scale = 1.0;  ///< by which Π and ν were multiplied
-
+  Parameters scaled_gain() const { return gain * adaptation_scale; }          ///< Π
+  double scaled_sigma_gain() const { return sigma_gain * adaptation_scale; }  ///< ν
   /// Π and ν multiplied by a factor > 0.
   MracSettings scaled(double factor) const;
 };

@@ -15,11 +15,11 @@ namespace supercoil::control {
 /// How the number of a Tunable is to be read.
 enum class TunableType : std::uint8_t {
   number,
-  flag,   ///< 0 or 1
-  kind,   ///< a ControllerKind or an EstimatorKind
-  model,  ///< 0: real poles; else a place in tunable_models, from 1
-  pole,   ///< a number; configurations have all three in reference_model.poles_rad_per_s
-  gain,   ///< a number; configurations have all four in gain
+  flag,     ///< 0 or 1
+  kind,     ///< a ControllerKind or an EstimatorKind
+  model,    ///< 0: real poles; else a place in tunable_models, from 1
+  pole,     ///< a number; configurations have all three in reference_model.poles_rad_per_s
+  element,  ///< a number; configurations have a list of all that differ in the last digit only
 };
 
 /// The reference models that have names.
@@ -54,13 +54,13 @@ struct Tunable {
   bool controllers_have() const;  ///< those of some kind
   bool estimators_have() const;
   bool is_number() const {
-    return type == TunableType::number || type == TunableType::pole || type == TunableType::gain;
+    return type == TunableType::number || type == TunableType::pole || type == TunableType::element;
   }
 };
 
 /// The places are those of the protocol (docs/can-protocol.md): new ones come last. In this order
 /// they can be set one after the other: what there is depends on the kind and reference_model.
-inline constexpr std::size_t tunable_count = 34;
+inline constexpr std::size_t tunable_count = 48;
 /// All of them, in that order.
 const std::array<Tunable, tunable_count>& tunables();
 /// tunable_count: there is none of this name.

@@ -150,6 +150,7 @@ MuscleChannelSettings channel_of(const Scenario& scenario, const Conditions& c,
 void set_known(ChannelSettings& channel, const KnownBefore& known) {
   channel.muscle_identified = known.muscle_identified;
   channel.response_ratio = known.response_ratio;
+  channel.unexplained_ratio = known.unexplained_ratio;
   channel.calibration = known.calibration;
 }
 

@@ -20,12 +20,10 @@ FirstMotionRun::FirstMotionRun(const Loop& loop, const BoardSettings& board, std
     : begin_s_(begin_s) {
   const Channel& channel = loop.channel(0);
   const ChannelSettings now = settings_now(channel, board.channels.front());
-  const double unexplained_ratio = channel.known(known_unexplained_ratio);
-  motion_ = plan_first_motion(feasibility(now, board), unexplained_ratio);
+  motion_ = plan_first_motion(feasibility(now, board), now.unexplained_ratio);
   const control::ControllerSettings& controller = now.controllers[place];
   if (!is_promised_for(controller)) return;
-  promised_rms_m_ =
-      promise_error(controller.learned_ff, now, board, motion_, unexplained_ratio).error_m();
+  promised_rms_m_ = promise_error(controller.learned_ff, now, board, motion_).error_m();
 }
 
 double FirstMotionRun::reference_m(double time_s) const {

@@ -36,6 +36,7 @@ ordered_json learned_json(const board::Learned& learned) {
   json["position_scale"] = learned.calibration.position_scale;
   json["cold_resistance_Ohm"] = learned.calibration.cold_resistance_Ohm;
   json["response_ratio"] = learned.response_ratio;
+  json["unexplained_ratio"] = learned.unexplained_ratio;
   return json;
 }
 

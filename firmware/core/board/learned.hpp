@@ -120,6 +120,8 @@ struct Learned {
   ThermalFacts heat;
   /// Of the model's small motions, what arrives at the sensor, up to 10; 0: not measured.
   double response_ratio = 0.0;
+  /// Of the power's variance, by the linear model that identify found, up to 1; 0: not measured.
+  double unexplained_ratio = 0.0;
   StoredTuning tuning;
 
   friend bool operator==(const Learned&, const Learned&) = default;

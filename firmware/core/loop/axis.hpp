@@ -193,7 +193,8 @@ class Axis {
   control::PhysicalParameters muscle_;  ///< as configured, learned before, or identified since
   bool has_muscle_;                     ///< learned before or since: what is stored has it
   board::Calibration calibration_;
-  double response_ratio_;  ///< of small motions, as ProofSettings has it; 0: not measured
+  double response_ratio_;     ///< of small motions, as ProofSettings has it; 0: not measured
+  double unexplained_ratio_;  ///< by that muscle, when identify found it; 0: not measured
   board::StoredTuning stored_tuning_;
   PublishedMuscle published_muscle_;
   boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;

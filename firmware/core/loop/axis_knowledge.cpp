@@ -1,4 +1,6 @@
 // What an axis knows of its muscle, and hands to whoever stores it.
+#include <cmath>
+
 #include "loop/axis.hpp"
 
 namespace supercoil {
@@ -19,14 +21,16 @@ Refusal Axis::refusal_of(ModeResult kept) {
 }
 
 board::Learned Axis::known() const {
-  return {muscle_,     calibration_,    heater_.senses(), 0,
-          has_muscle_, heater_.facts(), response_ratio_,  stored_tuning_};
+  return {muscle_,         calibration_,       heater_.senses(), 0, has_muscle_, heater_.facts(),
+          response_ratio_, unexplained_ratio_, stored_tuning_};
 }
 
 void Axis::publish_muscle() {
-  published_muscle_.set(known_muscle(muscle_, calibration_, response_ratio_, identify_.quality(),
-                                     {settings_.configured_muscle.value_or(settings_.muscle),
-                                      settings_.heater.cold_resistance_Ohm, settings_.joint}));
+  published_muscle_.set(known_muscle(
+      muscle_, calibration_, response_ratio_,
+      {identify_.quality().deviation_ratio, unexplained_ratio_ > 0.0 ? unexplained_ratio_ : NAN},
+      {settings_.configured_muscle.value_or(settings_.muscle), settings_.heater.cold_resistance_Ohm,
+       settings_.joint}));
 }
 
 void Axis::calibrate(const board::Calibration& calibration) {

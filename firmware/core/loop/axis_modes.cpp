@@ -46,6 +46,7 @@ bool Axis::step_small_signal() {
 
 /// What is expected of the muscle is so from now on, as it will be at the next start.
 ModeResult Axis::keep_identified() {
+  unexplained_ratio_ = identify_.quality().unexplained_ratio;
   const ModeResult kept = keep(identify_.found(), calibration_);
   if (kept == ModeResult::found || kept == ModeResult::not_stored) {
     heater_.believe(muscle_);

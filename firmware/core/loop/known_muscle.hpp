@@ -15,8 +15,8 @@
 
 namespace supercoil {
 
-/// In the order of Muscle.quantity in the DBC. What identify told of its own result is NaN until it
-/// has found a muscle since the start.
+/// In the order of Muscle.quantity in the DBC. The deviations are NaN until identify has found a
+/// muscle since the start, unexplained_ratio until it ever has found the one that is known.
 inline constexpr std::array<std::string_view, 33> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",

@@ -31,8 +31,9 @@ constexpr double max_dither_m = 20e-6;
 /// muscles (tests/setup/setup_study.cpp, 1001 to 1200) leave less.
 constexpr double usual_unexplained_ratio = 0.015;
 
-/// What identify told before the last start is not kept.
-double untold_ratio(const ChannelSettings& channel) {
+/// Of a muscle that was stored before this was, it may be as much as identify lets pass.
+double unexplained_ratio(const ChannelSettings& channel) {
+  if (channel.unexplained_ratio > 0.0) return channel.unexplained_ratio;
   return channel.muscle_identified ? modes::Identify::Settings{}.max_unexplained
                                    : usual_unexplained_ratio;
 }
@@ -58,7 +59,7 @@ double Promise::error_m() const {
 
 Promise promise_error(const control::LearnedFeedforwardSettings& law,
                       const ChannelSettings& channel, const BoardSettings& board,
-                      const FirstMotion& motion, double unexplained_ratio) {
+                      const FirstMotion& motion) {
   Promise p;
   const control::PhysicalParameters& m = channel.muscle;
   const double bandwidth = law.bandwidth_rad_per_s;
@@ -81,15 +82,13 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
   if (below_s > channel.heater.probe_every_s)
     p.probe_m = gain * probe_W * std::min(1.0, channel.heater.probe_s / tau_s);
 
-  const double unexplained =
-      std::isnan(unexplained_ratio) ? untold_ratio(channel) : unexplained_ratio;
   // Where the motion itself tells too little, a dither asks whether the muscle still answers.
   const double quick_m = motion.amplitude_m * turn / std::hypot(turn, motion_corner_rad_per_s);
   if (channel.supervision.proof_of_response && quick_m < telling_deviations * reading_m)
     p.dither_m = std::max(max_dither_m, 2.0 * count_m) / std::numbers::sqrt2;
 
   p.unexplained_m =
-      std::sqrt(std::max(0.0, unexplained)) * motion.amplitude_m * std::min(1.0, turn / bandwidth);
+      std::sqrt(unexplained_ratio(channel)) * motion.amplitude_m * std::min(1.0, turn / bandwidth);
   return p;
 }
 
@@ -101,7 +100,9 @@ ChannelSettings with_known(ChannelSettings channel, const KnownMuscle& known) {
                          .position_scale = known[known_position_scale],
                          .cold_resistance_Ohm = known[known_cold_resistance]};
   channel.response_ratio = known[known_response_ratio];
-  channel.muscle_identified = !std::isnan(known[known_unexplained_ratio]);
+  const double unexplained = known[known_unexplained_ratio];
+  channel.muscle_identified = !std::isnan(unexplained);
+  channel.unexplained_ratio = channel.muscle_identified ? unexplained : 0.0;
   return channel;
 }
 

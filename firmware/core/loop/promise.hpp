@@ -19,7 +19,7 @@ struct FirstMotion {
   double settled_s() const { return 2.0 * period_s; }
   double end_s() const { return settled_s() + period_s; }
 };
-/// unexplained_ratio: by identify; NaN: it has found none since the start.
+/// unexplained_ratio: by the model that identify found; 0: not known.
 FirstMotion plan_first_motion(const Feasibility& feasibility, double unexplained_ratio);
 
 /// Tracking error of that motion, rms, as the board's sensor shows it, from what causes it.
@@ -35,11 +35,10 @@ struct Promise {
 constexpr bool is_promised_for(const control::ControllerSettings& controller) {
   return controller.kind == control::ControllerKind::learned_ff;
 }
-/// channel: with what identify found in it. unexplained_ratio: of that; NaN: it has found none
-/// since the start.
+/// channel: with what identify found in it.
 Promise promise_error(const control::LearnedFeedforwardSettings& law,
                       const ChannelSettings& channel, const BoardSettings& board,
-                      const FirstMotion& motion, double unexplained_ratio);
+                      const FirstMotion& motion);
 
 /// The channel with what the board goes by now in place of what its file says.
 ChannelSettings with_known(ChannelSettings channel, const KnownMuscle& known);

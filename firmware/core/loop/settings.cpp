@@ -110,6 +110,7 @@ void apply_learned(ChannelSettings& channel, const board::Learned& learned) {
   channel.muscle = learned.muscle;
   channel.calibration = learned.calibration;
   channel.response_ratio = learned.response_ratio;
+  channel.unexplained_ratio = learned.unexplained_ratio;
 }
 
 std::optional<control::LoopMargin> margin_of(const control::ControllerSettings& controller,

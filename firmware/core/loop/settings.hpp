@@ -71,6 +71,7 @@ struct ChannelSettings {
   board::SenseComparison senses;   ///< with a meter, as stored
   board::ThermalFacts heat;        ///< found out before, as stored
   double response_ratio = 0.0;     ///< likewise, of small motions; 0: not measured
+  double unexplained_ratio = 0.0;  ///< likewise, by the linear model; 0: not measured
   board::StoredTuning tuning;      ///< as stored; controllers have it already
   PlaceInJoint joint;              ///< by add_joint()
   InputSettings position;

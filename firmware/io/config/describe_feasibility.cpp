@@ -58,7 +58,7 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel) {
   if (board.joint_of(channel) != nullptr) return {};
   const ChannelSettings& c = board.channels[channel];
-  const FirstMotion motion = plan_first_motion(feasibility(c, board), NAN);
+  const FirstMotion motion = plan_first_motion(feasibility(c, board), c.unexplained_ratio);
   if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
@@ -67,7 +67,7 @@ std::vector<std::string> describe_promises(const BoardSettings& board, std::size
     std::string line = "controller " + std::to_string(i);
     if (!is_promised_for(controller))
       line += " promises no error (" + std::string(kind) + "); learned_ff";
-    const Promise promise = promise_error(controller.learned_ff, c, board, motion, NAN);
+    const Promise promise = promise_error(controller.learned_ff, c, board, motion);
     lines.push_back(line + " promises, once the muscle is identified, at most " +
                     describe_promise(promise, motion));
   }

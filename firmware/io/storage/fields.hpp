@@ -15,7 +15,7 @@ struct Field {
 };
 
 /// In the order of the file; the fields of a table stand together.
-inline constexpr std::array<Field, 20> fields{{
+inline constexpr std::array<Field, 21> fields{{
     {"muscle", "thermal_mass_J_per_K",
      [](board::Learned& l) -> double& { return l.muscle.thermal_mass_J_per_K; }},
     {"muscle", "heat_transfer_W_per_K",
@@ -48,6 +48,8 @@ inline constexpr std::array<Field, 20> fields{{
     {"heat", "steady_max_W", [](board::Learned& l) -> double& { return l.heat.steady_max_W; }},
     {"small_motions", "response_ratio",
      [](board::Learned& l) -> double& { return l.response_ratio; }},
+    {"linear_model", "unexplained_ratio",
+     [](board::Learned& l) -> double& { return l.unexplained_ratio; }},
 }};
 
 /// The key as a file of that format has it.
@@ -58,13 +60,15 @@ constexpr std::string_view key_in(const Field& field, unsigned format) {
 /// Tables that a file may lack, where nothing is known of what they hold: files of earlier versions
 /// have none of them.
 inline constexpr bool may_lack(std::string_view table) {
-  return table == "senses" || table == "heat" || table == "small_motions";
+  return table == "senses" || table == "heat" || table == "small_motions" ||
+         table == "linear_model";
 }
 /// A set without a muscle has no other table.
 inline bool is_stored(const Field& field, const board::Learned& learned) {
   if (field.table == "senses") return learned.senses != board::SenseComparison{};
   if (field.table == "heat") return learned.heat != board::ThermalFacts{};
   if (field.table == "small_motions") return learned.has_muscle && learned.response_ratio != 0.0;
+  if (field.table == "linear_model") return learned.has_muscle && learned.unexplained_ratio != 0.0;
   return learned.has_muscle;
 }
 

@@ -45,6 +45,19 @@ TEST(Axis, TellsOfFrictionWhereLessThanHalfOfASmallMotionArrives) {
   }
 }
 
+/// Whatever else is stored goes with it.
+TEST(Axis, StillKnowsAfterAStartWhatTheLinearModelLeft) {
+  for (const double stored : {0.0, 0.25}) {
+    settings.firmware.channels[0].unexplained_ratio = stored;
+    rig_.reset();
+    const double told = rig().loop.channel(0).known(known_unexplained_ratio);
+    CHECK_TRUE(stored > 0.0 ? told == stored : std::isnan(told));
+    rig().arm();
+    CHECK(answer_to(Verb::scale, 1.1 * rig().snapshot().position_m) == Refusal::none);
+    DOUBLES_EQUAL(stored, update()->unexplained_ratio, 0.0);
+  }
+}
+
 /// Not only at the next start. The muscle was believed to move half as far again.
 TEST(Axis, ExpectsTheMotionOfTheMuscleThatIdentifyFound) {
   control::ThermalBounds& bounds = settings.firmware.channels[0].thermal.bounds;

@@ -114,6 +114,7 @@ TEST(Modes, IdentifyFindsTheMuscleThatIsThereAfterAChange) {
     STRCMP_EQUAL("found", ended.result.c_str());
     STRCMP_CONTAINS("poor_fit", ended.notes.c_str());
     CHECK(ended.unexplained_ratio > 0.06);  // of the full strokes
+    DOUBLES_EQUAL(ended.unexplained_ratio, ended.learned->unexplained_ratio, 0.0);
     control::PhysicalParameters softened;
     softened.stiffness_N_per_m = 11.0;
     const control::Theta truth = control::theta_from(softened);

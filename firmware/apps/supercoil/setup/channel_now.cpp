@@ -6,7 +6,7 @@ std::optional<Promise> ChannelNow::promise(const control::ControllerSettings& co
                                            const BoardSettings& board,
                                            const FirstMotion& motion) const {
   if (in_joint() || !is_promised_for(controller)) return std::nullopt;
-  return promise_error(controller.learned_ff, settings, board, motion, unexplained_ratio);
+  return promise_error(controller.learned_ff, settings, board, motion);
 }
 
 tl::expected<ChannelNow, std::string> channel_now(BoardLink& board, const std::string& channel,
@@ -22,7 +22,7 @@ tl::expected<ChannelNow, std::string> channel_now(BoardLink& board, const std::s
     if (!value) return tl::unexpected(value.error());
     if (!std::isnan(*value)) in_use.values[i] = *value;
   }
-  ChannelNow now{with_known(configured, *known), (*known)[known_unexplained_ratio]};
+  ChannelNow now{with_known(configured, *known)};
   now.settings.senses = *senses;
   in_use.apply_to(now.settings.controllers.front());
   return now;

@@ -1,7 +1,6 @@
 // A channel as its board goes by it now: what it found, and what it was tuned to.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 
@@ -16,7 +15,6 @@ namespace supercoil::operating {
 struct ChannelNow {
   /// With the muscle and the senses that are known. Its first controller is as it is in use.
   ChannelSettings settings;
-  double unexplained_ratio = NAN;  ///< by identify; NaN: it found nothing since the start
 
   bool in_joint() const { return settings.joint.direction != 0; }
   /// Of a controller in the place of the first; empty: its law promises none, or the muscle turns a

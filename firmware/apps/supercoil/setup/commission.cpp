@@ -282,7 +282,7 @@ StepResult Commission::move() {
   const auto now = channel_now(board_, channel_, configured_);
   if (!now) return tl::unexpected(now.error());
   const FirstMotion motion =
-      plan_first_motion(feasibility(now->settings, settings_), now->unexplained_ratio);
+      plan_first_motion(feasibility(now->settings, settings_), now->settings.unexplained_ratio);
   const auto promise = now->promise(now->settings.controllers.front(), settings_, motion);
   const char* unpromised = now->in_joint() ? "no error is promised for a joint"
                                            : "no error is promised: controller 0 is not learned_ff";

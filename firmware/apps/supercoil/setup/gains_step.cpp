@@ -72,7 +72,7 @@ StepResult choose_gains(BoardLink& board, const std::string& channel, const Chan
   const RecommendedController suits = recommended_controller(now.settings.muscle);
   const ControllerSettings recommended = suits.in_place_of(in_use);
   const FirstMotion motion =
-      plan_first_motion(feasibility(now.settings, settings), now.unexplained_ratio);
+      plan_first_motion(feasibility(now.settings, settings), now.settings.unexplained_ratio);
   const auto promise = now.promise(in_use, settings, motion);
   const auto better = now.promise(recommended, settings, motion);
   Json found{{"in_use", control::name_of(control::controller_names, in_use.kind)},

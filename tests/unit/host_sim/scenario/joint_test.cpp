@@ -129,6 +129,7 @@ TEST(JointScenario, WhatWasLearnedOfEitherMuscleIsUsed) {
   learned[1]->muscle.stiffness_N_per_m = 27.0;
   learned[1]->calibration.cold_resistance_Ohm = 7.5;
   learned[1]->response_ratio = 0.8;
+  learned[1]->unexplained_ratio = 0.02;
   const auto known = parse_scenario(text, "s.toml", learned);
   CHECK(known.has_value());
   const BoardSettings board = firmware_of(*known);
@@ -139,6 +140,7 @@ TEST(JointScenario, WhatWasLearnedOfEitherMuscleIsUsed) {
   DOUBLES_EQUAL(7.5, board.channels[1].calibration.cold_resistance_Ohm, 0.0);
   DOUBLES_EQUAL(7.0, board.channels[1].heater.cold_resistance_Ohm, 0.0);
   DOUBLES_EQUAL(0.8, board.channels[1].response_ratio, 0.0);
+  DOUBLES_EQUAL(0.02, board.channels[1].unexplained_ratio, 0.0);
 }
 
 TEST(JointScenario, ItsLeverMayDependOnTheAngle) {

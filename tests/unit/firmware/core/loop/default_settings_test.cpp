@@ -33,6 +33,7 @@ TEST(DefaultSettings, OfAChannelKnowNothingThatWasLearned) {
   const ChannelSettings channel;
   CHECK_FALSE(channel.has_muscle || channel.muscle_identified);
   DOUBLES_EQUAL(0.0, channel.response_ratio, 0.0);
+  DOUBLES_EQUAL(0.0, channel.unexplained_ratio, 0.0);
   CHECK_FALSE(channel.senses.compared());
   CHECK_FALSE(channel.heat.has_time_constant() || channel.heat.has_reading());
   CHECK(channel.tuning == board::StoredTuning{});
@@ -125,4 +126,5 @@ TEST(DefaultSettings, OfWhatIsLearnedChangeNothing) {
   CHECK_TRUE(learned.has_muscle);
   UNSIGNED_LONGS_EQUAL(0, learned.version);
   DOUBLES_EQUAL(0.0, learned.response_ratio, 0.0);
+  DOUBLES_EQUAL(0.0, learned.unexplained_ratio, 0.0);
 }

@@ -19,13 +19,17 @@ TEST_GROUP(Promise) {
     channel.supervision.position_noise_rms_m = 10e-6;
     channel.senses.error_ratio = 0.02;
     channel.muscle_identified = true;
+    channel.unexplained_ratio = 1e-15;
     channel.controllers[0].kind = control::ControllerKind::learned_ff;
-    motion = plan_first_motion(feasibility(channel, board), NAN);
+    motion = plan_first_motion(feasibility(channel, board), 0.0);
   }
 
-  Promise promised(double unexplained_ratio = 0.0) const {
-    return promise_error(channel.controllers[0].learned_ff, channel, board, motion,
-                         unexplained_ratio);
+  Promise promised() const {
+    return promise_error(channel.controllers[0].learned_ff, channel, board, motion);
+  }
+  double unexplained_m(double unexplained_ratio) {
+    channel.unexplained_ratio = unexplained_ratio;
+    return promised().unexplained_m;
   }
 
   /// Of the motion, by the linear muscle: power is the position and its rate.
@@ -75,16 +79,16 @@ TEST(Promise, ASensorsNoiseIsInWhatItShows) {
 }
 
 TEST(Promise, WhatTheModelLeavesCountsByTheMotionsSize) {
-  const double small = promised(0.0025).unexplained_m;
-  CHECK(small > 0.0);
-  DOUBLES_EQUAL(2.0 * small, promised(0.01).unexplained_m, 1e-12);
+  const double small_m = unexplained_m(0.0025);
+  CHECK(small_m > 0.0);
+  DOUBLES_EQUAL(2.0 * small_m, unexplained_m(0.01), 1e-12);
   motion.amplitude_m *= 3.0;
-  DOUBLES_EQUAL(3.0 * small, promised(0.0025).unexplained_m, 1e-12);
-  // Identified before the last start: as bad as identify lets pass. Never: as of most muscles.
-  DOUBLES_EQUAL(promised(modes::Identify::Settings{}.max_unexplained).unexplained_m,
-                promised(NAN).unexplained_m, 1e-12);
+  DOUBLES_EQUAL(3.0 * small_m, unexplained_m(0.0025), 1e-12);
+  // Stored without it: as bad as identify lets pass. Never identified: as of most muscles.
+  DOUBLES_EQUAL(unexplained_m(modes::Identify::Settings{}.max_unexplained), unexplained_m(0.0),
+                1e-12);
   channel.muscle_identified = false;
-  DOUBLES_EQUAL(promised(0.015).unexplained_m, promised(NAN).unexplained_m, 1e-12);
+  DOUBLES_EQUAL(unexplained_m(0.015), unexplained_m(0.0), 1e-12);
 }
 
 TEST(Promise, AProbeCountsOnlyWhereThePowerIsLowForLong) {
@@ -120,8 +124,11 @@ TEST(Promise, WhatTheBoardGoesByReplacesTheFilesMuscle) {
   DOUBLES_EQUAL(9.0, now.calibration.position_scale, 0.0);
   DOUBLES_EQUAL(10.0, now.response_ratio, 0.0);
   CHECK_TRUE(now.muscle_identified);
+  DOUBLES_EQUAL(15.0, now.unexplained_ratio, 0.0);
   known[known_unexplained_ratio] = NAN;
-  CHECK_FALSE(with_known(channel, known).muscle_identified);
+  const ChannelSettings untold = with_known(channel, known);
+  CHECK_FALSE(untold.muscle_identified);
+  DOUBLES_EQUAL(0.0, untold.unexplained_ratio, 0.0);
 }
 
 TEST(Promise, AProbeDoesNotCountInALongMotionThatIsNeverCold) {

@@ -215,6 +215,7 @@ TEST_GROUP(AppliedSettings) {
     learned.senses = {1.02, 0.98, 0.03, 1.7e9};
     learned.heat.time_constant_s = 1.75;
     learned.response_ratio = 0.5;
+    learned.unexplained_ratio = 0.25;
     learned.tuning.estimator = 1.0;
   }
 };
@@ -230,6 +231,7 @@ TEST(AppliedSettings, WhatWasLearnedTakesThePlaceOfWhatIsConfigured) {
   CHECK(channel.heat == learned.heat);
   CHECK(channel.tuning == learned.tuning);
   DOUBLES_EQUAL(0.5, channel.response_ratio, 0.0);
+  DOUBLES_EQUAL(0.25, channel.unexplained_ratio, 0.0);
 }
 
 TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
@@ -240,6 +242,7 @@ TEST(AppliedSettings, ASetWithoutAMuscleLeavesTheConfiguredOne) {
   CHECK(channel.muscle == before.muscle && !channel.configured_muscle.has_value());
   CHECK(channel.calibration == before.calibration);
   DOUBLES_EQUAL(0.0, channel.response_ratio, 0.0);
+  DOUBLES_EQUAL(0.0, channel.unexplained_ratio, 0.0);
   CHECK(channel.senses == learned.senses);
   CHECK(channel.heat == learned.heat);
   CHECK(channel.tuning == learned.tuning);

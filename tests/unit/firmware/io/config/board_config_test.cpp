@@ -301,9 +301,8 @@ TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
   channel.controllers[0].kind = control::ControllerKind::learned_ff;
   const auto of_learned = describe_promises(board, 0);
   check_says(of_learned[0], "controller 0 promises, once the muscle is identified, at most ");
-  const FirstMotion motion = plan_first_motion(feasibility(channel, board), NAN);
-  const Promise promise =
-      promise_error(channel.controllers[0].learned_ff, channel, board, motion, NAN);
+  const FirstMotion motion = plan_first_motion(feasibility(channel, board), 0.0);
+  const Promise promise = promise_error(channel.controllers[0].learned_ff, channel, board, motion);
   check_says(of_learned[0], describe_promise(promise, motion));
   channel.supervision.max_travel_m = 0.0;
   check_says(describe_promises(board, 0)[0], "no promise");

@@ -29,6 +29,7 @@ board::Learned full_set() {
   set.senses = {1.25, 0.875, 0.0625, 1795219200.0};
   set.heat = {1.75, 2.25, 21.5, 1.25, 1.5, 1.625};
   set.response_ratio = 0.375;
+  set.unexplained_ratio = 0.03125;
   return set;
 }
 
@@ -180,10 +181,18 @@ TEST(Codec, WhatArrivesOfSmallMotionsHasATableOfItsOwnWhereItWasMeasured) {
   CHECK(decode(encode(set)) == set);
 }
 
+TEST(Codec, WhatTheLinearModelLeavesHasATableOfItsOwnWhereIdentifyToldIt) {
+  board::Learned set = full_set();
+  STRCMP_CONTAINS("\n[linear_model]\nunexplained_ratio = 0.03125\n", encode(set).c_str());
+  set.unexplained_ratio = 0.0;
+  CHECK(encode(set).find("linear_model") == std::string::npos);
+  CHECK(decode(encode(set)) == set);
+}
+
 TEST(Codec, SensesMayBeKnownWithoutAMuscle) {
   board::Learned set = full_set();
   set.has_muscle = false;
-  set.response_ratio = 0.0;
+  set.response_ratio = set.unexplained_ratio = 0.0;
   set.version = 1;
   CHECK(encode(set).find("muscle") == std::string::npos);
   CHECK(encode(set).find("calibration") == std::string::npos);

@@ -81,7 +81,8 @@ inline rc::Gen<board::Learned> learned_sets() {
   return rc::gen::apply(
       [](double psi, double eta, double rho, double mu, double mass, double gamma, double offset,
          double scale, double resistance, const board::SenseComparison& senses,
-         const board::ThermalFacts& heat, double response_ratio, std::uint32_t version) {
+         const board::ThermalFacts& heat, double response_ratio, double unexplained_ratio,
+         std::uint32_t version) {
         return board::Learned{{psi, eta, rho, mu, mass, gamma},
                               {offset, scale, resistance},
                               senses,
@@ -89,12 +90,14 @@ inline rc::Gen<board::Learned> learned_sets() {
                               true,
                               heat,
                               response_ratio,
+                              unexplained_ratio,
                               {}};
       },
       any_magnitude(1e-4, 1e3), any_magnitude(1e-5, 1e3), any_magnitude(1e-2, 1e6),
       any_magnitude(1e-4, 1e5), any_magnitude(1e-5, 1e3), any_magnitude(1e-6, 1e3), any_offset(),
       any_magnitude(0.1, 10.0), any_magnitude(1e-2, 1e4), comparisons(), heat_facts(),
       rc::gen::oneOf(rc::gen::just(0.0), any_magnitude(1e-3, 10.0)),
+      rc::gen::oneOf(rc::gen::just(0.0), any_magnitude(1e-6, 1.0)),
       rc::gen::resize(100, rc::gen::arbitrary<std::uint32_t>()));
 }
 

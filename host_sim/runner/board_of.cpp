@@ -171,6 +171,14 @@ ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
   return channel;
 }
 
+/// Of all that the operator will command.
+double max_co_contraction_W(const Scenario& scenario) {
+  double max_W = scenario.start.antagonist()->co_contraction_W;
+  for (const Event& event : scenario.events)
+    max_W = std::max(max_W, event.conditions.antagonist()->co_contraction_W);
+  return max_W;
+}
+
 }  // namespace
 
 MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& c) {
@@ -253,7 +261,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
     board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
     JointSettings joint{0, 1, c.joint->plant.lever, antagonist->co_contraction_W};
     joint.max_co_contraction_W =
-        std::max(joint.co_contraction_W,
+        std::max(max_co_contraction_W(scenario),
                  JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));
     add_joint(board, joint);
     // How far the muscles contract where the sensor reads that.

@@ -140,6 +140,7 @@ class OnThePage(OfJoint):
         heats = re.findall(r"node (\d), turns (right|left)\s*([\d.]+) W", page.text(CARD.format(1)))
         self.assertEqual([heat[:2] for heat in heats], [("1", "right"), ("2", "left")])
         self.assertGreater(float(heats[1][2]), float(heats[0][2]), "what turns it left pulls more there")
+        self.assertRegex(page.text(CARD.format(1)), r"both pull with\s*1\.00 W of node 2, commanded")
         self.assertEqual(page.errors(), [])
 
 

@@ -168,6 +168,8 @@ bool Axis::control() {
       follow_comparisons();
       return false;
     case Mode::joint:
+      // What its heater is to give the joint divides.
+      demanded_.demanded_power_W = reference_;
       return false;
     case Mode::identify:
       return step_identify();

@@ -71,7 +71,8 @@ class Axis {
   void estimate();
   /// True when a mode ended: the axis rests.
   bool control();
-  /// What the mode wants: in a joint, of both muscles together.
+  /// What the mode wants: of a joint's agonist, of both muscles together; of its antagonist that is
+  /// led, what it is to pull with while no effort is asked for.
   double demanded_W() const { return demanded_.demanded_power_W; }
   /// That its own heater may get now, as hot as the muscle may be and by what it has proven.
   control::PowerRange allowed_range() const;
@@ -96,8 +97,11 @@ class Axis {
   Reply play(const Command& command);
   /// In a joint, of its antagonist: what it pulls with while no effort is asked for.
   Reply pull_with(double power_W);
-  /// The most of that; what the heater may have bounds it as well.
+  /// In a joint, the most of that; what the heater may have bounds it as well.
   void limit_pull(double max_W) { max_pull_W_ = max_W; }
+  /// In a joint, of power for this muscle while the other one is driven by itself as well: the
+  /// smaller of the two powers is what they pull against each other with.
+  Reply admits_against(const Axis& other, double power_W) const;
   double max_travel_m() const { return settings_.supervision.max_travel_m; }
   /// In a joint, of its agonist: how far the other muscle may pull it.
   void limit_reverse_travel(double max_m) { max_reverse_travel_m_ = max_m; }

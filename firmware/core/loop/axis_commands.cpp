@@ -46,6 +46,13 @@ Reply Axis::pull_with(double power_W) {
   return Refusal::none;
 }
 
+Reply Axis::admits_against(const Axis& other, double power_W) const {
+  const bool driven = other.state_.may_heat() && other.mode_ == Mode::power;
+  const bool other_is_within = !driven || other.reference_ <= float_rounding * other.max_pull_W_;
+  if (other_is_within || power_W <= float_rounding * max_pull_W_) return Refusal::none;
+  return {Refusal::out_of_range, max_pull_W_};
+}
+
 void Axis::follow(Mode mode, double value) {
   playback_.forget();
   if (mode != mode_ || value != reference_) restart_comparisons();

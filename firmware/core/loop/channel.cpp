@@ -192,6 +192,10 @@ Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
   if (const Refusal own = may_heat(board); own != Refusal::none) return own;
   if (const Refusal joint = joint_admits(mode, board); joint != Refusal::none) return joint;
   if (const Reply reply = axis_.admits(mode, value); reply.refusal != Refusal::none) return reply;
+  if (mode == Mode::power && other_ != nullptr) {
+    const Reply pull = axis_.admits_against(other_->axis_, value);
+    if (pull.refusal != Refusal::none) return pull;
+  }
   lead(mode);
   enter(mode, value);
   commands_.renewed = true;

@@ -72,6 +72,8 @@ class Channel {
   Fault present_board_fault() const { return supervisor_.verdict().board_fault(); }
   /// The fault that a detector sees now, latched or not.
   Fault present_fault() const { return present_fault_; }
+  /// Of the muscle as it is known; between ticks only.
+  double dc_gain_m_per_W() const { return axis_.dc_gain_m_per_W(); }
   const std::optional<control::Estimate>& estimates() const {
     return axis_.estimation().estimate();
   }

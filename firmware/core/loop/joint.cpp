@@ -29,6 +29,7 @@ void Joint::observe() {
   const Opposition of_antagonist = antagonist_.opposition(ratio);
   antagonist_.oppose(agonist_.opposition(1.0 / ratio));
   agonist_.oppose(of_antagonist);
+  agonist_.limit_pull(max_W_);
   antagonist_.limit_pull(max_W_ / ratio);
 }
 
@@ -47,15 +48,22 @@ void Joint::follow_co_contraction(bool active, double gain_ratio) {
   co_contraction_W_ += lag_ratio_ * (nearly_W_ - co_contraction_W_);
 }
 
+/// Each muscle by itself. What was commanded may be more than the limit once the muscles are known
+/// better.
+void Joint::limit_each(double gain_ratio) {
+  const double agonist_W = agonist_.demanded_W();
+  double antagonist_W = antagonist_.demanded_W();
+  const double max_antagonist_W = max_W_ / gain_ratio;
+  if (agonist_W > max_W_ && antagonist_W > max_antagonist_W) antagonist_W = max_antagonist_W;
+  agonist_.limit(agonist_W);
+  antagonist_.limit(antagonist_W);
+}
+
 void Joint::limit() {
   const bool active = agonist_.follows_position();
   const double ratio = gain_ratio(agonist_, antagonist_);
   follow_co_contraction(active, ratio);
-  if (!active) {
-    agonist_.limit(agonist_.demanded_W());
-    antagonist_.limit(antagonist_.demanded_W());
-    return;
-  }
+  if (!active) return limit_each(ratio);
   const control::JointAllocation allocation(ratio);
   const double effort_W = agonist_.demanded_W();
   control::PairPower power = allocation.divide(

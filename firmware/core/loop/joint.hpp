@@ -24,6 +24,7 @@ class Joint {
   static constexpr double co_contraction_lag_s = 10.0;
 
   void follow_co_contraction(bool active, double gain_ratio);
+  void limit_each(double gain_ratio);
 
   Axis& agonist_;
   Axis& antagonist_;

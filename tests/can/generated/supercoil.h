@@ -1495,7 +1495,7 @@ struct supercoil_tracking_t {
  */
 struct supercoil_power_t {
     /**
-     * Wanted by the controller, before any limit; may be negative. In mode power it is the reference.
+     * Wanted by the controller, before any limit; may be negative. In mode power it is the reference; in mode joint what this muscle is to pull with while no effort is asked for. Of the agonist of a joint it is the effort of both muscles.
      *
      * Range: -8388607..8388607 (-1677.7214..1677.7214 W)
      * Scale: 0.0002

@@ -1,7 +1,9 @@
 // A joint as it is commanded, and how it follows.
 #include "loop/joint.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "loop/support/joint_case.hpp"
 
@@ -118,6 +120,27 @@ TEST(Joint, PullsNoHarderThanTheLimitOfTheJoint) {
   // By itself the muscle may have all that its heater may.
   CHECK(fresh.answer_of(antagonist, Verb::rest) == Refusal::none);
   CHECK(fresh.answer_of(antagonist, Verb::power, 2.0) == Refusal::none);
+}
+
+/// Two muscles that are driven by themselves pull against each other with the smaller power.
+TEST(Joint, PullsNoHarderThanTheLimitWhereEachMuscleIsDrivenByItself) {
+  RigSettings settings = joint_board();
+  settings.firmware.joints[0].max_co_contraction_W = 1.2;
+  const double gain_ratio = settings.firmware.channels[antagonist].muscle.dc_gain_m_per_W() /
+                            settings.firmware.channels[agonist].muscle.dc_gain_m_per_W();
+  const std::array<double, 2> max_W{1.2, 1.2 / gain_ratio};
+  for (const std::uint8_t first : {agonist, antagonist}) {
+    const std::uint8_t second = first == agonist ? antagonist : agonist;
+    Rig fresh(settings);
+    begin(fresh);
+    CHECK(fresh.answer_of(first, Verb::power, 1.4 * max_W[first]) == Refusal::none);
+    CHECK(fresh.answer_of(second, Verb::power, 1.01 * max_W[second]) == Refusal::out_of_range);
+    CHECK(fresh.answer_of(second, Verb::power, max_W[second]) == Refusal::none);
+    CHECK(fresh.answer_of(first, Verb::power, 1.5 * max_W[first]) == Refusal::none);
+    CHECK(fresh.answer_of(first, Verb::power, 0.9 * max_W[first]) == Refusal::none);
+    CHECK(fresh.answer_of(second, Verb::power, 1.5 * max_W[second]) == Refusal::none);
+    CHECK(fresh.answer_of(first, Verb::power, 1.01 * max_W[first]) == Refusal::out_of_range);
+  }
 }
 
 TEST(Joint, AntagonistIsNotCommandedByItselfWhileItIsLed) {

@@ -343,5 +343,17 @@ TEST(JointScenario, TheOperatorAsksBothToPullHarder) {
     if (time_s > 1.0 && time_s < 9.9) DOUBLES_EQUAL(0.25, antagonist.reference, 1e-9);
   }
   DOUBLES_EQUAL(0.5, antagonist.reference, 1e-9);
+  DOUBLES_EQUAL(0.5, antagonist.demanded_W, 1e-9);
   CHECK(antagonist.mode == Mode::joint);
+}
+
+/// More than a limit that is half of what they can pull with: the scenario says what may be asked.
+TEST(JointScenario, TheOperatorMayAskForAllThatTheMusclesCanPullWith) {
+  const Scenario scenario = read(
+      "simulation.duration_s = 1.0\n[joint]\n"
+      "[[event]]\nat_s = 0.5\njoint.co_contraction_W = 4.0\n");
+  Simulation simulation(scenario);
+  while (!simulation.done())
+    simulation.step();
+  DOUBLES_EQUAL(4.0, simulation.loop().channel(1).snapshot().reference, 1e-9);
 }

@@ -25,7 +25,7 @@ export class JointCard {
     this.limb = drawn("g", { class: "limb" }, drawn("line", { x1: -LEVER, x2: LEVER }), drawn("line", { y1: 0, y2: -ARM }), drawn("circle", { r: 4 }));
     const picture = drawn("svg", { viewBox: "-95 -90 190 160", role: "img", "aria-label": "the joint at its angle, its reference dashed" },
       this.reference, ...this.muscles, this.limb);
-    this.values = ["angle", "reference", "turns right", "turns left"].map((name) => {
+    this.values = ["angle", "reference", "turns right", "turns left", "both pull with"].map((name) => {
       const title = element("dt", {}, name), value = element("dd", {}, "–");
       return { title, value, line: element("div", {}, title, value) };
     });
@@ -47,6 +47,9 @@ export class JointCard {
     this.muscles.forEach((muscle, i) => this.#draw(muscle, i === 0 ? 1 : -1, angle_deg));
     show(this.values[0].value, `${fixed(angle_deg, 2)}°`);
     show(this.values[1].value, `${fixed(reference_deg, 2)}°`);
+    const antagonist = lever_m > 0 ? other : this.node;
+    const is_led = this.store.word("Status", "mode", this.store.at(antagonist, "Status", now_s)?.mode) === "joint";
+    show(this.values[4].value, is_led ? `${fixed(this.store.at(antagonist, "Power", now_s)?.demanded_W, 2)} W of node ${antagonist}, commanded` : "–");
     [right, left].forEach((node, i) => {
       const hot = this.store.at(node, "Temperature", now_s);
       const { title, value } = this.values[2 + i];

@@ -10,6 +10,7 @@
 #include "config/describe.hpp"
 #include "report/output_folder.hpp"
 #include "runner/board_of.hpp"
+#include "runner/reference_feasibility.hpp"
 #include "runner/summary.hpp"
 #include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
@@ -49,6 +50,10 @@ void tell_feasibility(const Scenario& scenario, bool in_brief) {
   }
   for (const std::string& line : lines)
     std::printf("muscle: %s\n", line.c_str());
+  if (const std::string line = describe_reference(scenario, in_brief); !line.empty())
+    std::printf("reference: %s\n", line.c_str());
+  if (const std::string line = describe_unseen_rest(scenario); !line.empty())
+    std::printf("advice: %s\n", line.c_str());
   for (const std::string& line : config::advice(board.channels[0], board))
     std::printf("advice: %s\n", line.c_str());
 }

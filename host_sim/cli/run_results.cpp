@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cinttypes>
+#include <cmath>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,8 @@
 #include <iterator>
 
 #include <nlohmann/json.hpp>
+
+#include "runner/reference_feasibility.hpp"
 
 namespace supercoil::host_sim {
 
@@ -42,13 +45,31 @@ void print_limits(const Summary& summary) {
     std::printf("at a limit in %s of the ticks: %s\n", percent(all).c_str(), limits.c_str());
 }
 
-bool arms(const Conditions& conditions) {
-  return conditions.action != OperatorAction::none && conditions.action != OperatorAction::disarm;
+/// How identify, calibrate and the first motion ended, if there were any.
+void print_modes(const nlohmann::ordered_json& json) {
+  const auto result = json["mode_result"]["result"].get<std::string>();
+  if (result != "none") {
+    std::string notes;
+    for (const auto& note : json["mode_result"]["notes"])
+      notes += (notes.empty() ? " (" : ", ") + note.get<std::string>();
+    std::printf("the last identify or calibrate: %s%s\n", result.c_str(),
+                notes.empty() ? "" : (notes + ")").c_str());
+  }
+  const auto& motion = json["first_motion"];
+  if (motion.is_null() || motion["rms_m"].is_null()) return;
+  const double rms_m = motion["rms_m"].get<double>();
+  std::printf("first motion: followed within %.1f um rms", 1e6 * rms_m);
+  if (!motion["promised_rms_m"].is_null()) {
+    const double promised_m = motion["promised_rms_m"].get<double>();
+    std::printf("; the promise of %.1f um is %s", 1e6 * promised_m,
+                rms_m <= promised_m ? "kept" : "not kept");
+  }
+  std::puts("");
 }
 
 bool arms_later(const Scenario& scenario) {
   return std::any_of(scenario.events.begin(), scenario.events.end(),
-                     [](const Event& event) { return arms(event.conditions); });
+                     [](const Event& event) { return arms(event.conditions.action); });
 }
 
 void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
@@ -67,17 +88,18 @@ void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
                 json["tracking_max_deg"].get<double>());
   }
   print_limits(summary);
-  constexpr double told_from = 0.01;
-  if (summary.infeasible_ratio() > told_from) {
+  // A loop that oscillates asks for too much by itself.
+  if (summary.infeasible_ratio() > told_infeasible_ratio && std::isnan(summary.oscillated_at_s())) {
     std::printf(
         "the reference asked for more than the muscle can do in %.1f %% of the ticks that followed "
         "it: a slower or smaller one, or shape_reference = true\n",
         100.0 * summary.infeasible_ratio());
   }
+  print_modes(json);
   for (const auto& fault : json["faults"]) {
-    std::printf("fault %d %s at %.3f s (docs/faults/%s.md)\n", fault["number"].get<int>(),
+    std::printf("fault %d %s at %.3f s (%s)\n", fault["number"].get<int>(),
                 fault["name"].get<std::string>().c_str(), fault["at_s"].get<double>(),
-                fault["name"].get<std::string>().c_str());
+                fault["page"].get<std::string>().c_str());
   }
   std::printf("hottest %.1f K above ambient\nwritten to %s\n",
               json["hottest_temperature_rise_K"].get<double>(), folder.c_str());
@@ -129,27 +151,25 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
 }
 
 bool asks(const Scenario& scenario) {
-  return arms(scenario.start) || arms_later(scenario);
+  return arms(scenario.start.action) || arms_later(scenario);
 }
 
 int judge(const Summary& summary, const Scenario& scenario, const Simulation& simulation,
           const RunOptions& options) {
   const Fault fault = summary.ended_in();
-  if (summary.armed() && fault == Fault::none) return exit_done;
-  const bool asked = arms(scenario.start);
+  const auto& motion = simulation.first_motion();
+  const bool unfinished = motion && std::isnan(motion->rms_m());
+  if (summary.armed() && fault == Fault::none && !unfinished) return exit_done;
   std::string told = prefix(options, scenario);
-  told += summary.armed() ? "the run ended in " : "never armed: ";
-  if (fault != Fault::none) {
-    told += "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
-            "; docs/faults/" + std::string(name(fault)) + ".md";
-  } else if (asked) {
-    told += simulation.loop().self_test().passed()
-                ? "with these [thermal] bounds the muscle may still be hot from before the start"
-                : "the self-test did not end";
+  if (!summary.armed()) {
+    told += "never armed: " + summary.never_armed_because(scenario, simulation);
+  } else if (fault == Fault::none) {
+    told += "the first motion did not come to its end";
   } else {
-    told += "[operator] action is none or disarm at the start, and it arms only there";
+    told += "the run ended in fault " + std::to_string(static_cast<int>(fault)) + " " +
+            std::string(name(fault)) + "; docs/faults/" + std::string(name(fault)) + ".md";
   }
-  const bool meant = fault == Fault::none && !asks(scenario);
+  const bool meant = !summary.armed() && fault == Fault::none && !asks(scenario);
   if (!options.allow_fault && !meant)
     return fail(exit_failed, told + " (--allow-fault: exit status 0)");
   if (!options.quiet) std::puts(told.c_str());

@@ -34,8 +34,7 @@ Simulation::Simulation(const Scenario& scenario)
 }
 
 void Simulation::boot() {
-  const bool wants =
-      conditions_->action != OperatorAction::disarm && conditions_->action != OperatorAction::none;
+  const bool wants = arms(conditions_->action);
   boot_for(boot_s);
   const auto waits = [this] {
     return loop_.self_test().passed() && loop_.channel(0).state().state() == State::disarmed;
@@ -55,8 +54,7 @@ void Simulation::boot_for(double time_s) {
     // Asked for at the first tick after the self-test.
     const bool ready = loop_.self_test().passed();
     const bool disarmed = loop_.channel(0).state().state() == State::disarmed;
-    const bool wants = conditions_->action != OperatorAction::disarm &&
-                       conditions_->action != OperatorAction::none;
+    const bool wants = arms(conditions_->action);
     if (ready && disarmed && wants) send(Verb::arm);
     executive_.run_tick();
     housekeep();

@@ -18,6 +18,10 @@ using nlohmann::ordered_json;
 /// programs wrote 1, without saying so.
 constexpr int schema_version = 2;
 
+std::string page_of(Fault fault) {
+  return "docs/faults/" + std::string(name(fault)) + ".md";
+}
+
 /// JSON has no infinity: null.
 ordered_json finite(double value) {
   return std::isfinite(value) ? ordered_json(value) : nullptr;
@@ -64,6 +68,20 @@ ordered_json estimate_json(const control::Estimate& e, const control::PhysicalPa
 
 }  // namespace
 
+std::string Summary::never_armed_because(const Scenario& scenario,
+                                         const Simulation& simulation) const {
+  if (armed_) return {};
+  if (const Fault fault = ended_in(); fault != Fault::none) {
+    return "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
+           "; " + page_of(fault);
+  }
+  if (!arms(scenario.start.action))
+    return "[operator] action is none or disarm at the start, and it arms only there";
+  return simulation.loop().self_test().passed()
+             ? "with these [thermal] bounds the muscle may still be hot from before the start"
+             : "the self-test did not end";
+}
+
 ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simulation,
                               double wall_s) const {
   const bool measured = tracking_.count() > 0;
@@ -92,11 +110,15 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   const auto estimate = simulation.estimate();
   json["estimates"] =
       estimate ? estimate_json(*estimate, simulation.conditions().muscle) : ordered_json();
+  json["armed"] = armed_;
+  const std::string never_armed = never_armed_because(scenario, simulation);
+  json["never_armed_because"] = never_armed.empty() ? ordered_json() : ordered_json(never_armed);
   json["faults"] = ordered_json::array();
   for (const FaultAt& f : faults_) {
     json["faults"].push_back({{"at_s", f.time_s},
                               {"number", static_cast<int>(f.fault)},
-                              {"name", std::string(name(f.fault))}});
+                              {"name", std::string(name(f.fault))},
+                              {"page", page_of(f.fault)}});
   }
   const auto& learned = simulation.learned();
   json["learned"] = learned ? learned_json(*learned) : ordered_json();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -102,6 +103,9 @@ class Summary {
   double infeasible_ratio() const {
     return static_cast<double>(infeasible_ticks_) / static_cast<double>(following_ticks_);
   }
+
+  /// In words; empty: it was armed.
+  std::string never_armed_because(const Scenario& scenario, const Simulation& simulation) const;
 
   /// summary.json; wall_s: how long the run took.
   nlohmann::ordered_json to_json(const Scenario& scenario, const Simulation& simulation,

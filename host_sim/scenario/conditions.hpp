@@ -107,6 +107,11 @@ inline constexpr control::Names<OperatorAction, 7> operator_action_names{
      {"first_motion", OperatorAction::first_motion},
      {"none", OperatorAction::none}}};
 
+/// The operator arms the muscle, where it is asked for at the start.
+constexpr bool arms(OperatorAction action) {
+  return action != OperatorAction::none && action != OperatorAction::disarm;
+}
+
 struct Conditions {
   /// Of a sensor's range: the travel limit.
   static constexpr double travel_ratio = 0.999;

@@ -1,0 +1,38 @@
+// Whether a muscle can follow a scenario's reference, told before it is run.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "supercoil/control/tracking/reference_shaper.hpp"
+
+#include "scenario/scenario.hpp"
+
+namespace supercoil::host_sim {
+
+/// By the linear model of the muscle that the board believes in, through the controller's reference
+/// model from rest on.
+struct ReferenceFeasibility {
+  double infeasible_ratio = 0.0;  ///< of the time
+  double first_s = 0.0;           ///< when it asks for too much first; 0: never
+  control::Infeasible first = control::Infeasible::nothing;
+  /// Of a sine or several, once it has come up to them: how much of their motion about the middle
+  /// is feasible, up to 1; 0: not even the middle is.
+  double feasible_motion_ratio = 1.0;
+  /// How many times as slow they are feasible, 1 or more; infinite: not at 100 times.
+  double feasible_slowing = 1.0;
+};
+
+/// At the start, of a muscle alone or against a spring. Empty: it follows no position.
+std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenario);
+
+/// From this part of the time on a reference is told to be infeasible, as it is after a run.
+inline constexpr double told_infeasible_ratio = 0.01;
+
+/// What to tell of that; empty where there is no position to follow, or, in brief, all is feasible.
+std::string describe_reference(const Scenario& scenario, bool in_brief);
+
+/// That the load holds the cold muscle where its sensor does not see it; empty: it sees it.
+std::string describe_unseen_rest(const Scenario& scenario);
+
+}  // namespace supercoil::host_sim

@@ -108,4 +108,10 @@ Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& boa
   return f;
 }
 
+double hottest_pull_N(const ChannelSettings& channel, double power_W) {
+  const double rise_K = power_W / channel.thermal.bounds.min_transfer_W_per_K;
+  const double allowed_K = channel.supervision.trip_C - channel.thermal.air.coldest_C;
+  return std::min(rise_K, allowed_K) * channel.muscle.force_per_kelvin_N_per_K;
+}
+
 }  // namespace supercoil

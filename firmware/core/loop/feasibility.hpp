@@ -34,4 +34,8 @@ struct Feasibility {
 
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
 
+/// That heat may make the muscle pull with while it is held still: steady at power_W, as badly
+/// cooled as its bounds allow, and in the coldest air as hot as it may become.
+double hottest_pull_N(const ChannelSettings& channel, double power_W);
+
 }  // namespace supercoil

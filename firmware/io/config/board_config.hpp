@@ -28,6 +28,8 @@ struct ChannelLabel {
 
 struct JointLabel {
   std::string name;
+  std::optional<double> max_pull_N{};  ///< of one muscle, that it bears; empty: not configured
+  double pretension_N = 0.0;           ///< each muscle's pull when both are cold, at the angle 0
 };
 
 struct BoardConfig {

@@ -38,7 +38,9 @@ std::vector<std::string> describe_promises(const BoardSettings& board, std::size
 std::string describe_promise(const Promise& promise, const FirstMotion& motion);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
-/// The same of every channel, each line with the channels that share it.
+/// Likewise, so that a joint's muscles last. index: of BoardSettings::joints.
+std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t index);
+/// The same of every channel, each line with the channels that share it, and of every joint.
 std::vector<std::string> advice(const BoardConfig& config);
 /// One line for each detector that this configuration leaves blind, whose it is, and why.
 std::vector<std::string> warnings(const BoardConfig& config);

@@ -117,7 +117,12 @@ std::vector<std::string> advice(const BoardConfig& config) {
     for (const std::string& line : advice(config.settings.channels[i], config.settings))
       findings.add(line);
   }
-  return findings.lines();
+  std::vector<std::string> lines = findings.lines();
+  for (std::size_t i = 0; i < config.settings.joints.size(); ++i) {
+    for (const std::string& line : joint_advice(config, i))
+      lines.push_back("joint " + std::to_string(i + 1) + ": " + line);
+  }
+  return lines;
 }
 
 }  // namespace supercoil::config

@@ -13,14 +13,9 @@ double to_tenth(double value) {
   return std::nearbyint(10.0 * value) / 10.0;
 }
 
-double to_hundredth(double value) {
-  return std::nearbyint(100.0 * value) / 100.0;
-}
-
-/// That steady heat makes the muscle pull with while it is held still.
-double heat_N(const ChannelSettings& channel, double power_W) {
-  const control::PhysicalParameters& m = channel.muscle;
-  return power_W / m.heat_transfer_W_per_K * m.force_per_kelvin_N_per_K;
+/// Not less than the value.
+double up_to_hundredth(double value) {
+  return std::ceil(100.0 * value - 1e-6) / 100.0;
 }
 
 double degrees(double angle_rad) {
@@ -58,6 +53,19 @@ std::string turning_stiffness(double stiffness_N_per_m, const control::Lever& le
   return out.str();
 }
 
+/// What both muscles pull with at most, of what they bear.
+std::string greatest_pull(const JointLabel& label, double agonist_N, double antagonist_N) {
+  std::ostringstream out;
+  out << "heat adds at most " << up_to_hundredth(agonist_N) << " N and "
+      << up_to_hundredth(antagonist_N) << " N to the pretension";
+  if (label.max_pull_N) {
+    out << " of " << label.pretension_N << " N: within max_pull_N = " << *label.max_pull_N;
+  } else {
+    out << "; max_pull_N, which they bear, is not configured: nothing is refused";
+  }
+  return out.str();
+}
+
 }  // namespace
 
 std::string describe_joint(const BoardConfig& config, std::size_t index) {
@@ -77,14 +85,32 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
       << to_tenth(joint.co_contraction_W / gain_ratio)
       << " W while the joint asks for no effort, of which each takes half\n"
       << "              at most with " << to_tenth(joint.max_co_contraction_W) << " W and "
-      << to_tenth(joint.max_co_contraction_W / gain_ratio) << " W, by which heat adds "
-      << to_hundredth(heat_N(agonist, joint.max_co_contraction_W)) << " N and "
-      << to_hundredth(heat_N(antagonist, joint.max_co_contraction_W / gain_ratio))
-      << " N to their pull; what they bear is not configured\n"
+      << to_tenth(joint.max_co_contraction_W / gain_ratio) << " W\n              "
+      << greatest_pull(config.joints[index], hottest_pull_N(agonist, joint.max_co_contraction_W),
+                       hottest_pull_N(antagonist, joint.max_co_contraction_W / gain_ratio))
+      << "\n"
       << "  stiffness   " << agonist.muscle.stiffness_N_per_m << " N/m at the lever, "
       << turning_stiffness(agonist.muscle.stiffness_N_per_m, joint.lever)
       << ", however much both pull: linear muscles at the same lever\n";
   return out.str();
+}
+
+std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t index) {
+  const JointSettings& joint = config.settings.joints[index];
+  const JointLabel& label = config.joints[index];
+  std::vector<std::string> lines;
+  if (!label.max_pull_N) return lines;
+  for (const std::size_t place : {joint.agonist, joint.antagonist}) {
+    const ChannelSettings& channel = config.settings.channels[place];
+    const double pull_N = label.pretension_N + hottest_pull_N(channel, channel.limiter.max_W);
+    if (pull_N <= *label.max_pull_N) continue;
+    std::ostringstream line;
+    line << "where something holds it, channel " << place + 1 << " alone may pull with up to "
+         << up_to_hundredth(pull_N) << " N at its max_W = " << channel.limiter.max_W
+         << ", more than max_pull_N = " << *label.max_pull_N;
+    lines.push_back(line.str());
+  }
+  return lines;
 }
 
 }  // namespace supercoil::config

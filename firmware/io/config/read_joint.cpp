@@ -87,11 +87,14 @@ void JointReader::finish(BoardConfig& config) {
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     Section& section = sections_[i];
     const std::string name = section.text("name", "joint " + std::to_string(i + 1));
-    section.allow({"co_contraction_W", "max_co_contraction_W"});
+    section.allow({"co_contraction_W", "max_co_contraction_W", "max_pull_N", "pretension_N"});
     if (joints_[i]) {
+      JointLabel label;
+      label.name = name;
       read_co_contraction(section, config.settings, *joints_[i]);
+      read_pull(section, config.settings, *joints_[i], label);
       add_joint(config.settings, *joints_[i]);
-      config.joints.push_back({name});
+      config.joints.push_back(std::move(label));
     }
     section.finish();
   }

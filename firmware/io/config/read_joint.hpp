@@ -11,6 +11,11 @@
 
 namespace supercoil::config {
 
+/// max_pull_N and pretension_N. Refuses a joint whose co-contraction may exceed what a muscle
+/// bears. joint: with its co-contraction.
+void read_pull(Section& section, const BoardSettings& board, const JointSettings& joint,
+               JointLabel& label);
+
 /// Read in two steps: which channels a joint has must be known before they are read, and what their
 /// muscles may have only afterwards.
 class JointReader {

@@ -153,6 +153,16 @@ TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
   CHECK_FALSE(found().rest_seen);
 }
 
+TEST(Feasibility, HeldStillTheWorstCooledMusclePullsHardest) {
+  channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 15.0};
+  channel.thermal.bounds.min_transfer_W_per_K = 0.045;
+  channel.muscle.force_per_kelvin_N_per_K = 0.01;
+  DOUBLES_EQUAL(0.01 * 0.9 / 0.045, hottest_pull_N(channel, 0.9), 1e-12);
+  // No hotter than it may become, above the coldest air.
+  channel.supervision.trip_C = 30.0;
+  DOUBLES_EQUAL(0.01 * (30.0 - 15.0), hottest_pull_N(channel, 0.9), 1e-12);
+}
+
 TEST(Feasibility, TheGreatestPowerIsWhatTheLowestSupplyGives) {
   channel.supervision.proof_of_response = false;
   board.supervision.min_supply_V = 10.0;

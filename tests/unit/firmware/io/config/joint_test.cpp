@@ -84,6 +84,55 @@ TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
   DOUBLES_EQUAL(0.5, low.settings.joints[0].co_contraction_W, 0.0);
 }
 
+TEST(JointConfig, APairThatCanTearItselfIsRefused) {
+  // 0.0086 N/K at 2.25 W / 0.045 W/K, of the agonist; of the antagonist at 1.8 W.
+  STRCMP_EQUAL(
+      "b.toml:66: joint[1].max_pull_N = 0.5: is less than channel 1 may pull with: pretension_N = "
+      "0.1, and 0.43 N by the heat of max_co_contraction_W = 2.25, which are 2.25 W there; "
+      "max_co_contraction_W must be 0 to 2.093, or max_pull_N at least 0.53\n",
+      problems_of(board_with_joint + "max_pull_N = 0.5\npretension_N = 0.1\n").c_str());
+  for (const char* in_order :
+       {"max_pull_N = 0.53\npretension_N = 0.1\n", "max_pull_N = 0.43\n",
+        "max_pull_N = 0.5\npretension_N = 0.1\nmax_co_contraction_W = 2.093\n"})
+    STRCMP_EQUAL("", problems_of(board_with_joint + in_order).c_str());
+  check_answer("joint[1].max_pull_N = 0.3: must not be less than pretension_N, which is 0.4",
+               board_with_joint + "max_pull_N = 0.3\npretension_N = 0.4\n");
+  check_answer("joint[1].max_pull_N = 0: must be 0.001 to 10000",
+               board_with_joint + "max_pull_N = 0\n");
+  check_answer("joint[1].pretension_N = -1: must be 0 to 10000",
+               board_with_joint + "pretension_N = -1\n");
+}
+
+TEST(JointConfig, WhicheverMuscleOfAPairPullsHarderIsNamed) {
+  const std::string badly_cooled =
+      replaced(board_with_joint,
+               "max_mass_J_per_K = 0.20\nmin_transfer_W_per_K = 0.045\nmax_transfer_W_per_K = "
+               "0.18\n[channel.limits]\nmax_W = 4.0",
+               "max_mass_J_per_K = 0.20\nmin_transfer_W_per_K = 0.030\nmax_transfer_W_per_K = "
+               "0.18\n[channel.limits]\nmax_W = 4.0");
+  check_answer(
+      "joint[1].max_pull_N = 0.45: is less than channel 2 may pull with: pretension_N = 0, and "
+      "0.516 N by the heat of max_co_contraction_W = 2.25, which are 1.8 W there; "
+      "max_co_contraction_W must be 0 to 1.962, or max_pull_N at least 0.516",
+      badly_cooled + "max_pull_N = 0.45\n");
+  // No hotter than it may become: (50 - 15) K.
+  const std::string cool =
+      replaced(badly_cooled, "[channel.limits]\nmax_W = 4.0",
+               "[channel.limits]\ntrip_C = 50\nderate_from_C = 40\nmax_W = 4.0");
+  STRCMP_EQUAL("", problems_of(cool + "max_pull_N = 0.45\n").c_str());
+}
+
+TEST(JointConfig, CheckSaysWhatThePairBears) {
+  const std::string text =
+      describe(read_joint_board(board_with_joint + "max_pull_N = 0.8\npretension_N = 0.1\n"));
+  for (const char* part :
+       {"heat adds at most 0.43 N and 0.35 N to the pretension of 0.1 N: within max_pull_N = 0.8",
+        "joint 1: where something holds it, channel 1 alone may pull with up to 0.96 N at its "
+        "max_W = 4.5, more than max_pull_N = 0.8",
+        "channel 2 alone may pull with up to 0.87 N"})
+    STRCMP_CONTAINS(part, text.c_str());
+}
+
 TEST(JointConfig, OneConverterIsReadOnce) {
   const std::string on_bus = replaced(board_with_joint, "device = \"adc\"\ninput = \"voltage1\"",
                                       "device = \"adc\"\nbus = \"i2c-1\"\ninput = \"voltage1\"");
@@ -93,9 +142,13 @@ TEST(JointConfig, OneConverterIsReadOnce) {
 
 TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
   const std::string text = describe(read_joint_board(board_with_joint));
-  for (const char* part : {"joint 1: elbow", "agonist channel 1, antagonist channel 2",
-                           "lever of 15 mm", "with 0.9 W and 0.7 W", "at most with 2.2 W and 1.8 W",
-                           "heat adds 0.22 N and 0.22 N", "stiffness   16 N/m"})
+  for (const char* part :
+       {"joint 1: elbow", "agonist channel 1, antagonist channel 2", "lever of 15 mm",
+        "with 0.9 W and 0.7 W", "at most with 2.2 W and 1.8 W",
+        // By 2.25 W, and 1.8 W of the antagonist, at 0.045 W/K: not as cool as is believed.
+        "heat adds at most 0.43 N and 0.35 N to the pretension; max_pull_N, which "
+        "they bear, is not configured",
+        "stiffness   16 N/m"})
     STRCMP_CONTAINS(part, text.c_str());
 }
 

@@ -1,0 +1,78 @@
+// What the muscles of a joint bear, and what they may be made to pull with.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+#include "config/read_joint.hpp"
+#include "loop/feasibility.hpp"
+
+namespace supercoil::config {
+
+namespace {
+
+constexpr Range pull_range_N{1e-3, 1e4};
+
+/// One of the two, under the joint's greatest co-contraction.
+struct Puller {
+  std::size_t channel;     ///< from 0
+  double heat_N;           ///< that heat may add to the pretension
+  double agonist_W_per_N;  ///< co-contraction that adds as much, where the temperature allows it
+  double power_W;          ///< its own
+};
+
+Puller puller(const BoardSettings& board, std::size_t channel, double co_contraction_W,
+              double ratio) {
+  const ChannelSettings& c = board.channels[channel];
+  const double W_per_N = c.thermal.bounds.min_transfer_W_per_K / c.muscle.force_per_kelvin_N_per_K;
+  const double power_W = co_contraction_W / ratio;
+  return {channel, hottest_pull_N(c, power_W), ratio * W_per_N, power_W};
+}
+
+/// So that what is printed can be taken as it is.
+double rounded_down(double value) {
+  return std::floor(1e3 * value) / 1e3;
+}
+double rounded_up(double value) {
+  return std::ceil(1e3 * value) / 1e3;
+}
+
+std::string excess(const Puller& p, const JointSettings& joint, const JointLabel& label,
+                   double allowed_W) {
+  std::ostringstream message;
+  message << "is less than channel " << p.channel + 1
+          << " may pull with: pretension_N = " << label.pretension_N << ", and "
+          << rounded_up(p.heat_N)
+          << " N by the heat of max_co_contraction_W = " << joint.max_co_contraction_W
+          << ", which are " << rounded_up(p.power_W)
+          << " W there; max_co_contraction_W must be 0 to " << rounded_down(allowed_W)
+          << ", or max_pull_N at least " << rounded_up(label.pretension_N + p.heat_N);
+  return message.str();
+}
+
+}  // namespace
+
+void read_pull(Section& section, const BoardSettings& board, const JointSettings& joint,
+               JointLabel& label) {
+  label.pretension_N = section.number("pretension_N", 0.0, {0.0, pull_range_N.highest});
+  if (!section.has("max_pull_N")) return;
+  label.max_pull_N = section.number("max_pull_N", INFINITY, pull_range_N);
+  const double room_N = *label.max_pull_N - label.pretension_N;
+  if (room_N < 0.0) {
+    std::ostringstream message;
+    message << "must not be less than pretension_N, which is " << label.pretension_N;
+    return section.wrong("max_pull_N", message.str());
+  }
+  const double ratio = board.channels[joint.antagonist].muscle.dc_gain_m_per_W() /
+                       board.channels[joint.agonist].muscle.dc_gain_m_per_W();
+  const double most_W = joint.max_co_contraction_W;
+  const std::array<Puller, 2> both{puller(board, joint.agonist, most_W, 1.0),
+                                   puller(board, joint.antagonist, most_W, ratio)};
+  const Puller& hottest = both[0].heat_N < both[1].heat_N ? both[1] : both[0];
+  // What a channel lacks is told there.
+  if (!std::isfinite(most_W) || !(hottest.heat_N > room_N)) return;
+  const double allowed_W = room_N * std::min(both[0].agonist_W_per_N, both[1].agonist_W_per_N);
+  section.wrong("max_pull_N", excess(hottest, joint, label, allowed_W));
+}
+
+}  // namespace supercoil::config

@@ -27,9 +27,26 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
   return result;
 }
 
+/// As they are numbered, but an agonist before its antagonist, which has its position.
+std::vector<std::size_t> reading_order(std::size_t channels, const JointReader& joints) {
+  std::vector<std::size_t> order;
+  const auto add = [&order](std::size_t channel) {
+    if (std::ranges::find(order, channel) == order.end()) order.push_back(channel);
+  };
+  for (std::size_t i = 0; i < channels; ++i) {
+    if (const auto agonist = joints.agonist_of(i)) add(*agonist);
+    add(i);
+  }
+  return order;
+}
+
 void read_channels(std::vector<Section> sections, Section& every, const BoardContext& context,
                    const JointReader& joints, BoardConfig& config) {
-  for (std::size_t i = 0; i < std::min(sections.size(), max_channels); ++i) {
+  const std::size_t channels = std::min(sections.size(), max_channels);
+  config.settings.channels.resize(channels);
+  config.wiring.channels.resize(channels);
+  config.labels.resize(channels);
+  for (const std::size_t i : reading_order(channels, joints)) {
     std::optional<ReadAgonist> agonist;
     if (const auto place = joints.agonist_of(i)) {
       agonist.emplace(
@@ -38,9 +55,9 @@ void read_channels(std::vector<Section> sections, Section& every, const BoardCon
     ReadChannel channel =
         read_channel(sections[i].over(every.table(), "every_channel"), static_cast<int>(i + 1),
                      context, joints.place_of(i), agonist ? &*agonist : nullptr);
-    config.settings.channels.push_back(std::move(channel.settings));
-    config.wiring.channels.push_back(std::move(channel.wiring));
-    config.labels.push_back(std::move(channel.label));
+    config.settings.channels[i] = std::move(channel.settings);
+    config.wiring.channels[i] = std::move(channel.wiring);
+    config.labels[i] = std::move(channel.label);
   }
 }
 

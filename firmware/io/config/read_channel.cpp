@@ -36,7 +36,7 @@ void mirror_position(Section& section, const ReadAgonist& agonist, ReadChannel& 
   if (section.table() != nullptr && section.table()->contains("position")) {
     section.wrong("position", "is that of its agonist, channel " +
                                   std::to_string(agonist.index + 1) +
-                                  ", with the other sign: leave it out");
+                                  ", with the other sign: leave it out, or move it there");
   }
   channel.wiring.position = agonist.wiring.position;
   channel.wiring.position_of = agonist.index;

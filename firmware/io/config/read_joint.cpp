@@ -60,12 +60,7 @@ void JointReader::read_places(std::size_t channels) {
     const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
     joints_.emplace_back();
     if (!agonist || !antagonist || std::max(*agonist, *antagonist) >= channels) continue;
-    if (*antagonist < *agonist) {
-      section.wrong("antagonist", "must come after the agonist, whose position it has");
-    } else {
-      joints_.back() =
-          JointSettings{.agonist = *agonist, .antagonist = *antagonist, .lever = lever};
-    }
+    joints_.back() = JointSettings{.agonist = *agonist, .antagonist = *antagonist, .lever = lever};
   }
 }
 

@@ -72,7 +72,7 @@ struct ChannelWiring {
   PwmAddress pwm;
   ConverterAddress position;
   ConverterAddress current;
-  /// The channel before this one that has this position's converter; empty: it is its own.
+  /// The other channel that has this position's converter; empty: it is its own.
   std::optional<std::size_t> position_of;
 };
 

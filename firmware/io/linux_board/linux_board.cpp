@@ -56,11 +56,15 @@ tl::expected<std::unique_ptr<LinuxBoard>, std::vector<std::string>> LinuxBoard::
     ChannelParts& channel = parts.channels[i];
     auto enable = std::move(*channel.enable.device);
     auto pwm = take.pwm(channel.pwm, where.pwm.access);
-    std::shared_ptr<hal::AdcChannel> position =
-        where.position_of ? board->channels_[*where.position_of].position
-                          : take.converter(*channel.position, where.position.access);
+    std::shared_ptr<hal::AdcChannel> position;
+    if (!where.position_of) position = take.converter(*channel.position, where.position.access);
     board->channels_.push_back({std::move(enable), std::move(pwm), std::move(position),
                                 take.converter(channel.current, where.current.access)});
+  }
+  // Of a channel that may come later.
+  for (std::size_t i = 0; i < wiring.channels.size(); ++i) {
+    if (const auto owner = wiring.channels[i].position_of)
+      board->channels_[i].position = board->channels_[*owner].position;
   }
   return board;
 }

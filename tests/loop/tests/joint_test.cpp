@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "loop/support/joint_case.hpp"
 
@@ -63,6 +64,26 @@ TEST(Joint, SettlesAtSetPointsOfBothSigns) {
     DOUBLES_EQUAL(wanted_deg, angle_deg(), 0.05);
   }
   CHECK_FALSE(rig.interval_missed);
+}
+
+TEST(Joint, ItsAgonistMayBeTheLaterChannel) {
+  RigSettings settings = joint_board();
+  JointSettings& joint = settings.firmware.joints[0];
+  std::swap(joint.agonist, joint.antagonist);
+  for (std::size_t i = 0; i < settings.firmware.channels.size(); ++i)
+    settings.firmware.channels[i].joint = joint.place_of(i);
+  Rig turned(settings);
+  begin(turned);
+  // The sensor and the muscles are as they were: positive is the other way.
+  const auto follow = [&] {
+    turned.loop.send({antagonist, Verb::position, 15.0 * degree_m});
+    return false;
+  };
+  turned.run_until(follow, 20.0);
+  DOUBLES_EQUAL(-15.0, turned.board.joint(0).plant().position_m() / degree_m, 0.05);
+  CHECK(turned.loop.channel(antagonist).snapshot().mode == Mode::position);
+  CHECK(turned.loop.channel(agonist).snapshot().mode == Mode::joint);
+  CHECK_FALSE(turned.interval_missed);
 }
 
 TEST(Joint, GoesNoFurtherBackThanTheAntagonistMayContract) {

@@ -889,8 +889,9 @@ heater_not_responding alone."""
     remedy = """\
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, calibrate both.
-3. Did it move the wrong way? Let identify tell whether heat moves it so: moved_backwards. Then swap both heaters with their current senses, or agonist and antagonist in [joint], or change the
-   sign of m_per_count.
+3. Did it move the wrong way? Let identify tell whether heat moves it so: moved_backwards. Then do one of these: swap both heaters
+   with their current senses; change the sign of m_per_count, offset_m, min_m and max_m, and swap the last two; or swap
+   agonist and antagonist in [joint], and move channel.position as it is to the new agonist.
 4. Are both taut? What held the joint? Set max_travel_m so that it lies within the end stops.
 5. Reset, arm."""
     page = """\
@@ -932,8 +933,9 @@ joint that stands below its reference has lost its agonist, above it its antagon
 
 1. Let both cool. Turn the joint by hand, both ways: each muscle should become taut.
 2. Is one loose? Fasten it, tighten its cable, `calibrate` both.
-3. Did it move the wrong way? Let `identify` tell whether heat moves it so: `moved_backwards`. Then swap both heaters with their current senses, or `agonist` and `antagonist` in `[[joint]]`, or change the
-   sign of `m_per_count`.
+3. Did it move the wrong way? Let `identify` tell whether heat moves it so: `moved_backwards`. Then do one of these: swap both heaters
+   with their current senses; change the sign of `m_per_count`, `offset_m`, `min_m` and `max_m`, and swap the last two; or swap
+   `agonist` and `antagonist` in `[[joint]]`, and move `[channel.position]` as it is to the new agonist.
 4. Are both taut? What held the joint? Set `max_travel_m` so that it lies within the end stops.
 5. Reset, arm.
 

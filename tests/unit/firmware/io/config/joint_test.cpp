@@ -29,6 +29,10 @@ void check_answer(const std::string& part, const std::string& text) {
   STRCMP_CONTAINS(part.c_str(), problems_of(text).c_str());
 }
 
+/// Without moving the position, which is the first channel's.
+const std::string swapped = replaced(replaced(board_with_joint, "agonist = 1\n", "agonist = 2\n"),
+                                     "antagonist = 2", "antagonist = 1");
+
 }  // namespace
 
 TEST_GROUP(JointConfig){};
@@ -50,6 +54,30 @@ TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
   // Of one muscle alone: --check and the rows say that it is off.
   for (const ChannelSettings& channel : c.settings.channels)
     CHECK_FALSE(channel.supervision.proof_of_response);
+}
+
+TEST(JointConfig, TheAgonistMayComeAfterItsAntagonist) {
+  const std::string position =
+      "[channel.position]\ndevice = \"adc\"\ninput = \"voltage1\"\nm_per_count = 1e-6\n"
+      "min_m = -0.041\nmax_m = 0.03\n";
+  const std::string without =
+      replaced(replaced(swapped, "max_m = 0.041", "max_m = 0.03"), position, "");
+  const std::string current = "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"";
+  const BoardConfig c = read_joint_board(replaced(without, current, position + current));
+  const JointSettings& joint = c.settings.joints[0];
+  UNSIGNED_LONGS_EQUAL(1, joint.agonist);
+  UNSIGNED_LONGS_EQUAL(0, joint.antagonist);
+  // Each in its place, the first one read last.
+  DOUBLES_EQUAL(4.5, c.settings.channels[0].limiter.max_W, 0.0);
+  DOUBLES_EQUAL(4.0, c.settings.channels[1].limiter.max_W, 0.0);
+  STRCMP_EQUAL("voltage2", c.wiring.channels[0].current.input.c_str());
+  DOUBLES_EQUAL(-0.03, c.settings.channels[0].supervision.min_position_m, 0.0);
+  DOUBLES_EQUAL(-0.041, c.settings.channels[1].supervision.min_position_m, 0.0);
+  CHECK(c.wiring.channels[0].position_of == std::size_t{1});
+  CHECK_FALSE(c.wiring.channels[1].position_of.has_value());
+  LONGS_EQUAL(-1, c.settings.channels[0].joint.direction);
+  DOUBLES_EQUAL(1.0, c.settings.channels[0].joint.other_channel_offset, 0.0);
+  STRCMP_CONTAINS("agonist channel 2, antagonist channel 1", describe(c).c_str());
 }
 
 TEST(JointConfig, BothPullWithAFifthOfWhatTheWeakerOneCan) {
@@ -216,9 +244,10 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
       replaced(board_with_joint, "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"",
                "position = {device = \"adc\", input = \"voltage9\"}\n"
                "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\""));
-  check_answer("joint[1].antagonist = 1: must come after the agonist, whose position it has",
-               replaced(replaced(board_with_joint, "agonist = 1\n", "agonist = 2\n"),
-                        "antagonist = 2", "antagonist = 1"));
+  check_answer(
+      "channel[1].position: is that of its agonist, channel 2, with the other sign: leave "
+      "it out, or move it there",
+      swapped);
   check_answer("joint[1].antagonist = 1: is a channel that pulls in a joint already",
                replaced(board_with_joint, "antagonist = 2", "antagonist = 1"));
   check_answer("joint[1].antagonist = 3: must be 1 to 2",

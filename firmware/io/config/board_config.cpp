@@ -106,11 +106,11 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
   const CommandRules rules = read_command(root.section("command"), config.settings.step_s());
 
   Section every = root.section("every_channel");
-  const BoardContext context{
-      config.settings,       wiring, air, rules.timeout_s, rules.damaged_in_a_row,
-      rules.refused_in_a_row};
   const std::vector<Section> channels = root.sections("channel");
   JointReader joints(root.sections("joint"), std::min(channels.size(), max_channels));
+  const BoardContext context{
+      config.settings,        wiring,           air, rules.timeout_s, rules.damaged_in_a_row,
+      rules.refused_in_a_row, joints.is_wrong()};
   read_channels(channels, every, context, joints, config);
   joints.finish(config);
   Section can = root.section("can");

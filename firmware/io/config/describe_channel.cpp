@@ -78,7 +78,7 @@ void describe_tuning(std::ostream& out, const board::StoredValues& tuned) {
   }
 }
 
-void describe_control(std::ostream& out, const ChannelSettings& c, double step_s) {
+void describe_controllers(std::ostream& out, const ChannelSettings& c, double step_s) {
   out << "  controllers ";
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     const control::ControllerSettings& k = c.controllers[i];
@@ -91,7 +91,11 @@ void describe_control(std::ostream& out, const ChannelSettings& c, double step_s
       out << ", " << margin;
     if (i < c.tuning.controllers.size()) describe_tuning(out, c.tuning.controllers[i]);
   }
-  out << "\n  estimators  ";
+  out << "\n";
+}
+
+void describe_estimators(std::ostream& out, const ChannelSettings& c) {
+  out << "  estimators  ";
   for (std::size_t i = 0; i < c.estimators.size(); ++i) {
     const control::EstimatorSettings& e = c.estimators[i];
     out << (i == 0 ? "" : "\n              ") << i << ": "
@@ -151,6 +155,7 @@ std::string describe_heat(const ChannelSettings& c) {
 }
 
 std::string describe_small_motions(const ChannelSettings& c, const BoardSettings& board) {
+  if (c.joint.direction != 0) return "not checked: the joint's other muscle moves it as well";
   if (!c.supervision.proof_of_response) return "not checked: detectors.proof_of_response is false";
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
   std::ostringstream out;
@@ -190,7 +195,13 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   out << title << (label.name == title ? "" : ": " + label.name) << "\n";
   describe_wiring(out, config.wiring.channels[index], c);
   describe_limits(out, c, config.settings, label);
-  describe_control(out, c, config.settings.step_s());
+  if (c.joint.direction < 0) {
+    const auto place = static_cast<long>(index + 1) + std::lround(c.joint.other_channel_offset);
+    out << "  controllers led by channel " << place << ": its own are not used\n";
+  } else {
+    describe_controllers(out, c, config.settings.step_s());
+  }
+  describe_estimators(out, c);
   const char* title_of_line = "  can do      ";
   for (const std::string& line : describe_feasibility(config.settings, index)) {
     out << title_of_line << line << "\n";

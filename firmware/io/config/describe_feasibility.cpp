@@ -22,6 +22,11 @@ std::string in_mm(double metres) {
   return in_digits(1e3 * metres) + " mm";
 }
 
+/// By its joint's agonist: its own controllers are not used.
+bool is_led(const ChannelSettings& c) {
+  return c.joint.direction < 0;
+}
+
 std::string motion_line(const Feasibility& f) {
   std::string line = "holds " + in_mm(f.travel_m) + " for good, at " + in_digits(f.held_W) + " W";
   if (f.held_by != LimitedBy::maximum) line += " (limited_by " + std::string(name(f.held_by)) + ")";
@@ -78,6 +83,7 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
   const ChannelSettings& c = board.channels[channel];
   const Feasibility f = feasibility(c, board);
   std::vector<std::string> lines{motion_line(f), start_line(f, c)};
+  if (is_led(c)) return lines;
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     if (!f.steps[i]) continue;
     lines.push_back("controller " + std::to_string(i) + " can follow steps of " +
@@ -98,6 +104,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
                     " below its zero, and the sensor reads no less than " +
                     in_mm(c.supervision.min_position_m) + ": a colder start looks like a fault");
   }
+  if (is_led(c)) return lines;
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     const auto& steps = f.steps[i];
     const bool small = steps && std::min(steps->up_m, steps->down_m) < 0.5 * f.travel_m;

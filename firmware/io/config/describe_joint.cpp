@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
+#include <string_view>
 
 #include "config/describe.hpp"
 #include "loop/feasibility.hpp"
@@ -53,10 +55,34 @@ std::string turning_stiffness(double stiffness_N_per_m, const control::Lever& le
   return out.str();
 }
 
+/// What both muscles describe of the whole joint, as it is configured, is the same of both.
+void advise_alike(const BoardSettings& board, const JointSettings& joint,
+                  std::vector<std::string>& lines) {
+  constexpr double max_ratio = 1.3;
+  const auto configured = [&board](std::size_t place) {
+    const ChannelSettings& c = board.channels[place];
+    return c.configured_muscle.value_or(c.muscle);
+  };
+  const control::PhysicalParameters first = configured(joint.agonist);
+  const control::PhysicalParameters second = configured(joint.antagonist);
+  for (const char* name : {"stiffness_N_per_m", "damping_Ns_per_m", "moving_mass_kg"}) {
+    const auto range = std::ranges::find(control::physical_ranges, std::string_view(name),
+                                         &control::PhysicalRange::name);
+    const double of_first = first.*range->member;
+    const double of_second = second.*range->member;
+    if (std::max(of_first, of_second) <= max_ratio * std::min(of_first, of_second)) continue;
+    std::ostringstream line;
+    line << "muscle." << name << " is " << of_first << " of channel " << joint.agonist + 1
+         << " and " << of_second << " of channel " << joint.antagonist + 1
+         << ": each describes the whole joint, and they should be the same";
+    lines.push_back(line.str());
+  }
+}
+
 /// What both muscles pull with at most, of what they bear.
 std::string greatest_pull(const JointLabel& label, double agonist_N, double antagonist_N) {
   std::ostringstream out;
-  out << "heat adds at most " << up_to_hundredth(agonist_N) << " N and "
+  out << "the heat of these measured watts adds at most " << up_to_hundredth(agonist_N) << " N and "
       << up_to_hundredth(antagonist_N) << " N to the pretension";
   if (label.max_pull_N) {
     out << " of " << label.pretension_N << " N: within max_pull_N = " << *label.max_pull_N;
@@ -83,7 +109,7 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
       << arc(feasibility(agonist, board).travel_m, joint.lever) << "\n"
       << "  both pull   with " << to_tenth(joint.co_contraction_W) << " W and "
       << to_tenth(joint.co_contraction_W / gain_ratio)
-      << " W while the joint asks for no effort, of which each takes half\n"
+      << " W while no effort is asked for; each muscle contributes half of an effort\n"
       << "              at most with " << to_tenth(joint.max_co_contraction_W) << " W and "
       << to_tenth(joint.max_co_contraction_W / gain_ratio) << " W\n              "
       << greatest_pull(config.joints[index], hottest_pull_N(agonist, joint.max_co_contraction_W),
@@ -99,6 +125,7 @@ std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t ind
   const JointSettings& joint = config.settings.joints[index];
   const JointLabel& label = config.joints[index];
   std::vector<std::string> lines;
+  advise_alike(config.settings, joint, lines);
   if (!label.max_pull_N) return lines;
   for (const std::size_t place : {joint.agonist, joint.antagonist}) {
     const ChannelSettings& channel = config.settings.channels[place];

@@ -1,5 +1,6 @@
 #include "config/read_channel.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include "config/read_control.hpp"
@@ -33,7 +34,7 @@ void mirror_position(Section& section, const ReadAgonist& agonist, ReadChannel& 
   const ChannelSettings& from = agonist.settings;
   ChannelSettings& c = channel.settings;
   section.allow({"position"});
-  if (section.table() != nullptr && section.table()->contains("position")) {
+  if (section.has_own("position")) {
     section.wrong("position", "is that of its agonist, channel " +
                                   std::to_string(agonist.index + 1) +
                                   ", with the other sign: leave it out, or move it there");
@@ -42,9 +43,17 @@ void mirror_position(Section& section, const ReadAgonist& agonist, ReadChannel& 
   channel.wiring.position_of = agonist.index;
   c.position = from.position;
   c.position.scaling = {-from.position.scaling.per_count, -from.position.scaling.offset};
-  c.supervision.min_position_m = -from.supervision.max_position_m;
-  c.supervision.max_position_m = -from.supervision.min_position_m;
+  // No -0.
+  c.supervision.min_position_m = 0.0 - from.supervision.max_position_m;
+  c.supervision.max_position_m = 0.0 - from.supervision.min_position_m;
   c.supervision.position_noise_rms_m = from.supervision.position_noise_rms_m;
+}
+
+/// Nothing is compared with it.
+void leave_position_out(Section& section, ChannelSettings& c) {
+  section.allow({"position"});
+  c.position.scaling.per_count = NAN;
+  c.supervision.min_position_m = c.supervision.max_position_m = NAN;
 }
 
 /// [channel.current].
@@ -102,6 +111,8 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
   channel.wiring.pwm = context.wiring.pwm(section.section("pwm"), owner + "'s PWM");
   if (agonist != nullptr) {
     mirror_position(section, *agonist, channel);
+  } else if (context.joint_is_wrong && !section.has_own("position")) {
+    leave_position_out(section, c);
   } else {
     read_position(section.section("position"), owner, context, channel);
   }

@@ -16,6 +16,7 @@ struct BoardContext {
   double command_timeout_s;
   int damaged_in_a_row;
   int refused_in_a_row;
+  bool joint_is_wrong;  ///< and which channels have no position of their own is not known
 };
 
 struct ReadChannel {

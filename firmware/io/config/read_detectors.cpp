@@ -64,7 +64,13 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   read.number("responding_window_s", s.responding_window_s, {1.0, 600.0});
   read.number("responding_ratio", s.responding_ratio, {0.01, 0.9});
   read.number("responding_min_m", s.responding_min_m, {1e-6, 1.0});
-  s.proof_of_response = section.flag("proof_of_response", s.proof_of_response);
+  const bool by_default = s.proof_of_response && c.joint.direction == 0;
+  s.proof_of_response = section.flag("proof_of_response", by_default);
+  if (s.proof_of_response && c.joint.direction != 0) {
+    section.wrong("proof_of_response",
+                  "cannot be had in a joint: the other muscle moves it as well; leave it out, or "
+                  "say false");
+  }
   // A buffered duty reads back as what it was until the bus's thread has written it.
   const double lag_ticks = wiring.pwm.access.buffered() ? 5.0 : 2.0;
   read.time("wrong_duty_ms", s.wrong_duty_s, lag_ticks, {1.0, 1000.0});

@@ -71,6 +71,10 @@ std::optional<std::size_t> JointReader::agonist_of(std::size_t channel) const {
   return std::nullopt;
 }
 
+bool JointReader::is_wrong() const {
+  return std::ranges::any_of(joints_, [](const auto& joint) { return !joint; });
+}
+
 PlaceInJoint JointReader::place_of(std::size_t channel) const {
   for (const auto& joint : joints_) {
     if (joint && joint->place_of(channel).direction != 0) return joint->place_of(channel);

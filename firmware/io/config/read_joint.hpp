@@ -27,6 +27,8 @@ class JointReader {
   std::optional<std::size_t> agonist_of(std::size_t channel) const;
   /// Likewise, of any channel.
   PlaceInJoint place_of(std::size_t channel) const;
+  /// A joint's channels are wrong: any that has no position may be meant to be its antagonist.
+  bool is_wrong() const;
   /// After the channels. Finishes the sections.
   void finish(BoardConfig& config);
 

@@ -1,5 +1,6 @@
 #include "config/read_lever.hpp"
 
+#include <cmath>
 #include <numbers>
 
 namespace supercoil::config {
@@ -21,8 +22,10 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
       section.wrong(range_key, "needs lever_m to be a list");
     }
     section.allow({range_key});
-    return control::Lever(fallback_m ? section.number(lever_key, *fallback_m, radius_m)
-                                     : section.required_number(lever_key, radius_m));
+    const double lever_m = fallback_m ? section.number(lever_key, *fallback_m, radius_m)
+                                      : section.required_number(lever_key, radius_m);
+    // What is missing or wrong has been said.
+    return control::Lever(std::isfinite(lever_m) ? lever_m : radius_m.highest);
   }
   const auto radii_m = section.numbers(lever_key, {radius_m.highest, radius_m.highest}, radius_m, 2,
                                        control::Lever::max_points);

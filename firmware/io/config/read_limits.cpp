@@ -80,7 +80,12 @@ void read_limits(Section section, const BoardContext& context, ChannelSettings& 
   const double reading_m = c.joint.reading_of_position_m(s.max_travel_m);
   if (reading_m > s.max_position_m) {
     std::ostringstream message;
-    message << "must be within what the sensor can read: position.max_m = " << s.max_position_m;
+    message << "must be within what the sensor can read: ";
+    if (c.joint.direction < 0) {
+      message << "its agonist's position.min_m = " << 0.0 - s.max_position_m;
+    } else {
+      message << "position.max_m = " << s.max_position_m;
+    }
     if (reading_m != s.max_travel_m) message << ", and by its lever it reads " << reading_m;
     section.wrong("max_travel_m", message.str());
   }

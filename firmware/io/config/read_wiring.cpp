@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace supercoil::config {
 
@@ -16,6 +17,8 @@ constexpr int converter_bytes = 5;
 /// A converter is read once a tick, and its value may be missed twice.
 constexpr double age_ticks = 3.0;
 constexpr double min_max_age_s = 0.01;
+/// Of a channel.
+constexpr std::string_view position_of = "'s position";
 
 }  // namespace
 
@@ -26,7 +29,9 @@ void WiringReader::claim(Section& section, const char* key, const std::string& a
   if (first == claims_.end()) {
     claims_.emplace_back(address, owner);
   } else {
-    section.wrong(key, "is already " + first->second + ": " + address);
+    const bool one_joint = first->second.ends_with(position_of) && owner.ends_with(position_of);
+    section.wrong(key, "is already " + first->second + ": " + address +
+                           (one_joint ? "; two muscles that turn one joint need a [[joint]]" : ""));
   }
 }
 

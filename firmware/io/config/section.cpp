@@ -54,7 +54,7 @@ Section::Found Section::look(std::string_view key) const {
 }
 
 const toml::node* Section::find(std::string_view key) {
-  known_.emplace_back(key);
+  know(key);
   return look(key).node;
 }
 

@@ -1,6 +1,7 @@
 // A table of a TOML file of which every key is checked as it is read.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <initializer_list>
 #include <string>
@@ -70,10 +71,13 @@ class Section {
 
   /// Keys that are read elsewhere.
   void allow(std::initializer_list<std::string_view> keys) {
-    known_.insert(known_.end(), keys.begin(), keys.end());
+    for (const std::string_view key : keys)
+      know(key);
   }
 
   bool has(std::string_view key) const { return look(key).node != nullptr; }
+  /// Not in the table laid under it.
+  bool has_own(std::string_view key) const { return table_ != nullptr && table_->contains(key); }
   const toml::table* table() const { return table_; }
   /// Of the table; of the one around it when it is absent; 0 at the top.
   int line() const;
@@ -92,6 +96,10 @@ class Section {
     std::string key;
     std::string rule;
   };
+  /// A key that is named again is the same one.
+  void know(std::string_view key) {
+    if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
+  }
   Found look(std::string_view key) const;
   const toml::node* find(std::string_view key);
   std::string full(std::string_view key) const;

@@ -15,7 +15,7 @@ Section Section::over(const toml::table* under, std::string under_path) const {
 }
 
 Section Section::section(std::string_view key) {
-  known_.emplace_back(key);
+  know(key);
   const auto table_in = [&](const toml::table* outer) -> const toml::table* {
     const toml::node* node = outer == nullptr ? nullptr : outer->get(key);
     return node == nullptr ? nullptr : node->as_table();

@@ -59,10 +59,12 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
 /// Only a dither shows whether a hot muscle at rest still responds.
 void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
   if (!c.supervision.proof_of_response) {
-    findings.add(
-        Fault::heater_not_responding,
-        "detectors.proof_of_response is false: a muscle that is held still, off its sensor "
-        "and badly cooled may pass its limit unseen");
+    const bool in_joint = c.joint.direction != 0;
+    findings.add(Fault::heater_not_responding,
+                 std::string(in_joint ? "no proof of response is had in a joint"
+                                      : "detectors.proof_of_response is false") +
+                     ": a muscle that is held still, off its sensor and badly cooled may pass its "
+                     "limit unseen");
     return;
   }
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);

@@ -154,7 +154,8 @@ TEST(JointConfig, CheckSaysWhatThePairBears) {
   const std::string text =
       describe(read_joint_board(board_with_joint + "max_pull_N = 0.8\npretension_N = 0.1\n"));
   for (const char* part :
-       {"heat adds at most 0.43 N and 0.35 N to the pretension of 0.1 N: within max_pull_N = 0.8",
+       {"the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension of 0.1 "
+        "N: within max_pull_N = 0.8",
         "joint 1: where something holds it, channel 1 alone may pull with up to 0.96 N at its "
         "max_W = 4.5, more than max_pull_N = 0.8",
         "channel 2 alone may pull with up to 0.87 N"})
@@ -172,9 +173,12 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
   const std::string text = describe(read_joint_board(board_with_joint));
   for (const char* part :
        {"joint 1: elbow", "agonist channel 1, antagonist channel 2", "lever of 15 mm",
-        "with 0.9 W and 0.7 W", "at most with 2.2 W and 1.8 W",
+        "with 0.9 W and 0.7 W while no effort is asked for; each muscle contributes half of an "
+        "effort",
+        "at most with 2.2 W and 1.8 W",
         // By 2.25 W, and 1.8 W of the antagonist, at 0.045 W/K: not as cool as is believed.
-        "heat adds at most 0.43 N and 0.35 N to the pretension; max_pull_N, which "
+        "the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension; "
+        "max_pull_N, which "
         "they bear, is not configured",
         "stiffness   16 N/m"})
     STRCMP_CONTAINS(part, text.c_str());
@@ -238,6 +242,70 @@ TEST(JointConfig, TheSensorMustReachAsFarAsItsLeverLetsTheMuscleContract) {
   read_joint_board(with_lever("[0.015, 0.015, 0.03]", "0.05"));
 }
 
+TEST(JointConfig, HowFarItTurnsBackIsTheAgonistsSensorsMatter) {
+  STRCMP_EQUAL(
+      "b.toml:60: channel[2].limits.max_travel_m = 0.02: must be within what the sensor can read: "
+      "its agonist's position.min_m = 0\n",
+      problems_of(replaced(board_with_joint, "min_m = -0.041", "min_m = 0.0")).c_str());
+}
+
+TEST(JointConfig, NothingFollowsFromWhatIsWrongWithAJoint) {
+  const auto check_only = [](const std::string& problem, const std::string& text) {
+    STRCMP_EQUAL(("b.toml:" + problem + "\n").c_str(), problems_of(text).c_str());
+  };
+  check_only("65: joint[1].lever_m = 15: must be 0.0001 to 1",
+             replaced(board_with_joint, "lever_m = 0.015", "lever_m = 15"));
+  check_only("61: joint[1].lever_m: is missing: it must be a number, 0.0001 to 1",
+             replaced(board_with_joint, "lever_m = 0.015\n", ""));
+  check_only("63: joint[1].agonist = [1, 3]: must be a whole number, 1 to 2",
+             replaced(board_with_joint, "agonist = 1\n", "agonist = [1, 3]\n"));
+  check_only("63: joint[1].agonist = 9: must be 1 to 2",
+             replaced(board_with_joint, "agonist = 1\n", "agonist = 9\n"));
+  check_only("64: joint[1].antagonist = 1: is a channel that pulls in a joint already",
+             replaced(board_with_joint, "antagonist = 2", "antagonist = 1"));
+}
+
+TEST(JointConfig, NoProofOfResponseIsHadInAJoint) {
+  const std::string proof = board_with_joint + "[every_channel.detectors]\nproof_of_response = ";
+  check_answer(
+      "every_channel.detectors.proof_of_response = true: cannot be had in a joint: the other "
+      "muscle moves it as well; leave it out, or say false",
+      proof + "true\n");
+  STRCMP_EQUAL("", problems_of(proof + "false\n").c_str());
+  const std::string text = describe(read_joint_board(board_with_joint));
+  STRCMP_CONTAINS("of some um: not checked: the joint's other muscle moves it as well",
+                  text.c_str());
+  STRCMP_CONTAINS("heater_not_responding: no proof of response is had in a joint", text.c_str());
+  CHECK(text.find("proof_of_response is false") == std::string::npos);
+}
+
+TEST(JointConfig, WhatBothDescribeOfTheJointShouldBeTheSame) {
+  const auto described = [](const std::string& lines) {
+    return describe(read_joint_board(replaced(board_with_joint, "heat_transfer_W_per_K = 0.0712\n",
+                                              "heat_transfer_W_per_K = 0.0712\n" + lines)));
+  };
+  STRCMP_CONTAINS(
+      "joint 1: muscle.stiffness_N_per_m is 16 of channel 1 and 22 of channel 2: each describes "
+      "the whole joint, and they should be the same",
+      described("stiffness_N_per_m = 22\n").c_str());
+  STRCMP_CONTAINS("muscle.damping_Ns_per_m is 2 of channel 1 and 1 of channel 2",
+                  described("damping_Ns_per_m = 1\n").c_str());
+  STRCMP_CONTAINS("muscle.moving_mass_kg is 0.09 of channel 1 and 0.2 of channel 2",
+                  described("moving_mass_kg = 0.2\n").c_str());
+  const std::string alike = described(
+      "stiffness_N_per_m = 20\ndamping_Ns_per_m = 1.6\nforce_per_kelvin_N_per_K = 0.02\n");
+  CHECK(alike.find("describes the whole joint") == std::string::npos);
+}
+
+TEST(JointConfig, AnAntagonistIsLed) {
+  const BoardConfig c = read_joint_board(board_with_joint);
+  STRCMP_CONTAINS("controllers led by channel 1: its own are not used",
+                  describe_channel(c, 1).c_str());
+  CHECK(describe_channel(c, 1).find("can follow") == std::string::npos);
+  STRCMP_CONTAINS("controller 0 can follow", describe_channel(c, 0).c_str());
+  CHECK(advice(c.settings.channels[1], c.settings).empty());
+}
+
 TEST(JointConfig, WhatCannotBeIsNamed) {
   check_answer(
       "channel[2].position: is that of its agonist, channel 1, with the other sign",
@@ -260,10 +328,17 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
   check_answer("joint[1].lever_m: is missing", replaced(board_with_joint, "lever_m = 0.015\n", ""));
   check_answer("is not a key of [joint[1]]; did you mean antagonist?",
                replaced(board_with_joint, "antagonist", "antagonst"));
-  check_answer("is already channel 1's position",
-               replaced(small_board + second_channel,
-                        "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"",
-                        "position = {device = \"adc\", input = \"voltage1\", m_per_count = 1e-6, "
-                        "min_m = 0, max_m = 1}\n"
-                        "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\""));
+  check_answer(
+      "joint[1].speed = 3: is not a key of [joint[1]]; its keys are: agonist, antagonist, "
+      "lever_range_deg, lever_m, name, co_contraction_W, max_co_contraction_W, max_pull_N, "
+      "pretension_N\n",
+      board_with_joint + "speed = 3\n");
+  check_answer(
+      "is already channel 1's position: input voltage1 of adc; two muscles that turn one "
+      "joint need a [[joint]]",
+      replaced(small_board + second_channel,
+               "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\"",
+               "position = {device = \"adc\", input = \"voltage1\", m_per_count = 1e-6, "
+               "min_m = 0, max_m = 1}\n"
+               "[channel.current]\ndevice = \"adc\"\ninput = \"voltage3\""));
 }

@@ -47,14 +47,13 @@ void read_channels(std::vector<Section> sections, Section& every, const BoardCon
   config.wiring.channels.resize(channels);
   config.labels.resize(channels);
   for (const std::size_t i : reading_order(channels, joints)) {
-    std::optional<ReadAgonist> agonist;
+    ReadJoint joint{joints.place_of(i), joints.max_travel_m(i), std::nullopt};
     if (const auto place = joints.agonist_of(i)) {
-      agonist.emplace(
-          ReadAgonist{*place, config.settings.channels[*place], config.wiring.channels[*place]});
+      joint.agonist.emplace(ReadAgonist{*place, config.settings.channels[*place],
+                                        config.wiring.channels[*place], config.labels[*place]});
     }
-    ReadChannel channel =
-        read_channel(sections[i].over(every.table(), "every_channel"), static_cast<int>(i + 1),
-                     context, joints.place_of(i), agonist ? &*agonist : nullptr);
+    ReadChannel channel = read_channel(sections[i].over(every.table(), "every_channel"),
+                                       static_cast<int>(i + 1), context, joint);
     config.settings.channels[i] = std::move(channel.settings);
     config.wiring.channels[i] = std::move(channel.wiring);
     config.labels[i] = std::move(channel.label);

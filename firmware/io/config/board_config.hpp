@@ -21,6 +21,7 @@ enum class Preset { nylon, skin };
 struct ChannelLabel {
   std::string name;
   Preset preset = Preset::nylon;
+  bool position_in_deg = false;  ///< its sensor, of a joint's angle, is configured in degrees
   std::optional<double>
       thermal_fuse_C;            ///< at which it opens; 0: not fitted; empty: not configured
   std::optional<Bundle> bundle;  ///< empty: one muscle

@@ -4,10 +4,35 @@
 #include <sstream>
 
 #include "config/read_control.hpp"
+#include "config/read_lever.hpp"
 
 namespace supercoil::config {
 
 namespace {
+
+/// What the keys of [channel.position] are in: lengths, or of a joint's sensor angles.
+struct PositionUnit {
+  const char* name;
+  double one_m;  ///< in metres
+  double max_per_count;
+  double max_reading;
+  double max_noise_rms;
+
+  std::string per_count() const { return std::string(name) + "_per_count"; }
+  std::string key(const char* quantity) const { return std::string(quantity) + "_" + name; }
+};
+
+PositionUnit position_unit(Section& section, const BoardContext& context,
+                           const PlaceInJoint& joint) {
+  constexpr const char* deg_key = "deg_per_count";
+  if (!section.has(deg_key)) return {"m", 1.0, 0.01, 10.0, 0.01};
+  if (joint.direction == 0 && !context.joint_is_wrong) {
+    section.wrong(deg_key,
+                  "is for the sensor of a joint's angle, and this channel is in no [[joint]]: "
+                  "write m_per_count");
+  }
+  return {"deg", metres_per_degree(joint.lever), 10.0, 360.0, 10.0};
+}
 
 /// [channel.position]: where the sensor is, what its counts mean, what it can read.
 void read_position(Section section, const std::string& owner, const BoardContext& context,
@@ -15,16 +40,23 @@ void read_position(Section section, const std::string& owner, const BoardContext
   ChannelSupervision& s = channel.settings.supervision;
   InputSettings& input = channel.settings.position;
   channel.wiring.position = context.wiring.converter(section, owner + "'s position");
-  input.scaling.per_count = section.required_number("m_per_count", {-0.01, 0.01});
-  if (input.scaling.per_count == 0.0) section.wrong("m_per_count", "must not be 0");
-  input.scaling.offset = section.number("offset_m", 0.0, {-10.0, 10.0});
+  const PositionUnit unit = position_unit(section, context, channel.settings.joint);
+  channel.label.position_in_deg = unit.per_count() == "deg_per_count";
+  const auto number = [&](const char* quantity, double fallback_m, Range range) {
+    return unit.one_m * section.number(unit.key(quantity), fallback_m / unit.one_m, range);
+  };
+  const Range readings{-unit.max_reading, unit.max_reading};
+  input.scaling.per_count =
+      unit.one_m *
+      section.required_number(unit.per_count(), {-unit.max_per_count, unit.max_per_count});
+  if (input.scaling.per_count == 0.0) section.wrong(unit.per_count(), "must not be 0");
+  input.scaling.offset = number("offset", 0.0, readings);
   input.max_age_s = context.wiring.max_age_s(section, channel.wiring.position);
-  s.min_position_m = section.required_number("min_m", {-10.0, 10.0});
-  s.max_position_m = section.required_number("max_m", {-10.0, 10.0});
-  if (s.min_position_m >= s.max_position_m) {
-    section.wrong("min_m", "must be less than max_m");
-  }
-  s.position_noise_rms_m = section.number("noise_rms_m", s.position_noise_rms_m, {0.0, 0.01});
+  s.min_position_m = unit.one_m * section.required_number(unit.key("min"), readings);
+  s.max_position_m = unit.one_m * section.required_number(unit.key("max"), readings);
+  if (s.min_position_m >= s.max_position_m)
+    section.wrong(unit.key("min"), "must be less than " + unit.key("max"));
+  s.position_noise_rms_m = number("noise_rms", s.position_noise_rms_m, {0.0, unit.max_noise_rms});
   section.finish();
 }
 
@@ -39,6 +71,7 @@ void mirror_position(Section& section, const ReadAgonist& agonist, ReadChannel& 
                                   std::to_string(agonist.index + 1) +
                                   ", with the other sign: leave it out, or move it there");
   }
+  channel.label.position_in_deg = agonist.label.position_in_deg;
   channel.wiring.position = agonist.wiring.position;
   channel.wiring.position_of = agonist.index;
   c.position = from.position;
@@ -98,19 +131,19 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
 }  // namespace
 
 ReadChannel read_channel(Section section, int number, const BoardContext& context,
-                         const PlaceInJoint& joint, const ReadAgonist* agonist) {
+                         const ReadJoint& joint) {
   const std::string owner = "channel " + std::to_string(number);
   ReadChannel channel;
   ChannelSettings& c = channel.settings;
-  c.joint = joint;
+  c.joint = joint.place;
   c.supervision.command_timeout_s = context.command_timeout_s;
   c.supervision.damaged_in_a_row = context.damaged_in_a_row;
   c.supervision.refused_in_a_row = context.refused_in_a_row;
   channel.label.name = section.text("name", owner);
   channel.wiring.enable = context.wiring.line(section.section("enable"), owner + "'s enable");
   channel.wiring.pwm = context.wiring.pwm(section.section("pwm"), owner + "'s PWM");
-  if (agonist != nullptr) {
-    mirror_position(section, *agonist, channel);
+  if (joint.agonist) {
+    mirror_position(section, *joint.agonist, channel);
   } else if (context.joint_is_wrong && !section.has_own("position")) {
     leave_position_out(section, c);
   } else {
@@ -118,7 +151,7 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
   }
   read_current(section.section("current"), owner, context, channel);
   read_heater(section.section("heater"), context, channel.wiring.pwm, c, channel.label);
-  read_limits(section.section("limits"), context, c, channel.label);
+  read_limits(section.section("limits"), context, c, channel.label, joint.max_travel_m);
   read_muscle(section.section("muscle"), section.section("thermal"), context, c);
   read_detectors(section.section("detectors"), context, channel.wiring, c);
   channel.label.bundle = read_bundle(section.section("bundle"), c);

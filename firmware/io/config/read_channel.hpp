@@ -1,6 +1,7 @@
 // One [[channel]], with what [every_channel] says laid under it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "config/board_config.hpp"
@@ -16,7 +17,7 @@ struct BoardContext {
   double command_timeout_s;
   int damaged_in_a_row;
   int refused_in_a_row;
-  bool joint_is_wrong;  ///< and which channels have no position of their own is not known
+  bool joint_is_wrong;  ///< what a channel lacks may come from it: position, max_travel_m
 };
 
 struct ReadChannel {
@@ -30,19 +31,28 @@ struct ReadAgonist {
   std::size_t index;  ///< from 0
   const ChannelSettings& settings;
   const ChannelWiring& wiring;
+  const ChannelLabel& label;
 };
 
-/// number: from 1, as messages call it. agonist: null for every channel but an antagonist.
+/// What is known of the channel from its joint before it is read.
+struct ReadJoint {
+  PlaceInJoint place;
+  std::optional<double> max_travel_m;  ///< by its range_deg; empty: by the channel's own limits
+  std::optional<ReadAgonist> agonist;  ///< empty for every channel but an antagonist
+};
+
+/// number: from 1, as messages call it.
 ReadChannel read_channel(Section section, int number, const BoardContext& context,
-                         const PlaceInJoint& joint, const ReadAgonist* agonist);
+                         const ReadJoint& joint);
 
 // Its tables; each finishes its section.
 
 /// [channel.muscle] and [channel.thermal]. After the limits.
 void read_muscle(Section muscle, Section thermal, const BoardContext& context, ChannelSettings& c);
 /// [channel.limits]: power, temperature, travel, energy. After heater and position.
+/// joint_travel_m: by range_deg of its joint.
 void read_limits(Section section, const BoardContext& context, ChannelSettings& c,
-                 ChannelLabel& label);
+                 ChannelLabel& label, const std::optional<double>& joint_travel_m);
 /// [channel.heater]. After the current.
 void read_heater(Section section, const BoardContext& context, const PwmAddress& pwm,
                  ChannelSettings& c, ChannelLabel& label);

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <sstream>
 
-#include "config/read_lever.hpp"
-
 namespace supercoil::config {
 
 namespace {
@@ -58,6 +56,8 @@ void JointReader::read_places(std::size_t channels) {
     const auto agonist = read_place(section, "agonist", channels);
     const auto antagonist = read_place(section, "antagonist", channels);
     const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
+    travels_.push_back(read_joint_travel(section, lever));
+    has_wrong_range_ = has_wrong_range_ || (section.has("range_deg") && !travels_.back());
     joints_.emplace_back();
     if (!agonist || !antagonist || std::max(*agonist, *antagonist) >= channels) continue;
     joints_.back() = JointSettings{.agonist = *agonist, .antagonist = *antagonist, .lever = lever};
@@ -72,7 +72,7 @@ std::optional<std::size_t> JointReader::agonist_of(std::size_t channel) const {
 }
 
 bool JointReader::is_wrong() const {
-  return std::ranges::any_of(joints_, [](const auto& joint) { return !joint; });
+  return has_wrong_range_ || std::ranges::any_of(joints_, [](const auto& j) { return !j; });
 }
 
 PlaceInJoint JointReader::place_of(std::size_t channel) const {
@@ -80,6 +80,15 @@ PlaceInJoint JointReader::place_of(std::size_t channel) const {
     if (joint && joint->place_of(channel).direction != 0) return joint->place_of(channel);
   }
   return {};
+}
+
+std::optional<double> JointReader::max_travel_m(std::size_t channel) const {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const int direction = joints_[i] ? joints_[i]->place_of(channel).direction : 0;
+    if (direction == 0 || !travels_[i]) continue;
+    return direction > 0 ? travels_[i]->agonist_m : travels_[i]->antagonist_m;
+  }
+  return std::nullopt;
 }
 
 void JointReader::finish(BoardConfig& config) {

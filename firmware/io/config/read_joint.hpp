@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "config/board_config.hpp"
+#include "config/read_lever.hpp"
 #include "config/section.hpp"
 
 namespace supercoil::config {
@@ -27,7 +28,9 @@ class JointReader {
   std::optional<std::size_t> agonist_of(std::size_t channel) const;
   /// Likewise, of any channel.
   PlaceInJoint place_of(std::size_t channel) const;
-  /// A joint's channels are wrong: any that has no position may be meant to be its antagonist.
+  /// How far the joint's range_deg lets this channel's muscle contract; empty: it has none.
+  std::optional<double> max_travel_m(std::size_t channel) const;
+  /// A joint's channels or its range are wrong: what a channel then lacks may come from its joint.
   bool is_wrong() const;
   /// After the channels. Finishes the sections.
   void finish(BoardConfig& config);
@@ -38,7 +41,9 @@ class JointReader {
 
   std::vector<Section> sections_;
   std::vector<std::optional<JointSettings>> joints_;  ///< empty: its channels are wrong
-  std::vector<std::size_t> taken_;                    ///< channels that are in a joint
+  std::vector<std::optional<JointTravel>> travels_;   ///< as many; empty: by the channels' limits
+  bool has_wrong_range_ = false;
+  std::vector<std::size_t> taken_;  ///< channels that are in a joint
 };
 
 }  // namespace supercoil::config

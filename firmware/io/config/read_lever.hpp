@@ -11,9 +11,22 @@ namespace supercoil::config {
 
 /// Of a real joint's lever.
 inline constexpr Range lever_range_m{1e-4, 1.0};
+/// Of limits.max_travel_m.
+inline constexpr Range limits_of_travel_m{1e-5, 10.0};
 
 /// Keys lever_m and lever_range_deg. Where lever_m is absent it is fallback_m, or is said to be
 /// missing if that is empty.
 control::Lever read_lever(Section& section, Range radius_m, std::optional<double> fallback_m);
+
+/// What the sensor of a joint's angle reads, as an arc: at the lever of the angle 0.
+double metres_per_degree(const control::Lever& lever);
+
+/// How far each muscle may contract, arcs at the lever.
+struct JointTravel {
+  double agonist_m;
+  double antagonist_m;
+};
+/// Key range_deg: how far the joint may turn back and forth. Empty: it is absent, or wrong.
+std::optional<JointTravel> read_joint_travel(Section& section, const control::Lever& lever);
 
 }  // namespace supercoil::config

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "config/read_channel.hpp"
+#include "config/read_lever.hpp"
 
 namespace supercoil::config {
 
@@ -68,27 +69,60 @@ void read_temperatures(Section& section, const BoardContext& context, ChannelSet
   }
 }
 
+/// By the key that says it. An antagonist's sensor is its agonist's, with the other sign.
+std::string sensor_limit(const ChannelSettings& c, const ChannelLabel& label) {
+  const bool agonists = c.joint.direction < 0;
+  const double limit_m =
+      agonists ? 0.0 - c.supervision.max_position_m : c.supervision.max_position_m;
+  std::ostringstream text;
+  text << (agonists ? "its agonist's position.min_" : "position.max_");
+  if (label.position_in_deg) {
+    text << "deg = " << limit_m / metres_per_degree(c.joint.lever);
+  } else {
+    text << "m = " << limit_m;
+  }
+  return text.str();
+}
+
+/// In the channel's own metres, or by the range of its joint, or as both agree.
+void read_travel(Section& section, const BoardContext& context, ChannelSettings& c,
+                 const ChannelLabel& label, const std::optional<double>& joint_travel_m) {
+  constexpr const char* key = "max_travel_m";
+  // Of metres that were rounded.
+  constexpr double max_disagreement_ratio = 0.01;
+  ChannelSupervision& s = c.supervision;
+  if (!joint_travel_m && context.joint_is_wrong && !section.has(key)) {
+    section.allow({key});
+    s.max_travel_m = NAN;
+  } else if (!joint_travel_m) {
+    s.max_travel_m = section.required_number(key, limits_of_travel_m);
+  } else {
+    s.max_travel_m = *joint_travel_m;
+    const double given_m = section.number(key, *joint_travel_m, limits_of_travel_m);
+    if (std::abs(given_m - *joint_travel_m) > max_disagreement_ratio * *joint_travel_m) {
+      std::ostringstream message;
+      message << "contradicts its joint's range_deg, by which it is " << *joint_travel_m
+              << ": leave one of them out";
+      section.wrong(key, message.str());
+    }
+  }
+  const double reading_m = c.joint.reading_of_position_m(s.max_travel_m);
+  if (!(reading_m > s.max_position_m)) return;
+  std::ostringstream message;
+  if (joint_travel_m) message << "is " << s.max_travel_m << " by its joint's range_deg, and ";
+  message << "must be within what the sensor can read: " << sensor_limit(c, label);
+  if (reading_m != s.max_travel_m) message << ", and by its lever it reads " << reading_m;
+  section.wrong(key, message.str());
+}
+
 }  // namespace
 
 void read_limits(Section section, const BoardContext& context, ChannelSettings& c,
-                 ChannelLabel& label) {
+                 ChannelLabel& label, const std::optional<double>& joint_travel_m) {
   label.preset = section.choice("preset", Preset::nylon, preset_names);
   read_power(section, context, c);
   read_temperatures(section, context, c, label.preset);
-  ChannelSupervision& s = c.supervision;
-  s.max_travel_m = section.required_number("max_travel_m", {1e-5, 10.0});
-  const double reading_m = c.joint.reading_of_position_m(s.max_travel_m);
-  if (reading_m > s.max_position_m) {
-    std::ostringstream message;
-    message << "must be within what the sensor can read: ";
-    if (c.joint.direction < 0) {
-      message << "its agonist's position.min_m = " << 0.0 - s.max_position_m;
-    } else {
-      message << "position.max_m = " << s.max_position_m;
-    }
-    if (reading_m != s.max_travel_m) message << ", and by its lever it reads " << reading_m;
-    section.wrong("max_travel_m", message.str());
-  }
+  read_travel(section, context, c, label, joint_travel_m);
   section.finish();
 }
 

@@ -330,7 +330,8 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
                replaced(board_with_joint, "antagonist", "antagonst"));
   check_answer(
       "joint[1].speed = 3: is not a key of [joint[1]]; its keys are: agonist, antagonist, "
-      "lever_range_deg, lever_m, name, co_contraction_W, max_co_contraction_W, max_pull_N, "
+      "lever_range_deg, lever_m, range_deg, name, co_contraction_W, max_co_contraction_W, "
+      "max_pull_N, "
       "pretension_N\n",
       board_with_joint + "speed = 3\n");
   check_answer(

@@ -2,11 +2,14 @@
 
 import asyncio
 import contextlib
+import math
 import types
 import unittest
+from typing import ClassVar
 from unittest import mock
 
-from supercoil import BusError, Fault, NotReachedError, State, refusals
+from supercoil import BusError, Fault, NotReachedError, State, messages, refusals
+from supercoil import joints as pairs
 from supercoil.ros import joint as joints
 
 WITHIN_S = 30.0
@@ -15,7 +18,10 @@ WITHIN_S = 30.0
 class Muscle:
     """In place of supercoil.Muscle."""
 
+    PAIRS: ClassVar = {}  # by node
+
     def __init__(self, address, node):
+        self.node = node
         self.state, self.fault, self.told = State.armed, Fault.none, []
         self.arming = asyncio.Event()
         self.telemetry = types.SimpleNamespace(newest=lambda kind: None)
@@ -29,6 +35,9 @@ class Muscle:
         self.told.append("close")
         if self.at_close:
             raise self.at_close
+
+    async def joint(self):
+        return self.PAIRS.get(self.node)
 
     async def stream(self, kind):
         await asyncio.Event().wait()
@@ -53,7 +62,7 @@ class Muscle:
 MADE = []
 
 
-class JointAlone(unittest.IsolatedAsyncioTestCase):
+class Connected(unittest.IsolatedAsyncioTestCase):
     async def asyncSetUp(self):
         patched = mock.patch.object(joints, "Muscle", Muscle)
         patched.start()
@@ -62,7 +71,7 @@ class JointAlone(unittest.IsolatedAsyncioTestCase):
         self.joint = joints.Joint("finger", "can0", 1)
         self.running = asyncio.create_task(self.joint.run())
         await self.until(lambda: self.joint.muscle is not None)
-        self.muscle, = MADE
+        self.muscle = MADE[0]
 
     async def asyncTearDown(self):
         self.muscle.at_close = None
@@ -79,6 +88,8 @@ class JointAlone(unittest.IsolatedAsyncioTestCase):
         self.joint.motion = None if position_m is None else types.SimpleNamespace(at=lambda now_s: position_m)
         self.joint.follow(0.0)
 
+
+class JointAlone(Connected):
     async def test_an_error_on_the_way_out_does_not_keep_it(self):
         self.muscle.at_close = BusError("the bus is gone")
         self.running.cancel()
@@ -114,6 +125,53 @@ class JointAlone(unittest.IsolatedAsyncioTestCase):
         self.want(3.0)
         await self.until(lambda: "0.004000 m is in" in self.joint.refusal)
         self.assertEqual(self.muscle.told.count(3.0), 1)
+
+
+class JointOfTwo(Connected):
+    """Of a muscle that another one turns back, at a lever that depends on the angle."""
+
+    TABLE = pairs.LeverTable(-30.0, 30.0, (0.012, 0.015, 0.011))
+
+    async def asyncSetUp(self):
+        Muscle.PAIRS.update({1: pairs.Joint(0.015, 2, self.TABLE), 2: pairs.Joint(-0.015, 1, self.TABLE)})
+        self.addCleanup(Muscle.PAIRS.clear)
+        await super().asyncSetUp()
+
+    async def test_radians_become_metres_by_the_table_and_metres_radians(self):
+        self.want(0.2)
+        await self.until(lambda: self.muscle.told)
+        self.assertAlmostEqual(self.muscle.told[0], self.TABLE.arc_m(0.2), 12)
+        measured = messages.Measurement(1.0, self.TABLE.arc_m(-0.3), math.nan, math.nan)
+        self.muscle.telemetry.newest = lambda kind: measured
+        self.assertAlmostEqual(self.joint.position, -0.3, 12)
+        self.assertEqual(self.joint.unit, "rad")
+
+    async def test_its_other_muscle_is_listened_to_and_not_commanded(self):
+        await self.until(lambda: self.joint.antagonist is not None)
+        self.want(0.2)
+        await self.until(lambda: self.muscle.told)
+        self.assertEqual((self.joint.antagonist.node, self.joint.antagonist.told), (2, []))
+
+    async def test_the_other_muscle_is_no_joint(self):
+        led = joints.Joint("back", "can0", 2)
+        running = asyncio.create_task(led.run())
+        self.addCleanup(running.cancel)
+        await self.until(lambda: led.muscle is not None)
+        self.assertEqual((led.is_led, led.turns), (True, False))
+        led.motion = types.SimpleNamespace(at=lambda now_s: 0.001)
+        led.follow(0.0)
+        await self.until(lambda: led.refusal)
+        self.assertEqual((led.refusal, led.muscle.told), ("turns a joint back: command that of node 1", []))
+
+    async def test_what_is_known_of_the_lever_is_asked_again_before_it_is_armed(self):
+        Muscle.PAIRS[1] = pairs.Joint(0.020, 2)
+        self.muscle.state = State.disarmed
+        arming = asyncio.create_task(self.joint.arm())
+        await self.muscle.arming.wait()
+        self.assertEqual(self.joint.pair.lever_m, 0.020)
+        await self.joint.disarm()
+        with self.assertRaises(NotReachedError):
+            await arming
 
 
 if __name__ == "__main__":

@@ -40,8 +40,7 @@ class Bridge:
         self._stop = graph.subscription(name("~/emergency_stop"), Bool, (True, False))
         self._services = []
         for verb, do in (("arm", Joint.arm), ("disarm", Joint.disarm), ("reset", Joint.reset)):
-            everybody = functools.partial(self._serve, list(joints), do)
-            self._services.append(graph.service(name(f"~/{verb}"), everybody))
+            self._services.append(graph.service(name(f"~/{verb}"), functools.partial(self._serve_all, do)))
             for joint in joints:
                 one = functools.partial(self._serve, [joint], do)
                 self._services.append(graph.service(name(f"~/{joint.name}/{verb}"), one))
@@ -76,9 +75,13 @@ class Bridge:
 
     def _publish_states(self) -> None:
         """Velocity and effort are not measured, so they are empty."""
-        joints = self._joints.values()
+        joints = self._own_joints()
         self._states.write(JointState(Header(Time.now()), [joint.name for joint in joints],
-                                      [joint.position_m for joint in joints]))
+                                      [joint.position for joint in joints]))
+
+    def _own_joints(self) -> list[Joint]:
+        """Without muscles that turn another one's joint back."""
+        return [joint for joint in self._joints.values() if not joint.is_led]
 
     def _take(self) -> None:
         for stop, _ in self._stop.take():
@@ -119,7 +122,7 @@ class Bridge:
 
     def _arm_at_start(self) -> None:
         """Each joint once, when its board is first there."""
-        for joint in self._joints.values() if self._options.arm else ():
+        for joint in self._own_joints() if self._options.arm else ():
             if joint.muscle is not None and joint.name not in self._armed_once and not self._stopped:
                 self._armed_once.add(joint.name)
                 self._run_aside(joint, joint.arm)
@@ -134,11 +137,11 @@ class Bridge:
             if len(command.position) != len(command.name):
                 joint.refuse(f"a command has {len(command.position)} positions for {len(command.name)} names")
                 continue
-            position_m = command.position[number]
-            if math.isfinite(position_m):
-                joint.motion = Held(position_m, until_s)
+            position = command.position[number]
+            if math.isfinite(position):
+                joint.motion = Held(position, until_s)
             else:
-                joint.refuse(f"a command of {position_m} m is left out")
+                joint.refuse(f"a command of {position} {joint.unit} is left out")
 
     def _follow(self, trajectory: JointTrajectory, sender_is_there: Callable[[], bool]) -> None:
         """All of its joints, or none."""
@@ -159,16 +162,25 @@ class Bridge:
         knots: dict[str, list[Knot]] = {}
         for name in trajectory.joint_names:
             if name not in self._joints:
-                raise ValueError(f"no joint is called {name!r}; there are {', '.join(self._joints)}")
+                names = (joint.name for joint in self._own_joints())
+                raise ValueError(f"no joint is called {name!r}; there are {', '.join(names)}")
+            if self._joints[name].is_led:
+                raise ValueError(f"{name} turns another one's joint back")
         for number, name in enumerate(trajectory.joint_names):
             if name in knots:
                 raise ValueError(f"names {name} twice")
             joint = self._joints[name]
-            at_m = joint.position_m if joint.set_point_m is None else joint.set_point_m
-            if not math.isfinite(at_m):
+            position = joint.position if joint.set_point is None else joint.set_point
+            if not math.isfinite(position):
                 raise ValueError(f"where {name} is now is not known")
-            knots[name] = knots_of(trajectory, number, Knot(time.monotonic(), at_m, 0.0), time.time())
+            knots[name] = knots_of(trajectory, number, Knot(time.monotonic(), position, 0.0), time.time())
         return knots
+
+    async def _serve_all(self, do: Callable[[Joint], Awaitable[str]]) -> tuple[bool, str]:
+        """What one of a joint's muscles does, both do."""
+        if not (joints := self._own_joints()):
+            return False, "each muscle turns another one's joint back: --joint names the other one"
+        return await self._serve(joints, do)
 
     async def _serve(self, joints: Sequence[Joint], do: Callable[[Joint], Awaitable[str]]) -> tuple[bool, str]:
         if self._stopped and do is Joint.arm:

@@ -51,13 +51,13 @@ def _arguments(given: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="supercoil-ros", formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Muscles as joints of ROS 2, over DDS as rmw_cyclonedds_cpp speaks it. No ROS is needed on this "
-        "machine.\nPositions are in metres.",
+        "machine.\nPositions are in metres, or in radians of two muscles that turn a joint.",
         epilog="The muscles are disarmed when it ends, and cool by themselves when it is killed. docs/ros.md has all "
         "of it.")
     parser.add_argument("address", help="of the boards: can0, socketcand:[HOST:]PORT, INTERFACE:CHANNEL of python-can, "
                         "or the path of the board's own socket")
     parser.add_argument("--joint", metavar="NAME=NODE", action="append", required=True, type=_joint,
-                        help="a muscle and its node on the bus; once for each")
+                        help="a muscle and its node on the bus; once for each. Of two that turn a joint the agonist")
     parser.add_argument("--arm", action="store_true",
                         help="arm each muscle when its board is first there; otherwise the service ~/arm does")
     parser.add_argument("--rate", metavar="HZ", dest="rate_Hz", type=_number(1.0, 1000.0, "Hz"),

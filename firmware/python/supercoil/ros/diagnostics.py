@@ -32,19 +32,40 @@ def _values(muscle: Muscle) -> list[KeyValue]:
     return values
 
 
-def _judged(joint: Joint, muscle: Muscle) -> tuple[int, str]:
+def _angles(joint: Joint) -> list[KeyValue]:
+    """Of one that turns: what its muscle's values are at the joint."""
+    if not joint.turns or joint.muscle is None:
+        return []
+    told = [KeyValue("position_rad", f"{joint.position:.7g}")]
+    tracking = joint.muscle.telemetry.newest(messages.Tracking)
+    if tracking is not None:
+        told.append(KeyValue("reference_rad", f"{joint.of_m(tracking.reference_m):.7g}"))
+    return told
+
+
+def _judged(muscle: Muscle, refusal: str, otherwise: str) -> tuple[int, str]:
     fault = muscle.fault
     if fault != Fault.none:
         known = faults.BY_NUMBER.get(fault)
         return ERROR, f"fault {fault}: {known.meaning}" if known else f"fault {fault}"
-    if joint.refusal:
-        return WARN, joint.refusal
+    if refusal:
+        return WARN, refusal
     power = muscle.telemetry.newest(messages.Power)
     if muscle.state == State.active and power is not None and power.limited:
         return WARN, f"follows, but power is limited by {power.limited_by}"
-    if joint.set_point_m is not None:
-        return OK, f"follows, set point {joint.set_point_m:.6f} m"
-    return OK, str(muscle.state)
+    return OK, otherwise
+
+
+def _led(muscle: Muscle, joint_node: int) -> str:
+    return f"{muscle.state}, turns the joint of node {joint_node} back"
+
+
+def _doing(joint: Joint, muscle: Muscle) -> str:
+    if joint.pair is not None and joint.is_led:
+        return _led(muscle, joint.pair.other_node)
+    if joint.set_point is not None:
+        return f"follows, set point {joint.set_point:.6f} {joint.unit}"
+    return str(muscle.state)
 
 
 def _status_of(joint: Joint) -> DiagnosticStatus:
@@ -52,11 +73,24 @@ def _status_of(joint: Joint) -> DiagnosticStatus:
     muscle = joint.muscle
     if muscle is None:
         return DiagnosticStatus(STALE, name, joint.problem.splitlines()[0], joint.hardware_id)
-    level, message = _judged(joint, muscle)
-    return DiagnosticStatus(level, name, message, joint.hardware_id, _values(muscle))
+    level, message = _judged(muscle, joint.refusal, _doing(joint, muscle))
+    return DiagnosticStatus(level, name, message, joint.hardware_id, [*_angles(joint), *_values(muscle)])
+
+
+def _status_of_antagonist(joint: Joint, node: int) -> DiagnosticStatus:
+    """Its power is how hard both pull."""
+    name, hardware_id = f"supercoil: {joint.name} antagonist", f"{joint.address} node {node}"
+    muscle = joint.antagonist
+    if muscle is None:
+        return DiagnosticStatus(STALE, name, "not connected", hardware_id)
+    level, message = _judged(muscle, "", _led(muscle, joint.node))
+    return DiagnosticStatus(level, name, message, hardware_id, _values(muscle))
 
 
 def diagnostics_of(joints: Sequence[Joint], stopped: bool) -> DiagnosticArray:
     level, message = (ERROR, "stopped") if stopped else (OK, "released")
     stop = DiagnosticStatus(level, "supercoil: emergency stop", message)
-    return DiagnosticArray(Header(Time.now()), [stop, *(_status_of(joint) for joint in joints)])
+    named = {joint.node for joint in joints}
+    antagonists = [_status_of_antagonist(joint, joint.pair.other_node) for joint in joints
+                   if joint.pair is not None and joint.turns and joint.pair.other_node not in named]
+    return DiagnosticArray(Header(Time.now()), [stop, *(_status_of(joint) for joint in joints), *antagonists])

@@ -1,4 +1,4 @@
-"""One muscle as a joint: connected as long as its board is there, and told where to be."""
+"""A muscle, or two that turn it both ways, as a joint of ROS: connected while its board is there, told where to be."""
 
 import asyncio
 import contextlib
@@ -9,6 +9,7 @@ import time
 from supercoil.errors import FaultError, NotReachedError, RefusalError, SupercoilError
 from supercoil.generated import messages, refusals
 from supercoil.generated.names import Fault, State
+from supercoil.joints import Joint as Pair
 from supercoil.muscle import Muscle
 from supercoil.ros.motion import Motion
 
@@ -28,15 +29,19 @@ class _Refused(Exception):
 
 
 class Joint:
+    """Its positions are in metres, or in radians where its muscle and another one turn a joint: in what unit says."""
+
     def __init__(self, name: str, address: str, node: int) -> None:
         self.name = name
+        self.node = node
         self.hardware_id = f"{address} node {node}"
+        self.pair: Pair | None = None  # as the board told it last
         self.problem = "not connected yet"  # why the board is not reached; empty: it is
         self.motion: Motion | None = None
-        self._address = address
-        self._node = node
+        self.address = address
         self._muscle: Muscle | None = None
-        self._wanted_m: float | None = None
+        self._antagonist: Muscle | None = None
+        self._wanted: float | None = None
         self._look = asyncio.Event()
         self._arming: asyncio.Task[None] | None = None
         self._range_m = _UNKNOWN_RANGE_M
@@ -51,12 +56,36 @@ class Joint:
         return self._muscle
 
     @property
+    def antagonist(self) -> Muscle | None:
+        """The muscle that turns it back, which is only listened to; None: it is not reached, or there is none."""
+        return self._antagonist
+
+    @property
+    def turns(self) -> bool:
+        return self.pair is not None and self.pair.lever_m > 0.0
+
+    @property
+    def is_led(self) -> bool:
+        """It turns another one's joint back, and is no joint of ROS."""
+        return self.pair is not None and self.pair.lever_m < 0.0
+
+    @property
+    def unit(self) -> str:
+        return "rad" if self.turns else "m"
+
+    def of_m(self, position_m: float) -> float:
+        return math.radians(self.pair.angle_deg(position_m)) if self.pair and self.turns else position_m
+
+    def _to_m(self, position: float) -> float:
+        return self.pair.position_m(math.degrees(position)) if self.pair and self.turns else position
+
+    @property
     def refusal(self) -> str:
         """Of the last seconds; empty: none."""
         return self._refusal if time.monotonic() - self._refused_at_s < _TELL_REFUSALS_S else ""
 
     @property
-    def position_m(self) -> float:
+    def position(self) -> float:
         """NaN: no fresh reading."""
         now_s = time.monotonic()
         measured = self._muscle.telemetry.newest(messages.Measurement) if self._muscle else None
@@ -64,11 +93,11 @@ class Joint:
             return math.nan
         if measured.time_s != self._measurement_time_s:
             self._measurement_time_s, self._measured_at_s = measured.time_s, now_s
-        return measured.position_m if now_s - self._measured_at_s <= _STALE_S else math.nan
+        return self.of_m(measured.position_m) if now_s - self._measured_at_s <= _STALE_S else math.nan
 
     @property
-    def set_point_m(self) -> float | None:
-        return self._wanted_m
+    def set_point(self) -> float | None:
+        return self._wanted
 
     def refuse(self, why: str) -> None:
         """For diagnostics, and once in the log."""
@@ -81,26 +110,28 @@ class Joint:
         wanted = self.motion.at(now_s) if self.motion else None
         if wanted is None:
             self.motion = None
-        if wanted != self._wanted_m:
-            self._wanted_m = wanted
+        if wanted != self._wanted:
+            self._wanted = wanted
             self._look.set()
 
     def let_go(self) -> None:
         self.motion = None
-        self._wanted_m = None
+        self._wanted = None
         self._look.set()
 
     async def run(self) -> None:
         """Connects, again and again, and obeys meanwhile."""
         while True:
             try:
-                async with Muscle(self._address, self._node) as muscle:
+                async with Muscle(self.address, self.node) as muscle:
+                    self.pair = await muscle.joint()
                     self._muscle, self.problem = muscle, ""
                     _log.info("%s: %s is there", self.name, self.hardware_id)
                     try:
                         async with asyncio.TaskGroup() as tasks:
                             tasks.create_task(self._watch(muscle))
                             tasks.create_task(self._obey(muscle))
+                            tasks.create_task(self._listen())
                     finally:
                         self._stop_arming()
             except* SupercoilError as errors:
@@ -122,6 +153,20 @@ class Joint:
             if status.state not in (State.armed, State.active):
                 self.let_go()
 
+    async def _listen(self) -> None:
+        """To the muscle that turns it back. Where that one is silent this one goes on: its board judges that."""
+        while True:
+            if self.pair is not None and self.turns:
+                with contextlib.suppress(SupercoilError):
+                    async with Muscle(self.address, self.pair.other_node) as antagonist:
+                        self._antagonist = antagonist
+                        try:
+                            async for _ in antagonist.stream(messages.Status):
+                                pass
+                        finally:
+                            self._antagonist = None
+            await asyncio.sleep(_TRY_AGAIN_S)
+
     async def _obey(self, muscle: Muscle) -> None:
         ours = False  # what the muscle does, it does for us
         while True:
@@ -129,7 +174,7 @@ class Joint:
                 async with asyncio.timeout(_SAY_AGAIN_S):
                     await self._look.wait()
             self._look.clear()
-            wanted_m = self._wanted_m
+            wanted_m = None if self._wanted is None else self._to_m(self._wanted)
             try:
                 if wanted_m is not None:
                     self._check(muscle, wanted_m)
@@ -141,33 +186,39 @@ class Joint:
                         await muscle.rest()
                     ours = False
             except (RefusalError, FaultError, _Refused) as error:
-                self._remember(error, wanted_m)
-                self.refuse(str(error).splitlines()[0])
+                self.refuse(self._told(error, wanted_m))
                 self.let_go()  # and rests, if it moved
 
     def _check(self, muscle: Muscle, position_m: float) -> None:
         """Before the board is asked, to which ten refusals in a row are a fault."""
+        if self.pair is not None and self.is_led:
+            raise _Refused(f"turns a joint back: command that of node {self.pair.other_node}")
         if muscle.state not in (State.armed, State.active):
             raise _Refused(f"is {muscle.state}: it cannot move")
         low_m, high_m = self._range_m
         if not low_m <= position_m <= high_m:
             nearest_m = low_m if position_m < low_m else high_m
-            raise _Refused(f"{position_m:.6f} m is out of its range, {nearest_m:.6f} m is in")
+            raise _Refused(self._out_of_range(position_m, nearest_m))
 
-    def _remember(self, error: Exception, position_m: float | None) -> None:
-        """The ends of its range, as the board told them."""
+    def _out_of_range(self, position_m: float, nearest_m: float) -> str:
+        position, nearest = self.of_m(position_m), self.of_m(nearest_m)
+        return f"{position:.6f} {self.unit} is out of its range, {nearest:.6f} {self.unit} is in"
+
+    def _told(self, error: Exception, position_m: float | None) -> str:
+        """In the joint's unit. The ends of its range, as the board tells them, are remembered."""
         if isinstance(error, refusals.OutOfRange) and math.isfinite(error.nearest) and position_m is not None:
             low_m, high_m = self._range_m
             self._range_m = (low_m, error.nearest) if position_m > error.nearest else (error.nearest, high_m)
+            return self._out_of_range(position_m, error.nearest)
+        return str(error).splitlines()[0]
 
     async def arm(self) -> str:
         """What came of it; so do the others. SupercoilError: it did not."""
         muscle = self._connected()
         self.let_go()
-        self._range_m = _UNKNOWN_RANGE_M  # it may have been changed
         if muscle.state in (State.armed, State.active):
             return "is armed"
-        arming = self._arming = asyncio.create_task(muscle.arm())
+        arming = self._arming = asyncio.create_task(self._arm(muscle))
         try:
             await arming
         except asyncio.CancelledError:
@@ -175,6 +226,12 @@ class Joint:
                 raise
             raise NotReachedError("was stopped while it was being armed") from None
         return "armed"
+
+    async def _arm(self, muscle: Muscle) -> None:
+        """What is known of the board may have been changed since."""
+        self._range_m = _UNKNOWN_RANGE_M
+        self.pair = await muscle.joint()
+        await muscle.arm()
 
     def _stop_arming(self) -> None:
         if self._arming is not None:

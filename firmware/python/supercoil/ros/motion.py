@@ -1,4 +1,6 @@
-"""Where a joint is to be, from what ROS has sent: a set point for a while, or a trajectory."""
+"""Where a joint is to be, from what ROS has sent: a set point for a while, or a trajectory.
+
+Positions and velocities are in the joint's unit: m and m/s, or rad and rad/s of one that turns."""
 
 import bisect
 import math
@@ -14,33 +16,33 @@ _LATEST_S = 60.0
 
 class Motion(Protocol):
     def at(self, now_s: float) -> float | None:
-        """The set point in m at this time; None: it has ended. Times are those of the monotonic clock: a wall clock
+        """The set point at this time; None: it has ended. Times are those of the monotonic clock: a wall clock
         that is set back must not keep a muscle hot."""
 
 
 class Held(NamedTuple):
-    position_m: float
+    position: float
     until_s: float
 
     def at(self, now_s: float) -> float | None:
-        return self.position_m if now_s < self.until_s else None
+        return self.position if now_s < self.until_s else None
 
 
 class Knot(NamedTuple):
     time_s: float
-    position_m: float
-    velocity_m_per_s: float | None
+    position: float
+    velocity: float | None
 
 
 def _between(before: Knot, after: Knot, time_s: float) -> float:
     """A cubic where both velocities are known, else a straight line."""
     length = after.time_s - before.time_s
     t = (time_s - before.time_s) / length
-    if before.velocity_m_per_s is None or after.velocity_m_per_s is None:
-        return before.position_m + t * (after.position_m - before.position_m)
+    if before.velocity is None or after.velocity is None:
+        return before.position + t * (after.position - before.position)
     # Hermite's cubic.
-    return ((1 + 2 * t) * (1 - t) ** 2 * before.position_m + t * (1 - t) ** 2 * length * before.velocity_m_per_s
-            + t * t * (3 - 2 * t) * after.position_m - t * t * (1 - t) * length * after.velocity_m_per_s)
+    return ((1 + 2 * t) * (1 - t) ** 2 * before.position + t * (1 - t) ** 2 * length * before.velocity
+            + t * t * (3 - 2 * t) * after.position - t * t * (1 - t) * length * after.velocity)
 
 
 class Trajectory:
@@ -54,9 +56,9 @@ class Trajectory:
     def at(self, now_s: float) -> float | None:
         after = bisect.bisect_right(self._times, now_s)
         if after == 0:
-            return self._knots[0].position_m
+            return self._knots[0].position
         if after == len(self._knots):
-            return self._knots[-1].position_m if self._sender_is_there() else None
+            return self._knots[-1].position if self._sender_is_there() else None
         return _between(self._knots[after - 1], self._knots[after], now_s)
 
 
@@ -102,5 +104,5 @@ def knots_of(message: messages.JointTrajectory, joint: int, start: Knot, wall_cl
         if at_rest.time_s < knots[0].time_s:
             knots.insert(0, at_rest)
         if start.time_s < at_rest.time_s:
-            knots.insert(0, start._replace(velocity_m_per_s=None))
+            knots.insert(0, start._replace(velocity=None))
     return knots

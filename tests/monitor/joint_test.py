@@ -195,9 +195,10 @@ class ByHand(OfJoint):
         self.addCleanup(held.kill)
         until(lambda: abs(self.told_angle_deg() + 6.0) < 0.5)
         self.assertEqual((held.communicate(timeout=2 * SLACK_S)[1], held.returncode), ("", 0))
+        self.assertIn("out_of_range; 0.007992 would be obeyed", command(self.source, "1", "position", "90°").stderr)
         self.assertIn("out_of_range; 0.007992 would be obeyed", command(self.source, "1", "position", "90deg").stderr)
         # About -3 to +7 degrees, in a period in which the joint follows.
-        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "2deg", "--amplitude", "5", "--period", "11", "--hold", "--can", self.source],
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "2°", "--amplitude", "5deg", "--period", "11", "--hold", "--can", self.source],
                                 stderr=subprocess.PIPE, text=True)
         self.addCleanup(held.kill)
         until(lambda: 5.5 < self.told_angle_deg() < 8.0, 40.0)

@@ -16,7 +16,7 @@ class Option:
 
     @property
     def may_be_file(self):
-        return self.value not in {"ADDRESS", "BUS", "FLOAT", "INT", "PART", "UINT"}
+        return self.value not in {"ADDRESS", "BUS", "FLOAT", "INT", "PART", "UINT", "VALUE"}
 
 
 @dataclass

@@ -74,26 +74,46 @@ std::string joined(const std::vector<std::string>& words) {
   return line;
 }
 
-/// Of "1 position 20deg".
-std::optional<double> angle_of(const std::vector<std::string>& words) {
-  constexpr std::string_view unit = "deg";
-  const bool given = words.size() == 3 && words[1] == name(Verb::position) &&
-                     std::string_view(words[2]).ends_with(unit);
-  if (!given) return std::nullopt;
-  return number_of(std::string_view(words[2]).substr(0, words[2].size() - unit.size()));
+struct Value {
+  double number = 0.0;
+  bool in_degrees = false;  ///< else in the unit of its command
+};
+
+/// Of "0.02", "20deg" or "20°".
+std::optional<Value> value_of(std::string_view text) {
+  bool in_degrees = false;
+  for (const std::string_view unit : {"deg", "°"}) {
+    if (!text.ends_with(unit)) continue;
+    in_degrees = true;
+    text.remove_suffix(unit.size());
+    break;
+  }
+  const auto number = number_of(text);
+  return number ? std::optional(Value{*number, in_degrees}) : std::nullopt;
+}
+
+/// Of a command; degrees are those of a position.
+std::optional<Value> value_of(const std::vector<std::string>& words) {
+  if (words.size() != 3) return std::nullopt;
+  const auto value = value_of(words[2]);
+  return value && value->in_degrees && words[1] != name(Verb::position) ? std::nullopt : value;
+}
+
+bool is_angle(const CommandOptions& options) {
+  return value_of(options.words).value_or(Value{}).in_degrees;
 }
 
 /// As the board takes it: channel and verb as they are; the value on its sine, if there is one, and
 /// in metres.
 std::string line_at(const CommandOptions& options, double time_s) {
-  const auto angle_deg = angle_of(options.words);
-  if (options.sine_period_s <= 0.0 && !angle_deg) return joined(options.words);
-  double value = angle_deg ? *angle_deg : std::stod(options.words[2]);
-  if (options.sine_period_s > 0.0) {
-    value +=
-        options.sine_amplitude * std::sin(2.0 * std::numbers::pi * time_s / options.sine_period_s);
+  const bool has_sine = options.sine_period_s > 0.0;
+  if (!has_sine && !is_angle(options)) return joined(options.words);
+  double value = value_of(options.words).value_or(Value{}).number;
+  if (has_sine) {
+    const double amplitude = value_of(options.sine_amplitude).value_or(Value{}).number;
+    value += amplitude * std::sin(2.0 * std::numbers::pi * time_s / options.sine_period_s);
   }
-  if (angle_deg) value = options.joint.position_m(value / deg_per_rad);
+  if (is_angle(options)) value = options.joint.position_m(value / deg_per_rad);
   return joined({options.words[0], options.words[1], number_text(value, digits)});
 }
 
@@ -185,7 +205,7 @@ int tell_state(BoardLink& board, const CommandOptions& options) {
 /// Of a position in degrees; its channel must be in a joint. Returns an exit status where it is
 /// not.
 int take_joint(BoardLink& board, CommandOptions& options) {
-  if (!angle_of(options.words)) return exit_done;
+  if (!is_angle(options)) return exit_done;
   const auto muscle = board.muscle(options.words[0]);
   if (!muscle) return refused(options, exit_failed, muscle.error());
   options.joint = told_joint(*muscle);
@@ -197,17 +217,29 @@ int take_joint(BoardLink& board, CommandOptions& options) {
   return exit_done;
 }
 
+/// What is wrong with a sine; empty: nothing.
+std::string sine_problem(const CommandOptions& options) {
+  const auto middle = value_of(options.words);
+  if (!middle) return joined(options.words) + ": a sine needs a number as its middle";
+  const auto amplitude = value_of(options.sine_amplitude);
+  if (!amplitude) {
+    return "--amplitude " + options.sine_amplitude + ": must be a number" +
+           (middle->in_degrees ? " of degrees, as 3deg" : "");
+  }
+  if (amplitude->in_degrees != middle->in_degrees) {
+    return joined(options.words) + " --amplitude " + options.sine_amplitude +
+           ": both must have the same unit; of an angle both are in degrees, as 5deg and 3deg";
+  }
+  return options.hold_s > 0.0 ? "" : "a sine needs --for or --hold";
+}
+
 }  // namespace
 
 int command_command(CommandOptions options) {
-  const bool number =
-      options.words.size() == 3 && (number_of(options.words[2]) || angle_of(options.words));
-  if (options.sine_period_s > 0.0 && !number) {
-    return refused(options, exit_wrong_input,
-                   joined(options.words) + ": a sine needs a number as its middle");
+  if (options.sine_period_s > 0.0) {
+    if (const std::string problem = sine_problem(options); !problem.empty())
+      return refused(options, exit_wrong_input, problem);
   }
-  if (options.sine_period_s > 0.0 && options.hold_s <= 0.0)
-    return refused(options, exit_wrong_input, "a sine needs --for or --hold");
   const auto board = open_link(options.can, options.socket);
   if (!board) return refused(options, exit_failed, board.error());
   if (const int status = take_joint(**board, options); status != exit_done) return status;

@@ -52,9 +52,9 @@ struct CommandOptions {
   std::string socket = "/run/supercoil/commands";
   std::vector<std::string> words;  ///< "state", or channel, verb, value
   double hold_s = 0.0;             ///< 0: once
-  double sine_amplitude = 0.0;
-  double sine_period_s = 0.0;  ///< 0: no sine
-  PlaceInJoint joint;          ///< where value and sine are in degrees
+  std::string sine_amplitude;      ///< a number, in degrees as 3deg
+  double sine_period_s = 0.0;      ///< 0: no sine
+  PlaceInJoint joint;              ///< where value and sine are in degrees
 };
 int command_command(CommandOptions options);
 

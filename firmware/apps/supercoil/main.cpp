@@ -77,8 +77,11 @@ void add_command(CLI::App& app, CommandOptions& options) {
           "Renew it until Ctrl-C; then the muscle rests")
       ->excludes(hold);
   CLI::Option* amplitude =
-      command->add_option("--amplitude", options.sine_amplitude,
-                          "With --for: the value is the middle of a sine, in its unit");
+      command
+          ->add_option("--amplitude", options.sine_amplitude,
+                       "With --for: the value is the middle of a sine, and both have the same unit "
+                       "(0.003, or of a joint 3deg)")
+          ->type_name("VALUE");
   CLI::Option* period = command->add_option("--period", options.sine_period_s, "Of the sine, in s")
                             ->check(CLI::Range(0.2, 1e4));
   amplitude->needs(period);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 
 namespace supercoil::host_sim {
 
@@ -10,6 +11,7 @@ namespace {
 
 using Number = std::optional<double>;
 
+constexpr std::size_t of_joint = 2;
 constexpr std::size_t of_antagonist = 4;
 
 Number if_finite(double value) {
@@ -49,6 +51,10 @@ Number bias(const TraceRow& row) {
 template <double TickRecord::*Member>
 Number of_tracking(const TraceRow& row) {
   return row.record.open_loop ? std::nullopt : Number(row.record.*Member);
+}
+
+double angle_deg(const TraceRow& row, double position_m) {
+  return row.lever.angle_rad(position_m) * 180.0 / std::numbers::pi;
 }
 
 Number flag(bool set) {
@@ -91,6 +97,13 @@ constexpr std::array columns{
     TraceColumn{"bias_deviation_W", bias<&control::Estimate::bias_deviation_W>},
     TraceColumn{"thermometer_C",
                 [](const TraceRow& row) { return if_finite(row.record.thermometer_C); }},
+    TraceColumn{"joint_angle_deg",
+                [](const TraceRow& row) { return Number(angle_deg(row, row.record.position_m)); }},
+    TraceColumn{"joint_reference_deg",
+                [](const TraceRow& row) {
+                  return row.record.open_loop ? std::nullopt
+                                              : Number(angle_deg(row, row.record.model_m));
+                }},
     TraceColumn{"antagonist_applied_power_W", of_other<&AntagonistRecord::applied_power_W>},
     TraceColumn{"antagonist_temperature_rise_K", of_other<&AntagonistRecord::temperature_rise_K>},
     TraceColumn{"antagonist_coldest_K", of_other<&AntagonistRecord::coldest_K>},
@@ -99,8 +112,11 @@ constexpr std::array columns{
 
 }  // namespace
 
-std::span<const TraceColumn> trace_columns(bool of_joint) {
-  return std::span(columns).first(columns.size() - (of_joint ? 0 : of_antagonist));
+std::span<const TraceColumn> trace_columns(const JointConditions* joint) {
+  std::size_t left_out = 0;
+  if (joint == nullptr || !joint->antagonist) left_out += of_antagonist;
+  if (joint == nullptr) left_out += of_joint;
+  return std::span(columns).first(columns.size() - left_out);
 }
 
 }  // namespace supercoil::host_sim

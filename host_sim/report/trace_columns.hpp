@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "supercoil/control/joint/lever.hpp"
+
 #include "runner/simulation.hpp"
 
 namespace supercoil::host_sim {
@@ -12,6 +14,7 @@ namespace supercoil::host_sim {
 struct TraceRow {
   const TickRecord& record;
   const std::optional<control::Estimate>& estimate;
+  const control::Lever& lever;  ///< of a joint
 };
 
 /// Of numbers or of words: the other one is null.
@@ -22,7 +25,8 @@ struct TraceColumn {
   std::string_view (*word)(const TraceRow&) = nullptr;
 };
 
-/// of_joint: with those of the antagonist, which its rows have to have.
-std::span<const TraceColumn> trace_columns(bool of_joint);
+/// joint: with its angles and, of one of two muscles, those of the antagonist, which its rows have
+/// to have. Null: there is none.
+std::span<const TraceColumn> trace_columns(const JointConditions* joint);
 
 }  // namespace supercoil::host_sim

@@ -34,7 +34,7 @@ class TraceWriter {
 
  protected:
   TraceWriter(const std::filesystem::path& path, TraceFormat format, std::int64_t every,
-              bool of_joint);
+              const JointConditions* joint);
 
   std::span<const TraceColumn> columns() const { return columns_; }
   std::int64_t rows() const { return rows_; }
@@ -50,12 +50,14 @@ class TraceWriter {
   TraceFormat format_;
   std::int64_t every_;
   std::span<const TraceColumn> columns_;
+  control::Lever lever_;
   std::int64_t rows_ = 0;
 };
 
-/// every: one row per this many ticks, from the first on. of_joint: its records have an antagonist.
-/// Numbers can be read back to the bit.
+/// every: one row per this many ticks, from the first on. joint: of the scenario; null: it has
+/// none. Numbers can be read back to the bit.
 std::unique_ptr<TraceWriter> write_trace(const std::filesystem::path& path, TraceFormat format,
-                                         std::int64_t every, bool of_joint = false);
+                                         std::int64_t every,
+                                         const JointConditions* joint = nullptr);
 
 }  // namespace supercoil::host_sim

@@ -1,6 +1,7 @@
 """load() reads what a simulation and a flight recorder write, as the project's own program does."""
 
 import csv
+import math
 import os
 import pathlib
 import subprocess
@@ -99,6 +100,21 @@ class Files(unittest.TestCase):
         units = table.attrs["units"]
         self.assertEqual((units["measured_m"], units["temperature_rise_K"], units["theta4"], units["thermometer_C"],
                           units["state"]), ("m", "K", "W/m", "degC", ""))
+
+    def test_a_joints_trace_has_angles_by_its_lever(self):
+        (self.path / "joint.toml").write_text(
+            "simulation.duration_s = 3.0\nreference.kind = 'step'\n"
+            "[joint]\nlever_m = [0.012, 0.015, 0.011]\nlever_range_deg = [-30.0, 30.0]\n")
+        subprocess.run([os.environ["SUPERCOIL_SIM"], "run", "joint.toml", "--out", "joint", "--every", "20",
+                        "--no-plot", "--no-can", "--allow-fault", "--quiet"], cwd=self.path, check=True, timeout=300)
+        table = supercoil.load(self.path / "joint" / "trace.csv")
+        lever = supercoil.LeverTable(-30.0, 30.0, (0.012, 0.015, 0.011))
+        for angle, position in (("joint_angle_deg", "position_m"), ("joint_reference_deg", "model_m")):
+            for told_deg, told_m in zip(table[angle], table[position], strict=True):
+                self.assertAlmostEqual(told_deg, math.degrees(lever.angle_rad(told_m)), 9)
+            self.assertGreater(table[angle].max(), 1.0)
+            self.assertEqual(table.attrs["units"][angle], "deg")
+        self.assertNotIn("joint_angle_deg", supercoil.load(self.path / "trace.csv").columns)
 
     def test_a_trace_for_numpy_has_the_same_rows(self):
         for options in ([], ["--npy"]):  # an earlier run's is not left beside it

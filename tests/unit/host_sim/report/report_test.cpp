@@ -1,9 +1,11 @@
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include <CppUTest/TestHarness.h>
@@ -42,15 +44,44 @@ TEST_GROUP(Report) {
 };
 
 TEST(Report, AJointsTraceEndsWithItsAntagonist) {
-  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, true);
+  JointConditions joint;
+  joint.antagonist.emplace();
+  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &joint);
   TickRecord record;
   record.antagonist = AntagonistRecord{0.5, 12.0, 10.0, 14.5};
   writer->add(record, std::nullopt);
   CHECK(writer->finish().has_value());
   const std::string text = content(folder / "trace.csv");
-  CHECK(text.find(",thermometer_C,antagonist_applied_power_W,antagonist_temperature_rise_K,"
+  CHECK(text.find(",thermometer_C,joint_angle_deg,joint_reference_deg,antagonist_applied_power_W,"
+                  "antagonist_temperature_rise_K,"
                   "antagonist_coldest_K,antagonist_hottest_K\n") != std::string::npos);
-  CHECK(text.find(",,0.5,12,10,14.5\n") != std::string::npos);
+  CHECK(text.find(",0,0,0.5,12,10,14.5\n") != std::string::npos);
+}
+
+TEST(Report, AJointsTraceHasItsAngleAndReferenceByItsLever) {
+  JointConditions joint;  // a spring opposes the muscle
+  const double rad_per_deg = std::numbers::pi / 180.0;
+  const std::array radii_m{0.010, 0.020, 0.030};
+  joint.plant.lever = control::Lever(-90.0 * rad_per_deg, 90.0 * rad_per_deg, radii_m);
+  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &joint);
+  TickRecord record;
+  // By hand: at 45 degrees the lever is 25 mm, at -90 10 mm.
+  record.position_m = 0.0225 * 45.0 * rad_per_deg;
+  record.model_m = -0.015 * 90.0 * rad_per_deg;
+  writer->add(record, std::nullopt);
+  record.open_loop = true;
+  writer->add(record, std::nullopt);
+  CHECK(writer->finish().has_value());
+  std::ifstream rows(folder / "trace.csv");
+  std::string row;
+  std::getline(rows, row);
+  CHECK(row.ends_with(",thermometer_C,joint_angle_deg,joint_reference_deg"));
+  std::getline(rows, row);
+  const std::size_t reference = row.rfind(',') + 1;
+  DOUBLES_EQUAL(-90.0, std::stod(row.substr(reference)), 1e-9);
+  DOUBLES_EQUAL(45.0, std::stod(row.substr(row.rfind(',', reference - 2) + 1)), 1e-9);
+  std::getline(rows, row);
+  CHECK(row.ends_with(","));  // no model is followed
 }
 
 TEST(Report, TraceHoldsOneRowATickWithAllDigits) {

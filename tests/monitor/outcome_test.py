@@ -39,11 +39,12 @@ class OutcomeTest(ModulesCase):
             const heard = () => told.push(never_armed_told(store, 1, range));
             hear("Status", 0, 10, 0.1, () => state("disarmed")); heard();
             const answered = (opcode, refusal) => () => ({ opcode: number("Acknowledge", "opcode", opcode), refusal: number("Acknowledge", "refusal", refusal) });
+            (await import("/refusals.js")).take_refusals({ not_ready: "a probe is not over yet" });
             hear("Acknowledge", 2, 1, 1, answered("arm", "not_ready")); hear("Acknowledge", 3, 1, 1, answered("position", "wrong_state")); heard();
             hear("Status", 4, 1, 0.1, () => state("fault", number("Status", "fault", "heater_open"))); heard();
             hear("Status", 5, 1, 0.1, () => state("armed")); heard();
             return told;"""),
-            ["", "Never armed: nobody asked for it.", "Never armed: refused, not ready: self-test, cooling or a probe is not over yet.",
+            ["", "Never armed: nobody asked for it.", "Never armed: refused, not ready: a probe is not over yet.",
              "Never armed: fault 20, heater open.", ""])
 
     def test_a_swing_by_itself_is_told_with_its_period(self):

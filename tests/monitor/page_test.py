@@ -214,7 +214,7 @@ class PageTest(PageCase):
         page.click(".disarm")
         page.wait(lambda: page.state() == "disarmed", READY_S, "disarmed")
         page.click(".go")
-        page.wait(lambda: "refused: wrong state" in page.text(".answer"), 2.0, "refusal")
+        page.wait(lambda: "refused: wrong state: arm it first, or reset its fault" in page.text(".answer"), 2.0, "refusal")
 
     def test_without_token_it_is_for_viewing_and_says_why(self):
         page = self.page(self.origin)

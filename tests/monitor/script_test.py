@@ -108,6 +108,15 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(self.command("1", "controller", nearest[1]).returncode, 0)
         self.assertNotEqual(self.command("1", "controller", str(int(nearest[1]) + 1)).returncode, 0)
 
+    def test_a_refusal_is_told_in_words_behind_its_name(self):
+        self.command("1", "disarm")
+        for words, why in ((("1", "position", "0.01"), "wrong_state: arm it first, or reset its fault"),
+                           (("1", "reset"), "wrong_state: it has no fault"),
+                           (("1", "rest"), "wrong_state: it rests already, or is off")):
+            self.assertEqual(self.command(*words).stderr, f"supercoil: {' '.join(words)}: refused: {why}\n")
+        # Programs have its name alone.
+        self.assertEqual(json.loads(self.command("1", "reset", "--json").stdout)["answer"], "refused: wrong_state")
+
     def test_a_script_reads_and_writes_settings_over_the_bus(self):
         def setting(*words, source=self.source):
             return subprocess.run([SUPERCOIL, "setting", *words, "--can", source], capture_output=True, text=True,
@@ -121,10 +130,12 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(setting("1", "measurement_Hz").stdout, "measurement_Hz = 50\n")
         refused = setting("1", "max_power_W", "5")
         self.assertEqual((refused.returncode, refused.stdout), (1, "max_power_W = 4.5\n"))
-        self.assertIn("max_power_W: refused: out_of_range", refused.stderr)
-        unknown = setting("1", "mesurement_Hz")
-        self.assertEqual(unknown.returncode, 2)
-        self.assertIn("'mesurement_Hz' is not a setting; there are max_power_W, measurement_Hz,", unknown.stderr)
+        self.assertEqual(refused.stderr, "supercoil: max_power_W: refused: out_of_range; 4.5 would be obeyed\n")
+        for written, meant in (("mesurement_Hz", "did you mean measurement_Hz?"), ("max_powr_W", "did you mean max_power_W?"),
+                               ("loudness", "there are: max_power_W, measurement_Hz, ")):
+            unknown = setting("1", written)
+            self.assertEqual(unknown.returncode, 2)
+            self.assertIn(f"'{written}' is not a setting; {meant}", unknown.stderr)
         renamed = setting("1", "most_power_W")
         self.assertEqual((renamed.returncode, renamed.stderr),
                          (2, "supercoil: 'most_power_W' was renamed in 0.2.0: write max_power_W\n"))

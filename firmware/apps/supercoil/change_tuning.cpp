@@ -1,9 +1,7 @@
 #include "apps/supercoil/change_tuning.hpp"
 
-#include <cmath>
-
-#include "text/command_text.hpp"
 #include "text/number_text.hpp"
+#include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
 
@@ -14,11 +12,7 @@ constexpr int all_digits = 17;
 TuningDone done_or_why(const std::string& what, const BoardLink::Answer& answer) {
   if (!answer) return tl::unexpected(answer.error());
   if (*answer == "ok") return {};
-  const bool unsuitable = *answer == answer_text(Refusal::unsuitable, NAN);
-  return tl::unexpected(what + ": " + *answer +
-                        (unsuitable ? ": unstable on the muscle that is known, or values that "
-                                      "contradict each other; nothing changed"
-                                    : ""));
+  return tl::unexpected(what + ": " + told_answer(what, *answer));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "apps/supercoil/interrupted.hpp"
 #include "text/command_text.hpp"
 #include "text/number_text.hpp"
+#include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
 
@@ -31,7 +32,7 @@ constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 int judged(const std::string& line, const std::string& answer) {
   if (answer == "ok") return exit_done;
   const bool refused = answer.starts_with("refused") || answer.starts_with("fault");
-  return fail(refused ? exit_failed : exit_wrong_input, line + ": " + answer);
+  return fail(refused ? exit_failed : exit_wrong_input, line + ": " + told_answer(line, answer));
 }
 
 /// With the nearest that would be obeyed in degrees too, where degrees were asked for: rounded
@@ -178,7 +179,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
     const std::string line =
         first || renews_itself ? line_at(options, time_s) : options.words[0] + " renew";
     const auto answer = board.ask(line);
-    const bool is_over = answer && *answer == answer_text(Refusal::wrong_state, NAN);
+    const bool is_over = answer && refuses(*answer, Refusal::wrong_state);
     const bool goes_on = answer && *answer == "ok";
     if (!goes_on) progress.end();
     if (is_over && !first && !renews_itself) return ended(board, options);

@@ -1,4 +1,5 @@
 // supercoil setting: what may be changed on a running board, until it starts again.
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -8,15 +9,17 @@
 #include "apps/supercoil/commands.hpp"
 #include "config/renamed_keys.hpp"
 #include "telemetry/run_settings.hpp"
+#include "text/nearest.hpp"
+#include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
 
 namespace {
 
-std::string all_names() {
-  std::string all;
+std::vector<std::string> all_names() {
+  std::vector<std::string> all;
   for (std::uint8_t i = 0; i < telemetry::run_settings; ++i)
-    all += (i == 0 ? "" : ", ") + telemetry::run_setting_name(i);
+    all.push_back(telemetry::run_setting_name(i));
   return all;
 }
 
@@ -43,7 +46,9 @@ int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
   if (!heard) return refuse(options.json, exit_failed, heard.error());
   tell(*heard, options.json);
   if (heard->refusal == Refusal::none) return exit_done;
-  return fail(exit_failed, options.name + ": refused: " + std::string(name(heard->refusal)));
+  const bool out = heard->refusal == Refusal::out_of_range;
+  return fail(exit_failed,
+              options.name + ": " + told_answer({heard->refusal, out ? node.nearest() : NAN}));
 }
 
 /// Those that this node has: the board's own are its first node's.
@@ -64,11 +69,12 @@ int setting_command(const SettingOptions& options) {
     const std::string_view renamed = config::renamed_to("setting", options.name);
     return refuse(options.json, exit_wrong_input,
                   "'" + options.name + "' " +
-                      (renamed.empty() ? "is not a setting; there are " + all_names()
+                      (renamed.empty() ? "is not a setting; " +
+                                             meant_or_all(options.name, all_names(), "there are")
                                        : "was renamed in 0.2.0: write " + std::string(renamed)));
   }
   const auto id = static_cast<std::uint8_t>(options.node);
-  auto bus = open_bus(options.can, {can_client::acknowledge_id(id), can_client::setting_id(id)});
+  auto bus = open_bus(options.can, can_client::answer_ids(id));
   if (!bus) return refuse(options.json, exit_failed, bus.error());
   Commander node(std::move(*bus), id);
   const int status = setting ? one(node, *setting, options) : all(node, options.json);

@@ -152,4 +152,9 @@ std::optional<Reply> parse_answer(std::string_view text) {
   return Reply(refusal, number<double>(next_word(text)).value_or(NAN));
 }
 
+bool refuses(std::string_view text, Refusal why) {
+  const auto reply = parse_answer(text);
+  return reply && reply->refusal == why;
+}
+
 }  // namespace supercoil

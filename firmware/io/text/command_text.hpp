@@ -26,5 +26,7 @@ std::string answer_text(Refusal refusal, double nearest);
 
 /// What answer_text() says, also with a reason behind it. Empty: the text is no such answer.
 std::optional<Reply> parse_answer(std::string_view text);
+/// That it is an answer which refuses for this reason.
+bool refuses(std::string_view text, Refusal why);
 
 }  // namespace supercoil

@@ -14,6 +14,7 @@
 #include "apps/supercoil/monitor/tuning_request.hpp"
 #include "telemetry/opcodes.hpp"
 #include "text/program_version.hpp"
+#include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
 
@@ -78,6 +79,13 @@ json muscle_json(const KnownMuscle& known) {
   json told;
   for (std::size_t i = 0; i < known.size(); ++i)
     told[std::string(known_quantities[i])] = known[i];
+  return told;
+}
+
+json refusals_json() {
+  json told;
+  for (std::size_t i = 1; i < refusal_names.size(); ++i)
+    told[std::string(refusal_names[i])] = refusal_words(static_cast<Refusal>(i));
   return told;
 }
 
@@ -192,7 +200,8 @@ void Api::about(const Request& request, Response& response) const {
       {"setup", about_.setup},
       {"page_timeout_s", std::chrono::duration<double>(ManualControl::page_timeout).count()},
       {"protocol", json::parse(protocol_json())},
-      {"protocol_version", telemetry::protocol_version}};
+      {"protocol_version", telemetry::protocol_version},
+      {"refusals", refusals_json()}};
   answer_json(response, told.dump());
 }
 

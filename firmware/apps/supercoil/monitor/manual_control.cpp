@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "text/refusal_words.hpp"
+
 namespace supercoil::operating {
 
 namespace {
@@ -155,7 +157,7 @@ void ManualControl::renew() {
   if (!answer) return release_hold("expired: " + answer.error());
   // Identification and calibration end by themselves; what else ended it, the board's state tells.
   if (*answer == Refusal::wrong_state) return release_hold("ended: the board stopped it");
-  if (*answer != Refusal::none) release_hold("refused: " + std::string(name(*answer)));
+  if (*answer != Refusal::none) release_hold("refused: " + std::string(refusal_words(*answer)));
 }
 
 void ManualControl::run() {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "apps/supercoil/bus/bus_name.hpp"
-#include "text/command_text.hpp"
+#include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
 
@@ -67,7 +67,7 @@ Player::Problem Player::take(Node& node, const std::string& what,
                              const MotionLink::Played& played) {
   if (!played) return whose(node) + what + ": " + played.error();
   if (played->refusal != Refusal::none)
-    return whose(node) + what + ": " + answer_text(played->refusal, NAN);
+    return whose(node) + what + ": " + told_answer(Reply(played->refusal));
   node.played = *played;
   return std::nullopt;
 }
@@ -78,8 +78,7 @@ Player::Problem Player::go_to_start() {
     const auto answer = node.link->ask(Verb::position, first_m);
     const std::string what = whose(node) + "position " + std::to_string(first_m) + ": ";
     if (!answer) return what + answer.error();
-    if (answer->refusal != Refusal::none)
-      return what + answer_text(answer->refusal, answer->nearest);
+    if (answer->refusal != Refusal::none) return what + told_answer(*answer, Verb::position);
     node.renewed = Clock::now();
   }
   return std::nullopt;
@@ -91,7 +90,7 @@ Player::Problem Player::renew(Node& node) {
   const auto answer = node.link->ask(Verb::renew, 0.0);
   if (!answer) return whose(node) + answer.error();
   if (answer->refusal != Refusal::none)
-    return whose(node) + "the board stopped it (" + answer_text(answer->refusal, NAN) + ")";
+    return whose(node) + "the board stopped it (" + told_answer(*answer, Verb::renew) + ")";
   return take(node, "playback", node.link->playback());
 }
 

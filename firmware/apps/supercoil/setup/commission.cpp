@@ -105,8 +105,8 @@ Commission::Done Commission::arm() {
     const double elapsed_s = board_.time_s() - begin_s;
     const auto answer = operating::arm(board_, channel_);
     if (!answer) return tl::unexpected(answer.error());
-    if (*answer == "ok" || *answer == answer_text(Refusal::wrong_state, NAN)) return {};
-    if (*answer != answer_text(Refusal::not_ready, NAN) || elapsed_s >= max_s)
+    if (*answer == "ok" || refuses(*answer, Refusal::wrong_state)) return {};
+    if (!refuses(*answer, Refusal::not_ready) || elapsed_s >= max_s)
       return tl::unexpected("arm: " + *answer);
     who_.show_progress("waiting until the muscle must be cool", elapsed_s / max_s);
     if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");

@@ -8,6 +8,7 @@ import { NodeTabs } from "./node_tabs.js";
 import { NodeView } from "./node_view.js";
 import { OtherRun } from "./other_run.js";
 import { PlotDialog } from "./plot_dialog.js";
+import { take_refusals } from "./refusals.js";
 import { Replay } from "./replay.js";
 import { RunBar } from "./run_bar.js";
 import { Setup } from "./setup.js";
@@ -33,6 +34,7 @@ function may_command(about) {
 }
 
 function begin(about) {
+  take_refusals(about.refusals);
   const is_log = about.kind === "log";
   show(by_id("source"), about.source);
   by_id("source").title = `supercoil ${about.version}`;

@@ -1,31 +1,14 @@
 // Manual control of one muscle: gives commands, and says that this page lives as long as what it commanded may heat.
 
 import { alive, command, play } from "./server.js";
-import { clock_now, words } from "./format.js";
+import { clock_now } from "./format.js";
+import { refusal_words } from "./refusals.js";
 
 const ALIVE_EVERY_MS = 300;
 // The muscle's own state follows an obeyed command within a heartbeat or two.
 const SETTLES_MS = 1000;
 const HEATS = new Set(["position", "power", "identify", "calibrate"]);
 const COOLS = new Set(["rest", "disarm"]);
-
-const WHY = {
-  wrong_state: "wrong state: arm it first, or reset its fault",
-  cause_persists: "the fault's cause is still there",
-  no_edge: "too soon after the last reset: try again",
-  not_ready: "not ready: self-test, cooling or a probe is not over yet",
-  busy: "busy with another mode, or with a probe: let it rest first",
-  out_of_range: "out of range",
-  no_such_channel: "the board has no such channel",
-  not_lease_holder: "somebody else holds the lease to command this muscle",
-  no_lease: "the lease had ended: try again",
-  wrong_counter: "commands were lost: try again",
-  infeasible: "the muscle cannot do it: it needs more power than there is, or faster cooling",
-  queue_full: "more commands than the board takes at once: try again",
-};
-
-/** Why a command was refused, in words. */
-export const refusal_words = (refusal) => WHY[refusal] ?? words(refusal);
 
 export class ManualControl extends EventTarget {
   constructor(node, timeout_s) {

@@ -1,7 +1,7 @@
 // What was, in the time that is shown: limits that took power, a reference that was not feasible, an arming that never came, a swing that does not end.
 
 import { fixed, significant, words } from "./format.js";
-import { refusal_words } from "./manual_control.js";
+import { refusal_words } from "./refusals.js";
 
 // A swing by itself is searched in the newest part only, while the reference stands still.
 const SWING_S = 60;

@@ -1,6 +1,6 @@
 // Plays a motion by its knots, which the board takes ahead of time, until it ends, is stopped, or the muscle is let go.
 
-import { refusal_words } from "./manual_control.js";
+import { refusal_words } from "./refusals.js";
 
 const KNOTS_AT_ONCE = 8;
 const EVERY_MS = 150;

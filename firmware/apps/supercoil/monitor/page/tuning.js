@@ -2,13 +2,13 @@
 
 import { element, scrolling, show } from "./dom.js";
 import { significant, words } from "./format.js";
+import { refusal_words } from "./refusals.js";
 import { command, kinds_of, tune, tuning_of } from "./server.js";
 
 const STORE = 2; // of the opcode store: keeps the tuning in use
 const CLEAR = 3; // forgets what is kept
 const FIRST_ESTIMATOR = 8; // of the places, where controllers begin at 0
 const SETS = ["in_use", "configured", "stored"];
-const UNSUITABLE = "unsuitable: unstable on the muscle that is known, or values that contradict each other; nothing changed";
 
 const text_of = (value) => (value === null || value === undefined ? "–" : typeof value === "number" ? significant(value) : String(value));
 
@@ -102,7 +102,7 @@ export class Tuning {
     try {
       const refusal = await act();
       const obeyed = refusal === "none";
-      const text = `${what}: ${obeyed ? done : refusal === "unsuitable" ? UNSUITABLE : `refused, ${words(refusal)}`}`;
+      const text = `${what}: ${obeyed ? done : `refused: ${refusal_words(refusal)}`}`;
       if (obeyed) await this.read();
       this.#say(text, !obeyed);
       this.log(text, obeyed ? "" : "warn");

@@ -121,4 +121,7 @@ TEST(CommandText, AnAnswerIsReadAsItWasGiven) {
   for (const char* other :
        {"", "refused: ", "refused: none", "refused: too many clients", "wrong: channel '3'"})
     CHECK_FALSE(parse_answer(other).has_value());
+  CHECK(refuses("refused: wrong_state: arm it first", Refusal::wrong_state));
+  CHECK_FALSE(refuses("refused: wrong_state", Refusal::not_ready));
+  CHECK_FALSE(refuses("ok", Refusal::wrong_state));
 }

@@ -1,0 +1,74 @@
+#include "text/refusal_words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "text/command_text.hpp"
+#include "text/words.hpp"
+
+namespace supercoil {
+
+namespace {
+
+/// By their numbers; the page has them from here, too.
+constexpr std::array<std::string_view, refusal_names.size()> of_all{
+    "",
+    "arm it first, or reset its fault",
+    "the fault's cause is still there",
+    "too soon after the last reset: try again",
+    "self-test, cooling or a probe is not over yet, or a reading is missing",
+    "another mode or a probe is under way: let it rest first",
+    "the value is not within its range",
+    "the board has no such channel",
+    "another program commands this muscle",
+    "the lease had ended: try again",
+    "commands were lost: try again",
+    "more commands than the board takes at once: try again",
+    "the lease is free but was not granted: try again",
+    "the board speaks another version of the protocol: take the supercoil that belongs to it",
+    "unstable on the muscle that is known, or values that contradict each other; nothing changed",
+    "the muscle cannot do it: it needs more power than there is, or faster cooling"};
+
+struct OfVerb {
+  Verb verb;
+  Refusal refusal;
+  std::string_view words;
+};
+constexpr std::array of_verbs{
+    OfVerb{Verb::arm, Refusal::wrong_state, "it is armed already, or has a fault: reset that"},
+    OfVerb{Verb::reset, Refusal::wrong_state, "it has no fault"},
+    OfVerb{Verb::renew, Refusal::wrong_state, "nothing heats that could be renewed"},
+    OfVerb{Verb::rest, Refusal::wrong_state, "it rests already, or is off"},
+    OfVerb{Verb::store, Refusal::not_ready,
+           "what the estimator has learned is not trusted yet, or is being stored"},
+    OfVerb{Verb::scale, Refusal::unsuitable,
+           "both muscles of a joint read one sensor: m_per_count and lever_m say its scale"}};
+
+Verb verb_of(std::string_view line) {
+  next_word(line);
+  const auto found = std::ranges::find(verb_names, next_word(line));
+  return found == verb_names.end() ? Verb::none : static_cast<Verb>(found - verb_names.begin());
+}
+
+}  // namespace
+
+std::string_view refusal_words(Refusal refusal, Verb verb) {
+  const auto found = std::ranges::find_if(
+      of_verbs, [&](const OfVerb& one) { return one.verb == verb && one.refusal == refusal; });
+  return found != of_verbs.end() ? found->words : of_all.at(static_cast<std::size_t>(refusal));
+}
+
+std::string told_answer(const Reply& reply, Verb verb) {
+  std::string text = answer_text(reply.refusal, reply.nearest);
+  if (reply.refusal == Refusal::none || !std::isnan(reply.nearest)) return text;
+  return text + ": " + std::string(refusal_words(reply.refusal, verb));
+}
+
+std::string told_answer(std::string_view line, std::string_view answer) {
+  const auto reply = parse_answer(answer);
+  const bool bare = reply && answer == answer_text(reply->refusal, NAN);
+  return bare ? told_answer(*reply, verb_of(line)) : std::string(answer);
+}
+
+}  // namespace supercoil

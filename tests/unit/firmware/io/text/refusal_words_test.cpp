@@ -1,0 +1,34 @@
+#include "text/refusal_words.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+using namespace supercoil;
+
+TEST_GROUP(RefusalWords){};
+
+TEST(RefusalWords, EveryRefusalHasSome) {
+  STRCMP_EQUAL("", std::string(refusal_words(Refusal::none)).c_str());
+  for (std::size_t i = 1; i < refusal_names.size(); ++i)
+    CHECK_FALSE(refusal_words(static_cast<Refusal>(i)).empty());
+}
+
+TEST(RefusalWords, TheyComeBehindTheName) {
+  STRCMP_EQUAL("ok", told_answer(Reply(Refusal::none)).c_str());
+  STRCMP_EQUAL("refused: wrong_state: arm it first, or reset its fault",
+               told_answer("1 position 0.01", "refused: wrong_state").c_str());
+  STRCMP_EQUAL("refused: wrong_state: it has no fault",
+               told_answer("1 reset", "refused: wrong_state").c_str());
+  STRCMP_EQUAL("refused: out_of_range; 0.025 would be obeyed",
+               told_answer({Refusal::out_of_range, 0.025}).c_str());
+  STRCMP_EQUAL("refused: not_lease_holder: another program commands this muscle",
+               told_answer(Reply(Refusal::not_lease_holder)).c_str());
+}
+
+TEST(RefusalWords, WhatSaysWhyAlreadyStays) {
+  for (const char* answer :
+       {"ok", "refused: unsuitable: kind is unstable on this muscle",
+        "refused: out_of_range; 0.025 would be obeyed", "refused: too many clients", "wrong: x"})
+    STRCMP_EQUAL(answer, told_answer("1 tune 0", answer).c_str());
+}

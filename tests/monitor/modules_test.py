@@ -233,6 +233,27 @@ class ModulesTest(ModulesCase):
             last + "the muscle did not do what the fit predicted; θ2 is uncertain; θ4 is uncertain; full strokes were not explained.",
             last + "found and kept; friction takes more than half of a small motion, and the power may be held to less for it."])
 
+    def test_what_interrupted_identify_is_told_by_the_heartbeat_that_ended_it(self):
+        told = self.ask(CARD + """const values = (signal) => Object.entries(protocol.Status[signal].values);
+            const number = (signal, name) => Number(values(signal).find(([, is]) => is === name)[0]);
+            let time_s = 0;
+            const shown = (result, state, fault = "none") => {
+                ++time_s;
+                store.append({ newest_s: time_s, nodes: { 1: { Status: { time_s: [time_s], state: [number("state", state)],
+                    result: [number("result", result)], fault: [number("fault", fault)] } } } });
+                card.update(time_s);
+                return card.result.textContent.replace("Last identify or calibrate: ", "");
+            };
+            const told = [];
+            for (const [state, fault] of [["fault", "heater_open"], ["disarmed"], ["armed"]]) {
+                shown("running", "active");
+                told.push(shown("interrupted", state, fault), shown("interrupted", "armed"));
+            }
+            card.result_before = card.by = "";
+            return [...told, shown("interrupted", "fault", "command_timeout")];""")
+        self.assertEqual(told, [*["interrupted by the fault heater open."] * 2, *["interrupted: it was disarmed."] * 2,
+                                *["interrupted by another command."] * 2, "interrupted by a command or a fault."])
+
     def test_page_of_a_fault_becomes_elements_and_never_script(self):
         html = self.ask("""const text = "# 30 a <b>\\n\\nTwo ways:\\n- one `x`\\n  more\\n- **two**\\n\\n1. [other](over_travel.md)\\n";
             const link = (label) => document.createTextNode(`(${label})`);

@@ -182,7 +182,7 @@ class PageTest(PageCase):
         page.click(".go")
         page.wait(lambda: "identify:" in page.text(".state .progress"), 5.0, "identifies")
         page.press_space()
-        page.wait(lambda: "interrupted by a command or a fault" in page.text(".state"), 5.0, "told that it was stopped")
+        page.wait(lambda: "interrupted: it was disarmed" in page.text(".state"), 5.0, "told that it was stopped")
         page.arm()
         page.click("input[value=calibrate] + span")
         page.click(".go")

@@ -4,12 +4,14 @@ Programs: environment SUPERCOIL and SUPERCOIL_SIM, else those of build/release.
 """
 
 import json
+import pathlib
 import re
 import signal
 import subprocess
+import tempfile
 import unittest
 
-from programs import OnSimulatedBoard, SLACK_S, SUPERCOIL, command, until
+from programs import OnSimulatedBoard, ROOT, SLACK_S, SUPERCOIL, command, simulated_board, until
 
 
 class Scripts(OnSimulatedBoard):
@@ -78,7 +80,7 @@ class Scripts(OnSimulatedBoard):
         self.assertIsNone(held.poll())
         self.command("1", "disarm")
         self.assertEqual((held.communicate(timeout=SLACK_S)[1], held.returncode),
-                         ("supercoil: 1 calibrate ended: interrupted\n", 1))
+                         ("supercoil: 1 calibrate ended: interrupted, disarmed\n", 1))
         self.assertIn("calibration: interrupted", self.command("state").stdout)
 
     def identify_by_script(self, *words, meanwhile=lambda program: None):
@@ -91,15 +93,15 @@ class Scripts(OnSimulatedBoard):
         return program.returncode, out, err
 
     def test_identify_that_is_cut_short_is_no_success(self):
-        ended = "supercoil: 1 identify ended: interrupted\n"
+        ended = "supercoil: 1 identify ended: interrupted, by "
         self.assertEqual(self.identify_by_script("--for", "2", "--json"),
-                         (1, '{"command":"1 identify","result":"interrupted"}\n', ended))
+                         (1, '{"command":"1 identify","result":"interrupted","cause":"by the end of --for"}\n', ended + "the end of --for\n"))
 
         def interrupt(program):
             until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
             program.send_signal(signal.SIGINT)
 
-        self.assertEqual(self.identify_by_script("--hold", meanwhile=interrupt), (1, "", ended))
+        self.assertEqual(self.identify_by_script("--hold", meanwhile=interrupt), (1, "", ended + "Ctrl-C\n"))
 
     def test_a_refused_value_comes_with_the_nearest_one_that_is_obeyed(self):
         refused = self.command("1", "controller", "77")
@@ -141,6 +143,23 @@ class Scripts(OnSimulatedBoard):
                          (2, "supercoil: 'most_power_W' was renamed in 0.2.0: write max_power_W\n"))
         self.assertIn("no answer from node 9", setting("9", "status_Hz").stderr)
         self.assertEqual(setting("1", "measurement_Hz", "100").returncode, 0)
+
+
+class OfABrokenMuscle(unittest.TestCase):
+    def test_the_fault_that_interrupted_identify_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scenario = pathlib.Path(folder) / "breaks.toml"
+            scenario.write_text((ROOT / "host_sim" / "scenarios" / "bench.toml").read_text()
+                                + "\n[[event]]\nat_s = 20\ninjected_fault.heater_open = true\n")
+            board = simulated_board(scenario=scenario)
+            self.addCleanup(board.stop)
+        source = f"socketcand:{board.found[1]}"
+        until(lambda: command(source, "1", "arm").returncode == 0)
+        done = command(source, "1", "identify", "--for", "60", "--json")
+        why = "fault heater_open; docs/faults/heater_open.md"
+        self.assertEqual((done.returncode, json.loads(done.stdout), done.stderr),
+                         (1, {"command": "1 identify", "result": "interrupted", "cause": why},
+                          f"supercoil: 1 identify ended: interrupted, {why}\n"))
 
 
 if __name__ == "__main__":

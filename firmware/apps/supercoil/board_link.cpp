@@ -15,6 +15,10 @@ tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std
   return std::to_string(std::stol(channel) + std::lround(joint.other_channel_offset));
 }
 
+std::string fault_text(const std::string& fault) {
+  return "fault " + fault + "; docs/faults/" + fault + ".md";
+}
+
 }  // namespace
 
 BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
@@ -25,11 +29,18 @@ BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
   for (int i = 0; i < tries; ++i) {
     const auto now = board.status(channel);
     if (!now) return tl::unexpected(now.error());
-    if (now->fault != "none") return "fault " + now->fault + "; docs/faults/" + now->fault + ".md";
+    if (now->fault != "none") return fault_text(now->fault);
     if (now->state == name(State::armed) && !now->probing) return answer;
     board.wait(std::chrono::milliseconds(50));
   }
   return tl::unexpected<std::string>("its heater is still being measured after 2 s");
+}
+
+BoardLink::Answer interruption(BoardLink& board, const std::string& channel) {
+  return board.status(channel).map([](const BoardLink::Status& now) -> std::string {
+    if (now.fault != "none") return fault_text(now.fault);
+    return now.state == name(State::disarmed) ? "disarmed" : "by another command";
+  });
 }
 
 tl::expected<std::vector<ChannelEnding>, std::string> endings(BoardLink& board,

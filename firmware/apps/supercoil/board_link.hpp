@@ -145,6 +145,10 @@ class CanBoardLink final : public BoardLink {
 /// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
+/// What interrupted identify or calibrate, as long as nothing came after it: "fault heater_open;
+/// docs/faults/heater_open.md", "disarmed" or "by another command". The error: no answer.
+BoardLink::Answer interruption(BoardLink& board, const std::string& channel);
+
 struct ChannelEnding {
   std::string channel;  ///< as in a line
   BoardLink::Ending ending;

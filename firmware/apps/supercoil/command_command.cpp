@@ -132,29 +132,35 @@ bool has_result(const CommandOptions& options) {
   return options.words[1] == name(Verb::identify) || options.words[1] == name(Verb::calibrate);
 }
 
-/// One channel's, as text or as JSON.
-int tell_ending(const CommandOptions& options, const ChannelEnding& of) {
+/// One channel's, as text or as JSON. own: how this program ended it; empty: it did not.
+int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEnding& of,
+                const std::string& own) {
   const auto& [result, notes] = of.ending;
   const std::string line = of.channel + " " + options.words[1];
+  std::string cause;
+  if (result == "interrupted")
+    cause = own.empty() ? interruption(board, of.channel).value_or("") : own;
   if (options.json) {
     nlohmann::ordered_json json{{"command", line}, {"result", result}};
     if (!notes.empty()) json["notes"] = notes;
+    if (!cause.empty()) json["cause"] = cause;
     std::printf("%s\n", json.dump().c_str());
   }
-  const std::string all = line + " ended: " + result + (notes.empty() ? "" : " (" + notes + ")");
+  const std::string all = line + " ended: " + result + (notes.empty() ? "" : " (" + notes + ")") +
+                          (cause.empty() ? "" : ", " + cause);
   if (result != "found") return fail(exit_failed, all);
   if (!notes.empty() && !options.json) std::printf("%s\n", all.c_str());
   return exit_done;
 }
 
-/// A mode ended by itself, or was ended: if it has a result, which.
-int ended(BoardLink& board, const CommandOptions& options) {
+/// A mode ended by itself, or was ended: if it has a result, which. own: as in tell_ending().
+int ended(BoardLink& board, const CommandOptions& options, const std::string& own = "") {
   if (!has_result(options)) return exit_done;
   const auto all = endings(board, options.words[0]);
   if (!all) return refused(options, exit_failed, all.error());
   int status = exit_done;
   for (const ChannelEnding& each : *all)
-    status = std::max(status, tell_ending(options, each));
+    status = std::max(status, tell_ending(board, options, each, own));
   return status;
 }
 
@@ -193,7 +199,8 @@ int hold(BoardLink& board, const CommandOptions& options) {
   const std::string rest = options.words[0] + " rest";
   if (!has_result(options)) return ask(board, options, rest);
   const auto answer = board.ask(rest);
-  return answer ? ended(board, options) : concluded(options, rest, answer);
+  const std::string own = interrupted != 0 ? "by Ctrl-C" : "by the end of --for";
+  return answer ? ended(board, options, own) : concluded(options, rest, answer);
 }
 
 int tell_state(BoardLink& board, const CommandOptions& options) {

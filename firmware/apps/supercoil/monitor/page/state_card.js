@@ -28,7 +28,7 @@ function how_hot(state, hottest_C) {
 // How identify and calibrate end.
 const RESULTS = {
   found: "found and kept",
-  interrupted: "interrupted by a command or a fault",
+  interrupted: "interrupted",  // #interrupted_by() says by what
   not_cold: "the muscle did not cool within two minutes",
   moved: "the position changed while its zero was taken",
   poor_fit: "the muscle did not do what the fit predicted",
@@ -118,14 +118,25 @@ export class StateCard {
       this.bar.value = row.progress;
       show(this.percent, `${status.mode}: ${fixed(100 * row.progress, 0)} %${this.#time_left(status.mode, row)}`);
     }
+    const by = row ? this.#interrupted_by(name("result"), status) : "";
     const result = status && !shows ? name("result") : "none";
     this.result.hidden = !(result in RESULTS);
     if (!this.result.hidden) {
       const notes = this.store.at(this.node, "Estimate", now_s)?.identify_notes ?? 0;
-      show(this.result, `Last identify or calibrate: ${RESULTS[result]}${notes_text(notes)}` +
+      show(this.result, `Last identify or calibrate: ${RESULTS[result]}${by}${notes_text(notes)}` +
         `${row.friction === 1 ? FRICTION : ""}.`);
     }
     return status;
+  }
+
+  /** What interrupted it. The heartbeat that follows "running" tells; what a later one says may be of something else. */
+  #interrupted_by(result, { state, fault }) {
+    const ended = this.result_before === "running";
+    this.result_before = result;
+    if (result !== "interrupted") this.by = "";
+    else if (ended) this.by = fault !== "none" ? ` by the fault ${words(fault)}` : state === "disarmed" ? ": it was disarmed" : " by another command";
+    else this.by ||= " by a command or a fault";
+    return this.by;
   }
 
   #hottest_C(now_s) {

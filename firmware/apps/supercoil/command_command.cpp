@@ -28,11 +28,16 @@ using Clock = std::chrono::steady_clock;
 constexpr int digits = 9;  // of a position in metres: nanometres
 constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
+/// Otherwise the line was wrong: no channel has heard of it.
+bool is_answer(std::string_view answer) {
+  return answer == "ok" || answer.starts_with("refused") || answer.starts_with("fault");
+}
+
 /// A board's answer as an exit status; anything but "ok" is also said.
 int judged(const std::string& line, const std::string& answer) {
   if (answer == "ok") return exit_done;
-  const bool refused = answer.starts_with("refused") || answer.starts_with("fault");
-  return fail(refused ? exit_failed : exit_wrong_input, line + ": " + told_answer(line, answer));
+  return fail(is_answer(answer) ? exit_failed : exit_wrong_input,
+              line + ": " + told_answer(line, answer));
 }
 
 /// With the nearest that would be obeyed in degrees too, where degrees were asked for: rounded
@@ -51,7 +56,7 @@ int concluded(const CommandOptions& options, const std::string& line,
               const BoardLink::Answer& answer) {
   if (options.json) {
     nlohmann::ordered_json told{{"command", line}};
-    told[answer ? "answer" : "error"] = answer ? *answer : answer.error();
+    told[answer && is_answer(*answer) ? "answer" : "error"] = answer ? *answer : answer.error();
     std::printf("%s\n", told.dump().c_str());
   }
   return answer ? judged(line, with_degrees(options, *answer)) : fail(exit_failed, answer.error());
@@ -244,6 +249,11 @@ std::string sine_problem(const CommandOptions& options) {
 }  // namespace
 
 int command_command(CommandOptions options) {
+  if (options.words[0] == "state" && options.words.size() > 1) {
+    return refused(
+        options, exit_wrong_input,
+        joined(options.words) + ": state is of all channels: leave out '" + options.words[1] + "'");
+  }
   if (options.sine_period_s > 0.0) {
     if (const std::string problem = sine_problem(options); !problem.empty())
       return refused(options, exit_wrong_input, problem);

@@ -1,9 +1,11 @@
 // supercoil: the operator's tool beside the daemon.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -285,6 +287,12 @@ void add_docs(CLI::App& app, DocsOptions& options) {
       ->capture_default_str();
 }
 
+/// Also where the options cannot be read.
+bool wants_json(int count, char** arguments) {
+  return std::any_of(arguments, arguments + count,
+                     [](const char* word) { return std::string_view(word) == "--json"; });
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Tools for boards that run supercoil.", "supercoil"};
   app.set_version_flag("--version", std::string(program_version()));
@@ -311,13 +319,16 @@ int run_program(int count, char** arguments) {
   add_dbc(app, dbc);
   DocsOptions docs;
   add_docs(app, docs);
+  const bool json = wants_json(count, arguments);
   if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
-    return fail(exit_wrong_input, wrong);
+    return refuse(json, exit_wrong_input, wrong);
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
-    return status == 0 ? exit_done : exit_wrong_input;
+    if (status == 0) return exit_done;
+    if (json) tell_error(error.what());
+    return exit_wrong_input;
   }
   if (app.got_subcommand("doctor")) return doctor_command(doctor);
   if (app.got_subcommand("monitor")) return monitor_command(monitor);

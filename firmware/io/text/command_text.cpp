@@ -8,6 +8,7 @@
 #include <span>
 #include <sstream>
 
+#include "text/nearest.hpp"
 #include "text/number_text.hpp"
 #include "text/words.hpp"
 
@@ -17,11 +18,27 @@ namespace {
 
 constexpr std::string_view refused = "refused: ";
 
-/// The others take none.
-bool has_value(Verb verb) {
-  return verb == Verb::position || verb == Verb::power || verb == Verb::scale ||
-         verb == Verb::controller || verb == Verb::estimator || verb == Verb::compare_supply ||
-         verb == Verb::compare_current || verb == Verb::compare_rise || verb == Verb::tune;
+/// What the number behind a verb is; empty: it takes none.
+std::string_view value_of(Verb verb) {
+  switch (verb) {
+    case Verb::position:
+    case Verb::scale:
+      return "a number, in m";
+    case Verb::power:
+      return "a number, in W";
+    case Verb::compare_supply:
+      return "a number, in V";
+    case Verb::compare_current:
+      return "a number, in A";
+    case Verb::compare_rise:
+      return "a number, in K";
+    case Verb::controller:
+    case Verb::estimator:
+    case Verb::tune:
+      return "a number, its place in the configuration from 0";
+    default:
+      return "";
+  }
 }
 
 template <class Number>
@@ -32,12 +49,19 @@ std::optional<Number> number(std::string_view word) {
   return value;
 }
 
-std::string known_verbs() {
-  std::string all;
+std::vector<std::string> known_verbs() {
+  std::vector<std::string> all;
   for (const std::string_view verb : plain_verb_names) {
-    if (verb != name(Verb::none)) all += (all.empty() ? "" : ", ") + std::string(verb);
+    if (verb != name(Verb::none)) all.emplace_back(verb);
   }
-  return all + ", clear, store tuning, clear tuning";
+  all.insert(all.end(), {"clear", "store tuning", "clear tuning"});
+  return all;
+}
+
+std::string no_command(std::string_view word) {
+  if (word.empty()) return "no command behind the channel; there are: " + joined(known_verbs());
+  return "'" + std::string(word) + "' is not a command; " +
+         meant_or_all(word, known_verbs(), "there are");
 }
 
 /// From 0.
@@ -45,20 +69,25 @@ tl::expected<std::uint8_t, std::string> channel_in(std::string_view word, std::s
   const auto channel = number<std::size_t>(word);
   if (channel && *channel >= 1 && *channel <= channels)
     return static_cast<std::uint8_t>(*channel - 1);
+  const bool no_number = !word.empty() && !number<double>(word);
   return tl::unexpected("channel '" + std::string(word) + "': must be 1 to " +
-                        std::to_string(channels));
+                        std::to_string(channels) +
+                        (no_number ? "; it comes first, as in '1 arm'" : ""));
 }
 
 tl::expected<double, std::string> finite_number(std::string_view word, Verb verb,
                                                 std::string_view needs) {
   const auto value = number<double>(word);
   if (value && std::isfinite(*value)) return *value;
-  return tl::unexpected("'" + std::string(word) + "': " + std::string(name(verb)) + " needs " +
-                        std::string(needs));
+  const std::string what = std::string(name(verb)) + " needs " + std::string(needs);
+  return tl::unexpected(word.empty() ? what : what + "; '" + std::string(word) + "' is none");
 }
 
-std::string unexpected_word(std::string_view rest) {
-  return "'" + std::string(rest) + "' is too much";
+std::string unexpected_word(Verb verb, std::string_view rest) {
+  return std::string(name(verb)) +
+         (value_of(verb).empty() ? " takes no value: leave out '"
+                                 : " takes one value: leave out '") +
+         std::string(rest) + "'";
 }
 
 }  // namespace
@@ -74,10 +103,7 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
   const Verb verb = found == plain_verb_names.end()
                         ? Verb::none
                         : static_cast<Verb>(std::distance(plain_verb_names.begin(), found));
-  if (verb == Verb::none) {
-    return tl::unexpected("'" + std::string(verb_word) + "' is not a command; there are " +
-                          known_verbs());
-  }
+  if (verb == Verb::none) return tl::unexpected(no_command(verb_word));
   const bool stores = verb == Verb::store && !clears;
   Command command{*channel, verb, stores ? 1.0 : 0.0};
   std::string_view value_word = next_word(text);
@@ -85,13 +111,14 @@ tl::expected<Command, std::string> parse_command(std::string_view text, std::siz
     command.value = stores ? store_tuning : clear_tuning;
     value_word = next_word(text);
   }
-  if (has_value(verb)) {
-    const auto value = finite_number(value_word, verb, "a number");
+  const std::string_view needs = value_of(verb);
+  if (!needs.empty()) {
+    const auto value = finite_number(value_word, verb, needs);
     if (!value) return tl::unexpected(value.error());
     command.value = *value;
   }
-  const std::string_view rest = has_value(verb) ? next_word(text) : value_word;
-  if (!rest.empty()) return tl::unexpected(unexpected_word(rest));
+  const std::string_view rest = needs.empty() ? value_word : next_word(text);
+  if (!rest.empty()) return tl::unexpected(unexpected_word(verb, rest));
   return command;
 }
 
@@ -126,7 +153,10 @@ std::optional<tl::expected<Command, std::string>> parse_trajectory_command(std::
   command.after_s = static_cast<float>(after_s);
   command.velocity_m_per_s = static_cast<float>(velocity_m_per_s);
   const std::string_view rest = next_word(text);
-  if (!rest.empty()) return tl::unexpected(unexpected_word(rest));
+  if (!rest.empty()) {
+    return tl::unexpected(std::string(name(command.verb)) + " takes no more: leave out '" +
+                          std::string(rest) + "'");
+  }
   return command;
 }
 

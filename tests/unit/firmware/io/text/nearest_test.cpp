@@ -21,6 +21,12 @@ TEST(Nearest, OfSeveralThatLackMoreThanAUnitIsTheShortest) {
   }
 }
 
+TEST(Nearest, ExchangedLettersAreOneEdit) {
+  STRCMP_EQUAL("arm", nearest_name("amr", {"disarm", "arm", "rest"}).name.c_str());
+  STRCMP_EQUAL("arm", nearest_name("ram", {"arm"}).name.c_str());
+  STRCMP_EQUAL("", nearest_name("mra", {"arm"}).name.c_str());
+}
+
 TEST(Nearest, OtherwiseTheFewestEdits) {
   const Nearest nearest = nearest_name("rate_hz", {"duration_s", "rate_Hz", "seed"});
   STRCMP_EQUAL("rate_Hz", nearest.name.c_str());

@@ -1,12 +1,16 @@
 """supercoil setup as a newcomer meets it: a file that is completed, a board in real time that is calibrated, errors."""
 
+import fcntl
 import json
 import os
 import pathlib
+import pty
 import re
+import select
 import signal
 import subprocess
 import tempfile
+import termios
 import time
 import unittest
 
@@ -20,6 +24,51 @@ ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "st
            "uncertainty_percent": 30}
 # What a busy machine does to any master in real time.
 STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready")
+
+
+class Terminal:
+    """supercoil setup on a terminal of its own; what it tells is one text, as somebody sees it come."""
+
+    def __init__(self, *arguments):
+        terminal, self.end = pty.openpty()
+        self.file = terminal
+        self.told = ""
+        self.program = subprocess.Popen([SUPERCOIL, "setup", *arguments], stdin=self.end, stdout=self.end, stderr=self.end,
+                                        start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+        os.close(self.end)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.program.poll() is None:
+            self.program.kill()
+        self.program.wait()
+        os.close(self.file)
+
+    def read(self):
+        """False: the other end is closed."""
+        try:
+            if select.select([self.file], [], [], 0.1)[0]:
+                self.told += os.read(self.file, 65536).decode()
+            return True
+        except OSError:
+            return False
+
+    def until(self, text, patience_s=DEADLINE_S):
+        """text: also that of a regular expression."""
+        end_s = time.monotonic() + patience_s
+        while not re.search(text, self.told):
+            if not self.read() or time.monotonic() > end_s:
+                raise AssertionError(f"no {text!r} in {self.told!r}")
+
+    def type(self, text):
+        os.write(self.file, text.encode())
+
+    def ended(self):
+        while self.read():
+            pass
+        return self.program.wait(timeout=DEADLINE_S)
 
 
 class SetupProgram(unittest.TestCase):
@@ -116,15 +165,79 @@ class SetupProgram(unittest.TestCase):
         self.assertIn("board.toml:1: ", done.stderr)
         self.assertNotIn("Resistance", done.stdout)
 
-    def test_undo_puts_the_file_back(self):
+    def files(self):
+        return sorted(path.name.removeprefix("board.toml") for path in self.path.glob("board.toml*"))
+
+    def test_undo_puts_the_file_back_says_so_and_keeps_what_it_replaces(self):
         self.setup_program(*self.script())
-        self.assertNotEqual(self.board.read_text(), self.example)
-        self.assertEqual(self.setup_program("--undo").returncode, 0)
+        described = self.board.read_text()
+        self.assertNotEqual(described, self.example)
+        done = self.setup_program("--undo")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(done.stdout, f"{self.board} is as it was before describe of channel 1, and that step and those behind it are "
+                         f"to be done; what it was until now is kept as {self.board}.undone\n")
         self.assertEqual(self.board.read_text(), self.example)
-        self.assertFalse(self.record.exists())
+        self.assertEqual(self.files(), ["", ".undone"])
+        self.assertEqual((self.path / "board.toml.undone").read_text(), described)
         again = self.setup_program("--undo")
         self.assertEqual(again.returncode, 1)
         self.assertIn("setup has changed nothing", again.stderr)
+
+    def test_undo_takes_back_one_change_after_the_other_each_of_its_channel(self):
+        self.setup_program(*self.script())
+        self.setup_program("describe", *self.script(max_W=3))
+        both = self.board.read_text()
+        self.assertIn("max_W = 3", both)
+        self.setup_program("describe", *self.script(max_W=3))  # changes nothing
+        self.setup_program("describe", "--channel", "2", *self.script())
+        done = self.setup_program("--undo")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the last change was describe of channel 2: --channel 2 --undo takes that back first", done.stderr)
+        self.assertEqual(self.setup_program("--undo", "--channel", "2").returncode, 0)
+        self.assertEqual(self.board.read_text(), both)
+        done = self.setup_program("--undo", "--json")
+        self.assertEqual(json.loads(done.stdout), {"file": str(self.board), "channel": 1, "step": "describe",
+                                                   "kept_as": f"{self.board}.undone-2"})
+        self.assertIn("max_W = 4.5", self.board.read_text())
+        self.setup_program("--undo")
+        self.assertEqual(self.board.read_text(), self.example)
+        self.assertFalse(self.record.exists())
+
+    def test_undo_does_not_throw_away_what_somebody_else_changed(self):
+        self.setup_program(*self.script())
+        edited = self.board.read_text() + "# by hand\n"
+        self.board.write_text(edited)
+        for arguments in ((), ("--json",)):
+            done = self.setup_program("--undo", *arguments, stdin=subprocess.DEVNULL)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"{self.board}: was changed after describe of channel 1 wrote it", done.stderr)
+            self.assertIn("--undo --force does it", done.stderr)
+            self.assertEqual(self.board.read_text(), edited)
+        self.assertIn("was changed", json.loads(done.stdout)["error"])
+        self.assertEqual(self.files(), ["", ".before-setup", ".setup.json"])
+        self.assertEqual(self.setup_program("--undo", "--force").returncode, 0)
+        self.assertEqual(self.board.read_text(), self.example)
+        self.assertEqual((self.path / "board.toml.undone").read_text(), edited)
+        self.assertEqual(self.setup_program("--force").returncode, 2)
+
+    def test_on_a_terminal_undo_asks_about_what_somebody_else_changed(self):
+        self.setup_program(*self.script())
+        self.board.write_text(self.board.read_text() + "# by hand\n")
+        for answer, left in (("0", True), ("1", False)):
+            with Terminal("--config", self.board, "--undo") as terminal:
+                terminal.until("take it back all the same, 0: leave it")
+                terminal.type(answer + "\n")
+                self.assertEqual(terminal.ended(), 1 if left else 0, terminal.told)
+            self.assertEqual("# by hand" in self.board.read_text(), left)
+
+    def test_without_a_record_of_what_it_wrote_undo_leaves_the_file(self):
+        self.setup_program(*self.script())
+        described = self.board.read_text()
+        self.record.unlink()
+        done = self.setup_program("--undo", "--force")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f"{self.board}.before-setup is the file as it was before", done.stderr)
+        self.assertEqual(self.board.read_text(), described)
 
     def test_a_board_that_does_not_run_is_said_with_how_to_start_it(self):
         done = self.setup_program("calibrate", "--socket", self.path / "none")

@@ -261,8 +261,13 @@ class SetupTest(SetupCase):
     def test_undo_puts_the_file_back(self):
         page = self.described()
         self.assertNotEqual(self.file.read_text(), self.text)
-        page.press("undo all of it")
-        page.wait(lambda: "as it was before setup" in page.text("#setup > .answer"), SLACK_S, "undone")
+        described = self.file.read_text()
+        self.file.write_text(described + "# by hand\n")
+        page.press("undo the last change")
+        page.wait(lambda: "was changed after describe of channel 1 wrote it" in page.text("#setup > .answer"), SLACK_S, "refused")
+        self.file.write_text(described)
+        page.press("undo the last change")
+        page.wait(lambda: "as it was before describe of channel 1" in page.text("#setup > .answer"), SLACK_S, "undone")
         self.assertEqual(self.file.read_text(), self.text)
         self.assertEqual(page.step("describe")["found"], "")
 

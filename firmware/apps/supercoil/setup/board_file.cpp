@@ -7,11 +7,16 @@
 #include "apps/supercoil/user_file.hpp"
 #include "config/edit_toml.hpp"
 #include "config/toml_file.hpp"
+#include "storage/crc32.hpp"
 
 namespace supercoil::operating {
 
-std::string kept_config(const std::string& config) {
-  return config + ".before-setup";
+std::string free_name(const std::string& path) {
+  std::string name = path;
+  std::error_code ignored;
+  for (int i = 2; std::filesystem::exists(name, ignored); ++i)
+    name = path + "-" + std::to_string(i);
+  return name;
 }
 
 tl::expected<std::string, std::string> read_board_text(const std::string& config) {
@@ -23,6 +28,7 @@ tl::expected<std::string, std::string> read_board_text(const std::string& config
 }
 
 tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions& options,
+                                                             const std::string& step,
                                                              const std::string& text,
                                                              const std::vector<Entry>& entries) {
   std::string changed = text;
@@ -35,25 +41,16 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
   auto config = config::parse_board_config(changed, options.config);
   if (!config) return tl::unexpected(config::to_text(config.error()));
 
-  std::error_code ignored;
-  if (!std::filesystem::exists(kept_config(options.config), ignored)) {
-    if (auto kept = write_whole(kept_config(options.config), text); !kept)
-      return tl::unexpected(kept.error() + "\n");
-  }
-  if (auto written = write_whole(options.config, changed); !written)
-    return tl::unexpected(written.error() + "\n");
+  if (changed == text) return std::move(*config);
+  auto record = SetupRecord::open(options.config, options.channel);
+  if (!record) return tl::unexpected(record.error() + "\n");
+  const std::string before = free_name(options.config + before_setup);
+  auto written = write_whole(before, text);
+  if (written)
+    written = record->add_write({options.channel, step, before, storage::crc32(changed)});
+  if (written) written = write_whole(options.config, changed);
+  if (!written) return tl::unexpected(written.error() + "\n");
   return std::move(*config);
-}
-
-tl::expected<void, std::string> undo_setup(const SetupOptions& options) {
-  const std::string kept = kept_config(options.config);
-  std::error_code error;
-  if (!std::filesystem::exists(kept, error))
-    return tl::unexpected(kept + ": is not there: setup has changed nothing");
-  std::filesystem::rename(kept, options.config, error);
-  if (error) return tl::unexpected(kept + ": " + error.message());
-  std::filesystem::remove(SetupRecord::path_of(options.config), error);
-  return {};
 }
 
 }  // namespace supercoil::operating

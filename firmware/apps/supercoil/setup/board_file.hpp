@@ -12,18 +12,20 @@
 
 namespace supercoil::operating {
 
-/// The file as it was before setup changed it first.
-std::string kept_config(const std::string& config);
+/// Behind a board's file: the file as it was before setup changed it; before the second change
+/// ".before-setup-2", and so on.
+inline constexpr const char* before_setup = ".before-setup";
+/// path, or "path-2" and so on where that is there already.
+std::string free_name(const std::string& path);
 
 /// Its text. The error, of a file that is no TOML, is whole lines.
 tl::expected<std::string, std::string> read_board_text(const std::string& config);
 /// Puts entries into that text, of the channel that is set up, and writes the file only if it is in
-/// order then. The error is whole lines.
+/// order then; what it was before is kept, and the record tells that the step wrote it. The error
+/// is whole lines.
 tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions& options,
+                                                             const std::string& step,
                                                              const std::string& text,
                                                              const std::vector<Entry>& entries);
-
-/// The file as it was, and no record. The error says what could not be done.
-tl::expected<void, std::string> undo_setup(const SetupOptions& options);
 
 }  // namespace supercoil::operating

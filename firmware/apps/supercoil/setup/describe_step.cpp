@@ -93,7 +93,7 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   if (!described) return tl::unexpected(described.error() + "\n");
   const auto index = static_cast<std::size_t>(options.channel) - 1;
   std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, *text, index); });
-  const auto config = write_entries(options, *text, described->entries);
+  const auto config = write_entries(options, "describe", *text, described->entries);
   if (!config) return tl::unexpected(config.error());
   Json found;
   for (const Entry& entry : described->entries) {

@@ -18,6 +18,7 @@ struct SetupOptions {
   std::string can;     ///< a bus; empty: the board on which this runs
   std::string socket = "/run/supercoil/commands";
   bool undo = false;
+  bool force = false;  ///< undo also what somebody else changed
   bool json = false;
 };
 void add_setup(CLI::App& app, SetupOptions& options);

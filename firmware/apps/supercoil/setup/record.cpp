@@ -1,5 +1,6 @@
 #include "apps/supercoil/setup/record.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,8 +14,26 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* writes_key = "writes";
+
 std::string name_of(int channel) {
   return "channel-" + std::to_string(channel);
+}
+
+bool is_write(const Json& entry) {
+  const auto is = [&](const char* key, auto of_type) {
+    return entry.contains(key) && of_type(entry[key]);
+  };
+  const auto number = [](const Json& value) { return value.is_number_integer(); };
+  const auto text = [](const Json& value) { return value.is_string(); };
+  return is("channel", number) && is("step", text) && is("before", text) && is("crc32", number);
+}
+
+bool is_in_order(const Json& document, const std::string& channel) {
+  if (!document.is_object()) return false;
+  if (document.contains(channel) && !document[channel].is_object()) return false;
+  if (!document.contains(writes_key)) return true;
+  return document[writes_key].is_array() && std::ranges::all_of(document[writes_key], is_write);
 }
 
 }  // namespace
@@ -22,16 +41,19 @@ std::string name_of(int channel) {
 tl::expected<SetupRecord, std::string> SetupRecord::open(const std::string& config, int channel) {
   const std::string path = path_of(config);
   const std::string name = name_of(channel);
-  Json document = Json::object();
+  auto document = read(path, name);
+  if (!document) return tl::unexpected(document.error());
+  return SetupRecord(path, name, std::move(*document));
+}
+
+tl::expected<Json, std::string> SetupRecord::read(const std::string& path,
+                                                  const std::string& channel) {
   std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) {
-    std::ifstream file(path);
-    document = Json::parse(std::istreambuf_iterator<char>(file), {}, nullptr, false);
-    if (!document.is_object() || (document.contains(name) && !document[name].is_object())) {
-      return tl::unexpected(path + ": is damaged: delete it, and setup begins with its first step");
-    }
-  }
-  return SetupRecord(path, name, std::move(document));
+  if (!std::filesystem::exists(path, ignored)) return Json::object();
+  std::ifstream file(path);
+  Json document = Json::parse(std::istreambuf_iterator<char>(file), {}, nullptr, false);
+  if (is_in_order(document, channel)) return document;
+  return tl::unexpected(path + ": is damaged: delete it, and setup begins with its first step");
 }
 
 bool SetupRecord::has(const std::string& step) const {
@@ -52,25 +74,78 @@ Json SetupRecord::found(const std::string& step) const {
 }
 
 tl::expected<void, std::string> SetupRecord::add(const std::string& step, const Json& found) {
-  document_["schema_version"] = 1;
+  if (auto read = read_again(); !read) return read;
   Json own = found;
   if (const auto other = own.find(antagonist_key); other != own.end()) {
     put(name_of(other->at("channel").get<int>()), step, *other);
     own.erase(other);
   }
   put(channel_, step, own);
+  return write();
+}
+
+std::optional<SetupRecord::Write> SetupRecord::last_write() const {
+  const auto writes = document_.find(writes_key);
+  if (writes == document_.end() || writes->empty()) return std::nullopt;
+  const Json& last = writes->back();
+  return Write{last["channel"].get<int>(), last["step"].get<std::string>(),
+               last["before"].get<std::string>(), last["crc32"].get<std::uint32_t>()};
+}
+
+tl::expected<void, std::string> SetupRecord::add_write(const Write& w) {
+  if (auto read = read_again(); !read) return read;
+  document_[writes_key].push_back(
+      {{"channel", w.channel}, {"step", w.step}, {"before", w.before}, {"crc32", w.crc32}});
+  return write();
+}
+
+tl::expected<void, std::string> SetupRecord::take_back() {
+  const auto last = last_write();
+  if (!last) return {};
+  Json& writes = document_[writes_key];
+  writes.erase(writes.size() - 1);
+  if (writes.empty()) document_.erase(writes_key);
+  if (const auto channel = document_.find(name_of(last->channel)); channel != document_.end()) {
+    channel->erase(last->step);
+    forget_after(*channel, last->step);
+    if (channel->empty()) document_.erase(channel);
+  }
+  return write();
+}
+
+tl::expected<void, std::string> SetupRecord::read_again() {
+  auto now = read(path_, channel_);
+  if (!now) return tl::unexpected(now.error());
+  document_ = std::move(*now);
+  return {};
+}
+
+tl::expected<void, std::string> SetupRecord::write() {
+  // It is the last key, after what there is to remember.
+  document_.erase("schema_version");
+  if (document_.empty()) {
+    std::error_code error;
+    std::filesystem::remove(path_, error);
+    if (!error) return {};
+    return tl::unexpected(path_ + ": " + error.message());
+  }
+  document_["schema_version"] = 1;
   return write_whole(path_, document_.dump(2) + "\n");
 }
 
 void SetupRecord::put(const std::string& name, const std::string& step, const Json& found) {
   Json& channel = document_[name];
   if (channel.is_null()) channel = Json::object();
+  forget_after(channel, step);
+  channel[step] = found;
+}
+
+void SetupRecord::forget_after(Json& channel, const std::string& step) {
   bool after = false;
   for (const SetupStep& known : setup_steps) {
     if (after) channel.erase(std::string(known.name));
     after = after || known.name == step;
   }
-  channel[step] = found;
 }
 
 }  // namespace supercoil::operating

@@ -1,6 +1,8 @@
 // What setup has done so far, beside the board's file: it goes on after a power cut.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -9,7 +11,8 @@
 namespace supercoil::operating {
 
 /// Of one channel. "board.toml.setup.json" has one object for each channel, and in it one for each
-/// step that is done: what the step found.
+/// step that is done: what the step found. "writes" has each change of the board's file, the last
+/// one at the end.
 class SetupRecord {
  public:
   /// An absent file is an empty record. The error says why a file is none; nothing is lost then.
@@ -28,11 +31,31 @@ class SetupRecord {
   /// step is to be done anew.
   tl::expected<void, std::string> add(const std::string& step, const nlohmann::ordered_json& found);
 
+  /// One change of the board's file.
+  struct Write {
+    int channel = 1;
+    std::string step;
+    std::string before;       ///< the file that has the text before it
+    std::uint32_t crc32 = 0;  ///< of the text after it
+  };
+  /// Of all channels; empty: there is none to take back.
+  std::optional<Write> last_write() const;
+  tl::expected<void, std::string> add_write(const Write& write);
+  /// The last one was taken back: its step and what follows it are to be done anew.
+  tl::expected<void, std::string> take_back();
+
  private:
   SetupRecord(std::string path, std::string channel, nlohmann::ordered_json document)
       : path_(std::move(path)), channel_(std::move(channel)), document_(std::move(document)) {}
 
+  static tl::expected<nlohmann::ordered_json, std::string> read(const std::string& path,
+                                                                const std::string& channel);
+  /// What the file has by now: a step may have written to it as well.
+  tl::expected<void, std::string> read_again();
+  /// Without anything to remember there is no file.
+  tl::expected<void, std::string> write();
   void put(const std::string& name, const std::string& step, const nlohmann::ordered_json& found);
+  void forget_after(nlohmann::ordered_json& channel, const std::string& step);
 
   std::string path_;
   std::string channel_;

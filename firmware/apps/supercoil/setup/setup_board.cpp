@@ -24,7 +24,7 @@ StepResult SetupBoard::run(const std::string& step) {
   const auto text = read_board_text(options_.config);
   if (!text) return tl::unexpected(text.error());
   const auto written = write_entries(
-      options_, *text, {{travel_key, (*found)[travel_key].get<std::string>(), "limits"}});
+      options_, step, *text, {{travel_key, (*found)[travel_key].get<std::string>(), "limits"}});
   if (!written) return tl::unexpected(written.error());
   return found;
 }

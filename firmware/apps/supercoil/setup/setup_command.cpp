@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cstdio>
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
-#include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
@@ -16,6 +17,7 @@
 #include "apps/supercoil/setup/setup_board.hpp"
 #include "apps/supercoil/setup/steps.hpp"
 #include "apps/supercoil/setup/terminal_operator.hpp"
+#include "apps/supercoil/setup/undo.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::operating {
@@ -109,6 +111,34 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
   return concluded(options, results, status, "");
 }
 
+/// Whoever sits at a terminal may decide on the spot.
+bool undo_anyway(const SetupOptions& options, const std::string& why) {
+  if (options.force) return true;
+  if (options.json || isatty(STDIN_FILENO) == 0) return false;
+  TerminalOperator terminal(stdout);
+  terminal.say(why);
+  const auto answer =
+      terminal.ask({"undo", "1: take it back all the same, 0: leave it", {0.0, 1.0}, 0.0},
+                   [] { return Operator::Done(); });
+  return answer && *answer > 0.0;
+}
+
+int undo_command(const SetupOptions& options) {
+  const auto undone =
+      undo_setup(options, [&](const std::string& why) { return undo_anyway(options, why); });
+  if (!undone) return refuse(options.json, exit_failed, undone.error());
+  if (options.json) {
+    const Json told{{"file", options.config},
+                    {"channel", undone->channel},
+                    {"step", undone->step},
+                    {"kept_as", undone->kept_as}};
+    std::printf("%s\n", told.dump(2).c_str());
+  } else {
+    std::printf("%s\n", undone_text(options.config, *undone).c_str());
+  }
+  return exit_done;
+}
+
 }  // namespace
 
 void add_setup(CLI::App& app, SetupOptions& o) {
@@ -147,17 +177,18 @@ void add_setup(CLI::App& app, SetupOptions& o) {
                    "The board is on this bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
       ->excludes(socket);
-  setup->add_flag("--undo", o.undo,
-                  "Put the file back as it was before setup, and forget what was done");
+  CLI::Option* undo = setup->add_flag("--undo", o.undo,
+                                      "Put the file back as it was before setup's last change, and "
+                                      "forget the step that made it and "
+                                      "those behind it; the file as it is now is kept beside it");
+  setup->add_flag("--force", o.force, "Undo even what was changed after setup wrote the file")
+      ->needs(undo);
   setup->add_flag("--json", o.json, "Print what was found as one JSON object");
 }
 
 int setup_command(const SetupOptions& options) {
-  if (options.undo) {
-    const auto undone = undo_setup(options);
-    return undone ? exit_done : fail(exit_failed, undone.error());
-  }
   watch_for_interrupts();
+  if (options.undo) return undo_command(options);
   auto record = SetupRecord::open(options.config, options.channel);
   if (!record) return fail(exit_failed, record.error());
   return run_steps(options, *record, options.json ? stderr : stdout);

@@ -8,6 +8,7 @@
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/setup_board.hpp"
 #include "apps/supercoil/setup/steps.hpp"
+#include "apps/supercoil/setup/undo.hpp"
 #include "config/board_config.hpp"
 
 namespace supercoil::operating {
@@ -39,8 +40,11 @@ void SetupSession::serve_with(httplib::Server& server, const Access& access) {
                 const Json asked = Json::parse(request.body, nullptr, false);
                 if (!asked.is_object())
                   return refuse(response, 400, "the request is no JSON object");
-                if (auto done = obey(asked); !done) return refuse(response, 400, done.error());
-                answer_json(response, state().dump());
+                const auto done = obey(asked);
+                if (!done) return refuse(response, 400, done.error());
+                Json now = state();
+                now["done"] = *done;
+                answer_json(response, now.dump());
               }));
 }
 
@@ -63,14 +67,17 @@ Json SetupSession::state() const {
   return told;
 }
 
-SetupSession::Done SetupSession::obey(const Json& asked) {
+tl::expected<std::string, std::string> SetupSession::obey(const Json& asked) {
   const auto text_of = [&](const char* key) {
     const auto found = asked.find(key);
     return found != asked.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
   const std::string what = text_of("do");
-  if (what == "begin") return begin(text_of("step"));
-  if (what == "answer") return page_.answer(text_of("text"));
+  const auto without_words = [](const Done& done) {
+    return done.map([] { return std::string(); });
+  };
+  if (what == "begin") return without_words(begin(text_of("step")));
+  if (what == "answer") return without_words(page_.answer(text_of("text")));
   if (what == "undo") return undo();
   if (what != "end") return tl::unexpected<std::string>("do: begin, answer, end or undo");
   end("ended on the page");
@@ -97,10 +104,12 @@ StepResult SetupSession::run(const std::string& step) {
   return found;
 }
 
-SetupSession::Done SetupSession::undo() {
+tl::expected<std::string, std::string> SetupSession::undo() {
   const std::lock_guard lock(beginning_);
   if (page_.busy()) return tl::unexpected<std::string>("a step is under way");
-  return undo_setup(options_);
+  const auto undone = undo_setup(options_, [](const std::string&) { return false; });
+  if (!undone) return tl::unexpected(undone.error());
+  return undone_text(options_.config, *undone);
 }
 
 }  // namespace supercoil::operating

@@ -26,8 +26,8 @@ class SetupSession {
   ~SetupSession();
 
   /// GET /api/setup: state(); whoever may command watches by it. POST /api/setup {"do": "begin",
-  /// "step": …}, {"do": "answer", "text": …}, {"do": "end"} or {"do": "undo"}: the state after it,
-  /// or {"error": …}. It and access outlive the server.
+  /// "step": …}, {"do": "answer", "text": …}, {"do": "end"} or {"do": "undo"}: the state after it
+  /// with "done", what was done in words, or {"error": …}. It and access outlive the server.
   void serve_with(httplib::Server& server, const Access& access);
   /// The step ends, and the muscle is disarmed. Does not wait for it.
   void end(const std::string& why) { page_.end(why); }
@@ -40,9 +40,10 @@ class SetupSession {
   /// question, error, kept}: what a page shows. running is null where no step is under way; lines,
   /// error and kept are of the last one.
   nlohmann::ordered_json state() const;
-  Done obey(const nlohmann::ordered_json& asked);
+  /// What was done, in words where somebody should read it.
+  tl::expected<std::string, std::string> obey(const nlohmann::ordered_json& asked);
   Done begin(const std::string& step);
-  Done undo();
+  tl::expected<std::string, std::string> undo();
   StepResult run(const std::string& step);
 
   SetupOptions options_;

@@ -19,7 +19,7 @@ export class Setup {
     opener.hidden = false;
     opener.addEventListener("click", () => (dialog.open ? dialog.close() : this.open()));
     close.addEventListener("click", () => dialog.close());
-    undo.addEventListener("click", () => this.#ask({ do: "undo" }, "the file is as it was before setup"));
+    undo.addEventListener("click", () => this.#ask({ do: "undo" }));
     const look = () => (dialog.open || this.state?.running) && this.look();
     setInterval(look, LOOK_EVERY_MS);
     store.addEventListener("batch", look);
@@ -43,10 +43,11 @@ export class Setup {
     }
   }
 
-  async #ask(asked, done = "") {
+  async #ask(asked) {
     this.asked++;
     try {
-      this.#take(await ask_setup(asked));
+      const { done, ...state } = await ask_setup(asked);
+      this.#take(state);
       this.#say(done);
     } catch (problem) {
       this.#say(problem.message, true);

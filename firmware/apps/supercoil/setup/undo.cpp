@@ -1,0 +1,72 @@
+#include "apps/supercoil/setup/undo.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "apps/supercoil/setup/board_file.hpp"
+#include "apps/supercoil/setup/record.hpp"
+#include "apps/supercoil/user_file.hpp"
+#include "storage/crc32.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+using Write = SetupRecord::Write;
+
+std::string change_text(const Write& write) {
+  return write.step + " of channel " + std::to_string(write.channel);
+}
+
+/// The last write, where it is this channel's.
+tl::expected<Write, std::string> own_write(const SetupOptions& options, const SetupRecord& record) {
+  const auto last = record.last_write();
+  if (!last) {
+    std::error_code ignored;
+    const std::string kept = options.config + before_setup;
+    if (!std::filesystem::exists(kept, ignored))
+      return tl::unexpected(options.config + ": setup has changed nothing");
+    return tl::unexpected(SetupRecord::path_of(options.config) +
+                          ": does not tell what setup wrote; " + kept +
+                          " is the file as it was before: compare, and copy it yourself");
+  }
+  if (last->channel == options.channel) return *last;
+  const std::string other = std::to_string(last->channel);
+  return tl::unexpected(options.config + ": the last change was " + change_text(*last) +
+                        ": --channel " + other + " --undo takes that back first");
+}
+
+}  // namespace
+
+tl::expected<Undone, std::string> undo_setup(
+    const SetupOptions& options, const std::function<bool(const std::string& why)>& anyway) {
+  auto record = SetupRecord::open(options.config, options.channel);
+  if (!record) return tl::unexpected(record.error());
+  const auto last = own_write(options, *record);
+  if (!last) return tl::unexpected(last.error());
+  const auto before = read_whole(last->before);
+  if (!before) return tl::unexpected(before.error());
+  const auto now = read_whole(options.config);
+  if (!now) return tl::unexpected(now.error());
+  // A write that was cut short left the file as it was before.
+  if (storage::crc32(*now) != last->crc32 && *now != *before) {
+    const std::string why = options.config + ": was changed after " + change_text(*last) +
+                            " wrote it, and that change would be taken back too";
+    if (!anyway(why)) return tl::unexpected(why + "; --undo --force does it");
+  }
+  Undone undone{last->channel, last->step, free_name(options.config + ".undone")};
+  if (auto kept = write_whole(undone.kept_as, *now); !kept) return tl::unexpected(kept.error());
+  std::error_code error;
+  std::filesystem::rename(last->before, options.config, error);
+  if (error) return tl::unexpected(last->before + ": " + error.message());
+  if (auto told = record->take_back(); !told) return tl::unexpected(told.error());
+  return undone;
+}
+
+std::string undone_text(const std::string& config, const Undone& undone) {
+  return config + " is as it was before " + undone.step + " of channel " +
+         std::to_string(undone.channel) + ", and that step and those behind it are to be done; " +
+         "what it was until now is kept as " + undone.kept_as;
+}
+
+}  // namespace supercoil::operating

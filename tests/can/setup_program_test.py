@@ -12,6 +12,7 @@ import subprocess
 import tempfile
 import termios
 import time
+import tomllib
 import unittest
 
 from live import DEADLINE_S, TRIES, Simulator
@@ -247,9 +248,56 @@ class SetupProgram(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("has no channel 3, but 2", done.stderr)
 
-    def test_on_a_running_board_it_goes_on_after_what_is_done_and_an_interruption_loses_nothing(self):
+    def test_what_another_board_does_not_have_is_not_done(self):
         self.assertEqual(self.setup_program(*self.script()).returncode, 0)
         simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+        record = json.loads(self.record.read_text())
+        described = tomllib.loads(self.board.read_text())["channel"][0]["muscle"]
+        steps = {"describe": record["channel-1"]["describe"], "senses": {},
+                 "calibrate": {"position_offset_m": 0.0, "cold_resistance_Ohm": 10.0}, "limits": {},
+                 "identify": {**described, "unexplained_ratio": 0.001}, "gains": {}, "move": {}}
+
+        def remember(**changes):
+            self.record.write_text(json.dumps(record | {"channel-1": {**steps, **changes}}))
+
+        remember()
+        done = self.patiently(lambda: self.setup_program(*bus))
+        self.assertEqual(done.stdout, "every step is done; name one to do it again\n")
+        remember(identify={**described, "stiffness_N_per_m": 1.001 * described["stiffness_N_per_m"]})
+        told = self.interrupted_at("identify: heats", *bus)
+        self.assertEqual(len(told), 2, told)
+        self.assertRegex(told[0], r"^  identify and what follows it are to be done again: the board goes by stiffness_N_per_m = 17\.84, "
+                         r"and \S+board\.toml\.setup\.json has 17\.858: it is another board or muscle")
+        remember(calibrate={"position_offset_m": 0.0002, "cold_resistance_Ohm": 10.0})
+        told = self.interrupted_at("calibrate: takes", *bus)
+        self.assertIn("calibrate and what follows it are to be done again: the board goes by position_offset_m = 0, ", told[0])
+        self.assertEqual(len(told), 2, told)  # neither describe nor senses again
+        self.assertIn("identify", json.loads(self.record.read_text())["channel-1"])  # the other board may come back
+        done = self.setup_program("--socket", self.path / "none")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("start the board with", done.stderr)
+
+    def interrupted_at(self, line, *arguments):
+        """The lines until one begins so; the program is ended then."""
+        told = []
+        with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, *arguments], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+            for text in program.stdout:
+                told.append(text)
+                if text.startswith(line):
+                    break
+            program.send_signal(signal.SIGINT)
+            _, error = program.communicate(timeout=DEADLINE_S)
+        self.assertTrue(told and told[-1].startswith(line), f"{told} {error}")
+        return told
+
+    def test_on_a_running_board_it_goes_on_after_what_is_done_and_an_interruption_loses_nothing(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        learned = self.path / "learned"
+        learned.mkdir()
+        simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
         self.addCleanup(simulator.end)
         bus = f"socketcand:{simulator.port}"
         for _ in range(TRIES):
@@ -268,6 +316,10 @@ class SetupProgram(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("towards shorter, in mm (0.025 to 25): ", done.stdout)
         self.assertIn("scale: scale 0.005: refused: out_of_range", done.stderr)
+        simulator.end()
+        simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
+        self.addCleanup(simulator.end)
+        bus = f"socketcand:{simulator.port}"
         with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
             told = [program.stdout.readline() for _ in range(5)]

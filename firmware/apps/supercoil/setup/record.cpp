@@ -57,13 +57,26 @@ tl::expected<Json, std::string> SetupRecord::read(const std::string& path,
 }
 
 bool SetupRecord::has(const std::string& step) const {
+  return counts(step) && contains(step);
+}
+
+bool SetupRecord::contains(const std::string& step) const {
   return document_.contains(channel_) && document_[channel_].contains(step);
 }
 
+bool SetupRecord::counts(const std::string& step) const {
+  for (const SetupStep& known : setup_steps) {
+    if (known.name == discounted_from_) return false;
+    if (known.name == step) break;
+  }
+  return true;
+}
+
 bool SetupRecord::is_past(const std::string& step) const {
+  if (!counts(step)) return false;
   bool after = false;
   for (const SetupStep& known : setup_steps) {
-    if (after && has(std::string(known.name))) return true;
+    if (after && contains(std::string(known.name))) return true;
     after = after || known.name == step;
   }
   return false;

@@ -19,11 +19,17 @@ class SetupRecord {
   static tl::expected<SetupRecord, std::string> open(const std::string& config, int channel);
   static std::string path_of(const std::string& config) { return config + ".setup.json"; }
 
+  /// Where the file is.
+  const std::string& path() const { return path_; }
+
   bool has(const std::string& step) const;
   /// A step behind this one is done.
   bool is_past(const std::string& step) const;
   /// What a step found; null: it was not done.
   nlohmann::ordered_json found(const std::string& step) const;
+  /// From this step on nothing counts as done, though it stays in the file until it is done anew:
+  /// the board that it was done with may come back.
+  void discount_from(const std::string& step) { discounted_from_ = step; }
   /// In what a step found: the same of a joint's other muscle, which was measured with it, and its
   /// "channel".
   static constexpr const char* antagonist_key = "antagonist";
@@ -57,8 +63,12 @@ class SetupRecord {
   void put(const std::string& name, const std::string& step, const nlohmann::ordered_json& found);
   void forget_after(nlohmann::ordered_json& channel, const std::string& step);
 
+  bool counts(const std::string& step) const;
+  bool contains(const std::string& step) const;
+
   std::string path_;
   std::string channel_;
+  std::string discounted_from_;  ///< empty: everything counts
   nlohmann::ordered_json document_;
 };
 

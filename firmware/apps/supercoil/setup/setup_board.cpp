@@ -7,6 +7,7 @@
 
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/other_muscle.hpp"
 #include "apps/supercoil/setup/steps.hpp"
 
 namespace supercoil::operating {
@@ -27,6 +28,18 @@ StepResult SetupBoard::run(const std::string& step) {
       options_, step, *text, {{travel_key, (*found)[travel_key].get<std::string>(), "limits"}});
   if (!written) return tl::unexpected(written.error());
   return found;
+}
+
+tl::expected<void, std::string> SetupBoard::compare_with(SetupRecord& record) {
+  if (!tells_of_muscle(record)) return {};
+  if (auto ready = open(); !ready) return ready;
+  const auto known = link_->muscle(address());
+  if (!known) return tl::unexpected(known.error());
+  if (const auto other = other_muscle(record, *known)) {
+    who_.say(other->reason);
+    record.discount_from(other->step);
+  }
+  return {};
 }
 
 std::string SetupBoard::left_out(const std::string& step) {

@@ -9,6 +9,7 @@
 #include "apps/supercoil/setup/commission.hpp"
 #include "apps/supercoil/setup/operator.hpp"
 #include "apps/supercoil/setup/options.hpp"
+#include "apps/supercoil/setup/record.hpp"
 #include "config/board_config.hpp"
 
 namespace supercoil::operating {
@@ -24,6 +25,10 @@ class SetupBoard {
 
   /// A step of setup_steps, all but the first. The board is looked for when it is first needed.
   StepResult run(const std::string& step);
+  /// Compares what calibrate and identify found with what the board goes by now; the record
+  /// discounts what is another muscle's, and somebody is told. Without any of both the board is
+  /// not looked for.
+  tl::expected<void, std::string> compare_with(SetupRecord& record);
   /// Why a step of setup_steps is not done with this channel; empty: it is.
   std::string left_out(const std::string& step);
 

@@ -70,6 +70,10 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     terminal.answer(take_gains.key, script->take_gains);
   }
   SetupBoard board(options, terminal);
+  if (options.steps.empty()) {
+    if (const auto compared = board.compare_with(record); !compared)
+      return concluded(options, Json::object(), exit_failed, compared.error());
+  }
   Json results = Json::object();
   int status = exit_done;
   bool some_left = false;

@@ -34,6 +34,7 @@ class Terminal:
         terminal, self.end = pty.openpty()
         self.file = terminal
         self.told = ""
+        self.answers = 0
         self.program = subprocess.Popen([SUPERCOIL, "setup", *arguments], stdin=self.end, stdout=self.end, stderr=self.end,
                                         start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
         os.close(self.end)
@@ -65,6 +66,12 @@ class Terminal:
 
     def type(self, text):
         os.write(self.file, text.encode())
+
+    def answer(self, text):
+        """Of the question that comes after those that were answered."""
+        self.answers += 1
+        self.until(r"(?s)([)\]]: .*){%d}$" % self.answers)
+        self.type(text + "\n")
 
     def ended(self):
         while self.read():
@@ -131,6 +138,41 @@ class SetupProgram(unittest.TestCase):
         self.assertIn("Resistance of the cold muscle by an ohmmeter, in Ohm (0.1 to 10000): '10 Ohm' is refused", done.stdout)
         self.assertIn("wrong, in % (1 to 60) [50]: ", done.stdout)
         self.assertIn("max_travel_m = 0.025", done.stdout)
+
+    def test_an_answer_is_refused_where_it_is_asked_and_what_was_answered_is_offered_again(self):
+        # By a thermometer, as thread_g is not known: then heated_K must be.
+        typed = ["10", "90", "100", "55", "2", "13", "1.3", "0", "", "0", "22.5", "200", "11.7"]
+        with Terminal("describe", "--config", self.board) as terminal:
+            for text in (*typed, "11.665", "30"):  # four slips for max_W
+                terminal.answer(text)
+            terminal.until(r"(?s)(11\.664\): .*){5}$")
+            self.assertIn("by a thermometer, in K; needed, as thread_g is not known (0.1 to 200): ", terminal.told)
+            self.assertEqual(terminal.told.count("'' is refused: it must be a number from 0.1 to 200"), 1)
+            self.assertEqual(terminal.told.count("at most what the supply gives it (0.001 to 11.664): "), 5)
+            terminal.answer("4.5")
+            terminal.until(r"at most what its sensor reads \(0\.01 to 41\): $")
+            terminal.type("\x03")
+            self.assertEqual(terminal.ended(), 2)
+        self.assertTrue(terminal.told.endswith("41): ^C\r\nsupercoil: interrupted\r\n"), terminal.told[-200:])
+        self.assertEqual(self.board.read_text(), self.example)
+        self.assertEqual(self.setup_program("describe", input="\n" * 10 + "25\n\n").returncode, 0)
+        text = self.board.read_text()
+        for line in ("cold_resistance_Ohm = 10", "max_W = 4.5", "max_travel_m = 0.025", "stiffness_N_per_m = 17.84"):
+            self.assertIn(line, text)
+        self.assertEqual(json.loads(self.record.read_text())["answers"]["channel-1"]["heated_K"], 22.5)
+        self.assertEqual(self.setup_program("--undo").returncode, 0)
+        done = self.setup_program("describe", input="12\n" + "\n" * 11)  # one correction
+        self.assertIn("in Ohm (0.1 to 10000) [10]: ", done.stdout)
+        self.assertIn("cold_resistance_Ohm = 12", self.board.read_text())
+
+    def test_answers_that_no_muscle_has_are_refused_without_a_line_of_a_file_that_is_none_and_kept(self):
+        questions = ["10", "0.1", "1e6", "0.01", "2", "13", "1.3", "0.1", "", "4.5", "25", ""]
+        done = self.setup_program("describe", input="\n".join(questions) + "\n")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the answers make a muscle with ", done.stderr)
+        self.assertIn("the answers are kept: supercoil setup describe offers them again", done.stdout)
+        self.assertEqual(self.board.read_text(), self.example)
+        self.assertNotRegex(self.setup_program(*self.script(max_W=40)).stderr, r"board\.toml:\d")
 
     def test_without_anybody_who_answers_nothing_changes(self):
         self.assert_refused(self.setup_program(stdin=subprocess.DEVNULL), "nobody answers")

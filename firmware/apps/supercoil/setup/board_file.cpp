@@ -39,7 +39,12 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
     changed = std::move(*next);
   }
   auto config = config::parse_board_config(changed, options.config);
-  if (!config) return tl::unexpected(config::to_text(config.error()));
+  if (!config) {
+    // The lines are those of a text that is not written.
+    for (config::Problem& problem : config.error())
+      problem.line = 0;
+    return tl::unexpected(config::to_text(config.error()));
+  }
 
   if (changed == text) return std::move(*config);
   auto record = SetupRecord::open(options.config, options.channel);

@@ -5,6 +5,8 @@
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
+#include "apps/supercoil/setup/next_question.hpp"
+#include "apps/supercoil/setup/record.hpp"
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
 #include "config/read_lever.hpp"
@@ -19,17 +21,30 @@ using Json = nlohmann::ordered_json;
 template <class Value>
 using Or = tl::expected<Value, std::string>;
 
-/// Whatever is left open is asked for, or an error for each.
-Or<MuscleAnswers> complete(MuscleAnswers answers, const SetupOptions& options, Operator& who) {
+/// One after the other. Each answer is kept at once, and offered when it is asked for again.
+Or<MuscleAnswers> answered(const BoardRanges& board, SetupRecord& record, Operator& who) {
+  MuscleAnswers answers;
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    Question q = next_question(i, answers, board);
+    const std::string key(q.key);
+    const auto before = record.answer(key);
+    if (before && *before >= q.allowed.lowest && *before <= q.allowed.highest) q.fallback = *before;
+    const auto value = who.ask(q, [] { return Operator::Done(); });
+    if (!value) return tl::unexpected(value.error() + "\n");
+    answers.set(i, *value);
+    if (auto kept = record.add_answer(key, *value); !kept)
+      return tl::unexpected(kept.error() + "\n");
+  }
+  return answers;
+}
+
+/// What a script leaves open, or an error for each.
+Or<MuscleAnswers> completed(MuscleAnswers answers, const SetupOptions& options) {
   std::string missing;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     if (answers.has(i)) continue;
     const Question& q = questions[i];
-    if (options.script.empty()) {
-      const auto value = who.ask(q, [] { return Operator::Done(); });
-      if (!value) return tl::unexpected(value.error() + "\n");
-      answers.set(i, *value);
-    } else if (!std::isnan(q.fallback)) {
+    if (!std::isnan(q.fallback)) {
       answers.set(i, q.fallback);
     } else {
       missing += options.script + ": muscle." + std::string(q.key) +
@@ -68,32 +83,22 @@ bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
   return node != nullptr && node->is_array();
 }
 
-}  // namespace
+void say_how_a_joint_is_measured(double lever_m, Operator& who) {
+  who.say(
+      "it turns a joint: answer as it moves the joint alone, with the other muscle cold. "
+      "Weights hang at the lever, " +
+      number_text(1e3 * lever_m, 4) +
+      " mm from the axis; mm are by how much it contracts; what it lifts is the joint's inertia "
+      "over the lever's square");
+}
 
-Or<Json> describe_step(const SetupOptions& options, Operator& who) {
-  const auto text = read_board_text(options.config);
-  if (!text) return tl::unexpected(text.error());
-  MuscleAnswers answers;
-  if (!options.script.empty()) {
-    const auto read = read_script(options.script);
-    if (!read) return tl::unexpected(read.error());
-    answers = read->muscle;
-  }
-  if (const auto lever_m = lever_of(*text, options.channel)) {
-    who.say(
-        "it turns a joint: answer as it moves the joint alone, with the other muscle cold. "
-        "Weights hang at the lever, " +
-        number_text(1e3 * *lever_m, 4) +
-        " mm from the axis; mm are by how much it contracts; what it lifts is the joint's inertia "
-        "over the lever's square");
-  }
-  const auto completed = complete(answers, options, who);
-  if (!completed) return tl::unexpected(completed.error());
-  auto described = describe_muscle(*completed);
+Or<Json> write_description(const MuscleAnswers& answers, const SetupOptions& options,
+                           const std::string& text, Operator& who) {
+  auto described = describe_muscle(answers);
   if (!described) return tl::unexpected(described.error() + "\n");
   const auto index = static_cast<std::size_t>(options.channel) - 1;
-  std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, *text, index); });
-  const auto config = write_entries(options, "describe", *text, described->entries);
+  std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, text, index); });
+  const auto config = write_entries(options, "describe", text, described->entries);
   if (!config) return tl::unexpected(config.error());
   Json found;
   for (const Entry& entry : described->entries) {
@@ -105,6 +110,33 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   for (const std::string& line : config::advice(*config))
     who.say("advice: " + line);
   return found;
+}
+
+}  // namespace
+
+Or<Json> describe_step(const SetupOptions& options, Operator& who) {
+  const auto text = read_board_text(options.config);
+  if (!text) return tl::unexpected(text.error());
+  const auto lever_m = lever_of(*text, options.channel);
+  Or<MuscleAnswers> answers;
+  const bool asks = options.script.empty();
+  if (!asks) {
+    const auto script = read_script(options.script);
+    if (!script) return tl::unexpected(script.error());
+    answers = completed(script->muscle, options);
+  }
+  if (lever_m) say_how_a_joint_is_measured(*lever_m, who);
+  if (asks) {
+    auto record = SetupRecord::open(options.config, options.channel);
+    if (!record) return tl::unexpected(record.error() + "\n");
+    BoardRanges ranges = board_ranges(*text, options.channel);
+    if (lever_m) ranges.max_position_m = NAN;
+    answers = answered(ranges, *record, who);
+  }
+  if (!answers) return tl::unexpected(answers.error());
+  auto written = write_description(*answers, options, *text, who);
+  if (!written && asks) who.say("the answers are kept: supercoil setup describe offers them again");
+  return written;
 }
 
 }  // namespace supercoil::operating

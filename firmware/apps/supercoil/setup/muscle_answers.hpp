@@ -47,8 +47,14 @@ inline constexpr std::array<Question, 12> questions{{
      "How much warmer than the air was it with that power, by a thermometer, in K; 0: not known",
      {0.0, 200.0},
      0.0},
-    {"max_W", "The most power that it may get, in W", {1e-3, 1e3}, NAN},
-    {"max_travel_mm", "How far may it contract, in mm", {0.01, 1e4}, NAN},
+    {"max_W",
+     "The most power that it may get, in W; at most what the supply gives it",
+     {1e-3, 1e3},
+     NAN},
+    {"max_travel_mm",
+     "How far may it contract, in mm; at most what its sensor reads",
+     {0.01, 1e4},
+     NAN},
     {"uncertainty_percent", "By how much may these answers be wrong, in %", {1.0, 60.0}, 50.0},
 }};
 

@@ -15,6 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* writes_key = "writes";
+constexpr const char* answers_key = "answers";
 
 std::string name_of(int channel) {
   return "channel-" + std::to_string(channel);
@@ -32,6 +33,9 @@ bool is_write(const Json& entry) {
 bool is_in_order(const Json& document, const std::string& channel) {
   if (!document.is_object()) return false;
   if (document.contains(channel) && !document[channel].is_object()) return false;
+  if (document.contains(answers_key) &&
+      !document[answers_key].value(channel, Json::object()).is_object())
+    return false;
   if (!document.contains(writes_key)) return true;
   return document[writes_key].is_array() && std::ranges::all_of(document[writes_key], is_write);
 }
@@ -94,6 +98,19 @@ tl::expected<void, std::string> SetupRecord::add(const std::string& step, const 
     own.erase(other);
   }
   put(channel_, step, own);
+  return write();
+}
+
+std::optional<double> SetupRecord::answer(const std::string& key) const {
+  const auto place =
+      Json::json_pointer("/" + std::string(answers_key) + "/" + channel_ + "/" + key);
+  if (!document_.contains(place) || !document_[place].is_number()) return std::nullopt;
+  return document_[place].get<double>();
+}
+
+tl::expected<void, std::string> SetupRecord::add_answer(const std::string& key, double value) {
+  if (auto read = read_again(); !read) return read;
+  document_[answers_key][channel_][key] = value;
   return write();
 }
 

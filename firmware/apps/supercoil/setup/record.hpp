@@ -12,7 +12,7 @@ namespace supercoil::operating {
 
 /// Of one channel. "board.toml.setup.json" has one object for each channel, and in it one for each
 /// step that is done: what the step found. "writes" has each change of the board's file, the last
-/// one at the end.
+/// one at the end, and "answers" by channel what a person answered.
 class SetupRecord {
  public:
   /// An absent file is an empty record. The error says why a file is none; nothing is lost then.
@@ -36,6 +36,11 @@ class SetupRecord {
   /// Written at once, whole; what was found of an antagonist goes to its channel. What follows the
   /// step is to be done anew.
   tl::expected<void, std::string> add(const std::string& step, const nlohmann::ordered_json& found);
+
+  /// What a person answered to describe, by a question's key, until it is answered otherwise;
+  /// describe offers it when it asks again.
+  std::optional<double> answer(const std::string& key) const;
+  tl::expected<void, std::string> add_answer(const std::string& key, double value);
 
   /// One change of the board's file.
   struct Write {

@@ -49,12 +49,18 @@ TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
     say(std::string(q.text) + ": " + number_text(known->second, 9));
     return known->second;
   }
-  for (int i = 0; i < max_tries; ++i) {
+  // A person may try as often as it takes; what is no terminal would answer wrong for ever.
+  const bool patient = isatty(STDIN_FILENO) == 1;
+  for (int i = 0; patient || i < max_tries; ++i) {
     std::fprintf(out_, "%s (%s)%s: ", std::string(q.text).c_str(), range_text(q.allowed).c_str(),
                  std::isnan(q.fallback) ? "" : (" [" + number_text(q.fallback, 9) + "]").c_str());
     std::fflush(out_);
     const auto line = next_line(meanwhile);
-    if (!line) return tl::unexpected(line.error());
+    if (!line) {
+      // What is said next has a line of its own; where answers come from a file, it goes on there.
+      if (patient) std::fputs("\n", out_);
+      return tl::unexpected(line.error());
+    }
     OrWhy value = read_answer(q, *line);
     if (value) return value;
     std::fprintf(out_, "%s\n", value.error().c_str());

@@ -22,9 +22,11 @@ class TerminalOperator final : public Operator {
   void show_progress(const std::string& what, double done) override;
   bool sees_progress() const override { return isatty(STDERR_FILENO) == 1; }
   bool interrupted() const override;
+  /// The next message has a line of its own.
+  void end_progress() { progress_.reset(); }
   /// By a script: this is not asked any more.
   void answer(std::string_view key, double value) { answered_.emplace(key, value); }
-  /// Three tries.
+  /// Three tries, where standard input is no terminal.
   OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
 
  private:

@@ -1,0 +1,61 @@
+#include "apps/supercoil/setup/next_question.hpp"
+
+#include <algorithm>
+
+#include "config/toml_file.hpp"
+
+namespace supercoil::operating {
+
+namespace {
+
+/// As range_text() shows it, so that what is shown is allowed.
+double rounded_down(double value) {
+  constexpr int shown_digits = 5;
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - (shown_digits - 1));
+  return step * std::floor(value / step + 1e-6);
+}
+
+/// What is not known leaves the question's own limit.
+void allow_at_most(double highest, Question& q) {
+  if (highest >= q.allowed.lowest)
+    q.allowed.highest = std::min(q.allowed.highest, rounded_down(highest));
+}
+
+/// Without both nothing says how hot the muscle gets.
+constexpr Question needed_heated_K{
+    "heated_K",
+    "How much warmer than the air was it with that power, by a thermometer, in K; needed, as "
+    "thread_g is not known",
+    {0.1, 200.0},
+    NAN};
+
+}  // namespace
+
+BoardRanges board_ranges(const std::string& text, int channel) {
+  const toml::table document = toml::parse(text);
+  BoardRanges ranges;
+  ranges.min_supply_V = document.at_path("supply.min_V").value_or(NAN);
+  const std::string own = "channel[" + std::to_string(channel - 1) + "]";
+  const double common_m = document.at_path("every_channel.position.max_m").value_or(NAN);
+  ranges.max_position_m = document.at_path(own + ".position.max_m").value_or(common_m);
+  return ranges;
+}
+
+Question next_question(std::size_t place, const MuscleAnswers& answers, const BoardRanges& board) {
+  Question q = questions.at(place);
+  switch (static_cast<Asked>(place)) {
+    case Asked::heated_K:
+      return answers.of(Asked::thread_g) > 0.0 ? q : needed_heated_K;
+    case Asked::max_W:
+      allow_at_most(
+          board.min_supply_V * board.min_supply_V / answers.of(Asked::cold_resistance_Ohm), q);
+      return q;
+    case Asked::max_travel_mm:
+      allow_at_most(1e3 * board.max_position_m, q);
+      return q;
+    default:
+      return q;
+  }
+}
+
+}  // namespace supercoil::operating

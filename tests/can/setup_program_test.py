@@ -357,7 +357,7 @@ class SetupProgram(unittest.TestCase):
         done = self.setup_program("scale", "--can", bus, input="5\n")
         self.assertEqual(done.returncode, 1)
         self.assertIn("towards shorter, in mm (0.025 to 25): ", done.stdout)
-        self.assertIn("scale: scale 0.005: refused: out_of_range", done.stderr)
+        self.assertIn("supercoil: scale 0.005: refused: out_of_range", done.stderr)
         simulator.end()
         simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
         self.addCleanup(simulator.end)
@@ -376,6 +376,31 @@ class SetupProgram(unittest.TestCase):
         self.assertEqual(program.returncode, 1)
         self.assertIn("identify: ", error)
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "calibrate"})
+
+    def test_on_a_terminal_an_interruption_is_said_on_a_line_of_its_own(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        def interrupted(step, shown):
+            for _ in range(TRIES):
+                subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
+                with Terminal(step, "--config", self.board, *bus) as terminal:
+                    try:
+                        terminal.until(shown)
+                    except AssertionError:
+                        if not any(why in terminal.told for why in STARVED):
+                            raise
+                        continue
+                    terminal.type("\x03")
+                    self.assertEqual(terminal.ended(), 1)
+                    return terminal.told
+            raise AssertionError(terminal.told)
+
+        self.assertRegex(interrupted("senses", r"volts at the supply terminals \S+ to \S+: $"), r": \^C\r\nsupercoil: senses: interrupted\r\n$")
+        told = interrupted("identify", r"identify: \d+ %")
+        self.assertTrue(told.endswith("\r\x1b[Ksupercoil: identify: interrupted\r\n"), told[-200:])
 
     def test_the_recommended_controller_is_taken_by_whom_or_what_answers(self):
         self.assertEqual(self.setup_program(*self.script()).returncode, 0)

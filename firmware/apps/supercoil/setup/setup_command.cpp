@@ -62,6 +62,11 @@ int concluded(const SetupOptions& options, const Json& results, int status, std:
   return error.empty() ? status : fail(status, error);
 }
 
+/// A step's error, with the step's name once.
+std::string of_step(const std::string& step, const std::string& error) {
+  return error.starts_with(step) ? error : step + ": " + error;
+}
+
 int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) {
   TerminalOperator terminal(out);
   if (!options.script.empty()) {
@@ -96,7 +101,8 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     const StepResult found = describes ? describe_step(options, terminal) : board.run(name);
     if (!found) {
       const int why = describes ? exit_wrong_input : exit_failed;
-      if (!describes) return concluded(options, results, why, name + ": " + found.error());
+      terminal.end_progress();
+      if (!describes) return concluded(options, results, why, of_step(name, found.error()));
       return concluded(options, results, why, found.error());
     }
     results[name] = *found;

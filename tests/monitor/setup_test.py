@@ -271,6 +271,19 @@ class SetupTest(SetupCase):
         self.assertEqual(self.file.read_text(), self.text)
         self.assertEqual(page.step("describe")["found"], "")
 
+    def test_the_time_that_is_left_is_told(self):
+        page = self.described()
+        self.run_step(page, "calibrate")
+        for _ in range(TRIES):
+            page.begin("identify")
+            page.wait(lambda: " left" in page.text("#setup .progress span") or page.over("identify"), STEP_S, "the time that is left")
+            told = page.text("#setup .progress span") if not page.over("identify") else ""
+            if told:
+                break
+        self.assertRegex(told, r"^\s*identify, \d+ %, \d+ (s|min) left$")
+        page.press("end identify")
+        page.ended("identify", SLACK_S)
+
     def test_stop_ends_a_step_and_disarms(self):
         page = self.described()
         self.run_step(page, "calibrate")

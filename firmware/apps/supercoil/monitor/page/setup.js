@@ -4,6 +4,7 @@
 import { element, show } from "./dom.js";
 import { significant, words } from "./format.js";
 import { ask_setup, setup_state } from "./server.js";
+import { TimeLeft } from "./time_left.js";
 
 const LOOK_EVERY_MS = 400;
 
@@ -12,7 +13,7 @@ const text_of = (value) => (value === null ? "–" : typeof value === "number" ?
 export class Setup {
   /** opener: the button that opens it. store: while the bus tells something, so that a hidden page is not put to sleep. */
   constructor(dialog, opener, store) {
-    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, asked: 0 });
+    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, asked: 0, time_left: new TimeLeft() });
     const [close, undo] = dialog.querySelectorAll(":scope > button");
     const [what, answer] = dialog.querySelectorAll(":scope > p");
     Object.assign(this, { undo, what, answer, list: dialog.querySelector("ol") });
@@ -128,10 +129,15 @@ export class Setup {
 
   #draw_progress() {
     const { running, progress, question } = this.state;
+    if (!running || progress?.done == null) this.time_left.forget();
     if (!running || !this.progress) return;
     this.progress.parentElement.hidden = question !== null;
     if (progress?.done == null) this.progress.removeAttribute("value");
     else this.progress.value = progress.done;
-    show(this.progress_text, progress ? ` ${words(progress.what)}${progress.done == null ? "" : `, ${Math.round(100 * progress.done)} %`}` : "");
+    show(this.progress_text, progress ? ` ${words(progress.what)}${progress.done == null ? "" : this.#how_far(progress)}` : "");
+  }
+
+  #how_far({ what, done }) {
+    return `, ${Math.round(100 * done)} %${this.time_left.text(what, performance.now() / 1000, done)}`;
   }
 }

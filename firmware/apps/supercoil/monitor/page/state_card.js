@@ -3,12 +3,10 @@
 import { element, show } from "./dom.js";
 import { duration, fixed, significant, words } from "./format.js";
 import { UNITS } from "./margins.js";
+import { TimeLeft } from "./time_left.js";
 
 // A heartbeat comes every 100 ms.
 const SILENT_S = 1;
-// Before this has been seen of a mode, nobody knows how long the rest takes.
-const ENOUGH_S = 2;
-const ENOUGH_DONE = 0.03;
 const MEANS = {
   disarmed: "off, cannot heat",
   armed: "off, ready to heat",
@@ -64,6 +62,7 @@ export class StateCard {
     });
     this.bar = element("progress", { max: 1, "aria-label": "progress" });
     this.percent = element("span");
+    this.time_left = new TimeLeft();
     this.progress = element("p", { class: "progress", hidden: true }, this.bar, " ", this.percent);
     this.result = element("p", { class: "hint", role: "status", hidden: true });
     this.fault_button = element("button", { type: "button", class: "link", onclick: () => on_fault(this.fault_name) });
@@ -76,15 +75,6 @@ export class StateCard {
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },
       element("h2", {}, `Node ${node}`),
       element("p", { class: "now" }, this.word, " ", this.means), this.foreign, this.unproven, this.oscillated, this.fault, this.progress, this.result, this.facts);
-  }
-
-  /** By how fast it went since it was first seen. */
-  #time_left(mode, { time_s, progress }) {
-    const { seen } = this;
-    if (!seen || seen.mode !== mode || progress < seen.progress) this.seen = { mode, time_s, progress };
-    const passed_s = time_s - this.seen.time_s;
-    const done = progress - this.seen.progress;
-    return passed_s < ENOUGH_S || done < ENOUGH_DONE ? "" : `, ${duration(Math.round(passed_s * (1 - progress) / done))} left`;
   }
 
   /** Returns the status in words, or null while there is none. */
@@ -113,10 +103,10 @@ export class StateCard {
     }
     const shows = status && (status.mode === "identify" || status.mode === "calibrate") && Number.isFinite(row.progress);
     this.progress.hidden = !shows;
-    if (!shows) this.seen = null;
+    if (!shows) this.time_left.forget();
     if (shows) {
       this.bar.value = row.progress;
-      show(this.percent, `${status.mode}: ${fixed(100 * row.progress, 0)} %${this.#time_left(status.mode, row)}`);
+      show(this.percent, `${status.mode}: ${fixed(100 * row.progress, 0)} %${this.time_left.text(status.mode, row.time_s, row.progress)}`);
     }
     const by = row ? this.#interrupted_by(name("result"), status) : "";
     const result = status && !shows ? name("result") : "none";

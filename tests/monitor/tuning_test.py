@@ -8,7 +8,7 @@ import subprocess
 import unittest
 
 from page_test import NEAR_MM, PageCase, TARGET_MM
-from programs import SLACK_S, SUPERCOIL, command
+from programs import SLACK_S, SUPERCOIL, command, until
 
 CARD = "details[aria-label='controllers of node 1']"
 TOLD_S = 30.0  # hundreds of questions and answers over the bus, on a machine that does other work
@@ -77,6 +77,24 @@ class ByCommand(PageCase):
         self.assertIn(["*", "forgetting_s", "20", "-", "-", "20"], [line.split() for line in told])
         self.assertEqual(values("--from", "configured", "--store")["kind"]["in_use"], "gradient")
 
+    def test_a_kind_stands_for_its_place(self):
+        self.assertEqual(self.values("--controller", "mrac", "adaptation_scale=3", "--prepare")["adaptation_scale"]["in_use"], 1.0)
+        for words in (("tune", "mrac"), ("controller", "mrac"), ("tune", "gradient"), ("estimator", "gradient")):
+            done = command(self.source, "1", *words)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        self.assertEqual(self.values()["adaptation_scale"]["in_use"], 3.0)
+        self.assertEqual(self.tune("--estimator", "gradient", "trusted_error=0.1").returncode, 0)
+        self.tune("--estimator", "0", "--from", "configured")
+
+    def test_that_another_program_commands_is_told(self):
+        until(lambda: command(self.source, "1", "arm").returncode == 0)
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "power", "0.1", "--hold", "--can", self.source])
+        until(lambda: "node 1: active" in command(self.source, "state").stdout)
+        told = self.tune("adaptation_scale=2").stderr
+        held.terminate()
+        held.wait()
+        self.assertEqual(told, "supercoil: nothing was prepared: refused: not_lease_holder: another program commands this muscle\n")
+
     def test_what_is_wrong_is_told(self):
         for words, status, told in ((("volume=1",), 2, "volume cannot be tuned; there are: kind, "),
                                     (("integral_W_per_m=1",), 2, "did you mean integral_W_per_m_s"),
@@ -84,16 +102,26 @@ class ByCommand(PageCase):
                                     (("shape_reference=1",), 2, "there are: false, true"),
                                     (("adaptation_scale=0",), 2, "adaptation_scale = 0: must be 1e-06 to 1e+06"),
                                     (("adaptation_scale",), 2, "write NAME=VALUE"),
-                                    (("follow_s=1",), 1, "follow_s = 1: refused: out_of_range"),
+                                    (("follow_s=1",), 1, "mrac has no follow_s; it has kind, shape_reference, "),
+                                    (("kind=pi", "gain_1=5"), 1, "pi has no gain_1; it has kind, proportional_W_per_m, "),
                                     (("kind=pi", "integral_W_per_m_s=1e7"), 1, "refused: unsuitable: unstable on the muscle"),
-                                    (("--controller", "2", "kind=pi"), 1, "out_of_range"),
+                                    (("--controller", "2", "kind=pi"), 2, "there is no controller 2; there is 0 (mrac)"),
+                                    (("--controller", "2"), 2, "there is no controller 2; there is 0 (mrac)"),
+                                    (("--controller", "pi"), 2, "there is no controller pi; there is 0 (mrac)"),
                                     (("--estimator", "0", "bandwidth_rad_per_s=1"), 2, "bandwidth_rad_per_s cannot be tuned; there are: kind, "),
                                     (("--estimator", "0", "kind=pi"), 2, "there are: none, gradient, least_squares"),
-                                    (("--estimator", "2", "kind=none"), 1, "out_of_range"),
+                                    (("--estimator", "2", "kind=none"), 2, "there is no estimator 2; there is 0 (gradient)"),
                                     (("--estimator", "0", "--controller", "0"), 2, "--controller excludes --estimator")):
             done = self.tune(*words)
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertIn(told, done.stderr)
+        for words, told in ((("tune", "5"), "1 tune 5: there is no controller 5; there is 0 (mrac)"),
+                            (("tune", "9"), "1 tune 9: there is no estimator 1; there is 0 (gradient)"),
+                            (("controller", "pi"), "1 controller pi: there is no controller pi; there is 0 (mrac)"),
+                            (("estimator", "none"), "1 estimator none: there is no estimator none; there is 0 (gradient)")):
+            done = command(self.source, "1", *words)
+            self.assertEqual((done.returncode, done.stderr), (2, f"supercoil: {told}\n"))
+        self.assertIn("channel 'x': must be 1 to 63", command(self.source, "x", "tune", "0").stderr)
         self.assertEqual(self.values()["kind"]["in_use"], "mrac")
         self.assertIn("no answer from node 2", self.tune(channel="2").stderr)
 

@@ -1,5 +1,10 @@
 #include "apps/supercoil/change_tuning.hpp"
 
+#include <cmath>
+
+#include "apps/supercoil/tuned_place.hpp"
+#include "text/command_text.hpp"
+#include "text/nearest.hpp"
 #include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
 
@@ -15,17 +20,37 @@ TuningDone done_or_why(const std::string& what, const BoardLink::Answer& answer)
   return tl::unexpected(what + ": " + told_answer(what, *answer));
 }
 
+/// Of a value that was refused without a nearest one: a kind that does not have it, as far as the
+/// board tells that. Empty: it is something else.
+std::string why_not(BoardLink& board, const std::string& channel, int place,
+                    const TuningChange& change) {
+  const AskTuning ask = ask_tuning(board, channel);
+  constexpr std::size_t kind = 0;
+  const auto value = ask(place, change.tunable, TuningSet::prepared);
+  const auto kind_value = ask(place, kind, TuningSet::prepared);
+  const auto names = read_names(place, ask);
+  if (!value || !std::isnan(*value) || !kind_value || !names || names->empty()) return "";
+  return tuning_text(tuned_at(place), control::tunables()[kind], *kind_value) + " has no " +
+         std::string(control::tunables()[change.tunable].name) + "; it has " + joined(*names);
+}
+
 }  // namespace
 
 TuningDone prepare_tuning(BoardLink& board, const std::string& channel, int place,
                           const std::string& from, const std::vector<TuningChange>& changes) {
-  const auto prepare = [&](const std::string& name, const std::string& value) {
-    return done_or_why(name + " = " + value, board.prepare(channel, place, name, value));
-  };
-  if (auto begun = prepare("all", from); !begun) return begun;
+  if (auto begun = done_or_why("nothing was prepared", board.prepare(channel, place, "all", from));
+      !begun)
+    return begun;
   for (const TuningChange& one : changes) {
     const std::string name(control::tunables()[one.tunable].name);
-    if (auto done = prepare(name, number_text(one.value, all_digits)); !done) return done;
+    const std::string value = number_text(one.value, all_digits);
+    const auto answer = board.prepare(channel, place, name, value);
+    if (answer && *answer == answer_text(Refusal::out_of_range, NAN)) {
+      if (const std::string why = why_not(board, channel, place, one); !why.empty())
+        return tl::unexpected(why);
+    }
+    if (auto done = done_or_why(std::string(name).append(" = ").append(value), answer); !done)
+      return done;
   }
   return {};
 }

@@ -15,6 +15,8 @@
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
+#include "apps/supercoil/tuned_place.hpp"
+#include "telemetry/frames.hpp"
 #include "text/command_text.hpp"
 #include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
@@ -246,6 +248,30 @@ std::string sine_problem(const CommandOptions& options) {
   return options.hold_s > 0.0 ? "" : "a sine needs --for or --hold";
 }
 
+/// A controller or an estimator by its kind becomes its place. A number is the board's to refuse,
+/// but for that of `tune`, whose nearest would be the wire's. Returns an exit status where it is
+/// none.
+int take_place(BoardLink& board, CommandOptions& options) {
+  auto& words = options.words;
+  if (words.size() != 3) return exit_done;
+  const bool tunes = words[1] == name(Verb::tune);
+  const bool chooses_controller = words[1] == name(Verb::controller);
+  const bool chooses = chooses_controller || words[1] == name(Verb::estimator);
+  const auto channel = number_of(words[0]);
+  // A wrong channel is told by whoever reads the line.
+  if (!channel || !(*channel >= 1.0 && *channel <= can::max_nodes)) return exit_done;
+  if (!tunes && (!chooses || number_of(words[2]))) return exit_done;
+  const AskTuning ask = ask_tuning(board, words[0]);
+  const Tuned what = chooses_controller ? Tuned::controller : Tuned::estimator;
+  const auto place = tunes ? find_any_place(words[2], ask) : find_place(what, words[2], ask);
+  if (!place) {
+    const auto& [why, no_answer] = place.error();
+    return refused(options, no_answer ? exit_failed : exit_wrong_input, joined(words) + ": " + why);
+  }
+  words[2] = std::to_string(*place);
+  return exit_done;
+}
+
 }  // namespace
 
 int command_command(CommandOptions options) {
@@ -261,6 +287,7 @@ int command_command(CommandOptions options) {
   const auto board = open_link(options.can, options.socket);
   if (!board) return refused(options, exit_failed, board.error());
   if (const int status = take_joint(**board, options); status != exit_done) return status;
+  if (const int status = take_place(**board, options); status != exit_done) return status;
   const std::string line = line_at(options, 0.0);
   if (line == "state") return tell_state(**board, options);
   if (options.hold_s > 0.0) return hold(**board, options);

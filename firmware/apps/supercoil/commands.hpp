@@ -81,8 +81,8 @@ struct TuneOptions {
   std::string can;  ///< a bus; empty: the board on which this runs
   std::string socket = "/run/supercoil/commands";
   int channel = 1;
-  int controller = 0;                    ///< its place
-  std::optional<int> estimator;          ///< its place: that is tuned instead
+  std::string controller = "0";          ///< its place or kind
+  std::optional<std::string> estimator;  ///< its place or kind: that is tuned instead
   std::vector<std::string> assignments;  ///< NAME=VALUE
   std::string from = "in_use";           ///< the set that is changed
   bool only_prepare = false;

@@ -66,7 +66,8 @@ void add_command(CLI::App& app, CommandOptions& options) {
                    "calibrate, position M (of a joint also 20deg), power W, scale M, controller N, "
                    "estimator N, store "
                    "(keep what the estimator has learned), clear (forget the muscle that is kept), "
-                   "tune N (use what was prepared)")
+                   "tune N (use what was prepared); N is a place in the configuration from 0, or a "
+                   "kind, e.g. pi")
       ->required()
       ->expected(1, 3);
   CLI::Option* hold = command->add_option(
@@ -155,12 +156,13 @@ void add_tune(CLI::App& app, TuneOptions& options) {
       ->type_name("");
   CLI::Option* controller =
       tune->add_option("--controller", options.controller,
-                       "Change this one: its place in the configuration, from 0")
-          ->check(CLI::Range(0, 3))
+                       "Change this one: its place in the configuration, from 0, or its kind, e.g. "
+                       "pi, where there is but one of it")
+          ->type_name("PLACE")
           ->capture_default_str();
   tune->add_option("--estimator", options.estimator,
-                   "Change this estimator instead: its place in the configuration, from 0")
-      ->check(CLI::Range(0, 3))
+                   "Change this estimator instead: its place, or its kind, e.g. gradient")
+      ->type_name("PLACE")
       ->excludes(controller);
   tune->add_option("--from", options.from,
                    "What is changed: the values in_use, configured (the way back), stored or "

@@ -8,6 +8,7 @@
 #include "apps/supercoil/board_link.hpp"
 #include "apps/supercoil/change_tuning.hpp"
 #include "apps/supercoil/commands.hpp"
+#include "apps/supercoil/tuned_place.hpp"
 #include "apps/supercoil/tuning_table.hpp"
 #include "text/nearest.hpp"
 
@@ -59,9 +60,7 @@ void print(Tuned what, std::size_t place, const TunedValues& all) {
 
 /// All controllers and estimators.
 TuningDone tell(BoardLink& board, const std::string& channel, bool json) {
-  const auto tuning = read_tuning([&](int place, std::size_t tunable, TuningSet set) {
-    return board.tuning(channel, place, tunable, set);
-  });
+  const auto tuning = read_tuning(ask_tuning(board, channel));
   if (!tuning) return tl::unexpected(tuning.error());
   if (json) {
     std::printf("%s\n", tuning_json(*tuning).dump().c_str());
@@ -83,8 +82,13 @@ int tune_command(const TuneOptions& options) {
   const auto board = open_link(options.can, options.socket);
   if (!board) return refuse(options.json, exit_failed, board.error());
   const std::string channel = std::to_string(options.channel);
-  const int place =
-      place_of(what, static_cast<std::size_t>(options.estimator.value_or(options.controller)));
+  const auto found = find_place(what, options.estimator.value_or(options.controller),
+                                ask_tuning(**board, channel));
+  if (!found) {
+    const auto& [why, no_answer] = found.error();
+    return refuse(options.json, no_answer ? exit_failed : exit_wrong_input, why);
+  }
+  const int place = place_of(what, *found);
   TuningDone done;
   if (!changes->empty() || options.from != "in_use") {
     done = prepare_tuning(**board, channel, place, options.from, *changes);

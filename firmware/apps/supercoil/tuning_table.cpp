@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <tuple>
+#include <utility>
 
 #include "text/nearest.hpp"
 
@@ -112,22 +112,40 @@ tl::expected<TunedChannel, std::string> read_tuning(const AskTuning& ask) {
   return TunedChannel{std::move(*controllers), std::move(*estimators)};
 }
 
-tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& ask) {
+tl::expected<std::vector<std::string>, std::string> read_kinds(Tuned what, const AskTuning& ask) {
   constexpr std::size_t kind = 0;
   const board::StoredTuning tuned;
+  const std::size_t places =
+      what == Tuned::controller ? tuned.controllers.size() : tuned.estimators.size();
+  std::vector<std::string> kinds;
+  while (kinds.size() < places) {
+    const auto value = ask(place_of(what, kinds.size()), kind, TuningSet::in_use);
+    if (!value) return tl::unexpected(value.error());
+    if (std::isnan(*value)) break;
+    kinds.push_back(tuning_text(what, control::tunables()[kind], *value));
+  }
+  return kinds;
+}
+
+tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& ask) {
   nlohmann::ordered_json told;
-  for (const auto& [what, key, places] :
-       {std::tuple{Tuned::controller, "controllers", tuned.controllers.size()},
-        std::tuple{Tuned::estimator, "estimators", tuned.estimators.size()}}) {
-    told[key] = nlohmann::ordered_json::array();
-    for (std::size_t place = 0; place < places; ++place) {
-      const auto value = ask(place_of(what, place), kind, TuningSet::in_use);
-      if (!value) return tl::unexpected(value.error());
-      if (std::isnan(*value)) break;
-      told[key].push_back(tuning_text(what, control::tunables()[kind], *value));
-    }
+  for (const auto& [what, key] :
+       {std::pair{Tuned::controller, "controllers"}, std::pair{Tuned::estimator, "estimators"}}) {
+    const auto kinds = read_kinds(what, ask);
+    if (!kinds) return tl::unexpected(kinds.error());
+    told[key] = *kinds;
   }
   return told;
+}
+
+tl::expected<std::vector<std::string>, std::string> read_names(int place, const AskTuning& ask) {
+  std::vector<std::string> names;
+  for (const std::string& name : tunable_names(tuned_at(place))) {
+    const auto value = ask(place, control::tunable_named(name), TuningSet::prepared);
+    if (!value) return tl::unexpected(value.error());
+    if (!std::isnan(*value)) names.push_back(name);
+  }
+  return names;
 }
 
 std::vector<std::string> tunable_names(Tuned what) {

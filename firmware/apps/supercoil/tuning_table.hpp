@@ -21,6 +21,9 @@ enum class Tuned : std::uint8_t { controller, estimator };
 constexpr std::string_view name(Tuned what) {
   return what == Tuned::controller ? "controller" : "estimator";
 }
+constexpr Tuned tuned_at(int place) {
+  return place < static_cast<int>(first_estimator_place) ? Tuned::controller : Tuned::estimator;
+}
 /// As Tuner counts. place: among its like.
 constexpr int place_of(Tuned what, std::size_t place) {
   return static_cast<int>(what == Tuned::controller ? place : first_estimator_place + place);
@@ -43,6 +46,10 @@ using AskTuning =
 
 /// The error: no answer, or a board that cannot be tuned.
 tl::expected<TunedChannel, std::string> read_tuning(const AskTuning& ask);
+/// The kinds in use, by their places. The error: no answer.
+tl::expected<std::vector<std::string>, std::string> read_kinds(Tuned what, const AskTuning& ask);
+/// The names of what the prepared set of a place has. place: as Tuner has it.
+tl::expected<std::vector<std::string>, std::string> read_names(int place, const AskTuning& ask);
 /// {"controllers": ["mrac", …], "estimators": ["gradient", …]}: their kinds in use only, by their
 /// places. The error: no answer.
 tl::expected<nlohmann::ordered_json, std::string> read_kinds(const AskTuning& ask);

@@ -33,6 +33,8 @@ class Scripts(OnSimulatedBoard):
         self.arm_by_script()
         node, = json.loads(self.command("state", "--json").stdout)["nodes"]
         self.assertEqual((node["node"], node["Status"]["state"], node["Status"]["fault"]), (1, "armed", "none"))
+        self.assertEqual((node["Status"]["controller"], node["controller_kind"]), (0, "mrac"))
+        self.assertIn("node 1: armed, rest, mrac (controller 0), off;", self.command("state").stdout)
         self.assertAlmostEqual(node["Measurement"]["position_m"], 0.0, delta=1e-3)
         self.assertIsNone(node["Tracking"]["error_m"])
         self.assertEqual(sum(name.startswith("theta") and not name.endswith("deviation") for name in node["Estimate"]), 4)

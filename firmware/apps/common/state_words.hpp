@@ -9,10 +9,11 @@
 namespace supercoil {
 
 /// Its words in their order. Numbers are NaN where they are not known; notes are "-" where there
-/// are none.
-inline constexpr std::array<std::string_view, 13> state_words{
-    "channel",   "state",     "mode",      "fault",    "reference", "model_m", "position_m",
-    "applied_W", "coldest_C", "hottest_C", "progress", "result",    "notes"};
+/// are none. The last two are of the controller that is at work; an older board does not tell them.
+inline constexpr std::array<std::string_view, 15> state_words{
+    "channel",  "state",      "mode",      "fault",      "reference",
+    "model_m",  "position_m", "applied_W", "coldest_C",  "hottest_C",
+    "progress", "result",     "notes",     "controller", "controller_kind"};
 
 /// Places of those that are looked for one by one.
 enum StatePlace : std::uint8_t {
@@ -23,6 +24,8 @@ enum StatePlace : std::uint8_t {
   state_progress = 10,
   state_result = 11,
   state_notes = 12,
+  state_controller = 13,
+  state_controller_kind = 14,
 };
 
 }  // namespace supercoil

@@ -133,6 +133,8 @@ class CanBoardLink final : public BoardLink {
   };
   tl::expected<Told*, std::string> listen(const std::string& channel);
   tl::expected<Commander*, std::string> commander(std::uint8_t node);
+  /// The kinds of the controllers that are at work, by their nodes; without those that do not tell.
+  std::map<int, std::string> laws(const FrameHistory& frame_history);
   /// What is told of what is heard meanwhile.
   Answer heard(const std::function<std::string(const FrameHistory&)>& tell);
 

@@ -11,6 +11,7 @@
 #include "apps/supercoil/bus/listener.hpp"
 #include "apps/supercoil/bus/state_json.hpp"
 #include "apps/supercoil/bus/terminal.hpp"
+#include "apps/supercoil/tuning_table.hpp"
 #include "can/codec.hpp"
 #include "modes/result.hpp"
 #include "telemetry/run_settings.hpp"
@@ -122,6 +123,17 @@ tl::expected<double, std::string> CanBoardLink::progress(const std::string& chan
   return listen(channel).map([](const Told* told) { return told->progress; });
 }
 
+std::map<int, std::string> CanBoardLink::laws(const FrameHistory& frame_history) {
+  constexpr std::size_t kind = 0;
+  std::map<int, std::string> known;
+  for (const auto& [node, place] : controllers_at_work(frame_history)) {
+    const auto value = tuning(std::to_string(node), place, kind, TuningSet::in_use);
+    if (value && std::isfinite(*value))
+      known[node] = tuning_text(Tuned::controller, control::tunables()[kind], *value);
+  }
+  return known;
+}
+
 BoardLink::Answer CanBoardLink::heard(const std::function<std::string(const FrameHistory&)>& tell) {
   auto bus = open_bus(bus_);
   if (!bus) return tl::unexpected(bus.error());
@@ -134,12 +146,21 @@ BoardLink::Answer CanBoardLink::heard(const std::function<std::string(const Fram
 }
 
 BoardLink::Answer CanBoardLink::state() {
-  return heard(state_text);
+  return heard([this](const FrameHistory& frame_history) {
+    return state_text(frame_history, laws(frame_history));
+  });
 }
 
 BoardLink::Answer CanBoardLink::state_json() {
-  return heard([](const FrameHistory& frame_history) {
-    return operating::state_json(frame_history).dump() + "\n";
+  return heard([this](const FrameHistory& frame_history) {
+    using Json = nlohmann::ordered_json;
+    Json told = operating::state_json(frame_history);
+    const auto known = laws(frame_history);
+    for (auto& node : told["nodes"]) {
+      const auto law = known.find(node["node"].get<int>());
+      node["controller_kind"] = law == known.end() ? Json(nullptr) : Json(law->second);
+    }
+    return told.dump() + "\n";
   });
 }
 

@@ -19,8 +19,8 @@ using StateWords = std::array<std::string, state_words.size()>;
 tl::expected<StateWords, std::string> words_of(const std::string& line) {
   StateWords words;
   std::istringstream text(line);
-  for (std::string& word : words) {
-    if (!(text >> word)) return tl::unexpected("state: " + line);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (!(text >> words[i]) && i < state_controller) return tl::unexpected("state: " + line);
   }
   return words;
 }
@@ -50,11 +50,14 @@ BoardLink::Answer LocalBoardLink::state_json() {
     for (std::size_t i = 0; i < words->size(); ++i) {
       const std::string key(state_words[i]);
       const std::string& word = (*words)[i];
-      if (i == 0) {
+      if (word.empty()) continue;
+      if (i == 0 || i == state_controller) {
         channel[key] = std::stoi(word);
       } else if (i >= state_first_number && i <= state_progress) {
         const double value = std::strtod(word.c_str(), nullptr);
         channel[key] = std::isfinite(value) ? Json(value) : Json(nullptr);
+      } else if (i == state_controller_kind) {
+        channel[key] = word == "-" ? Json(nullptr) : Json(word);
       } else {
         channel[key] = i == state_notes && word == "-" ? "" : word;
       }

@@ -144,7 +144,7 @@ bool LocalCommands::take_packet(const hal_linux::Descriptor& client, Loop& loop,
   while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
     text.remove_suffix(1);
   if (text == "state") {
-    answer(client.number(), rows.describe());
+    answer(client.number(), rows.describe(loop));
     return true;
   }
   if (text == "status") {

@@ -1,12 +1,23 @@
 #include "apps/supercoild/newest_rows.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include "recorder/names.hpp"
 
 namespace supercoil::daemon {
 
-std::string NewestRows::describe() const {
+namespace {
+
+std::string_view kind_of(const Loop& loop, std::size_t channel, std::size_t place) {
+  constexpr std::size_t kind = 0;
+  const double value = loop.channel(channel).tuner().value(TuningSet::in_use, place, kind);
+  return std::isnan(value) ? "-" : control::controller_names[static_cast<std::size_t>(value)].first;
+}
+
+}  // namespace
+
+std::string NewestRows::describe(const Loop& loop) const {
   std::ostringstream text;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Row& r = rows_[i];
@@ -14,7 +25,8 @@ std::string NewestRows::describe() const {
          << ' ' << recorder::fault_name(r.fault) << ' ' << r.reference << ' ' << r.model_m << ' '
          << r.position_m << ' ' << r.applied_W << ' ' << r.coldest_C << ' ' << r.hottest_C << ' '
          << r.progress << ' ' << recorder::result_name(r.result) << ' '
-         << (r.identify_notes == 0 ? "-" : describe_notes(r.identify_notes, ",")) << '\n';
+         << (r.identify_notes == 0 ? "-" : describe_notes(r.identify_notes, ",")) << ' '
+         << static_cast<int>(r.controller) << ' ' << kind_of(loop, i, r.controller) << '\n';
   }
   return text.str();
 }

@@ -68,11 +68,27 @@ std::string margin_text(const Newest& node) {
   return text.data();
 }
 
-std::string node_text(int number, const Newest& node) {
+/// By their numbers.
+std::map<int, Newest> newest_of(const FrameHistory& frame_history) {
+  std::map<int, Newest> nodes;
+  // Everything is sent within this time.
+  for (const hal::CanFrame& frame :
+       frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
+    if (const auto decoded = can::decode(frame))
+      nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
+  }
+  return nodes;
+}
+
+std::string node_text(int number, const Newest& node, const std::string& law) {
   const std::string fault = named(node, "Status", "fault");
   const std::string state = named(node, "Status", "state");
   std::string text =
       "node " + std::to_string(number) + ": " + state + ", " + named(node, "Status", "mode");
+  if (!law.empty()) {
+    text += ", " + law + " (controller " +
+            std::to_string(std::lround(value(node, "Status", "controller"))) + ")";
+  }
   if (state == "disarmed" || state == "armed" || state == "fault") text += ", " + off_text(node);
   if (fault != "none" && fault != "-") text += ", FAULT " + fault + margin_text(node);
   const std::string limit = named(node, "Power", "limited_by");
@@ -113,16 +129,19 @@ std::string node_text(int number, const Newest& node) {
 
 }  // namespace
 
-std::string state_text(const FrameHistory& frame_history) {
-  std::map<int, Newest> nodes;
-  hal::Time newest{};
-  // Everything is sent within this time.
-  for (const hal::CanFrame& frame :
-       frame_history.between(-std::chrono::seconds(3), hal::Time::max())) {
-    newest = frame.received;
-    if (const auto decoded = can::decode(frame))
-      nodes[decoded->node].insert_or_assign(decoded->message->name, *decoded);
+std::map<int, int> controllers_at_work(const FrameHistory& frame_history) {
+  std::map<int, int> places;
+  for (const auto& [number, node] : newest_of(frame_history)) {
+    const double place = value(node, "Status", "controller");
+    if (std::isfinite(place)) places[number] = static_cast<int>(place);
   }
+  return places;
+}
+
+std::string state_text(const FrameHistory& frame_history, const std::map<int, std::string>& laws) {
+  std::map<int, Newest> nodes = newest_of(frame_history);
+  const auto frames = frame_history.between(-std::chrono::seconds(3), hal::Time::max());
+  const hal::Time newest = frames.empty() ? hal::Time{} : frames.back().received;
   for (auto& [number, node] : nodes) {
     const auto cause = frame_history.first_cause(static_cast<std::uint8_t>(number));
     const auto decoded = cause ? can::decode(*cause) : std::nullopt;
@@ -136,7 +155,7 @@ std::string state_text(const FrameHistory& frame_history) {
   std::string text = head.data();
   if (nodes.empty()) text += "no node of supercoil is heard\n";
   for (const auto& [number, node] : nodes)
-    text += node_text(number, node);
+    text += node_text(number, node, laws.contains(number) ? laws.at(number) : "");
   return text;
 }
 

@@ -98,7 +98,9 @@ TEST(LocalBoardLink, TellsAllOfItAsJson) {
   const Served board(row_of_mode(Mode::position, ModeResult::none, 0));
   LocalBoardLink link = board.link();
   const auto channel = nlohmann::json::parse(link.state_json().value())["channels"][0];
-  LONGS_EQUAL(13, channel.size());
+  LONGS_EQUAL(15, channel.size());
+  LONGS_EQUAL(0, channel["controller"].get<int>());
+  STRCMP_EQUAL("pi", channel["controller_kind"].get<std::string>().c_str());
   LONGS_EQUAL(1, channel["channel"].get<int>());
   STRCMP_EQUAL("active", channel["state"].get<std::string>().c_str());
   STRCMP_EQUAL("position", channel["mode"].get<std::string>().c_str());

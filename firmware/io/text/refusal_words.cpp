@@ -35,13 +35,23 @@ struct OfVerb {
   Refusal refusal;
   std::string_view words;
 };
+constexpr std::string_view of_comparison =
+    "it is read while `power` heats steadily; 0, which forgets it, while the muscle rests";
 constexpr std::array of_verbs{
     OfVerb{Verb::arm, Refusal::wrong_state, "it is armed already, or has a fault: reset that"},
     OfVerb{Verb::reset, Refusal::wrong_state, "it has no fault"},
     OfVerb{Verb::renew, Refusal::wrong_state, "nothing heats that could be renewed"},
     OfVerb{Verb::rest, Refusal::wrong_state, "it rests already, or is off"},
-    OfVerb{Verb::store, Refusal::not_ready,
-           "what the estimator has learned is not trusted yet, or is being stored"},
+    OfVerb{Verb::store, Refusal::not_ready, "what the estimator has learned is not trusted yet"},
+    OfVerb{Verb::store, Refusal::busy, "the tuning before it is being stored: try again"},
+    OfVerb{Verb::scale, Refusal::wrong_state, "a position is followed: let it rest first"},
+    OfVerb{Verb::compare_supply, Refusal::wrong_state, of_comparison},
+    OfVerb{Verb::compare_current, Refusal::wrong_state, of_comparison},
+    OfVerb{Verb::compare_rise, Refusal::wrong_state, of_comparison},
+    OfVerb{Verb::knot, Refusal::wrong_state, "no position is followed, or the motion has ended"},
+    OfVerb{Verb::start, Refusal::wrong_state, "no motion is loaded"},
+    OfVerb{Verb::start, Refusal::not_ready, "the muscle is told to be elsewhere than at the start"},
+    OfVerb{Verb::start, Refusal::out_of_range, "the time of the start is over"},
     OfVerb{Verb::scale, Refusal::unsuitable,
            "both muscles of a joint read one sensor: m_per_count and lever_m say its scale"}};
 

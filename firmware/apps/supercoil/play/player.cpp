@@ -63,11 +63,11 @@ std::string Player::whose(const Node& node) const {
   return kind_ + " " + std::to_string(node.motion.node) + ": ";
 }
 
-Player::Problem Player::take(Node& node, const std::string& what,
+Player::Problem Player::take(Node& node, Verb verb, const std::string& what,
                              const MotionLink::Played& played) {
   if (!played) return whose(node) + what + ": " + played.error();
   if (played->refusal != Refusal::none)
-    return whose(node) + what + ": " + told_answer(Reply(played->refusal));
+    return whose(node) + what + ": " + told_answer(Reply(played->refusal), verb);
   node.played = *played;
   return std::nullopt;
 }
@@ -91,7 +91,7 @@ Player::Problem Player::renew(Node& node) {
   if (!answer) return whose(node) + answer.error();
   if (answer->refusal != Refusal::none)
     return whose(node) + "the board stopped it (" + told_answer(*answer, Verb::renew) + ")";
-  return take(node, "playback", node.link->playback());
+  return take(node, Verb::none, "playback", node.link->playback());
 }
 
 // Each answer takes a board some 10 ms: one node after the other, two would not get 50 knots a
@@ -125,7 +125,7 @@ Player::Problem Player::load(Node& node) {
       node.played = *played;
       if (auto problem = stopped(node)) return problem;
     }
-    if (auto problem = take(node, "the knot at " + seconds_text(knot.time_s), played))
+    if (auto problem = take(node, Verb::knot, "the knot at " + seconds_text(knot.time_s), played))
       return problem;
     node.renewed = Clock::now();
     ++node.next;
@@ -152,7 +152,7 @@ Player::Problem Player::start() {
   const MotionLink::Start start{static_cast<std::uint8_t>(sync_ + 1),
                                 start_after_s + start_after_s_per_channel * channels, *board_s};
   for (Node& node : nodes_) {
-    if (auto problem = take(node, "play", node.link->start(start))) return problem;
+    if (auto problem = take(node, Verb::start, "play", node.link->start(start))) return problem;
   }
   send_sync();
   started_ = synced_;

@@ -61,7 +61,8 @@ class Player {
   explicit Player(std::string_view kind);
   /// "node 5: "
   std::string whose(const Node& node) const;
-  Problem take(Node& node, const std::string& what, const MotionLink::Played& played);
+  /// verb: what was asked; none: no command.
+  Problem take(Node& node, Verb verb, const std::string& what, const MotionLink::Played& played);
   /// Each on a thread of its own, as each has a connection of its own. The first
   /// problem in the order of the nodes.
   Problem for_each_at_once(Problem (Player::*step)(Node&));

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
@@ -14,28 +13,13 @@
 #include "config/edit_toml.hpp"
 #include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
+#include "setup/listener.hpp"
 #include "setup/simulated_link.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
 
 namespace {
-
-/// Nobody is there, and all that is said is heard.
-class Listener final : public operating::Operator {
- public:
-  void say(const std::string& line) override { told_ += line + "\n"; }
-  void show_progress(const std::string&, double) override {}
-  bool sees_progress() const override { return false; }
-  bool interrupted() const override { return false; }
-  OrWhy ask(const operating::Question&, const std::function<Done()>&) override {
-    return tl::unexpected<std::string>("nobody answers");
-  }
-  std::string take() { return std::exchange(told_, {}); }
-
- private:
-  std::string told_;
-};
 
 /// slow: of this channel, from 0, the muscle may by its bounds need 20 s until it is cool.
 config::BoardConfig example(std::optional<std::size_t> slow = std::nullopt) {

@@ -7,6 +7,8 @@
 
 #include "apps/supercoil/setup/channel_now.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/figures.hpp"
+#include "apps/supercoil/setup/identified.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "config/describe.hpp"
@@ -30,27 +32,11 @@ constexpr double max_identify_s = 1400.0;
 /// Above the air, from which on calibrate takes a zero.
 constexpr double cold_K = modes::Calibrate::Settings{}.cold_K;
 
-std::string in_digits(double value) {
-  return number_text(value, 4);
-}
-
-/// "9.87 Ohm (configured: 10, -1.3 %)"
-std::string beside(double found, double configured, const std::string& unit) {
-  const double percent = 100.0 * (found / configured - 1.0);
-  return in_digits(found) + (unit.empty() ? "" : " ") + unit +
-         " (configured: " + in_digits(configured) + ", " + (percent < 0.0 ? "" : "+") +
-         number_text(percent, 3) + " %)";
-}
-
 /// However hot it was at boot.
 double cold_after(const ChannelSettings& channel) {
   const control::ThermalBounds& b = channel.thermal.bounds;
   const double max_tau_s = b.max_mass_J_per_K / b.min_transfer_W_per_K;
   return max_tau_s * std::log(std::max(1.0, channel.thermal.boot_rise_K / cold_K));
-}
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
 }  // namespace
@@ -201,7 +187,8 @@ StepResult Commission::tell_calibration(const Measured& whose) {
   who_.say("zero: the sensor reads " + in_digits(1e3 * offset_m) + " mm there");
   who_.say("cold resistance: " +
            beside(cold_Ohm, whose.configured.heater.cold_resistance_Ohm, "Ohm"));
-  return Json{{"position_offset_m", number(offset_m)}, {"cold_resistance_Ohm", number(cold_Ohm)}};
+  return Json{{"position_offset_m", json_number(offset_m)},
+              {"cold_resistance_Ohm", json_number(cold_Ohm)}};
 }
 
 StepResult Commission::compare_senses() {
@@ -231,7 +218,7 @@ StepResult Commission::scale() {
   if (!known) return tl::unexpected(known.error());
   const double scale = (*known)[known_position_scale];
   who_.say("scale of the position: " + beside(scale, configured_.calibration.position_scale, ""));
-  return Json{{"position_scale", number(scale)}};
+  return Json{{"position_scale", json_number(scale)}};
 }
 
 StepResult Commission::limits() {
@@ -253,23 +240,7 @@ StepResult Commission::identify() {
 StepResult Commission::tell_muscle(const Measured& whose) {
   const auto known = board_.muscle(whose.channel);
   if (!known) return tl::unexpected(known.error());
-  Json found;
-  for (std::size_t i = 0; i < control::physical_ranges.size(); ++i) {
-    const control::PhysicalRange& range = control::physical_ranges[i];
-    const double configured = whose.configured.muscle.*range.member;
-    found[range.name] = number((*known)[i]);
-    constexpr double float_rounding_ratio = 1e-6;
-    if (std::abs((*known)[i] / configured - 1.0) > float_rounding_ratio)
-      who_.say(std::string(range.name) + ": " + beside((*known)[i], configured, ""));
-  }
-  for (std::size_t i = known_theta1_deviation; i <= known_unexplained_ratio; ++i)
-    found[std::string(known_quantities[i])] = number((*known)[i]);
-  const auto percent = [&](std::size_t i) { return in_digits(100.0 * (*known)[i]); };
-  constexpr std::size_t first = known_theta1_deviation;
-  who_.say("standard deviation of theta1 to theta4: " + percent(first) + ", " + percent(first + 1) +
-           ", " + percent(first + 2) + ", " + percent(first + 3) +
-           " %; unexplained by the linear model: " + percent(known_unexplained_ratio) + " %");
-  return found;
+  return tell_identified(*known, whose.configured, who_);
 }
 
 StepResult Commission::gains() {

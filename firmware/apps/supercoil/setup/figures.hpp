@@ -1,0 +1,36 @@
+// What a step found, as people and programs read it.
+#pragma once
+
+#include <cmath>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "text/number_text.hpp"
+
+namespace supercoil::operating {
+
+/// Of what a bus tells.
+inline constexpr double float_rounding_ratio = 1e-6;
+
+inline std::string in_digits(double value) {
+  return number_text(value, 4);
+}
+
+/// "9.87 Ohm ± 2 % (configured: 10, -1.3 %)". deviation_ratio: standard; NaN: not known.
+inline std::string beside(double found, double configured, const std::string& unit,
+                          double deviation_ratio = NAN) {
+  const double percent = 100.0 * (found / configured - 1.0);
+  const std::string deviation =
+      std::isnan(deviation_ratio) ? "" : " ± " + number_text(100.0 * deviation_ratio, 2) + " %";
+  return in_digits(found) + (unit.empty() ? "" : " ") + unit + deviation +
+         " (configured: " + in_digits(configured) + ", " + (percent < 0.0 ? "" : "+") +
+         number_text(percent, 3) + " %)";
+}
+
+/// null: not known.
+inline nlohmann::ordered_json json_number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+}  // namespace supercoil::operating

@@ -104,6 +104,10 @@ TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
   DOUBLES_EQUAL(1.0, (*found)["current_gain"].get<double>(), 0.02);
   CHECK((*found)["error_ratio"].get<double>() < 0.06);
   STRCMP_CONTAINS("the true power is 0.9", person.told().c_str());
+  STRCMP_CONTAINS(
+      " W, each for 2.5 s and then while you answer two questions, at most 5 min each\n",
+      person.told().c_str());
+  CHECK(person.told().find("heats it with ") < person.told().find("channel 1 gets "));
   STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
 }
 
@@ -165,11 +169,16 @@ TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
   }
   STRCMP_CONTAINS("promises no error", person.told().c_str());
   STRCMP_CONTAINS("no parameter is off by more than", person.told().c_str());
+  const double begin_s = board.link().time_s();
   const auto moved = steps.move();
   STRCMP_EQUAL("", moved ? "" : moved.error().c_str());
   DOUBLES_EQUAL((*found)["recommended_promised_m"].get<double>(), moved->value("promised_m", NAN),
                 1e-12);
   CHECK(moved->value("kept", false));
+  double told_s = 0.0;
+  std::sscanf(person.told().c_str() + person.told().find("moves for "), "moves for %lf s: three",
+              &told_s);
+  DOUBLES_EQUAL(board.link().time_s() - begin_s, told_s, 3.0);
 }
 
 TEST(GuidedSteps, AControllerThatIsKeptStaysAsItIs) {

@@ -85,6 +85,7 @@ TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
   DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
   CHECK(limit_m(limits) < board->channel().supervision.max_travel_m);
   STRCMP_CONTAINS("pulls with a power that rises to ", watcher->told.c_str());
+  STRCMP_CONTAINS(" mm, or after ", watcher->told.c_str());
   STRCMP_CONTAINS("limit: 1.4", watcher->told.c_str());
   board->link().wait(std::chrono::seconds(1));
   CHECK(watcher->truth_m() < 0.0019);

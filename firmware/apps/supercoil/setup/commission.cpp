@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/common/progress.hpp"
 #include "apps/supercoil/setup/channel_now.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/figures.hpp"
@@ -193,6 +194,7 @@ StepResult Commission::tell_calibration(const Measured& whose) {
 
 StepResult Commission::compare_senses() {
   const ComparisonPlan plan = plan_comparison(channel_, configured_, settings_);
+  who_.say(describe_plan(plan));
   const auto senses = operating::compare_senses(board_, plan, who_);
   if (!senses) return tl::unexpected(senses.error());
   who_.say(describe_comparison(*senses));
@@ -257,6 +259,10 @@ StepResult Commission::move() {
   const auto promise = now->promise(now->settings.controllers.front(), settings_, motion);
   const char* unpromised = now->in_joint() ? "no error is promised for a joint"
                                            : "no error is promised: controller 0 is not learned_ff";
+  who_.say("moves for " + duration_text(motion.end_s()) + ": three periods of " +
+           number_text(motion.period_s, 3) + " s, between " +
+           number_text(1e3 * (motion.middle_m - motion.amplitude_m), 3) + " and " +
+           number_text(1e3 * (motion.middle_m + motion.amplitude_m), 3) + " mm");
   who_.say(promise ? "promised: " + config::describe_promise(*promise, motion) : unpromised);
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   double square_sum = 0.0;

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/common/progress.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/heated.hpp"
 #include "apps/supercoil/setup/stall_watch.hpp"
@@ -128,7 +129,8 @@ StepResult find_travel_limit(BoardLink& board, const std::string& channel, const
   const SlowPull plan = plan_slow_pull(configured, settings);
   who.say("pulls with a power that rises to " + number_text(plan.top_W, 3) + " W in " +
           number_text(plan.rise_s, 3) + " s, and lets go when you answer, when its end rises no " +
-          "more, or at " + in_mm(plan.stop_m));
+          "more, at " + in_mm(plan.stop_m) + ", or after " +
+          duration_text(plan.rise_s + plan.settle_s));
   const auto pulled =
       pull_slowly(board, channel, plan, configured.supervision.position_noise_rms_m, who);
   if (!pulled) return tl::unexpected(pulled.error());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "apps/common/progress.hpp"
 #include "apps/supercoil/setup/heated.hpp"
 #include "board/meter_comparison.hpp"
 #include "text/number_text.hpp"
@@ -71,6 +72,14 @@ ComparisonPlan plan_comparison(std::string channel, ChannelSettings settings,
   return {std::move(channel),
           std::min(settings.limiter.max_W, std::max(0.0, true_W) / unseen),
           {board.supervision.min_supply_V, board.supervision.max_supply_V}};
+}
+
+std::string describe_plan(const ComparisonPlan& plan) {
+  const double settling_s = std::chrono::duration<double>(settling).count();
+  return "heats it with " + shown(0.5 * plan.power_W) + " W and then " + shown(plan.power_W) +
+         " W, each for " + shown(settling_s) +
+         " s and then while you answer two questions, at most " + duration_text(max_question_s) +
+         " each";
 }
 
 OrEnded<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,

@@ -23,6 +23,9 @@ struct ComparisonPlan {
 ComparisonPlan plan_comparison(std::string channel, ChannelSettings settings,
                                const BoardSettings& board);
 
+/// What it will do, and for how long, before it heats.
+std::string describe_plan(const ComparisonPlan& plan);
+
 /// Arms the channel, heats it with half of that power and then all of it, and asks two questions at
 /// each; it is disarmed however this ends. The error: why it ended.
 tl::expected<board::SenseComparison, std::string> compare_senses(BoardLink& board,

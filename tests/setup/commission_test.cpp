@@ -6,7 +6,10 @@
 #include <CppUTest/TestHarness.h>
 #include <nlohmann/json.hpp>
 
+#include "apps/supercoil/setup/steps.hpp"
+#include "loop/promise.hpp"
 #include "setup/commissioned.hpp"
+#include "text/number_text.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -65,6 +68,16 @@ TEST(Commission, HowFastItCoolsIsLearnedOfItsFullStrokesAlone) {
   CHECK(undisturbed_s > 0.0);
   DOUBLES_EQUAL(undisturbed_s,
                 learned_s("[[event]]\nat_s = 90.0\nplant.heat_transfer_W_per_K = 0.2\n"), 0.0);
+}
+
+TEST(Commission, WhatIsSaidOfTheFirstMotionIsWhatIsPlanned) {
+  Feasibility feasibility{};
+  feasibility.travel_m = 1.0;
+  const FirstMotion motion = plan_first_motion(feasibility, 0.0);
+  const std::string said = "between " + number_text(motion.middle_m - motion.amplitude_m, 3) +
+                           " and " + number_text(motion.middle_m + motion.amplitude_m, 3) +
+                           " of the travel that it can hold";
+  STRCMP_CONTAINS(said.c_str(), std::string(operating::setup_steps.back().does).c_str());
 }
 
 TEST(Commission, NothingIsPromisedOfALawThatWasNotTried) {

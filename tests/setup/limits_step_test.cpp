@@ -91,6 +91,15 @@ TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
   CHECK(watcher->truth_m() < 0.0019);
 }
 
+TEST(LimitsStep, ABoardThatWasNeverCalibratedIsSaid) {
+  CHECK_TRUE(found(held_out_muscle(24, 0.3), 0.002).has_value());
+  STRCMP_CONTAINS("warning: this board was never calibrated", watcher->told.c_str());
+  CHECK_TRUE(board->steps(*watcher).calibrate().has_value());
+  watcher->told.clear();
+  CHECK_TRUE(ended().has_value());
+  CHECK_TRUE(watcher->told.find("never calibrated") == std::string::npos);
+}
+
 TEST(LimitsStep, AMuscleThatTouchesSomethingIsLetGoByItself) {
   for (const unsigned seed : {24U, 37U, 66U, 45U, 73U}) {
     const auto limits = found(muscle_with(seed, "ceiling_m = 0.002"), INFINITY);

@@ -40,6 +40,15 @@ double cold_after(const ChannelSettings& channel) {
   return max_tau_s * std::log(std::max(1.0, channel.thermal.boot_rise_K / cold_K));
 }
 
+/// A calibration never finds just what the file says.
+bool is_calibrated(const board::Calibration& now, const board::Calibration& configured) {
+  const auto same = [](double a, double b) {
+    return std::abs(a - b) <= float_rounding_ratio * std::abs(b);
+  };
+  return !same(now.position_offset_m, configured.position_offset_m) ||
+         !same(now.cold_resistance_Ohm, configured.cold_resistance_Ohm);
+}
+
 }  // namespace
 
 Commission::Commission(BoardLink& board, std::string channel, const BoardSettings& settings,
@@ -226,6 +235,11 @@ StepResult Commission::scale() {
 StepResult Commission::limits() {
   const auto now = channel_now(board_, channel_, configured_);
   if (!now) return tl::unexpected(now.error());
+  if (!is_calibrated(now->settings.calibration, configured_.calibration)) {
+    who_.say(
+        "warning: this board was never calibrated: its zero may be anywhere, and so may the limit "
+        "that is found from it; supercoil setup calibrate takes the zero");
+  }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   auto found = find_travel_limit(board_, channel_, *now, settings_, who_);
   if (!found) return tl::unexpected(found.error() + present_fault());

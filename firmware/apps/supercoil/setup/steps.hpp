@@ -48,8 +48,8 @@ inline constexpr std::array<SetupStep, 8> setup_steps{{
      "that one over if it differs and you want it; heats nothing",
      true, false, SetupStep::InJoint::of_agonist},
     {"move",
-     "follows a slow sine over a third of the travel, three periods; compares the error "
-     "with the promised one",
+     "follows a slow sine between 0.24 and 0.56 of the travel that it can hold, three periods; "
+     "compares the error with the promised one",
      false, false, SetupStep::InJoint::of_agonist},
 }};
 

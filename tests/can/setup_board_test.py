@@ -1,0 +1,261 @@
+"""supercoil setup of a board that runs: it is calibrated, identified and tuned in real time."""
+
+import json
+import re
+import signal
+import subprocess
+import time
+import tomllib
+import unittest
+
+from live import DEADLINE_S, TRIES, Simulator
+from setup_case import EXAMPLE, STARVED, SUPERCOIL, SetupCase, Terminal
+
+
+class SetupOfABoard(SetupCase):
+    def test_a_board_that_does_not_run_is_said_with_how_to_start_it(self):
+        done = self.setup_program("calibrate", "--socket", self.path / "none")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("start the board with", done.stderr)
+        done = self.setup_program("identify", "--channel", "3")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("has no channel 3, but 2", done.stderr)
+
+    def test_what_another_board_does_not_have_is_not_done(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+        record = json.loads(self.record.read_text())
+        described = tomllib.loads(self.board.read_text())["channel"][0]["muscle"]
+        steps = {"describe": record["channel-1"]["describe"], "senses": {},
+                 "calibrate": {"position_offset_m": 0.0, "cold_resistance_Ohm": 10.0}, "limits": {},
+                 "identify": {**described, "unexplained_ratio": 0.001}, "gains": {}, "move": {}}
+
+        def remember(**changes):
+            self.record.write_text(json.dumps(record | {"channel-1": {**steps, **changes}}))
+
+        remember()
+        done = self.patiently(lambda: self.setup_program(*bus))
+        self.assertEqual(done.stdout, "every step is done; name one to do it again\n")
+        remember(identify={**described, "stiffness_N_per_m": 1.001 * described["stiffness_N_per_m"]})
+        told = self.interrupted_at("identify: heats", *bus)
+        self.assertEqual(len(told), 2, told)
+        self.assertRegex(told[0], r"^  identify and what follows it are to be done again: the board goes by stiffness_N_per_m = 17\.84, "
+                         r"and \S+board\.toml\.setup\.json has 17\.858: it is another board or muscle")
+        remember(calibrate={"position_offset_m": 0.0002, "cold_resistance_Ohm": 10.0})
+        told = self.interrupted_at("calibrate: takes", *bus)
+        self.assertIn("calibrate and what follows it are to be done again: the board goes by position_offset_m = 0, ", told[0])
+        self.assertEqual(len(told), 2, told)  # neither describe nor senses again
+        self.assertIn("identify", json.loads(self.record.read_text())["channel-1"])  # the other board may come back
+        done = self.setup_program("--socket", self.path / "none")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("start the board with", done.stderr)
+
+    def interrupted_at(self, line, *arguments):
+        """The lines until one begins so; the program is ended then."""
+        told = []
+        with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, *arguments], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+            for text in program.stdout:
+                told.append(text)
+                if text.startswith(line):
+                    break
+            program.send_signal(signal.SIGINT)
+            _, error = program.communicate(timeout=DEADLINE_S)
+        self.assertTrue(told and told[-1].startswith(line), f"{told} {error}")
+        return told
+
+    def test_on_a_running_board_it_goes_on_after_what_is_done_and_an_interruption_loses_nothing(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        learned = self.path / "learned"
+        learned.mkdir()
+        simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
+        self.addCleanup(simulator.end)
+        bus = f"socketcand:{simulator.port}"
+        for _ in range(TRIES):
+            subprocess.run([SUPERCOIL, "command", "1", "reset", "--can", bus], capture_output=True, timeout=DEADLINE_S)
+            done = self.setup_program("calibrate", "--can", bus, "--json")
+            if not any(why in done.stderr for why in STARVED):
+                break
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)["steps"]["calibrate"]
+        self.assertAlmostEqual(found["cold_resistance_Ohm"], 10.0, delta=0.05)
+        self.assertAlmostEqual(found["position_offset_m"], 0.0, delta=1e-4)
+        state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertRegex(state.stdout, "node 1: disarmed")
+        # It hangs at its zero: no scale makes 5 mm of that.
+        done = self.setup_program("scale", "--can", bus, input="5\n")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("towards shorter, in mm (0.025 to 25): ", done.stdout)
+        self.assertIn("supercoil: scale 0.005: refused: out_of_range", done.stderr)
+        simulator.end()
+        simulator = Simulator(self.path, "bench", "--board", self.board, "--learned", learned)
+        self.addCleanup(simulator.end)
+        bus = f"socketcand:{simulator.port}"
+        with subprocess.Popen([SUPERCOIL, "setup", "--config", self.board, "--can", bus], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+            told = [program.stdout.readline() for _ in range(5)]
+            self.assertTrue(told[0].startswith("scale: takes"))
+            self.assertIn("left; supercoil setup scale does it", told[1])
+            self.assertTrue(told[2].startswith("limits: finds"))
+            self.assertIn("left; supercoil setup limits does it", told[3])
+            self.assertTrue(told[4].startswith("identify: heats"))
+            time.sleep(0.5)
+            program.send_signal(signal.SIGINT)
+            _, error = program.communicate(timeout=DEADLINE_S)
+        self.assertEqual(program.returncode, 1)
+        self.assertIn("identify: ", error)
+        self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "calibrate"})
+
+    def test_on_a_terminal_an_interruption_is_said_on_a_line_of_its_own(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        def interrupted(step, shown):
+            for _ in range(TRIES):
+                subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
+                with Terminal(step, "--config", self.board, *bus) as terminal:
+                    try:
+                        terminal.until(shown)
+                    except AssertionError:
+                        if not any(why in terminal.told for why in STARVED):
+                            raise
+                        continue
+                    terminal.type("\x03")
+                    self.assertEqual(terminal.ended(), 1)
+                    return terminal.told
+            raise AssertionError(terminal.told)
+
+        self.assertRegex(interrupted("senses", r"volts at the supply terminals \S+ to \S+: $"), r": \^C\r\nsupercoil: senses: interrupted\r\n$")
+        told = interrupted("identify", r"identify: \d+ %")
+        self.assertTrue(told.endswith("\r\x1b[Ksupercoil: identify: interrupted\r\n"), told[-200:])
+
+    def test_the_recommended_controller_is_taken_by_whom_or_what_answers(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        def bandwidth(*change):
+            done = self.patiently(lambda: subprocess.run([SUPERCOIL, "tune", "1", *change, "--json", *bus], capture_output=True,
+                                                         text=True, timeout=DEADLINE_S))
+            told = json.loads(done.stdout)["controllers"][0]["bandwidth_rad_per_s"]
+            return round(told["in_use"], 2), round(told["stored"], 2)
+
+        def gains(told, *arguments, **options):
+            done = self.patiently(lambda: self.setup_program("gains", *bus, *arguments, **options))
+            self.assertIn(told, done.stdout)
+            return done.stdout
+
+        slow = ("bandwidth_rad_per_s=3", "--store")
+        self.assertEqual(bandwidth(*slow), (3.0, 3.0))
+        told = gains("kept as it is", stdin=subprocess.DEVNULL)
+        self.assertRegex(told, r"in use: controller 0, learned_ff: bandwidth_rad_per_s = 3, .*reference_model = design")
+        self.assertRegex(told, r"with it: margin 0\.\d+, holds if no parameter is off by more than \d+ %; promises at most \d+")
+        self.assertRegex(told, r"recommended for this muscle: .*bandwidth_rad_per_s = 7\.8\d+ }: .*, 1\.88 s, in units of")
+        self.assertIn("keep the one in use (0 to 1) [1]: ", told)
+        gains("kept as it is", *self.script(take_gains=0))
+        self.assertEqual(bandwidth(), (3.0, 3.0))
+        gains("taken over, and stored", *self.script())
+        self.assertEqual(bandwidth(), (7.88, 7.88))
+        gains("it is in use already: nothing changes", stdin=subprocess.DEVNULL)
+        bandwidth(*slow)
+        gains("taken over, and stored", input="1\n")
+        self.assertEqual(bandwidth(), (7.88, 7.88))
+        self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "gains"})
+
+    def test_a_limit_that_is_answered_goes_into_the_boards_file(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        before = self.board.read_text()
+        self.assertIn("max_travel_m = 0.025", before)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = f"socketcand:{simulator.port}"
+
+        def answer_at_4_mm():
+            subprocess.run([SUPERCOIL, "command", "1", "reset", "--can", bus], capture_output=True, timeout=DEADLINE_S)
+            with subprocess.Popen([SUPERCOIL, "setup", "limits", "--config", self.board, "--can", bus], stdin=subprocess.PIPE,
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as program:
+                for line in program.stdout:
+                    position = re.search(r"([\d.]+) mm at [\d.]+ W", line)
+                    if position and float(position[1]) > 4.0:
+                        break
+                told, error = program.communicate("1\n", timeout=DEADLINE_S)
+            return program.returncode, told, error
+
+        for _ in range(TRIES):
+            status, told, error = answer_at_4_mm()
+            if not any(why in error for why in STARVED):
+                break
+        self.assertEqual(status, 0, error)
+        limit = re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", told)
+        self.assertGreater(float(limit[1]), 3.5)
+        written = f"max_travel_m = {1e-3 * float(limit[1]):.4g}"
+        self.assertIn(written, self.board.read_text())
+        self.assertEqual(self.board.read_text().replace(written, "max_travel_m = 0.025"), before)
+        self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
+        self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "limits"})
+        state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertRegex(state.stdout, "node 1: disarmed")
+
+    def test_a_joint_is_set_up_by_its_agonist(self):
+        self.example = (EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text()
+        self.board.write_text(self.example)
+        script = self.script(heated_mm=6.5, stretch_mm=30, max_travel_mm=8)
+        for channel in ("1", "2"):
+            done = self.setup_program("describe", "--channel", channel, *script)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("it turns a joint: answer as it moves the joint alone", done.stdout)
+            self.assertIn("Weights hang at the lever, 15 mm from the axis", done.stdout)
+        self.board.write_text(self.example.replace("lever_m = 0.015", "lever_m = [0.012, 0.016, 0.012]\nlever_range_deg = [-40, 40]"))
+        done = self.setup_program("describe", "--channel", "1", *script)
+        self.assertIn("Weights hang at the lever, 16 mm from the axis", done.stdout)
+        self.board.write_text(self.example)
+        for step, channel, told in (("move", "2", "channel 2 is a joint's antagonist: set up its agonist instead, --channel 1"),
+                                    ("scale", "1", "channel 1 turns a joint: the file's m_per_count and lever_m are its scale"),
+                                    ("move", "1", "start the board with")):
+            done = self.setup_program(step, "--channel", channel, "--socket", self.path / "none")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"{step}: ", done.stderr)
+            self.assertIn(told, done.stderr)
+        record = json.loads(self.record.read_text())
+        self.record.write_text(json.dumps(record | {"channel-2": record["channel-2"] | {"identify": {}}}))
+        done = self.setup_program("--channel", "2", "--socket", self.path / "none")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(re.findall(r"^(\w+): channel 2 is a joint's antagonist", done.stdout, re.M), ["gains", "move"])
+        self.assertNotIn("every step is done", done.stdout)
+        self.record.write_text(json.dumps(record))
+        simulator = Simulator(self.path, "joint-bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        def calibrated():
+            subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
+            return self.setup_program("calibrate", *bus)
+
+        self.assertRegex(self.patiently(calibrated).stdout, r"(?s)the agonist, channel 1:.*cold resistance: 10 Ohm .*"
+                         r"the antagonist, channel 2:.*cold resistance: 10 Ohm ")
+        done_steps = json.loads(self.record.read_text())
+        self.assertEqual([set(done_steps[f"channel-{number}"]) for number in (1, 2)], 2 * [{"describe", "calibrate"}])
+        state = subprocess.run([SUPERCOIL, "command", "state", *bus], capture_output=True, text=True, timeout=DEADLINE_S).stdout
+        self.assertEqual(re.findall(r"node (\d): disarmed", state), ["1", "2"])
+
+        def command(*words):
+            return subprocess.run([SUPERCOIL, "command", "1", *words, *bus], capture_output=True, text=True, timeout=DEADLINE_S)
+
+        def positioned(angle):
+            for _ in range(TRIES):
+                command("arm")
+                done = command("position", angle)
+                if not any(why in done.stderr for why in STARVED):
+                    break
+            return done
+
+        told = re.search(r"refused: out_of_range; 0\.008\d* would be obeyed \((30\.\d+deg)\)", positioned("80deg").stderr)
+        self.assertEqual(positioned(told[1]).returncode, 0)  # to the digit
+
+if __name__ == "__main__":
+    unittest.main()

@@ -196,8 +196,8 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   describe_wiring(out, config.wiring.channels[index], c);
   describe_limits(out, c, config.settings, label);
   if (c.joint.direction < 0) {
-    const auto place = static_cast<long>(index + 1) + std::lround(c.joint.other_channel_offset);
-    out << "  controllers led by channel " << place << ": its own are not used\n";
+    const double leader = static_cast<double>(index + 1) + c.joint.other_channel_offset;
+    out << "  controllers led by channel " << leader << ": its own are not used\n";
   } else {
     describe_controllers(out, c, config.settings.step_s());
   }

@@ -102,9 +102,10 @@ nlohmann::ordered_json tell_identified(const KnownMuscle& known, const ChannelSe
   }
   const Values now = values_of(muscle);
   const Values in_file = values_of(configured.muscle);
-  if (std::isnan(theta_ratios[0]) && !std::isnan(deviations.gain))
+  if (std::isnan(theta_ratios[0]) && !std::isnan(deviations.gain)) {
     who.say(
         "theta1 was kept: each of these rests on the file's values; time constant and gain do not");
+  }
   who.say("time constant: " +
           beside(now[time_constant_at], in_file[time_constant_at], "s", deviations.time_constant));
   who.say("gain: " + beside(1e3 * now[gain_at], 1e3 * in_file[gain_at], "mm/W", deviations.gain));

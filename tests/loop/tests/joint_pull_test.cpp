@@ -1,10 +1,9 @@
 // What both muscles of a joint pull against each other with.
-#include "loop/joint.hpp"
-
 #include <array>
 #include <cmath>
 #include <cstdint>
 
+#include "loop/joint.hpp"
 #include "loop/support/joint_case.hpp"
 
 using namespace supercoil;

@@ -125,11 +125,12 @@ stale; their content is old."""
 The position stands still as no live sensor does: not even its own noise is there. The readings are new, so they are not
 stale; their content is old."""
     remedy = """\
-1. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
+1. Look where it rests: a reading that is position.min_m or max_m to the last digit is an end. Move the sensor, or take off load.
+2. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
    step of the converter, into position_noise_rms_m.
-2. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
+3. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
    heater_not_responding, which needs 20 s and more.
-3. Otherwise restart the converter's driver. Reset, arm."""
+4. Otherwise restart the converter's driver. Reset, arm."""
     page = """\
 # 12 sensor_frozen
 
@@ -146,15 +147,18 @@ more than 5 K above the air, so for 15 s after boot as well, in every state.
 
 - a driver or bus thread that repeats its last value
 - a converter that hangs
+- the muscle stands at an end of the sensor's range, or of its own: a load pulls it longer than where the sensor begins to read, so
+  that every reading is that end
 - a sensor quieter than `position_noise_rms_m` says: a filter was added, or the noise was guessed
 
 ## Remedy
 
-1. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
+1. Look where it rests: a reading that is `position.min_m` or `max_m` to the last digit is an end. Move the sensor, or take off load.
+2. Record a second of a resting, live sensor and take its standard deviation. Put that, not less than a third of a
    step of the converter, into `position_noise_rms_m`.
-2. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
+3. If the sensor really shows no noise, set it to 0: the detector is then off, and you rely on
    [heater_not_responding](heater_not_responding.md), which needs 20 s and more.
-3. Otherwise restart the converter's driver. Reset, arm.
+4. Otherwise restart the converter's driver. Reset, arm.
 
 ## Margin
 

@@ -264,11 +264,13 @@ BoardSettings firmware_of(const Scenario& scenario) {
         std::max(max_co_contraction_W(scenario),
                  JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));
     add_joint(board, joint);
-    // How far the muscles contract where the sensor reads that.
-    for (ChannelSettings& each : board.channels) {
-      double& travel_m = each.supervision.max_travel_m;
-      travel_m = each.joint.position_of_reading_m(travel_m);
-    }
+  } else if (c.joint) {
+    channel.joint = {1, c.joint->plant.lever};
+  }
+  // How far the muscles contract where the sensor reads that.
+  for (ChannelSettings& each : board.channels) {
+    double& travel_m = each.supervision.max_travel_m;
+    travel_m = each.joint.position_of_reading_m(travel_m);
   }
   return board;
 }

@@ -85,14 +85,28 @@ std::string text_of(const control::Lever& lever) {
   return out.str();
 }
 
+std::string other_lever(const control::Lever& scenarios, const control::Lever& boards) {
+  return "the scenario's joint.lever_m = " + text_of(scenarios) + " is not the board's, " +
+         text_of(boards) + ": positions are arcs at the lever";
+}
+
 /// The joint of the file that turns what the scenario's [joint] is; empty: neither has one.
 tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditions& c,
                                                                    const BoardSettings& board,
                                                                    std::size_t channel) {
   const JointSettings* found = board.joint_of(channel);
   std::ostringstream why;
+  const control::Lever* const turned = found == nullptr && board.channels[channel].joint.turns()
+                                           ? &board.channels[channel].joint.lever
+                                           : nullptr;
+  if (c.antagonist() == nullptr && found == nullptr) {
+    if (turned == nullptr || (c.joint && c.joint->plant.lever == *turned)) return std::nullopt;
+    if (c.joint) return tl::unexpected(other_lever(c.joint->plant.lever, *turned));
+    why << "channel " << channel + 1 << " of the board's file turns a joint against a spring: the "
+        << "scenario needs a [joint] that is opposed_by \"spring\"";
+    return tl::unexpected(why.str());
+  }
   if (c.antagonist() == nullptr) {
-    if (found == nullptr) return std::nullopt;
     why << "channel " << channel + 1 << " of the board's file turns a joint: the scenario needs a "
         << "[joint] that is opposed_by \"muscle\"";
     return tl::unexpected(why.str());
@@ -103,11 +117,7 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
     return tl::unexpected(why.str());
   }
   const control::Lever& lever = c.joint->plant.lever;
-  if (found->lever != lever) {
-    why << "the scenario's joint.lever_m = " << text_of(lever) << " is not the board's, "
-        << text_of(found->lever) << ": positions are arcs at the lever";
-    return tl::unexpected(why.str());
-  }
+  if (found->lever != lever) return tl::unexpected(other_lever(lever, found->lever));
   if (found->antagonist != found->agonist + 1) {
     why << "channels " << found->agonist + 1 << " and " << found->antagonist + 1
         << " of the board's file turn a joint: only neighbours, whose CAN nodes are, can be "

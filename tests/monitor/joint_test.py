@@ -51,8 +51,17 @@ class Told(ModulesCase):
             hear(3, "Temperature", { coldest_C: 40.2, hottest_C: 61.4 });
             return [shown(3), shown(2)];""")
         self.assertEqual(told[0], ["rotate(28.65)", "angle: 28.65°", "reference: 29.79°",
-                                   "node 3, turns right: 1.25 W, 40 … 61 °C", "node 2, turns left: 0.50 W, – … – °C"])
+                                   "node 3, turns right: 1.25 W, 40 … 61 °C", "node 2, turns left: 0.50 W, – … – °C",
+                                   "both pull with: –"])
         self.assertEqual(told[1], told[0])
+
+    def test_a_spring_has_no_node_and_no_other_way(self):
+        told = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
+            muscle(1, 0.015, null);
+            hear(1, "Measurement", { position_m: 0.003 });
+            const joint = joint_of(store, 1, 1), { unit, both_ways, min_m } = measure_of(joint);
+            return [joint.other, unit, both_ways, min_m(0.01), shown(1)[1]];""")
+        self.assertEqual(told, [None, "°", False, 0, "angle: 11.46°"])
 
     def test_how_far_the_other_muscle_may_contract_is_told(self):
         told = self.ask(TOLD + """muscle(1, 0.015, 1);
@@ -205,6 +214,31 @@ class ByHand(OfJoint):
         until(lambda: -4.0 < self.told_angle_deg() < -1.5, 40.0)
         held.send_signal(signal.SIGINT)
         self.assertEqual(held.communicate(timeout=2 * SLACK_S)[1].strip(), "")
+
+
+class AgainstASpring(OfJoint):
+    @classmethod
+    def setUpClass(cls):
+        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
+        file = pathlib.Path(folder, "joint.toml")
+        file.write_text("[simulation]\nduration_s = 86400.0\n[joint]\nopposed_by = 'spring'\n[operator]\naction = 'none'\n"
+                        "[controller]\nkind = 'learned_ff'\n")
+        cls.scenario = str(file)
+        super().setUpClass()
+
+    def test_it_is_commanded_in_degrees_too(self):
+        until(lambda: command(self.source, "1", "arm").returncode == 0)
+        held = subprocess.Popen([SUPERCOIL, "command", "1", "position", "12deg", "--hold", "--can", self.source])
+        self.addCleanup(held.wait)
+        self.addCleanup(held.kill)
+        page = self.page()
+        page.wait(lambda: abs((self.angle_deg(page, 1) or (99.0, 99.0))[0] - 12.0) < 0.3, FOLLOWS_S, "it is there")
+        card = page.text(CARD.format(1))
+        self.assertRegex(card, r"node 1, turns right")
+        self.assertNotIn("turns left", card)
+        self.assertNotIn("both pull", card)
+        self.assertEqual(page.text(".manual .value .unit"), "°")
+        self.assertEqual(page.errors(), [])
 
 
 class ByALeverTable(OfJoint):

@@ -9,7 +9,7 @@ import numpy as np
 from patience import patient
 
 import supercoil
-from supercoil import sync
+from supercoil import joints, sync
 
 SCENARIO = """[simulation]
 duration_s = 86400.0
@@ -21,6 +21,15 @@ kind = "learned_ff"
 """
 LEVER_TABLE = supercoil.LeverTable(-30.0, 30.0, (0.012, 0.015, 0.011))
 ANGLE_DEG = 10.0
+
+
+class AgainstASpring(unittest.TestCase):
+    def test_it_has_no_other_node(self):
+        told = dict.fromkeys(joints.TOLD, math.nan)
+        self.assertIsNone(joints.joint_of(3, told))
+        told[supercoil.Quantity.joint_lever_m] = 0.015
+        self.assertEqual(joints.joint_of(3, told), supercoil.Joint(0.015, None))
+        self.assertAlmostEqual(joints.joint_of(3, told).angle_deg(0.00523599), 20.0, places=4)
 
 
 class OnSimulatedJoint(unittest.TestCase):

@@ -11,7 +11,7 @@ tl::expected<std::string, std::string> antagonist_of(BoardLink& board, const std
   const auto known = board.muscle(channel);
   if (!known) return tl::unexpected(known.error());
   const PlaceInJoint joint = told_joint(*known);
-  if (joint.direction < 1 || !std::isfinite(joint.other_channel_offset)) return "";
+  if (joint.direction < 1 || !joint.has_other()) return "";
   return std::to_string(std::stol(channel) + std::lround(joint.other_channel_offset));
 }
 

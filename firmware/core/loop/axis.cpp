@@ -26,7 +26,7 @@ control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
 modes::Calibrate::Settings calibrate_settings(const ChannelSettings& channel) {
   modes::Calibrate::Settings s;
   constexpr double still_K = 20.0, left_ratio = 1e-3;
-  if (channel.joint.direction == 0 && channel.heater.temperature_coefficient_per_K == 0.0)
+  if (!channel.joint.has_other() && channel.heater.temperature_coefficient_per_K == 0.0)
     s.still_K = still_K;
   s.max_left_m = left_ratio * channel.supervision.max_travel_m;
   s.count_m = std::abs(channel.position.scaling.per_count);

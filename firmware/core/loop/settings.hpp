@@ -46,7 +46,11 @@ struct PlaceInJoint {
   int direction =
       0;  ///< the joint turns with the position (1) or against it (-1); 0: there is none
   control::Lever lever{};
-  double other_channel_offset = NAN;  ///< from this one: 1 is the next
+  /// From this one: 1 is the next. NaN: none but a spring turns the joint as well.
+  double other_channel_offset = NAN;
+
+  bool turns() const { return direction != 0; }
+  bool has_other() const { return std::isfinite(other_channel_offset); }
 
   /// Of the joint; position_m: how far this muscle has contracted.
   double angle_rad(double position_m) const { return lever.angle_rad(direction * position_m); }

@@ -20,6 +20,7 @@ enum class Preset { nylon, skin };
 /// What describes a channel and the loop does not need.
 struct ChannelLabel {
   std::string name;
+  std::string joint;  ///< its name, of one that a spring draws back; may be empty
   Preset preset = Preset::nylon;
   bool position_in_deg = false;  ///< its sensor, of a joint's angle, is configured in degrees
   std::optional<double>

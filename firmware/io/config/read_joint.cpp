@@ -1,12 +1,17 @@
 #include "config/read_joint.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <sstream>
 
 namespace supercoil::config {
 
 namespace {
+
+enum class OpposedBy { muscle, spring };
+constexpr control::Names<OpposedBy, 2> opposed_by_names{
+    {{"muscle", OpposedBy::muscle}, {"spring", OpposedBy::spring}}};
 
 constexpr double usual_co_contraction_ratio = 0.2;  ///< of what both heaters can give
 
@@ -51,8 +56,22 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
   return place;
 }
 
+/// Its muscle's travel is a limit of its channel, as of a muscle alone.
+void JointReader::read_turned(Section& section, std::size_t channels) {
+  const auto agonist = read_place(section, "agonist", channels);
+  const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
+  if (agonist && *agonist < channels) turned_.back() = Turned{*agonist, lever};
+}
+
 void JointReader::read_places(std::size_t channels) {
   for (Section& section : sections_) {
+    turned_.emplace_back();
+    if (section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::spring) {
+      travels_.emplace_back();
+      joints_.emplace_back();
+      read_turned(section, channels);
+      continue;
+    }
     const auto agonist = read_place(section, "agonist", channels);
     const auto antagonist = read_place(section, "antagonist", channels);
     const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
@@ -72,12 +91,18 @@ std::optional<std::size_t> JointReader::agonist_of(std::size_t channel) const {
 }
 
 bool JointReader::is_wrong() const {
-  return has_wrong_range_ || std::ranges::any_of(joints_, [](const auto& j) { return !j; });
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (!joints_[i] && !turned_[i]) return true;
+  }
+  return has_wrong_range_;
 }
 
 PlaceInJoint JointReader::place_of(std::size_t channel) const {
   for (const auto& joint : joints_) {
-    if (joint && joint->place_of(channel).direction != 0) return joint->place_of(channel);
+    if (joint && joint->place_of(channel).turns()) return joint->place_of(channel);
+  }
+  for (const auto& turned : turned_) {
+    if (turned && turned->channel == channel) return {1, turned->lever, NAN};
   }
   return {};
 }
@@ -94,6 +119,11 @@ std::optional<double> JointReader::max_travel_m(std::size_t channel) const {
 void JointReader::finish(BoardConfig& config) {
   for (std::size_t i = 0; i < sections_.size(); ++i) {
     Section& section = sections_[i];
+    if (turned_[i]) {
+      config.labels[turned_[i]->channel].joint = section.text("name", "");
+      section.finish();
+      continue;
+    }
     const std::string name = section.text("name", "joint " + std::to_string(i + 1));
     section.allow({"co_contraction_W", "max_co_contraction_W", "max_pull_N", "pretension_N"});
     if (joints_[i]) {

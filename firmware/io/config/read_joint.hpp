@@ -36,11 +36,18 @@ class JointReader {
   void finish(BoardConfig& config);
 
  private:
+  /// Of a joint that a spring draws back.
+  struct Turned {
+    std::size_t channel;
+    control::Lever lever;
+  };
   void read_places(std::size_t channels);
+  void read_turned(Section& section, std::size_t channels);
   std::optional<std::size_t> read_place(Section& section, const char* key, std::size_t channels);
 
   std::vector<Section> sections_;
-  std::vector<std::optional<JointSettings>> joints_;  ///< empty: its channels are wrong
+  std::vector<std::optional<JointSettings>> joints_;  ///< empty: its channels are wrong, or
+  std::vector<std::optional<Turned>> turned_;         ///< as many: a spring opposes its muscle
   std::vector<std::optional<JointTravel>> travels_;   ///< as many; empty: by the channels' limits
   bool has_wrong_range_ = false;
   std::vector<std::size_t> taken_;  ///< channels that are in a joint

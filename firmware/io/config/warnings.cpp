@@ -59,10 +59,9 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
 /// Only a dither shows whether a hot muscle at rest still responds.
 void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
   if (!c.supervision.proof_of_response) {
-    const bool in_joint = c.joint.direction != 0;
     findings.add(Fault::heater_not_responding,
-                 std::string(in_joint ? "no proof of response is had in a joint"
-                                      : "detectors.proof_of_response is false") +
+                 std::string(c.joint.has_other() ? "no proof of response is had in a joint"
+                                                 : "detectors.proof_of_response is false") +
                      ": a muscle that is held still, off its sensor and badly cooled may pass its "
                      "limit unseen");
     return;

@@ -59,10 +59,11 @@ class LeverTable(NamedTuple):
 
 class Joint(NamedTuple):
     """lever_m: at the angle 0; below 0 of the muscle that turns it to negative angles, whose positions have the other
-    sign. table: of a lever that depends on the angle."""
+    sign. other_node: of the muscle that turns it back; None: a spring does. table: of a lever that depends on the
+    angle."""
 
     lever_m: float
-    other_node: int
+    other_node: int | None
     table: LeverTable | None = None
 
     def angle_deg(self, position_m: float) -> float:
@@ -82,10 +83,10 @@ class Joint(NamedTuple):
 def joint_of(node: int, told: Mapping[Quantity, float]) -> Joint | None:
     """told: what a board says of TOLD. None: the muscle is in no joint."""
     lever_m, offset = told[Quantity.joint_lever_m], told[Quantity.joint_other_node_offset]
-    if math.isnan(lever_m) or math.isnan(offset):
+    if math.isnan(lever_m):
         return None
     levers_m = tuple(itertools.takewhile(lambda lever_m: lever_m > 0.0, (told[point] for point in _POINTS)))
     first, last = told[Quantity.joint_lever_first_rad], told[Quantity.joint_lever_last_rad]
     told_all = len(levers_m) > 1 and first <= 0.0 <= last and first < last
     table = LeverTable(math.degrees(first), math.degrees(last), levers_m) if told_all else None
-    return Joint(lever_m, node + round(offset), table)
+    return Joint(lever_m, None if math.isnan(offset) else node + round(offset), table)

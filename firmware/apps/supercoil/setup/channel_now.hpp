@@ -16,7 +16,7 @@ struct ChannelNow {
   /// With the muscle and the senses that are known. Its first controller is as it is in use.
   ChannelSettings settings;
 
-  bool in_joint() const { return settings.joint.direction != 0; }
+  bool in_joint() const { return settings.joint.has_other(); }
   /// Of a controller in the place of the first; empty: its law promises none, or the muscle turns a
   /// joint.
   std::optional<Promise> promise(const control::ControllerSettings& controller,

@@ -56,7 +56,7 @@ def _judged(muscle: Muscle, refusal: str, otherwise: str) -> tuple[int, str]:
     return OK, otherwise
 
 
-def _led(muscle: Muscle, joint_node: int) -> str:
+def _led(muscle: Muscle, joint_node: int | None) -> str:
     return f"{muscle.state}, turns the joint of node {joint_node} back"
 
 
@@ -91,6 +91,6 @@ def diagnostics_of(joints: Sequence[Joint], stopped: bool) -> DiagnosticArray:
     level, message = (ERROR, "stopped") if stopped else (OK, "released")
     stop = DiagnosticStatus(level, "supercoil: emergency stop", message)
     named = {joint.node for joint in joints}
-    antagonists = [_status_of_antagonist(joint, joint.pair.other_node) for joint in joints
-                   if joint.pair is not None and joint.turns and joint.pair.other_node not in named]
+    antagonists = [_status_of_antagonist(joint, node) for joint in joints
+                   if (node := joint.antagonist_node) is not None and node not in named]
     return DiagnosticArray(Header(Time.now()), [stop, *(_status_of(joint) for joint in joints), *antagonists])

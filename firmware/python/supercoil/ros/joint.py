@@ -70,6 +70,11 @@ class Joint:
         return self.pair is not None and self.pair.lever_m < 0.0
 
     @property
+    def antagonist_node(self) -> int | None:
+        """Of the muscle that turns it back; None: there is none."""
+        return self.pair.other_node if self.pair is not None and self.turns else None
+
+    @property
     def unit(self) -> str:
         return "rad" if self.turns else "m"
 
@@ -156,9 +161,9 @@ class Joint:
     async def _listen(self) -> None:
         """To the muscle that turns it back. Where that one is silent this one goes on: its board judges that."""
         while True:
-            if self.pair is not None and self.turns:
+            if (node := self.antagonist_node) is not None:
                 with contextlib.suppress(SupercoilError):
-                    async with Muscle(self.address, self.pair.other_node) as antagonist:
+                    async with Muscle(self.address, node) as antagonist:
                         self._antagonist = antagonist
                         try:
                             async for _ in antagonist.stream(messages.Status):

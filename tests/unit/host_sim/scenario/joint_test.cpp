@@ -229,6 +229,15 @@ TEST(JointScenario, ASpringOpposesOneMuscle) {
   DOUBLES_EQUAL(force_N, 8.6e-3 * last.temperature_rise_K, 0.02 * force_N);
 }
 
+TEST(JointScenario, ItsBoardTellsTheLeverOfAJointAgainstASpring) {
+  const Scenario scenario =
+      read("simulation.duration_s = 0.1\n[joint]\nopposed_by = 'spring'\nlever_m = 0.012\n");
+  Simulation simulation(scenario);
+  const Channel& channel = simulation.loop().channel(0);
+  DOUBLES_EQUAL(0.012, channel.known(known_joint_lever), 0.0);
+  CHECK(std::isnan(channel.known(known_joint_other_node_offset)));
+}
+
 TEST(JointScenario, WhatIsOfTwoMusclesIsRefusedBesideASpring) {
   const std::string spring = "[joint]\nopposed_by = 'spring'\n";
   const std::string needs = ": needs a joint that is opposed_by \"muscle\"";

@@ -50,14 +50,15 @@ function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever
 }
 
 /** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: lever_m at the angle 0, < 0 of the antagonist; other is its
-    partner's node, and other_travel_m how far that may contract, if it is told. null: it is in none, or the board has not told yet. */
+    partner's node, null where a spring draws it back, and other_travel_m how far that may contract, if it is told. null: it is in none, or the board has not told yet. */
 export function joint_of(store, node, now_s) {
   const told = {};
   for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) told[store.word("Muscle", "quantity", number)] = value;
   const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
-  if (!(Math.abs(lever_m) > 0 && Number.isFinite(offset))) return null;
+  if (!(Math.abs(lever_m) > 0) || offset === undefined) return null;
   // The last of all: half of a table would turn degrees into wrong metres.
   if (!(`joint_lever_${MAX_POINTS}_m` in told)) return null;
+  if (!Number.isFinite(offset)) return { lever_m, lever: lever_of(told), other: null, other_travel_m: 0 };
   const joint = { lever_m, lever: lever_of(told), other: node + offset };
   for (const [number, { limit }] of store.round(joint.other, "Limit", "fault", now_s))
     if (store.word("Limit", "fault", number) === "over_travel") joint.other_travel_m = limit;
@@ -69,11 +70,11 @@ export const same_joint = (joint, other) => JSON.stringify(joint) === JSON.strin
 
 /** to_m, of_m: a value of the unit, and back; both_ways: set points may be negative; min_m: the least, of a muscle that may travel so far. */
 export const LENGTH = { unit: "mm", to_m: (mm) => mm / 1e3, of_m: (m) => m * 1e3, both_ways: false, min_m: () => 0 };
-const angle_at = ({ lever, other_travel_m }) => ({
+const angle_at = ({ lever, other, other_travel_m }) => ({
   unit: "°",
   to_m: (degrees) => lever.arc_m(degrees / DEGREES),
   of_m: (m) => lever.angle_rad(m) * DEGREES,
-  both_ways: true,
+  both_ways: other !== null,
   min_m: (max_m) => -(other_travel_m ?? max_m),
 });
 

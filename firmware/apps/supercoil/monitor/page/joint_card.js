@@ -47,10 +47,13 @@ export class JointCard {
     this.muscles.forEach((muscle, i) => this.#draw(muscle, i === 0 ? 1 : -1, angle_deg));
     show(this.values[0].value, `${fixed(angle_deg, 2)}°`);
     show(this.values[1].value, `${fixed(reference_deg, 2)}°`);
+    // A spring has no node.
+    this.muscles[1].style.display = other === null ? "none" : "";
+    for (const { line } of this.values.slice(3)) line.hidden = other === null;
     const antagonist = lever_m > 0 ? other : this.node;
     const is_led = this.store.word("Status", "mode", this.store.at(antagonist, "Status", now_s)?.mode) === "joint";
     show(this.values[4].value, is_led ? `${fixed(this.store.at(antagonist, "Power", now_s)?.demanded_W, 2)} W of node ${antagonist}, commanded` : "–");
-    [right, left].forEach((node, i) => {
+    [right, left].filter((node) => node !== null).forEach((node, i) => {
       const hot = this.store.at(node, "Temperature", now_s);
       const { title, value } = this.values[2 + i];
       show(title, `node ${node}, turns ${i === 0 ? "right" : "left"}`);

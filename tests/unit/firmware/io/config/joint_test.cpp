@@ -56,6 +56,28 @@ TEST(JointConfig, AntagonistHasItsAgonistsPositionWithTheOtherSign) {
     CHECK_FALSE(channel.supervision.proof_of_response);
 }
 
+TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
+  const std::string spring =
+      "[[joint]]\nname = 'finger'\nopposed_by = 'spring'\nagonist = 1\nlever_m = 0.015\n";
+  const BoardConfig c = read_joint_board(small_board + spring);
+  UNSIGNED_LONGS_EQUAL(0, c.settings.joints.size());
+  const ChannelSettings& channel = c.settings.channels[0];
+  CHECK(channel.joint.turns() && !channel.joint.has_other());
+  DOUBLES_EQUAL(0.015, channel.joint.lever.zero_radius_m(), 0.0);
+  // Its muscle alone moves it, and proves so.
+  CHECK(channel.supervision.proof_of_response);
+  STRCMP_CONTAINS(
+      "  joint       finger, turned against a spring; lever of 15 mm; held for good up to",
+      describe(c).c_str());
+  check_answer("joint[1].antagonist = 2: is not a key of",
+               small_board + spring + "antagonist = 2\n");
+  check_answer("is not a key of [joint[1]]", small_board + spring + "co_contraction_W = 0.5\n");
+  check_answer("joint[1].opposed_by = 'rope': must be one of: muscle, spring",
+               small_board + replaced(spring, "spring'", "rope'"));
+  check_answer("joint[1].agonist = 2: must be 1",
+               small_board + replaced(spring, "agonist = 1", "agonist = 2"));
+}
+
 TEST(JointConfig, TheAgonistMayComeAfterItsAntagonist) {
   const std::string position =
       "[channel.position]\ndevice = \"adc\"\ninput = \"voltage1\"\nm_per_count = 1e-6\n"
@@ -329,7 +351,8 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
   check_answer("is not a key of [joint[1]]; did you mean antagonist?",
                replaced(board_with_joint, "antagonist", "antagonst"));
   check_answer(
-      "joint[1].speed = 3: is not a key of [joint[1]]; its keys are: agonist, antagonist, "
+      "joint[1].speed = 3: is not a key of [joint[1]]; its keys are: opposed_by, agonist, "
+      "antagonist, "
       "lever_range_deg, lever_m, range_deg, name, co_contraction_W, max_co_contraction_W, "
       "max_pull_N, "
       "pretension_N\n",

@@ -166,8 +166,7 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   } else if (fault == Fault::none) {
     told += "the first motion did not come to its end";
   } else {
-    told += "the run ended in fault " + std::to_string(static_cast<int>(fault)) + " " +
-            std::string(name(fault)) + "; docs/faults/" + std::string(name(fault)) + ".md";
+    told += "the run ended in " + fault_text(fault);
   }
   const bool meant = !summary.armed() && fault == Fault::none && !asks(scenario);
   if (!options.allow_fault && !meant)

@@ -68,13 +68,15 @@ ordered_json estimate_json(const control::Estimate& e, const control::PhysicalPa
 
 }  // namespace
 
+std::string fault_text(Fault fault) {
+  return "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
+         "; " + page_of(fault);
+}
+
 std::string Summary::never_armed_because(const Scenario& scenario,
                                          const Simulation& simulation) const {
   if (armed_) return {};
-  if (const Fault fault = ended_in(); fault != Fault::none) {
-    return "fault " + std::to_string(static_cast<int>(fault)) + " " + std::string(name(fault)) +
-           "; " + page_of(fault);
-  }
+  if (const Fault fault = ended_in(); fault != Fault::none) return fault_text(fault);
   if (!arms(scenario.start.action))
     return "[operator] action is none or disarm at the start, and it arms only there";
   return simulation.loop().self_test().passed()

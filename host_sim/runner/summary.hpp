@@ -38,6 +38,9 @@ class ErrorMeter {
   std::int64_t count_ = 0;
 };
 
+/// "fault 20 heater_open; docs/faults/heater_open.md"
+std::string fault_text(Fault fault);
+
 /// Collects a run's figures as it goes. Tracking is the true position against the controller's own
 /// reference model, within the window.
 class Summary {

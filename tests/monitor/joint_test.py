@@ -153,17 +153,22 @@ class OnThePage(OfJoint):
         self.assertEqual(page.errors(), [])
 
 
-class ByHand(OfJoint):
-    """A joint that nobody else commands."""
+class OfFreeJoint(OfJoint):
+    """That nobody else commands."""
+
+    keys = ""
 
     @classmethod
     def setUpClass(cls):
         folder = cls.enterClassContext(tempfile.TemporaryDirectory())
         file = pathlib.Path(folder, "joint.toml")
-        file.write_text("[simulation]\nduration_s = 86400.0\n[joint]\n[operator]\naction = 'none'\n[controller]\nkind = 'learned_ff'\n")
+        file.write_text(f"[simulation]\nduration_s = 86400.0\n[joint]\n{cls.keys}[operator]\naction = 'none'\n"
+                        "[controller]\nkind = 'learned_ff'\n")
         cls.scenario = str(file)
         super().setUpClass()
 
+
+class ByHand(OfFreeJoint):
     def type_angle(self, page, angle):
         field = page.find(".manual .value input")
         field.clear()
@@ -216,15 +221,8 @@ class ByHand(OfJoint):
         self.assertEqual(held.communicate(timeout=2 * SLACK_S)[1].strip(), "")
 
 
-class AgainstASpring(OfJoint):
-    @classmethod
-    def setUpClass(cls):
-        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
-        file = pathlib.Path(folder, "joint.toml")
-        file.write_text("[simulation]\nduration_s = 86400.0\n[joint]\nopposed_by = 'spring'\n[operator]\naction = 'none'\n"
-                        "[controller]\nkind = 'learned_ff'\n")
-        cls.scenario = str(file)
-        super().setUpClass()
+class AgainstASpring(OfFreeJoint):
+    keys = "opposed_by = 'spring'\n"
 
     def test_it_is_commanded_in_degrees_too(self):
         until(lambda: command(self.source, "1", "arm").returncode == 0)
@@ -241,15 +239,8 @@ class AgainstASpring(OfJoint):
         self.assertEqual(page.errors(), [])
 
 
-class ByALeverTable(OfJoint):
-    @classmethod
-    def setUpClass(cls):
-        folder = cls.enterClassContext(tempfile.TemporaryDirectory())
-        file = pathlib.Path(folder, "joint.toml")
-        file.write_text("[simulation]\nduration_s = 86400.0\n[joint]\nlever_m = [0.012, 0.015, 0.011]\nlever_range_deg = [-30.0, 30.0]\n"
-                        "[operator]\naction = 'none'\n[controller]\nkind = 'learned_ff'\n")
-        cls.scenario = str(file)
-        super().setUpClass()
+class ByALeverTable(OfFreeJoint):
+    keys = "lever_m = [0.012, 0.015, 0.011]\nlever_range_deg = [-30.0, 30.0]\n"
 
     def test_an_angle_is_commanded_as_the_levers_integral(self):
         angle = math.radians(-12.0)

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "config/describe.hpp"
 #include "config/findings.hpp"
 #include "loop/feasibility.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::config {
 
@@ -12,10 +12,7 @@ namespace {
 
 /// To three digits: these are predictions.
 std::string in_digits(double value) {
-  std::ostringstream out;
-  out.precision(3);
-  out << value;
-  return out.str();
+  return number_text(value, 3);
 }
 
 std::string in_mm(double metres) {

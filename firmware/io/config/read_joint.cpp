@@ -35,9 +35,11 @@ void read_co_contraction(Section& section, const BoardSettings& board, JointSett
 
 }  // namespace
 
-JointReader::JointReader(std::vector<Section> sections, std::size_t channels)
-    : sections_(std::move(sections)) {
-  read_places(channels);
+JointReader::JointReader(std::vector<Section> sections, std::size_t channels) {
+  for (Section& section : sections)
+    joints_.push_back({std::move(section)});
+  for (Read& joint : joints_)
+    read(joint, channels);
 }
 
 std::optional<std::size_t> JointReader::read_place(Section& section, const char* key,
@@ -56,82 +58,70 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
   return place;
 }
 
-/// Its muscle's travel is a limit of its channel, as of a muscle alone.
-void JointReader::read_turned(Section& section, std::size_t channels) {
+/// Against a spring its muscle's travel is a limit of its channel, as of a muscle alone.
+void JointReader::read(Read& joint, std::size_t channels) {
+  Section& section = joint.section;
+  const bool against_spring =
+      section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::spring;
   const auto agonist = read_place(section, "agonist", channels);
-  const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
-  if (agonist && *agonist < channels) turned_.back() = Turned{*agonist, lever};
-}
-
-void JointReader::read_places(std::size_t channels) {
-  for (Section& section : sections_) {
-    turned_.emplace_back();
-    if (section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::spring) {
-      travels_.emplace_back();
-      joints_.emplace_back();
-      read_turned(section, channels);
-      continue;
-    }
-    const auto agonist = read_place(section, "agonist", channels);
-    const auto antagonist = read_place(section, "antagonist", channels);
-    const control::Lever lever = read_lever(section, lever_range_m, std::nullopt);
-    travels_.push_back(read_joint_travel(section, lever));
-    has_wrong_range_ = has_wrong_range_ || (section.has("range_deg") && !travels_.back());
-    joints_.emplace_back();
-    if (!agonist || !antagonist || std::max(*agonist, *antagonist) >= channels) continue;
-    joints_.back() = JointSettings{.agonist = *agonist, .antagonist = *antagonist, .lever = lever};
+  const auto antagonist =
+      against_spring ? std::nullopt : read_place(section, "antagonist", channels);
+  joint.lever = read_lever(section, lever_range_m, std::nullopt);
+  if (against_spring) {
+    if (agonist && *agonist < channels) joint.turned_by = agonist;
+    is_wrong_ = is_wrong_ || !joint.turned_by;
+    return;
   }
+  joint.travel = read_joint_travel(section, joint.lever);
+  if (agonist && antagonist && std::max(*agonist, *antagonist) < channels) {
+    joint.pair =
+        JointSettings{.agonist = *agonist, .antagonist = *antagonist, .lever = joint.lever};
+  }
+  is_wrong_ = is_wrong_ || !joint.pair || (section.has("range_deg") && !joint.travel);
 }
 
 std::optional<std::size_t> JointReader::agonist_of(std::size_t channel) const {
-  for (const auto& joint : joints_) {
-    if (joint && joint->antagonist == channel) return joint->agonist;
+  for (const Read& joint : joints_) {
+    if (joint.pair && joint.pair->antagonist == channel) return joint.pair->agonist;
   }
   return std::nullopt;
 }
 
-bool JointReader::is_wrong() const {
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (!joints_[i] && !turned_[i]) return true;
-  }
-  return has_wrong_range_;
-}
-
 PlaceInJoint JointReader::place_of(std::size_t channel) const {
-  for (const auto& joint : joints_) {
-    if (joint && joint->place_of(channel).turns()) return joint->place_of(channel);
-  }
-  for (const auto& turned : turned_) {
-    if (turned && turned->channel == channel) return {1, turned->lever, NAN};
+  for (const Read& joint : joints_) {
+    if (joint.turned_by == channel) return {1, joint.lever, NAN};
+    const PlaceInJoint place = joint.pair ? joint.pair->place_of(channel) : PlaceInJoint();
+    if (place.turns()) return place;
   }
   return {};
 }
 
 std::optional<double> JointReader::max_travel_m(std::size_t channel) const {
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const int direction = joints_[i] ? joints_[i]->place_of(channel).direction : 0;
-    if (direction == 0 || !travels_[i]) continue;
-    return direction > 0 ? travels_[i]->agonist_m : travels_[i]->antagonist_m;
+  for (const Read& joint : joints_) {
+    if (!joint.pair || !joint.travel) continue;
+    if (joint.pair->agonist == channel) return joint.travel->agonist_m;
+    if (joint.pair->antagonist == channel) return joint.travel->antagonist_m;
   }
   return std::nullopt;
 }
 
 void JointReader::finish(BoardConfig& config) {
-  for (std::size_t i = 0; i < sections_.size(); ++i) {
-    Section& section = sections_[i];
-    if (turned_[i]) {
-      config.labels[turned_[i]->channel].joint = section.text("name", "");
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    Read& joint = joints_[i];
+    Section& section = joint.section;
+    if (joint.turned_by) {
+      config.labels[*joint.turned_by].joint = section.text("name", "");
       section.finish();
       continue;
     }
     const std::string name = section.text("name", "joint " + std::to_string(i + 1));
     section.allow({"co_contraction_W", "max_co_contraction_W", "max_pull_N", "pretension_N"});
-    if (joints_[i]) {
+    if (joint.pair) {
       JointLabel label;
       label.name = name;
-      read_co_contraction(section, config.settings, *joints_[i]);
-      read_pull(section, config.settings, *joints_[i], label);
-      add_joint(config.settings, *joints_[i]);
+      read_co_contraction(section, config.settings, *joint.pair);
+      read_pull(section, config.settings, *joint.pair, label);
+      add_joint(config.settings, *joint.pair);
       config.joints.push_back(std::move(label));
     }
     section.finish();

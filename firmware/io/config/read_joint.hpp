@@ -31,25 +31,23 @@ class JointReader {
   /// How far the joint's range_deg lets this channel's muscle contract; empty: it has none.
   std::optional<double> max_travel_m(std::size_t channel) const;
   /// A joint's channels or its range are wrong: what a channel then lacks may come from its joint.
-  bool is_wrong() const;
+  bool is_wrong() const { return is_wrong_; }
   /// After the channels. Finishes the sections.
   void finish(BoardConfig& config);
 
  private:
-  /// Of a joint that a spring draws back.
-  struct Turned {
-    std::size_t channel;
-    control::Lever lever;
+  struct Read {
+    Section section;
+    std::optional<JointSettings> pair{};     ///< empty: a spring opposes its muscle, or it is wrong
+    std::optional<JointTravel> travel{};     ///< empty: by the limits of its channels
+    std::optional<std::size_t> turned_by{};  ///< the channel that turns it against a spring
+    control::Lever lever{};
   };
-  void read_places(std::size_t channels);
-  void read_turned(Section& section, std::size_t channels);
+  void read(Read& joint, std::size_t channels);
   std::optional<std::size_t> read_place(Section& section, const char* key, std::size_t channels);
 
-  std::vector<Section> sections_;
-  std::vector<std::optional<JointSettings>> joints_;  ///< empty: its channels are wrong, or
-  std::vector<std::optional<Turned>> turned_;         ///< as many: a spring opposes its muscle
-  std::vector<std::optional<JointTravel>> travels_;   ///< as many; empty: by the channels' limits
-  bool has_wrong_range_ = false;
+  std::vector<Read> joints_;
+  bool is_wrong_ = false;
   std::vector<std::size_t> taken_;  ///< channels that are in a joint
 };
 

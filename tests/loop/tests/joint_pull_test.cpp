@@ -78,6 +78,48 @@ TEST(JointPull, PullsNoHarderThanTheLimitWhereEachMuscleIsDrivenByItself) {
   }
 }
 
+/// What was commanded may be more than the limit once the muscles are known better: here the
+/// agonist moves less than was believed, so that the antagonist's watts count for more.
+TEST(JointPull, PullsNoHarderOnceTheMusclesAreKnownBetter) {
+  constexpr double max_W = 1.2;
+  RigSettings settings = joint_board();
+  settings.firmware.joints[0].max_co_contraction_W = max_W;
+  control::EstimatorSettings& estimator = settings.firmware.channels[agonist].estimators[0];
+  estimator.kind = control::EstimatorKind::least_squares;
+  estimator.set_nominal(settings.firmware.channels[agonist].muscle, 4.5);
+  Rig fresh(settings);
+  begin(fresh);
+  const auto gain_ratio = [&] {
+    return fresh.loop.channel(antagonist).dc_gain_m_per_W() /
+           fresh.loop.channel(agonist).dc_gain_m_per_W();
+  };
+  const double before = gain_ratio();
+  // Moved until its estimates may be trusted.
+  const auto trusted = [&] {
+    const auto& estimate = fresh.loop.channel(agonist).estimates();
+    return estimate && estimate->trusted;
+  };
+  for (int i = 0; i < 4000 && !trusted(); ++i) {
+    const double time_s = 0.05 * i;
+    const double power_W = 1.8 + 0.4 * (std::sin(0.3 * time_s) + std::sin(1.1 * time_s)) +
+                           0.4 * (std::sin(3.1 * time_s) + std::sin(9.0 * time_s));
+    CHECK(fresh.answer_of(agonist, Verb::power, power_W) == Refusal::none);
+    fresh.run(0.05);
+  }
+  CHECK(fresh.answer_of(agonist, Verb::power, 1.5 * max_W) == Refusal::none);
+  CHECK(fresh.answer_of(antagonist, Verb::power, max_W / before) == Refusal::none);
+  CHECK(fresh.answer_of(agonist, Verb::store, 1.0) == Refusal::none);
+  CHECK_COMPARE(gain_ratio(), >, 1.1 * before);
+  for (int i = 0; i < 20; ++i) {
+    fresh.run(0.05);
+    for (const std::uint8_t channel : {agonist, antagonist})
+      CHECK(fresh.answer_of(channel, Verb::renew) == Refusal::none);
+  }
+  const double applied_W = fresh.loop.channel(antagonist).snapshot().applied_W;
+  CHECK_COMPARE(applied_W, <, 1.02 * max_W / gain_ratio());
+  CHECK_COMPARE(applied_W, >, 0.9 * max_W / gain_ratio());
+}
+
 TEST(JointPull, PullsAgainstItselfForMinutesWithoutAFault) {
   for (const bool known : {false, true}) {
     RigSettings settings = known_joint(3.0);

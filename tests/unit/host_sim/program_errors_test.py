@@ -89,6 +89,13 @@ class Errors(ProgramCase):
                 ("[joint]\nlever_m = [0.012, 0.015]\nlever_range_deg = [-20.0, 20.0]\n", pair,
                  "joint.lever_m = [0.012, 0.015] over -20 to 20 deg is not the board's, 0.015")):
             self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--channel", 2, "--out", "out")
+        finger = self.path / "finger.toml"
+        finger.write_text(alone.read_text() + '\n[[joint]]\nopposed_by = "spring"\nagonist = 1\nlever_m = 0.015\n')
+        for text, told in (
+                ("", "channel 1 of the board's file turns a joint against a spring: the scenario needs a [joint] that is opposed_by \"spring\""),
+                ("[joint]\nopposed_by = 'spring'\nlever_m = 0.02\n", "joint.lever_m = 0.02 is not the board's, 0.015"),
+                ("[joint]\n", "the scenario has a [joint] of two muscles, and channel 1 of the board's file is in none")):
+            self.check_refused(told, "run", self.scenario(SHORT + text), "--board", finger, "--out", "out")
 
     def test_a_window_outside_the_run(self):
         for window in ["1:99", "2:1", "x:y", "5"]:

@@ -47,7 +47,21 @@ class Results(ProgramCase):
             done = self.run_program("run", self.scenario(text), *options, *["--allow-fault"] * allowed)
             self.assertEqual(done.returncode, status, done.stderr)
             self.assertIn(told, done.stderr if status else done.stdout)
-            self.assertTrue((self.path / "out/summary.json").exists())
+            summary = json.loads((self.path / "out/summary.json").read_text())
+            why = summary["never_armed_because"]
+            self.assertEqual((summary["armed"], f"never armed: {why}" in done.stderr + done.stdout), (why is None, why is not None))
+            for fault in summary["faults"]:
+                self.assertEqual(fault["page"], f"docs/faults/{fault['name']}.md")
+
+    def test_a_first_motion_tells_whether_it_came_to_its_end_and_kept_its_promise(self):
+        def run(duration_s):
+            text = f"simulation.duration_s = {duration_s}\noperator.action = 'first_motion'\ncontroller.kind = 'learned_ff'\n"
+            return self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
+        cut = run(4.0)
+        self.assertEqual((cut.returncode, "the first motion did not come to its end" in cut.stderr), (1, True), cut.stderr)
+        whole = run(60.0)
+        self.assertEqual((whole.returncode, whole.stderr), (0, ""))
+        self.assertRegex(whole.stdout, r"\nfirst motion: followed within [\d.]+ um rms; the promise of [\d.]+ um is kept\n")
 
     def test_the_share_of_ticks_at_each_limit_is_told(self):
         done = self.run_program("run", self.scenario(SHORT + "power.max_W = 0.5\n"), "--out", "out", "--no-plot")

@@ -9,6 +9,7 @@
 
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
+#include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
@@ -17,7 +18,6 @@
 #include "apps/supercoil/setup/setup_board.hpp"
 #include "apps/supercoil/setup/steps.hpp"
 #include "apps/supercoil/setup/terminal_operator.hpp"
-#include "apps/supercoil/setup/undo.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::operating {

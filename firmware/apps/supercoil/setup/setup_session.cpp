@@ -8,7 +8,6 @@
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/setup_board.hpp"
 #include "apps/supercoil/setup/steps.hpp"
-#include "apps/supercoil/setup/undo.hpp"
 #include "config/board_config.hpp"
 
 namespace supercoil::operating {

@@ -1,5 +1,3 @@
-#include "apps/supercoil/setup/undo.hpp"
-
 #include <filesystem>
 #include <system_error>
 

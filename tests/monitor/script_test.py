@@ -121,7 +121,7 @@ class Scripts(OnSimulatedBoard):
 
     def test_a_refusal_is_told_in_words_behind_its_name(self):
         self.command("1", "disarm")
-        for words, why in ((("1", "position", "0.01"), "wrong_state: arm it first, or reset its fault"),
+        for words, why in ((("1", "position", "0.01"), "wrong_state: arm it first, or reset its fault; or command the channel that leads its joint or bundle"),
                            (("1", "reset"), "wrong_state: it has no fault"),
                            (("1", "rest"), "wrong_state: it rests already, or is off")):
             self.assertEqual(self.command(*words).stderr, f"supercoil: {' '.join(words)}: refused: {why}\n")

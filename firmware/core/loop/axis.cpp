@@ -26,7 +26,8 @@ control::CoolingFit::Settings cooling_settings(const ChannelSettings& channel) {
 modes::Calibrate::Settings calibrate_settings(const ChannelSettings& channel) {
   modes::Calibrate::Settings s;
   constexpr double still_K = 20.0, left_ratio = 1e-3;
-  if (!channel.joint.has_other() && channel.heater.temperature_coefficient_per_K == 0.0)
+  if (!channel.joint.has_other() && !channel.bundle.bundled &&
+      channel.heater.temperature_coefficient_per_K == 0.0)
     s.still_K = still_K;
   s.max_left_m = left_ratio * channel.supervision.max_travel_m;
   s.count_m = std::abs(channel.position.scaling.per_count);
@@ -64,7 +65,8 @@ Axis::Axis(const ChannelSettings& settings, const BoardSettings& board,
   };
   choose(stored_tuning_.controller, tracking_.controllers(), tracking_);
   choose(stored_tuning_.estimator, estimation_.estimators(), estimation_);
-  if (settings.thermal.weighed())
+  // What bundled muscles cool by together is none's own.
+  if (settings.thermal.weighed() && !settings.bundle.bundled)
     cooling_fit_ = std::make_unique<control::CoolingFit>(cooling_settings(settings), step_s_);
 }
 
@@ -95,6 +97,9 @@ void Axis::observe(double supply_V, const board::Measured* air, std::int64_t per
 
 control::PowerRange Axis::range() const {
   const control::PowerRange own = heater_.power_range();
+  if (companions_)
+    return {std::max(own.min_W, companions_->range.min_W),
+            std::min(own.max_W, companions_->range.max_W)};
   return {own.min_W - other_.range.max_W, own.max_W - other_.range.min_W};
 }
 
@@ -127,9 +132,8 @@ void Axis::prove(std::int64_t periods) {
 }
 
 void Axis::estimate() {
-  // What the antagonist could learn the agonist's axis learns, of the same motion and effort.
-  const bool led = mode_ == Mode::joint;
-  if (!state_.may_heat() || !inputs_.position.present || led) return;
+  // What is led could learn what the leading axis learns, of the same motion and power.
+  if (!state_.may_heat() || !inputs_.position.present || is_led(mode_)) return;
   estimation_.step(inputs_.position.value, moving_W());
   // Once a second: what the estimator knows of cooling, when it may be trusted.
   if (++estimated_ticks_ < ticks_per_s_) return;
@@ -140,6 +144,13 @@ void Axis::estimate() {
 void Axis::learn_heat() {
   if (const auto muscle = estimation_.trusted_muscle(muscle_))
     heater_.learn(muscle->thermal_pole_rad_per_s());
+}
+
+void Axis::follow_power(double demanded_W, double power_W) {
+  if (is_led(mode_) && demanded_W != reference_) restart_comparisons();
+  if (is_led(mode_)) reference_ = demanded_W;
+  demanded_.demanded_power_W = demanded_W;
+  limit(power_W);
 }
 
 bool Axis::control() {
@@ -157,7 +168,7 @@ bool Axis::control() {
       input.trajectory = playback_.point();
       input.position_m = inputs_.position.value;
       input.applied_power_W = moving_W();
-      input.limited = heater_.acting().limited || other_.limited;
+      input.limited = is_limited();
       input.range = range();
       demanded_ = tracking_.step(input, estimation_.estimate());
       return false;
@@ -170,6 +181,9 @@ bool Axis::control() {
     case Mode::joint:
       // What its heater is to give the joint divides.
       demanded_.demanded_power_W = reference_;
+      return false;
+    case Mode::bundle:
+      follow_comparisons();  // it is given its power
       return false;
     case Mode::identify:
       return step_identify();
@@ -184,7 +198,8 @@ bool Axis::control() {
 /// A reference that was shaped says why, where the limiter knows nothing better.
 LimitedBy Axis::limited_by() const {
   using control::Infeasible;
-  const LimitedBy by = heater_.allowed().by;
+  LimitedBy by = heater_.allowed().by;
+  if (by == LimitedBy::nothing && companions_limited()) by = companions_->limited_by;
   const bool at_an_end = by <= LimitedBy::maximum;
   if (!at_an_end || demanded_.infeasible == Infeasible::nothing) return by;
   return demanded_.infeasible == Infeasible::cooling ? LimitedBy::cooling : LimitedBy::maximum;
@@ -224,6 +239,7 @@ void Axis::publish(std::uint32_t selector, Snapshot& s) const {
   s.gain = tracking_.gain(selector);
   estimation_.publish(selector, s);
   heater_.publish(s);
+  s.limited = s.limited || companions_limited();
 }
 
 }  // namespace supercoil

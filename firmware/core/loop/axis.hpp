@@ -40,6 +40,13 @@ struct Opposition {
   bool expected_anew = false;  ///< as AxisInputs'
 };
 
+/// What the other muscles of a bundle do, as the axis that leads it sees them.
+struct Companions {
+  control::PowerRange range;                  ///< that every heater can give
+  LimitedBy limited_by = LimitedBy::nothing;  ///< the first of them that is
+  double hottest_K = 0.0;                     ///< above the air
+};
+
 /// Reads the channel's state, and never changes it: what ends by itself is told to the channel.
 class Axis {
  public:
@@ -55,6 +62,10 @@ class Axis {
     inputs_.in_joint = true;
     inputs_.expected_anew = inputs_.expected_anew || other.expected_anew;
   }
+  /// In a bundle, of its leader: likewise of the others.
+  void lead(const Companions& others) { companions_ = others; }
+  /// In a bundle, of one that follows: it is the leader's motion.
+  void follow_knowledge(const Axis& leader);
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
   void observe(double supply_V, const board::Measured* air, std::int64_t periods);
   const AxisInputs& inputs() const { return inputs_; }
@@ -81,6 +92,8 @@ class Axis {
     share_W_ = share_W;
     heater_.limit(state_, proof_.added_to(share_W), proof_.max_W());
   }
+  /// In a bundle, of one that follows: the leader's demand and, of that, the power of its heater.
+  void follow_power(double demanded_W, double power_W);
   /// Calibrate probes when it has found the zero, and not before.
   void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
   /// Its part of what is published, with the heater's. selector: of a full turn, chooses what is
@@ -105,7 +118,7 @@ class Axis {
   double max_travel_m() const { return settings_.supervision.max_travel_m; }
   /// In a joint, of its agonist: how far the other muscle may pull it.
   void limit_reverse_travel(double max_m) { max_reverse_travel_m_ = max_m; }
-  /// m, or W in open loop and in Mode::joint.
+  /// m, or W in open loop, in Mode::joint and in Mode::bundle.
   double reference() const { return reference_; }
   /// Follows what was admitted. value: m, or W in open loop.
   void follow(Mode mode, double value);
@@ -147,6 +160,13 @@ class Axis {
   double moving_W() const { return heater_.acting().power_W - other_.power_W; }
   /// What a controller may count on.
   control::PowerRange range() const;
+  /// What acts is not what was wanted.
+  bool is_limited() const {
+    return heater_.acting().limited || other_.limited || companions_limited();
+  }
+  bool companions_limited() const {
+    return companions_ && companions_->limited_by != LimitedBy::nothing;
+  }
   void prove(std::int64_t periods);
   void learn_heat();
   LimitedBy limited_by() const;
@@ -170,6 +190,10 @@ class Axis {
   Refusal apply_comparison(const board::SenseComparison& senses);
   void follow_comparisons();
   void restart_comparisons();
+  /// The power of its heater is known to be steady, if it does not change.
+  bool holds_power() const {
+    return state_.may_heat() && (mode_ == Mode::power || mode_ == Mode::bundle);
+  }
 
   board::Learned known() const;
   void publish_muscle();
@@ -187,6 +211,7 @@ class Axis {
   AxisInputs inputs_;
   Heater heater_;
   Opposition other_;
+  std::optional<Companions> companions_;
   Tracking tracking_;
   Estimation estimation_;
   std::int64_t ticks_per_s_;
@@ -200,13 +225,15 @@ class Axis {
   double response_ratio_;     ///< of small motions, as ProofSettings has it; 0: not measured
   double unexplained_ratio_;  ///< by that muscle, when identify found it; 0: not measured
   board::StoredTuning stored_tuning_;
+  std::uint32_t knowledge_ = 0;     ///< counts what was learned of the motion
+  std::uint32_t knows_from_ = -1U;  ///< of the leader's, as it was taken over
   PublishedMuscle published_muscle_;
   boost::lockfree::spsc_queue<board::LearnedUpdate, boost::lockfree::capacity<4>> learned_updates_;
 
   Mode mode_ = Mode::rest;
   hal::Time now_{};
   Playback playback_;
-  double reference_ = 0.0;  ///< m, or W in open loop
+  double reference_ = 0.0;  ///< as reference()
   double max_pull_W_ = std::numeric_limits<double>::infinity();
   /// Below rest. Of a single muscle as far as above it.
   double max_reverse_travel_m_ = settings_.supervision.max_travel_m;

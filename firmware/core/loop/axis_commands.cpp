@@ -160,8 +160,8 @@ Reply Axis::choose_estimator(double place) {
 
 Reply Axis::scale(double true_m) {
   const double measured_m = inputs_.position.value;
-  // Its other muscle reads the same sensor, by a scale of its own.
-  if (inputs_.in_joint) return Refusal::unsuitable;
+  // A joint's other muscle reads the same sensor, by a scale of its own; a bundle has its leader's.
+  if (inputs_.in_joint || settings_.bundle.follows()) return Refusal::unsuitable;
   // A controller would jump at the new scale.
   if (mode_ == Mode::position) return Refusal::wrong_state;
   if (!inputs_.position.present) return Refusal::not_ready;
@@ -197,7 +197,7 @@ Refusal Axis::compare(board::MeterComparison::Sense sense, double meter) {
   const bool active = state_.may_heat();
   if (sense == board::MeterComparison::supply && meter == 0.0)
     return active ? Refusal::wrong_state : apply_comparison({});
-  if (!active || mode_ != Mode::power) return Refusal::wrong_state;
+  if (!holds_power()) return Refusal::wrong_state;
   // Not the calibrated resistance: the senses that are in question measured that.
   const Refusal refusal = comparison_.read(sense, meter, heater_.senses(),
                                            heater_.warm_Ohm(settings_.heater.cold_resistance_Ohm));
@@ -214,7 +214,7 @@ Refusal Axis::compare_rise(double rise_K) {
     if (active) return Refusal::wrong_state;
     facts.clear_reading();
   } else {
-    if (!active || mode_ != Mode::power) return Refusal::wrong_state;
+    if (!holds_power()) return Refusal::wrong_state;
     const Refusal refusal =
         steady_state_.read(rise_K, heater_.power_bounds().true_over_measured(), facts);
     if (refusal != Refusal::none) return refusal;

@@ -30,7 +30,7 @@ void Axis::publish_muscle() {
       muscle_, calibration_, response_ratio_,
       {identify_.quality().deviation_ratio, unexplained_ratio_ > 0.0 ? unexplained_ratio_ : NAN},
       {settings_.configured_muscle.value_or(settings_.muscle), settings_.heater.cold_resistance_Ohm,
-       settings_.joint}));
+       settings_.joint, settings_.bundle}));
 }
 
 void Axis::calibrate(const board::Calibration& calibration) {
@@ -53,6 +53,7 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   if (!(muscle == muscle_) || response_ratio != proof_.settings().response_ratio)
     proof_.learn(muscle, response_ratio);
   muscle_ = muscle;
+  ++knowledge_;
   calibrate(found);
   if (recalibrated) {
     const detectors::Recalibration change{before_m, calibrated(inputs_.sensor_m),
@@ -62,6 +63,20 @@ ModeResult Axis::keep(const control::PhysicalParameters& muscle, const board::Ca
   }
   has_muscle_ = true;
   return learned_updates_.push(learned) ? ModeResult::found : ModeResult::not_stored;
+}
+
+/// At the latest when the next tick is judged. The cold resistance is this heater's own.
+void Axis::follow_knowledge(const Axis& leader) {
+  if (knows_from_ == leader.knowledge_) return;
+  knows_from_ = leader.knowledge_;
+  if (!(muscle_ == leader.muscle_)) heater_.believe(leader.muscle_);
+  muscle_ = leader.muscle_;
+  board::Calibration found = leader.calibration_;
+  found.cold_resistance_Ohm = calibration_.cold_resistance_Ohm;
+  calibrate(found);
+  inputs_.position.value = calibrated(inputs_.sensor_m);
+  inputs_.recalibrated = leader.inputs_.recalibrated;
+  inputs_.expected_anew = leader.inputs_.expected_anew;
 }
 
 /// For the next start. What is not kept holds until then.

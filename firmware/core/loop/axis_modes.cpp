@@ -82,8 +82,9 @@ bool Axis::learn_cooling() {
 
 bool Axis::step_calibrate() {
   if (heater_.probing()) return false;
-  // The other muscle of a joint moves it as well.
-  const double hottest_K = std::max(heater_.heat().hottest_K(), other_.hottest_K);
+  // The others of a joint or a bundle move it as well.
+  const double others_K = companions_ ? companions_->hottest_K : other_.hottest_K;
+  const double hottest_K = std::max(heater_.heat().hottest_K(), others_K);
   const ModeResult now = calibrate_.step(hottest_K, inputs_.position.value, step_s_);
   if (now != ModeResult::running) return end_mode(now);
   if (calibrate_.knows_zero()) heater_.start_probe();
@@ -95,8 +96,11 @@ bool Axis::end_probe() {
   const ModeResult now = calibrate_.probed(heater_.probed_Ohm());
   if (now != ModeResult::found) return end_mode(now);
   board::Calibration found = calibration_;
-  found.position_offset_m +=
-      settings_.joint.reading_of_position_m(calibrate_.zero_m()) / calibration_.position_scale;
+  // Of a bundle the zero is its leader's.
+  if (!settings_.bundle.follows()) {
+    found.position_offset_m +=
+        settings_.joint.reading_of_position_m(calibrate_.zero_m()) / calibration_.position_scale;
+  }
   found.cold_resistance_Ohm = calibrate_.cold_resistance_Ohm();
   return end_mode(keep(muscle_, found));
 }

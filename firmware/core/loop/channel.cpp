@@ -64,17 +64,20 @@ void Channel::supervise(const BoardTick& board) {
 }
 
 void Channel::control() {
-  if (waits_for_other()) return follow_other();
-  const bool moved_joint = moves_joint();
+  if (waits_for_others()) return follow_others();
+  const bool moved_together = moves_together();
   const Mode mode = axis_.mode();
   if (!axis_.control() || hand_over(mode)) return;
   state_.rest();
-  if (moved_joint) other_->rest_now();
+  if (!moved_together) return;
+  for (Channel* const other : others_)
+    other->rest_now();
 }
 
 void Channel::disarm(Fault cause, const detectors::Margin& margin) {
   make_safe(cause, margin);
-  if (other_ != nullptr) other_->make_safe(cause, margin);
+  for (Channel* const other : others_)
+    other->make_safe(cause, margin);
 }
 
 void Channel::make_safe(Fault cause, const detectors::Margin& margin) {
@@ -95,7 +98,7 @@ const Snapshot& Channel::publish(const BoardTick& board, const Verdict& board_ve
   s.fault = state_.first_cause();
   selector_ += golden_ratio;
   axis_.publish(selector_, s);
-  publish_joint(s);
+  publish_group(s);
   const auto& faults = all_faults();
   s.margin_selector = faults[(std::uint64_t{selector_} * faults.size()) >> 32U].fault;
   const Verdict& judge =
@@ -154,10 +157,11 @@ Refusal Channel::may_arm(const BoardTick& board) const {
 
 Refusal Channel::arm(const BoardTick& board) {
   if (const Refusal own = may_arm(board); own != Refusal::none) return own;
-  if (other_ != nullptr) {
-    if (const Refusal others = other_->may_arm(board); others != Refusal::none) return others;
-    other_->arm_now();
+  for (const Channel* const other : others_) {
+    if (const Refusal others = other->may_arm(board); others != Refusal::none) return others;
   }
+  for (Channel* const other : others_)
+    other->arm_now();
   arm_now();
   return Refusal::none;
 }
@@ -171,10 +175,11 @@ void Channel::arm_now() {
 Refusal Channel::reset(const BoardTick& board) {
   bool persists = present_fault_ != Fault::none || board.fault != Fault::none;
   reset_requested_ = true;
-  if (other_ != nullptr) {
-    persists = persists || other_->present_fault_ != Fault::none;
-    other_->reset_requested_ = true;
-    other_->state_.reset(true, persists);
+  for (const Channel* const other : others_)
+    persists = persists || other->present_fault_ != Fault::none;
+  for (Channel* const other : others_) {
+    other->reset_requested_ = true;
+    other->state_.reset(true, persists);
   }
   return state_.reset(true, persists);
 }
@@ -188,12 +193,14 @@ Refusal Channel::may_heat(const BoardTick& board) const {
 }
 
 Reply Channel::heat(Mode mode, double value, const BoardTick& board) {
-  if (mode == Mode::power && !leads_ && moves_joint()) return axis_.pull_with(value);
+  const bool of_joint = !others_.empty() && !bundled_;
+  if (mode == Mode::power && of_joint && leader_ != nullptr && moves_together())
+    return axis_.pull_with(value);
   if (const Refusal own = may_heat(board); own != Refusal::none) return own;
-  if (const Refusal joint = joint_admits(mode, board); joint != Refusal::none) return joint;
+  if (const Refusal group = group_admits(mode, board); group != Refusal::none) return group;
   if (const Reply reply = axis_.admits(mode, value); reply.refusal != Refusal::none) return reply;
-  if (mode == Mode::power && other_ != nullptr) {
-    const Reply pull = axis_.admits_against(other_->axis_, value);
+  if (mode == Mode::power && of_joint) {
+    const Reply pull = axis_.admits_against(others_.front()->axis_, value);
     if (pull.refusal != Refusal::none) return pull;
   }
   lead(mode);
@@ -225,11 +232,13 @@ Refusal Channel::renew() {
 }
 
 Refusal Channel::rest() {
-  const bool both = moves_joint() || waits_for_other();
+  const bool all = moves_together() || waits_for_others();
   if (state_.rest() != Refusal::none) return Refusal::wrong_state;
   axis_.rest();
   handed_over_ = Mode::rest;
-  if (both) other_->rest_now();
+  if (!all) return Refusal::none;
+  for (Channel* const other : others_)
+    other->rest_now();
   return Refusal::none;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "loop/axis.hpp"
 #include "loop/command.hpp"
@@ -33,12 +34,11 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
-  /// Before the first tick: the other channel of its joint, which outlives it. leads: commands to
-  /// follow a position come to this one.
-  void join(Channel& other, bool leads) {
-    other_ = &other;
-    leads_ = leads;
-  }
+  // Before the first tick, of channels that outlive each other:
+  /// Both are in a joint. What follows a position comes to this one.
+  void lead_joint(Channel& antagonist);
+  /// They are a bundle, and all commands come to this one.
+  void lead_bundle(std::vector<Channel*> followers);
   Axis& axis() { return axis_; }
 
   // The stages of a tick, in this order.
@@ -51,8 +51,8 @@ class Channel {
   void drive() { axis_.drive(); }
   const Snapshot& publish(const BoardTick& board, const Verdict& board_verdict);
 
-  /// The one way of making the channel safe, and the other one of its joint: duty 0 and enable low,
-  /// at once. Fault::none is an ordinary stop.
+  /// The one way of making the channel safe, and all others of its joint or bundle: duty 0 and
+  /// enable low, at once. Fault::none is an ordinary stop.
   void disarm(Fault cause, const detectors::Margin& margin = {});
   /// For the self-test: a duty and the enable line by hand. Only while disarmed.
   void test_drive(double duty, bool enable) { axis_.heater().test_drive(duty, enable); }
@@ -118,28 +118,37 @@ class Channel {
   Refusal renew();
   Refusal rest();
 
-  // In a joint (channel_in_joint.cpp):
-  /// It follows the joint's position, or is led by the other one that does.
-  bool moves_joint() const;
-  /// What it does is part of what the other one was told: that one is renewed for both.
+  // In a joint or a bundle (channel_group.cpp):
+  /// It does what takes all of them, or is led by the one that does.
+  bool moves_together() const;
+  /// In this mode it takes all of them.
+  bool takes_all(Mode mode) const;
+  /// After this mode of the one that leads the others do the same, one after the other.
+  bool is_handed_over(Mode mode) const;
+  /// What it does is part of what the leader was told: that one is renewed for all.
   bool led() const;
-  /// Whether the other one lets this one heat.
+  /// Whether the others let this one heat.
+  Refusal group_admits(Mode mode, const BoardTick& board) const;
   Refusal joint_admits(Mode mode, const BoardTick& board) const;
-  /// Before this one's mode changes: the other one begins, or ends, to be led.
+  Refusal bundle_admits(const BoardTick& board) const;
+  /// Before this one's mode changes: the others begin, or end, to be led.
   void lead(Mode mode);
-  /// After identify or calibrate of the one that leads: the other one does the same. False: it does
-  /// not, and this one is done.
+  /// After identify or calibrate: the next one does the same. False: none does, and this one is
+  /// done.
   bool hand_over(Mode ended);
-  bool waits_for_other() const { return handed_over_ != Mode::rest; }
-  void follow_other();
-  /// In a joint what leads tells how far both are.
-  void publish_joint(Snapshot& s) const;
+  bool hand_over_to(std::size_t place, Mode mode);
+  bool waits_for_others() const { return handed_over_ != Mode::rest; }
+  void follow_others();
+  /// What leads tells how far all are.
+  void publish_group(Snapshot& s) const;
   void rest_now();
 
   std::uint8_t index_;
-  Channel* other_ = nullptr;  ///< of its joint; null: it is in none
-  bool leads_ = true;
-  Mode handed_over_ = Mode::rest;  ///< what the other one does for this one, if anything
+  std::vector<Channel*> others_;  ///< of its joint or bundle
+  Channel* leader_ = nullptr;     ///< of them, when it is not this one
+  bool bundled_ = false;
+  Mode handed_over_ = Mode::rest;   ///< what another one does for this one, if anything
+  std::size_t handed_over_to_ = 0;  ///< which of the others does
   ChannelState state_;
   Axis axis_;
   Tuner tuner_;

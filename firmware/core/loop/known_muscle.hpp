@@ -17,7 +17,7 @@ namespace supercoil {
 
 /// In the order of Muscle.quantity in the DBC. The deviations are NaN until identify has found a
 /// muscle since the start, unexplained_ratio until it ever has found the one that is known.
-inline constexpr std::array<std::string_view, 33> known_quantities{
+inline constexpr std::array<std::string_view, 34> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
     "position_scale",
@@ -33,7 +33,8 @@ inline constexpr std::array<std::string_view, 33> known_quantities{
     "joint_other_node_offset",  ///< of the other muscle, minus this one's
     // As control::Lever has them, of a lever that depends on the angle; NaN: it has fewer.
     "joint_lever_first_rad", "joint_lever_last_rad", "joint_lever_1_m", "joint_lever_2_m",
-    "joint_lever_3_m", "joint_lever_4_m", "joint_lever_5_m", "joint_lever_6_m", "joint_lever_7_m"};
+    "joint_lever_3_m", "joint_lever_4_m", "joint_lever_5_m", "joint_lever_6_m", "joint_lever_7_m",
+    "bundle_leader_node_offset"};  ///< minus this node; NaN: it leads, or there is no bundle
 /// Places of those that follow the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
@@ -48,6 +49,7 @@ enum KnownPlace : std::uint8_t {
   known_lever_first,
   known_lever_last,
   known_lever_points,  ///< the first of control::Lever::max_points
+  known_bundle_leader_node_offset = known_lever_points + control::Lever::max_points,
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
@@ -56,11 +58,13 @@ struct ConfiguredMuscle {
   control::PhysicalParameters muscle;
   double cold_resistance_Ohm;
   PlaceInJoint joint;
+  PlaceInBundle bundle{};
 };
 
 inline void tell_lever(const PlaceInJoint& joint, KnownMuscle& known) {
   const control::Lever& lever = joint.lever;
-  std::fill(known.begin() + known_lever_first, known.end(), NAN);
+  std::fill(known.begin() + known_lever_first, known.begin() + known_bundle_leader_node_offset,
+            NAN);
   if (joint.direction == 0) return;
   known[known_joint_lever] = joint.direction * lever.zero_radius_m();
   if (lever.is_constant()) return;
@@ -77,9 +81,9 @@ inline PlaceInJoint told_joint(const KnownMuscle& known) {
   joint.direction = lever_m > 0.0 ? 1 : -1;
   joint.other_channel_offset = known[known_joint_other_node_offset];
   const auto* const first = known.data() + known_lever_points;
-  const auto* const last = std::find_if(first, known.data() + known.size(), [](double radius_m) {
-    return !(radius_m > 0.0 && std::isfinite(radius_m));
-  });
+  const auto* const end = known.data() + known_bundle_leader_node_offset;
+  const auto* const last = std::find_if(
+      first, end, [](double radius_m) { return !(radius_m > 0.0 && std::isfinite(radius_m)); });
   const double first_rad = known[known_lever_first];
   const double last_rad = known[known_lever_last];
   const bool table = last - first > 1 && first_rad <= 0.0 && last_rad >= 0.0 &&
@@ -118,6 +122,7 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
                     NAN,
                     configured.joint.other_channel_offset};
   tell_lever(configured.joint, known);
+  known[known_bundle_leader_node_offset] = configured.bundle.leader_offset;
   return known;
 }
 

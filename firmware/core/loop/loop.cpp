@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace supercoil {
 
@@ -38,14 +39,25 @@ Loop::Loop(const BoardSettings& settings, const board::Devices& devices)
   for (std::size_t i = 0; i < settings.channels.size(); ++i) {
     channels_.push_back(std::make_unique<Channel>(
         settings.channels[i], settings, devices.channels[i], static_cast<std::uint8_t>(i)));
-    if (settings.joint_of(i) == nullptr) single_.push_back(channels_.back().get());
+    if (settings.joint_of(i) == nullptr && settings.bundle_of(i) == nullptr)
+      single_.push_back(channels_.back().get());
   }
   for (const JointSettings& joint : settings.joints) {
     Channel& agonist = *channels_[joint.agonist];
     Channel& antagonist = *channels_[joint.antagonist];
-    agonist.join(antagonist, true);
-    antagonist.join(agonist, false);
+    agonist.lead_joint(antagonist);
     joints_.emplace_back(joint, agonist.axis(), antagonist.axis(), settings.step_s());
+  }
+  for (const BundleSettings& bundle : settings.bundles) {
+    std::vector<Channel*> followers;
+    std::vector<Axis*> axes;
+    for (std::size_t i = 1; i < bundle.channels.size(); ++i) {
+      followers.push_back(channels_[bundle.channels[i]].get());
+      axes.push_back(&followers.back()->axis());
+    }
+    Channel& leader = *channels_[bundle.leader()];
+    bundles_.emplace_back(leader.axis(), std::move(axes));
+    leader.lead_bundle(std::move(followers));
   }
 }
 
@@ -59,6 +71,8 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
   judge_board(woke, hal::seconds(woke - due), skipped);
   for (Joint& joint : joints_)
     joint.observe();
+  for (Bundle& bundle : bundles_)
+    bundle.observe();
   for (const auto& channel : channels_)
     channel->supervise(now_);
   for (const auto& channel : channels_) {
@@ -75,6 +89,8 @@ void Loop::tick(hal::Time due, hal::Time woke, std::int64_t skipped) {
     channel->limit();
   for (Joint& joint : joints_)
     joint.limit();
+  for (Bundle& bundle : bundles_)
+    bundle.limit();
 
   // Drive: watts become duties.
   if (!now_.proven) {

@@ -8,6 +8,7 @@
 
 #include <boost/lockfree/spsc_queue.hpp>
 
+#include "loop/bundle.hpp"
 #include "loop/channel.hpp"
 #include "loop/joint.hpp"
 #include "loop/row.hpp"
@@ -99,7 +100,8 @@ class Loop {
   board::Devices devices_;
   std::vector<std::unique_ptr<Channel>> channels_;  ///< they cannot move
   std::vector<Joint> joints_;
-  std::vector<Channel*> single_;  ///< channels of no joint
+  std::vector<Bundle> bundles_;
+  std::vector<Channel*> single_;  ///< channels of neither
   BoardSupervisor supervisor_;
   BoardInputs inputs_;
   board::Measured air_;  ///< in °C

@@ -41,28 +41,54 @@ std::vector<SettingsProblem> problems_of_arithmetic(const Settings& settings, co
                              " does not fit q8.24"}};
 }
 
+/// Of a channel that is to be in a joint or a bundle.
+std::optional<SettingsProblem> take(const BoardSettings& settings, const char* key,
+                                    std::size_t channel, std::set<std::size_t>& taken) {
+  const std::string number = std::to_string(channel + 1);
+  if (channel >= settings.channels.size()) {
+    return SettingsProblem{key, "channel " + number + " is none of the board's " +
+                                    std::to_string(settings.channels.size())};
+  }
+  if (!taken.insert(channel).second)
+    return SettingsProblem{key, "channel " + number + " pulls twice"};
+  return std::nullopt;
+}
+
+SettingsProblem cannot_prove(const char* key, std::size_t channel) {
+  return {key,
+          "channel " + std::to_string(channel + 1) + " cannot prove by itself that it responds"};
+}
+
 /// Each takes two channels that no other joint has.
-std::optional<SettingsProblem> check_joints(const BoardSettings& settings) {
-  std::set<std::size_t> taken;
+std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
+                                            std::set<std::size_t>& taken) {
   for (const JointSettings& joint : settings.joints) {
     for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
-      const std::string number = std::to_string(channel + 1);
-      if (channel >= settings.channels.size()) {
-        return SettingsProblem{"joint", "channel " + number + " is none of the board's " +
-                                            std::to_string(settings.channels.size())};
-      }
-      if (!taken.insert(channel).second)
-        return SettingsProblem{"joint", "channel " + number + " pulls twice"};
-      if (settings.channels[channel].supervision.proof_of_response) {
-        return SettingsProblem{"joint",
-                               "channel " + number + " cannot prove by itself that it responds"};
-      }
+      if (const auto problem = take(settings, "joint", channel, taken)) return problem;
+      if (settings.channels[channel].supervision.proof_of_response)
+        return cannot_prove("joint", channel);
     }
     const auto positive = [](double radius_m) { return radius_m > 0.0; };
     if (!std::ranges::all_of(joint.lever.radii_m(), positive) || !(joint.co_contraction_W >= 0.0))
       return SettingsProblem{"joint", "lever_m must exceed 0, and co_contraction_W be 0 or more"};
     if (!(joint.co_contraction_W <= joint.max_co_contraction_W))
       return SettingsProblem{"joint", "co_contraction_W must not exceed max_co_contraction_W"};
+  }
+  return std::nullopt;
+}
+
+/// Each takes at least two channels, which are in no joint.
+std::optional<SettingsProblem> check_bundles(const BoardSettings& settings,
+                                             std::set<std::size_t>& taken) {
+  for (const BundleSettings& bundle : settings.bundles) {
+    if (bundle.channels.size() < 2)
+      return SettingsProblem{"bundle", "channels must be at least two"};
+    for (const std::size_t channel : bundle.channels) {
+      if (const auto problem = take(settings, "bundle", channel, taken)) return problem;
+      const ChannelSettings& c = settings.channels[channel];
+      if (c.bundle.follows() && c.supervision.proof_of_response)
+        return cannot_prove("bundle", channel);
+    }
   }
   return std::nullopt;
 }
@@ -74,6 +100,13 @@ const JointSettings* BoardSettings::joint_of(std::size_t channel) const {
     return joint.agonist == channel || joint.antagonist == channel;
   });
   return found == joints.end() ? nullptr : &*found;
+}
+
+const BundleSettings* BoardSettings::bundle_of(std::size_t channel) const {
+  const auto found = std::ranges::find_if(bundles, [channel](const BundleSettings& bundle) {
+    return std::ranges::find(bundle.channels, channel) != bundle.channels.end();
+  });
+  return found == bundles.end() ? nullptr : &*found;
 }
 
 double feasible_co_contraction_W(const BoardSettings& board, const JointSettings& joint) {
@@ -94,6 +127,17 @@ void add_joint(BoardSettings& board, const JointSettings& joint) {
   board.joints.push_back(joint);
   for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
     board.channels[channel].joint = joint.place_of(channel);
+    board.channels[channel].supervision.proof_of_response = false;
+  }
+}
+
+void add_bundle(BoardSettings& board, const BundleSettings& bundle) {
+  board.bundles.push_back(bundle);
+  const auto leader = static_cast<double>(bundle.leader());
+  for (const std::size_t channel : bundle.channels) {
+    board.channels[channel].bundle = {true, NAN};
+    if (channel == bundle.leader()) continue;
+    board.channels[channel].bundle.leader_offset = leader - static_cast<double>(channel);
     board.channels[channel].supervision.proof_of_response = false;
   }
 }
@@ -225,7 +269,9 @@ std::optional<SettingsProblem> check(const BoardSettings& settings) {
     if (channel.controllers.empty() || channel.estimators.empty())
       return SettingsProblem{"", "a channel needs a controller and an estimator"};
   }
-  return check_joints(settings);
+  std::set<std::size_t> taken;
+  if (auto problem = check_joints(settings, taken)) return problem;
+  return check_bundles(settings, taken);
 }
 
 }  // namespace supercoil

@@ -66,6 +66,15 @@ struct PlaceInJoint {
   }
 };
 
+/// The bundle that a channel's muscle pulls in, if it does.
+struct PlaceInBundle {
+  bool bundled = false;
+  /// From this channel to the one that leads it; NaN: it leads, or there is no bundle.
+  double leader_offset = NAN;
+
+  bool follows() const { return std::isfinite(leader_offset); }
+};
+
 struct ChannelSettings {
   control::PhysicalParameters muscle;  ///< as believed: configured, or learned before
   std::optional<control::PhysicalParameters> configured_muscle;  ///< empty: it is muscle
@@ -78,6 +87,7 @@ struct ChannelSettings {
   double unexplained_ratio = 0.0;  ///< likewise, by the linear model; 0: not measured
   board::StoredTuning tuning;      ///< as stored; controllers have it already
   PlaceInJoint joint;              ///< by add_joint()
+  PlaceInBundle bundle;            ///< by add_bundle()
   InputSettings position;
   HeaterSettings heater;
   board::ThermalSettings thermal;
@@ -111,17 +121,33 @@ struct JointSettings {
   PlaceInJoint place_of(std::size_t channel) const;
 };
 
+/// By its joint's agonist or its bundle's leader: its own controllers are not used.
+inline bool is_led(const ChannelSettings& channel) {
+  return channel.joint.direction < 0 || channel.bundle.follows();
+}
+
+/// Channels whose equal muscles pull the same thing. Every heater gets the same power; to its
+/// controllers the bundle is one muscle, of which that power is the input.
+struct BundleSettings {
+  std::vector<std::size_t> channels;  ///< at least two. The first one leads: it has the sensor
+
+  std::size_t leader() const { return channels.front(); }
+};
+
 struct BoardSettings {
   double rate_Hz = 1000.0;
   InputSettings supply;
   InputSettings air;  ///< in °C, where there is a sensor
   BoardSupervision supervision;
   std::vector<ChannelSettings> channels{1};
-  std::vector<JointSettings> joints;  ///< no channel is in two; see add_joint()
+  std::vector<JointSettings> joints;    ///< see add_joint()
+  std::vector<BundleSettings> bundles;  ///< see add_bundle(). No channel is in two of either
 
   double step_s() const { return 1.0 / rate_Hz; }
   /// The joint that this channel's muscle turns; null: none.
   const JointSettings* joint_of(std::size_t channel) const;
+  /// The bundle that this channel's muscle pulls in; null: none.
+  const BundleSettings* bundle_of(std::size_t channel) const;
 };
 
 /// The co-contraction that both heaters can give, by what is configured of the muscles.
@@ -130,6 +156,10 @@ double feasible_co_contraction_W(const BoardSettings& board, const JointSettings
 /// Of two channels that the board has. The proof of response is for one muscle that moves alone: of
 /// theirs none is asked.
 void add_joint(BoardSettings& board, const JointSettings& joint);
+
+/// Of channels that the board has. One muscle's dither is not seen beside the others: what follows
+/// is not asked for a proof of response, and the leader's is the whole bundle's.
+void add_bundle(BoardSettings& board, const BundleSettings& bundle);
 
 /// What a channel learned before, in place of what is configured.
 void apply_learned(ChannelSettings& channel, const board::Learned& learned);

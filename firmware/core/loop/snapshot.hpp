@@ -23,7 +23,8 @@ enum class Mode : std::uint8_t {
   power,
   identify,
   calibrate,
-  joint,  ///< does its part of what the other channel of its joint follows
+  joint,   ///< does its part of what the other channel of its joint follows
+  bundle,  ///< gets the power of the channel that leads its bundle
 };
 
 /// Wants the muscle's own motion, and ends by itself with a ModeResult.
@@ -31,8 +32,13 @@ constexpr bool measures(Mode mode) {
   return mode == Mode::identify || mode == Mode::calibrate;
 }
 
-inline constexpr std::array<std::string_view, 6> mode_names{"rest",     "position",  "power",
-                                                            "identify", "calibrate", "joint"};
+/// Is led by another channel.
+constexpr bool is_led(Mode mode) {
+  return mode == Mode::joint || mode == Mode::bundle;
+}
+
+inline constexpr std::array<std::string_view, 7> mode_names{
+    "rest", "position", "power", "identify", "calibrate", "joint", "bundle"};
 
 /// What an estimator may tell beside theta: a bias of the power, and standard deviations.
 inline constexpr std::array<std::string_view, 7> multiplexed_names{

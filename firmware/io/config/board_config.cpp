@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "config/read_board.hpp"
+#include "config/read_bundles.hpp"
 #include "config/read_channel.hpp"
 #include "config/read_joint.hpp"
 #include "config/toml_file.hpp"
@@ -27,33 +28,43 @@ std::vector<Problem> in_order(std::vector<Problem> problems) {
   return result;
 }
 
-/// As they are numbered, but an agonist before its antagonist, which has its position.
-std::vector<std::size_t> reading_order(std::size_t channels, const JointReader& joints) {
+/// The channel whose position this one has; empty: it has its own.
+std::optional<std::size_t> position_owner(std::size_t channel, const JointReader& joints,
+                                          const BundleReader& bundles) {
+  const auto agonist = joints.agonist_of(channel);
+  return agonist ? agonist : bundles.leader_of(channel);
+}
+
+/// As they are numbered, but each after the one whose position it has.
+std::vector<std::size_t> reading_order(std::size_t channels, const JointReader& joints,
+                                       const BundleReader& bundles) {
   std::vector<std::size_t> order;
   const auto add = [&order](std::size_t channel) {
     if (std::ranges::find(order, channel) == order.end()) order.push_back(channel);
   };
   for (std::size_t i = 0; i < channels; ++i) {
-    if (const auto agonist = joints.agonist_of(i)) add(*agonist);
+    if (const auto owner = position_owner(i, joints, bundles)) add(*owner);
     add(i);
   }
   return order;
 }
 
 void read_channels(std::vector<Section> sections, Section& every, const BoardContext& context,
-                   const JointReader& joints, BoardConfig& config) {
+                   const JointReader& joints, const BundleReader& bundles, BoardConfig& config) {
   const std::size_t channels = std::min(sections.size(), max_channels);
   config.settings.channels.resize(channels);
   config.wiring.channels.resize(channels);
   config.labels.resize(channels);
-  for (const std::size_t i : reading_order(channels, joints)) {
-    ReadJoint joint{joints.place_of(i), joints.max_travel_m(i), std::nullopt};
-    if (const auto place = joints.agonist_of(i)) {
-      joint.agonist.emplace(ReadAgonist{*place, config.settings.channels[*place],
-                                        config.wiring.channels[*place], config.labels[*place]});
+  for (const std::size_t i : reading_order(channels, joints, bundles)) {
+    ReadGroup group{joints.place_of(i), joints.max_travel_m(i), bundles.leader_of(i).has_value(),
+                    std::nullopt};
+    if (const auto owner = position_owner(i, joints, bundles)) {
+      group.position_owner.emplace(PositionOwner{*owner, config.settings.channels[*owner],
+                                                 config.wiring.channels[*owner],
+                                                 config.labels[*owner]});
     }
     ReadChannel channel = read_channel(sections[i].over(every.table(), "every_channel"),
-                                       static_cast<int>(i + 1), context, joint);
+                                       static_cast<int>(i + 1), context, group);
     config.settings.channels[i] = std::move(channel.settings);
     config.wiring.channels[i] = std::move(channel.wiring);
     config.labels[i] = std::move(channel.label);
@@ -107,11 +118,18 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
   Section every = root.section("every_channel");
   const std::vector<Section> channels = root.sections("channel");
   JointReader joints(root.sections("joint"), std::min(channels.size(), max_channels));
-  const BoardContext context{
-      config.settings,        wiring,           air, rules.timeout_s, rules.damaged_in_a_row,
-      rules.refused_in_a_row, joints.is_wrong()};
-  read_channels(channels, every, context, joints, config);
+  BundleReader bundles(root.sections("bundle"), std::min(channels.size(), max_channels), joints);
+  const BoardContext context{config.settings,
+                             wiring,
+                             air,
+                             rules.timeout_s,
+                             rules.damaged_in_a_row,
+                             rules.refused_in_a_row,
+                             joints.is_wrong(),
+                             bundles.is_wrong()};
+  read_channels(channels, every, context, joints, bundles, config);
   joints.finish(config);
+  bundles.finish(config);
   Section can = root.section("can");
   if (root.has("can"))
     config.can = read_can(can, config.settings.rate_Hz, config.settings.channels.size());

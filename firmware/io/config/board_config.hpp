@@ -39,7 +39,8 @@ struct BoardConfig {
   BoardSettings settings;  ///< passes check()
   BoardWiring wiring;      ///< as many channels as the settings
   std::vector<ChannelLabel> labels;
-  std::vector<JointLabel> joints;  ///< as many as the settings have
+  std::vector<JointLabel> joints;    ///< as many as the settings have
+  std::vector<std::string> bundles;  ///< their names, likewise
   std::optional<telemetry::CanSettings> can;
   std::string storage_folder;  ///< what was learned is kept here
 };

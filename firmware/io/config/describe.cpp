@@ -145,6 +145,8 @@ std::string describe(const BoardConfig& config) {
     out << "\n" << describe_channel(config, i);
   for (std::size_t i = 0; i < config.settings.joints.size(); ++i)
     out << "\n" << describe_joint(config, i);
+  for (std::size_t i = 0; i < config.settings.bundles.size(); ++i)
+    out << "\n" << describe_bundle(config, i);
   describe_buses(out, config);
   describe_can(out, config);
   const auto weak = warnings(config);

@@ -18,6 +18,8 @@ std::string describe(const BoardConfig& config);
 std::string describe_channel(const BoardConfig& config, std::size_t index);
 /// index: of BoardSettings::joints.
 std::string describe_joint(const BoardConfig& config, std::size_t index);
+/// index: of BoardSettings::bundles.
+std::string describe_bundle(const BoardConfig& config, std::size_t index);
 /// One line, of a channel whose joint a spring draws back.
 std::string describe_turned(const BoardConfig& config, std::size_t channel);
 /// The room that a controller leaves on the channel's muscle, and how far that may be off; empty:

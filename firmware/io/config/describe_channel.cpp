@@ -156,6 +156,7 @@ std::string describe_heat(const ChannelSettings& c) {
 
 std::string describe_small_motions(const ChannelSettings& c, const BoardSettings& board) {
   if (c.joint.has_other()) return "not checked: the joint's other muscle moves it as well";
+  if (c.bundle.follows()) return "checked of the bundle as a whole, by the channel that leads it";
   if (!c.supervision.proof_of_response) return "not checked: detectors.proof_of_response is false";
   const ProofPlan plan = plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz);
   std::ostringstream out;
@@ -197,8 +198,10 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
   describe_limits(out, c, config.settings, label);
   if (c.joint.turns() && !c.joint.has_other())
     out << "  joint       " << describe_turned(config, index) << "\n";
-  if (c.joint.direction < 0) {
-    const double leader = static_cast<double>(index + 1) + c.joint.other_channel_offset;
+  if (is_led(c)) {
+    const double offset =
+        c.bundle.follows() ? c.bundle.leader_offset : c.joint.other_channel_offset;
+    const double leader = static_cast<double>(index + 1) + offset;
     out << "  controllers led by channel " << leader << ": its own are not used\n";
   } else {
     describe_controllers(out, c, config.settings.step_s());

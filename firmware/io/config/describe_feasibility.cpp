@@ -19,11 +19,6 @@ std::string in_mm(double metres) {
   return in_digits(1e3 * metres) + " mm";
 }
 
-/// By its joint's agonist: its own controllers are not used.
-bool is_led(const ChannelSettings& c) {
-  return c.joint.direction < 0;
-}
-
 std::string motion_line(const Feasibility& f) {
   std::string line = "holds " + in_mm(f.travel_m) + " for good, at " + in_digits(f.held_W) + " W";
   if (f.held_by != LimitedBy::maximum) line += " (limited_by " + std::string(name(f.held_by)) + ")";
@@ -58,8 +53,8 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
 }
 
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel) {
-  if (board.joint_of(channel) != nullptr) return {};
   const ChannelSettings& c = board.channels[channel];
+  if (board.joint_of(channel) != nullptr || is_led(c)) return {};
   const FirstMotion motion = plan_first_motion(feasibility(c, board), c.unexplained_ratio);
   if (!(motion.amplitude_m > 0.0)) return {"no motion, no promise: it can hold no travel"};
   std::vector<std::string> lines;
@@ -79,7 +74,9 @@ std::vector<std::string> describe_promises(const BoardSettings& board, std::size
 std::vector<std::string> describe_feasibility(const BoardSettings& board, std::size_t channel) {
   const ChannelSettings& c = board.channels[channel];
   const Feasibility f = feasibility(c, board);
-  std::vector<std::string> lines{motion_line(f), start_line(f, c)};
+  std::vector<std::string> lines{start_line(f, c)};
+  if (c.bundle.follows()) return lines;
+  lines.insert(lines.begin(), motion_line(f));
   if (is_led(c)) return lines;
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     if (!f.steps[i]) continue;

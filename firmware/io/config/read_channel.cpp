@@ -60,26 +60,32 @@ void read_position(Section section, const std::string& owner, const BoardContext
   section.finish();
 }
 
-/// One sensor tells where the joint is: the antagonist's position is the agonist's with the other
-/// sign.
-void mirror_position(Section& section, const ReadAgonist& agonist, ReadChannel& channel) {
-  const ChannelSettings& from = agonist.settings;
+/// One sensor tells where a joint or a bundle is: the antagonist's position is the agonist's with
+/// the other sign.
+void take_position(Section& section, const PositionOwner& owner, ReadChannel& channel) {
+  const ChannelSettings& from = owner.settings;
   ChannelSettings& c = channel.settings;
+  const bool mirrored = c.joint.direction < 0;
   section.allow({"position"});
   if (section.has_own("position")) {
-    section.wrong("position", "is that of its agonist, channel " +
-                                  std::to_string(agonist.index + 1) +
-                                  ", with the other sign: leave it out, or move it there");
+    section.wrong("position",
+                  std::string(mirrored ? "is that of its agonist" : "is that of its bundle") +
+                      ", channel " + std::to_string(owner.index + 1) +
+                      (mirrored ? ", with the other sign" : "'s") +
+                      ": leave it out, or move it there");
   }
-  channel.label.position_in_deg = agonist.label.position_in_deg;
-  channel.wiring.position = agonist.wiring.position;
-  channel.wiring.position_of = agonist.index;
+  channel.label.position_in_deg = owner.label.position_in_deg;
+  channel.wiring.position = owner.wiring.position;
+  channel.wiring.position_of = owner.index;
   c.position = from.position;
+  c.supervision.min_position_m = from.supervision.min_position_m;
+  c.supervision.max_position_m = from.supervision.max_position_m;
+  c.supervision.position_noise_rms_m = from.supervision.position_noise_rms_m;
+  if (!mirrored) return;
   c.position.scaling = {-from.position.scaling.per_count, -from.position.scaling.offset};
   // No -0.
   c.supervision.min_position_m = 0.0 - from.supervision.max_position_m;
   c.supervision.max_position_m = 0.0 - from.supervision.min_position_m;
-  c.supervision.position_noise_rms_m = from.supervision.position_noise_rms_m;
 }
 
 /// Nothing is compared with it.
@@ -131,27 +137,32 @@ void read_control(Section& section, double step_s, ChannelSettings& c) {
 }  // namespace
 
 ReadChannel read_channel(Section section, int number, const BoardContext& context,
-                         const ReadJoint& joint) {
+                         const ReadGroup& group) {
   const std::string owner = "channel " + std::to_string(number);
   ReadChannel channel;
   ChannelSettings& c = channel.settings;
-  c.joint = joint.place;
+  c.joint = group.joint;
+  c.bundle.bundled = group.follows_in_bundle;
+  if (group.follows_in_bundle) {
+    c.bundle.leader_offset = static_cast<double>(group.position_owner->index + 1) - number;
+  }
   c.supervision.command_timeout_s = context.command_timeout_s;
   c.supervision.damaged_in_a_row = context.damaged_in_a_row;
   c.supervision.refused_in_a_row = context.refused_in_a_row;
   channel.label.name = section.text("name", owner);
   channel.wiring.enable = context.wiring.line(section.section("enable"), owner + "'s enable");
   channel.wiring.pwm = context.wiring.pwm(section.section("pwm"), owner + "'s PWM");
-  if (joint.agonist) {
-    mirror_position(section, *joint.agonist, channel);
-  } else if (context.joint_is_wrong && !section.has_own("position")) {
+  const bool group_is_wrong = context.joint_is_wrong || context.bundle_is_wrong;
+  if (group.position_owner) {
+    take_position(section, *group.position_owner, channel);
+  } else if (group_is_wrong && !section.has_own("position")) {
     leave_position_out(section, c);
   } else {
     read_position(section.section("position"), owner, context, channel);
   }
   read_current(section.section("current"), owner, context, channel);
   read_heater(section.section("heater"), context, channel.wiring.pwm, c, channel.label);
-  read_limits(section.section("limits"), context, c, channel.label, joint.max_travel_m);
+  read_limits(section.section("limits"), context, c, channel.label, group.max_travel_m);
   read_muscle(section.section("muscle"), section.section("thermal"), context, c);
   read_detectors(section.section("detectors"), context, channel.wiring, c);
   channel.label.bundle = read_bundle(section.section("bundle"), c);

@@ -17,7 +17,9 @@ struct BoardContext {
   double command_timeout_s;
   int damaged_in_a_row;
   int refused_in_a_row;
-  bool joint_is_wrong;  ///< what a channel lacks may come from it: position, max_travel_m
+  // What a channel lacks may come from what is wrong:
+  bool joint_is_wrong;   ///< position, max_travel_m
+  bool bundle_is_wrong;  ///< position
 };
 
 struct ReadChannel {
@@ -26,24 +28,25 @@ struct ReadChannel {
   ChannelLabel label;
 };
 
-/// The agonist of the channel's joint, as it was read.
-struct ReadAgonist {
+/// The channel with the position sensor of this one's joint or bundle, as it was read.
+struct PositionOwner {
   std::size_t index;  ///< from 0
   const ChannelSettings& settings;
   const ChannelWiring& wiring;
   const ChannelLabel& label;
 };
 
-/// What is known of the channel from its joint before it is read.
-struct ReadJoint {
-  PlaceInJoint place;
-  std::optional<double> max_travel_m;  ///< by its range_deg; empty: by the channel's own limits
-  std::optional<ReadAgonist> agonist;  ///< empty for every channel but an antagonist
+/// What is known of the channel from its joint or bundle before it is read.
+struct ReadGroup {
+  PlaceInJoint joint;
+  std::optional<double> max_travel_m;  ///< by range_deg; empty: by the channel's own limits
+  bool follows_in_bundle;
+  std::optional<PositionOwner> position_owner;  ///< empty: it has a sensor of its own
 };
 
 /// number: from 1, as messages call it.
 ReadChannel read_channel(Section section, int number, const BoardContext& context,
-                         const ReadJoint& joint);
+                         const ReadGroup& group);
 
 // Its tables; each finishes its section.
 

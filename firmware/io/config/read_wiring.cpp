@@ -29,9 +29,11 @@ void WiringReader::claim(Section& section, const char* key, const std::string& a
   if (first == claims_.end()) {
     claims_.emplace_back(address, owner);
   } else {
-    const bool one_joint = first->second.ends_with(position_of) && owner.ends_with(position_of);
+    const bool one_sensor = first->second.ends_with(position_of) && owner.ends_with(position_of);
     section.wrong(key, "is already " + first->second + ": " + address +
-                           (one_joint ? "; two muscles that turn one joint need a [[joint]]" : ""));
+                           (one_sensor ? "; two muscles that turn one joint need a [[joint]], "
+                                         "those that pull together a [[bundle]]"
+                                       : ""));
   }
 }
 

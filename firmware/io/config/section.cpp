@@ -44,6 +44,12 @@ bool within(double value, const Range& range) {
   return value >= range.lowest && value <= range.highest;  // false for a NaN
 }
 
+std::string list_rule(Range range, std::size_t least, std::size_t most) {
+  const std::string count =
+      least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+  return "a list of " + count + " numbers, each " + shown(range);
+}
+
 }  // namespace
 
 Section::Found Section::look(std::string_view key) const {
@@ -121,9 +127,7 @@ std::vector<double> Section::numbers(std::string_view key, std::vector<double> f
                                      Range range, std::size_t least, std::size_t most) {
   const toml::node* node = find(key);
   if (node == nullptr) return fallback;
-  const std::string count =
-      least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
-  const std::string rule = "must be a list of " + count + " numbers, each " + shown(range);
+  const std::string rule = "must be " + list_rule(range, least, most);
   const toml::array* list = node->as_array();
   if (list == nullptr || list->size() < least || list->size() > most) {
     wrong(key, rule);
@@ -143,6 +147,12 @@ std::vector<double> Section::numbers(std::string_view key, std::vector<double> f
 double Section::required_number(std::string_view key, Range range) {
   if (!has(key)) missing_.push_back({std::string(key), "a number, " + shown(range)});
   return number(key, std::numeric_limits<double>::quiet_NaN(), range);
+}
+
+std::vector<double> Section::required_numbers(std::string_view key, Range range, std::size_t least,
+                                              std::size_t most) {
+  if (!has(key)) missing_.push_back({std::string(key), list_rule(range, least, most)});
+  return numbers(key, {}, range, least, most);
 }
 
 std::int64_t Section::required_integer(std::string_view key, std::int64_t lowest,

@@ -60,8 +60,9 @@ void judge_heater(const ChannelSettings& c, const BoardSettings& board, Findings
 void judge_proof(const ChannelSettings& c, const BoardSettings& board, Findings& findings) {
   if (!c.supervision.proof_of_response) {
     findings.add(Fault::heater_not_responding,
-                 std::string(c.joint.has_other() ? "no proof of response is had in a joint"
-                                                 : "detectors.proof_of_response is false") +
+                 std::string(c.joint.has_other()  ? "no proof of response is had in a joint"
+                             : c.bundle.follows() ? "only the bundle as a whole proves its response"
+                                                  : "detectors.proof_of_response is false") +
                      ": a muscle that is held still, off its sensor and badly cooled may pass its "
                      "limit unseen");
     return;

@@ -14,7 +14,7 @@ namespace {
 /// By their numbers; the page has them from here, too.
 constexpr std::array<std::string_view, refusal_names.size()> of_all{
     "",
-    "arm it first, or reset its fault",
+    "arm it first, or reset its fault; or command the channel that leads its joint or bundle",
     "the fault's cause is still there",
     "too soon after the last reset: try again",
     "self-test, cooling or a probe is not over yet, or a reading is missing",
@@ -52,8 +52,10 @@ constexpr std::array of_verbs{
     OfVerb{Verb::start, Refusal::wrong_state, "no motion is loaded"},
     OfVerb{Verb::start, Refusal::not_ready, "the muscle is told to be elsewhere than at the start"},
     OfVerb{Verb::start, Refusal::out_of_range, "the time of the start is over"},
-    OfVerb{Verb::scale, Refusal::unsuitable,
-           "both muscles of a joint read one sensor: m_per_count and lever_m say its scale"}};
+    OfVerb{
+        Verb::scale, Refusal::unsuitable,
+        "it shares its sensor: a joint's scale is its m_per_count and lever_m, a bundle's that of "
+        "the channel that leads"}};
 
 Verb verb_of(std::string_view line) {
   next_word(line);

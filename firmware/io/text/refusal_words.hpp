@@ -8,12 +8,12 @@
 
 namespace supercoil {
 
-/// "arm it first, or reset its fault". verb: what was refused, where that is known. Empty: it was
+/// "it has no fault". verb: what was refused, where that is known. Empty: it was
 /// not refused.
 std::string_view refusal_words(Refusal refusal, Verb verb = Verb::none);
 
-/// answer_text() with the words behind it: "refused: wrong_state: arm it first, or reset its
-/// fault". A nearest value says enough by itself.
+/// answer_text() with the words behind it: "refused: wrong_state: it has no fault". A nearest value
+/// says enough by itself.
 std::string told_answer(const Reply& reply, Verb verb = Verb::none);
 
 /// The same of an answer as text to a line, "1 arm"; what has a reason already stays, and so does

@@ -3509,12 +3509,12 @@ double supercoil_muscle_quantity_decode(uint8_t value)
 
 bool supercoil_muscle_quantity_is_in_range(uint8_t value)
 {
-    return (value <= 32u);
+    return (value <= 33u);
 }
 
 bool supercoil_muscle_quantity_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 32.0));
+    return ((value >= 0.0) && (value <= 33.0));
 }
 
 float supercoil_muscle_value_encode(double value)
@@ -4009,12 +4009,12 @@ double supercoil_muscle_read_quantity_decode(uint8_t value)
 
 bool supercoil_muscle_read_quantity_is_in_range(uint8_t value)
 {
-    return (value <= 32u);
+    return (value <= 33u);
 }
 
 bool supercoil_muscle_read_quantity_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 32.0));
+    return ((value >= 0.0) && (value <= 33.0));
 }
 
 int supercoil_tuning_pack(
@@ -4329,12 +4329,12 @@ double supercoil_status_mode_decode(uint8_t value)
 
 bool supercoil_status_mode_is_in_range(uint8_t value)
 {
-    return (value <= 5u);
+    return (value <= 6u);
 }
 
 bool supercoil_status_mode_is_in_phys_range(double value)
 {
-    return ((value >= 0.0) && (value <= 5.0));
+    return ((value >= 0.0) && (value <= 6.0));
 }
 
 uint8_t supercoil_status_fault_encode(double value)

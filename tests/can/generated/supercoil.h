@@ -509,6 +509,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_5_M_CHOICE (30u)
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_6_M_CHOICE (31u)
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_7_M_CHOICE (32u)
+#define SUPERCOIL_MUSCLE_QUANTITY_BUNDLE_LEADER_NODE_OFFSET_CHOICE (33u)
 
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -608,6 +609,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_5_M_CHOICE (30u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_6_M_CHOICE (31u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_7_M_CHOICE (32u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_BUNDLE_LEADER_NODE_OFFSET_CHOICE (33u)
 
 #define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
@@ -692,6 +694,7 @@ extern "C" {
 #define SUPERCOIL_STATUS_MODE_IDENTIFY_CHOICE (3u)
 #define SUPERCOIL_STATUS_MODE_CALIBRATE_CHOICE (4u)
 #define SUPERCOIL_STATUS_MODE_JOINT_CHOICE (5u)
+#define SUPERCOIL_STATUS_MODE_BUNDLE_CHOICE (6u)
 
 #define SUPERCOIL_STATUS_FAULT_NONE_CHOICE (0u)
 #define SUPERCOIL_STATUS_FAULT_SENSOR_OUT_OF_RANGE_CHOICE (10u)
@@ -1938,14 +1941,14 @@ struct supercoil_muscle_t {
     /**
      * Which one.
      *
-     * Range: 0..32 (0..32 -)
+     * Range: 0..33 (0..33 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) are of the last identify since the start that found a muscle; unexplained_ratio is stored with what it found. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) are of the last identify since the start that found a muscle; unexplained_ratio is stored with what it found. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -2100,7 +2103,7 @@ struct supercoil_muscle_read_t {
     /**
      * Which one.
      *
-     * Range: 0..32 (0..32 -)
+     * Range: 0..33 (0..33 -)
      * Scale: 1
      * Offset: 0
      */
@@ -2197,9 +2200,9 @@ struct supercoil_status_t {
     uint8_t state;
 
     /**
-     * What an active channel does.
+     * What an active channel does. joint, bundle: it is led by another channel.
      *
-     * Range: 0..5 (0..5 -)
+     * Range: 0..6 (0..6 -)
      * Scale: 1
      * Offset: 0
      */

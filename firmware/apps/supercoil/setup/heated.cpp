@@ -1,5 +1,7 @@
 #include "apps/supercoil/setup/heated.hpp"
 
+#include <cmath>
+
 #include "text/number_text.hpp"
 
 namespace supercoil::operating {
@@ -11,13 +13,24 @@ constexpr int power_digits = 3;
 
 }  // namespace
 
+Heated::Heated(BoardLink& board, const std::string& channel, Operator& who)
+    : board_(board), channel_(channel), heated_by_(channel), who_(who) {
+  const auto known = board.muscle(channel);
+  const double offset = known ? (*known)[known_bundle_leader_node_offset] : NAN;
+  if (std::isfinite(offset)) heated_by_ = std::to_string(std::stol(channel) + std::lround(offset));
+}
+
 Heated::~Heated() {
   static_cast<void>(ask("rest"));
   if (const auto off = ask("disarm"); !off) who_.say("the muscle may be hot: " + off.error());
 }
 
 Heated::Done Heated::ask(const std::string& what) {
-  const auto answer = board_.ask(channel_ + " " + what);
+  return ask_of(channel_, what);
+}
+
+Heated::Done Heated::ask_of(const std::string& channel, const std::string& what) {
+  const auto answer = board_.ask(channel + " " + what);
   if (!answer) return tl::unexpected(answer.error());
   if (*answer != "ok") return tl::unexpected(what + ": " + *answer);
   return {};
@@ -25,7 +38,7 @@ Heated::Done Heated::ask(const std::string& what) {
 
 Heated::Done Heated::heat(double power_W) {
   if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
-  return ask("power " + number_text(power_W, power_digits));
+  return ask_of(heated_by_, "power " + number_text(power_W, power_digits));
 }
 
 Heated::Done Heated::hold(double power_W, std::chrono::milliseconds time) {

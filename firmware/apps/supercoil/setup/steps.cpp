@@ -4,6 +4,11 @@ namespace supercoil::operating {
 
 std::string left_out(const SetupStep& step, const BoardSettings& board, std::size_t channel) {
   using InJoint = SetupStep::InJoint;
+  if (board.channels[channel].bundle.follows() && !step.of_each_in_bundle) {
+    return "channel " + std::to_string(channel + 1) +
+           " follows in a bundle: set up the one that leads it instead, --channel " +
+           std::to_string(board.bundle_of(channel)->leader() + 1);
+  }
   const JointSettings* joint = board.joint_of(channel);
   if (joint == nullptr || step.in_joint == InJoint::of_each) return "";
   const std::string which = "channel " + std::to_string(channel + 1);

@@ -16,6 +16,7 @@ struct SetupStep {
   bool optional = false;      ///< may be left
   bool needs_person = false;  ///< who is asked first whether it is to be left; a script leaves it
   enum class InJoint { of_each, of_agonist, never } in_joint = InJoint::of_each;
+  bool of_each_in_bundle = false;  ///< else of the channel that leads, for all
 };
 
 /// Why a step is not done with this channel, from 0; empty: it is.
@@ -24,11 +25,12 @@ std::string left_out(const SetupStep& step, const BoardSettings& board, std::siz
 inline constexpr std::array<SetupStep, 8> setup_steps{{
     {"describe",
      "writes what is known of the muscle, with its bounds and a controller, into the board's "
-     "file; heats nothing"},
+     "file; heats nothing",
+     false, false, SetupStep::InJoint::of_each, true},
     {"senses",
      "compares the senses of supply and current with a meter: heats it with a small steady power, "
      "and asks four questions; until then it gets less power than it could",
-     true, true},
+     true, true, SetupStep::InJoint::of_each, true},
     {"calibrate",
      "takes the zero and the resistance of the cold muscle; heats it for 50 ms; seconds, up to two "
      "minutes if it must cool"},

@@ -77,13 +77,14 @@ inline constexpr std::array<ValueName, 8> names_of_limited_by{{
     {7, "unproven"},
 }};
 
-inline constexpr std::array<ValueName, 6> names_of_mode{{
+inline constexpr std::array<ValueName, 7> names_of_mode{{
     {0, "rest"},
     {1, "position"},
     {2, "power"},
     {3, "identify"},
     {4, "calibrate"},
     {5, "joint"},
+    {6, "bundle"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_opcode{{
@@ -131,7 +132,7 @@ inline constexpr std::array<ValueName, 6> names_of_playback{{
     {5, "dry"},
 }};
 
-inline constexpr std::array<ValueName, 33> names_of_quantity{{
+inline constexpr std::array<ValueName, 34> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
     {2, "stiffness_N_per_m"},
@@ -165,6 +166,7 @@ inline constexpr std::array<ValueName, 33> names_of_quantity{{
     {30, "joint_lever_5_m"},
     {31, "joint_lever_6_m"},
     {32, "joint_lever_7_m"},
+    {33, "bundle_leader_node_offset"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_refusal{{

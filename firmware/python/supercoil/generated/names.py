@@ -84,6 +84,7 @@ class Mode(Named):
     identify = 3
     calibrate = 4
     joint = 5
+    bundle = 6
 
 
 class Opcode(Named):
@@ -165,6 +166,7 @@ class Quantity(Named):
     joint_lever_5_m = 30
     joint_lever_6_m = 31
     joint_lever_7_m = 32
+    bundle_leader_node_offset = 33
 
 
 class Refusal(Named):

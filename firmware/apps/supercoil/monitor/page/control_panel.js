@@ -28,6 +28,12 @@ function modes_in(joint) {
   return { ...MODES, position, power };
 }
 
+/** The modes of a muscle that follows in a bundle, which the leader's node commands. */
+function modes_of_follower(leader) {
+  const hint = `Node ${leader} leads the bundle and commands every muscle of it; what heats is refused here.`;
+  return Object.fromEntries(Object.entries(MODES).map(([mode, its]) => [mode, mode === "rest" ? { ...its, hint: "No power to any muscle of the bundle; they cool and stay armed." } : { ...its, hint }]));
+}
+
 export class ControlPanel {
   /** may: {command: may it, why: why not}; log: is told (text, kind) of each command. */
   constructor(manual, may, log) {
@@ -155,10 +161,19 @@ export class ControlPanel {
     this.#choose(this.mode);
   }
 
-  /** status: what the channel says of itself, in words, or null; joint: of joint_of(). The sensible next step stands out. */
-  update(status, limits, joint) {
+  #take_leader(leader) {
+    if (leader === null || leader === this.leader) return;
+    this.leader = leader;
+    this.modes = modes_of_follower(leader);
+    this.#choose(this.mode);
+  }
+
+  /** status: what the channel says of itself, in words, or null; joint, leader: of joint_of(), leader_of(). The sensible next step
+      stands out. */
+  update(status, limits, joint, leader) {
     if (status) this.manual.observe(status);
     this.#take_joint(joint);
+    this.#take_leader(leader);
     for (const [button, state] of [[this.arm, "disarmed"], [this.reset, "fault"]])
       button.classList.toggle("next", status?.state === state);
     this.go.classList.toggle("next", status?.state === "armed");

@@ -49,11 +49,23 @@ function lever_of({ joint_lever_m, joint_lever_first_rad: first_rad, joint_lever
   return is_table ? new Lever(levers_m, first_rad, last_rad) : new Lever([Math.abs(joint_lever_m)]);
 }
 
+/** What a board has told of a node's muscle, by the names of Muscle.quantity. */
+function told_of(store, node, now_s) {
+  const told = {};
+  for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) told[store.word("Muscle", "quantity", number)] = value;
+  return told;
+}
+
+/** The node that leads the bundle in which a node's muscle pulls; null: it leads, is in none, or the board has not told yet. */
+export function leader_of(store, node, now_s) {
+  const { bundle_leader_node_offset: offset } = told_of(store, node, now_s);
+  return Number.isFinite(offset) ? node + offset : null;
+}
+
 /** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: lever_m at the angle 0, < 0 of the antagonist; other is its
     partner's node, null where a spring draws it back, and other_travel_m how far that may contract, if it is told. null: it is in none, or the board has not told yet. */
 export function joint_of(store, node, now_s) {
-  const told = {};
-  for (const [number, { value }] of store.round(node, "Muscle", "quantity", now_s)) told[store.word("Muscle", "quantity", number)] = value;
+  const told = told_of(store, node, now_s);
   const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
   if (!(Math.abs(lever_m) > 0) || offset === undefined) return null;
   // The last of all: half of a table would turn degrees into wrong metres.

@@ -5,7 +5,7 @@ import { element } from "./dom.js";
 import { Gains } from "./gains.js";
 import { Identified } from "./identified.js";
 import { ManualControl } from "./manual_control.js";
-import { joint_of, measure_of } from "./joint.js";
+import { joint_of, leader_of, measure_of } from "./joint.js";
 import { JointCard } from "./joint_card.js";
 import { Journal } from "./journal.js";
 import { Margins } from "./margins.js";
@@ -78,7 +78,7 @@ export class NodeView {
     // What was told stays, while a board that starts again has not told it yet.
     const joint = joint_of(this.store, this.node, now_s);
     if (joint) this.joint = { ...this.joint, ...joint };
-    this.panel.update(this.status, this.margins.limits, this.joint);
+    this.panel.update(this.status, this.margins.limits, this.joint, leader_of(this.store, this.node, now_s));
     this.waveform.update(this.margins.limits, measure_of(this.joint));
     for (const plot of this.plots) plot.show_values();
   }

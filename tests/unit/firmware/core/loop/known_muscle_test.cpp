@@ -35,10 +35,11 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   CHECK(known_quantities[known_joint_other_node_offset] == "joint_other_node_offset");
   CHECK(known_quantities[known_lever_first] == "joint_lever_first_rad");
   CHECK(known_quantities[known_lever_points] == "joint_lever_1_m");
-  LONGS_EQUAL(control::Lever::max_points, known_quantities.size() - known_lever_points);
+  LONGS_EQUAL(control::Lever::max_points, known_bundle_leader_node_offset - known_lever_points);
+  LONGS_EQUAL(1, known_quantities.size() - known_bundle_leader_node_offset);
   const KnownMuscle known = known_muscle(
       {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, {},
-      {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}});
+      {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}, {}});
   modes::Identify::Quality quality;
   quality.deviation_ratio << 0.1, 0.2, 0.3, 0.4;
   quality.unexplained_ratio = 0.5;
@@ -53,6 +54,10 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   DOUBLES_EQUAL(8.0, known[known_joint_lever - 1], 0.0);
   DOUBLES_EQUAL(-0.015, known[known_joint_lever], 0.0);
   DOUBLES_EQUAL(-1.0, known[known_joint_other_node_offset], 0.0);
+  CHECK(known_quantities[known_bundle_leader_node_offset] == "bundle_leader_node_offset");
+  CHECK(std::isnan(known[known_bundle_leader_node_offset]));
+  const KnownMuscle third = known_muscle({}, {}, 0.0, {}, {{}, 8.0, {}, {true, -2.0}});
+  DOUBLES_EQUAL(-2.0, third[known_bundle_leader_node_offset], 0.0);
 }
 
 namespace {

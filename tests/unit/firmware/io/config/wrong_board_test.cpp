@@ -279,7 +279,7 @@ TEST(WrongBoard, EveryMistakeIsSaidInTheOrderOfTheFile) {
       "b.toml:2: board.charge_pump_decay_ms = -1: must be 0.1 to 1000\n"
       "b.toml:40: channel[1].limits.max_W = 0: must be 0.001 to 1000\n"
       "b.toml:42: operator: is not a key of this file; its keys are: bus, board, lines, supply, "
-      "ambient, command, every_channel, channel, joint, can",
+      "ambient, command, every_channel, channel, joint, bundle, can",
       text);
 }
 

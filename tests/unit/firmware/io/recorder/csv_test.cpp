@@ -137,7 +137,7 @@ TEST(Csv, EveryStateModeAndLimitHasItsName) {
                             "fault,identify,none,slew,",
                             "4,calibrate,none,temperature,",
                             "5,joint,none,invalid,",
-                            "6,6,none,cooling,",
+                            "6,bundle,none,cooling,",
                             "7,7,none,unproven,"};
   for (std::size_t i = 0; i < limit_names.size(); ++i)
     STRCMP_CONTAINS(expected[i], all[i + 1].c_str());

@@ -16,8 +16,10 @@ TEST(RefusalWords, EveryRefusalHasSome) {
 
 TEST(RefusalWords, TheyComeBehindTheName) {
   STRCMP_EQUAL("ok", told_answer(Reply(Refusal::none)).c_str());
-  STRCMP_EQUAL("refused: wrong_state: arm it first, or reset its fault",
-               told_answer("1 position 0.01", "refused: wrong_state").c_str());
+  STRCMP_EQUAL(
+      "refused: wrong_state: arm it first, or reset its fault; or command the channel that leads "
+      "its joint or bundle",
+      told_answer("1 position 0.01", "refused: wrong_state").c_str());
   STRCMP_EQUAL("refused: wrong_state: it has no fault",
                told_answer("1 reset", "refused: wrong_state").c_str());
   STRCMP_EQUAL("refused: out_of_range; 0.025 would be obeyed",

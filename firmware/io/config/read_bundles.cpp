@@ -1,0 +1,87 @@
+#include "config/read_bundles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "config/describe.hpp"
+#include "text/number_text.hpp"
+
+namespace supercoil::config {
+
+BundleReader::BundleReader(std::vector<Section> sections, std::size_t channels,
+                           const JointReader& joints) {
+  for (Section& section : sections) {
+    std::vector<std::size_t> places = read_channels(section, channels, joints);
+    is_wrong_ = is_wrong_ || places.empty();
+    bundles_.push_back({std::move(section), {std::move(places)}});
+  }
+}
+
+std::vector<std::size_t> BundleReader::read_channels(Section& section, std::size_t channels,
+                                                     const JointReader& joints) {
+  constexpr const char* key = "channels";
+  const auto most = std::max<std::size_t>(2, channels);
+  const auto numbers = section.required_numbers(key, {1.0, static_cast<double>(most)}, 2, most);
+  std::vector<std::size_t> places;
+  for (const double number : numbers) {
+    const auto place = static_cast<std::size_t>(number) - 1;
+    const char* wrong = nullptr;
+    if (number != std::floor(number)) {
+      wrong = "is none: channels are numbered from 1";
+    } else if (joints.place_of(place).turns()) {
+      wrong = "turns a joint, and a bundle is no part of one";
+    } else if (std::ranges::find(taken_, place) != taken_.end()) {
+      wrong = "pulls in a bundle already";
+    }
+    if (wrong != nullptr) {
+      section.wrong(key, "channel " + number_text(number, 3) + " " + wrong);
+      return {};
+    }
+    taken_.push_back(place);
+    places.push_back(place);
+  }
+  const bool exist = std::ranges::all_of(places, [=](std::size_t i) { return i < channels; });
+  return exist ? places : std::vector<std::size_t>();
+}
+
+std::optional<std::size_t> BundleReader::leader_of(std::size_t channel) const {
+  for (const Read& read : bundles_) {
+    const auto& places = read.bundle.channels;
+    const auto found = std::ranges::find(places, channel);
+    if (found != places.end() && found != places.begin()) return read.bundle.leader();
+  }
+  return std::nullopt;
+}
+
+void BundleReader::finish(BoardConfig& config) {
+  for (std::size_t i = 0; i < bundles_.size(); ++i) {
+    Read& read = bundles_[i];
+    const std::string name = read.section.text("name", "bundle " + std::to_string(i + 1));
+    if (!read.bundle.channels.empty()) {
+      add_bundle(config.settings, read.bundle);
+      config.bundles.push_back(name);
+    }
+    read.section.finish();
+  }
+}
+
+std::string describe_bundle(const BoardConfig& config, std::size_t index) {
+  const auto& channels = config.settings.bundles[index].channels;
+  double max_W = std::numeric_limits<double>::infinity();
+  for (const std::size_t channel : channels)
+    max_W = std::min(max_W, config.settings.channels[channel].limiter.max_W);
+  std::ostringstream out;
+  out << "bundle " << index + 1 << ": " << config.bundles[index] << "\n  muscles     channels ";
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (i > 0) out << (i + 1 < channels.size() ? ", " : " and ");
+    out << channels[i] + 1;
+  }
+  out << " pull together; commands go to channel " << channels.front() + 1
+      << "\n  power       the same for each, at most " << number_text(max_W, 4)
+      << " W: " << number_text(max_W * static_cast<double>(channels.size()), 4) << " W together\n";
+  return out.str();
+}
+
+}  // namespace supercoil::config

@@ -1,8 +1,8 @@
 // What a simulated board learned, in a folder, as a board keeps it.
 #pragma once
 
-#include <array>
 #include <string>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -16,9 +16,10 @@ namespace supercoil::host_sim {
 class LearnedFolder {
  public:
   /// path: empty: nothing is remembered. Touches nothing yet.
-  explicit LearnedFolder(const std::string& path)
-      : kept_(!path.empty()),
-        stores_{storage::LearnedStore(path, 1, files_), storage::LearnedStore(path, 2, files_)} {}
+  explicit LearnedFolder(const std::string& path) : kept_(!path.empty()) {
+    for (std::size_t i = 0; i < max_muscles; ++i)
+      stores_.emplace_back(path, static_cast<int>(i + 1), files_);
+  }
 
   /// What is wrong with what was stored, beside that, is printed. The error says why nothing can be
   /// read.
@@ -29,7 +30,7 @@ class LearnedFolder {
  private:
   bool kept_;
   storage::PosixFiles files_;
-  std::array<storage::LearnedStore, 2> stores_;
+  std::vector<storage::LearnedStore> stores_;
 };
 
 }  // namespace supercoil::host_sim

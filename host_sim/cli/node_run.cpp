@@ -21,9 +21,8 @@ NodeRun::NodeRun(const RunOptions& options, Scenario scenario, const Window& win
   simulation_.record_to(recorder_);
   if (options.real_time) return;
   if (options.trace) {
-    const auto& joint = scenario_.start.joint;
     trace_ = write_trace(folder.temporary(trace_file(options.trace_format)), options.trace_format,
-                         options.every, joint ? &*joint : nullptr);
+                         options.every, &scenario_.start);
     // It would stand beside this run's summary.
     const bool csv = options.trace_format == TraceFormat::csv;
     folder.supersede(trace_file(csv ? TraceFormat::npy : TraceFormat::csv));

@@ -1,8 +1,7 @@
 // A muscle as it is: the paper's equations with whatever effects are on.
 #pragma once
 
-#include "plant/guide_friction.hpp"
-#include "plant/mechanics.hpp"
+#include "plant/load_motion.hpp"
 #include "plant/muscle_body.hpp"
 
 namespace supercoil::host_sim {
@@ -45,8 +44,8 @@ class NonlinearPlant {
 
   const control::PhysicalParameters& parameters() const { return parameters_; }
   double temperature_rise_K() const { return body_.rise_K(); }
-  double position_m() const { return motion_.position_m; }
-  double velocity_m_per_s() const { return motion_.velocity_m_per_s; }
+  double position_m() const { return load_.position_m(); }
+  double velocity_m_per_s() const { return load_.velocity_m_per_s(); }
   double peak_temperature_rise_K() const { return body_.peak_rise_K(); }
   /// What the last tick lost to the air, in J.
   double heat_loss_J() const { return heat_loss_J_; }
@@ -54,19 +53,12 @@ class NonlinearPlant {
 
  private:
   void slow_step(double power_W, double load_N);
-  void move(const Drive& drive);
 
   control::PhysicalParameters parameters_;
   SlowSteps slow_;
-  int substeps_ = 4;
-  double per_substep_ = 0.25;
-  double end_stop_m_ = -10.0;
-  double ceiling_m_ = 10.0;
   MuscleBody body_;
-  GuideFriction friction_;
-  Mechanics mechanics_;
+  LoadMotion load_;
   double heat_loss_J_ = 0.0;
-  Motion motion_;
 };
 
 }  // namespace supercoil::host_sim

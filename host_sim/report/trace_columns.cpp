@@ -11,9 +11,6 @@ namespace {
 
 using Number = std::optional<double>;
 
-constexpr std::size_t of_joint = 2;
-constexpr std::size_t of_antagonist = 4;
-
 Number if_finite(double value) {
   return std::isfinite(value) ? Number(value) : std::nullopt;
 }
@@ -26,6 +23,11 @@ Number of_record(const TraceRow& row) {
 template <double AntagonistRecord::*Member>
 Number of_other(const TraceRow& row) {
   return row.record.antagonist ? Number((*row.record.antagonist).*Member) : std::nullopt;
+}
+
+template <double BundleRecord::*Member>
+Number of_bundle(const TraceRow& row) {
+  return row.record.bundle ? Number((*row.record.bundle).*Member) : std::nullopt;
 }
 
 template <int Place>
@@ -61,7 +63,7 @@ Number flag(bool set) {
   return set ? 1.0 : 0.0;
 }
 
-constexpr std::array columns{
+constexpr std::array common_columns{
     TraceColumn{"time_s", of_record<&TickRecord::time_s>},
     TraceColumn{"reference_m", of_tracking<&TickRecord::reference>},
     TraceColumn{"model_m", of_tracking<&TickRecord::model_m>},
@@ -97,6 +99,9 @@ constexpr std::array columns{
     TraceColumn{"bias_deviation_W", bias<&control::Estimate::bias_deviation_W>},
     TraceColumn{"thermometer_C",
                 [](const TraceRow& row) { return if_finite(row.record.thermometer_C); }},
+};
+
+constexpr std::array joint_columns{
     TraceColumn{"joint_angle_deg",
                 [](const TraceRow& row) { return Number(angle_deg(row, row.record.position_m)); }},
     TraceColumn{"joint_reference_deg",
@@ -104,19 +109,33 @@ constexpr std::array columns{
                   return row.record.open_loop ? std::nullopt
                                               : Number(angle_deg(row, row.record.model_m));
                 }},
+};
+
+constexpr std::array antagonist_columns{
     TraceColumn{"antagonist_applied_power_W", of_other<&AntagonistRecord::applied_power_W>},
     TraceColumn{"antagonist_temperature_rise_K", of_other<&AntagonistRecord::temperature_rise_K>},
     TraceColumn{"antagonist_coldest_K", of_other<&AntagonistRecord::coldest_K>},
     TraceColumn{"antagonist_hottest_K", of_other<&AntagonistRecord::hottest_K>},
 };
 
+constexpr std::array bundle_columns{
+    TraceColumn{"bundle_min_temperature_rise_K", of_bundle<&BundleRecord::min_temperature_rise_K>},
+    TraceColumn{"bundle_max_temperature_rise_K", of_bundle<&BundleRecord::max_temperature_rise_K>},
+    TraceColumn{"bundle_hottest_K", of_bundle<&BundleRecord::hottest_K>},
+};
+
 }  // namespace
 
-std::span<const TraceColumn> trace_columns(const JointConditions* joint) {
-  std::size_t left_out = 0;
-  if (joint == nullptr || !joint->antagonist) left_out += of_antagonist;
-  if (joint == nullptr) left_out += of_joint;
-  return std::span(columns).first(columns.size() - left_out);
+std::vector<TraceColumn> trace_columns(const Conditions* conditions) {
+  std::vector<TraceColumn> columns(common_columns.begin(), common_columns.end());
+  const auto add = [&columns](const auto& more) {
+    columns.insert(columns.end(), more.begin(), more.end());
+  };
+  if (conditions == nullptr) return columns;
+  if (conditions->joint) add(joint_columns);
+  if (conditions->antagonist() != nullptr) add(antagonist_columns);
+  if (!conditions->companions.empty()) add(bundle_columns);
+  return columns;
 }
 
 }  // namespace supercoil::host_sim

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string_view>
+#include <vector>
 
 #include "supercoil/control/joint/lever.hpp"
 
@@ -25,8 +25,8 @@ struct TraceColumn {
   std::string_view (*word)(const TraceRow&) = nullptr;
 };
 
-/// joint: with its angles and, of one of two muscles, those of the antagonist, which its rows have
-/// to have. Null: there is none.
-std::span<const TraceColumn> trace_columns(const JointConditions* joint);
+/// Of a joint with its angles and, of one of two muscles, those of the antagonist; of a bundle with
+/// those of all. The rows have to have them. conditions: null: of a muscle by itself.
+std::vector<TraceColumn> trace_columns(const Conditions* conditions);
 
 }  // namespace supercoil::host_sim

@@ -18,8 +18,8 @@ constexpr std::size_t flush_bytes = 1 << 20;
 /// Empty cells tell that there is nothing to tell.
 class CsvTrace final : public TraceWriter {
  public:
-  CsvTrace(const std::filesystem::path& path, std::int64_t every, const JointConditions* joint)
-      : TraceWriter(path, TraceFormat::csv, every, joint) {
+  CsvTrace(const std::filesystem::path& path, std::int64_t every, const Conditions* conditions)
+      : TraceWriter(path, TraceFormat::csv, every, conditions) {
     for (const TraceColumn& column : columns())
       buffer_.append(column.name).append(&column == &columns().back() ? "\n" : ",");
   }
@@ -48,8 +48,8 @@ class CsvTrace final : public TraceWriter {
 /// end: the file of a program that was killed has none.
 class NpyTrace final : public TraceWriter {
  public:
-  NpyTrace(const std::filesystem::path& path, std::int64_t every, const JointConditions* joint)
-      : TraceWriter(path, TraceFormat::npy, every, joint) {
+  NpyTrace(const std::filesystem::path& path, std::int64_t every, const Conditions* conditions)
+      : TraceWriter(path, TraceFormat::npy, every, conditions) {
     buffer_ = header(0);
   }
 
@@ -104,12 +104,13 @@ const char* trace_file(TraceFormat format) {
 }
 
 TraceWriter::TraceWriter(const std::filesystem::path& path, TraceFormat format, std::int64_t every,
-                         const JointConditions* joint)
+                         const Conditions* conditions)
     : out_(path, std::ios::binary),
       format_(format),
       every_(every),
-      columns_(trace_columns(joint)),
-      lever_(joint != nullptr ? joint->plant.lever : control::Lever()) {
+      columns_(trace_columns(conditions)),
+      lever_(conditions != nullptr && conditions->joint ? conditions->joint->plant.lever
+                                                        : control::Lever()) {
   buffer_.reserve(flush_bytes + 4096);
 }
 
@@ -137,9 +138,9 @@ tl::expected<void, std::string> TraceWriter::finish() {
 }
 
 std::unique_ptr<TraceWriter> write_trace(const std::filesystem::path& path, TraceFormat format,
-                                         std::int64_t every, const JointConditions* joint) {
-  if (format == TraceFormat::csv) return std::make_unique<CsvTrace>(path, every, joint);
-  return std::make_unique<NpyTrace>(path, every, joint);
+                                         std::int64_t every, const Conditions* conditions) {
+  if (format == TraceFormat::csv) return std::make_unique<CsvTrace>(path, every, conditions);
+  return std::make_unique<NpyTrace>(path, every, conditions);
 }
 
 }  // namespace supercoil::host_sim

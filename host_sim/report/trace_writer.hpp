@@ -7,8 +7,8 @@
 #include <fstream>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -34,9 +34,9 @@ class TraceWriter {
 
  protected:
   TraceWriter(const std::filesystem::path& path, TraceFormat format, std::int64_t every,
-              const JointConditions* joint);
+              const Conditions* conditions);
 
-  std::span<const TraceColumn> columns() const { return columns_; }
+  const std::vector<TraceColumn>& columns() const { return columns_; }
   std::int64_t rows() const { return rows_; }
   std::string buffer_;
 
@@ -49,15 +49,15 @@ class TraceWriter {
   std::ofstream out_;
   TraceFormat format_;
   std::int64_t every_;
-  std::span<const TraceColumn> columns_;
+  std::vector<TraceColumn> columns_;
   control::Lever lever_;
   std::int64_t rows_ = 0;
 };
 
-/// every: one row per this many ticks, from the first on. joint: of the scenario; null: it has
-/// none. Numbers can be read back to the bit.
+/// every: one row per this many ticks, from the first on. conditions: of the scenario, for
+/// what it has beside a muscle. Numbers can be read back to the bit.
 std::unique_ptr<TraceWriter> write_trace(const std::filesystem::path& path, TraceFormat format,
                                          std::int64_t every,
-                                         const JointConditions* joint = nullptr);
+                                         const Conditions* conditions = nullptr);
 
 }  // namespace supercoil::host_sim

@@ -110,6 +110,10 @@ BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated)
   if (simulated.air) board.air.scaling = scaling_of(*simulated.air);
   const board::Scaling position = scaling_of(simulated.channels[0].position);
   board.channels[0].position.scaling = position;
+  for (const BundleSettings& bundle : board.bundles) {
+    for (const std::size_t channel : bundle.channels)
+      board.channels[channel].position.scaling = position;
+  }
   // A joint's antagonist sees it from the other side.
   if (!board.joints.empty()) board.channels[1].position.scaling = mirrored(position);
   for (std::size_t i = 0; i < board.channels.size(); ++i)
@@ -171,6 +175,19 @@ ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
   return channel;
 }
 
+/// Another channel of a bundle: the same position, and a heater of its own.
+ChannelSettings companion_of(const Scenario& scenario, ChannelSettings channel, std::size_t place,
+                             const MuscleChannelSettings& simulated) {
+  const PlantSettings& plant = scenario.start.companions[place - 1];
+  set_known(channel, scenario.known[place]);
+  channel.heater.current.scaling = scaling_of(simulated.current);
+  channel.heater.cold_resistance_Ohm = plant.resistance_Ohm;
+  channel.heater.temperature_coefficient_per_K = plant.temperature_coefficient_per_K;
+  channel.supervision =
+      supervision_of(scenario, scenario.start.position_sensor, plant.resistance_Ohm);
+  return channel;
+}
+
 /// Of all that the operator will command.
 double max_co_contraction_W(const Scenario& scenario) {
   double max_W = scenario.start.antagonist()->co_contraction_W;
@@ -183,6 +200,17 @@ double max_co_contraction_W(const Scenario& scenario) {
 
 MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditions& c) {
   return channel_of(scenario, c, c.plant);
+}
+
+MuscleChannelSettings companion_channel_of(const Scenario& scenario, const Conditions& c,
+                                           std::size_t place) {
+  MuscleChannelSettings m = channel_of(scenario, c, c.companions[place - 1]);
+  if (scenario.board) {
+    const HeaterSettings& heater = scenario.board->channels[place].heater;
+    m.sense_filter_s = heater.sense_filter_s;
+    m.pwm_delay_s = whole_ticks_s(scenario, heater.delay_s);
+  }
+  return m;
 }
 
 MuscleChannelSettings antagonist_channel_of(const Scenario& scenario, const Conditions& c) {
@@ -217,6 +245,11 @@ SimulatedBoardSettings simulated_board_of(const Scenario& scenario) {
   s.channels = {muscle_channel_of(scenario, scenario.start)};
   if (scenario.start.antagonist() != nullptr)
     s.channels.push_back(antagonist_channel_of(scenario, scenario.start));
+  if (!scenario.start.companions.empty()) s.bundles = {{0}};
+  for (std::size_t i = 1; i <= scenario.start.companions.size(); ++i) {
+    s.channels.push_back(companion_channel_of(scenario, scenario.start, i));
+    s.bundles[0].push_back(i);
+  }
   if (scenario.start.joint) s.joints = {simulated_joint_of(scenario.start)};
   return s;
 }
@@ -264,6 +297,10 @@ BoardSettings firmware_of(const Scenario& scenario) {
         std::max(max_co_contraction_W(scenario),
                  JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));
     add_joint(board, joint);
+  } else if (!c.companions.empty()) {
+    for (std::size_t i = 1; i <= c.companions.size(); ++i)
+      board.channels.push_back(companion_of(scenario, board.channels[0], i, simulated.channels[i]));
+    add_bundle(board, {simulated.bundles[0]});
   } else if (c.joint) {
     channel.joint = {1, c.joint->plant.lever};
   }

@@ -12,10 +12,13 @@ MuscleChannelSettings muscle_channel_of(const Scenario& scenario, const Conditio
 
 /// Of conditions with a joint: its antagonist's channel, and what the two of them turn.
 MuscleChannelSettings antagonist_channel_of(const Scenario& scenario, const Conditions& conditions);
+/// Of a bundle: place from 1, the muscle beside the first one.
+MuscleChannelSettings companion_channel_of(const Scenario& scenario, const Conditions& conditions,
+                                           std::size_t place);
 SimulatedJointSettings simulated_joint_of(const Conditions& conditions);
 
-/// One channel, or an agonist's and its antagonist's. Its controllers and estimators are those of
-/// the start and of each event that names one, in that order.
+/// One channel, an agonist's and its antagonist's, or a bundle's. Its controllers and estimators
+/// are those of the start and of each event that names one, in that order.
 BoardSettings firmware_of(const Scenario& scenario);
 
 }  // namespace supercoil::host_sim

@@ -100,6 +100,7 @@ void Simulation::apply_event(const Event& event) {
   muscle.set(settings);
   muscle.position.set(settings.position);
   if (conditions_->joint) change_joint(before);
+  if (!conditions_->companions.empty()) change_companions();
   board_.set_supply_V(conditions_->power.supply_V);
   set_air();
   inject_faults(conditions_->injected_faults);
@@ -125,10 +126,20 @@ void Simulation::change_joint(const Conditions& before) {
   loop_.send({1, Verb::power, wanted_W / gain_ratio});
 }
 
+void Simulation::change_companions() {
+  for (std::size_t i = 1; i < loop_.channels(); ++i) {
+    board_.channel(i).set(companion_channel_of(*scenario_, *conditions_, i));
+    if (!scenario_->board)
+      loop_.channel(i).set_power_range(conditions_->power.min_W, conditions_->power.max_W);
+  }
+  board_.bundle(0).update();
+}
+
 double Simulation::peak_temperature_rise_K() const {
-  const double first_K = board_.channel(0).peak_temperature_rise_K();
-  if (conditions_->antagonist() == nullptr) return first_K;
-  return std::fmax(first_K, board_.channel(1).peak_temperature_rise_K());
+  double peak_K = 0.0;
+  for (std::size_t i = 0; i < loop_.channels(); ++i)
+    peak_K = std::fmax(peak_K, board_.channel(i).peak_temperature_rise_K());
+  return peak_K;
 }
 
 void Simulation::set_air() {
@@ -145,6 +156,14 @@ void Simulation::inject_faults(const InjectedFaults& faults) {
     board_.channel(1).faults.wire_open = faults.antagonist_heater_open;
     board_.channel(1).faults.torn = faults.antagonist_torn;
     board_.channel(1).faults.slack_m = faults.antagonist_slack_m;
+  }
+  if (!conditions_->companions.empty()) {
+    for (std::size_t i = 0; i < loop_.channels(); ++i) {
+      if (faults.open_heater_in_bundle == static_cast<double>(i + 1))
+        board_.channel(i).faults.wire_open = true;
+      else if (i > 0)
+        board_.channel(i).faults.wire_open = false;
+    }
   }
   muscle.position.set(
       ConverterFaults{faults.position_silent, faults.position_frozen, faults.position_loose});
@@ -247,8 +266,7 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.measured_m = s.position_m;
   r.power_W = s.demanded_W;
   r.applied_power_W = s.applied_W;
-  r.temperature_rise_K =
-      board_.channel(0).temperature_rise_K() + (board_.channel(0).rise_from_C() - ambient_C);
+  r.temperature_rise_K = rise_K(0);
   r.thermometer_C = board_.channel(0).thermometer_C();
   r.coldest_K = s.coldest_C - ambient_C;
   r.hottest_K = s.hottest_C - ambient_C;
@@ -261,15 +279,34 @@ TickRecord Simulation::record(double time_s, double reference) const {
   r.board_fault = loop_.board_fault();
   r.limited_by = s.limited_by;
   if (conditions_->antagonist() != nullptr) r.antagonist = antagonist_record();
+  if (!conditions_->companions.empty()) r.bundle = bundle_record(r);
   return r;
 }
 
 AntagonistRecord Simulation::antagonist_record() const {
   const Snapshot& s = loop_.channel(1).snapshot();
-  const MuscleChannel& muscle = board_.channel(1);
   const double ambient_C = conditions_->ambient.air_C;
-  return {s.applied_W, muscle.temperature_rise_K() + (muscle.rise_from_C() - ambient_C),
-          s.coldest_C - ambient_C, s.hottest_C - ambient_C};
+  return {s.applied_W, rise_K(1), s.coldest_C - ambient_C, s.hottest_C - ambient_C};
+}
+
+BundleRecord Simulation::bundle_record(const TickRecord& first) const {
+  const double ambient_C = conditions_->ambient.air_C;
+  BundleRecord r{first.temperature_rise_K, first.temperature_rise_K, first.hottest_K};
+  for (std::size_t i = 1; i < loop_.channels(); ++i) {
+    const Snapshot& s = loop_.channel(i).snapshot();
+    const double rise = rise_K(i);
+    r.min_temperature_rise_K = std::fmin(r.min_temperature_rise_K, rise);
+    r.max_temperature_rise_K = std::fmax(r.max_temperature_rise_K, rise);
+    r.hottest_K = std::fmax(r.hottest_K, s.hottest_C - ambient_C);
+    r.outside = r.outside || is_outside(rise, s.coldest_C - ambient_C, s.hottest_C - ambient_C);
+  }
+  return r;
+}
+
+/// Of its muscle, above the air as it is.
+double Simulation::rise_K(std::size_t channel) const {
+  const MuscleChannel& muscle = board_.channel(channel);
+  return muscle.temperature_rise_K() + (muscle.rise_from_C() - conditions_->ambient.air_C);
 }
 
 }  // namespace supercoil::host_sim

@@ -25,6 +25,14 @@ struct AntagonistRecord {
   double hottest_K = 0.0;
 };
 
+/// Of all muscles of a bundle; rises as TickRecord's.
+struct BundleRecord {
+  double min_temperature_rise_K = 0.0;
+  double max_temperature_rise_K = 0.0;
+  double hottest_K = 0.0;  ///< the highest of the firmware's bounds
+  bool outside = false;    ///< one of them is not within its bounds
+};
+
 /// What there is to see of one tick: the firmware's snapshot, and the truth beside it. Powers act
 /// from this tick to the next.
 struct TickRecord {
@@ -48,7 +56,15 @@ struct TickRecord {
   Fault board_fault = Fault::none;  ///< the board's, which may come after it
   LimitedBy limited_by = LimitedBy::nothing;
   std::optional<AntagonistRecord> antagonist;  ///< where there is a joint
+  std::optional<BundleRecord> bundle;          ///< where there is one
 };
+
+inline constexpr double temperature_rounding_K = 1e-9;
+/// Whether a temperature is not within the firmware's bounds for it.
+constexpr bool is_outside(double rise_K, double coldest_K, double hottest_K) {
+  return !(rise_K >= coldest_K - temperature_rounding_K &&
+           rise_K <= hottest_K + temperature_rounding_K);
+}
 
 /// Boots the firmware, lets it arm, and commands it as the scenario says. The same scenario gives
 /// the same records, to the bit.
@@ -91,7 +107,8 @@ class Simulation {
   SimulatedCanBus* bus() { return bus_ ? &*bus_ : nullptr; }
   /// The board's clock at the scenario's time 0.
   hal::Time start() const { return start_; }
-  /// What identify or calibrate found last of a channel's muscle, 1: a joint's antagonist's; empty
+  /// What identify or calibrate found last of a channel's muscle, 1: a joint's antagonist's or a
+  /// bundle's second; empty
   /// when nothing was.
   const std::optional<board::Learned>& learned(std::size_t channel = 0) const {
     return learned_[channel];
@@ -106,7 +123,10 @@ class Simulation {
   void set_air();
   void inject_faults(const InjectedFaults& faults);
   void change_joint(const Conditions& before);
+  void change_companions();
   AntagonistRecord antagonist_record() const;
+  BundleRecord bundle_record(const TickRecord& first) const;
+  double rise_K(std::size_t channel) const;
   /// What is asked for at this tick, NaN: nothing. Begins a first motion when the muscle is armed.
   double reference_at(double time_s);
   void ask(double reference);

@@ -53,7 +53,8 @@ class Summary {
     const auto& other = record.antagonist;
     const bool outside =
         is_outside(record.temperature_rise_K, record.coldest_K, record.hottest_K) ||
-        (other && is_outside(other->temperature_rise_K, other->coldest_K, other->hottest_K));
+        (other && is_outside(other->temperature_rise_K, other->coldest_K, other->hottest_K)) ||
+        (record.bundle && record.bundle->outside);
     outside_interval_ticks_ += outside ? 1 : 0;
     limited_ticks_ += record.limited ? 1 : 0;
     ++limit_ticks_[static_cast<std::size_t>(record.limited_by)];
@@ -74,8 +75,8 @@ class Summary {
     tracking_.add(record.position_m - record.model_m);
   }
   const ErrorMeter& tracking() const { return tracking_; }
-  /// Ticks at which the muscle, or a joint's other one, was not within the firmware's bounds of its
-  /// temperature.
+  /// Ticks at which the muscle, or another one of its joint or bundle, was not within the
+  /// firmware's bounds of its temperature.
   std::int64_t outside_interval_ticks() const { return outside_interval_ticks_; }
   struct FaultAt {
     Fault fault;
@@ -115,13 +116,6 @@ class Summary {
                                  double wall_s) const;
 
  private:
-  static constexpr double temperature_rounding_K = 1e-9;
-
-  static constexpr bool is_outside(double rise_K, double coldest_K, double hottest_K) {
-    return !(rise_K >= coldest_K - temperature_rounding_K &&
-             rise_K <= hottest_K + temperature_rounding_K);
-  }
-
   /// Not slew: it ends by itself, nor what is no number.
   static constexpr bool is_infeasible(LimitedBy limit) {
     return limit != LimitedBy::nothing && limit != LimitedBy::slew && limit != LimitedBy::invalid;

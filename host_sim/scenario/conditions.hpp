@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "supercoil/control/estimation/estimator.hpp"
 #include "supercoil/control/tracking/controller.hpp"
@@ -119,6 +120,8 @@ struct Conditions {
   PlantSettings plant;                 ///< of a joint: its agonist
   control::PhysicalParameters muscle;  ///< what the board believes the muscle to be
   std::optional<JointConditions> joint;
+  /// What pulls beside it, each with a heater of its own; empty: it pulls alone.
+  std::vector<PlantSettings> companions;
   PositionSensorSettings position_sensor;
   ThermometerSettings thermometer;
   PowerSettings power;

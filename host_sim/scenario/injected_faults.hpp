@@ -24,12 +24,13 @@ struct InjectedFaults {
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the power switch is off
   double agonist_slack_m = 0.0;    ///< of a joint: it contracts so far before it pulls as it did
   double antagonist_slack_m = 0.0;
+  double open_heater_in_bundle = 0.0;  ///< the number of the muscle whose wire is broken; 0: none
 
   friend bool operator==(const InjectedFaults&, const InjectedFaults&) = default;
 };
 
 /// What a fault can happen to.
-enum class Needs { muscle, joint, antagonist };
+enum class Needs { muscle, joint, antagonist, bundle };
 
 struct InjectedFaultName {
   const char* name;  ///< as in [injected_fault]
@@ -59,12 +60,13 @@ struct InjectedFaultNumber {
   double max;
   Needs needs = Needs::muscle;
 };
-inline constexpr std::array<InjectedFaultNumber, 5> injected_fault_numbers{{
+inline constexpr std::array<InjectedFaultNumber, 6> injected_fault_numbers{{
     {"current_gain", &InjectedFaults::current_gain, 0.0, 10.0},
     {"supply_gain", &InjectedFaults::supply_gain, 0.0, 10.0},
     {"switch_leak_ratio", &InjectedFaults::switch_leak_ratio, 0.0, 1.0},
     {"agonist_slack_m", &InjectedFaults::agonist_slack_m, 0.0, 1.0, Needs::joint},
     {"antagonist_slack_m", &InjectedFaults::antagonist_slack_m, 0.0, 1.0, Needs::antagonist},
+    {"open_heater_in_bundle", &InjectedFaults::open_heater_in_bundle, 0.0, 8.0, Needs::bundle},
 }};
 
 }  // namespace supercoil::host_sim

@@ -133,6 +133,10 @@ double read_senses(Section section) {
 InjectedFaults read_injected_faults(Section section, const Conditions& c) {
   const auto refuse_missing = [&](const char* key, Needs needs) {
     if (!section.has(key) || needs == Needs::muscle) return;
+    if (needs == Needs::bundle) {
+      if (c.companions.empty()) section.wrong(key, "needs a [bundle]");
+      return;
+    }
     if (!c.joint) return section.wrong(key, "needs a [joint]");
     if (needs == Needs::antagonist && c.antagonist() == nullptr)
       section.wrong(key, "needs a joint that is opposed_by \"muscle\"");
@@ -197,16 +201,20 @@ Conditions read_conditions(const toml::table& document, const BelievedMuscles& b
   Section root(&document, "", diagnostics);
   Conditions c;
   c.muscle = believed.muscle;
-  root.allow({"simulation", "muscle", "joint", "event"});  // read elsewhere
+  root.allow({"simulation", "muscle", "joint", "bundle", "event"});  // read elsewhere
   c.plant = read_plant(root.section("plant"));
   c.joint = read_joint(document, c.plant, believed.antagonist, diagnostics);
+  c.companions = read_companions(document, diagnostics);
   Section sensor = root.section("sensor");
   const Moves moves = what_moves(c);
   c.position_sensor = read_position_sensor(sensor.section("position"), moves);
   c.thermometer = read_thermometer(sensor.section("temperature"));
   sensor.finish();
-  const double other_Ohm = c.antagonist() != nullptr ? c.antagonist()->plant.resistance_Ohm : 0.0;
-  c.power = read_power(root.section("power"), std::max(c.plant.resistance_Ohm, other_Ohm), step_s);
+  double max_Ohm = c.plant.resistance_Ohm;
+  if (c.antagonist() != nullptr) max_Ohm = std::max(max_Ohm, c.antagonist()->plant.resistance_Ohm);
+  for (const PlantSettings& companion : c.companions)
+    max_Ohm = std::max(max_Ohm, companion.resistance_Ohm);
+  c.power = read_power(root.section("power"), max_Ohm, step_s);
   if (c.antagonist() != nullptr) {
     c.joint->antagonist->co_contraction_W =
         read_co_contraction_W(document, c.power.max_W, diagnostics);

@@ -160,7 +160,7 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
   const auto agonist = read_plant_parameters(plant);
   Section muscle(document["muscle"].as_table(), "muscle", diagnostics);
   if (document["joint"].as_table() == nullptr) {
-    const auto believed = config::read_parameters(muscle, agonist);
+    const auto believed = config::read_parameters(muscle, bundle_parameters(document, agonist));
     muscle.finish();
     return {believed, believed};
   }

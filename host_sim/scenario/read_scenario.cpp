@@ -40,6 +40,7 @@ constexpr std::array fixed_keys{"simulation",
                                 "ambient.coldest_C",
                                 "ambient.sensor_error_K",
                                 "senses",
+                                "bundle.muscles",
                                 "joint.opposed_by",
                                 "joint.lever_m",
                                 "joint.lever_range_deg",
@@ -59,7 +60,12 @@ constexpr std::array fixed_keys{"simulation",
                                 "sensor.position.rate_Hz",
                                 "sensor.position.resolution_bits"};
 
-void refuse_fixed_keys(const toml::table& event, bool has_joint, config::Diagnostics& diagnostics) {
+void refuse_fixed_keys(const toml::table& event, bool has_joint, bool has_bundle,
+                       config::Diagnostics& diagnostics) {
+  if (const toml::node* bundle = event.get("bundle"); bundle != nullptr && !has_bundle) {
+    diagnostics.add(static_cast<int>(bundle->source().begin.line), "event.bundle",
+                    "needs a [bundle] from the start");
+  }
   if (const toml::node* joint = event.get("joint"); joint != nullptr && !has_joint) {
     diagnostics.add(static_cast<int>(joint->source().begin.line), "event.joint",
                     "needs a [joint] from the start");
@@ -98,7 +104,8 @@ std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
   } else {
     for (toml::node& element : *node->as_array()) {
       toml::table& event = *element.as_table();
-      refuse_fixed_keys(event, document.contains("joint"), diagnostics);
+      refuse_fixed_keys(event, document.contains("joint"), document.contains("bundle"),
+                        diagnostics);
       if (!event.contains("at_s")) {
         diagnostics.add(static_cast<int>(event.source().begin.line), "event.at_s",
                         "is missing: when does the event happen?");
@@ -172,11 +179,13 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   if (learned[0]) believed.muscle = learned[0]->muscle;
   if (learned[1]) believed.antagonist = learned[1]->muscle;
   scenario.start = read_conditions(document, believed, scenario.step_s(), diagnostics);
-  scenario.known = {
-      known_before(learned[0], configured.muscle, scenario.start.plant),
+  const Conditions& start = scenario.start;
+  scenario.known[0] = known_before(learned[0], configured.muscle, start.plant);
+  scenario.known[1] =
       known_before(learned[1], configured.antagonist,
-                   scenario.start.antagonist() != nullptr ? scenario.start.antagonist()->plant
-                                                          : scenario.start.plant)};
+                   start.antagonist() != nullptr ? start.antagonist()->plant : start.plant);
+  for (std::size_t i = 0; i < start.companions.size(); ++i)
+    scenario.known[i + 1] = known_before(learned[i + 1], configured.muscle, start.companions[i]);
   // Each event is laid over all before it, and the whole is read and checked again. Events at one
   // time are one change: what the first alone would make impossible, the second may put right.
   for (auto event = events.begin(); event != events.end() && diagnostics.empty(); ++event) {

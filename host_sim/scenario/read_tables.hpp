@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <toml++/toml.h>
 
@@ -34,13 +35,22 @@ std::optional<JointConditions> read_joint(const toml::table& document, const Pla
 double read_co_contraction_W(const toml::table& document, double max_W,
                              config::Diagnostics& diagnostics);
 
+/// [bundle]: the muscles beside [plant]'s, each as [plant] says where its own table does not.
+/// Empty: there is none.
+std::vector<PlantSettings> read_companions(const toml::table& document,
+                                           config::Diagnostics& diagnostics);
+/// As one muscle with the power of each for input: what moves is the bundle's, heat the first's.
+control::PhysicalParameters bundle_parameters(const toml::table& document,
+                                              control::PhysicalParameters first);
+
 /// What the board believes; antagonist: of a joint.
 struct BelievedMuscles {
   control::PhysicalParameters muscle;
   control::PhysicalParameters antagonist;
 };
 
-/// [muscle] and [joint.antagonist_muscle]; each key that is absent is as in [plant] and [joint].
+/// [muscle] and [joint.antagonist_muscle]; each key that is absent is as in [plant], [joint] and
+/// [bundle].
 BelievedMuscles read_muscles(const toml::table& document, config::Diagnostics& diagnostics);
 
 /// Every other table than [simulation] and [[event]], and the keys that no table has.

@@ -32,8 +32,12 @@ struct KnownBefore {
   board::Calibration calibration;  ///< its resistance is the plant's unless learned
 };
 
-/// What a board learned before: of its muscle, or of a joint's agonist and antagonist.
-using LearnedMuscles = std::array<std::optional<board::Learned>, 2>;
+/// Of a scenario.
+inline constexpr std::size_t max_muscles = 8;
+
+/// What a board learned before: of its muscle, of a joint's agonist and antagonist, or of a
+/// bundle's muscles.
+using LearnedMuscles = std::array<std::optional<board::Learned>, max_muscles>;
 
 struct Scenario {
   std::string name;
@@ -42,9 +46,9 @@ struct Scenario {
   double rate_Hz = 1000.0;
   std::uint64_t seed = 1;
   int substeps = 1;
-  std::array<KnownBefore, 2> known;  ///< likewise
-  /// The firmware of a board of the user's own, with one channel or one
-  /// joint; empty: one for the scenario.
+  std::array<KnownBefore, max_muscles> known;  ///< likewise
+  /// The firmware of a board of the user's own, with one channel, joint or bundle; empty: one for
+  /// the scenario.
   std::optional<BoardSettings> board;
   telemetry::CanSettings can;
   Conditions start;
@@ -52,7 +56,9 @@ struct Scenario {
 
   double step_s() const { return 1.0 / rate_Hz; }
   /// Of its board, each a node: two of a joint of two muscles.
-  int channels() const { return start.antagonist() != nullptr ? 2 : 1; }
+  int channels() const {
+    return start.antagonist() != nullptr ? 2 : 1 + static_cast<int>(start.companions.size());
+  }
   /// Number of ticks, the one at time 0 included, the one at duration_s not.
   std::int64_t ticks() const { return std::llround(duration_s * rate_Hz); }
 };

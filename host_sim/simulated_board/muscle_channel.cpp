@@ -25,22 +25,20 @@ void MuscleChannel::set(const MuscleChannelSettings& settings) {
 }
 
 double MuscleChannel::position_m() const {
-  if (joint_ == nullptr) return plant_.position_m();
-  return muscle_ == 0 ? joint_->position_m() : -joint_->position_m();
+  return shared_ == nullptr ? plant_.position_m() : shared_->position_m(muscle_);
 }
 
 double MuscleChannel::reading_m() const {
-  if (joint_ == nullptr) return plant_.position_m();
-  return muscle_ == 0 ? joint_->reading_m() : -joint_->reading_m();
+  return shared_ == nullptr ? plant_.position_m() : shared_->reading_m(muscle_);
 }
 
 double MuscleChannel::temperature_rise_K() const {
-  return joint_ == nullptr ? plant_.temperature_rise_K() : joint_->temperature_rise_K(muscle_);
+  return shared_ == nullptr ? plant_.temperature_rise_K() : shared_->temperature_rise_K(muscle_);
 }
 
 double MuscleChannel::peak_temperature_rise_K() const {
-  return joint_ == nullptr ? plant_.peak_temperature_rise_K()
-                           : joint_->peak_temperature_rise_K(muscle_);
+  return shared_ == nullptr ? plant_.peak_temperature_rise_K()
+                            : shared_->peak_temperature_rise_K(muscle_);
 }
 
 void MuscleChannel::heat(hal::Time from, double supply_V) {
@@ -58,7 +56,7 @@ void MuscleChannel::heat(hal::Time from, double supply_V) {
 }
 
 void MuscleChannel::move(hal::Time to) {
-  if (joint_ == nullptr) plant_.step(power_W_, settings_.load_N);
+  if (shared_ == nullptr) plant_.step(power_W_, settings_.load_N);
   if (settings_.thermometer)
     thermometer_.step(settings_.rise_from_C + temperature_rise_K(), hal::seconds(step_));
   if (!faults.slack) slack_at_m_ = reading_m();

@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <optional>
 
-#include "plant/joint_plant.hpp"
 #include "plant/plant.hpp"
 #include "simulated_board/converter.hpp"
 #include "simulated_board/lines.hpp"
+#include "simulated_board/shared_motion.hpp"
 #include "simulated_board/thermometer.hpp"
 
 namespace supercoil::host_sim {
@@ -48,14 +48,15 @@ class MuscleChannel {
   /// One step of the board, which begins at `from`: what heats the muscle over it. supply_V is 0
   /// while its switch is open.
   void heat(hal::Time from, double supply_V);
-  /// And how the muscle has moved and what the sensors see at the step's end. What is in a joint
-  /// has been moved by it.
+  /// And how the muscle has moved and what the sensors see at the step's end. What is in a joint or
+  /// a bundle has been moved by it.
   void move(hal::Time to);
   /// Everything that may change under way; converters and PWM stay as they are.
   void set(const MuscleChannelSettings& settings);
-  /// From now on the muscle is one of a joint, which outlives the channel's steps. 0: its agonist.
-  void join(const JointPlant& joint, std::size_t muscle) {
-    joint_ = &joint;
+  /// From now on the muscle moves with others, by what outlives the channel's steps. muscle: its
+  /// place among them.
+  void join(const SharedMotion& shared, std::size_t muscle) {
+    shared_ = &shared;
     muscle_ = muscle;
   }
 
@@ -63,10 +64,10 @@ class MuscleChannel {
   double thermometer_C() const { return thermometer_.reading_C(); }
   /// The air's temperature that the plant's rise counts from.
   double rise_from_C() const { return settings_.rise_from_C; }
-  /// Of a muscle that is in no joint.
+  /// Of a muscle that moves alone.
   const Plant& plant() const { return plant_; }
   const MuscleChannelSettings& settings() const { return settings_; }
-  /// Of the muscle, alone or in a joint.
+  /// Of the muscle, alone or with others.
   double position_m() const;
   double temperature_rise_K() const;
   double peak_temperature_rise_K() const;
@@ -86,7 +87,7 @@ class MuscleChannel {
   MuscleChannelSettings settings_;
   hal::Duration step_;
   Plant plant_;
-  const JointPlant* joint_ = nullptr;  ///< of which it is muscle_
+  const SharedMotion* shared_ = nullptr;  ///< of which it is muscle_; null: it moves alone
   std::size_t muscle_ = 0;
   Thermometer thermometer_;
   double sense_gain_;

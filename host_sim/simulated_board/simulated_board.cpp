@@ -1,12 +1,15 @@
 #include "simulated_board/simulated_board.hpp"
 
+#include <utility>
+
 namespace supercoil::host_sim {
 
 SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
     : supply(settings.supply, settings.seed + 2000003),
       pump(hal::duration_from(settings.charge_pump_decay_s)),
       step_(hal::duration_from(1.0 / settings.rate_Hz / settings.substeps)),
-      supply_V_(settings.supply_V) {
+      supply_V_(settings.supply_V),
+      bundled_(settings.bundles) {
   if (settings.air) air.emplace(*settings.air, settings.seed + 3000017);
   std::uint64_t seed = settings.seed;
   for (const MuscleChannelSettings& channel : settings.channels)
@@ -15,6 +18,12 @@ SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
     MuscleChannel* antagonist = joint.antagonist ? channels_[*joint.antagonist].get() : nullptr;
     joints_.push_back(
         std::make_unique<SimulatedJoint>(joint, *channels_[joint.agonist], antagonist, step_));
+  }
+  for (const std::vector<std::size_t>& bundle : bundled_) {
+    std::vector<MuscleChannel*> muscles;
+    for (const std::size_t channel : bundle)
+      muscles.push_back(channels_[channel].get());
+    bundles_.push_back(std::make_unique<SimulatedBundle>(std::move(muscles), step_));
   }
   supply.offer(supply_V_, now_);
 }
@@ -39,6 +48,8 @@ void SimulatedBoard::step() {
   now_ += step_;
   for (const auto& joint : joints_)
     joint->advance();
+  for (const auto& bundle : bundles_)
+    bundle->advance();
   for (const auto& channel : channels_)
     channel->move(now_);
   supply.offer(supply_V_, now_);
@@ -56,6 +67,10 @@ board::Devices SimulatedBoard::devices() {
     const SimulatedJointSettings& its = joint->settings();
     if (its.antagonist)
       devices.channels[*its.antagonist].position = &channels_[its.agonist]->position;
+  }
+  for (const std::vector<std::size_t>& bundle : bundled_) {
+    for (const std::size_t channel : bundle)
+      devices.channels[channel].position = &channels_[bundle.front()]->position;
   }
   if (air) devices.air = &*air;
   return devices;

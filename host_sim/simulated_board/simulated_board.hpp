@@ -7,6 +7,7 @@
 
 #include "board/devices.hpp"
 #include "simulated_board/muscle_channel.hpp"
+#include "simulated_board/simulated_bundle.hpp"
 #include "simulated_board/simulated_joint.hpp"
 
 namespace supercoil::host_sim {
@@ -20,7 +21,8 @@ struct SimulatedBoardSettings {
   double charge_pump_decay_s = 0.02;
   std::uint64_t seed = 1;
   std::vector<MuscleChannelSettings> channels{1};
-  std::vector<SimulatedJointSettings> joints;  ///< no channel is in two
+  std::vector<SimulatedJointSettings> joints;
+  std::vector<std::vector<std::size_t>> bundles;  ///< channels; none is in two of either
 };
 
 /// Is its own clock: waiting lets the muscles move on, and nothing else takes time unless it is
@@ -48,6 +50,7 @@ class SimulatedBoard final : public hal::Clock {
   std::size_t joints() const { return joints_.size(); }
   SimulatedJoint& joint(std::size_t i) { return *joints_[i]; }
   const SimulatedJoint& joint(std::size_t i) const { return *joints_[i]; }
+  SimulatedBundle& bundle(std::size_t i) { return *bundles_[i]; }
   void set_air_C(double air_C) { air_C_ = air_C; }
   void set_supply_V(double supply_V) { supply_V_ = supply_V; }
   bool supply_closed() const { return closed_; }
@@ -74,6 +77,8 @@ class SimulatedBoard final : public hal::Clock {
   bool closed_ = false;
   std::vector<std::unique_ptr<MuscleChannel>> channels_;
   std::vector<std::unique_ptr<SimulatedJoint>> joints_;
+  std::vector<std::unique_ptr<SimulatedBundle>> bundles_;
+  std::vector<std::vector<std::size_t>> bundled_;  ///< channels of each
 };
 
 }  // namespace supercoil::host_sim

@@ -17,8 +17,8 @@ SimulatedJoint::SimulatedJoint(const SimulatedJointSettings& settings, MuscleCha
       agonist_(&agonist),
       antagonist_(antagonist),
       plant_(plant_settings(), hal::seconds(step)) {
-  agonist.join(plant_, 0);
-  if (antagonist_ != nullptr) antagonist_->join(plant_, 1);
+  agonist.join(*this, 0);
+  if (antagonist_ != nullptr) antagonist_->join(*this, 1);
 }
 
 JointPlantSettings SimulatedJoint::plant_settings() const {

@@ -8,6 +8,7 @@
 
 #include "plant/joint_plant.hpp"
 #include "simulated_board/muscle_channel.hpp"
+#include "simulated_board/shared_motion.hpp"
 
 namespace supercoil::host_sim {
 
@@ -20,14 +21,26 @@ struct SimulatedJointSettings {
 };
 
 /// The agonist's position sensor is the joint's; the antagonist's channel reads it as well.
-class SimulatedJoint {
+class SimulatedJoint final : public SharedMotion {
  public:
   /// The board's channels are those of the settings, and outlive it. antagonist: null where the
   /// settings have none.
   SimulatedJoint(const SimulatedJointSettings& settings, MuscleChannel& agonist,
                  MuscleChannel* antagonist, hal::Duration step);
-  SimulatedJoint(const SimulatedJoint&) = delete;
-  SimulatedJoint& operator=(const SimulatedJoint&) = delete;
+
+  /// 0: the agonist's.
+  double position_m(std::size_t muscle) const override {
+    return muscle == 0 ? plant_.position_m() : -plant_.position_m();
+  }
+  double reading_m(std::size_t muscle) const override {
+    return muscle == 0 ? plant_.reading_m() : -plant_.reading_m();
+  }
+  double temperature_rise_K(std::size_t muscle) const override {
+    return plant_.temperature_rise_K(muscle);
+  }
+  double peak_temperature_rise_K(std::size_t muscle) const override {
+    return plant_.peak_temperature_rise_K(muscle);
+  }
 
   /// One step of the board, for which both channels are heated already.
   void advance();

@@ -20,6 +20,7 @@ HELD_K = 0.05
 
 MUSCLES = ("soft", "stiff")
 JOINTS = ("soft joint", "stiff joint")
+BUNDLES = ("soft bundle", "stiff bundle")
 
 Run = collections.namedtuple("Run", "board attack activity hottest_C outside_K fault fault_s guard blindness")
 
@@ -135,11 +136,13 @@ def pages(runs):
     attacks, safety = ROOT / "docs/attacks.md", ROOT / "docs/safety.md"
     text = with_section(attacks.read_text(), "summary", summary(runs, MUSCLES))
     text = with_section(text, "joints", summary(runs, JOINTS, faults=True))
+    text = with_section(text, "bundles", summary(runs, BUNDLES, faults=True))
     for muscle in MUSCLES:
         text = with_section(text, muscle, table(runs, muscle))
     yield attacks, text
     text = with_section(safety.read_text(), "unprotected attacks", unprotected(runs, MUSCLES))
-    yield safety, with_section(text, "unprotected attacks on joints", unprotected(runs, JOINTS))
+    text = with_section(text, "unprotected attacks on joints", unprotected(runs, JOINTS))
+    yield safety, with_section(text, "unprotected attacks on bundles", unprotected(runs, BUNDLES))
 
 
 def main():

@@ -10,7 +10,8 @@
 
 namespace supercoil::test {
 
-inline constexpr double hold_ratio = 0.8;  ///< of what max_W would hold
+inline constexpr double hold_ratio = 0.8;   ///< of what max_W would hold
+inline constexpr double press_ratio = 1.5;  ///< likewise: more than it can
 inline constexpr double rearm_every_s = 12.0;
 
 /// Judged by the muscles' own temperatures: of the worst muscle.

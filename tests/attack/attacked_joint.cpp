@@ -12,7 +12,6 @@ namespace supercoil::test {
 
 namespace {
 
-constexpr double press_ratio = 1.5;  ///< of the same: more than it can
 constexpr double sine_Hz = 0.1;
 /// Of the sensor and of the pulley: nothing but heat ends a run.
 constexpr double half_range_m = 0.060;

@@ -1,11 +1,12 @@
-// Every attack on every muscle, and on joints of two of them, in every activity, a line each:
-// attack_table.py judges them.
+// Every attack on every muscle, on joints of two and bundles of three of them, in every activity, a
+// line each: attack_table.py judges them.
 //   attacks [EVERY]    EVERY: takes every so many only
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <span>
 
+#include "attack/attacked_bundle.hpp"
 #include "attack/attacked_joint.hpp"
 #include "attack/attacked_muscle.hpp"
 #include "batch/in_parallel.hpp"
@@ -30,6 +31,14 @@ bool heats_disarmed(const Attack& attack) {
 }
 bool heats_disarmed(const JointAttack& attack) {
   return attack.muscles[0].switch_leak_ratio > 0.0 || attack.muscles[1].switch_leak_ratio > 0.0;
+}
+
+bool heats_disarmed(const BundleAttack& attack) {
+  return attack.muscles[0].switch_leak_ratio > 0.0 || attack.muscles[2].switch_leak_ratio > 0.0;
+}
+
+std::string_view guard_in(BundleActivity /*activity*/, const BundleAttack& attack) {
+  return attack.guard;
 }
 
 std::string_view guard_in(JointActivity /*activity*/, const JointAttack& attack) {
@@ -67,6 +76,7 @@ int main(int argc, char** argv) {
   std::vector<Case> all;
   add<AttackedMuscle, Activity>(all, "", all_attacks(), activity_names);
   add<AttackedJoint, JointActivity>(all, " joint", all_joint_attacks(), joint_activity_names);
+  add<AttackedBundle, BundleActivity>(all, " bundle", all_bundle_attacks(), bundle_activity_names);
   std::vector<Case> cases;
   for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every))
     cases.push_back(all[i]);

@@ -20,7 +20,7 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l end-with-paren
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l check -d 'Check the scenario and exit, and what the muscle can do'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l allow-fault -d 'Exit status 0 although the muscle never armed or the run ended in a fault'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l quiet -d 'Print nothing but errors'
-complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -a 'b bench c disturbances first-motion fixed-point identify joint-bench joint pwm real real_hard sine steps'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -a 'b bench bundle-bench bundle c disturbances first-motion fixed-point identify joint-bench joint pwm real real_hard sine steps'
 complete -c supercoil-sim -n __fish_use_subcommand -f -a reproduce -d 'Repeat the paper'\''s figures and numbers'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from reproduce' -s h -l help -d 'Print this help message and exit'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from reproduce' -l out -r -F -d 'Folder for the results [supercoil-out/reproduction]'

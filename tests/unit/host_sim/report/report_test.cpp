@@ -44,9 +44,9 @@ TEST_GROUP(Report) {
 };
 
 TEST(Report, AJointsTraceEndsWithItsAntagonist) {
-  JointConditions joint;
-  joint.antagonist.emplace();
-  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &joint);
+  Conditions conditions;
+  conditions.joint.emplace().antagonist.emplace();
+  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &conditions);
   TickRecord record;
   record.antagonist = AntagonistRecord{0.5, 12.0, 10.0, 14.5};
   writer->add(record, std::nullopt);
@@ -58,12 +58,27 @@ TEST(Report, AJointsTraceEndsWithItsAntagonist) {
   CHECK(text.find(",0,0,0.5,12,10,14.5\n") != std::string::npos);
 }
 
+TEST(Report, ABundlesTraceEndsWithWhatItsMusclesHave) {
+  Conditions conditions;
+  conditions.companions.resize(2);
+  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &conditions);
+  TickRecord record;
+  record.bundle = BundleRecord{10.0, 12.0, 14.5, false};
+  writer->add(record, std::nullopt);
+  CHECK(writer->finish().has_value());
+  const std::string text = content(folder / "trace.csv");
+  CHECK(text.find(",thermometer_C,bundle_min_temperature_rise_K,bundle_max_temperature_rise_K,"
+                  "bundle_hottest_K\n") != std::string::npos);
+  CHECK(text.find(",10,12,14.5\n") != std::string::npos);
+}
+
 TEST(Report, AJointsTraceHasItsAngleAndReferenceByItsLever) {
-  JointConditions joint;  // a spring opposes the muscle
+  Conditions conditions;
+  JointConditions& joint = conditions.joint.emplace();  // a spring opposes the muscle
   const double rad_per_deg = std::numbers::pi / 180.0;
   const std::array radii_m{0.010, 0.020, 0.030};
   joint.plant.lever = control::Lever(-90.0 * rad_per_deg, 90.0 * rad_per_deg, radii_m);
-  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &joint);
+  const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &conditions);
   TickRecord record;
   // By hand: at 45 degrees the lever is 25 mm, at -90 10 mm.
   record.position_m = 0.0225 * 45.0 * rad_per_deg;

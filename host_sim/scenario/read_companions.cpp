@@ -1,0 +1,72 @@
+// [bundle]: muscles that pull beside each other, with a heater each.
+#include <array>
+
+#include "scenario/read_tables.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+using config::Diagnostics;
+using config::Section;
+
+/// Of [plant], what all of them carry together.
+constexpr std::array of_the_bundle{"moving_mass_kg", "hanging_mass_kg", "load_N",
+                                   "friction_ratio", "end_stop_m",      "ceiling_m"};
+
+/// The table of one muscle, laid over [plant].
+Section table_of(const toml::table& document, std::size_t number, Diagnostics& diagnostics) {
+  const std::string key = std::to_string(number);
+  const Section own(document["bundle"][key].as_table(), "bundle." + key, diagnostics);
+  return own.over(document["plant"].as_table(), "plant");
+}
+
+std::size_t read_number(Section& section) {
+  return static_cast<std::size_t>(
+      section.integer("muscles", 2, 2, static_cast<std::int64_t>(max_muscles)));
+}
+
+}  // namespace
+
+std::vector<PlantSettings> read_companions(const toml::table& document, Diagnostics& diagnostics) {
+  std::vector<PlantSettings> companions;
+  if (!document.contains("bundle")) return companions;
+  Section root(&document, "", diagnostics);
+  Section section = root.section("bundle");
+  if (document.contains("joint"))
+    section.wrong("muscles", "cannot be beside a [joint]: a bundle is no part of one");
+  const std::size_t muscles = read_number(section);
+  for (std::size_t number = 2; number <= muscles; ++number) {
+    Section own = section.section(std::to_string(number));
+    for (const char* key : of_the_bundle) {
+      if (own.has(key)) own.wrong(key, "is of the whole bundle: it stands in [plant]");
+    }
+    // What [plant] has wrong is said there.
+    Diagnostics found(diagnostics.file());
+    companions.push_back(read_plant(table_of(document, number, found)));
+    for (const config::Problem& problem : found.problems()) {
+      if (problem.key.starts_with("bundle."))
+        diagnostics.add(problem.line, problem.key, problem.message, problem.value);
+    }
+  }
+  section.finish();
+  return companions;
+}
+
+control::PhysicalParameters bundle_parameters(const toml::table& document,
+                                              control::PhysicalParameters first) {
+  Diagnostics elsewhere("");  // read again, and complained of, elsewhere
+  Section section(document["bundle"].as_table(), "bundle", elsewhere);
+  if (section.table() == nullptr) return first;
+  const std::size_t muscles = read_number(section);
+  for (std::size_t number = 2; number <= muscles; ++number) {
+    Section own = table_of(document, number, elsewhere);
+    const control::PhysicalParameters other = read_plant_parameters(own);
+    first.stiffness_N_per_m += other.stiffness_N_per_m;
+    first.damping_Ns_per_m += other.damping_Ns_per_m;
+    first.force_per_kelvin_N_per_K += other.force_per_kelvin_N_per_K;
+  }
+  return first;
+}
+
+}  // namespace supercoil::host_sim

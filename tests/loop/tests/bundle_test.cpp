@@ -1,0 +1,262 @@
+// Muscles that pull together, with a heater each.
+#include "loop/bundle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "loop/support/bundle_case.hpp"
+
+using namespace supercoil;
+using namespace supercoil::test;
+
+TEST_GROUP_BASE(Bundle, BundleCase){};
+
+TEST(Bundle, EveryHeaterGetsTheSamePower) {
+  arm();
+  hold(Verb::power, 2.0, 5.0);
+  for (const std::uint8_t i : {leader, follower, last}) {
+    DOUBLES_EQUAL(2.0, muscle_of(i).true_power_W(), 0.03);
+    DOUBLES_EQUAL(2.0, of(i).demanded_W, 0.0);
+  }
+  CHECK(of(leader).mode == Mode::power);
+  CHECK(of(follower).mode == Mode::bundle && of(last).mode == Mode::bundle);
+  CHECK(all(State::active));
+}
+
+TEST(Bundle, FollowsAPositionWithEachTemperatureInItsInterval) {
+  arm();
+  hold(Verb::position, 0.010, 20.0);
+  DOUBLES_EQUAL(0.010, muscle_of(leader).position_m(), 50e-6);
+  DOUBLES_EQUAL(muscle_of(leader).position_m(), muscle_of(last).position_m(), 0.0);
+  CHECK_COMPARE(muscle_of(last).temperature_rise_K(), >,
+                1.15 * muscle_of(follower).temperature_rise_K());
+  CHECK_FALSE(rig.interval_missed);
+  CHECK(all(State::active));
+}
+
+TEST(Bundle, ArmsRestsAndCoolsAsOne) {
+  arm();
+  for (const std::uint8_t asked : {leader, follower}) {
+    hold(Verb::position, 0.005, 0.5);
+    CHECK(all(State::active));
+    CHECK(rig.answer_of(asked, Verb::rest) == Refusal::none);
+    CHECK(all(State::armed));
+    CHECK(of(last).mode == Mode::rest);
+  }
+  hold(Verb::position, 0.005, 0.5);
+  CHECK(rig.answer_of(follower, Verb::disarm) == Refusal::none);
+  CHECK(all(State::disarmed) && all_off());
+  CHECK(rig.answer_of(follower, Verb::arm) == Refusal::none);
+  CHECK(all(State::armed));
+}
+
+TEST(Bundle, IsArmedOnlyWhenEveryMuscleMayBe) {
+  rig.boot();
+  muscle_of(last).current.set(host_sim::ConverterFaults{.silent = true});
+  rig.run(0.1);
+  CHECK(rig.answer_of(leader, Verb::arm) != Refusal::none);
+  CHECK(all(State::disarmed) || state_of(last) == State::fault);
+  CHECK_FALSE(state_of(leader) == State::armed);
+}
+
+TEST(Bundle, OnlyTheLeaderTakesCommandsThatHeat) {
+  arm();
+  for (const Verb verb : {Verb::power, Verb::position, Verb::identify, Verb::calibrate})
+    CHECK(rig.answer_of(follower, verb) == Refusal::wrong_state);
+  CHECK(rig.answer_of(follower, Verb::scale, 0.005) == Refusal::unsuitable);
+  CHECK(all(State::armed));
+  hold(Verb::position, 0.005, 0.5);
+  CHECK(rig.answer_of(follower, Verb::power, 1.0) == Refusal::wrong_state);
+  CHECK(rig.answer_of(follower, Verb::renew) == Refusal::wrong_state);
+  CHECK(all(State::active));
+  // Whoever stops to renew the leader's command stops all.
+  rig.run(0.5);
+  CHECK(all(State::fault) && all_off());
+  CHECK(rig.fault() == Fault::command_timeout);
+}
+
+TEST(Bundle, NoMuscleGetsMoreThanTheWeakestMayHave) {
+  arm();
+  rig.loop.channel(last).allow_power(1.5);
+  hold(Verb::power, 2.5, 2.0);
+  for (const std::uint8_t i : {leader, follower, last})
+    DOUBLES_EQUAL(1.5, muscle_of(i).true_power_W(), 0.03);
+  // The leader, whose own heater could give it, tells why not.
+  CHECK(of(last).limited_by == LimitedBy::maximum);
+  CHECK(of(leader).limited && of(leader).limited_by == LimitedBy::maximum);
+  CHECK_FALSE(of(follower).limited);
+  rig.loop.channel(leader).allow_power(1.0);
+  hold(Verb::power, 2.5, 1.0);
+  for (const std::uint8_t i : {leader, follower, last})
+    DOUBLES_EQUAL(1.0, muscle_of(i).true_power_W(), 0.03);
+}
+
+TEST(Bundle, ControllersCountOnWhatTheWeakestCanGive) {
+  const auto demanded_W = [](std::uint8_t limited, std::uint8_t also) {
+    Rig fresh(bundle_board());
+    fresh.boot();
+    fresh.arm();
+    fresh.loop.channel(limited).allow_power(1.2);
+    fresh.loop.channel(also).allow_power(1.2);
+    // Further than 1.2 W hold: the integral must not wind up.
+    fresh.run_until([&] { return fresh.send(Verb::position, 0.020), false; }, 30.0);
+    CHECK(fresh.snapshot().limited);
+    return fresh.snapshot().demanded_W;
+  };
+  DOUBLES_EQUAL(demanded_W(leader, last), demanded_W(last, last), 0.02);
+}
+
+TEST(Bundle, AFaultOfOneMuscleCoolsAll) {
+  for (const std::uint8_t broken : {leader, last}) {
+    Rig fresh(bundle_board());
+    fresh.boot();
+    fresh.arm();
+    fresh.run(0.2);
+    fresh.board.channel(broken).faults.wire_open = true;
+    const bool found = fresh.run_until(
+        [&] {
+          fresh.send(Verb::power, 2.0);
+          return fresh.state() == State::fault;
+        },
+        1.0);
+    CHECK(found);
+    for (std::size_t i = 0; i < muscles; ++i) {
+      CHECK(fresh.loop.channel(i).state().first_cause() == Fault::heater_open);
+      CHECK(!fresh.board.channel(i).enable.high());
+    }
+    // Nor may one be reset while another one still is as it was.
+    fresh.run(1.0);
+    fresh.answer_of(follower, Verb::reset);
+    CHECK(fresh.state() == State::disarmed || fresh.state() == State::fault);
+    fresh.board.channel(broken).faults.wire_open = false;
+    fresh.run(1.0);
+    fresh.answer_of(follower, Verb::reset);
+    fresh.run(0.1);
+    for (std::size_t i = 0; i < muscles; ++i)
+      CHECK(fresh.loop.channel(i).state().state() == State::disarmed);
+  }
+}
+
+TEST(Bundle, CalibratesOneMuscleAfterTheOther) {
+  arm();
+  CHECK(rig.answer_of(leader, Verb::calibrate) == Refusal::none);
+  bool alone = true;
+  float progress = 0.0F;
+  CHECK(rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        const int heating = (of(follower).mode == Mode::calibrate ? 1 : 0) +
+                            (of(last).mode == Mode::calibrate ? 1 : 0);
+        alone = alone && heating <= 1;
+        const bool active = state_of(leader) == State::active;
+        if (active) {
+          CHECK(of(leader).progress >= progress - 1e-3F);
+          progress = std::max(progress, of(leader).progress);
+          CHECK(of(leader).result == ModeResult::running);
+        }
+        return !active;
+      },
+      400.0));
+  CHECK(alone && all(State::armed));
+  CHECK_COMPARE(progress, >, 0.66F);
+  // Within what the rough board's senses are wrong by.
+  for (const std::uint8_t i : {leader, follower, last}) {
+    const double cold_Ohm = rig.loop.channel(i).known(known_cold_resistance);
+    DOUBLES_EQUAL(1.0, cold_Ohm / muscle_of(i).settings().resistance_Ohm, 0.03);
+  }
+  // One sensor, one zero.
+  for (const std::uint8_t i : {follower, last})
+    DOUBLES_EQUAL(rig.loop.channel(leader).known(known_position_offset),
+                  rig.loop.channel(i).known(known_position_offset), 0.0);
+}
+
+TEST(Bundle, IdentifiesItAsOneMuscle) {
+  arm();
+  CHECK(measures_to_the_end(Verb::identify, 400.0));
+  CHECK(of(leader).result == ModeResult::found);
+  CHECK(all(State::armed));
+  double gain_m_per_W = 0.0;
+  for (const std::uint8_t i : {leader, follower, last}) {
+    const control::PhysicalParameters& p = muscle_of(i).settings().plant;
+    gain_m_per_W +=
+        p.force_per_kelvin_N_per_K / (p.heat_transfer_W_per_K * 3.0 * p.stiffness_N_per_m);
+  }
+  for (const std::uint8_t i : {leader, follower, last}) {
+    const Channel& channel = rig.loop.channel(i);
+    const double found_m_per_W = channel.known(5) / (channel.known(1) * channel.known(2));
+    DOUBLES_EQUAL(1.0, found_m_per_W / gain_m_per_W, 0.03);
+  }
+  hold(Verb::position, 0.010, 60.0);
+  CHECK(all(State::active));
+  CHECK_FALSE(rig.interval_missed);
+}
+
+TEST(Bundle, AScaleOfTheSensorIsOneForAll) {
+  arm();
+  hold(Verb::power, 1.5, 10.0);
+  CHECK(rig.answer_of(leader, Verb::scale, 2.0 * of(leader).position_m) == Refusal::none);
+  rig.send(Verb::power, 1.5);
+  rig.tick();
+  for (const std::uint8_t i : {leader, follower, last}) {
+    DOUBLES_EQUAL(2.0, rig.loop.channel(i).known(known_position_scale), 0.01);
+    DOUBLES_EQUAL(2.0 * muscle_of(leader).position_m(), of(i).position_m, 100e-6);
+  }
+  hold(Verb::power, 1.5, 1.0);
+  CHECK(all(State::active));
+}
+
+TEST(Bundle, TheSensesOfEachMuscleAreComparedWhileAllGetOnePower) {
+  constexpr double current_gain = 0.9;  // measured over true
+  constexpr double supply_V = 12.0;
+  RigSettings settings = bundle_board();
+  settings.board.channels[follower].current.low /= current_gain;
+  settings.board.channels[follower].current.high /= current_gain;
+  Rig lying(settings);
+  lying.boot();
+  lying.arm();
+  lying.run(0.2);
+  double charge_As = 0.0;
+  const auto hold_for = [&](Verb verb, double value, double time_s) {
+    charge_As = 0.0;
+    for (int i = 0; i < std::lround(time_s / lying.period_s()); ++i) {
+      lying.send(verb, value);
+      lying.tick();
+      charge_As += lying.period_s() * lying.board.channel(follower).true_power_W() / supply_V;
+    }
+  };
+  for (const double power_W : {0.5, 1.0}) {
+    hold_for(Verb::power, power_W, 2.5);
+    CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::none);
+    CHECK(lying.answer_of(follower, Verb::compare_current, charge_As / 2.5) == Refusal::none);
+  }
+  DOUBLES_EQUAL(1.0 / current_gain, lying.loop.channel(follower).senses().current_gain, 0.02);
+  CHECK_FALSE(lying.loop.channel(leader).senses().compared());
+  // Another power begins the average anew, and one that a controller changes always does.
+  hold_for(Verb::power, 1.8, 0.1);
+  CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
+  hold_for(Verb::position, 0.005, 3.0);
+  CHECK(lying.answer_of(follower, Verb::compare_supply, supply_V) == Refusal::not_ready);
+}
+
+TEST(Bundle, OneMotionTellsNothingOfOneMusclesCooling) {
+  RigSettings settings = bundle_board();
+  for (ChannelSettings& channel : settings.firmware.channels) {
+    channel.thermal.mass_error_ratio = 0.1;
+    CHECK(channel.thermal.weighed());
+  }
+  Rig weighed(settings);
+  weighed.boot();
+  weighed.arm();
+  weighed.run(0.2);
+  CHECK(weighed.answer_of(leader, Verb::identify) == Refusal::none);
+  weighed.run_until(
+      [&] {
+        weighed.send(Verb::renew);
+        return weighed.state() != State::active;
+      },
+      400.0);
+  CHECK(weighed.snapshot().result == ModeResult::found);
+  CHECK_FALSE(weighed.interval_missed);
+  const board::ThermalFacts& facts = weighed.loop.channel(leader).axis().heater().facts();
+  DOUBLES_EQUAL(0.0, facts.time_constant_s, 0.0);
+}

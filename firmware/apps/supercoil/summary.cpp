@@ -125,11 +125,16 @@ std::string number(float value) {
   return text.data();
 }
 
+const char* unit_of_reference(const Row& r) {
+  const auto mode = static_cast<Mode>(r.mode);
+  return mode == Mode::power || is_led(mode) ? "W" : "m";
+}
+
 void print_last(Lines& lines, const Row& r) {
   lines.add("  just before: %s, %s, limited by %s; position %s m, reference %s %s",
             recorder::state_name(r.state).c_str(), recorder::mode_name(r.mode).c_str(),
             recorder::limit_name(r.limited_by).c_str(), number(r.position_m).c_str(),
-            number(r.reference).c_str(), r.mode == static_cast<int>(Mode::power) ? "W" : "m");
+            number(r.reference).c_str(), unit_of_reference(r));
   lines.add("  just before: supply %s V, current %s A, resistance %s Ohm, %s s old",
             number(r.supply_V).c_str(), number(r.current_A).c_str(),
             number(r.resistance_Ohm).c_str(), number(r.resistance_age_s).c_str());

@@ -97,9 +97,10 @@ void Axis::observe(double supply_V, const board::Measured* air, std::int64_t per
 
 control::PowerRange Axis::range() const {
   const control::PowerRange own = heater_.power_range();
-  if (companions_)
+  if (companions_) {
     return {std::max(own.min_W, companions_->range.min_W),
             std::min(own.max_W, companions_->range.max_W)};
+  }
   return {own.min_W - other_.range.max_W, own.max_W - other_.range.min_W};
 }
 

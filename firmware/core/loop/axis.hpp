@@ -137,6 +137,9 @@ class Axis {
   bool has_found() const {
     return result_ == ModeResult::found || result_ == ModeResult::not_stored;
   }
+  ModeResult result() const { return result_; }
+  /// In a bundle, of its leader: how the last of them ended what all had to do.
+  void conclude(ModeResult result) { result_ = result; }
   bool follows_position() const { return state_.may_heat() && mode_ == Mode::position; }
 
   const Estimation& estimation() const { return estimation_; }

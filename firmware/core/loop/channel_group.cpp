@@ -102,6 +102,7 @@ void Channel::follow_others() {
   const Channel& other = *others_[handed_over_to_];
   if (other.state_.may_heat()) return;
   if (other.axis_.has_found() && hand_over_to(handed_over_to_ + 1, handed_over_)) return;
+  if (bundled_) axis_.conclude(other.axis_.result());
   handed_over_ = Mode::rest;
   state_.rest();
 }

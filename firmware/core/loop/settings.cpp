@@ -64,7 +64,7 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
                                             std::set<std::size_t>& taken) {
   for (const JointSettings& joint : settings.joints) {
     for (const std::size_t channel : {joint.agonist, joint.antagonist}) {
-      if (const auto problem = take(settings, "joint", channel, taken)) return problem;
+      if (auto problem = take(settings, "joint", channel, taken)) return problem;
       if (settings.channels[channel].supervision.proof_of_response)
         return cannot_prove("joint", channel);
     }
@@ -84,7 +84,7 @@ std::optional<SettingsProblem> check_bundles(const BoardSettings& settings,
     if (bundle.channels.size() < 2)
       return SettingsProblem{"bundle", "channels must be at least two"};
     for (const std::size_t channel : bundle.channels) {
-      if (const auto problem = take(settings, "bundle", channel, taken)) return problem;
+      if (auto problem = take(settings, "bundle", channel, taken)) return problem;
       const ChannelSettings& c = settings.channels[channel];
       if (c.bundle.follows() && c.supervision.proof_of_response)
         return cannot_prove("bundle", channel);

@@ -170,6 +170,32 @@ TEST(Bundle, CalibratesOneMuscleAfterTheOther) {
                   rig.loop.channel(i).known(known_position_offset), 0.0);
 }
 
+TEST(Bundle, TheLeaderTellsThatAnotherMuscleWasNotCalibrated) {
+  arm();
+  CHECK(rig.answer_of(leader, Verb::calibrate) == Refusal::none);
+  CHECK(rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        return of(follower).mode == Mode::calibrate;
+      },
+      200.0));
+  // Somebody moves the load while the zero is taken.
+  rig.before_tick = [&] {
+    host_sim::MuscleChannelSettings pulled = muscle_of(leader).settings();
+    pulled.load_N = -0.05 * rig.time_s();
+    muscle_of(leader).set(pulled);
+  };
+  rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        return state_of(leader) != State::active;
+      },
+      200.0);
+  CHECK(of(follower).result == ModeResult::moved);
+  CHECK(of(leader).result == ModeResult::moved);
+  CHECK(of(last).result == ModeResult::none);
+}
+
 TEST(Bundle, IdentifiesItAsOneMuscle) {
   arm();
   CHECK(measures_to_the_end(Verb::identify, 400.0));

@@ -10,26 +10,13 @@
 #include <exception>
 #include <string>
 
-#include "supercoil/control/actuator/conversions.hpp"
-#include "supercoil/identification/physical.hpp"
-
+#include "loop/support/best_linear.hpp"
 #include "loop/support/identified_muscle.hpp"
 
 namespace {
 
 using namespace supercoil;
 using namespace supercoil::test;
-
-/// The linear muscle whose motion under the run's power is nearest to the run's.
-control::Theta best_linear(const Identified& run) {
-  identification::Samples samples;
-  samples.position_m = run.position_m;
-  samples.power_W = run.power_W;
-  const auto fit = identification::fit_model({}, samples, {0.0, run.ended_s});
-  identification::Assumed assumed;
-  assumed.moving_mass_kg = run.truth.moving_mass_kg;
-  return identification::theta_of(fit, assumed).theta;
-}
 
 struct Worst {
   int found = 0;
@@ -59,7 +46,9 @@ void add(Worst& row, const MuscleKind& kind, const Identified& run, bool track, 
   row.kept_theta1 += (run.notes & note_theta1_kept) != 0 ? 1 : 0;
   const control::Theta found = control::theta_from(run.learned->muscle);
   const bool linear = kind.plant.find("preset") == std::string_view::npos || kind.name == "paper";
-  const control::Theta truth = linear ? control::theta_from(run.truth) : best_linear(run);
+  const control::Theta truth =
+      linear ? control::theta_from(run.truth)
+             : best_linear(run.position_m, run.power_W, run.truth.moving_mass_kg);
   for (int i = 0; i < 3; ++i) {
     double& worst = row.error.at(static_cast<std::size_t>(i));
     const double error = found[i + 1] / truth[i + 1] - 1.0;

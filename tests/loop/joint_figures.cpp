@@ -2,8 +2,10 @@
 // half too much or too little, as they are told and once they are identified; and joints of one
 // such muscle and a spring:
 //   joint_figures [SEEDS [MOTION [CONTROLLER]]]
-// MOTION, CONTROLLER: a part of its name. What faults, and beside a spring what may not get as hot
-// as it is asked for, is told and not among the figures. The tables of docs/joints.md.
+// MOTION, CONTROLLER: a part of its name; the motion `identify` is that alone, and how far off it
+// is: θ2 to θ4 against the linear muscle that moves nearest to the muscle in the joint. What
+// faults, and beside a spring what may not get as hot as it is asked for, is told and not among the
+// figures. The tables of docs/joints.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +21,7 @@
 #include <boost/random/mersenne_twister.hpp>
 #include <boost/random/uniform_real_distribution.hpp>
 
+#include "loop/support/best_linear.hpp"
 #include "runner/simulation.hpp"
 #include "scenario/read_scenario.hpp"
 
@@ -169,8 +172,9 @@ class Operated {
   /// Every muscle in one run; false: one was not found.
   bool identify() {
     send(0, Verb::identify);
+    did_ = {};
     do {
-      tick();
+      note(tick());
       send(0, Verb::renew);
     } while (state(0) == State::active);
     for (std::size_t channel = 0; channel < channels_; ++channel) {
@@ -207,8 +211,37 @@ class Operated {
     return found_;
   }
   const Found& found() const { return found_; }
+  std::size_t channels() const { return channels_; }
+  /// Of a muscle that identify found, θ2 to θ4: how far they are off.
+  control::Vector<double, 3> error_ratio(std::size_t channel) const {
+    const control::PhysicalParameters& muscle = simulation_.learned(channel)->muscle;
+    const Did& did = did_.at(channel);
+    const control::Theta nearest =
+        test::best_linear(did.position_m, did.power_W, muscle.moving_mass_kg);
+    return (control::theta_from(muscle).cwiseQuotient(nearest) - control::Theta::Ones()).tail<3>();
+  }
+  /// Likewise, the standard deviations that are told.
+  control::Vector<double, 3> told_ratio(std::size_t channel) const {
+    const Channel& of = simulation_.loop().channel(channel);
+    return {of.known(known_theta1_deviation + 1), of.known(known_theta1_deviation + 2),
+            of.known(known_theta1_deviation + 3)};
+  }
 
  private:
+  /// A muscle while it was identified, 100 times a second.
+  struct Did {
+    std::vector<double> position_m;
+    std::vector<double> power_W;
+  };
+
+  void note(const TickRecord& now) {
+    if (simulation_.tick() % 10 != 0) return;
+    const bool second =
+        channels_ > 1 && simulation_.loop().channel(1).snapshot().result == ModeResult::running;
+    Did& did = did_.at(second ? 1 : 0);
+    did.position_m.push_back(second ? -now.measured_m : now.measured_m);
+    did.power_W.push_back(second ? now.antagonist->applied_power_W : now.applied_power_W);
+  }
   State state(std::size_t channel) const {
     return simulation_.loop().channel(channel).state().state();
   }
@@ -236,6 +269,7 @@ class Operated {
   double middle_deg_;
   std::size_t channels_;
   Found found_;
+  std::array<Did, 2> did_;
 };
 
 /// Empty: a muscle was not identified.
@@ -289,11 +323,51 @@ void print_row(const Motion& motion, const std::string& controller, OpposedBy op
   std::fflush(stdout);
 }
 
+void print_identified(OpposedBy opposed_by, int seeds) {
+  int all_found = 0;
+  std::array<control::Vector<double, 3>, 2> worst{};
+  worst.fill(control::Vector<double, 3>::Zero());
+  std::array<control::Vector<double, 3>, 2> told = worst;
+  std::array<control::Vector<double, 3>, 2> in_deviations = worst;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const auto scenario =
+        host_sim::parse_scenario(scenario_of(seed, "learned_ff", opposed_by), "joint.toml");
+    Operated joint(scenario.value(), opposed_by);
+    joint.arm();
+    if (!joint.identify()) {
+      std::printf("  seed %d\n", seed);
+      continue;
+    }
+    ++all_found;
+    for (std::size_t i = 0; i < joint.channels(); ++i) {
+      const control::Vector<double, 3> error = joint.error_ratio(i).cwiseAbs();
+      worst.at(i) = worst.at(i).cwiseMax(error);
+      told.at(i) = told.at(i).cwiseMax(joint.told_ratio(i));
+      in_deviations.at(i) = in_deviations.at(i).cwiseMax(error.cwiseQuotient(joint.told_ratio(i)));
+    }
+  }
+  std::printf("identify, %s: %d of %d joints\n",
+              opposed_by == OpposedBy::spring ? "spring" : "muscle", all_found, seeds);
+  for (std::size_t i = 0; i < (opposed_by == OpposedBy::spring ? 1U : 2U); ++i) {
+    std::printf(
+        "  channel %zu: θ2, θ3, θ4 at most %.2g / %.2g / %.2g %% off, told %.2g / %.2g / "
+        "%.2g %%; %.1f / %.1f / %.1f deviations\n",
+        i + 1, 100.0 * worst[i][0], 100.0 * worst[i][1], 100.0 * worst[i][2], 100.0 * told[i][0],
+        100.0 * told[i][1], 100.0 * told[i][2], in_deviations[i][0], in_deviations[i][1],
+        in_deviations[i][2]);
+  }
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
     const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 20;
+    if (argc <= 2 || std::string("identify").find(argv[2]) == 0) {
+      for (const OpposedBy opposed_by : {OpposedBy::muscle, OpposedBy::spring})
+        print_identified(opposed_by, seeds);
+    }
     for (const Motion& motion : motions) {
       if (argc > 2 && std::string(motion.name).find(argv[2]) == std::string::npos) continue;
       for (const bool identified : {false, true}) {

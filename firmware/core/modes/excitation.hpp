@@ -21,7 +21,8 @@ class Excitation {
     double max_travel_m;  ///< of the channel, > 0
     double step_s;
   };
-  static constexpr std::size_t cycles = 8;  ///< heated and cooled so often
+  /// Heated and cooled so often; so often again where that is not enough.
+  static constexpr std::size_t cycles = 8;
 
   explicit Excitation(const Settings& settings) : settings_(settings) {}
 
@@ -44,6 +45,13 @@ class Excitation {
     *this = shorter;
   }
 
+  /// As many strokes again, after those that are done. False: that was done before.
+  bool go_on() {
+    if (goes_on_) return false;
+    goes_on_ = true;
+    return true;
+  }
+
   /// One tick: this tick's position. max_W: allowed now. Returns the power to give.
   double step(double position_m, double max_W) {
     const double power_W = next_W(position_m, max_W);
@@ -52,7 +60,7 @@ class Excitation {
     return power_W;
   }
 
-  bool done() const { return cycle_ >= cycles || too_still_; }
+  bool done() const { return cycle_ >= (goes_on_ ? 2 : 1) * cycles || too_still_; }
   /// The muscle has moved by less than is needed, and no more power is allowed.
   bool too_little_motion() const { return too_still_; }
   /// Of those: it moved by as much as is needed, away from where heat should draw it.
@@ -60,10 +68,11 @@ class Excitation {
   /// From 0; the first one searches for the power, and teaches little.
   std::size_t cycle() const { return cycle_; }
   double risen_m() const { return position_m_ - cold_m_; }
-  /// 0 to 1.
+  /// Of these strokes, 0 to 1.
   float progress() const {
     const float half = phase_ == Phase::cool ? 0.5F : 0.0F;
-    return (static_cast<float>(cycle_) + half) / static_cast<float>(cycles);
+    const std::size_t before = goes_on_ ? cycles : 0;
+    return (static_cast<float>(cycle_ - before) + half) / static_cast<float>(cycles);
   }
 
  private:
@@ -122,6 +131,7 @@ class Excitation {
   Settings settings_;
   Phase phase_ = Phase::rest;
   std::size_t cycle_ = 0;
+  bool goes_on_ = false;
   bool too_still_ = false;
   double time_s_ = 0.0;
   double phase_s_ = 0.0;

@@ -14,8 +14,9 @@ namespace supercoil::modes {
 /// Excites the muscle at its own pace, fits it, and judges each parameter by itself. A muscle is
 /// found when θ2 to θ4, which controllers use, are known (θ2 roughly), explain the last third of
 /// the experiment, and lie within a span of what is believed. What is not known of θ1 stays as
-/// believed; position and power never give γ and m̂, so they do too. A muscle of which the model
-/// explains too little is excited again, with shorter strokes, twice at most.
+/// believed; position and power never give γ and m̂, so they do too. Strokes that leave a parameter
+/// uncertain are followed by as many more, which are judged together with them. A muscle of which
+/// the model explains too little is excited again, with shorter strokes, twice at most.
 class Identify {
  public:
   struct Settings {
@@ -55,6 +56,7 @@ class Identify {
     notes_ = 0;
     power_W_ = 0.0;
     shortened_ = 0;
+    again_ = 0;
     excitation_.start(position_m);
     fit_.start(position_m);
   }
@@ -70,11 +72,17 @@ class Identify {
     const bool in_time = elapsed_s_ < settings_.max_s;
     if (!excitation_.done() && in_time) return ModeResult::running;
     const ModeResult result = judge();
+    if (result == ModeResult::uncertain && in_time && excitation_.go_on()) {
+      ++again_;
+      notes_ = 0;
+      return ModeResult::running;
+    }
     if (result == ModeResult::found || (result != ModeResult::poor_fit && shortened_ == 0))
       return result;
     if (shortened_ == max_shortened || !in_time) return poor_fit();
     if (shortened_ == 0) full_strokes_ = fit_.experiment();
     ++shortened_;
+    ++again_;
     notes_ = 0;
     excitation_.start_shorter(position_m);
     fit_.start(position_m);
@@ -85,7 +93,7 @@ class Identify {
   double power_W() const { return power_W_; }
   /// 0 to 1; that it is excited again is not known beforehand: each time is half of what was left.
   float progress() const {
-    return 1.0F - std::ldexp(1.0F - excitation_.progress(), -static_cast<int>(shortened_));
+    return 1.0F - std::ldexp(1.0F - excitation_.progress(), -static_cast<int>(again_));
   }
   /// The full strokes did not fit.
   bool shortened() const { return shortened_ > 0; }
@@ -117,7 +125,8 @@ class Identify {
   double step_s_;
   double elapsed_s_ = 0.0;
   double power_W_ = 0.0;
-  std::uint8_t shortened_ = 0;                     ///< so often
+  std::uint8_t again_ = 0;                         ///< excited so often, after the first time
+  std::uint8_t shortened_ = 0;                     ///< so often of these, by shorter strokes
   control::BatchLeastSquares::Sums full_strokes_;  ///< where they are shortened
   std::uint8_t notes_ = 0;
   Excitation excitation_;

@@ -9,6 +9,7 @@
 #include "supercoil/control/actuator/conversions.hpp"
 
 #include "loop/support/identified_muscle.hpp"
+#include "scenario/read_scenario.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -53,6 +54,24 @@ TEST(Identify, FindsEveryMuscleWithinItsTravelAndItsTemperature) {
         DOUBLES_EQUAL_TEXT(1.0, found[i] / truth[i], 0.02, text.c_str());
     }
   }
+}
+
+/// Seven strokes of 3 mm leave θ2 and θ4 of such a muscle uncertain, and fifteen do not.
+TEST(Identify, GoesOnWhereTheFirstStrokesLeaveTheMuscleUncertain) {
+  const auto scenario = host_sim::parse_scenario(
+      "simulation.seed = 12\nsimulation.duration_s = 300.0\noperator.action = 'identify'\n"
+      "plant.preset = 'real'\nsensor.position.noise_rms_m = 5.2e-6\npower.pwm_bits = 12\n"
+      "[thermal]\nmass_ratio = [0.45, 2.5]\ntransfer_ratio = [0.3, 4.4]\n"
+      "[joint]\npretension_N = 0.4\nantagonist.preset = 'real'\n",
+      "joint.toml");
+  CHECK(scenario.has_value());
+  host_sim::Simulation simulation(*scenario);
+  double took_s = 0.0;
+  while (!simulation.done() && !simulation.learned(0))
+    took_s = simulation.step().time_s;
+  const Snapshot& ended = simulation.loop().channel(0).snapshot();
+  CHECK_TEXT(simulation.learned(0).has_value(), describe_notes(ended.identify_notes).c_str());
+  CHECK_COMPARE(took_s, >, 70.0);
 }
 
 TEST(Identify, LearnedFeedforwardFollowsWhatWasFound) {

@@ -20,7 +20,7 @@ struct Strokes {
 };
 
 /// A muscle that all power would draw to so many times the channel's travel.
-Strokes strokes_of(double overpowered) {
+Strokes strokes_of(double overpowered, bool goes_on = false) {
   constexpr double max_W = 4.0;
   Excitation excitation({max_travel_m, tick_s});
   excitation.start(0.0);
@@ -36,9 +36,15 @@ Strokes strokes_of(double overpowered) {
     lowest_m = std::min(lowest_m, position_m);
     if (excitation.cycle() == cycle) continue;
     cycle = excitation.cycle();
+    if (goes_on && excitation.done() && cycle == Excitation::cycles) {
+      DOUBLES_EQUAL(1.0, excitation.progress(), 1e-6);
+      CHECK(excitation.go_on());
+      DOUBLES_EQUAL(0.0, excitation.progress(), 1e-6);
+    }
     all.lowest_m.push_back(lowest_m);
     lowest_m = max_travel_m;
   }
+  if (goes_on) CHECK_FALSE(excitation.go_on());
   return all;
 }
 
@@ -59,4 +65,13 @@ TEST(Excitation, AMuscleComesToItsLowsHoweverMuchPowerThereIs) {
     }
     CHECK_COMPARE(strokes.took_s, <, 8 * 3.0 * thermal_s);
   }
+}
+
+TEST(Excitation, GoesOnOnceWithAsManyStrokesAtTheSamePace) {
+  const Strokes once = strokes_of(3.0);
+  const Strokes twice = strokes_of(3.0, true);
+  CHECK_EQUAL(2 * Excitation::cycles, twice.lowest_m.size());
+  for (std::size_t i = 0; i < once.lowest_m.size(); ++i)
+    DOUBLES_EQUAL(once.lowest_m[i], twice.lowest_m[i], 1e-12);
+  DOUBLES_EQUAL(2.0 * once.took_s, twice.took_s, 0.2 * once.took_s);
 }

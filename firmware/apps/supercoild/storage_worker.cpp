@@ -35,16 +35,21 @@ void warn_unstable(const ChannelSettings& channel, std::size_t index, double ste
   }
 }
 
+void warn_without_proof(const ChannelSettings& channel, std::size_t index) {
+  if (channel.supervision.proof_of_response) return;
+  log(Level::warning,
+      "channel " + std::to_string(index + 1) +
+          (channel.joint.has_other() ? ": no proof of response is asked of a joint's two muscles"
+                                     : ": detectors.proof_of_response is false") +
+          ": nothing checks that a hot muscle at rest still responds");
+}
+
 }  // namespace
 
 tl::expected<void, std::string> load_learned(config::BoardConfig& config,
                                              std::vector<storage::LearnedStore>& stores) {
   for (std::size_t i = 0; i < stores.size(); ++i) {
-    if (!config.settings.channels[i].supervision.proof_of_response) {
-      log(Level::warning, "channel " + std::to_string(i + 1) +
-                              ": detectors.proof_of_response is false: nothing checks that a hot "
-                              "muscle at rest still responds");
-    }
+    warn_without_proof(config.settings.channels[i], i);
     const auto loaded = stores[i].load();
     if (!loaded) return tl::unexpected(loaded.error());
     for (const std::string& problem : loaded->problems)

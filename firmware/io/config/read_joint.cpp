@@ -13,6 +13,16 @@ enum class OpposedBy { muscle, spring };
 constexpr control::Names<OpposedBy, 2> opposed_by_names{
     {{"muscle", OpposedBy::muscle}, {"spring", OpposedBy::spring}}};
 
+/// Empty: it is neither, which has been said.
+std::optional<OpposedBy> read_opposed_by(Section& section) {
+  constexpr const char* key = "opposed_by";
+  const OpposedBy read = section.choice(key, OpposedBy::muscle, opposed_by_names);
+  const bool as_read =
+      !section.has(key) || (*section.table())[key].value<std::string>() ==
+                               std::string(control::name_of(opposed_by_names, read));
+  return as_read ? std::optional(read) : std::nullopt;
+}
+
 constexpr double usual_co_contraction_ratio = 0.2;  ///< of what both heaters can give
 
 /// In watts of the agonist.
@@ -61,11 +71,13 @@ std::optional<std::size_t> JointReader::read_place(Section& section, const char*
 /// Against a spring its muscle's travel is a limit of its channel, as of a muscle alone.
 void JointReader::read(Read& joint, std::size_t channels) {
   Section& section = joint.section;
-  const bool against_spring =
-      section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::spring;
+  const auto opposed_by = read_opposed_by(section);
+  const bool against_spring = opposed_by == OpposedBy::spring;
   const auto agonist = read_place(section, "agonist", channels);
+  // What is opposed by who knows what may have one or not.
+  const bool has_antagonist = opposed_by ? !against_spring : section.has("antagonist");
   const auto antagonist =
-      against_spring ? std::nullopt : read_place(section, "antagonist", channels);
+      has_antagonist ? read_place(section, "antagonist", channels) : std::nullopt;
   joint.lever = read_lever(section, lever_range_m, std::nullopt);
   if (against_spring) {
     if (agonist && *agonist < channels) joint.turned_by = agonist;

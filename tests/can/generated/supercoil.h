@@ -2308,7 +2308,7 @@ struct supercoil_status_t {
     uint8_t result;
 
     /**
-     * 1: proof_of_response is false: an identified muscle that no longer reaches its sensor may overheat unseen. 0 also from boards that do not tell it.
+     * 1: proof_of_response is false, or not asked of a joint's two muscles: an identified muscle that no longer reaches its sensor may overheat unseen. 0 also from boards that do not tell it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1

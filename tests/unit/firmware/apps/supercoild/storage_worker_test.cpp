@@ -1,7 +1,11 @@
 // What the storage worker stores of a comparison with a meter, and what the next start makes of it.
 #include "apps/supercoild/storage_worker.hpp"
 
+#include <cstdio>
 #include <ctime>
+#include <string>
+
+#include <unistd.h>
 
 #include <CppUTest/TestHarness.h>
 
@@ -99,4 +103,29 @@ TEST(StorageWorker, TheComparisonOutlivesTheMuscleAndIsForgottenByItsOwnCommand)
   rig.run_ticks(1);
   keep();
   CHECK_FALSE(next_start().senses.compared());
+}
+
+TEST(StorageWorker, TheNextStartSaysWhyNothingChecksThatAMuscleResponds) {
+  const auto logged = [&] {
+    std::FILE* const kept = std::tmpfile();
+    const int own = ::dup(STDERR_FILENO);
+    ::dup2(::fileno(kept), STDERR_FILENO);
+    next_start();
+    ::dup2(own, STDERR_FILENO);
+    ::close(own);
+    std::rewind(kept);
+    std::string text(65536, '\0');
+    text.resize(std::fread(text.data(), 1, text.size(), kept));
+    std::fclose(kept);
+    return text;
+  };
+  constexpr const char* switched_off = "channel 1: detectors.proof_of_response is false: nothing";
+  CHECK(logged().find("responds") == std::string::npos);
+  settings.firmware.channels[0].supervision.proof_of_response = false;
+  STRCMP_CONTAINS(switched_off, logged().c_str());
+  add_joint(settings.firmware, {.agonist = 0, .antagonist = 1});
+  const std::string of_joint = logged();
+  STRCMP_CONTAINS("channel 2: no proof of response is asked of a joint's two muscles: nothing",
+                  of_joint.c_str());
+  CHECK(of_joint.find("proof_of_response is false") == std::string::npos);
 }

@@ -74,6 +74,9 @@ TEST(JointConfig, ASpringMayBeInTheAntagonistsPlace) {
   check_answer("is not a key of [joint[1]]", small_board + spring + "co_contraction_W = 0.5\n");
   check_answer("joint[1].opposed_by = 'rope': must be one of: muscle, spring",
                small_board + replaced(spring, "spring'", "rope'"));
+  // Who knows whether it has an antagonist.
+  CHECK(problems_of(small_board + replaced(spring, "spring'", "rope'")).find("antagonist") ==
+        std::string::npos);
   check_answer("joint[1].agonist = 2: must be 1",
                small_board + replaced(spring, "agonist = 1", "agonist = 2"));
 }

@@ -1,5 +1,6 @@
 #include "runner/use_board.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -118,12 +119,6 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
   }
   const control::Lever& lever = c.joint->plant.lever;
   if (found->lever != lever) return tl::unexpected(other_lever(lever, found->lever));
-  if (found->antagonist != found->agonist + 1) {
-    why << "channels " << found->agonist + 1 << " and " << found->antagonist + 1
-        << " of the board's file turn a joint: only neighbours, whose CAN nodes are, can be "
-        << "simulated";
-    return tl::unexpected(why.str());
-  }
   return *found;
 }
 
@@ -158,7 +153,9 @@ OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::
   }
   scenario.rate_Hz = board.rate_Hz;
   if (config.can) scenario.can = *config.can;
-  scenario.can.first_node = static_cast<can::Node>(scenario.can.first_node + channel);
+  const std::size_t last = can::max_nodes + 1 - board.channels.size();
+  scenario.can.first_node =
+      static_cast<can::Node>(std::min(scenario.can.first_node + channel, last));
   put(scenario.start, board.channels[0], config.wiring.channels[channel]);
   for (Event& event : scenario.events)
     put(event.conditions, board.channels[0], config.wiring.channels[channel]);

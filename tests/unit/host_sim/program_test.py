@@ -229,6 +229,23 @@ class Results(ProgramCase):
             self.assertGreater(most_W[0], 3.0)
             self.assertLess(abs(most_W[1] - 2.0), 0.05)
 
+    def test_a_joint_of_any_two_channels_of_a_boards_own_file(self):
+        example = EXAMPLES / "joint-as5600-ads1115.toml"
+        text = example.read_text()
+        begin, end = text.index("[channel.position]"), text.index('[[channel]]                   # its')
+        position = text[begin:end]
+        swapped = text.replace(position, "").replace("[[joint]]", position + "[[joint]]")
+        swapped = swapped.replace("agonist = 1 ", "agonist = 2 ").replace("antagonist = 2\n", "antagonist = 1\n")
+        (self.path / "swapped.toml").write_text(swapped.replace("first_node = 1", "first_node = 5"))
+        traces = []
+        for board in (example, "swapped.toml"):
+            done = self.run_program("run", self.scenario("simulation.duration_s = 5.0\n[joint]\n"), "--board", board, "--out", "out", "--no-plot")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            traces.append((self.path / "out/trace.csv").read_bytes())
+        self.assertEqual(*traces)
+        heard = {int(identifier, 16) & 0x3f for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
+        self.assertEqual(heard & {4, 5, 6, 7, 8}, {6, 7})
+
     def test_joints_on_one_bus_have_two_nodes_each(self):
         text = "simulation.duration_s = 2.0\n[joint]\n"
         # Each muscle has noise of its own: the second joint's begins behind the first one's two.

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace supercoil::host_sim {
 
@@ -122,19 +124,45 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
   return *found;
 }
 
-/// The file's board with the channels that the scenario has, an agonist first.
+/// The bundle of the file that pulls what the scenario's [bundle] does; empty: neither has one.
+tl::expected<std::optional<BundleSettings>, std::string> find_bundle(const Conditions& c,
+                                                                     const BoardSettings& board,
+                                                                     std::size_t channel) {
+  const BundleSettings* found = board.bundle_of(channel);
+  const std::size_t wanted = c.companions.size() + 1;
+  const std::size_t there = found == nullptr ? 1 : found->channels.size();
+  if (wanted == there) return found == nullptr ? std::nullopt : std::optional(*found);
+  std::ostringstream why;
+  why << "channel " << channel + 1 << " of the board's file "
+      << (found == nullptr ? "pulls in no [[bundle]]" : "pulls in a [[bundle]]");
+  if (found != nullptr) why << " of " << there << " muscles";
+  why << ", and the scenario has " << (wanted == 1 ? "no [bundle]" : "a [bundle]");
+  if (wanted > 1) why << " of " << wanted;
+  return tl::unexpected(why.str());
+}
+
+/// The file's board with the channels that the scenario has: an agonist first, a bundle's leader.
 BoardSettings board_of_one(const BoardSettings& all, std::size_t channel,
-                           std::optional<JointSettings> joint) {
+                           std::optional<JointSettings> joint,
+                           std::optional<BundleSettings> bundle) {
+  std::vector<std::size_t> used{channel};
+  if (joint) used = {joint->agonist, joint->antagonist};
+  if (bundle) used = bundle->channels;
   BoardSettings board = all;
   board.joints.clear();
-  if (!joint) {
-    board.channels = {all.channels[channel]};
-    return board;
+  board.bundles.clear();
+  board.channels.clear();
+  for (const std::size_t place : used)
+    board.channels.push_back(all.channels[place]);
+  if (joint) {
+    joint->agonist = 0;
+    joint->antagonist = 1;
+    add_joint(board, *joint);
   }
-  board.channels = {all.channels[joint->agonist], all.channels[joint->antagonist]};
-  joint->agonist = 0;
-  joint->antagonist = 1;
-  add_joint(board, *joint);
+  if (bundle) {
+    std::iota(bundle->channels.begin(), bundle->channels.end(), std::size_t{0});
+    add_bundle(board, *bundle);
+  }
   return board;
 }
 
@@ -146,8 +174,11 @@ OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::
   if (auto checked = check_events(scenario); !checked) return checked;
   const auto joint = find_joint(scenario.start, config.settings, channel);
   if (!joint) return tl::unexpected(joint.error());
+  const auto bundle = find_bundle(scenario.start, config.settings, channel);
+  if (!bundle) return tl::unexpected(bundle.error());
   if (*joint) channel = (*joint)->agonist;
-  BoardSettings board = board_of_one(config.settings, channel, *joint);
+  if (*bundle) channel = (*bundle)->leader();
+  BoardSettings board = board_of_one(config.settings, channel, *joint, *bundle);
   for (std::size_t i = 0; i < board.channels.size(); ++i) {
     if (learned[i]) apply_learned(board.channels[i], *learned[i]);
   }

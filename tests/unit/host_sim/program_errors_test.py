@@ -97,6 +97,17 @@ class Errors(ProgramCase):
                 ("[joint]\n", "the scenario has a [joint] of two muscles, and channel 1 of the board's file is in none")):
             self.check_refused(told, "run", self.scenario(SHORT + text), "--board", finger, "--out", "out")
 
+    def test_a_bundle_and_a_board_that_do_not_go_together(self):
+        alone = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
+        pair = self.path / "bundle.toml"
+        text = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
+        pair.write_text(text[:text.index("[[joint]]")] + "[[bundle]]\nchannels = [1, 2]\n")
+        for text, board, told in (
+                ("", pair, "channel 1 of the board's file pulls in a [[bundle]] of 2 muscles, and the scenario has no [bundle]"),
+                ("bundle.muscles = 3\n", pair, "pulls in a [[bundle]] of 2 muscles, and the scenario has a [bundle] of 3"),
+                ("[bundle]\n", alone, "channel 1 of the board's file pulls in no [[bundle]], and the scenario has a [bundle] of 2")):
+            self.check_refused(told, "run", self.scenario(SHORT + text), "--board", board, "--out", "out")
+
     def test_a_window_outside_the_run(self):
         for window in ["1:99", "2:1", "x:y", "5"]:
             self.check_refused("must be FROM:TO", "run", self.scenario(SHORT), "--out", "out",

@@ -246,6 +246,21 @@ class Results(ProgramCase):
         heard = {int(identifier, 16) & 0x3f for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
         self.assertEqual(heard & {4, 5, 6, 7, 8}, {6, 7})
 
+    def test_a_bundle_under_the_firmware_of_a_boards_own_file(self):
+        text = (EXAMPLES / "joint-as5600-ads1115.toml").read_text()
+        board = text[:text.index("[[joint]]")] + "[[bundle]]\nchannels = [1, 2]\n"
+        (self.path / "board.toml").write_text(board)
+        scenario = ("simulation.duration_s = 60.0\nplant.moving_mass_kg = 0.18\n[reference]\noffset_m = 0.004\namplitude_m = 0.002\n"
+                    "[bundle.2]\nheat_transfer_W_per_K = 0.08\n")
+        for channel in (1, 2):
+            done = self.run_program("run", self.scenario(scenario), "--board", "board.toml", "--channel", channel, "--out", "out", "--no-plot")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            summary = json.loads((self.path / "out/summary.json").read_text())
+            self.assertEqual((summary["controller"], summary["faults"], summary["ticks_outside_temperature_interval"]), ("learned_ff", [], 0))
+            self.assertLess(summary["tracking_rms_m"], 100e-6)
+            heard = {int(identifier, 16) & 0x3f for identifier in re.findall(r" can0 ([0-9A-F]+)#", (self.path / "out/can.log").read_text())}
+            self.assertEqual(heard & {1, 2, 3}, {1, 2})
+
     def test_joints_on_one_bus_have_two_nodes_each(self):
         text = "simulation.duration_s = 2.0\n[joint]\n"
         # Each muscle has noise of its own: the second joint's begins behind the first one's two.

@@ -15,8 +15,8 @@ namespace supercoil::host_sim {
 /// Lets the scenario run the firmware as this file configures one of its channels, or the joint in
 /// which that is, over devices that measure and switch as the file's do. The muscle, its air, the
 /// supply and what is asked for stay the scenario's. channel: from 0, of a joint either one; on the
-/// bus its antagonist's node follows the agonist's. The error says which of the two must change, and
-/// how.
+/// bus its antagonist's node follows the agonist's. The error says which of the two must change,
+/// and how.
 tl::expected<void, std::string> use_board(Scenario& scenario, const config::BoardConfig& config,
                                           std::size_t channel, const LearnedMuscles& learned = {});
 

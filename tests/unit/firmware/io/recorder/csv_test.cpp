@@ -131,14 +131,10 @@ TEST(Csv, EveryStateModeAndLimitHasItsName) {
     recording.rows.push_back(r);
   }
   const auto all = lines();
-  const char* expected[] = {"disarmed,rest,none,nothing,",
-                            "armed,position,none,minimum,",
-                            "active,power,none,maximum,",
-                            "fault,identify,none,slew,",
-                            "4,calibrate,none,temperature,",
-                            "5,joint,none,invalid,",
-                            "6,bundle,none,cooling,",
-                            "7,7,none,unproven,"};
+  const char* expected[] = {"disarmed,rest,none,nothing,",   "armed,position,none,minimum,",
+                            "active,power,none,maximum,",    "fault,identify,none,slew,",
+                            "4,calibrate,none,temperature,", "5,joint,none,invalid,",
+                            "6,bundle,none,cooling,",        "7,7,none,unproven,"};
   for (std::size_t i = 0; i < limit_names.size(); ++i)
     STRCMP_CONTAINS(expected[i], all[i + 1].c_str());
 }

@@ -7,9 +7,6 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// The agonist contracts with the joint's arc, the antagonist against it.
-constexpr std::array<double, 2> direction{1.0, -1.0};
-
 /// What hung from a muscle alone pulls here.
 PlantEffects pulled(PlantEffects effects, double pretension_N) {
   effects.hanging_mass_kg = pretension_N / gravity_m_per_s2;
@@ -25,6 +22,7 @@ JointPlant::JointPlant(const JointPlantSettings& settings, double step_s) : slow
 void JointPlant::set(const JointPlantSettings& settings) {
   settings_ = settings;
   radius_m_ = settings.lever.zero_radius_m();
+  direction_[1] = -settings.antagonist_lever_ratio;
   per_substep_ = 1.0 / settings.substeps;
   const std::array<const JointMuscle*, 2> muscles{
       &settings.agonist, settings.antagonist ? &*settings.antagonist : nullptr};
@@ -36,10 +34,11 @@ void JointPlant::set(const JointPlantSettings& settings) {
     pulls_[i] = muscles[i] != nullptr && !muscles[i]->torn;
     if (muscles[i] == nullptr) continue;
     slack_m_[i] = muscles[i]->slack_m;
-    bodies_[i].set(muscles[i]->parameters, pulled(muscles[i]->effects, settings.pretension_N),
+    bodies_[i].set(muscles[i]->parameters, pulled(muscles[i]->effects, pretension_N(i)),
                    slow_.step_s);
-    muscle_damping_Ns_per_m_[i] = muscles[i]->parameters.damping_Ns_per_m;
-    max_stiffness_N_per_m_ += max_ratio * max_ratio * bodies_[i].max_stiffness_N_per_m();
+    const double along2 = direction_[i] * direction_[i];
+    muscle_damping_Ns_per_m_[i] = along2 * muscles[i]->parameters.damping_Ns_per_m;
+    max_stiffness_N_per_m_ += along2 * max_ratio * max_ratio * bodies_[i].max_stiffness_N_per_m();
   }
   for (std::size_t taut = 0; taut < mechanics_.size(); ++taut)
     set_mechanics(taut, 1.0);
@@ -72,7 +71,7 @@ void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) 
   Drives drives{};
   for (std::size_t i = 0; i < drives.size(); ++i) {
     Drive& d = drives[i];
-    d = bodies_[i].step(power_W[i], -settings_.pretension_N, direction[i] * before_m + slack_m_[i]);
+    d = bodies_[i].step(power_W[i], -pretension_N(i), direction_[i] * before_m + slack_m_[i]);
     // From now on at the joint's contraction, without the slack.
     d.force_N -= d.stiffness_N_per_m * slack_m_[i];
     d.force_end_N -= d.stiffness_end_N_per_m * slack_m_[i];
@@ -80,7 +79,7 @@ void JointPlant::slow_step(const std::array<double, 2>& power_W, double load_N) 
   move(drives, load_N);
   const double after_m = position_m();
   for (std::size_t i = 0; i < drives.size(); ++i)
-    bodies_[i].moved(0.5 * direction[i] * (before_m + after_m) + slack_m_[i]);
+    bodies_[i].moved(0.5 * direction_[i] * (before_m + after_m) + slack_m_[i]);
 }
 
 JointPlant::Leverage JointPlant::leverage(double reading_m) const {
@@ -97,7 +96,7 @@ double JointPlant::weight_N(double reading_m) const {
 void JointPlant::pull(const Drives& drives, double reading_m) {
   const double position_m = contraction_m(reading_m);
   for (std::size_t i = 0; i < drives.size(); ++i) {
-    const double spring_N = drives[i].stiffness_N_per_m * direction[i] * position_m;
+    const double spring_N = drives[i].stiffness_N_per_m * direction_[i] * position_m;
     tension_N_[i] = pulls_[i] ? std::max(0.0, drives[i].force_N - spring_N) : 0.0;
   }
 }
@@ -131,12 +130,13 @@ void JointPlant::move(Drives drives, double load_N) {
       d.force_N += step[i].force_N;
       if (tension_N_[i] <= 0.0) continue;
       taut |= std::size_t{1} << i;
-      sum.stiffness_N_per_m += now.ratio * now.ratio * from.stiffness_N_per_m;
-      sum.stiffness_end_N_per_m += then.ratio * then.ratio * d.stiffness_N_per_m;
-      sum.force_N +=
-          now.ratio * (direction[i] * from.force_N - from.stiffness_N_per_m * now.beside_m);
-      sum.force_end_N +=
-          then.ratio * (direction[i] * d.force_N - d.stiffness_N_per_m * then.beside_m);
+      const double along2 = direction_[i] * direction_[i];
+      const double from_N_per_m = along2 * from.stiffness_N_per_m;
+      const double to_N_per_m = along2 * d.stiffness_N_per_m;
+      sum.stiffness_N_per_m += now.ratio * now.ratio * from_N_per_m;
+      sum.stiffness_end_N_per_m += then.ratio * then.ratio * to_N_per_m;
+      sum.force_N += now.ratio * (direction_[i] * from.force_N - from_N_per_m * now.beside_m);
+      sum.force_end_N += then.ratio * (direction_[i] * d.force_N - to_N_per_m * then.beside_m);
     }
     if (!settings_.lever.is_constant()) {
       // The step takes the stiffness of its middle: both ends' own forces are to be met.

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "supercoil/control/joint/lever.hpp"
@@ -21,16 +23,18 @@ struct JointMuscle {
   double slack_m = 0.0;  ///< of its cable: it contracts so far before it pulls as it did
 };
 
-/// The angle is zero where both new, cold muscles pull with pretension_N; the agonist turns the
+/// The angle is zero where the new, cold agonist pulls with pretension_N, and the antagonist with
+/// as much of a moment; the agonist turns the
 /// joint towards positive angles.
 struct JointPlantSettings {
   JointMuscle agonist;
   std::optional<JointMuscle> antagonist;  ///< otherwise the spring opposes alone
-  control::Lever lever;                   ///< of both muscles
+  control::Lever lever;                   ///< of the agonist
+  double antagonist_lever_ratio = 1.0;    ///< of its lever to the agonist's, at every angle
   double inertia_kg_m2 = 2e-5;
   double damping_Nms_per_rad = 0.0;  ///< beside the muscles'
   double spring_Nm_per_rad = 0.0;    ///< towards the angle 0, beside the muscles
-  double pretension_N = 0.883;       ///< of each muscle; with a spring alone, the spring's as well
+  double pretension_N = 0.883;       ///< of the agonist; against a spring, the spring's as well
   double friction_ratio = 0.0;       ///< Coulomb friction at the lever over the pretension
   double weight_Nm = 0.0;            ///< of what hangs down at the angle 0, when it is level
   double min_angle_rad = -1.5;       ///< end stops
@@ -38,10 +42,11 @@ struct JointPlantSettings {
   int substeps = 4;  ///< of the mechanics, in each step of heat
 };
 
-/// (I/r²) ẍ = ρ (T₁ − T₂) − c ẋ − k x − (w sin α + load)/r with x = rα, r the lever at the angle 0
-/// and ρ the lever at α over it; T ≥ 0 are the muscles' tensions at the contractions ∫ρ dx and its
-/// negative. Steps as NonlinearPlant's. Which muscles are taut is asked at
-/// the beginning of each step of the mechanics, their lever there and at its expected end.
+/// (I/r²) ẍ = ρ (T₁ − q T₂) − c ẋ − k x − (w sin α + load)/r with x = rα, r the lever at the angle
+/// 0, ρ the lever at α over it and q the antagonist's lever over the agonist's; T ≥ 0 are the
+/// muscles' tensions at the contractions ∫ρ dx and −q ∫ρ dx. Steps as NonlinearPlant's. Which
+/// muscles are taut is asked at the beginning of each step of the mechanics, their lever there and
+/// at its expected end.
 class JointPlant {
  public:
   /// step_s > 0, the tick; settings as their comments say, with valid muscles.
@@ -53,10 +58,14 @@ class JointPlant {
   void set(const JointPlantSettings& settings);
 
   const JointPlantSettings& settings() const { return settings_; }
-  /// The agonist's contraction, and the negative of the antagonist's.
+  /// The agonist's contraction.
   double position_m() const { return contraction_m(motion_.position_m); }
+  /// Likewise, of either muscle; 0: the agonist.
+  double position_m(std::size_t muscle) const { return direction_[muscle] * position_m(); }
   /// The angle times the lever at 0: what the sensor of the angle reads.
   double reading_m() const { return motion_.position_m; }
+  /// Likewise, at the lever of either muscle, with its sign.
+  double reading_m(std::size_t muscle) const { return direction_[muscle] * reading_m(); }
   double angle_rad() const { return motion_.position_m / radius_m_; }
   double velocity_rad_per_s() const { return motion_.velocity_m_per_s / radius_m_; }
   /// 0: the agonist; above the air as it was at the start.
@@ -78,6 +87,10 @@ class JointPlant {
     return settings_.lever.is_constant() ? reading_m : settings_.lever.arc_m(reading_m / radius_m_);
   }
   Leverage leverage(double reading_m) const;
+  /// Both moments are equal at the angle 0.
+  double pretension_N(std::size_t muscle) const {
+    return settings_.pretension_N / std::abs(direction_[muscle]);
+  }
 
   /// lever_ratio: of the lever to the one at 0.
   void set_mechanics(std::size_t taut, double lever_ratio);
@@ -88,6 +101,8 @@ class JointPlant {
 
   JointPlantSettings settings_;
   double radius_m_ = 0.015;  ///< of the lever at the angle 0
+  /// The agonist contracts with the joint's arc, the antagonist against it, at its own lever.
+  std::array<double, 2> direction_{1.0, -1.0};
   SlowSteps slow_;
   double per_substep_ = 0.25;
   std::array<MuscleBody, 2> bodies_;

@@ -25,16 +25,18 @@ double max_age_s(const Scenario& scenario, const ConverterSettings& converter) {
   return std::max({0.01, 3.0 * scenario.step_s(), 2.5 * converter.period_s});
 }
 
-/// As the antagonist sees it.
-PositionSensorSettings mirrored(PositionSensorSettings sensor) {
+/// As the antagonist sees it, whose lever is so many times the agonist's.
+PositionSensorSettings mirrored(PositionSensorSettings sensor, double lever_ratio) {
   const double min_m = sensor.min_m;
-  sensor.min_m = -sensor.range_m;
-  sensor.range_m = -min_m;
+  sensor.min_m = -lever_ratio * sensor.range_m;
+  sensor.range_m = -lever_ratio * min_m;
+  sensor.noise_rms_m *= lever_ratio;
+  sensor.count_m *= lever_ratio;
   return sensor;
 }
 
-board::Scaling mirrored(const board::Scaling& scaling) {
-  return {-scaling.per_count, -scaling.offset};
+board::Scaling mirrored(const board::Scaling& scaling, double lever_ratio) {
+  return {-lever_ratio * scaling.per_count, -lever_ratio * scaling.offset};
 }
 
 /// The muscle's effects in its air.
@@ -115,7 +117,9 @@ BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated)
       board.channels[channel].position.scaling = position;
   }
   // A joint's antagonist sees it from the other side.
-  if (!board.joints.empty()) board.channels[1].position.scaling = mirrored(position);
+  if (!board.joints.empty()) {
+    board.channels[1].position.scaling = mirrored(position, board.joints[0].antagonist_lever_ratio);
+  }
   for (std::size_t i = 0; i < board.channels.size(); ++i)
     board.channels[i].heater.current.scaling = scaling_of(simulated.channels[i].current);
   return board;
@@ -164,14 +168,16 @@ ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
   const Conditions& c = scenario.start;
   const AntagonistConditions& antagonist = *c.antagonist();
   const double resistance_Ohm = antagonist.plant.resistance_Ohm;
+  const double lever_ratio = c.joint->plant.antagonist_lever_ratio;
   channel.muscle = antagonist.muscle;
   set_known(channel, scenario.known[1]);
-  channel.position.scaling = mirrored(channel.position.scaling);
+  channel.position.scaling = mirrored(channel.position.scaling, lever_ratio);
   channel.heater.current.scaling = scaling_of(simulated.current);
   channel.heater.cold_resistance_Ohm = resistance_Ohm;
   channel.heater.temperature_coefficient_per_K = antagonist.plant.temperature_coefficient_per_K;
   channel.thermal = thermal_of(c, antagonist.muscle);
-  channel.supervision = supervision_of(scenario, mirrored(c.position_sensor), resistance_Ohm);
+  channel.supervision =
+      supervision_of(scenario, mirrored(c.position_sensor, lever_ratio), resistance_Ohm);
   return channel;
 }
 
@@ -292,7 +298,9 @@ BoardSettings firmware_of(const Scenario& scenario) {
   }
   if (const AntagonistConditions* antagonist = c.antagonist()) {
     board.channels.push_back(antagonist_of(scenario, channel, simulated.channels[1]));
-    JointSettings joint{0, 1, c.joint->plant.lever, antagonist->co_contraction_W};
+    JointSettings joint{.lever = c.joint->plant.lever,
+                        .co_contraction_W = antagonist->co_contraction_W,
+                        .antagonist_lever_ratio = c.joint->plant.antagonist_lever_ratio};
     joint.max_co_contraction_W =
         std::max(max_co_contraction_W(scenario),
                  JointSettings::usual_limit_ratio * feasible_co_contraction_W(board, joint));

@@ -122,7 +122,9 @@ void Simulation::change_joint(const Conditions& before) {
   const double wanted_W = antagonist->co_contraction_W;
   if (wanted_W == before.antagonist()->co_contraction_W) return;
   // The operator commands it in watts of the antagonist.
-  const double gain_ratio = loop_.channel(1).dc_gain_m_per_W() / loop_.channel(0).dc_gain_m_per_W();
+  const double gain_ratio = loop_.channel(1).dc_gain_m_per_W() /
+                            loop_.channel(0).dc_gain_m_per_W() /
+                            conditions_->joint->plant.antagonist_lever_ratio;
   loop_.send({1, Verb::power, wanted_W / gain_ratio});
 }
 

@@ -121,6 +121,12 @@ tl::expected<std::optional<JointSettings>, std::string> find_joint(const Conditi
   }
   const control::Lever& lever = c.joint->plant.lever;
   if (found->lever != lever) return tl::unexpected(other_lever(lever, found->lever));
+  if (c.joint->plant.antagonist_lever_ratio != found->antagonist_lever_ratio) {
+    why << "the scenario's joint.antagonist_lever_m = "
+        << c.joint->plant.antagonist_lever_ratio * lever.zero_radius_m() << " is not the board's, "
+        << found->antagonist_lever().zero_radius_m();
+    return tl::unexpected(why.str());
+  }
   return *found;
 }
 

@@ -42,6 +42,10 @@ JointPlantSettings read_lever(Section& section) {
   p.lever = config::read_lever(section, {1e-3, 1.0}, p.lever.zero_radius_m());
   if (!pair && !p.lever.is_constant())
     section.wrong("lever_m", "may be a list only where the joint is opposed_by \"muscle\"");
+  if (pair) {
+    const double lever_m = p.lever.zero_radius_m();
+    p.antagonist_lever_ratio = section.number("antagonist_lever_m", lever_m, {1e-3, 1.0}) / lever_m;
+  }
   p.inertia_kg_m2 = section.number("inertia_kg_m2", p.inertia_kg_m2, {1e-9, 100.0});
   p.damping_Nms_per_rad = section.number("damping_Nms_per_rad", 0.0, {0.0, 100.0});
   p.spring_Nm_per_rad = section.number("spring_Nm_per_rad", pair ? 0.0 : default_spring_Nm_per_rad,
@@ -83,18 +87,19 @@ void refuse_keys_of_one_muscle(Section section) {
   }
 }
 
-/// As an inertia and its springs beside each other move along the arc. other: null, there is none.
-control::PhysicalParameters along_the_arc(const JointPlantSettings& joint,
+/// As an inertia and its springs beside each other move along the arc at the muscle's lever. other:
+/// null, there is none; its lever over this one.
+control::PhysicalParameters along_the_arc(const JointPlantSettings& joint, double lever_m,
                                           const control::PhysicalParameters& muscle,
-                                          const control::PhysicalParameters* other) {
-  const double lever_m = joint.lever.zero_radius_m();
+                                          const control::PhysicalParameters* other = nullptr,
+                                          double other_ratio = 1.0) {
   const double lever2 = lever_m * lever_m;
   control::PhysicalParameters p = muscle;
   p.stiffness_N_per_m += joint.spring_Nm_per_rad / lever2;
   p.damping_Ns_per_m += joint.damping_Nms_per_rad / lever2;
   if (other != nullptr) {
-    p.stiffness_N_per_m += other->stiffness_N_per_m;
-    p.damping_Ns_per_m += other->damping_Ns_per_m;
+    p.stiffness_N_per_m += other_ratio * other_ratio * other->stiffness_N_per_m;
+    p.damping_Ns_per_m += other_ratio * other_ratio * other->damping_Ns_per_m;
   }
   p.moving_mass_kg = joint.inertia_kg_m2 / lever2;
   return p;
@@ -166,8 +171,9 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
   }
   Section section(document["joint"].as_table(), "joint", elsewhere);
   const JointPlantSettings lever = read_lever(section);
+  const double lever_m = lever.lever.zero_radius_m();
   if (!lever.antagonist) {
-    const auto believed = config::read_parameters(muscle, along_the_arc(lever, agonist, nullptr));
+    const auto believed = config::read_parameters(muscle, along_the_arc(lever, lever_m, agonist));
     muscle.finish();
     if (elsewhere.empty()) refuse_impossible(believed, "muscle", document, diagnostics);
     return {believed, believed};
@@ -175,13 +181,15 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
   Section other = laid_over(document, "antagonist", "plant", elsewhere);
   const auto antagonist = read_plant_parameters(other);
 
+  const double ratio = lever.antagonist_lever_ratio;
   BelievedMuscles believed;
-  believed.muscle = config::read_parameters(muscle, along_the_arc(lever, agonist, &antagonist));
+  believed.muscle =
+      config::read_parameters(muscle, along_the_arc(lever, lever_m, agonist, &antagonist, ratio));
   muscle.finish();
   Diagnostics found(diagnostics.file());
   Section other_muscle = laid_over(document, "antagonist_muscle", "muscle", found);
-  believed.antagonist =
-      config::read_parameters(other_muscle, along_the_arc(lever, antagonist, &agonist));
+  believed.antagonist = config::read_parameters(
+      other_muscle, along_the_arc(lever, ratio * lever_m, antagonist, &agonist, 1.0 / ratio));
   other_muscle.finish();
   add_new(found, diagnostics);
   if (elsewhere.empty()) {

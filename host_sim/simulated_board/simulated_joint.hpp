@@ -29,12 +29,8 @@ class SimulatedJoint final : public SharedMotion {
                  MuscleChannel* antagonist, hal::Duration step);
 
   /// 0: the agonist's.
-  double position_m(std::size_t muscle) const override {
-    return muscle == 0 ? plant_.position_m() : -plant_.position_m();
-  }
-  double reading_m(std::size_t muscle) const override {
-    return muscle == 0 ? plant_.reading_m() : -plant_.reading_m();
-  }
+  double position_m(std::size_t muscle) const override { return plant_.position_m(muscle); }
+  double reading_m(std::size_t muscle) const override { return plant_.reading_m(muscle); }
   double temperature_rise_K(std::size_t muscle) const override {
     return plant_.temperature_rise_K(muscle);
   }

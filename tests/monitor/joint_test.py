@@ -73,6 +73,15 @@ class Told(ModulesCase):
             return [before, words(joint_of(store, 1, 1))];""")
         self.assertEqual(told, [["0.015000", 2, None], ["0.015000", 2, "0.006000"]])
 
+    def test_each_muscle_may_have_a_lever_of_its_own(self):
+        told = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
+            muscle(3, 0.02, -1); muscle(2, -0.01, 1);
+            hear(3, "Measurement", { position_m: 0.01 }); hear(2, "Measurement", { position_m: -0.005 });
+            const over_travel = Number(Object.entries(protocol.Limit.fault.values).find(([, is]) => is === "over_travel")[0]);
+            hear(2, "Limit", { fault: over_travel, limit: 0.004 });
+            return [shown(3)[1], shown(2)[1], measure_of(joint_of(store, 3, 1)).min_m(1).toFixed(6)];""")
+        self.assertEqual(told, ["angle: 28.65°", "angle: 28.65°", "-0.008000"])
+
     def test_a_lever_that_depends_on_the_angle_is_told_by_its_table(self):
         shown, typed_m = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
             const table = { first_rad: -0.5, last_rad: 0.5, "1_m": 0.012, "2_m": 0.015, "3_m": 0.011, "4_m": null };

@@ -29,6 +29,12 @@ class Joint:
     pretension_N: float = 0.883
     friction_ratio: float = 0.0
     weight_Nm: float = 0.0
+    antagonist_lever_ratio: float = 1.0
+
+    @property
+    def directions(self):
+        """Of each muscle's contraction and of its pull, along the agonist's arc."""
+        return 1.0, -self.antagonist_lever_ratio
 
     def radius(self, angle):
         return np.interp(angle, np.linspace(*self.table_rad, len(self.table_m)), self.table_m) if self.table_m else self.lever_m
@@ -58,16 +64,24 @@ CASES = {  # joint, muscles, effects, load in Nm
     "slack_friction": (Joint(pretension_N=0.05, friction_ratio=0.2), PAIR, {}, 0.007),
     "lever_table": (Joint(table_m=(0.010, 0.014, 0.016, 0.015, 0.011), lever_m=0.016 - 0.001 * 2.0 / 15.0),
                     (Muscle(), STRONGER), SMOOTH, 0.004),
+    "levers_of_their_own": (Joint(antagonist_lever_ratio=0.6, weight_Nm=0.002), (Muscle(), STRONGER), SMOOTH, 0.003),
+    "lever_tables_of_their_own": (Joint(table_m=(0.010, 0.014, 0.016, 0.015, 0.011), lever_m=0.016 - 0.001 * 2.0 / 15.0,
+                                        antagonist_lever_ratio=1.4), (STRONGER, Muscle()), SMOOTH, 0.004),
 }
+
+
+def pulled(joint, effects):
+    """A muscle's effects and its pretension, of each: at the angle 0 their moments are equal."""
+    pretensions = [joint.pretension_N / abs(direction) for direction in joint.directions]
+    return [({**OFF, **effects, "hanging_mass_kg": pretension / G}, pretension) for pretension in pretensions]
 
 
 def tensions(joint, muscles, effects, x, rises, branches):
     """Before they are cut off at zero. An acceleration without damper, times the mass, is what the muscle pulls with."""
     found = []
-    for p, sign, phi, pair in zip(muscles, (1.0, -1.0), rises, branches):
-        found.append(p.moving_mass_kg * acceleration(p, effects, stiffness(p, effects, phi), 0.0,
-                                                     active_force(p, effects, phi), sign * x, 0.0, pair, 0.0,
-                                                     -joint.pretension_N))
+    for p, direction, phi, pair, (own, pretension) in zip(muscles, joint.directions, rises, branches, pulled(joint, effects)):
+        found.append(p.moving_mass_kg * acceleration(p, own, stiffness(p, own, phi), 0.0, active_force(p, own, phi),
+                                                     direction * x, 0.0, pair, 0.0, -pretension))
     return found
 
 
@@ -78,7 +92,6 @@ def split(state):
 
 def run(joint, muscles, effects, power, load):
     """The joint's path: what there is at each hold's end."""
-    effects = {**OFF, **effects, "hanging_mass_kg": joint.pretension_N / G}
     rubbing = {**OFF, "friction_ratio": joint.friction_ratio, "hanging_mass_kg": joint.pretension_N / G}
     mass = joint.inertia_kg_m2 / joint.lever_m ** 2
     lump = Muscle(moving_mass_kg=mass)
@@ -91,12 +104,12 @@ def run(joint, muscles, effects, power, load):
         force -= (joint.damping_Nms_per_rad * v + joint.spring_Nm_per_rad * x) / joint.lever_m ** 2
         if alone:
             force -= joint.pretension_N
-        for p, sign, tension in zip(muscles, (1.0, -1.0), tensions(joint, muscles, effects, arc, rises, branches)):
+        for p, direction, tension in zip(muscles, joint.directions, tensions(joint, muscles, effects, arc, rises, branches)):
             if tension > 0.0:
-                force += gain * (sign * tension - p.damping_Ns_per_m * gain * v)
+                force += gain * direction * (tension - p.damping_Ns_per_m * gain * direction * v)
         rubs, bristle = lugre(lump, rubbing, v, z)
-        heating = [heat_slope(p, effects, phi, w) for p, phi, w in zip(muscles, rises, watts)]
-        creeping = [(sign * arc - at) / effects[time] for sign, pair in zip((1.0, -1.0), branches)
+        heating = [heat_slope(p, {**OFF, **effects}, phi, w) for p, phi, w in zip(muscles, rises, watts)]
+        creeping = [(direction * arc - at) / {**OFF, **effects}[time] for direction, pair in zip(joint.directions, branches)
                     for at, time in zip(pair, ("creep_fast_s", "creep_slow_s"))]
         return [*heating, *[0.0] * alone, v, (force - rubs) / mass, bristle, *creeping]
 

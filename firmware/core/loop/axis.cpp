@@ -110,13 +110,16 @@ control::PowerRange Axis::allowed_range() const {
   return {range.min_W, std::min({range.max_W, cool_W, proof_.max_W()})};
 }
 
-Opposition Axis::opposition(double gain_ratio) const {
+Opposition Axis::opposition(double gain_ratio, double lever_ratio) const {
   const board::AppliedPower& acting = heater_.acting();
   const control::PowerRange own = heater_.power_range();
+  detectors::NotResponding::Expected expected_m = heater_.heat().expected_m();
+  for (double& each_m : expected_m)
+    each_m *= lever_ratio;
   return {gain_ratio * acting.power_W,
           acting.limited,
           {gain_ratio * own.min_W, gain_ratio * own.max_W},
-          heater_.heat().expected_m(),
+          expected_m,
           heater_.heat().hottest_K(),
           inputs_.expected_anew};
 }

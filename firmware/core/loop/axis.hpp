@@ -128,8 +128,9 @@ class Axis {
   /// Commands that neither arm nor heat.
   Reply obey(const Command& command);
 
-  /// As other_ of the other muscle's axis. gain_ratio: of its gain over this one's.
-  Opposition opposition(double gain_ratio) const;
+  /// As other_ of the other muscle's axis. gain_ratio: of this one's gain over its; lever_ratio: of
+  /// its lever over this one's.
+  Opposition opposition(double gain_ratio, double lever_ratio) const;
   /// Of the muscle as it is known.
   double dc_gain_m_per_W() const { return muscle_.dc_gain_m_per_W(); }
   Mode mode() const { return mode_; }

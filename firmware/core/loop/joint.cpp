@@ -6,28 +6,25 @@
 
 namespace supercoil {
 
-namespace {
-
-/// Of the antagonist's muscle over the agonist's, as they are known.
-double gain_ratio(const Axis& agonist, const Axis& antagonist) {
-  return antagonist.dc_gain_m_per_W() / agonist.dc_gain_m_per_W();
-}
-
-}  // namespace
-
 Joint::Joint(const JointSettings& settings, Axis& agonist, Axis& antagonist, double step_s)
-    : agonist_(agonist),
+    : settings_(settings),
+      agonist_(agonist),
       antagonist_(antagonist),
       first_W_(settings.co_contraction_W),
       max_W_(settings.max_co_contraction_W),
       lag_ratio_(step_s / co_contraction_lag_s) {
-  agonist_.limit_reverse_travel(antagonist_.max_travel_m());
+  agonist_.limit_reverse_travel(antagonist_.max_travel_m() / settings_.antagonist_lever_ratio);
+}
+
+double Joint::gain_ratio() const {
+  return settings_.gain_ratio(agonist_.dc_gain_m_per_W(), antagonist_.dc_gain_m_per_W());
 }
 
 void Joint::observe() {
-  const double ratio = gain_ratio(agonist_, antagonist_);
-  const Opposition of_antagonist = antagonist_.opposition(ratio);
-  antagonist_.oppose(agonist_.opposition(1.0 / ratio));
+  const double ratio = gain_ratio();
+  const double lever_ratio = settings_.antagonist_lever_ratio;
+  const Opposition of_antagonist = antagonist_.opposition(ratio, 1.0 / lever_ratio);
+  antagonist_.oppose(agonist_.opposition(1.0 / ratio, lever_ratio));
   agonist_.oppose(of_antagonist);
   agonist_.limit_pull(max_W_);
   antagonist_.limit_pull(max_W_ / ratio);
@@ -61,7 +58,7 @@ void Joint::limit_each(double gain_ratio) {
 
 void Joint::limit() {
   const bool active = agonist_.follows_position();
-  const double ratio = gain_ratio(agonist_, antagonist_);
+  const double ratio = gain_ratio();
   follow_co_contraction(active, ratio);
   if (!active) return limit_each(ratio);
   const control::JointAllocation allocation(ratio);

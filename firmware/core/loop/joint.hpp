@@ -23,9 +23,12 @@ class Joint {
   /// Slow against every controller, so that what the muscles differ in is not seen at the joint.
   static constexpr double co_contraction_lag_s = 10.0;
 
+  /// Of the muscles as they are known.
+  double gain_ratio() const;
   void follow_co_contraction(bool active, double gain_ratio);
   void limit_each(double gain_ratio);
 
+  JointSettings settings_;
   Axis& agonist_;
   Axis& antagonist_;
   double first_W_;    ///< of co-contraction, in watts of the agonist as all here

@@ -69,7 +69,8 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
         return cannot_prove("joint", channel);
     }
     const auto positive = [](double radius_m) { return radius_m > 0.0; };
-    if (!std::ranges::all_of(joint.lever.radii_m(), positive) || !(joint.co_contraction_W >= 0.0))
+    if (!std::ranges::all_of(joint.antagonist_lever().radii_m(), positive) ||
+        !std::ranges::all_of(joint.lever.radii_m(), positive) || !(joint.co_contraction_W >= 0.0))
       return SettingsProblem{"joint", "lever_m must exceed 0, and co_contraction_W be 0 or more"};
     if (!(joint.co_contraction_W <= joint.max_co_contraction_W))
       return SettingsProblem{"joint", "co_contraction_W must not exceed max_co_contraction_W"};
@@ -112,14 +113,14 @@ const BundleSettings* BoardSettings::bundle_of(std::size_t channel) const {
 double feasible_co_contraction_W(const BoardSettings& board, const JointSettings& joint) {
   const ChannelSettings& agonist = board.channels[joint.agonist];
   const ChannelSettings& antagonist = board.channels[joint.antagonist];
-  const double gain_ratio = antagonist.muscle.dc_gain_m_per_W() / agonist.muscle.dc_gain_m_per_W();
-  return std::min(agonist.limiter.max_W, gain_ratio * antagonist.limiter.max_W);
+  return std::min(agonist.limiter.max_W,
+                  joint.gain_ratio(board.channels) * antagonist.limiter.max_W);
 }
 
 PlaceInJoint JointSettings::place_of(std::size_t channel) const {
   const double apart = static_cast<double>(antagonist) - static_cast<double>(agonist);
   if (channel == agonist) return {1, lever, apart};
-  if (channel == antagonist) return {-1, lever, -apart};
+  if (channel == antagonist) return {-1, antagonist_lever(), -apart};
   return {};
 }
 

@@ -102,12 +102,11 @@ struct ChannelSettings {
 };
 
 /// Two channels whose muscles turn one joint against each other. Positions of both are how far the
-/// muscles have contracted, arcs at the lever: the antagonist's is the agonist's with the other
-/// sign.
+/// muscles have contracted, arcs at their levers: the antagonist's has the other sign.
 struct JointSettings {
   std::size_t agonist = 0;     ///< its channel; turns the joint towards positive positions
   std::size_t antagonist = 1;  ///< its channel
-  control::Lever lever{};
+  control::Lever lever{};      ///< of the agonist
   /// The power of the agonist while the joint asks for no effort; the antagonist's has the same
   /// effect. By it they pull against each other.
   double co_contraction_W = 1.0;
@@ -116,7 +115,19 @@ struct JointSettings {
   static constexpr double usual_limit_ratio = 0.5;
   /// That may be commanded, likewise in watts of the agonist.
   double max_co_contraction_W = std::numeric_limits<double>::infinity();
+  double antagonist_lever_ratio = 1.0;  ///< of its lever to the agonist's, at every angle
 
+  control::Lever antagonist_lever() const { return lever.scaled(antagonist_lever_ratio); }
+  /// By so much a watt of the antagonist turns the joint further than one of the agonist; of their
+  /// DC gains, each in metres of its own.
+  double gain_ratio(double agonist_m_per_W, double antagonist_m_per_W) const {
+    return antagonist_m_per_W / agonist_m_per_W / antagonist_lever_ratio;
+  }
+  /// Of the muscles as they are configured or were learned. channels: the board's.
+  double gain_ratio(const std::vector<ChannelSettings>& channels) const {
+    return gain_ratio(channels[agonist].muscle.dc_gain_m_per_W(),
+                      channels[antagonist].muscle.dc_gain_m_per_W());
+  }
   /// channel: any of the board's.
   PlaceInJoint place_of(std::size_t channel) const;
 };

@@ -24,6 +24,12 @@ double degrees(double angle_rad) {
   return angle_rad * 180.0 / std::numbers::pi;
 }
 
+std::string text_of(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
 /// "12.3 mm (47 °)"
 std::string arc(double arc_m, const control::Lever& lever) {
   std::ostringstream out;
@@ -70,11 +76,15 @@ void advise_alike(const BoardSettings& board, const JointSettings& joint,
                                          &control::PhysicalRange::name);
     const double of_first = first.*range->member;
     const double of_second = second.*range->member;
-    if (std::max(of_first, of_second) <= max_ratio * std::min(of_first, of_second)) continue;
+    const double same = of_first / (joint.antagonist_lever_ratio * joint.antagonist_lever_ratio);
+    if (std::max(same, of_second) <= max_ratio * std::min(same, of_second)) continue;
     std::ostringstream line;
     line << "muscle." << name << " is " << of_first << " of channel " << joint.agonist + 1
          << " and " << of_second << " of channel " << joint.antagonist + 1
-         << ": each describes the whole joint, and they should be the same";
+         << ": each describes the whole joint, and "
+         << (joint.antagonist_lever_ratio == 1.0 ? std::string("they should be the same")
+                                                 : "at their levers they should be as " +
+                                                       text_of(of_first) + " to " + text_of(same));
     lines.push_back(line.str());
   }
 }
@@ -99,13 +109,18 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
   const JointSettings& joint = board.joints[index];
   const ChannelSettings& agonist = board.channels[joint.agonist];
   const ChannelSettings& antagonist = board.channels[joint.antagonist];
-  const double gain_ratio = antagonist.muscle.dc_gain_m_per_W() / agonist.muscle.dc_gain_m_per_W();
+  const double gain_ratio = joint.gain_ratio(board.channels);
+  const double back_rad = antagonist.joint.angle_rad(feasibility(antagonist, board).travel_m);
   std::ostringstream out;
   out << "joint " << index + 1 << ": " << config.joints[index].name << "\n"
       << "  muscles     agonist channel " << joint.agonist + 1 << ", antagonist channel "
-      << joint.antagonist + 1 << "; lever of " << radius(joint.lever) << "\n"
+      << joint.antagonist + 1 << "; lever of " << radius(joint.lever)
+      << (joint.antagonist_lever_ratio == 1.0
+              ? ""
+              : ", the antagonist's of " + radius(joint.antagonist_lever()))
+      << "\n"
       << "  range       held for good by one muscle alone: from "
-      << arc(-feasibility(antagonist, board).travel_m, joint.lever) << " to "
+      << arc(joint.lever.arc_m(back_rad), joint.lever) << " to "
       << arc(feasibility(agonist, board).travel_m, joint.lever) << "\n"
       << "  both pull   with " << to_tenth(joint.co_contraction_W) << " W and "
       << to_tenth(joint.co_contraction_W / gain_ratio)
@@ -139,7 +154,9 @@ std::vector<std::string> joint_advice(const BoardConfig& config, std::size_t ind
   if (!label.max_pull_N) return lines;
   for (const std::size_t place : {joint.agonist, joint.antagonist}) {
     const ChannelSettings& channel = config.settings.channels[place];
-    const double pull_N = label.pretension_N + hottest_pull_N(channel, channel.limiter.max_W);
+    const double lever_ratio = place == joint.antagonist ? joint.antagonist_lever_ratio : 1.0;
+    const double pull_N =
+        label.pretension_N / lever_ratio + hottest_pull_N(channel, channel.limiter.max_W);
     if (pull_N <= *label.max_pull_N) continue;
     std::ostringstream line;
     line << "where something holds it, channel " << place + 1 << " alone may pull with up to "

@@ -61,7 +61,7 @@ void read_position(Section section, const std::string& owner, const BoardContext
 }
 
 /// One sensor tells where a joint or a bundle is: the antagonist's position is the agonist's with
-/// the other sign.
+/// the other sign, and at its own lever.
 void take_position(Section& section, const PositionOwner& owner, ReadChannel& channel) {
   const ChannelSettings& from = owner.settings;
   ChannelSettings& c = channel.settings;
@@ -82,10 +82,13 @@ void take_position(Section& section, const PositionOwner& owner, ReadChannel& ch
   c.supervision.max_position_m = from.supervision.max_position_m;
   c.supervision.position_noise_rms_m = from.supervision.position_noise_rms_m;
   if (!mirrored) return;
-  c.position.scaling = {-from.position.scaling.per_count, -from.position.scaling.offset};
+  const double ratio = c.joint.lever.zero_radius_m() / from.joint.lever.zero_radius_m();
+  c.position.scaling = {-ratio * from.position.scaling.per_count,
+                        -ratio * from.position.scaling.offset};
   // No -0.
-  c.supervision.min_position_m = 0.0 - from.supervision.max_position_m;
-  c.supervision.max_position_m = 0.0 - from.supervision.min_position_m;
+  c.supervision.min_position_m = 0.0 - ratio * from.supervision.max_position_m;
+  c.supervision.max_position_m = 0.0 - ratio * from.supervision.min_position_m;
+  c.supervision.position_noise_rms_m *= ratio;
 }
 
 /// Nothing is compared with it.

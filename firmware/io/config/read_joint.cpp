@@ -84,10 +84,14 @@ void JointReader::read(Read& joint, std::size_t channels) {
     is_wrong_ = is_wrong_ || !joint.turned_by;
     return;
   }
-  joint.travel = read_joint_travel(section, joint.lever);
+  const double lever_m = joint.lever.zero_radius_m();
+  const double ratio = section.number("antagonist_lever_m", lever_m, lever_range_m) / lever_m;
+  joint.travel = read_joint_travel(section, joint.lever, joint.lever.scaled(ratio));
   if (agonist && antagonist && std::max(*agonist, *antagonist) < channels) {
-    joint.pair =
-        JointSettings{.agonist = *agonist, .antagonist = *antagonist, .lever = joint.lever};
+    joint.pair = JointSettings{.agonist = *agonist,
+                               .antagonist = *antagonist,
+                               .lever = joint.lever,
+                               .antagonist_lever_ratio = ratio};
   }
   is_wrong_ = is_wrong_ || !joint.pair || (section.has("range_deg") && !joint.travel);
 }

@@ -21,12 +21,13 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
 /// What the sensor of a joint's angle reads, as an arc: at the lever of the angle 0.
 double metres_per_degree(const control::Lever& lever);
 
-/// How far each muscle may contract, arcs at the lever.
+/// How far each muscle may contract, arcs at its lever.
 struct JointTravel {
   double agonist_m;
   double antagonist_m;
 };
 /// Key range_deg: how far the joint may turn back and forth. Empty: it is absent, or wrong.
-std::optional<JointTravel> read_joint_travel(Section& section, const control::Lever& lever);
+std::optional<JointTravel> read_joint_travel(Section& section, const control::Lever& agonist,
+                                             const control::Lever& antagonist);
 
 }  // namespace supercoil::config

@@ -15,18 +15,19 @@ constexpr Range pull_range_N{1e-3, 1e4};
 
 /// One of the two, under the joint's greatest co-contraction.
 struct Puller {
-  std::size_t channel;     ///< from 0
-  double heat_N;           ///< that heat may add to the pretension
+  std::size_t channel;  ///< from 0
+  double pretension_N;
+  double heat_N;           ///< that heat may add to it
   double agonist_W_per_N;  ///< co-contraction that adds as much, where the temperature allows it
   double power_W;          ///< its own
 };
 
-Puller puller(const BoardSettings& board, std::size_t channel, double co_contraction_W,
-              double ratio) {
+Puller puller(const BoardSettings& board, std::size_t channel, double pretension_N,
+              double co_contraction_W, double ratio) {
   const ChannelSettings& c = board.channels[channel];
   const double W_per_N = c.thermal.bounds.min_transfer_W_per_K / c.muscle.force_per_kelvin_N_per_K;
   const double power_W = co_contraction_W / ratio;
-  return {channel, hottest_pull_N(c, power_W), ratio * W_per_N, power_W};
+  return {channel, pretension_N, hottest_pull_N(c, power_W), ratio * W_per_N, power_W};
 }
 
 /// So that what is printed can be taken as it is.
@@ -37,16 +38,14 @@ double rounded_up(double value) {
   return std::ceil(1e3 * value) / 1e3;
 }
 
-std::string excess(const Puller& p, const JointSettings& joint, const JointLabel& label,
-                   double allowed_W) {
+std::string excess(const Puller& p, const JointSettings& joint, double allowed_W) {
   std::ostringstream message;
-  message << "is less than channel " << p.channel + 1
-          << " may pull with: pretension_N = " << label.pretension_N << ", and "
-          << rounded_up(p.heat_N)
+  message << "is less than channel " << p.channel + 1 << " may pull with: a pretension of "
+          << p.pretension_N << " N, and " << rounded_up(p.heat_N)
           << " N by the heat of max_co_contraction_W = " << joint.max_co_contraction_W
           << ", which are " << rounded_up(p.power_W)
           << " W there; max_co_contraction_W must be 0 to " << rounded_down(allowed_W)
-          << ", or max_pull_N at least " << rounded_up(label.pretension_N + p.heat_N);
+          << ", or max_pull_N at least " << rounded_up(p.pretension_N + p.heat_N);
   return message.str();
 }
 
@@ -57,22 +56,25 @@ void read_pull(Section& section, const BoardSettings& board, const JointSettings
   label.pretension_N = section.number("pretension_N", 0.0, {0.0, pull_range_N.highest});
   if (!section.has("max_pull_N")) return;
   label.max_pull_N = section.number("max_pull_N", INFINITY, pull_range_N);
-  const double room_N = *label.max_pull_N - label.pretension_N;
-  if (room_N < 0.0) {
+  const double antagonist_N = label.pretension_N / joint.antagonist_lever_ratio;
+  const double cold_N = std::max(label.pretension_N, antagonist_N);
+  if (*label.max_pull_N < cold_N) {
     std::ostringstream message;
-    message << "must not be less than pretension_N, which is " << label.pretension_N;
+    message << "must not be less than the pretension, which is " << cold_N << " N";
     return section.wrong("max_pull_N", message.str());
   }
-  const double ratio = board.channels[joint.antagonist].muscle.dc_gain_m_per_W() /
-                       board.channels[joint.agonist].muscle.dc_gain_m_per_W();
+  const double ratio = joint.gain_ratio(board.channels);
   const double most_W = joint.max_co_contraction_W;
-  const std::array<Puller, 2> both{puller(board, joint.agonist, most_W, 1.0),
-                                   puller(board, joint.antagonist, most_W, ratio)};
-  const Puller& hottest = both[0].heat_N < both[1].heat_N ? both[1] : both[0];
+  const std::array<Puller, 2> both{puller(board, joint.agonist, label.pretension_N, most_W, 1.0),
+                                   puller(board, joint.antagonist, antagonist_N, most_W, ratio)};
+  const auto pull_N = [](const Puller& p) { return p.pretension_N + p.heat_N; };
+  const Puller& hardest = pull_N(both[0]) < pull_N(both[1]) ? both[1] : both[0];
   // What a channel lacks is told there.
-  if (!std::isfinite(most_W) || !(hottest.heat_N > room_N)) return;
-  const double allowed_W = room_N * std::min(both[0].agonist_W_per_N, both[1].agonist_W_per_N);
-  section.wrong("max_pull_N", excess(hottest, joint, label, allowed_W));
+  if (!std::isfinite(most_W) || !(pull_N(hardest) > *label.max_pull_N)) return;
+  double allowed_W = most_W;
+  for (const Puller& p : both)
+    allowed_W = std::min(allowed_W, (*label.max_pull_N - p.pretension_N) * p.agonist_W_per_N);
+  section.wrong("max_pull_N", excess(hardest, joint, allowed_W));
 }
 
 }  // namespace supercoil::config

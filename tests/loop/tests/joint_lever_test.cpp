@@ -4,6 +4,8 @@
 #include <numbers>
 
 #include "loop/support/joint_case.hpp"
+#include "runner/simulation.hpp"
+#include "scenario/read_scenario.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -55,4 +57,36 @@ TEST(JointLever, FindsItsZeroWhereverTheLeverOfTheTableIs) {
   CHECK(measures_to_the_end(shifted, Verb::calibrate, 600.0));
   CHECK(shifted.loop.channel(agonist).snapshot().result == ModeResult::found);
   DOUBLES_EQUAL(away_m, shifted.loop.channel(agonist).known(known_position_offset), 10e-6);
+}
+
+/// The antagonist pulls at two thirds of the agonist's lever, and is described as it moves there.
+TEST(JointLever, EachMuscleMayPullAtALeverOfItsOwn) {
+  const auto scenario = host_sim::parse_scenario(
+      "simulation.duration_s = 400.0\noperator.action = 'none'\ncontroller.kind = 'pi'\n"
+      "[joint]\nantagonist_lever_m = 0.010\n"
+      "[joint.antagonist]\nforce_per_kelvin_N_per_K = 0.0120\n",
+      "joint.toml");
+  CHECK(scenario.has_value());
+  host_sim::Simulation joint(*scenario);
+  Loop& loop = joint.loop();
+  const auto run = [&](double time_s, double position_m) {
+    for (long tick = 0; tick < std::lround(time_s * 1e3); ++tick) {
+      loop.send({agonist, Verb::position, position_m});
+      joint.step();
+    }
+  };
+  loop.send({agonist, Verb::arm});
+  joint.step();
+  run(60.0, 0.0);
+  // What both pull with turns it nowhere: no effort is left to the controller.
+  const double agonist_W = loop.channel(agonist).snapshot().applied_W;
+  const double antagonist_W = loop.channel(antagonist).snapshot().applied_W;
+  DOUBLES_EQUAL(0.015 * 0.0086 * agonist_W, 0.010 * 0.0120 * antagonist_W, 3e-6);
+  DOUBLES_EQUAL(scenario->start.antagonist()->co_contraction_W, agonist_W, 0.03);
+  // Its position is how far it has contracted.
+  run(20.0, 0.003);
+  DOUBLES_EQUAL(0.003, joint.joint()->position_m(), 20e-6);
+  DOUBLES_EQUAL(-0.002, loop.channel(antagonist).snapshot().position_m, 40e-6);
+  DOUBLES_EQUAL(-0.010, loop.channel(antagonist).known(known_joint_lever), 1e-9);
+  CHECK(joint.step().fault == Fault::none);
 }

@@ -41,6 +41,7 @@ JointPlantSettings settings_from(const nlohmann::json& c) {
   settings.pretension_N = joint.at("pretension_N");
   settings.friction_ratio = joint.at("friction_ratio");
   settings.weight_Nm = joint.at("weight_Nm");
+  settings.antagonist_lever_ratio = joint.at("antagonist_lever_ratio");
   const auto muscle = [&c](std::size_t i) {
     return JointMuscle{test::parameters_from(c.at("muscles")[i]),
                        test::effects_from(c.at("effects"))};
@@ -235,6 +236,30 @@ TEST(JointPlant, PullingAgainstEachOtherStiffensNoLinearMusclesAndMakesRealOnesS
   softens.softening_ratio = 0.4;
   DOUBLES_EQUAL(expected_rad, turned_rad(softens, 0.0), 1e-8);
   DOUBLES_EQUAL(expected_rad / 0.6, turned_rad(softens, 6.0), 1e-8);
+}
+
+/// At the angle 0 both cold muscles are in balance, each at its own lever.
+TEST(JointPlant, TurnsAsFarAsBothLeversLetTheForcesTurnIt) {
+  JointPlantSettings settings = equal_muscles();
+  settings.antagonist_lever_ratio = 0.5;
+  const control::PhysicalParameters& p = settings.agonist.parameters;
+  JointPlant plant(settings, joint_tick_s);
+  const auto settle = [&](double agonist_W, double antagonist_W) {
+    for (int tick = 0; tick < 60000; ++tick)
+      plant.step(agonist_W, antagonist_W);
+  };
+  settle(0.0, 0.0);
+  DOUBLES_EQUAL(0.0, plant.angle_rad(), 1e-12);
+  DOUBLES_EQUAL(2.0 * plant.tension_N(0), plant.tension_N(1), 1e-12);
+  settle(1.0, 1.5);
+  const double agonist_m = settings.lever.zero_radius_m();
+  const double antagonist_m = 0.5 * agonist_m;
+  const double N_per_W = p.force_per_kelvin_N_per_K / p.heat_transfer_W_per_K;
+  const double turning_Nm = N_per_W * (1.0 * agonist_m - 1.5 * antagonist_m);
+  const double stiffness_Nm =
+      p.stiffness_N_per_m * (agonist_m * agonist_m + antagonist_m * antagonist_m);
+  DOUBLES_EQUAL(turning_Nm / stiffness_Nm, plant.angle_rad(), 1e-8);
+  DOUBLES_EQUAL(-antagonist_m * plant.angle_rad(), plant.position_m(1), 1e-12);
 }
 
 TEST(JointPlant, TakesCoarseTicksAsWellAsFineOnes) {

@@ -10,7 +10,7 @@
 namespace supercoil::control {
 
 /// The lever at which a muscle pulls: constant, or of the joint's angle. A muscle contracts by the
-/// arc, ∫ r dθ from the angle 0 on. The agonist and the antagonist have the same.
+/// arc, ∫ r dθ from the angle 0 on.
 class Lever {
  public:
   static constexpr std::size_t max_points = 7;
@@ -32,6 +32,16 @@ class Lever {
     const double zero_m = arc_m(0.0);
     for (std::size_t i = 0; i < points_; ++i)
       arcs_m_[i] -= zero_m;
+  }
+
+  /// So many times as long at every angle; ratio > 0.
+  Lever scaled(double ratio) const {
+    Lever other = *this;
+    for (std::size_t i = 0; i < points_; ++i) {
+      other.radii_m_[i] *= ratio;
+      other.arcs_m_[i] *= ratio;
+    }
+    return other;
   }
 
   bool is_constant() const { return points_ == 1; }

@@ -62,8 +62,9 @@ export function leader_of(store, node, now_s) {
   return Number.isFinite(offset) ? node + offset : null;
 }
 
-/** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: lever_m at the angle 0, < 0 of the antagonist; other is its
-    partner's node, null where a spring draws it back, and other_travel_m how far that may contract, if it is told. null: it is in none, or the board has not told yet. */
+/** The joint of a node's muscle, {lever_m, lever, other, other_travel_m}: the lever is this muscle's, lever_m at the angle 0, < 0 of the
+    antagonist; other is its partner's node, null where a spring draws it back, and other_travel_m how far that may contract, if it is
+    told, as an arc at this lever. null: it is in none, or the board has not told yet. */
 export function joint_of(store, node, now_s) {
   const told = told_of(store, node, now_s);
   const { joint_lever_m: lever_m, joint_other_node_offset: offset } = told;
@@ -72,8 +73,9 @@ export function joint_of(store, node, now_s) {
   if (!(`joint_lever_${MAX_POINTS}_m` in told)) return null;
   if (!Number.isFinite(offset)) return { lever_m, lever: lever_of(told), other: null, other_travel_m: 0 };
   const joint = { lever_m, lever: lever_of(told), other: node + offset };
+  const others_m = told_of(store, joint.other, now_s).joint_lever_m || lever_m;
   for (const [number, { limit }] of store.round(joint.other, "Limit", "fault", now_s))
-    if (store.word("Limit", "fault", number) === "over_travel") joint.other_travel_m = limit;
+    if (store.word("Limit", "fault", number) === "over_travel") joint.other_travel_m = Math.abs(lever_m / others_m) * limit;
   return joint;
 }
 

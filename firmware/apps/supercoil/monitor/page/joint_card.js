@@ -39,7 +39,9 @@ export class JointCard {
     if (!joint) return;
     const { lever_m, other } = joint;
     const [right, left] = lever_m > 0 ? [this.node, other] : [other, this.node];
-    const degrees = (message, column) => joint.lever.angle_rad(this.store.at(right, message, now_s)?.[column]) * DEGREES;
+    // Each muscle may pull at a lever of its own.
+    const { lever } = lever_m > 0 ? joint : joint_of(this.store, right, now_s) ?? joint;
+    const degrees = (message, column) => lever.angle_rad(this.store.at(right, message, now_s)?.[column]) * DEGREES;
     const angle_deg = degrees("Measurement", "position_m"), reference_deg = degrees("Tracking", "reference_m");
     this.limb.setAttribute("transform", turned(angle_deg));
     this.reference.setAttribute("transform", turned(reference_deg));

@@ -3,6 +3,7 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "config/describe.hpp"
 #include "unit/firmware/io/config/support/joint_board.hpp"
 
 using namespace supercoil;
@@ -46,6 +47,25 @@ void check_only_problem(const std::string& problem, const std::string& text) {
 }  // namespace
 
 TEST_GROUP(JointInDegrees){};
+
+TEST(JointInDegrees, TheAntagonistMayPullAtALeverOfItsOwn) {
+  const std::string text = ranged("[-20, 30.0]") + "antagonist_lever_m = 0.010\n";
+  const BoardConfig c = read_in_degrees(text);
+  DOUBLES_EQUAL(30.0 * degree_m, travel_m(c, 0), 1e-12);
+  DOUBLES_EQUAL(20.0 * degree_m * 2.0 / 3.0, travel_m(c, 1), 1e-12);
+  const ChannelSettings& antagonist = c.settings.channels[1];
+  DOUBLES_EQUAL(-1e-6 * 2.0 / 3.0, antagonist.position.scaling.per_count, 1e-18);
+  DOUBLES_EQUAL(0.041 * 2.0 / 3.0, antagonist.supervision.max_position_m, 1e-12);
+  DOUBLES_EQUAL(0.010, antagonist.joint.lever.zero_radius_m(), 1e-12);
+  const std::string told = describe(c);
+  STRCMP_CONTAINS("lever of 15 mm, the antagonist's of 10 mm\n", told.c_str());
+  // So many watts more than at the agonist's lever.
+  const double alike_W =
+      read_in_degrees(ranged("[-20, 30.0]")).settings.joints[0].gain_ratio(c.settings.channels);
+  DOUBLES_EQUAL(1.5 * alike_W, c.settings.joints[0].gain_ratio(c.settings.channels), 1e-12);
+  CHECK(problems_of(ranged("[-20, 30.0]") + "antagonist_lever_m = 0\n")
+            .find("joint[1].antagonist_lever_m = 0: must be 0.0001 to 1") != std::string::npos);
+}
 
 TEST(JointInDegrees, ItsRangeBoundsTheTravelOfBothMuscles) {
   const BoardConfig c = read_in_degrees(ranged("[-20, 30.0]"));

@@ -140,15 +140,15 @@ TEST(JointConfig, PullingAgainstEachOtherHasALimit) {
 TEST(JointConfig, APairThatCanTearItselfIsRefused) {
   // 0.0086 N/K at 2.25 W / 0.045 W/K, of the agonist; of the antagonist at 1.8 W.
   STRCMP_EQUAL(
-      "b.toml:66: joint[1].max_pull_N = 0.5: is less than channel 1 may pull with: pretension_N = "
-      "0.1, and 0.43 N by the heat of max_co_contraction_W = 2.25, which are 2.25 W there; "
+      "b.toml:66: joint[1].max_pull_N = 0.5: is less than channel 1 may pull with: a pretension of "
+      "0.1 N, and 0.43 N by the heat of max_co_contraction_W = 2.25, which are 2.25 W there; "
       "max_co_contraction_W must be 0 to 2.093, or max_pull_N at least 0.53\n",
       problems_of(board_with_joint + "max_pull_N = 0.5\npretension_N = 0.1\n").c_str());
   for (const char* in_order :
        {"max_pull_N = 0.53\npretension_N = 0.1\n", "max_pull_N = 0.43\n",
         "max_pull_N = 0.5\npretension_N = 0.1\nmax_co_contraction_W = 2.093\n"})
     STRCMP_EQUAL("", problems_of(board_with_joint + in_order).c_str());
-  check_answer("joint[1].max_pull_N = 0.3: must not be less than pretension_N, which is 0.4",
+  check_answer("joint[1].max_pull_N = 0.3: must not be less than the pretension, which is 0.4 N",
                board_with_joint + "max_pull_N = 0.3\npretension_N = 0.4\n");
   check_answer("joint[1].max_pull_N = 0: must be 0.001 to 10000",
                board_with_joint + "max_pull_N = 0\n");
@@ -164,7 +164,7 @@ TEST(JointConfig, WhicheverMuscleOfAPairPullsHarderIsNamed) {
                "max_mass_J_per_K = 0.20\nmin_transfer_W_per_K = 0.030\nmax_transfer_W_per_K = "
                "0.18\n[channel.limits]\nmax_W = 4.0");
   check_answer(
-      "joint[1].max_pull_N = 0.45: is less than channel 2 may pull with: pretension_N = 0, and "
+      "joint[1].max_pull_N = 0.45: is less than channel 2 may pull with: a pretension of 0 N, and "
       "0.516 N by the heat of max_co_contraction_W = 2.25, which are 1.8 W there; "
       "max_co_contraction_W must be 0 to 1.962, or max_pull_N at least 0.516",
       badly_cooled + "max_pull_N = 0.45\n");
@@ -356,7 +356,7 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
   check_answer(
       "joint[1].speed = 3: is not a key of [joint[1]]; its keys are: opposed_by, agonist, "
       "antagonist, "
-      "lever_range_deg, lever_m, range_deg, name, co_contraction_W, max_co_contraction_W, "
+      "lever_range_deg, lever_m, antagonist_lever_m, range_deg, name, co_contraction_W, max_co_contraction_W, "
       "max_pull_N, "
       "pretension_N\n",
       board_with_joint + "speed = 3\n");

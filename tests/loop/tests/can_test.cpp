@@ -357,3 +357,37 @@ TEST(OverCan, TheHeartbeatOfAnotherNodeIsNotAConflict) {
   hold(0.5);
   CHECK(rig.state() == State::active);
 }
+
+/// Nothing on the bus tells that two sessions are of one master.
+TEST(OverCan, EachNodeOfAJointHasALeaseOfItsOwn) {
+  CanRig joint(joint_board());
+  Master antagonist;
+  antagonist.node = 2;
+  Master stranger;
+  stranger.node = 2;
+  stranger.name = 0x4321;
+  joint.run(16.0);
+  const auto follow = [&] {
+    CHECK(joint.command(master, Verb::position, 0.002F) == Refusal::none);
+    joint.run(0.1);
+    CHECK(joint.loop.channel(1).state().state() == State::active);
+  };
+  CHECK(joint.claim(master) == Refusal::none);
+  CHECK(joint.command(master, Verb::arm) == Refusal::none);
+  joint.run(0.2);
+  follow();
+
+  // Who holds both nodes keeps others from both.
+  CHECK(joint.claim(antagonist) == Refusal::none);
+  CHECK(joint.claim(stranger) == Refusal::not_lease_holder);
+  CHECK(joint.command(stranger, Verb::rest) == Refusal::not_lease_holder);
+  follow();
+
+  // Who holds the agonist's alone does not; both muscles rest together.
+  CHECK(joint.command(antagonist, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
+  CHECK(joint.claim(stranger) == Refusal::none);
+  follow();
+  CHECK(joint.command(stranger, Verb::rest) == Refusal::none);
+  for (const std::size_t channel : {0U, 1U})
+    CHECK(joint.loop.channel(channel).state().state() == State::armed);
+}

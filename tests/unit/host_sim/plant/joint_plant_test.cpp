@@ -238,6 +238,28 @@ TEST(JointPlant, PullingAgainstEachOtherStiffensNoLinearMusclesAndMakesRealOnesS
   DOUBLES_EQUAL(expected_rad / 0.6, turned_rad(softens, 6.0), 1e-8);
 }
 
+/// An arm of 40 g at 15 mm: at rest the springs hold what its sine leaves of the muscles' moment.
+TEST(JointPlant, AWeightDrawsTheArmDownWithTheSineOfItsAngle) {
+  JointPlantSettings settings = equal_muscles();
+  const double arm_m = 0.015;
+  settings.weight_Nm = 0.040 * gravity_m_per_s2 * arm_m;
+  const control::PhysicalParameters& p = settings.agonist.parameters;
+  const double lever_m = settings.lever.zero_radius_m();
+  JointPlant plant(settings, joint_tick_s);
+  double before_rad = 0.0;
+  for (const double power_W : {0.5, 2.0, 4.0}) {
+    for (int tick = 0; tick < 60000; ++tick)
+      plant.step(power_W, 0.0);
+    const double turned_rad = plant.angle_rad();
+    const double muscle_Nm =
+        lever_m * p.force_per_kelvin_N_per_K * power_W / p.heat_transfer_W_per_K;
+    const double spring_Nm = 2.0 * p.stiffness_N_per_m * lever_m * lever_m * turned_rad;
+    DOUBLES_EQUAL(muscle_Nm - settings.weight_Nm * std::sin(turned_rad), spring_Nm, 1e-9);
+    CHECK_COMPARE(turned_rad, >, before_rad + 0.05);
+    before_rad = turned_rad;
+  }
+}
+
 /// At the angle 0 both cold muscles are in balance, each at its own lever.
 TEST(JointPlant, TurnsAsFarAsBothLeversLetTheForcesTurnIt) {
   JointPlantSettings settings = equal_muscles();

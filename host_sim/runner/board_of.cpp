@@ -120,8 +120,10 @@ BoardSettings over(BoardSettings board, const SimulatedBoardSettings& simulated)
   if (!board.joints.empty()) {
     board.channels[1].position.scaling = mirrored(position, board.joints[0].antagonist_lever_ratio);
   }
-  for (std::size_t i = 0; i < board.channels.size(); ++i)
+  for (std::size_t i = 0; i < board.channels.size(); ++i) {
     board.channels[i].heater.current.scaling = scaling_of(simulated.channels[i].current);
+    board.channels[i].heater.pwm_steps = simulated.channels[i].pwm_steps;
+  }
   return board;
 }
 
@@ -173,6 +175,7 @@ ChannelSettings antagonist_of(const Scenario& scenario, ChannelSettings channel,
   set_known(channel, scenario.known[1]);
   channel.position.scaling = mirrored(channel.position.scaling, lever_ratio);
   channel.heater.current.scaling = scaling_of(simulated.current);
+  channel.heater.pwm_steps = simulated.pwm_steps;
   channel.heater.cold_resistance_Ohm = resistance_Ohm;
   channel.heater.temperature_coefficient_per_K = antagonist.plant.temperature_coefficient_per_K;
   channel.thermal = thermal_of(c, antagonist.muscle);
@@ -285,6 +288,7 @@ BoardSettings firmware_of(const Scenario& scenario) {
   channel.heater.temperature_coefficient_per_K = c.plant.temperature_coefficient_per_K;
   channel.senses.error_ratio = c.sense_error_ratio;
   channel.heater.error_feedback = c.power.error_feedback;
+  channel.heater.pwm_steps = simulated.channels[0].pwm_steps;
   channel.heater.delay_s = c.power.delay_s;
   channel.thermal = thermal_of(c, c.muscle);
   channel.limiter.max_W = c.power.max_W;

@@ -80,6 +80,20 @@ TEST(Commission, WhatIsSaidOfTheFirstMotionIsWhatIsPlanned) {
   STRCMP_CONTAINS(said.c_str(), std::string(operating::setup_steps.back().does).c_str());
 }
 
+/// A fiftieth of the supply's power moves it by millimetres.
+TEST(Commission, AMuscleFollowsAsPromisedThroughACoarsePwm) {
+  HeldOut muscle = held_out_muscle(36, 0.1);
+  const Commissioned fine = commission(muscle);
+  muscle.board = {{"pwm.steps", "50", ""}, {"heater.error_feedback", "false", ""}};
+  const Commissioned coarse = commission(muscle);
+  CHECK(coarse.error_m > fine.promised_m);
+  CHECK(coarse.error_m <= coarse.promised_m);
+  muscle.board.pop_back();
+  const Commissioned fed_back = commission(muscle);
+  CHECK(fed_back.error_m <= fed_back.promised_m);
+  DOUBLES_EQUAL(fine.promised_m, fed_back.promised_m, 0.1e-6);
+}
+
 TEST(Commission, NothingIsPromisedOfALawThatWasNotTried) {
   const Commissioned c = commission(held_out_muscle(24, error), "adaptive_ff");
   STRCMP_EQUAL("", c.refused.c_str());

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -17,14 +18,15 @@ namespace supercoil::test {
 
 namespace {
 
-config::BoardConfig described_board(const operating::MuscleAnswers& answers,
-                                    const std::string& controller) {
+config::BoardConfig described_board(const HeldOut& muscle, const std::string& controller) {
   using operating::Asked;
-  const auto described = operating::describe_muscle(answers);
+  auto described = operating::describe_muscle(muscle.answers);
   if (!described) throw std::runtime_error(described.error());
-  std::string text =
-      held_out_board(answers.of(Asked::cold_resistance_Ohm), answers.of(Asked::max_W));
-  for (const operating::Entry& entry : described->entries) {
+  std::vector<operating::Entry>& entries = described->entries;
+  entries.insert(entries.end(), muscle.board.begin(), muscle.board.end());
+  std::string text = held_out_board(muscle.answers.of(Asked::cold_resistance_Ohm),
+                                    muscle.answers.of(Asked::max_W));
+  for (const operating::Entry& entry : entries) {
     auto changed = config::with_channel_value(text, 0, entry.path, entry.literal);
     if (!changed) throw std::runtime_error(changed.error());
     text = std::move(*changed);
@@ -51,7 +53,7 @@ host_sim::Scenario scenario_of(const HeldOut& muscle, const config::BoardConfig&
 
 HeldOutBoard::HeldOutBoard(const HeldOut& muscle, const std::string& controller,
                            double sense_error_ratio)
-    : config_(described_board(muscle.answers, controller)),
+    : config_(described_board(muscle, controller)),
       scenario_(scenario_of(muscle, config_, sense_error_ratio)),
       simulation_(scenario_),
       link_(simulation_, config_.settings.rate_Hz) {}
@@ -79,6 +81,7 @@ Commissioned commission(const HeldOut& muscle, const std::string& controller) {
   if (!moved) return conclude(moved.error());
   c.promised_m = moved->value("promised_m", NAN);
   c.probe_m = moved->value("probe_m", NAN);
+  c.pwm_m = moved->value("pwm_m", NAN);
   c.unexplained_m = moved->value("unexplained_m", NAN);
   c.error_m = (*moved)["error_m"];
   c.travel_m = (1.0 / 0.4) * (*moved)["middle_m"].get<double>();

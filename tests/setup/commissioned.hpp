@@ -48,6 +48,7 @@ struct Commissioned {
   std::string refused;         ///< what setup said; empty: it came to its end
   double promised_m = 0.0;     ///< NaN: nothing was
   double probe_m = 0.0;        ///< part of that
+  double pwm_m = 0.0;          ///< likewise
   double unexplained_m = 0.0;  ///< likewise
   double error_m = 0.0;
   double calibrated_s = 0.0;    ///< after which time of the muscle

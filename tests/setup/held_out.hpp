@@ -2,7 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "apps/supercoil/setup/describe_muscle.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "scenario/scenario.hpp"
 
@@ -11,6 +13,7 @@ namespace supercoil::test {
 struct HeldOut {
   std::string scenario;  ///< TOML: the muscle, and a supply that its power needs
   operating::MuscleAnswers answers;
+  std::vector<operating::Entry> board;  ///< what its board's file has otherwise
   double time_constant_s = 0.0;
   bool linear = true;
 };

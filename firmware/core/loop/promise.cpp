@@ -31,6 +31,19 @@ constexpr double max_dither_m = 20e-6;
 /// muscles (tests/setup/setup_study.cpp, 1001 to 1200) leave less.
 constexpr double usual_unexplained_ratio = 0.015;
 
+/// What a muscle makes of power that is rounded to the PWM's steps. With error feedback the next
+/// tick gives back what one took; without it a rounding lasts until the controller notices.
+double pwm_ripple_m(const ChannelSettings& channel, const BoardSettings& board,
+                    double bandwidth_rad_per_s) {
+  const HeaterSettings& heater = channel.heater;
+  const double supply_V = board.supervision.max_supply_V;
+  const double step_W = supply_V * supply_V / heater.cold_resistance_Ohm / heater.pwm_steps;
+  const double lasts_s = heater.error_feedback ? board.step_s() : 1.0 / bandwidth_rad_per_s;
+  const double tau_s = -1.0 / channel.muscle.thermal_pole_rad_per_s();
+  return channel.muscle.dc_gain_m_per_W() * step_W / std::sqrt(12.0) *
+         std::min(1.0, lasts_s / tau_s);
+}
+
 /// Of a muscle that was stored before this was, it may be as much as identify lets pass.
 double unexplained_ratio(const ChannelSettings& channel) {
   if (channel.unexplained_ratio > 0.0) return channel.unexplained_ratio;
@@ -54,7 +67,7 @@ FirstMotion plan_first_motion(const Feasibility& f, double unexplained_ratio) {
 }
 
 double Promise::error_m() const {
-  return allowance * std::hypot(std::hypot(noise_m, probe_m), std::hypot(dither_m, unexplained_m));
+  return allowance * std::hypot(std::hypot(noise_m, probe_m, pwm_m), dither_m, unexplained_m);
 }
 
 Promise promise_error(const control::LearnedFeedforwardSettings& law,
@@ -87,6 +100,7 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
   if (channel.supervision.proof_of_response && quick_m < telling_deviations * reading_m)
     p.dither_m = std::max(max_dither_m, 2.0 * count_m) / std::numbers::sqrt2;
 
+  p.pwm_m = pwm_ripple_m(channel, board, bandwidth);
   p.unexplained_m =
       std::sqrt(unexplained_ratio(channel)) * motion.amplitude_m * std::min(1.0, turn / bandwidth);
   return p;

@@ -27,6 +27,7 @@ struct Promise {
   double noise_m = 0.0;   ///< the sensor's own noise and counts, and what feedback makes of them
   double probe_m = 0.0;   ///< pulses that measure the resistance while there is little power
   double dither_m = 0.0;  ///< by which a muscle that hardly moves proves that it responds
+  double pwm_m = 0.0;     ///< power that comes in the PWM's steps
   double unexplained_m = 0.0;  ///< what the linear model leaves of the motion
 
   double error_m() const;

@@ -38,6 +38,7 @@ struct HeaterSettings {
   double probe_s = 0.05;                       ///< at most 0.05
   double probe_every_s = 5.0;  ///< while hot below probe_duty: the age at which it probes again
   bool error_feedback = true;  ///< of the duty's rounding
+  int pwm_steps = 4095;        ///< of a period, as the output has them
   double delay_s = 0.0;        ///< from a duty's setting to its acting
 };
 

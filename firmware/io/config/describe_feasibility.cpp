@@ -48,8 +48,8 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
          in_digits(1e3 * (motion.middle_m - motion.amplitude_m)) + " to " +
          in_mm(motion.middle_m + motion.amplitude_m) + ", " + in_digits(motion.period_s) +
          " s a period (sensor " + in_um(promise.noise_m) + ", probes " + in_um(promise.probe_m) +
-         ", dither " + in_um(promise.dither_m) + ", not linear " + in_um(promise.unexplained_m) +
-         ")";
+         ", dither " + in_um(promise.dither_m) + ", PWM " + in_um(promise.pwm_m) + ", not linear " +
+         in_um(promise.unexplained_m) + ")";
 }
 
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel) {

@@ -55,6 +55,7 @@ void read_heater(Section section, const BoardContext& context, const PwmAddress&
   read_probe(section, step_s, pwm, h);
   read_thermal_fuse(section, label);
   h.error_feedback = section.flag("error_feedback", h.error_feedback);
+  h.pwm_steps = pwm.steps;
   const double max_ms = 1e3 * step_s * static_cast<double>(board::OutputDelay::max_ticks);
   // The thread of a PWM's bus sets a duty within the tick in which it was asked to.
   const double default_ms = pwm.access.buffered() ? 1e3 * step_s : 0.0;

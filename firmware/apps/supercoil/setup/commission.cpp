@@ -312,6 +312,7 @@ StepResult Commission::move() {
                       {"noise_m", promise->noise_m},
                       {"probe_m", promise->probe_m},
                       {"dither_m", promise->dither_m},
+                      {"pwm_m", promise->pwm_m},
                       {"unexplained_m", promise->unexplained_m},
                       {"kept", kept}});
   }

@@ -165,8 +165,8 @@ TEST(FirstValues, OfWhatIsPlannedAreNothing) {
   const FirstMotion motion;
   check_all_0({motion.middle_m, motion.amplitude_m, motion.period_s, motion.end_s()});
   const Promise promise;
-  check_all_0({promise.noise_m, promise.probe_m, promise.dither_m, promise.unexplained_m,
-               promise.error_m()});
+  check_all_0({promise.noise_m, promise.probe_m, promise.dither_m, promise.pwm_m,
+               promise.unexplained_m, promise.error_m()});
 }
 
 TEST(FirstValues, OfWhatAMuscleCanDoAreNothing) {

@@ -112,6 +112,22 @@ TEST(Promise, AMotionThatTellsNothingIsDithered) {
   DOUBLES_EQUAL(0.0, promised().dither_m, 0.0);
 }
 
+TEST(Promise, PowerThatComesInStepsCountsForAsLongAsARoundingLasts) {
+  // Of 13.2 V at 10 Ω, through a first order of 1.82 s.
+  channel.heater.pwm_steps = 255;
+  const double step_m = channel.muscle.dc_gain_m_per_W() * 13.2 * 13.2 / 10.0 / 255.0;
+  const double tau_s = 0.162 / 0.089;
+  DOUBLES_EQUAL(step_m / std::sqrt(12.0) * 1e-3 / tau_s, promised().pwm_m, 1e-12);
+  const double fed_back_m = promised().error_m();
+  channel.heater.error_feedback = false;
+  const double bandwidth = channel.controllers[0].learned_ff.bandwidth_rad_per_s;
+  DOUBLES_EQUAL(step_m / std::sqrt(12.0) / (bandwidth * tau_s), promised().pwm_m, 1e-12);
+  CHECK(promised().error_m() > 1.1 * fed_back_m);
+  // No rounding moves it by more than it holds for good.
+  channel.controllers[0].learned_ff.bandwidth_rad_per_s = 0.1;
+  DOUBLES_EQUAL(step_m / std::sqrt(12.0), promised().pwm_m, 1e-12);
+}
+
 TEST(Promise, WhatTheBoardGoesByReplacesTheFilesMuscle) {
   KnownMuscle known{};
   for (std::size_t i = 0; i < known.size(); ++i)

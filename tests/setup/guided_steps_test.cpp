@@ -162,11 +162,18 @@ TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {
   const double bandwidth = (*found)["recommended_bandwidth_rad_per_s"];
   const double found_tau_s = (*board.link().muscle("1"))[0] / (*board.link().muscle("1"))[1];
   DOUBLES_EQUAL(8.0 / std::sqrt(std::fmax(1.0, found_tau_s / 1.82)), bandwidth, 1e-9);
+  const double pole = (*found)["recommended_pole_rad_per_s"];
+  CHECK(pole > 1.0 / found_tau_s);
   for (const TuningSet set : {TuningSet::in_use, TuningSet::stored}) {
     DOUBLES_EQUAL(learned_ff, tuned(board, "kind", set), 0.0);
     DOUBLES_EQUAL(1.0, tuned(board, "shape_reference", set), 0.0);
     DOUBLES_EQUAL(bandwidth, tuned(board, "bandwidth_rad_per_s", set), 1e-9);
+    DOUBLES_EQUAL(0.0, tuned(board, "reference_model", set), 0.0);
+    for (const char* of_three :
+         {"model_pole_1_rad_per_s", "model_pole_2_rad_per_s", "model_pole_3_rad_per_s"})
+      DOUBLES_EQUAL(pole, tuned(board, of_three, set), 1e-9);
   }
+  STRCMP_CONTAINS("with reference_model = { kind = \"poles\"", person.told().c_str());
   STRCMP_CONTAINS("promises no error", person.told().c_str());
   STRCMP_CONTAINS("no parameter is off by more than", person.told().c_str());
   const double begin_s = board.link().time_s();

@@ -70,27 +70,10 @@ void find_rest(const ChannelSettings& c, Feasibility& f) {
                                                      std::log(t.boot_rise_K / allowed_K));
 }
 
-/// A step asks for a peak of power at its beginning: of a step of 1 m through the model from rest.
-double peak_W_per_m(const control::ControllerSettings& controller,
-                    const control::PhysicalParameters& muscle) {
-  // The peak comes within the first time constants of the model's fastest pole.
-  constexpr int steps = 2000;
-  const double step_s = 20.0 / (steps * std::cbrt(controller.model.denominator[0]));
-  const control::RegressionScale scale{control::theta_from(muscle), {}, muscle.moving_mass_kg};
-  const control::ReferenceShaper inverse(controller.model, scale);
-  control::ReferenceModel<double> model(controller.model, step_s);
-  double peak_W = 0.0;
-  for (int i = 0; i < steps; ++i) {
-    peak_W = std::max(peak_W, inverse.power_W(1.0, model.motion()));
-    model.step(1.0);
-  }
-  return peak_W;
-}
-
 std::optional<FeasibleSteps> feasible_steps(const control::ControllerSettings& controller,
                                             const ChannelSettings& c, const Feasibility& f) {
   if (controller.kind == control::ControllerKind::power) return std::nullopt;
-  const double peak = peak_W_per_m(controller, c.muscle);
+  const double peak = peak_W_per_m(controller.model, c.muscle);
   return FeasibleSteps{std::min(f.travel_m, f.max_W / peak),
                        std::min(f.travel_m, f.travel_m / c.muscle.dc_gain_m_per_W() / peak),
                        controller.shape_reference};
@@ -106,6 +89,22 @@ Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& boa
   for (const control::ControllerSettings& controller : channel.controllers)
     f.steps.push_back(feasible_steps(controller, channel, f));
   return f;
+}
+
+double peak_W_per_m(const control::ReferenceModelSettings& settings,
+                    const control::PhysicalParameters& muscle) {
+  // The peak comes within the first time constants of the model's fastest pole.
+  constexpr int steps = 2000;
+  const double step_s = 20.0 / (steps * std::cbrt(settings.denominator[0]));
+  const control::RegressionScale scale{control::theta_from(muscle), {}, muscle.moving_mass_kg};
+  const control::ReferenceShaper inverse(settings, scale);
+  control::ReferenceModel<double> model(settings, step_s);
+  double peak_W = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    peak_W = std::max(peak_W, inverse.power_W(1.0, model.motion()));
+    model.step(1.0);
+  }
+  return peak_W;
 }
 
 double hottest_pull_N(const ChannelSettings& channel, double power_W) {

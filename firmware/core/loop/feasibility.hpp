@@ -34,6 +34,10 @@ struct Feasibility {
 
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
 
+/// A step asks for a peak of power at its beginning: of one by 1 m through the model.
+double peak_W_per_m(const control::ReferenceModelSettings& model,
+                    const control::PhysicalParameters& muscle);
+
 /// That heat may make the muscle pull with while it is held still: steady at power_W, as badly
 /// cooled as its bounds allow, and in the coldest air as hot as it may become.
 double hottest_pull_N(const ChannelSettings& channel, double power_W);

@@ -134,6 +134,7 @@ tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers
   keep("limits.max_travel_m", 1e-3 * a.of(Asked::max_travel_mm));
   const RecommendedController controller = recommended_controller(d.muscle);
   d.entries.push_back({"controller", controller.literal(), controller.reason});
+  d.entries.push_back({"reference_model", controller.model_literal(), controller.model_reason});
   return d;
 }
 

@@ -75,12 +75,11 @@ std::optional<double> lever_of(const std::string& text, int channel) {
   return std::nullopt;
 }
 
-/// A list of controllers was chosen by somebody: it stays.
+/// A list of controllers was chosen by somebody: it stays, with the model that its laws are for.
 bool stays(const Entry& entry, const std::string& text, std::size_t channel) {
+  if (entry.path != "controller" && entry.path != "reference_model") return false;
   const toml::table document = toml::parse(text);
-  const toml::node* node =
-      document.at_path("channel[" + std::to_string(channel) + "]." + entry.path).node();
-  return node != nullptr && node->is_array();
+  return document.at_path("channel[" + std::to_string(channel) + "].controller").is_array();
 }
 
 void say_how_a_joint_is_measured(double lever_m, Operator& who) {

@@ -79,12 +79,14 @@ StepResult choose_gains(BoardLink& board, const std::string& channel, const Chan
              {"in_use_promised_m", promised(promise)},
              {"recommended", control::name_of(control::controller_names, recommended.kind)},
              {"recommended_bandwidth_rad_per_s", suits.bandwidth_rad_per_s},
+             {"recommended_pole_rad_per_s", suits.pole_rad_per_s},
              {"recommended_promised_m", promised(better)},
              {"taken", false}};
 
   who.say("in use: controller 0, " + values_text(in_use));
   who.say("with it: " + expected_text(in_use, now, settings, motion, promise));
   who.say("recommended for this muscle: " + suits.literal() + ": " + suits.reason);
+  who.say("with reference_model = " + suits.model_literal() + ": " + suits.model_reason);
   if (!suits.differs_from(in_use)) {
     who.say("it is in use already: nothing changes");
     return found;

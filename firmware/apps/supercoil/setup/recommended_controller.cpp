@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loop/feasibility.hpp"
 #include "text/number_text.hpp"
 
 namespace supercoil::operating {
@@ -16,8 +17,36 @@ constexpr ControllerKind recommended_kind = ControllerKind::learned_ff;
 constexpr double max_bandwidth_rad_per_s = 8.0;
 /// Of the paper's muscle, for which the controllers' defaults are.
 constexpr double usual_time_constant_s = 1.82;
-constexpr double telling_bandwidth_ratio = 0.1;
-constexpr int bandwidth_digits = 4;
+constexpr double telling_ratio = 0.1;
+constexpr int told_digits = 4;
+
+/// From the middle of the travel a step by a quarter of it has twice what it moves by to draw on:
+/// falling, all the power that holds it there; rising, at least as much.
+constexpr double peak_ratio = 2.0;
+
+bool differ(double value, double from) {
+  return !(std::abs(value / from - 1.0) <= telling_ratio);
+}
+
+control::ReferenceModelSettings model_with(double pole_rad_per_s) {
+  return control::poles_model({pole_rad_per_s, pole_rad_per_s, pole_rad_per_s});
+}
+
+/// Of a model whose step asks for just that, if the greatest one asks for more.
+double quickest_pole_rad_per_s(const control::PhysicalParameters& muscle, double greatest) {
+  const auto fits = [&](double pole_rad_per_s) {
+    return peak_W_per_m(model_with(pole_rad_per_s), muscle) * muscle.dc_gain_m_per_W() <=
+           peak_ratio;
+  };
+  if (fits(greatest)) return greatest;
+  double slow = -1e-2 * muscle.thermal_pole_rad_per_s();
+  double fast = greatest;
+  while (fast > 1.001 * slow) {
+    const double between = std::sqrt(slow * fast);
+    (fits(between) ? slow : fast) = between;
+  }
+  return slow;
+}
 
 }  // namespace
 
@@ -25,20 +54,27 @@ std::string RecommendedController::literal() const {
   return "{ kind = \"" +
          std::string(control::name_of(control::controller_names, recommended_kind)) +
          "\", shape_reference = true, bandwidth_rad_per_s = " +
-         number_text(bandwidth_rad_per_s, bandwidth_digits) + " }";
+         number_text(bandwidth_rad_per_s, told_digits) + " }";
+}
+
+std::string RecommendedController::model_literal() const {
+  const std::string pole = number_text(pole_rad_per_s, told_digits);
+  return "{ kind = \"poles\", poles_rad_per_s = [" + pole + ", " + pole + ", " + pole + "] }";
 }
 
 ControllerSettings RecommendedController::in_place_of(ControllerSettings controller) const {
   controller.kind = recommended_kind;
   controller.shape_reference = true;
   controller.learned_ff.bandwidth_rad_per_s = bandwidth_rad_per_s;
+  controller.model = model_with(pole_rad_per_s);
   return controller;
 }
 
 bool RecommendedController::differs_from(const ControllerSettings& controller) const {
-  const double ratio = controller.learned_ff.bandwidth_rad_per_s / bandwidth_rad_per_s;
   return controller.kind != recommended_kind || !controller.shape_reference ||
-         std::abs(ratio - 1.0) > telling_bandwidth_ratio;
+         differ(controller.learned_ff.bandwidth_rad_per_s, bandwidth_rad_per_s) ||
+         std::ranges::any_of(controller.model.poles_rad_per_s,
+                             [&](double pole) { return differ(pole, pole_rad_per_s); });
 }
 
 RecommendedController recommended_controller(const control::PhysicalParameters& muscle) {
@@ -51,9 +87,20 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
       slowness > 1.0
           ? " over the root of its time constant, " + own + ", in units of the paper's " + usual
           : ", as its time constant, " + own + ", does not exceed the paper's " + usual;
-  return {max_bandwidth_rad_per_s / std::sqrt(slowness),
-          "follows closest, and asks for no motion that the muscle cannot make; " +
-              number_text(max_bandwidth_rad_per_s, 3) + " rad/s" + why};
+  RecommendedController suits;
+  suits.bandwidth_rad_per_s = max_bandwidth_rad_per_s / std::sqrt(slowness);
+  suits.reason = "follows closest, and asks for no motion that the muscle cannot make; " +
+                 number_text(max_bandwidth_rad_per_s, 3) + " rad/s" + why;
+  suits.pole_rad_per_s = quickest_pole_rad_per_s(muscle, suits.bandwidth_rad_per_s);
+  suits.model_reason =
+      suits.pole_rad_per_s < suits.bandwidth_rad_per_s
+          ? "just so quick that a step by a quarter of the travel from its middle, up or down, "
+            "needs "
+            "no shaping: the muscle falls from 90 to 10 % in " +
+                number_text(tau_s * std::log(9.0), 3) + " s by itself"
+          : "no quicker than the feedback: the muscle, which falls from 90 to 10 % in " +
+                number_text(tau_s * std::log(9.0), 3) + " s by itself, would be";
+  return suits;
 }
 
 }  // namespace supercoil::operating

@@ -8,16 +8,21 @@
 
 namespace supercoil::operating {
 
-/// learned_ff with shape_reference: the closest by docs/control.md.
+/// learned_ff with shape_reference, the closest by docs/control.md, behind a reference model that
+/// is as quick as the muscle.
 struct RecommendedController {
   double bandwidth_rad_per_s = 0.0;
-  std::string reason;
+  double pole_rad_per_s = 0.0;  ///< all three of the reference model
+  std::string reason;           ///< of law and bandwidth
+  std::string model_reason;
 
   /// Of a [[channel]]'s `controller`.
   std::string literal() const;
+  /// Of its `reference_model`.
+  std::string model_literal() const;
   /// Whatever else a controller has, it keeps.
   control::ControllerSettings in_place_of(control::ControllerSettings controller) const;
-  /// Another law or shaping, or a bandwidth that is more than a tenth off.
+  /// Another law or shaping, or a bandwidth or a pole that is more than a tenth off.
   bool differs_from(const control::ControllerSettings& controller) const;
 };
 

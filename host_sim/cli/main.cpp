@@ -78,8 +78,9 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--end-with-parent", options.end_with_parent,
                 "End also when the program that started it has ended, however it did")
       ->needs(real_time);
-  run->add_flag("--check", options.check,
-                "Check the scenario and exit, and what the muscle can do");
+  CLI::Option* check = run->add_flag("--check", options.check,
+                                     "Check the scenario and exit, and what the muscle can do");
+  run->add_flag("--json", options.json, "With --check: print JSON instead of text")->needs(check);
   run->add_flag("--allow-fault", options.allow_fault,
                 "Exit status 0 although the muscle never armed or the run ended in a fault");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "apps/common/feasibility_json.hpp"
 #include "cli/commands.hpp"
 #include "cli/learned_folder.hpp"
 #include "cli/runs.hpp"
@@ -39,6 +40,14 @@ std::optional<Window> read_window(const std::string& text, double duration_s, do
   return Window{*from, *to};
 }
 
+/// What to change; one line each.
+std::vector<std::string> advice_of(const Scenario& scenario, const BoardSettings& board) {
+  std::vector<std::string> lines = config::advice(board.channels[0], board);
+  if (std::string line = describe_unseen_rest(scenario); !line.empty())
+    lines.insert(lines.begin(), std::move(line));
+  return lines;
+}
+
 /// What the muscle that is believed can do, beforehand; in brief, and what to change.
 void tell_feasibility(const Scenario& scenario, bool in_brief) {
   const BoardSettings board = firmware_of(scenario);
@@ -52,10 +61,25 @@ void tell_feasibility(const Scenario& scenario, bool in_brief) {
     std::printf("muscle: %s\n", line.c_str());
   if (const std::string line = describe_reference(scenario, in_brief); !line.empty())
     std::printf("reference: %s\n", line.c_str());
-  if (const std::string line = describe_unseen_rest(scenario); !line.empty())
+  for (const std::string& line : advice_of(scenario, board))
     std::printf("advice: %s\n", line.c_str());
-  for (const std::string& line : config::advice(board.channels[0], board))
-    std::printf("advice: %s\n", line.c_str());
+}
+
+void tell_check_as_json(const Scenario& scenario) {
+  using Json = nlohmann::ordered_json;
+  const BoardSettings board = firmware_of(scenario);
+  Json reference;
+  if (const auto f = reference_feasibility(scenario)) {
+    reference = {{"infeasible_ratio", f->infeasible_ratio},
+                 {"first_s", f->infeasible_ratio > 0.0 ? Json(f->first_s) : Json()},
+                 {"feasible_motion_ratio", f->feasible_motion_ratio},
+                 {"feasible_slowing", json_number(f->feasible_slowing)},
+                 {"told", describe_reference(scenario, false)}};
+  }
+  const Json told{{"scenario", scenario.name},        {"ticks", scenario.ticks()},
+                  {"events", scenario.events.size()}, {"feasibility", feasibility_json(board, 0)},
+                  {"reference", reference},           {"advice", advice_of(scenario, board)}};
+  std::puts(told.dump(2).c_str());
 }
 
 /// Of --board, if there is one. The error is whole lines.
@@ -102,6 +126,10 @@ int run_command(const RunOptions& options) {
     return fail(exit_wrong_input, "--nodes " + std::to_string(options.nodes) + ": must be 1 to " +
                                       std::to_string(most) + ", as the first is node " +
                                       std::to_string(int{scenario->can.first_node}));
+  }
+  if (options.check && options.json) {
+    tell_check_as_json(*scenario);
+    return exit_done;
   }
   if (options.check) {
     std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenario.c_str(),

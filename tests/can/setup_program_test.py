@@ -1,6 +1,7 @@
 """supercoil setup as a newcomer meets it: a file that is completed, what is taken back, errors."""
 
 import json
+import re
 import subprocess
 import unittest
 
@@ -13,13 +14,16 @@ class SetupProgram(SetupCase):
         done = self.setup_program(*self.script())
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("stiffness_N_per_m = 17.84  (stretch_weight_g and stretch_mm)", done.stdout)
-        self.assertIn("holds ", done.stdout)
+        told = re.findall("^  (holds .*|may be armed .*|controller 0.*)$", done.stdout, re.M)
+        self.assertRegex(told[2], r"controller 0: margin 0\.\d+, holds if no parameter is off by more than \d+ %, bandwidth 7\.\d+ rad/s")
         text = self.board.read_text()
         for line in self.example.splitlines():
             self.assertIn(line, text)
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("0: learned_ff", checked.stdout)
+        for line in told:
+            self.assertIn(f" {line}\n", checked.stdout)
         self.assertIn("describe", json.loads(self.record.read_text())["channel-1"])
         self.assertEqual((self.path / "board.toml.before-setup").read_text(), self.example)
 

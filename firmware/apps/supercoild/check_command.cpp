@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common/exit_status.hpp"
+#include "apps/common/feasibility_json.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "apps/supercoild/storage_worker.hpp"
@@ -54,7 +55,9 @@ Json json_of(const std::vector<config::Problem>& problems) {
 Json json_of(const config::BoardConfig& config, const std::vector<std::uint32_t>& versions) {
   Json channels = Json::array();
   for (std::size_t i = 0; i < versions.size(); ++i)
-    channels.push_back({{"name", config.labels[i].name}, {"learned_version", versions[i]}});
+    channels.push_back({{"name", config.labels[i].name},
+                        {"learned_version", versions[i]},
+                        {"feasibility", feasibility_json(config.settings, i)}});
   Json can;
   if (config.can) {
     can = {{"interface", config.can->interface},

@@ -22,8 +22,15 @@ std::string describe_joint(const BoardConfig& config, std::size_t index);
 std::string describe_bundle(const BoardConfig& config, std::size_t index);
 /// One line, of a channel whose joint a spring draws back.
 std::string describe_turned(const BoardConfig& config, std::size_t channel);
-/// The room that a controller leaves on the channel's muscle, and how far that may be off; empty:
-/// it works in open loop.
+/// By its joint's agonist: its own controllers are not used.
+bool is_led(const ChannelSettings& channel);
+/// By how much all parameters may be off at once; NaN: the controller works in open loop.
+double tolerated_ratio(const control::ControllerSettings& controller,
+                       const ChannelSettings& channel, double step_s);
+/// Of a controller's feedback; NaN: it has no such setting.
+double bandwidth_rad_per_s(const control::ControllerSettings& controller);
+/// The room that a controller leaves on the channel's muscle, how far that may be off, and its
+/// bandwidth; empty: it works in open loop.
 std::string describe_margin(const control::ControllerSettings& controller,
                             const ChannelSettings& channel, double step_s);
 /// What narrows the bounds of the muscle's heat, and what would.
@@ -32,8 +39,9 @@ std::string describe_heat(const ChannelSettings& channel);
 std::string describe_senses(const ChannelSettings& channel, const BoardSettings& board);
 /// How much of a small motion arrives at the sensor, and up to which power that is enough.
 std::string describe_small_motions(const ChannelSettings& channel, const BoardSettings& board);
-/// What the muscle can do with these limits: how far, how fast, from when on, and how closely it
-/// will follow. One line each.
+/// What the muscle can do with these limits: how far, how fast, from when on, how firmly each
+/// controller holds it, and how closely it will follow. One line each: the same for `supercoild
+/// --check`, `supercoil-sim run` and `supercoil setup`.
 std::vector<std::string> describe_feasibility(const BoardSettings& board, std::size_t channel);
 /// The error that each controller promises, or the one that would; of a muscle that identify found
 /// to be as far from linear as it lets pass. Of a joint none is known.

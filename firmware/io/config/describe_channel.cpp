@@ -78,7 +78,7 @@ void describe_tuning(std::ostream& out, const board::StoredValues& tuned) {
   }
 }
 
-void describe_controllers(std::ostream& out, const ChannelSettings& c, double step_s) {
+void describe_controllers(std::ostream& out, const ChannelSettings& c) {
   out << "  controllers ";
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     const control::ControllerSettings& k = c.controllers[i];
@@ -87,8 +87,6 @@ void describe_controllers(std::ostream& out, const ChannelSettings& c, double st
     if (k.kind != control::ControllerKind::power) {
       out << " in " << control::name_of(control::arithmetic_names, k.arithmetic);
     }
-    if (const std::string margin = describe_margin(k, c, step_s); !margin.empty())
-      out << ", " << margin;
     if (i < c.tuning.controllers.size()) describe_tuning(out, c.tuning.controllers[i]);
   }
   out << "\n";
@@ -109,20 +107,6 @@ void describe_estimators(std::ostream& out, const ChannelSettings& c) {
 }
 
 }  // namespace
-
-std::string describe_margin(const control::ControllerSettings& controller, const ChannelSettings& c,
-                            double step_s) {
-  const auto law = control::fixed_law(controller, c.muscle);
-  const auto margin = margin_of(controller, c, step_s);
-  if (!law || !margin) return "";
-  const double span = control::tolerated_span(*law, c.muscle, step_s, loop_delay_s(c, step_s));
-  const bool adapts = control::adapts(controller.kind);
-  std::ostringstream out;
-  out << (adapts ? "once adapted margin " : "margin ")
-      << std::nearbyint(100.0 * margin->modulus) / 100.0 << ", holds if no parameter "
-      << (adapts ? "moves" : "is off") << " by more than " << std::nearbyint(100.0 * span) << " %";
-  return out.str();
-}
 
 std::string describe_heat(const ChannelSettings& c) {
   const board::ThermalSettings& t = c.thermal;
@@ -204,7 +188,7 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
     const double leader = static_cast<double>(index + 1) + offset;
     out << "  controllers led by channel " << leader << ": its own are not used\n";
   } else {
-    describe_controllers(out, c, config.settings.step_s());
+    describe_controllers(out, c);
   }
   describe_estimators(out, c);
   const char* title_of_line = "  can do      ";

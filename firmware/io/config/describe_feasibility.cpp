@@ -1,5 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+
+#include "supercoil/control/tracking/loop_margin.hpp"
+#include "supercoil/control/tracking/tunable.hpp"
 
 #include "config/describe.hpp"
 #include "config/findings.hpp"
@@ -42,8 +46,38 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
 
 }  // namespace
 
+bool is_led(const ChannelSettings& c) {
+  return c.joint.direction < 0;
+}
+
+double tolerated_ratio(const control::ControllerSettings& controller, const ChannelSettings& c,
+                       double step_s) {
+  const auto law = control::fixed_law(controller, c.muscle);
+  return law ? control::tolerated_span(*law, c.muscle, step_s, loop_delay_s(c, step_s)) : NAN;
+}
+
+double bandwidth_rad_per_s(const control::ControllerSettings& controller) {
+  static const std::size_t place = control::tunable_named("bandwidth_rad_per_s");
+  return control::tunables().at(place).get(controller);
+}
+
+std::string describe_margin(const control::ControllerSettings& controller, const ChannelSettings& c,
+                            double step_s) {
+  const auto margin = margin_of(controller, c, step_s);
+  const double ratio = tolerated_ratio(controller, c, step_s);
+  if (!margin || std::isnan(ratio)) return "";
+  const bool adapts = control::adapts(controller.kind);
+  std::ostringstream out;
+  out << (adapts ? "once adapted margin " : "margin ")
+      << std::nearbyint(100.0 * margin->modulus) / 100.0 << ", holds if no parameter "
+      << (adapts ? "moves" : "is off") << " by more than " << std::nearbyint(100.0 * ratio) << " %";
+  const double bandwidth = bandwidth_rad_per_s(controller);
+  if (!std::isnan(bandwidth)) out << ", bandwidth " << in_digits(bandwidth) << " rad/s";
+  return out.str();
+}
+
 std::string describe_promise(const Promise& promise, const FirstMotion& motion) {
-  const auto in_um = [](double metres) { return in_digits(1e6 * metres); };
+  const auto in_um = [](double metres) { return in_digits(1e-2 * std::nearbyint(1e8 * metres)); };
   return in_um(promise.error_m()) + " um rms on a sine of " +
          in_digits(1e3 * (motion.middle_m - motion.amplitude_m)) + " to " +
          in_mm(motion.middle_m + motion.amplitude_m) + ", " + in_digits(motion.period_s) +
@@ -80,6 +114,8 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
   if (is_led(c)) return lines;
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     if (!f.steps[i]) continue;
+    const std::string margin = describe_margin(c.controllers[i], c, board.step_s());
+    if (!margin.empty()) lines.push_back("controller " + std::to_string(i) + ": " + margin);
     lines.push_back("controller " + std::to_string(i) + " can follow steps of " +
                     in_mm(f.steps[i]->up_m) + " up from rest and " + in_mm(f.steps[i]->down_m) +
                     " down from there; larger ones " +

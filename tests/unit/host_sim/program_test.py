@@ -345,6 +345,20 @@ class Results(ProgramCase):
         shaped = slow + "[controller]\nshape_reference = true\n"
         self.assertNotIn("advice", self.run_program("run", self.scenario(shaped), "--check").stdout)
 
+    def test_check_tells_programs_what_it_tells_people(self):
+        scenario = self.scenario(SHORT + "[controller]\nkind = 'learned_ff'\n[plant]\nthermal_mass_J_per_K = 2.0\n")
+        told = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)
+        can, controller = told["feasibility"], told["feasibility"]["controllers"][0]
+        text = self.run_program("run", scenario, "--check").stdout
+        self.assertIn(f"holds {1e3 * can['travel_m']:.3g} mm for good, at {can['held_W']:.3g} W", text)
+        self.assertIn(f"margin {controller['margin']:.2g}, ", text)
+        self.assertIn(f"bandwidth {controller['bandwidth_rad_per_s']:.3g} rad/s\n", text)
+        self.assertIn(f"at most {1e6 * controller['promised_m']:.3g} um rms", text)
+        self.assertEqual([line in text for line in told["advice"]], [True])
+        self.assertEqual(told["reference"]["told"], re.search("\nreference: (.*)\n", text)[1])
+        refused = self.run_program("run", scenario, "--json")
+        self.assertEqual((refused.returncode, "--json requires --check" in refused.stderr), (2, True))
+
     def test_check_and_list_write_nothing(self):
         checked = self.run_program("run", self.scenario(SHORT), "--check")
         self.assertEqual(checked.returncode, 0)
@@ -352,6 +366,7 @@ class Results(ProgramCase):
         self.assertRegex(checked.stdout, r"\nmuscle: holds [\d.]+ mm for good, at [\d.]+ W")
         self.assertRegex(checked.stdout, r"\nmuscle: controller 0 promises no error \(mrac\); learned_ff promises, once "
                                          r"the muscle is identified, at most [\d.]+ um rms on a sine of")
+        self.assertRegex(checked.stdout, r"\nmuscle: controller 0: once adapted margin 0\.\d+, holds if no parameter moves by more than")
         listed = self.run_program("list")
         self.assertIn("sine", listed.stdout)
         self.assertIn("printed", listed.stdout)

@@ -308,13 +308,8 @@ StepResult Commission::move() {
   if (promise) {
     const bool kept = error_m <= promise->error_m();
     told += kept ? ": the promise is kept" : ": the promise is not kept";
-    found.update(Json{{"promised_m", promise->error_m()},
-                      {"noise_m", promise->noise_m},
-                      {"probe_m", promise->probe_m},
-                      {"dither_m", promise->dither_m},
-                      {"pwm_m", promise->pwm_m},
-                      {"unexplained_m", promise->unexplained_m},
-                      {"kept", kept}});
+    found.update(promise_json(*promise));
+    found["kept"] = kept;
   }
   who_.say(told);
   return found;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "apps/common/feasibility_json.hpp"
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
@@ -104,6 +105,7 @@ Or<Json> write_description(const MuscleAnswers& answers, const SetupOptions& opt
     who.say(entry.path + " = " + entry.literal + "  (" + entry.reason + ")");
     found[entry.path] = entry.literal;
   }
+  found["feasibility"] = feasibility_json(config->settings, index);
   for (const std::string& line : config::describe_feasibility(config->settings, index))
     who.say(line);
   for (const std::string& line : config::advice(*config))

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
+#include "apps/common/feasibility_json.hpp"
 #include "text/number_text.hpp"
 
 namespace supercoil::operating {
@@ -26,11 +25,6 @@ inline std::string beside(double found, double configured, const std::string& un
   return in_digits(found) + (unit.empty() ? "" : " ") + unit + deviation +
          " (configured: " + in_digits(configured) + ", " + (percent < 0.0 ? "" : "+") +
          number_text(percent, 3) + " %)";
-}
-
-/// null: not known.
-inline nlohmann::ordered_json json_number(double value) {
-  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
 }  // namespace supercoil::operating

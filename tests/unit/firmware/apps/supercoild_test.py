@@ -55,6 +55,10 @@ class Program(unittest.TestCase):
         self.assertEqual((told["can"]["interface"], told["can"]["bit_rate"]), ("can0", 500000))
         self.assertEqual([channel["learned_version"] for channel in told["channels"]], [0, 0])
         self.assertRegex(told["advice"][0], "^channels 1, 2: in the coldest air it rests ")
+        can = told["channels"][0]["feasibility"]
+        text = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml").stdout
+        self.assertIn(f"  can do      holds {1e3 * can['travel_m']:.3g} mm for good, at {can['held_W']:.3g} W", text)
+        self.assertIn(f"controller 0: margin {can['controllers'][0]['margin']:.2g}, holds if no parameter is off by more than", text)
 
     def test_check_prints_every_mistake_as_json(self):
         file, line = self.changed("rate_Hz", "rate_kHz")

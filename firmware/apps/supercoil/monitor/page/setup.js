@@ -98,7 +98,7 @@ export class Setup {
   #found({ name, found }) {
     if (found === null) return "";
     return element("details", {}, element("summary", {}, "done; what it found"),
-      element("table", { "aria-label": `found by ${name}` }, ...Object.entries(found).map(([key, value]) =>
+      element("table", { "aria-label": `found by ${name}` }, ...Object.entries(found).filter(([, value]) => typeof value !== "object" || value === null).map(([key, value]) =>
         element("tr", {}, element("th", { scope: "row", title: key }, words(key)), element("td", {}, text_of(value))))));
   }
 

@@ -1,0 +1,73 @@
+// What a channel's muscle can do, for programs: the figures that config::describe_feasibility()
+// tells people.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "config/describe.hpp"
+#include "loop/promise.hpp"
+
+namespace supercoil {
+
+/// null: not known, or there is none.
+inline nlohmann::ordered_json json_number(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+inline nlohmann::ordered_json promise_json(const Promise& promise) {
+  return {{"promised_m", promise.error_m()}, {"noise_m", promise.noise_m},
+          {"probe_m", promise.probe_m},      {"dither_m", promise.dither_m},
+          {"pwm_m", promise.pwm_m},          {"unexplained_m", promise.unexplained_m}};
+}
+
+/// Of one controller of a channel, without its promise.
+inline nlohmann::ordered_json controller_json(const control::ControllerSettings& controller,
+                                              const ChannelSettings& channel, double step_s,
+                                              const std::optional<FeasibleSteps>& steps) {
+  const auto margin = margin_of(controller, channel, step_s);
+  return {{"kind", control::name_of(control::controller_names, controller.kind)},
+          {"margin", json_number(margin ? margin->modulus : NAN)},
+          {"tolerated_ratio", json_number(config::tolerated_ratio(controller, channel, step_s))},
+          {"bandwidth_rad_per_s", json_number(config::bandwidth_rad_per_s(controller))},
+          {"step_up_m", json_number(steps ? steps->up_m : NAN)},
+          {"step_down_m", json_number(steps ? steps->down_m : NAN)},
+          {"shaped", steps && steps->shaped}};
+}
+
+/// channel: from 0. Of a joint's antagonist controllers is empty, and of a joint nothing is
+/// promised.
+inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::size_t channel) {
+  using Json = nlohmann::ordered_json;
+  const ChannelSettings& c = board.channels[channel];
+  const Feasibility f = feasibility(c, board);
+  const FirstMotion motion = plan_first_motion(f, c.unexplained_ratio);
+  Json controllers = Json::array();
+  for (std::size_t i = 0; i < c.controllers.size() && !config::is_led(c); ++i) {
+    Json told = controller_json(c.controllers[i], c, board.step_s(), f.steps[i]);
+    if (is_promised_for(c.controllers[i]) && board.joint_of(channel) == nullptr &&
+        motion.amplitude_m > 0.0)
+      told.update(promise_json(promise_error(c.controllers[i].learned_ff, c, board, motion)));
+    controllers.push_back(std::move(told));
+  }
+  return {{"travel_m", f.travel_m},
+          {"held_W", f.held_W},
+          {"limited_by", name(f.held_by)},
+          {"max_W", f.max_W},
+          {"rise_s", json_number(f.rise_s)},
+          {"fall_s", json_number(f.fall_s)},
+          {"half_travel_period_s", json_number(f.half_travel_period_s)},
+          {"armable_s", json_number(f.armable_s)},
+          {"air_shift_m", f.air_shift_m},
+          {"rest_seen", f.rest_seen},
+          {"first_motion",
+           {{"middle_m", motion.middle_m},
+            {"amplitude_m", motion.amplitude_m},
+            {"period_s", motion.period_s}}},
+          {"controllers", controllers}};
+}
+
+}  // namespace supercoil

@@ -105,6 +105,23 @@ class SetupProgram(SetupCase):
         self.assertIn("board.toml:1: ", done.stderr)
         self.assertNotIn("Resistance", done.stdout)
 
+    def test_of_a_joint_with_a_range_that_range_is_made_smaller_and_the_file_stays_valid(self):
+        joint = (EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text()
+        joint = re.sub("\nmax_travel_m = .*", "", joint).replace("lever_m = 0.015", "lever_m = 0.015\nrange_deg = [-30, 28]  # stops")
+        self.board.write_text(joint)
+        bench = {"heated_mm": 6.5, "stretch_mm": 30}
+        done = self.setup_program("describe", *self.script(**bench, max_travel_mm=5))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("joint.range_deg = [-30, 19.09]  (as answered)", done.stdout)
+        self.assertIn("range_deg = [-30, 19.09]  # stops", self.board.read_text())
+        self.assertNotIn("max_travel_m", self.board.read_text())
+        done = self.setup_program("describe", "--channel", "2", *self.script(**bench, max_travel_mm=8))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("its travel stays as its joint's range_deg has it: 7.854 mm", done.stdout)
+        self.assertIn("range_deg = [-30, 19.09]  # stops", self.board.read_text())
+        checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+
     def files(self):
         return sorted(path.name.removeprefix("board.toml") for path in self.path.glob("board.toml*"))
 

@@ -83,18 +83,17 @@ std::string shown(const toml::table& table) {
 
 }  // namespace
 
-tl::expected<std::string, std::string> with_channel_value(const std::string& text,
-                                                          std::size_t channel,
-                                                          const std::string& path,
-                                                          const std::string& literal) try {
+tl::expected<std::string, std::string> with_value(const std::string& text, const std::string& kind,
+                                                  std::size_t place, const std::string& path,
+                                                  const std::string& literal) try {
   const auto refused = [&](const std::string& why) {
     return tl::unexpected(path + " = " + literal + ": " + why);
   };
   toml::table before = toml::parse(text);
-  toml::array* channels = before["channel"].as_array();
-  if (channels == nullptr || channel >= channels->size())
-    return refused("there is no channel " + std::to_string(channel + 1));
-  const toml::table* table = channels->get(channel)->as_table();
+  toml::array* tables = before[kind].as_array();
+  if (tables == nullptr || place >= tables->size())
+    return refused("there is no " + kind + " " + std::to_string(place + 1));
+  const toml::table* table = tables->get(place)->as_table();
   const auto node = table->at_path(path);
   std::string changed =
       node ? replaced(text, node.node()->source(), literal) : added(text, *table, path, literal);
@@ -102,7 +101,7 @@ tl::expected<std::string, std::string> with_channel_value(const std::string& tex
   // Whatever form the author chose, this key and no other may have changed.
   const toml::table value = toml::parse("value = " + literal);
   toml::table expected = before;
-  toml::table* inner = expected["channel"].as_array()->get(channel)->as_table();
+  toml::table* inner = expected[kind].as_array()->get(place)->as_table();
   const std::size_t dot = path.find('.');
   if (dot != std::string::npos)
     inner = inner->insert(path.substr(0, dot), toml::table{}).first->second.as_table();
@@ -111,6 +110,13 @@ tl::expected<std::string, std::string> with_channel_value(const std::string& tex
   return changed;
 } catch (const toml::parse_error& error) {
   return tl::unexpected(path + " = " + literal + ": " + std::string(error.description()));
+}
+
+tl::expected<std::string, std::string> with_channel_value(const std::string& text,
+                                                          std::size_t channel,
+                                                          const std::string& path,
+                                                          const std::string& literal) {
+  return with_value(text, "channel", channel, path, literal);
 }
 
 }  // namespace supercoil::config

@@ -1,5 +1,6 @@
 #include "apps/supercoil/setup/board_file.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -34,7 +35,8 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
   std::string changed = text;
   const auto channel = static_cast<std::size_t>(options.channel) - 1;
   for (const Entry& entry : entries) {
-    auto next = config::with_channel_value(changed, channel, entry.path, entry.literal);
+    auto next = config::with_value(changed, entry.joint ? "joint" : "channel",
+                                   entry.joint.value_or(channel), entry.path, entry.literal);
     if (!next) return tl::unexpected(options.config + ": " + next.error() + "\n");
     changed = std::move(*next);
   }
@@ -56,6 +58,11 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
   if (written) written = write_whole(options.config, changed);
   if (!written) return tl::unexpected(written.error() + "\n");
   return std::move(*config);
+}
+
+bool wrote_file(const nlohmann::ordered_json& found) {
+  return std::ranges::any_of(
+      found.items(), [](const auto& item) { return item.key().find('.') != std::string::npos; });
 }
 
 }  // namespace supercoil::operating

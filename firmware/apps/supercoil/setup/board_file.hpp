@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <tl/expected.hpp>
 
 #include "apps/supercoil/setup/describe_muscle.hpp"
@@ -28,6 +29,9 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
                                                              const std::string& step,
                                                              const std::string& text,
                                                              const std::vector<Entry>& entries);
+
+/// That a step wrote the file: what it found has keys of it, which have dots.
+bool wrote_file(const nlohmann::ordered_json& found);
 
 struct Undone {
   int channel = 1;

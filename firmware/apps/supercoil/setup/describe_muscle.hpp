@@ -1,6 +1,8 @@
 // From what a person knows of a muscle to what a board's file says of it.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +14,15 @@
 
 namespace supercoil::operating {
 
-/// One key of a [[channel]], as with_channel_value takes it.
+/// One key of a [[channel]], or of a [[joint]], as config::with_value takes it.
 struct Entry {
   std::string path;
   std::string literal;
-  std::string reason;  ///< how it follows from the answers
+  std::string reason;                  ///< how it follows from the answers
+  std::optional<std::size_t> joint{};  ///< of which it is, from 0; empty: of the channel
+
+  /// As somebody is told it: "limits.max_W", "joint.range_deg".
+  std::string key() const { return (joint ? "joint." : "") + path; }
 };
 
 struct MuscleDescription {

@@ -4,13 +4,14 @@
 
 #include "apps/common/feasibility_json.hpp"
 #include "apps/supercoil/setup/board_file.hpp"
+#include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
+#include "apps/supercoil/setup/file_joint.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/next_question.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
-#include "config/read_lever.hpp"
 #include "config/toml_file.hpp"
 #include "text/number_text.hpp"
 
@@ -56,24 +57,19 @@ Or<MuscleAnswers> completed(MuscleAnswers answers, const SetupOptions& options) 
   return answers;
 }
 
-/// At the angle 0, of the joint that a channel, from 1, turns; empty: it turns none. The file need
-/// not be complete.
-std::optional<double> lever_of(const std::string& text, int channel) {
-  const toml::table document = toml::parse(text);
-  const toml::array* joints = document["joint"].as_array();
-  if (joints == nullptr) return std::nullopt;
-  for (const toml::node& node : *joints) {
-    const toml::table* joint = node.as_table();
-    if (joint == nullptr) continue;
-    const auto is = [&](const char* key) { return (*joint)[key].value<int>() == channel; };
-    if (!is("agonist") && !is("antagonist")) continue;
-    config::Diagnostics told_elsewhere("");
-    config::Section section(joint, "joint", told_elsewhere);
-    const double lever_m =
-        config::read_lever(section, config::lever_range_m, std::nullopt).zero_radius_m();
-    return lever_m > 0.0 ? std::optional(lever_m) : std::nullopt;
+/// What bounds the travel where a joint's range_deg does; where the answer leaves no less than
+/// that, nothing is written.
+void fit_travel(const std::string& text, int channel, std::vector<Entry>& entries, Operator& who) {
+  const auto travel = std::ranges::find(entries, travel_key, &Entry::path);
+  auto fitting =
+      travel_entry(text, channel, std::stod(travel->literal), travel->literal, travel->reason);
+  if (fitting) {
+    *travel = std::move(*fitting);
+    return;
   }
-  return std::nullopt;
+  who.say("its travel stays as its joint's range_deg has it: " +
+          number_text(1e3 * joint_in_file(text, channel)->max_travel_m(), 4) + " mm");
+  entries.erase(travel);
 }
 
 /// A list of controllers was chosen by somebody: it stays, with the model that its laws are for.
@@ -98,12 +94,13 @@ Or<Json> write_description(const MuscleAnswers& answers, const SetupOptions& opt
   if (!described) return tl::unexpected(described.error() + "\n");
   const auto index = static_cast<std::size_t>(options.channel) - 1;
   std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, text, index); });
+  fit_travel(text, options.channel, described->entries, who);
   const auto config = write_entries(options, "describe", text, described->entries);
   if (!config) return tl::unexpected(config.error());
   Json found;
   for (const Entry& entry : described->entries) {
-    who.say(entry.path + " = " + entry.literal + "  (" + entry.reason + ")");
-    found[entry.path] = entry.literal;
+    who.say(entry.key() + " = " + entry.literal + "  (" + entry.reason + ")");
+    found[entry.key()] = entry.literal;
   }
   found["feasibility"] = feasibility_json(config->settings, index);
   for (const std::string& line : config::describe_feasibility(config->settings, index))
@@ -118,7 +115,7 @@ Or<Json> write_description(const MuscleAnswers& answers, const SetupOptions& opt
 Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   const auto text = read_board_text(options.config);
   if (!text) return tl::unexpected(text.error());
-  const auto lever_m = lever_of(*text, options.channel);
+  const auto joint = joint_in_file(*text, options.channel);
   Or<MuscleAnswers> answers;
   const bool asks = options.script.empty();
   if (!asks) {
@@ -126,12 +123,12 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
     if (!script) return tl::unexpected(script.error());
     answers = completed(script->muscle, options);
   }
-  if (lever_m) say_how_a_joint_is_measured(*lever_m, who);
+  if (joint) say_how_a_joint_is_measured(joint->lever.zero_radius_m(), who);
   if (asks) {
     auto record = SetupRecord::open(options.config, options.channel);
     if (!record) return tl::unexpected(record.error() + "\n");
     BoardRanges ranges = board_ranges(*text, options.channel);
-    if (lever_m) ranges.max_position_m = NAN;
+    if (joint) ranges.max_position_m = NAN;
     answers = answered(ranges, *record, who);
   }
   if (!answers) return tl::unexpected(answers.error());

@@ -7,6 +7,7 @@
 
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/file_joint.hpp"
 #include "apps/supercoil/setup/other_muscle.hpp"
 #include "apps/supercoil/setup/steps.hpp"
 
@@ -24,9 +25,17 @@ StepResult SetupBoard::run(const std::string& step) {
   if (!found || !found->contains(travel_key)) return found;
   const auto text = read_board_text(options_.config);
   if (!text) return tl::unexpected(text.error());
-  const auto written = write_entries(
-      options_, step, *text, {{travel_key, (*found)[travel_key].get<std::string>(), "limits"}});
+  const auto literal = (*found)[travel_key].get<std::string>();
+  found->erase(travel_key);
+  const auto entry = travel_entry(*text, options_.channel, std::stod(literal), literal, step);
+  if (!entry) {
+    who_.say("the joint's range_deg leaves it no more than that already: the file stays");
+    return found;
+  }
+  const auto written = write_entries(options_, step, *text, {*entry});
   if (!written) return tl::unexpected(written.error());
+  if (entry->joint) who_.say(entry->key() + " = " + entry->literal);
+  (*found)[entry->key()] = entry->literal;
   return found;
 }
 

@@ -10,7 +10,6 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/setup/board_file.hpp"
-#include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/describe_step.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/options.hpp"
@@ -110,7 +109,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
       return concluded(options, results, exit_failed, kept.error());
     if (!Commission::kept(*found)) status = exit_failed;
     // The board must run with the file as it is now.
-    if (found->contains(travel_key) && options.steps.empty()) {
+    if (wrote_file(*found) && options.steps.empty()) {
       std::fprintf(out, "%s is %s: start the board with it, and run setup again to go on\n",
                    options.config.c_str(), describes ? "complete" : "changed");
       break;

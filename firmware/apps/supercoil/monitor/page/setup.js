@@ -115,8 +115,8 @@ export class Setup {
     if (question) parts.push(this.#question(question));
     if (error) parts.push(element("p", { class: "answer refused", role: "alert" }, error));
     else if (!runs && !kept) parts.push(element("p", { class: "answer refused", role: "alert" }, "The promise was not kept."));
-    // Both steps that write the file write this limit.
-    else if (!runs && found?.["limits.max_travel_m"]) parts.push(element("p", { class: "answer" }, "The file was changed: start the board with it, then go on with the next step."));
+    // What is of the file has keys with dots.
+    else if (!runs && Object.keys(found ?? {}).some((key) => key.includes("."))) parts.push(element("p", { class: "answer" }, "The file was changed: start the board with it, then go on with the next step."));
     return parts;
   }
 

@@ -154,7 +154,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(bandwidth(*slow), (3.0, 3.0))
         told = gains("kept as it is", stdin=subprocess.DEVNULL)
         self.assertRegex(told, r"in use: controller 0, learned_ff: bandwidth_rad_per_s = 3, .*reference_model = poles, model_pole_1_rad_per_s = 3\.\d+, ")
-        self.assertRegex(told, r"with it: margin 0\.\d+, holds if no parameter is off by more than \d+ %; promises at most \d+")
+        self.assertRegex(told, r"with it: margin 0\.\d+, holds if no parameter is off by more than \d+ %, bandwidth 3 rad/s; promises at most \d+")
         self.assertRegex(told, r"recommended for this muscle: .*bandwidth_rad_per_s = 7\.8\d+ }: .*, 1\.88 s, in units of")
         self.assertRegex(told, r"with reference_model = \{ kind = \"poles\", poles_rad_per_s = \[\d\.\d+, .*falls from 90 to 10 % in 4\.\d+ s by itself")
         self.assertIn("keep the one in use (0 to 1) [1]: ", told)

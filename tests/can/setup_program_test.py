@@ -122,6 +122,23 @@ class SetupProgram(SetupCase):
         checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(checked.returncode, 0, checked.stderr)
 
+    def test_doctor_looks_at_this_machine_or_says_where_to_run_it_and_setup_goes_on(self):
+        done = self.setup_program("doctor", "--socket", self.path / "commands", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)["steps"]["doctor"]
+        self.assertEqual(found["looked_at"], "two muscles")
+        self.assertGreater(found["problems"], 0)
+        self.assertRegex(done.stderr, r"\n  problem: [^\n]+\n  what to do: ")
+        self.assertIn(f"\n  {found['problems']} problem", done.stderr)
+        self.assertNotIn("\n  ok", done.stderr)
+        done = self.setup_program("doctor", "--can", "socketcand:1", "--json")
+        self.assertEqual((done.returncode, json.loads(done.stdout)["steps"]), (0, {"doctor": {"looked_at": None}}))
+        self.assertIn("is simulated, or another machine", done.stderr)
+        self.assertIn("run supercoil doctor on the board", done.stderr)
+        self.setup_program(*self.script())
+        told = self.setup_program("--can", "socketcand:1")
+        self.assertEqual(re.findall(r"^(\w+): ", told.stdout, re.M)[:2], ["doctor", "senses"])
+
     def files(self):
         return sorted(path.name.removeprefix("board.toml") for path in self.path.glob("board.toml*"))
 

@@ -28,7 +28,7 @@ SUPPLY_V = 12.0
 ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "stretch_mm": 55, "heated_W": 2.0,
            "heated_mm": 13, "half_cooling_s": 1.3, "thread_g": 0.1, "heated_K": 0, "max_W": 4.5, "max_travel_mm": 25,
            "uncertainty_percent": 30}
-STEPS = ("describe", "senses", "calibrate", "scale", "limits", "identify", "gains", "move")
+STEPS = ("describe", "doctor", "senses", "calibrate", "scale", "limits", "identify", "gains", "move")
 STEP_S = 240.0
 
 
@@ -162,6 +162,8 @@ class SetupTest(SetupCase):
                 page.wait(lambda: page.asked() != "current_A", SLACK_S, "the amperes are taken")
 
         see(page, "described")
+        looked = self.run_step(page, "doctor")
+        self.assertIn("run supercoil doctor on the board itself", looked["lines"][0])
         senses = self.run_step(page, "senses", compare)
         self.assertIn("the true power is 0.9", " ".join(senses["lines"]))
         calibrated = self.run_step(page, "calibrate")

@@ -80,7 +80,7 @@ bool SetupRecord::is_past(const std::string& step) const {
   if (!counts(step)) return false;
   bool after = false;
   for (const SetupStep& known : setup_steps) {
-    if (after && contains(std::string(known.name))) return true;
+    if (after && !known.of_machine && contains(std::string(known.name))) return true;
     after = after || known.name == step;
   }
   return false;

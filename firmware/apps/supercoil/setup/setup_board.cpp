@@ -7,6 +7,7 @@
 
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/doctor_step.hpp"
 #include "apps/supercoil/setup/file_joint.hpp"
 #include "apps/supercoil/setup/other_muscle.hpp"
 #include "apps/supercoil/setup/steps.hpp"
@@ -19,6 +20,10 @@ SetupBoard::~SetupBoard() {
 
 StepResult SetupBoard::run(const std::string& step) {
   if (const std::string why = left_out(step); !why.empty()) return tl::unexpected(why);
+  if (step == "doctor") {
+    if (auto done = read(); !done) return tl::unexpected(done.error());
+    return doctor_step(options_, *config_, who_);
+  }
   if (auto ready = open(); !ready) return tl::unexpected(ready.error());
   Commission commission(*link_, address(), config_->settings, index(), who_);
   auto found = commission.run(step);

@@ -159,7 +159,7 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   setup
       ->add_option(
           "STEP", o.steps,
-          "describe, senses, calibrate, scale, limits, identify, gains or move, also again "
+          "describe, doctor, senses, calibrate, scale, limits, identify, gains or move, also again "
           "[all that are not done]")
       ->check(CLI::Validator(
           [](const std::string& given) {

@@ -17,16 +17,22 @@ struct SetupStep {
   bool needs_person = false;  ///< who is asked first whether it is to be left; a script leaves it
   enum class InJoint { of_each, of_agonist, never } in_joint = InJoint::of_each;
   bool of_each_in_bundle = false;  ///< else of the channel that leads, for all
+  bool of_machine =
+      false;  ///< where it is done, nothing follows of the muscle, nor of steps before
 };
 
 /// Why a step is not done with this channel, from 0; empty: it is.
 std::string left_out(const SetupStep& step, const BoardSettings& board, std::size_t channel);
 
-inline constexpr std::array<SetupStep, 8> setup_steps{{
+inline constexpr std::array<SetupStep, 9> setup_steps{{
     {"describe",
      "writes what is known of the muscle, with its bounds and a controller, into the board's "
      "file; heats nothing",
      false, false, SetupStep::InJoint::of_each, true},
+    {"doctor",
+     "looks at the board's own machine: kernel, rights to run in real time, processors, buses, "
+     "watchdog, and devices while no supercoild has them; says what does not hold; heats nothing",
+     true, false, SetupStep::InJoint::of_each, true, true},
     {"senses",
      "compares the senses of supply and current with a meter: heats it with a small steady power, "
      "and asks four questions; until then it gets less power than it could",

@@ -43,6 +43,15 @@ TEST(SetupRecord, AStepThatIsDoneAgainMakesThoseBehindItUndone) {
   CHECK_TRUE(opened(2).has("move"));
 }
 
+TEST(SetupRecord, ACheckedMachineSaysNothingOfItsMuscle) {
+  CHECK_TRUE(opened().add("doctor", {{"problems", 0}}).has_value());
+  CHECK_TRUE(opened().has("doctor"));
+  CHECK_FALSE(opened().is_past("describe"));
+  CHECK_TRUE(opened().add("senses", {{"done", true}}).has_value());
+  CHECK_TRUE(opened().is_past("describe"));
+  CHECK_TRUE(opened().is_past("doctor"));
+}
+
 TEST(SetupRecord, ADamagedRecordIsRefusedAndKept) {
   for (const char* damaged : {"{\"channel-1\": {", "[]", "{\"channel-1\": 3}"}) {
     std::ofstream(SetupRecord::path_of(config)) << damaged;

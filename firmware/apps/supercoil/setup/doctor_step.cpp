@@ -1,0 +1,42 @@
+#include "apps/supercoil/setup/doctor_step.hpp"
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/supercoil/doctor/check_board.hpp"
+#include "apps/supercoil/doctor/report.hpp"
+
+namespace supercoil::operating {
+
+StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& config,
+                       Operator& who) {
+  using Json = nlohmann::ordered_json;
+  if (!options.can.empty()) {
+    const bool simulated = options.can.starts_with("socketcand:");
+    who.say("the board is reached over " + options.can + ", and is " +
+            (simulated ? "simulated, or another machine" : "maybe another machine") +
+            ": doctor looks at the machine on which it runs, so run supercoil doctor on the board "
+            "itself; nothing was looked at here");
+    return Json{{"looked_at", nullptr}};
+  }
+  doctor::CheckOptions check;
+  check.run_folder = std::filesystem::path(options.socket).parent_path().string();
+  doctor::Report report{config.name, options.config, {}};
+  doctor::check_board(config, check, [&](const hal::Finding& finding) {
+    report.findings.push_back(finding);
+    if (finding.severity == hal::Severity::ok) return;
+    who.say(std::string(hal::text(finding.severity)) + ": " + finding.what + ": " + finding.found);
+    if (!finding.remedy.empty()) who.say("what to do: " + finding.remedy);
+  });
+  const auto problems = report.count(hal::Severity::problem);
+  who.say(
+      doctor::summary(report) +
+      (problems > 0 ? "; mend what is a problem before anything is heated (docs/doctor.md)" : ""));
+  return Json{{"looked_at", config.name},
+              {"problems", problems},
+              {"warnings", report.count(hal::Severity::warning)},
+              {"in_order", report.count(hal::Severity::ok)}};
+}
+
+}  // namespace supercoil::operating

@@ -29,7 +29,7 @@ class SetupProgram(SetupCase):
 
     def test_asks_what_no_script_answers_and_asks_again_after_a_slip(self):
         lines = [str(value) for value in ANSWERS.values()]
-        questions = ["10 Ohm", *lines[:7], "", "22.5", *lines[8:10], ""]  # by a thermometer in place of the weight
+        questions = ["", "10 Ohm", *lines[:7], "", "22.5", *lines[8:10], ""]  # by a thermometer in place of the weight
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("Resistance of the cold muscle by an ohmmeter, in Ohm (0.1 to 10000): '10 Ohm' is refused", done.stdout)
@@ -38,7 +38,7 @@ class SetupProgram(SetupCase):
 
     def test_an_answer_is_refused_where_it_is_asked_and_what_was_answered_is_offered_again(self):
         # By a thermometer, as thread_g is not known: then heated_K must be.
-        typed = ["10", "90", "100", "55", "2", "13", "1.3", "0", "", "0", "22.5", "200", "11.7"]
+        typed = ["", "10", "90", "100", "55", "2", "13", "1.3", "0", "", "0", "22.5", "200", "11.7"]
         with Terminal("describe", "--config", self.board) as terminal:
             for text in (*typed, "11.665", "30"):  # four slips for max_W
                 terminal.answer(text)
@@ -52,18 +52,47 @@ class SetupProgram(SetupCase):
             self.assertEqual(terminal.ended(), 2)
         self.assertTrue(terminal.told.endswith("41): ^C\r\nsupercoil: interrupted\r\n"), terminal.told[-200:])
         self.assertEqual(self.board.read_text(), self.example)
-        self.assertEqual(self.setup_program("describe", input="\n" * 10 + "25\n\n").returncode, 0)
+        self.assertEqual(self.setup_program("describe", input="\n" * 11 + "25\n\n").returncode, 0)
         text = self.board.read_text()
         for line in ("cold_resistance_Ohm = 10", "max_W = 4.5", "max_travel_m = 0.025", "stiffness_N_per_m = 17.84"):
             self.assertIn(line, text)
         self.assertEqual(json.loads(self.record.read_text())["answers"]["channel-1"]["heated_K"], 22.5)
         self.assertEqual(self.setup_program("--undo").returncode, 0)
-        done = self.setup_program("describe", input="12\n" + "\n" * 11)  # one correction
+        done = self.setup_program("describe", input="\n12\n" + "\n" * 11)  # one correction
         self.assertIn("in Ohm (0.1 to 10000) [10]: ", done.stdout)
         self.assertIn("cold_resistance_Ohm = 12", self.board.read_text())
 
+    PLATE = {"rated_W": 2, "rated_Ohm": 10, "length_mm": 150, "stroke_percent": 8, "stroke_load_g": 90, "max_C": 120}
+
+    def test_a_nameplate_answers_what_a_supplier_knows(self):
+        measured = {key: None for key in ANSWERS} | {"stretch_weight_g": 100, "stretch_mm": 55, "half_cooling_s": 1.3}
+        _, script = self.script(**measured)
+        script.write_text(script.read_text() + "[nameplate]\n" + "".join(f"{key} = {value}\n" for key, value in self.PLATE.items()))
+        done = self.setup_program("--script", script)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        by_script = self.board.read_text()
+        for line in ("cold_resistance_Ohm = 10", "max_W = 2", "max_travel_m = 0.012", "trip_C = 120", "derate_from_C = 101",
+                     "heat_transfer_W_per_K = 0.02105", "moving_mass_kg = 0.09"):
+            self.assertIn(line, by_script)
+        checked = subprocess.run([SUPERCOILD, "--check", self.board], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        # Asked one after the other the same is offered, and Enter keeps it.
+        self.setup_program("--undo")
+        self.record.unlink(missing_ok=True)
+        typed = ["1", *map(str, self.PLATE.values()), "", "", "100", "55", "", "", "1.3", "", "", "", "", ""]
+        done = self.setup_program("describe", input="\n".join(typed) + "\n")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertIn("Rated power, which it bears for good, in W (0.001 to 1000): ", done.stdout)
+        self.assertIn("in mm (0.01 to 10000) [12]: ", done.stdout)
+        self.assertEqual(self.board.read_text(), by_script)
+
+    def test_every_number_of_a_nameplate_is_needed(self):
+        _, script = self.script()
+        script.write_text(script.read_text() + "[nameplate]\nrated_W = 2\nstroke = 8\n")
+        self.assert_refused(self.setup_program("--script", script), "nameplate.rated_Ohm", "nameplate.stroke", "did you mean stroke_")
+
     def test_answers_that_no_muscle_has_are_refused_without_a_line_of_a_file_that_is_none_and_kept(self):
-        questions = ["10", "0.1", "1e6", "0.01", "2", "13", "1.3", "0.1", "", "4.5", "25", ""]
+        questions = ["", "10", "0.1", "1e6", "0.01", "2", "13", "1.3", "0.1", "", "4.5", "25", ""]
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 2)
         self.assertIn("the answers make a muscle with ", done.stderr)

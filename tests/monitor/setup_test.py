@@ -67,6 +67,7 @@ class Wizard(Page):
 
     def describe(self):
         self.begin("describe")
+        self.answer("nameplate", 0)
         for key, value in ANSWERS.items():
             self.answer(key, value)
         return self.ended("describe", SLACK_S)
@@ -199,7 +200,7 @@ class SetupTest(SetupCase):
         moved = self.run_step(page, "move")
         self.assertRegex(" ".join(moved["lines"]), "promised: .*followed within .* um rms: the promise is kept")
         see(page, "moved")
-        self.assertEqual(set(self.record()), {"describe", "senses", "calibrate", "limits", "identify", "gains", "move"})
+        self.assertEqual(set(self.record()), {"describe", "doctor", "senses", "calibrate", "limits", "identify", "gains", "move"})
         state = command(self.source, "state").stdout
         self.assertRegex(state, "node 1: disarmed")
         self.assertEqual(page.errors(), [])
@@ -207,6 +208,7 @@ class SetupTest(SetupCase):
     def test_a_wrong_answer_is_refused_with_its_range_and_asked_again(self):
         page = self.wizard(f"socketcand:{self.start_board().found[1]}")
         page.begin("describe")
+        page.answer("nameplate", 0)
         page.answer("cold_resistance_Ohm", "10Ohm")  # a space is STOP, as everywhere
         page.wait(lambda: "'10Ohm' is refused: it must be a number from 0.1 to 10000" in page.text("#setup > .answer"), SLACK_S, "refused")
         self.assertEqual(page.asked(), "cold_resistance_Ohm")

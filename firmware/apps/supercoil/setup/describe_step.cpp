@@ -7,9 +7,9 @@
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
 #include "apps/supercoil/setup/file_joint.hpp"
-#include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/next_question.hpp"
 #include "apps/supercoil/setup/record.hpp"
+#include "apps/supercoil/setup/script.hpp"
 #include "config/board_config.hpp"
 #include "config/describe.hpp"
 #include "config/toml_file.hpp"
@@ -23,38 +23,62 @@ using Json = nlohmann::ordered_json;
 template <class Value>
 using Or = tl::expected<Value, std::string>;
 
-/// One after the other. Each answer is kept at once, and offered when it is asked for again.
-Or<MuscleAnswers> answered(const BoardRanges& board, SetupRecord& record, Operator& who) {
-  MuscleAnswers answers;
-  for (std::size_t i = 0; i < questions.size(); ++i) {
-    Question q = next_question(i, answers, board);
-    const std::string key(q.key);
-    const auto before = record.answer(key);
-    if (before && *before >= q.allowed.lowest && *before <= q.allowed.highest) q.fallback = *before;
-    const auto value = who.ask(q, [] { return Operator::Done(); });
-    if (!value) return tl::unexpected(value.error() + "\n");
-    answers.set(i, *value);
-    if (auto kept = record.add_answer(key, *value); !kept)
-      return tl::unexpected(kept.error() + "\n");
+/// What was said to describe: of the nameplate, if there is one, and of the muscle.
+struct Said {
+  Nameplate nameplate;
+  MuscleAnswers muscle;
+};
+
+/// The answer is kept at once, and offered when it is asked for again.
+Or<double> ask_and_keep(Question q, SetupRecord& record, Operator& who) {
+  const std::string key(q.key);
+  const auto before = record.answer(key);
+  if (before && q.allows(*before)) q.fallback = *before;
+  const auto value = who.ask(q, [] { return Operator::Done(); });
+  if (!value) return tl::unexpected(value.error() + "\n");
+  if (auto kept = record.add_answer(key, *value); !kept) return tl::unexpected(kept.error() + "\n");
+  return *value;
+}
+
+/// One after the other.
+Or<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& who) {
+  Said said;
+  const auto has = ask_and_keep(has_nameplate, record, who);
+  if (!has) return tl::unexpected(has.error());
+  for (std::size_t i = 0; *has > 0.0 && i < nameplate_questions.size(); ++i) {
+    const auto value = ask_and_keep(nameplate_questions[i], record, who);
+    if (!value) return tl::unexpected(value.error());
+    said.nameplate.set(i, *value);
   }
-  return answers;
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    Question q = next_question(i, said.muscle, board);
+    const double rated = said.nameplate.suggested(static_cast<Asked>(i));
+    if (!std::isnan(rated)) q.fallback = std::fmin(rated, q.allowed.highest);
+    const auto value = ask_and_keep(q, record, who);
+    if (!value) return tl::unexpected(value.error());
+    said.muscle.set(i, *value);
+  }
+  return said;
 }
 
 /// What a script leaves open, or an error for each.
-Or<MuscleAnswers> completed(MuscleAnswers answers, const SetupOptions& options) {
+Or<Said> completed(const Script& script, const SetupOptions& options) {
+  MuscleAnswers answers = script.muscle;
   std::string missing;
   for (std::size_t i = 0; i < questions.size(); ++i) {
     if (answers.has(i)) continue;
     const Question& q = questions[i];
-    if (!std::isnan(q.fallback)) {
-      answers.set(i, q.fallback);
+    const double rated = script.nameplate.suggested(static_cast<Asked>(i));
+    const double offered = std::isnan(rated) ? q.fallback : rated;
+    if (!std::isnan(offered)) {
+      answers.set(i, offered);
     } else {
       missing += options.script + ": muscle." + std::string(q.key) +
                  ": is missing: " + std::string(q.text) + ", " + range_text(q.allowed) + "\n";
     }
   }
   if (!missing.empty()) return tl::unexpected(missing);
-  return answers;
+  return Said{script.nameplate, answers};
 }
 
 /// What bounds the travel where a joint's range_deg does; where the answer leaves no less than
@@ -88,10 +112,12 @@ void say_how_a_joint_is_measured(double lever_m, Operator& who) {
       "over the lever's square");
 }
 
-Or<Json> write_description(const MuscleAnswers& answers, const SetupOptions& options,
-                           const std::string& text, Operator& who) {
-  auto described = describe_muscle(answers);
+Or<Json> write_description(const Said& said, const SetupOptions& options, const std::string& text,
+                           Operator& who) {
+  auto described = describe_muscle(said.muscle);
   if (!described) return tl::unexpected(described.error() + "\n");
+  for (Entry& limit : said.nameplate.limits(trip_in_file_C(text, options.channel)))
+    described->entries.push_back(std::move(limit));
   const auto index = static_cast<std::size_t>(options.channel) - 1;
   std::erase_if(described->entries, [&](const Entry& entry) { return stays(entry, text, index); });
   fit_travel(text, options.channel, described->entries, who);
@@ -116,12 +142,12 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   const auto text = read_board_text(options.config);
   if (!text) return tl::unexpected(text.error());
   const auto joint = joint_in_file(*text, options.channel);
-  Or<MuscleAnswers> answers;
+  Or<Said> said;
   const bool asks = options.script.empty();
   if (!asks) {
     const auto script = read_script(options.script);
     if (!script) return tl::unexpected(script.error());
-    answers = completed(script->muscle, options);
+    said = completed(*script, options);
   }
   if (joint) say_how_a_joint_is_measured(joint->lever.zero_radius_m(), who);
   if (asks) {
@@ -129,10 +155,10 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
     if (!record) return tl::unexpected(record.error() + "\n");
     BoardRanges ranges = board_ranges(*text, options.channel);
     if (joint) ranges.max_position_m = NAN;
-    answers = answered(ranges, *record, who);
+    said = answered(ranges, *record, who);
   }
-  if (!answers) return tl::unexpected(answers.error());
-  auto written = write_description(*answers, options, *text, who);
+  if (!said) return tl::unexpected(said.error());
+  auto written = write_description(*said, options, *text, who);
   if (!written && asks) who.say("the answers are kept: supercoil setup describe offers them again");
   return written;
 }

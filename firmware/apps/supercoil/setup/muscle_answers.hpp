@@ -4,10 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
-#include <vector>
-
-#include <tl/expected.hpp>
 
 #include "apps/supercoil/setup/operator.hpp"
 
@@ -77,12 +73,5 @@ inline constexpr Question take_gains{
     "1: take over the recommended controller, 0: keep the one in use",
     {0.0, 1.0},
     1.0};
-
-struct Script {
-  MuscleAnswers muscle;  ///< a key that is not there is not answered
-  double take_gains = operating::take_gains.fallback;
-};
-/// The table [muscle] of a file. The error is whole lines.
-tl::expected<Script, std::string> read_script(const std::string& path);
 
 }  // namespace supercoil::operating

@@ -17,7 +17,7 @@ Operator::OrWhy read_answer(const Question& question, const std::string& text) {
     const auto read = std::from_chars(text.data(), end, value);
     if (read.ec != std::errc{} || read.ptr != end) value = NAN;
   }
-  if (value >= question.allowed.lowest && value <= question.allowed.highest) return value;
+  if (question.allows(value)) return value;
   return tl::unexpected("'" + text + "' is refused: it must be a number from " +
                         range_text(question.allowed));
 }

@@ -18,6 +18,8 @@ struct Question {
   std::string_view text;  ///< with its unit
   config::Range allowed;
   double fallback;  ///< what an empty answer means; NaN: it must be answered
+
+  bool allows(double value) const { return value >= allowed.lowest && value <= allowed.highest; }
 };
 
 class Operator {

@@ -214,15 +214,16 @@ ScenarioOrProblems read_scenario(const std::string& path, const LearnedMuscles& 
     return parse_scenario(std::string(*text), path, learned);
   }
   config::Diagnostics diagnostics(path);
-  const std::string text = config::read_text(path, diagnostics);
-  if (!diagnostics.empty()) {
-    if (path.find('.') == std::string::npos && path.find('/') == std::string::npos) {
-      diagnostics.add(0, "",
-                      "and no built-in scenario has that name; " +
-                          meant_or_all(path, names_of(builtin_scenarios()), "they are"));
-    }
+  const bool is_name = path.find('.') == std::string::npos && path.find('/') == std::string::npos;
+  std::error_code unknown;
+  if (is_name && !std::filesystem::exists(path, unknown)) {
+    diagnostics.add(0, "",
+                    "there is no such file, and no built-in scenario has that name; " +
+                        meant_or_all(path, names_of(builtin_scenarios()), "they are"));
     return tl::unexpected(diagnostics.problems());
   }
+  const std::string text = config::read_text(path, diagnostics);
+  if (!diagnostics.empty()) return tl::unexpected(diagnostics.problems());
   return parse_scenario(text, path, learned);
 }
 

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import tempfile
 import threading
@@ -72,6 +73,46 @@ class PlayCase(unittest.TestCase):
     def supercoil(self, *arguments):
         return subprocess.run([SUPERCOIL, *arguments, "--can", self.bus], capture_output=True, text=True,
                               timeout=DEADLINE_S)
+
+
+class Refused(unittest.TestCase):
+    """By a board's own socket, as supercoild answers."""
+
+    ANSWERS = {"position": "refused: out_of_range; 0.025 would be obeyed", "position -100": "refused: out_of_range; -0.01 would be obeyed",
+               "knot": "refused: out_of_range; 0.024 would be obeyed", "playback": "1 empty 100 0 0\n", "position 0.003": "ok"}
+
+    def setUp(self):
+        self.folder = self.enterContext(tempfile.TemporaryDirectory())
+        self.socket = f"{self.folder}/commands"
+        self.listener = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        self.addCleanup(self.listener.close)
+        self.listener.bind(self.socket)
+        self.listener.listen()
+        threading.Thread(target=self.serve, daemon=True).start()
+
+    def serve(self):
+        while True:
+            try:
+                client, _ = self.listener.accept()
+            except OSError:
+                return
+            with client:
+                while line := client.recv(200).decode().removeprefix("1 "):
+                    known = self.ANSWERS.get(line, self.ANSWERS.get(line.split()[0], "ok"))
+                    client.send(known.encode())
+
+    def told(self, *arguments):
+        done = subprocess.run([SUPERCOIL, *arguments, "--socket", self.socket], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertEqual(done.returncode, 1)
+        return done.stderr
+
+    def test_of_a_knot_the_nearest_that_would_be_obeyed_is_told(self):
+        path = motion(self.folder, {1: 1.0})
+        self.assertIn("refused: out_of_range; 0.024 would be obeyed", self.told("play", path, "--settle", "0"))
+
+    def test_of_a_position_the_whole_range_is_told(self):
+        self.assertEqual(self.told("command", "1", "position", "0.9"), "supercoil: 1 position 0.9: refused: out_of_range; "
+                         "0.025 would be obeyed; -0.01 to 0.025 are in range\n")
 
 
 class Files(PlayCase):

@@ -255,7 +255,7 @@ class SetupOfABoard(SetupCase):
                     break
             return done
 
-        told = re.search(r"refused: out_of_range; 0\.008\d* would be obeyed \((30\.\d+deg)\)", positioned("80deg").stderr)
+        told = re.search(r"refused: out_of_range; 0\.008\d* would be obeyed \((30\.\d+deg)\); -30\.\d+deg to \1 are in range\n", positioned("80deg").stderr)
         self.assertEqual(positioned(told[1]).returncode, 0)  # to the digit
 
 if __name__ == "__main__":

@@ -42,37 +42,67 @@ int judged(const std::string& line, const std::string& answer) {
               line + ": " + told_answer(line, answer));
 }
 
-/// With the nearest that would be obeyed in degrees too, where degrees were asked for: rounded
-/// towards 0, so that it is obeyed.
-std::string with_degrees(const CommandOptions& options, const std::string& answer) {
-  const auto reply = parse_answer(answer);
-  if (options.joint.direction == 0 || !reply || std::isnan(reply->nearest)) return answer;
-  constexpr double per_deg = 1e4;
-  const double angle_deg = deg_per_rad * options.joint.angle_rad(reply->nearest);
-  const double nearest_deg = std::trunc(per_deg * angle_deg) / per_deg;
-  return answer + " (" + number_text(nearest_deg, 7) + "deg)";
-}
-
-/// One command's end, as text or as JSON on standard output.
-int concluded(const CommandOptions& options, const std::string& line,
-              const BoardLink::Answer& answer) {
-  if (options.json) {
-    nlohmann::ordered_json told{{"command", line}};
-    told[answer && is_answer(*answer) ? "answer" : "error"] = answer ? *answer : answer.error();
-    std::printf("%s\n", told.dump().c_str());
-  }
-  return answer ? judged(line, with_degrees(options, *answer)) : fail(exit_failed, answer.error());
-}
-
-int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
-  return concluded(options, line, board.ask(line));
-}
-
 std::optional<double> number_of(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool whole = error == std::errc{} && end == text.data() + text.size();
   return whole && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+/// Of the nearest position that would be obeyed, where degrees were asked for: rounded towards 0,
+/// so that it is obeyed.
+std::string in_degrees(const CommandOptions& options, double position_m) {
+  constexpr double per_deg = 1e4;
+  const double angle_deg = deg_per_rad * options.joint.angle_rad(position_m);
+  return number_text(std::trunc(per_deg * angle_deg) / per_deg, 7) + "deg";
+}
+
+std::string with_degrees(const CommandOptions& options, const std::string& answer) {
+  const auto reply = parse_answer(answer);
+  if (options.joint.direction == 0 || !reply || std::isnan(reply->nearest)) return answer;
+  return answer + " (" + in_degrees(options, reply->nearest) + ")";
+}
+
+/// Of a position that is out of range: "; 0 to 0.025 are in range". A position beyond the other end
+/// tells that, and is as little obeyed. Empty: it is not known.
+std::string position_range(BoardLink& board, const CommandOptions& options,
+                           const std::string& answer) {
+  const auto reply = parse_answer(answer);
+  const bool of_position = options.words.size() == 3 && options.words[1] == name(Verb::position);
+  if (!of_position || !reply || std::isnan(reply->nearest)) return "";
+  constexpr double beyond_m = 100.0;
+  const auto end_m = [&](double asked_m) {
+    const auto told = board.ask(options.words[0] + " position " + number_text(asked_m, digits));
+    const auto end = told ? parse_answer(*told) : std::nullopt;
+    return end ? end->nearest : NAN;
+  };
+  const double low_m = end_m(-beyond_m);
+  const double high_m = low_m == reply->nearest ? end_m(beyond_m) : reply->nearest;
+  if (!(low_m < high_m)) return "";
+  const auto shown = [&](double position_m) {
+    return options.joint.direction == 0 ? number_text(position_m, digits)
+                                        : in_degrees(options, position_m);
+  };
+  return "; " + shown(options.joint.direction < 0 ? high_m : low_m) + " to " +
+         shown(options.joint.direction < 0 ? low_m : high_m) + " are in range";
+}
+
+/// One command's end, as text or as JSON on standard output.
+int concluded(const CommandOptions& options, const std::string& line,
+              const BoardLink::Answer& answer, const std::string& range = "") {
+  if (options.json) {
+    nlohmann::ordered_json told{{"command", line}};
+    told[answer && is_answer(*answer) ? "answer" : "error"] = answer ? *answer : answer.error();
+    std::printf("%s\n", told.dump().c_str());
+  }
+  return answer ? judged(line, with_degrees(options, *answer) + range)
+                : fail(exit_failed, answer.error());
+}
+
+int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
+  const auto answer = board.ask(line);
+  const std::string range = answer ? position_range(board, options, *answer) : "";
+  return concluded(options, line, answer, range);
 }
 
 std::string joined(const std::vector<std::string>& words) {

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace supercoil {
 
@@ -16,10 +18,17 @@ std::string shortest_text(Number number) {
 }
 
 /// For people, and for files that people read: with so many significant digits at most, without
-/// zeros at the end.
+/// zeros at the end. 1480 in three digits is "1480"; from ten million on it has an exponent.
 inline std::string number_text(double value, int digits) {
+  constexpr double first_with_exponent = 1e7;
   std::array<char, 40> text{};
   std::snprintf(text.data(), text.size(), "%.*g", digits, value);
+  double rounded = 0.0;
+  const std::string_view shown(text.data());
+  if (shown.find("e+") == std::string_view::npos) return text.data();
+  std::from_chars(shown.data(), shown.data() + shown.size(), rounded);
+  if (std::abs(rounded) < first_with_exponent)
+    std::snprintf(text.data(), text.size(), "%.0f", rounded);
   return text.data();
 }
 

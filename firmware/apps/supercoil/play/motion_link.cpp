@@ -1,6 +1,7 @@
 #include "apps/supercoil/play/motion_link.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "text/command_text.hpp"
@@ -42,6 +43,8 @@ MotionLink::Answered LocalMotionLink::ask(Verb verb, double value) {
 MotionLink::Played LocalMotionLink::command_then_status(const std::string& words) {
   const auto answer = command(words);
   if (!answer) return tl::unexpected(answer.error());
+  if (!std::isnan(answer->nearest))
+    return tl::unexpected(answer_text(answer->refusal, answer->nearest));
   auto played = playback();
   if (played) played->refusal = answer->refusal;
   return played;

@@ -259,9 +259,9 @@ TEST(WrongScenario, FolderInsteadOfAFile) {
 TEST(WrongScenario, NameThatNoBuiltInScenarioHas) {
   const auto scenario = read_scenario("sinus");
   STRCMP_EQUAL(
-      "sinus: there is no such file\n"
-      "sinus: and no built-in scenario has that name; they are: b, bench, bundle-bench, bundle, c, "
-      "disturbances, "
+      "sinus: there is no such file, and no built-in scenario has that name; they are: b, bench, "
+      "bundle-bench, "
+      "bundle, c, disturbances, "
       "first-motion, fixed-point, identify, joint-bench, joint, pwm, real, real_hard, sine, "
       "steps\n",
       supercoil::config::to_text(scenario.error()).c_str());

@@ -160,12 +160,9 @@ void Simulation::inject_faults(const InjectedFaults& faults) {
     board_.channel(1).faults.slack_m = faults.antagonist_slack_m;
   }
   if (!conditions_->companions.empty()) {
-    for (std::size_t i = 0; i < loop_.channels(); ++i) {
-      if (faults.open_heater_in_bundle == static_cast<double>(i + 1))
-        board_.channel(i).faults.wire_open = true;
-      else if (i > 0)
-        board_.channel(i).faults.wire_open = false;
-    }
+    const auto broken = static_cast<std::size_t>(faults.open_heater_in_bundle);
+    for (std::size_t i = 0; i < loop_.channels(); ++i)
+      board_.channel(i).faults.wire_open = i + 1 == broken || (i == 0 && faults.heater_open);
   }
   muscle.position.set(
       ConverterFaults{faults.position_silent, faults.position_frozen, faults.position_loose});

@@ -21,6 +21,7 @@ SimulatedBoard::SimulatedBoard(const SimulatedBoardSettings& settings)
   }
   for (const std::vector<std::size_t>& bundle : bundled_) {
     std::vector<MuscleChannel*> muscles;
+    muscles.reserve(bundle.size());
     for (const std::size_t channel : bundle)
       muscles.push_back(channels_[channel].get());
     bundles_.push_back(std::make_unique<SimulatedBundle>(std::move(muscles), step_));

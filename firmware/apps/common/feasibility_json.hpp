@@ -46,7 +46,7 @@ inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::
   const Feasibility f = feasibility(c, board);
   const FirstMotion motion = plan_first_motion(f, c.unexplained_ratio);
   Json controllers = Json::array();
-  for (std::size_t i = 0; i < c.controllers.size() && !config::is_led(c); ++i) {
+  for (std::size_t i = 0; i < c.controllers.size() && !is_led(c); ++i) {
     Json told = controller_json(c.controllers[i], c, board.step_s(), f.steps[i]);
     if (is_promised_for(c.controllers[i]) && board.joint_of(channel) == nullptr &&
         motion.amplitude_m > 0.0)

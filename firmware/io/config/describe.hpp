@@ -22,8 +22,6 @@ std::string describe_joint(const BoardConfig& config, std::size_t index);
 std::string describe_bundle(const BoardConfig& config, std::size_t index);
 /// One line, of a channel whose joint a spring draws back.
 std::string describe_turned(const BoardConfig& config, std::size_t channel);
-/// By its joint's agonist: its own controllers are not used.
-bool is_led(const ChannelSettings& channel);
 /// By how much all parameters may be off at once; NaN: the controller works in open loop.
 double tolerated_ratio(const control::ControllerSettings& controller,
                        const ChannelSettings& channel, double step_s);

@@ -46,10 +46,6 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
 
 }  // namespace
 
-bool is_led(const ChannelSettings& c) {
-  return c.joint.direction < 0;
-}
-
 double tolerated_ratio(const control::ControllerSettings& controller, const ChannelSettings& c,
                        double step_s) {
   const auto law = control::fixed_law(controller, c.muscle);

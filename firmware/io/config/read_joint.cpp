@@ -84,8 +84,7 @@ void JointReader::read(Read& joint, std::size_t channels) {
     is_wrong_ = is_wrong_ || !joint.turned_by;
     return;
   }
-  const double lever_m = joint.lever.zero_radius_m();
-  const double ratio = section.number("antagonist_lever_m", lever_m, lever_range_m) / lever_m;
+  const double ratio = read_antagonist_lever_ratio(section, joint.lever);
   joint.travel = read_joint_travel(section, joint.lever, joint.lever.scaled(ratio));
   if (agonist && antagonist && std::max(*agonist, *antagonist) < channels) {
     joint.pair = JointSettings{.agonist = *agonist,

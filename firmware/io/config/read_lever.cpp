@@ -43,6 +43,11 @@ control::Lever read_lever(Section& section, Range radius_m, std::optional<double
   return {rad_per_deg * range_deg[0], rad_per_deg * range_deg[1], radii_m};
 }
 
+double read_antagonist_lever_ratio(Section& section, const control::Lever& agonist) {
+  const double lever_m = agonist.zero_radius_m();
+  return section.number("antagonist_lever_m", lever_m, lever_range_m) / lever_m;
+}
+
 double metres_per_degree(const control::Lever& lever) {
   return rad_per_deg * lever.zero_radius_m();
 }

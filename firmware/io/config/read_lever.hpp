@@ -18,6 +18,9 @@ inline constexpr Range limits_of_travel_m{1e-5, 10.0};
 /// missing if that is empty.
 control::Lever read_lever(Section& section, Range radius_m, std::optional<double> fallback_m);
 
+/// Key antagonist_lever_m, over the agonist's lever at the angle 0; 1 where it is absent.
+double read_antagonist_lever_ratio(Section& section, const control::Lever& agonist);
+
 /// What the sensor of a joint's angle reads, as an arc: at the lever of the angle 0.
 double metres_per_degree(const control::Lever& lever);
 

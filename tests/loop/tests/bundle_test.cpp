@@ -165,9 +165,10 @@ TEST(Bundle, CalibratesOneMuscleAfterTheOther) {
     DOUBLES_EQUAL(1.0, cold_Ohm / muscle_of(i).settings().resistance_Ohm, 0.03);
   }
   // One sensor, one zero.
-  for (const std::uint8_t i : {follower, last})
+  for (const std::uint8_t i : {follower, last}) {
     DOUBLES_EQUAL(rig.loop.channel(leader).known(known_position_offset),
                   rig.loop.channel(i).known(known_position_offset), 0.0);
+  }
 }
 
 TEST(Bundle, TheLeaderTellsThatAnotherMuscleWasNotCalibrated) {

@@ -356,7 +356,8 @@ TEST(JointConfig, WhatCannotBeIsNamed) {
   check_answer(
       "joint[1].speed = 3: is not a key of [joint[1]]; its keys are: opposed_by, agonist, "
       "antagonist, "
-      "lever_range_deg, lever_m, antagonist_lever_m, range_deg, name, co_contraction_W, max_co_contraction_W, "
+      "lever_range_deg, lever_m, antagonist_lever_m, range_deg, name, co_contraction_W, "
+      "max_co_contraction_W, "
       "max_pull_N, "
       "pretension_N\n",
       board_with_joint + "speed = 3\n");

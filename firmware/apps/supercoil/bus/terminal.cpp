@@ -111,10 +111,11 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
             " of the protocol, this program " + std::to_string(telemetry::protocol_version) +
             ": numbers may be wrong; take the supercoil that belongs to it\n";
   }
-  if (value(node, "Status", "proof_off") == 1.0)
+  if (value(node, "Status", "proof_off") == 1.0) {
     text +=
         "  proof_of_response is false, or not asked of a joint's two muscles: a muscle that is off "
         "its sensor may overheat unseen\n";
+  }
   if (value(node, "Status", "oscillated") == 1.0)
     text += "  the loop oscillated by itself: its feedback is slower now\n";
   text += shown("position", 1e3 * value(node, "Measurement", "position_m"), 3, "mm") +

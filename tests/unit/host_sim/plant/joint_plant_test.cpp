@@ -242,7 +242,7 @@ TEST(JointPlant, PullingAgainstEachOtherStiffensNoLinearMusclesAndMakesRealOnesS
 TEST(JointPlant, AWeightDrawsTheArmDownWithTheSineOfItsAngle) {
   JointPlantSettings settings = equal_muscles();
   const double arm_m = 0.015;
-  settings.weight_Nm = 0.040 * gravity_m_per_s2 * arm_m;
+  settings.weight_Nm = 0.040 * host_sim::gravity_m_per_s2 * arm_m;
   const control::PhysicalParameters& p = settings.agonist.parameters;
   const double lever_m = settings.lever.zero_radius_m();
   JointPlant plant(settings, joint_tick_s);

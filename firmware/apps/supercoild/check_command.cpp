@@ -54,10 +54,11 @@ Json json_of(const std::vector<config::Problem>& problems) {
 
 Json json_of(const config::BoardConfig& config, const std::vector<std::uint32_t>& versions) {
   Json channels = Json::array();
-  for (std::size_t i = 0; i < versions.size(); ++i)
+  for (std::size_t i = 0; i < versions.size(); ++i) {
     channels.push_back({{"name", config.labels[i].name},
                         {"learned_version", versions[i]},
                         {"feasibility", feasibility_json(config.settings, i)}});
+  }
   Json can;
   if (config.can) {
     can = {{"interface", config.can->interface},

@@ -11,7 +11,6 @@ using namespace supercoil::config;
 using supercoil::test::board_with_joint;
 using supercoil::test::problems_of;
 using supercoil::test::replaced;
-using supercoil::test::small_board;
 using supercoil::test::small_board_with;
 
 namespace {

@@ -41,13 +41,12 @@ inline nlohmann::ordered_json controller_json(const control::ControllerSettings&
 /// channel: from 0. Of a joint's antagonist controllers is empty, and of a joint nothing is
 /// promised.
 inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::size_t channel) {
-  using Json = nlohmann::ordered_json;
   const ChannelSettings& c = board.channels[channel];
   const Feasibility f = feasibility(c, board);
   const FirstMotion motion = plan_first_motion(f, c.unexplained_ratio);
-  Json controllers = Json::array();
+  nlohmann::ordered_json controllers = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < c.controllers.size() && !is_led(c); ++i) {
-    Json told = controller_json(c.controllers[i], c, board.step_s(), f.steps[i]);
+    nlohmann::ordered_json told = controller_json(c.controllers[i], c, board.step_s(), f.steps[i]);
     if (is_promised_for(c.controllers[i]) && board.joint_of(channel) == nullptr &&
         motion.amplitude_m > 0.0)
       told.update(promise_json(promise_error(c.controllers[i].learned_ff, c, board, motion)));

@@ -9,9 +9,14 @@
 
 namespace supercoil::operating {
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
 StepResult doctor_step(const SetupOptions& options, const config::BoardConfig& config,
                        Operator& who) {
-  using Json = nlohmann::ordered_json;
   if (!options.can.empty()) {
     const bool simulated = options.can.starts_with("socketcand:");
     who.say("the board is reached over " + options.can + ", and is " +

@@ -507,7 +507,7 @@ found before the limit. That power falls with the noise, with slow ticks, and wi
 told one. So it rises when the senses are compared with a meter, and at once: on a Raspberry Pi at 100 Hz
 (`raspberry-pi-pwm-ads1115.toml`) from 2.27 to 4.24 W. `supercoild --check` names the channel and the power. `proof_of_response = false` in `[channel.detectors]` switches all of this off; then only the window of 20 s
 remains, as for a muscle that is not identified: its parameters may be wrong by half, and a test this fine would take it
-for dead.
+for dead. The muscles of a [bundle](../joints.md#with-a-heater-each) are dithered together and answer together: one that is dead beside others that are not passes.
 
 **Reaction:** the channel goes cold. The next window begins; a reset is not refused because of this fault.
 

@@ -124,13 +124,36 @@ Opposition Axis::opposition(double gain_ratio, double lever_ratio) const {
           inputs_.expected_anew};
 }
 
+void Axis::lead(const Companions& others) {
+  const bool anew = !companions_ || companions_->max_power_ratio != others.max_power_ratio;
+  companions_ = others;
+  if (anew) plan_proof();
+}
+
+/// With the widest bounds of power in the bundle.
+void Axis::plan_proof() {
+  const double own = heater_.power_bounds().true_over_measured().max;
+  proof_.plan(companions_ ? std::max(own, companions_->max_power_ratio) : own, muscle_);
+}
+
+double Axis::max_W() const {
+  const double own_W = heater_.limiter().max_W();
+  return companions_ ? std::min(own_W, companions_->max_W) : own_W;
+}
+
+double Axis::max_hot_W() const {
+  const double own_W = heater_.limiter().max_W(heater_.heat().hottest_C());
+  return companions_ ? std::min(own_W, companions_->max_hot_W) : own_W;
+}
+
 void Axis::prove(std::int64_t periods) {
   const bool heats = state_.may_heat() && (mode_ == Mode::position || mode_ == Mode::power);
   const board::Measured& position = inputs_.position;
   const board::AppliedPower& acting = heater_.acting();
   const board::Heat& heat = heater_.heat();
+  const double companions_K = companions_ ? companions_->hottest_K : 0.0;
   proof_.step({acting.power_W, acting.dither_W, periods, position.present, position.value,
-               heat.hottest_K(), heats, heat.air().above_configured_K()});
+               std::max(heat.hottest_K(), companions_K), heats, heat.air().above_configured_K()});
   inputs_.unanswered = proof_.unanswered();
   if (inputs_.unanswered) inputs_.answer = proof_.margin();
 }

@@ -43,6 +43,9 @@ struct Opposition {
 /// What the other muscles of a bundle do, as the axis that leads it sees them.
 struct Companions {
   control::PowerRange range;                  ///< that every heater can give
+  double max_W = 0.0;                         ///< that every limiter allows
+  double max_hot_W = 0.0;                     ///< likewise, as hot as each muscle may be
+  double max_power_ratio = 1.0;               ///< greatest true over measured power
   LimitedBy limited_by = LimitedBy::nothing;  ///< the first of them that is
   double hottest_K = 0.0;                     ///< above the air
 };
@@ -63,7 +66,7 @@ class Axis {
     inputs_.expected_anew = inputs_.expected_anew || other.expected_anew;
   }
   /// In a bundle, of its leader: likewise of the others.
-  void lead(const Companions& others) { companions_ = others; }
+  void lead(const Companions& others);
   /// In a bundle, of one that follows: it is the leader's motion.
   void follow_knowledge(const Axis& leader);
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
@@ -88,14 +91,20 @@ class Axis {
   /// That its own heater may get now, as hot as the muscle may be and by what it has proven.
   control::PowerRange allowed_range() const;
   /// share_W: what its own heater is to give of that.
-  void limit(double share_W) {
+  /// max_W: no more with a dither.
+  void limit(double share_W, double max_W = std::numeric_limits<double>::infinity()) {
     share_W_ = share_W;
-    heater_.limit(state_, proof_.added_to(share_W), proof_.max_W());
+    heater_.limit(state_, proof_.added_to(share_W, max_W), proof_.max_W());
   }
+  bool dithers() const { return proof_.dither_W() != 0.0; }
   /// In a bundle, of one that follows: the leader's demand and, of that, the power of its heater.
   void follow_power(double demanded_W, double power_W);
   /// Calibrate probes when it has found the zero, and not before.
-  void drive() { heater_.drive(state_, mode_ != Mode::calibrate, proof_.dither_W()); }
+  /// A dither that one of a bundle cannot follow is none.
+  void drive() {
+    const double dither_W = companions_limited() ? 0.0 : proof_.dither_W();
+    heater_.drive(state_, mode_ != Mode::calibrate, dither_W);
+  }
   /// Its part of what is published, with the heater's. selector: of a full turn, chooses what is
   /// told in turn.
   void publish(std::uint32_t selector, Snapshot& s) const;
@@ -172,6 +181,10 @@ class Axis {
     return companions_ && companions_->limited_by != LimitedBy::nothing;
   }
   void prove(std::int64_t periods);
+  void plan_proof();
+  /// Of all muscles that move together, allowed by their limiters; as hot as they may be.
+  double max_W() const;
+  double max_hot_W() const;
   void learn_heat();
   LimitedBy limited_by() const;
   void enter(Mode mode);

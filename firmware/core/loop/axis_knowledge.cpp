@@ -102,7 +102,7 @@ Refusal Axis::apply_comparison(const board::SenseComparison& senses) {
   calibrate(learned.calibration);
   heater_.apply_comparison(senses, resistance_scale);
   heater_.set_thermal_facts(learned.heat);
-  proof_.plan(heater_.power_bounds().true_over_measured().max, muscle_);
+  plan_proof();
   comparison_.forget();
   restart_comparisons();
   return Refusal::none;

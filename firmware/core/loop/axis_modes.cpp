@@ -8,12 +8,10 @@ namespace supercoil {
 
 bool Axis::step_identify() {
   if (small_signal_.running()) return step_small_signal();
-  const ModeResult now =
-      identify_.step(inputs_.position.value, moving_W(), heater_.limiter().max_W());
+  const ModeResult now = identify_.step(inputs_.position.value, moving_W(), max_W());
   // It asks for no more than a hot muscle gets: a slow one may stay hot for minutes, and a power
   // that is cut for so long is a controller's fault.
-  demanded_.demanded_power_W =
-      std::min(identify_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
+  demanded_.demanded_power_W = std::min(identify_.power_W(), max_hot_W());
   update_cooling_fit();
   if (now == ModeResult::running) return false;
   demanded_ = {};
@@ -35,8 +33,7 @@ bool Axis::step_identify() {
 /// What a small motion of the muscle that was found leaves at the sensor.
 bool Axis::step_small_signal() {
   if (small_signal_.step(inputs_.position.value, moving_W())) {
-    demanded_.demanded_power_W =
-        std::min(small_signal_.power_W(), heater_.limiter().max_W(heater_.heat().hottest_C()));
+    demanded_.demanded_power_W = std::min(small_signal_.power_W(), max_hot_W());
     return false;
   }
   demanded_ = {};

@@ -85,7 +85,7 @@ void Channel::make_safe(Fault cause, const detectors::Margin& margin) {
     first_margin_ = margin;
     cause_is_new_ = cause != Fault::none;
   }
-  handed_over_ = Mode::rest;
+  abandon_others();
   state_.disarm(cause);
   axis_.disarm();
 }
@@ -232,10 +232,11 @@ Refusal Channel::renew() {
 }
 
 Refusal Channel::rest() {
-  const bool all = moves_together() || waits_for_others();
+  if (bundled_ && leader_ != nullptr) return leader_->rest();
+  const bool all = bundled_ || moves_together() || waits_for_others();
   if (state_.rest() != Refusal::none) return Refusal::wrong_state;
   axis_.rest();
-  handed_over_ = Mode::rest;
+  abandon_others();
   if (!all) return Refusal::none;
   for (Channel* const other : others_)
     other->rest_now();

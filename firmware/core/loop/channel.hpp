@@ -139,6 +139,8 @@ class Channel {
   bool hand_over_to(std::size_t place, Mode mode);
   bool waits_for_others() const { return handed_over_ != Mode::rest; }
   void follow_others();
+  /// What they do for this one is not waited for any more.
+  void abandon_others();
   /// What leads tells how far all are.
   void publish_group(Snapshot& s) const;
   void rest_now();

@@ -92,6 +92,8 @@ bool Channel::hand_over(Mode ended) {
 
 bool Channel::hand_over_to(std::size_t place, Mode mode) {
   if (place >= others_.size() || others_[place]->state_.state() != State::armed) return false;
+  // Before it is asked: it may be earlier in the tick than what it would learn by itself.
+  if (bundled_) others_[place]->axis_.follow_knowledge(axis_);
   others_[place]->enter(mode, 0.0);
   handed_over_ = mode;
   handed_over_to_ = place;
@@ -101,10 +103,20 @@ bool Channel::hand_over_to(std::size_t place, Mode mode) {
 void Channel::follow_others() {
   const Channel& other = *others_[handed_over_to_];
   if (other.state_.may_heat()) return;
-  if (other.axis_.has_found() && hand_over_to(handed_over_to_ + 1, handed_over_)) return;
-  if (bundled_) axis_.conclude(other.axis_.result());
+  const std::size_t next = handed_over_to_ + 1;
+  // What one of them has lost is lost, however the others end.
+  if (bundled_ && other.axis_.result() != ModeResult::found) axis_.conclude(other.axis_.result());
+  if (other.axis_.has_found()) {
+    if (hand_over_to(next, handed_over_)) return;
+    if (bundled_ && next < others_.size()) axis_.conclude(ModeResult::interrupted);
+  }
   handed_over_ = Mode::rest;
   state_.rest();
+}
+
+void Channel::abandon_others() {
+  if (bundled_ && waits_for_others()) axis_.conclude(ModeResult::interrupted);
+  handed_over_ = Mode::rest;
 }
 
 void Channel::publish_group(Snapshot& s) const {

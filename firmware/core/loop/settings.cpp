@@ -78,6 +78,26 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
   return std::nullopt;
 }
 
+/// What of a channel that follows in a bundle must be as its leader's, or no stricter: travel,
+/// proof and ramps are the bundle's, and go by the leader. Empty: it is.
+std::string contradiction(const ChannelSettings& leader, const ChannelSettings& follower) {
+  const auto stricter = [&](auto value_of) { return value_of(follower) < value_of(leader); };
+  using Channel = const ChannelSettings&;
+  if (stricter([](Channel c) { return c.supervision.max_travel_m; }))
+    return "limits.max_travel_m is less";
+  if (stricter([](Channel c) { return c.supervision.trip_C; })) return "limits.trip_C is less";
+  if (stricter([](Channel c) { return c.limiter.derate_from_C; }))
+    return "limits.derate_from_C is less";
+  if (stricter([](Channel c) { return c.thermal.bounds.min_mass_J_per_K; }))
+    return "thermal.min_mass_J_per_K is less";
+  if (stricter([](Channel c) { return c.thermal.bounds.min_transfer_W_per_K; }))
+    return "thermal.min_transfer_W_per_K is less";
+  if (leader.limiter.min_W != follower.limiter.min_W) return "limits.min_W is not";
+  if (leader.limiter.slew_W_per_s != follower.limiter.slew_W_per_s)
+    return "limits.slew_W_per_s is not";
+  return "";
+}
+
 /// Each takes at least two channels, which are in no joint.
 std::optional<SettingsProblem> check_bundles(const BoardSettings& settings,
                                              std::set<std::size_t>& taken) {
@@ -89,6 +109,14 @@ std::optional<SettingsProblem> check_bundles(const BoardSettings& settings,
       const ChannelSettings& c = settings.channels[channel];
       if (c.bundle.follows() && c.supervision.proof_of_response)
         return cannot_prove("bundle", channel);
+      const std::string why = contradiction(settings.channels[bundle.leader()], c);
+      if (!why.empty()) {
+        return SettingsProblem{"bundle", "channel " + std::to_string(channel + 1) + "'s " + why +
+                                             " that of channel " +
+                                             std::to_string(bundle.leader() + 1) +
+                                             ", which leads; what they share stands in "
+                                             "[every_channel]"};
+      }
     }
   }
   return std::nullopt;

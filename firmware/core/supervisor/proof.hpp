@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "board/heat.hpp"
 #include "supervisor/dither.hpp"
@@ -78,10 +79,12 @@ class Proof {
   bool unanswered() const { return unanswered_; }
   /// The dither at this tick; 0: none.
   double dither_W() const { return dither_W_; }
-  /// Both together; at the greatest power too there is room for both halves of a dither.
-  double added_to(double demanded_W) const {
+  /// Both together, max_W at most; at the greatest power too there is room for both halves of a
+  /// dither.
+  double added_to(double demanded_W, double max_W = std::numeric_limits<double>::infinity()) const {
     if (dither_W_ == 0.0) return demanded_W;
-    const double room_W = std::fmin(settings_.max_W, max_W_) - plan_.dither.amplitude_W;
+    const double room_W =
+        std::fmin(std::fmin(settings_.max_W, max_W_), max_W) - plan_.dither.amplitude_W;
     return (demanded_W > room_W ? room_W : demanded_W) + dither_W_;
   }
   /// No more power than this.

@@ -30,6 +30,8 @@ std::vector<std::size_t> BundleReader::read_channels(Section& section, std::size
     const char* wrong = nullptr;
     if (number != std::floor(number)) {
       wrong = "is none: channels are numbered from 1";
+    } else if (place >= channels) {
+      wrong = "is none of this file";
     } else if (joints.place_of(place).turns()) {
       wrong = "turns a joint, and a bundle is no part of one";
     } else if (std::ranges::find(taken_, place) != taken_.end()) {
@@ -42,8 +44,7 @@ std::vector<std::size_t> BundleReader::read_channels(Section& section, std::size
     taken_.push_back(place);
     places.push_back(place);
   }
-  const bool exist = std::ranges::all_of(places, [=](std::size_t i) { return i < channels; });
-  return exist ? places : std::vector<std::size_t>();
+  return places;
 }
 
 std::optional<std::size_t> BundleReader::leader_of(std::size_t channel) const {

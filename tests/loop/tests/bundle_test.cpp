@@ -197,6 +197,70 @@ TEST(Bundle, TheLeaderTellsThatAnotherMuscleWasNotCalibrated) {
   CHECK(of(last).result == ModeResult::none);
 }
 
+TEST(Bundle, AnEndedCalibrateIsNotToldAsFound) {
+  const auto calibrates_second = [](Rig& fresh) {
+    fresh.boot();
+    fresh.arm();
+    fresh.run(0.2);
+    CHECK(fresh.answer_of(leader, Verb::calibrate) == Refusal::none);
+    CHECK(fresh.run_until(
+        [&] {
+          fresh.send(Verb::renew);
+          return fresh.loop.channel(follower).snapshot().mode == Mode::calibrate;
+        },
+        200.0));
+  };
+  // Of any node, also of one that waits for its turn.
+  for (const std::uint8_t asked : {leader, follower, last}) {
+    Rig fresh(bundle_board());
+    calibrates_second(fresh);
+    fresh.loop.send({asked, Verb::rest, 0.0});
+    fresh.run(0.1);
+    CHECK(fresh.snapshot().result == ModeResult::interrupted);
+    for (std::size_t i = 0; i < muscles; ++i)
+      CHECK(fresh.loop.channel(i).state().state() == State::armed);
+  }
+  Rig broken(bundle_board());
+  calibrates_second(broken);
+  CHECK(broken.answer_of(leader, Verb::disarm) == Refusal::none);
+  CHECK(broken.snapshot().result == ModeResult::interrupted);
+}
+
+TEST(Bundle, IdentifyAsksForNoMoreThanTheWeakestMayHave) {
+  arm();
+  rig.loop.channel(last).allow_power(2.0);
+  CHECK(rig.answer_of(leader, Verb::identify) == Refusal::none);
+  double asked_W = 0.0;
+  CHECK(rig.run_until(
+      [&] {
+        rig.send(Verb::renew);
+        asked_W = std::max(asked_W, of(leader).demanded_W);
+        return state_of(leader) != State::active;
+      },
+      400.0));
+  CHECK(of(leader).result == ModeResult::found);
+  CHECK_COMPARE(asked_W, <=, 2.0);
+  CHECK_COMPARE(asked_W, >, 1.5);
+}
+
+TEST(Bundle, ADitherThatOneOfThemCannotFollowIsNone) {
+  arm();
+  rig.loop.channel(last).allow_power(1.5);
+  rig.run(0.01);
+  // More is asked for than the weakest may have: there is room for the dither below that.
+  double most_W = 0.0;
+  const double from_s = rig.time_s();
+  while (rig.time_s() - from_s < 60.0) {
+    rig.send(Verb::power, 2.5);
+    rig.tick();
+    for (const std::uint8_t i : {leader, follower, last})
+      most_W = std::max(most_W, of(i).applied_W);
+  }
+  CHECK_COMPARE(most_W, <, 1.52);
+  CHECK(all(State::active));
+  CHECK(of(leader).limited_by != LimitedBy::unproven);
+}
+
 TEST(Bundle, IdentifiesItAsOneMuscle) {
   arm();
   CHECK(measures_to_the_end(Verb::identify, 400.0));

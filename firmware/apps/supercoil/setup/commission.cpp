@@ -145,7 +145,8 @@ Commission::OrWhy Commission::calibrate_when_cold() {
   const double cold_after_s = longest_s(cold_after);
   const double begin_s = board_.time_s();
   for (;;) {
-    auto result = run_mode("calibrate", max_calibrate_s);
+    // One muscle after the other.
+    auto result = run_mode("calibrate", max_calibrate_s * static_cast<double>(together().size()));
     const double left_s = cold_after_s - (board_.time_s() - begin_s);
     if (!result || *result != "not_cold" || left_s < 0.0) return result;
     who_.say("not cold yet, by the bounds of its heat; in " + in_digits(left_s) +
@@ -161,11 +162,18 @@ std::optional<Commission::Measured> Commission::antagonist() const {
                   settings_.channels[joint->antagonist]};
 }
 
+std::vector<std::size_t> Commission::together() const {
+  if (const JointSettings* joint = settings_.joint_of(index_))
+    return {joint->agonist, joint->antagonist};
+  if (const BundleSettings* bundle = settings_.bundle_of(index_)) return bundle->channels;
+  return {index_};
+}
+
 double Commission::longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const {
-  const JointSettings* joint = settings_.joint_of(index_);
-  if (joint == nullptr) return time_s_of(configured_);
-  return std::max(time_s_of(settings_.channels[joint->agonist]),
-                  time_s_of(settings_.channels[joint->antagonist]));
+  double max_s = 0.0;
+  for (const std::size_t channel : together())
+    max_s = std::max(max_s, time_s_of(settings_.channels[channel]));
+  return max_s;
 }
 
 StepResult Commission::tell(Tell found) {

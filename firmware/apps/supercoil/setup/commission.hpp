@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 #include <tl/expected.hpp>
@@ -67,6 +68,8 @@ class Commission {
   /// Which identify and calibrate go on with; empty: this channel is no agonist.
   std::optional<Measured> antagonist() const;
   /// The longest of its own muscle and, in a joint, of the other one: both have to be cold.
+  /// Channels, from 0, that calibrate and are armed with this one; itself among them.
+  std::vector<std::size_t> together() const;
   double longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
   /// What was found, of an agonist also the antagonist's.
   StepResult tell(Tell found);

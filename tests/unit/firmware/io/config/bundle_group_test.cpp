@@ -16,7 +16,9 @@ using supercoil::test::small_board;
 namespace {
 
 const std::string one_bundle = "[[bundle]]\nname = 'lifter'\nchannels = [1, 2]\n";
-const std::string board_with_bundle = small_board + second_channel + one_bundle;
+const std::string second_of_bundle =
+    replaced(second_channel, "max_travel_m = 0.02", "max_travel_m = 0.025");
+const std::string board_with_bundle = small_board + second_of_bundle + one_bundle;
 
 BoardConfig read_bundle_board(const std::string& text) {
   const auto config = parse_board_config(text, "b.toml");
@@ -100,6 +102,27 @@ TEST(BundleConfig, WrongOnesAreToldWhatIsWrong) {
       supercoil::test::board_with_joint + one_bundle);
 }
 
+TEST(BundleConfig, ABoardThatLacksItsChannelsIsRefused) {
+  check_refused("bundle[1].channels = [1, 2]: channel 2 is none of this file",
+                small_board + one_bundle);
+}
+
+TEST(BundleConfig, WhatTheLeaderGoesByForAllIsNotStricterElsewhere) {
+  const auto refused = [](const std::string& what, const std::string& old,
+                          const std::string& replacement) {
+    check_refused("channel 2's " + what + " that of channel 1, which leads",
+                  small_board + replaced(second_of_bundle, old, replacement) + one_bundle);
+  };
+  refused("limits.max_travel_m is less", "max_travel_m = 0.025", "max_travel_m = 0.02");
+  refused("limits.trip_C is less", "max_W = 4.0", "max_W = 4.0\ntrip_C = 150");
+  refused("limits.derate_from_C is less", "max_W = 4.0", "max_W = 4.0\nderate_from_C = 100");
+  refused("thermal.min_mass_J_per_K is less", "min_mass_J_per_K = 0.13", "min_mass_J_per_K = 0.12");
+  refused("thermal.min_transfer_W_per_K is less", "min_transfer_W_per_K = 0.045",
+          "min_transfer_W_per_K = 0.04");
+  refused("limits.min_W is not", "max_W = 4.0", "max_W = 4.0\nmin_W = 0.1");
+  refused("limits.slew_W_per_s is not", "max_W = 4.0", "max_W = 4.0\nslew_W_per_s = 2.0");
+}
+
 TEST(BundleConfig, OfAWrongOneOnlyWhatIsWrongIsTold) {
   const std::string problems = problems_of(with_channels("[1, 1]"));
   CHECK(problems.find("position") == std::string::npos);
@@ -108,7 +131,7 @@ TEST(BundleConfig, OfAWrongOneOnlyWhatIsWrongIsTold) {
 TEST(BundleConfig, ASensorThatTwoChannelsNameIsPointedToIt) {
   check_refused(
       "those that pull together a [[bundle]]",
-      small_board + second_channel +
+      small_board + second_of_bundle +
           "[channel.position]\ndevice = \"adc\"\ninput = \"voltage1\"\nm_per_count = 1e-6\n"
           "min_m = -0.001\nmax_m = 0.041\n");
 }

@@ -73,7 +73,7 @@ bool arms_later(const Scenario& scenario) {
 }
 
 void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
-                   const std::string& folder) {
+                   const std::string& folder, bool shapes) {
   std::printf("%s: %" PRId64 " ticks in %.2f s, %.0f x real time\n",
               json["scenario"].get<std::string>().c_str(), json["ticks"].get<std::int64_t>(),
               json["wall_s"].get<double>(), json["realtime_factor"].get<double>());
@@ -92,8 +92,8 @@ void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
   if (summary.infeasible_ratio() > told_infeasible_ratio && std::isnan(summary.oscillated_at_s())) {
     std::printf(
         "the reference asked for more than the muscle can do in %.1f %% of the ticks that followed "
-        "it: a slower or smaller one, or shape_reference = true\n",
-        100.0 * summary.infeasible_ratio());
+        "it: a slower or smaller one%s\n",
+        100.0 * summary.infeasible_ratio(), shapes ? "" : ", or shape_reference = true");
   }
   print_modes(json);
   for (const auto& fault : json["faults"]) {
@@ -146,7 +146,9 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (auto written = folder.write("summary.json", text); !written) return written;
   if (auto done = folder.commit(); !done) return done;
-  if (!quiet) print_summary(summary, json, folder.path().string());
+  if (!quiet) {
+    print_summary(summary, json, folder.path().string(), scenario.start.controller.shape_reference);
+  }
   return {};
 }
 

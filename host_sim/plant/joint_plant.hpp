@@ -24,8 +24,7 @@ struct JointMuscle {
 };
 
 /// The angle is zero where the new, cold agonist pulls with pretension_N, and the antagonist with
-/// as much of a moment; the agonist turns the
-/// joint towards positive angles.
+/// as much of a moment; the agonist turns the joint towards positive angles.
 struct JointPlantSettings {
   JointMuscle agonist;
   std::optional<JointMuscle> antagonist;  ///< otherwise the spring opposes alone

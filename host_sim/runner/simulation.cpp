@@ -122,9 +122,10 @@ void Simulation::change_joint(const Conditions& before) {
   const double wanted_W = antagonist->co_contraction_W;
   if (wanted_W == before.antagonist()->co_contraction_W) return;
   // The operator commands it in watts of the antagonist.
-  const double gain_ratio = loop_.channel(1).dc_gain_m_per_W() /
-                            loop_.channel(0).dc_gain_m_per_W() /
-                            conditions_->joint->plant.antagonist_lever_ratio;
+  const double gain_ratio =
+      firmware_of(*scenario_)
+          .joints[0]
+          .gain_ratio(loop_.channel(0).dc_gain_m_per_W(), loop_.channel(1).dc_gain_m_per_W());
   loop_.send({1, Verb::power, wanted_W / gain_ratio});
 }
 

@@ -14,11 +14,8 @@ using config::Section;
 constexpr std::array of_the_bundle{"moving_mass_kg", "hanging_mass_kg", "load_N",
                                    "friction_ratio", "end_stop_m",      "ceiling_m"};
 
-/// The table of one muscle, laid over [plant].
-Section table_of(const toml::table& document, std::size_t number, Diagnostics& diagnostics) {
-  const std::string key = std::to_string(number);
-  const Section own(document["bundle"][key].as_table(), "bundle." + key, diagnostics);
-  return own.over(document["plant"].as_table(), "plant");
+std::string path_of(std::size_t number) {
+  return "bundle." + std::to_string(number);
 }
 
 std::size_t read_number(Section& section) {
@@ -41,13 +38,9 @@ std::vector<PlantSettings> read_companions(const toml::table& document, Diagnost
     for (const char* key : of_the_bundle) {
       if (own.has(key)) own.wrong(key, "is of the whole bundle: it stands in [plant]");
     }
-    // What [plant] has wrong is said there.
     Diagnostics found(diagnostics.file());
-    companions.push_back(read_plant(table_of(document, number, found)));
-    for (const config::Problem& problem : found.problems()) {
-      if (problem.key.starts_with("bundle."))
-        diagnostics.add(problem.line, problem.key, problem.message, problem.value);
-    }
+    companions.push_back(read_plant(laid_over(document, path_of(number), "plant", found)));
+    add_new(found, diagnostics);
   }
   section.finish();
   return companions;
@@ -60,7 +53,7 @@ control::PhysicalParameters bundle_parameters(const toml::table& document,
   if (section.table() == nullptr) return first;
   const std::size_t muscles = read_number(section);
   for (std::size_t number = 2; number <= muscles; ++number) {
-    Section own = table_of(document, number, elsewhere);
+    Section own = laid_over(document, path_of(number), "plant", elsewhere);
     const control::PhysicalParameters other = read_plant_parameters(own);
     first.stiffness_N_per_m += other.stiffness_N_per_m;
     first.damping_Ns_per_m += other.damping_Ns_per_m;

@@ -133,10 +133,9 @@ double read_senses(Section section) {
 InjectedFaults read_injected_faults(Section section, const Conditions& c) {
   const auto refuse_missing = [&](const char* key, Needs needs) {
     if (!section.has(key) || needs == Needs::muscle) return;
-    if (needs == Needs::bundle) {
-      if (c.companions.empty()) section.wrong(key, "needs a [bundle]");
-      return;
-    }
+    if (needs == Needs::bundle && c.companions.empty())
+      return section.wrong(key, "needs a [bundle]");
+    if (needs == Needs::bundle) return;
     if (!c.joint) return section.wrong(key, "needs a [joint]");
     if (needs == Needs::antagonist && c.antagonist() == nullptr)
       section.wrong(key, "needs a joint that is opposed_by \"muscle\"");
@@ -150,6 +149,12 @@ InjectedFaults read_injected_faults(Section section, const Conditions& c) {
     injected_faults.*known.member =
         section.number(known.name, InjectedFaults{}.*known.member, {known.min, known.max});
     refuse_missing(known.name, known.needs);
+  }
+  const double broken = injected_faults.open_heater_in_bundle;
+  const double muscles = static_cast<double>(c.companions.size()) + 1.0;
+  if (!c.companions.empty() && (broken != std::floor(broken) || broken > muscles)) {
+    section.wrong("open_heater_in_bundle", "must be the number of a muscle, 1 to " +
+                                               std::to_string(std::lround(muscles)) + ", or 0");
   }
   section.finish();
   return injected_faults;

@@ -58,27 +58,6 @@ JointPlantSettings read_lever(Section& section) {
   return p;
 }
 
-/// What both tables may have wrong is said of the one that is read first.
-void add_new(const Diagnostics& found, Diagnostics& diagnostics) {
-  for (const config::Problem& problem : found.problems()) {
-    const auto& known = diagnostics.problems();
-    const bool said =
-        std::any_of(known.begin(), known.end(), [&problem](const config::Problem& other) {
-          return other.key == problem.key && other.message == problem.message;
-        });
-    if (said) continue;
-    diagnostics.add(problem.line, problem.key, problem.message, problem.value, problem.of_default);
-  }
-}
-
-/// One table of [joint], laid over another one of the document.
-Section laid_over(const toml::table& document, const char* own, const char* under,
-                  Diagnostics& diagnostics) {
-  const Section section(document["joint"][own].as_table(), std::string("joint.") + own,
-                        diagnostics);
-  return section.over(document[under].as_table(), under);
-}
-
 void refuse_keys_of_one_muscle(Section section) {
   for (const RenamedInJoint& key : renamed_in_joint) {
     if (!section.has(key.plant)) continue;
@@ -142,7 +121,7 @@ std::optional<JointConditions> read_joint(const toml::table& document, const Pla
     if (own.table() != nullptr) {
       refuse_keys_of_one_muscle(own);
       Diagnostics found(diagnostics.file());
-      joint.antagonist->plant = read_plant(laid_over(document, "antagonist", "plant", found));
+      joint.antagonist->plant = read_plant(laid_over(document, "joint.antagonist", "plant", found));
       add_new(found, diagnostics);
     }
     section.allow({"co_contraction_W"});  // once the power's limits are known
@@ -178,7 +157,7 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
     if (elsewhere.empty()) refuse_impossible(believed, "muscle", document, diagnostics);
     return {believed, believed};
   }
-  Section other = laid_over(document, "antagonist", "plant", elsewhere);
+  Section other = laid_over(document, "joint.antagonist", "plant", elsewhere);
   const auto antagonist = read_plant_parameters(other);
 
   const double ratio = lever.antagonist_lever_ratio;
@@ -187,7 +166,7 @@ BelievedMuscles read_muscles(const toml::table& document, Diagnostics& diagnosti
       config::read_parameters(muscle, along_the_arc(lever, lever_m, agonist, &antagonist, ratio));
   muscle.finish();
   Diagnostics found(diagnostics.file());
-  Section other_muscle = laid_over(document, "antagonist_muscle", "muscle", found);
+  Section other_muscle = laid_over(document, "joint.antagonist_muscle", "muscle", found);
   believed.antagonist = config::read_parameters(
       other_muscle, along_the_arc(lever, ratio * lever_m, antagonist, &agonist, 1.0 / ratio));
   other_muscle.finish();

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <sstream>
 
 #include "config/read_control.hpp"
@@ -46,6 +47,23 @@ PlantSettings read_plant(config::Section section) {
       section.number("temperature_coefficient_per_K", 0.0, {0.0, 0.02});
   section.finish();
   return plant;
+}
+
+config::Section laid_over(const toml::table& document, const std::string& path, const char* under,
+                          config::Diagnostics& diagnostics) {
+  const config::Section own(document.at_path(path).as_table(), path, diagnostics);
+  return own.over(document[under].as_table(), under);
+}
+
+void add_new(const config::Diagnostics& found, config::Diagnostics& diagnostics) {
+  for (const config::Problem& problem : found.problems()) {
+    const bool said =
+        std::ranges::any_of(diagnostics.problems(), [&problem](const config::Problem& other) {
+          return other.key == problem.key && other.message == problem.message;
+        });
+    if (said) continue;
+    diagnostics.add(problem.line, problem.key, problem.message, problem.value, problem.of_default);
+  }
 }
 
 }  // namespace supercoil::host_sim

@@ -17,6 +17,13 @@ namespace supercoil::host_sim {
 /// Finishes the section.
 PlantSettings read_plant(config::Section section);
 
+/// A table of the document, "joint.antagonist", laid over another one of it: what it lacks is as
+/// that one says.
+config::Section laid_over(const toml::table& document, const std::string& path, const char* under,
+                          config::Diagnostics& diagnostics);
+/// What was found in a table that was laid over another one, but for what was said of that already.
+void add_new(const config::Diagnostics& found, config::Diagnostics& diagnostics);
+
 /// Its physical parameters alone. Does not finish the section.
 control::PhysicalParameters read_plant_parameters(config::Section& section);
 

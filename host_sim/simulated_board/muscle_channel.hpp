@@ -7,7 +7,6 @@
 #include "plant/plant.hpp"
 #include "simulated_board/converter.hpp"
 #include "simulated_board/lines.hpp"
-#include "simulated_board/shared_motion.hpp"
 #include "simulated_board/thermometer.hpp"
 
 namespace supercoil::host_sim {
@@ -38,6 +37,25 @@ struct MuscleFaults {
   double switch_leak_ratio = 0.0;  ///< of full conduction, while the switch is off
   bool torn = false;               ///< it pulls no more; a joint's muscle only
   double slack_m = 0.0;            ///< of its cable, likewise; see JointMuscle
+};
+
+/// What moves the muscles of several channels at once, as each of them sees it. muscle: its place
+/// among them, from 0.
+class SharedMotion {
+ public:
+  SharedMotion(const SharedMotion&) = delete;
+  SharedMotion& operator=(const SharedMotion&) = delete;
+
+  /// How far the muscle has contracted.
+  virtual double position_m(std::size_t muscle) const = 0;
+  /// What a position sensor of the muscle's channel sees.
+  virtual double reading_m(std::size_t muscle) const { return position_m(muscle); }
+  virtual double temperature_rise_K(std::size_t muscle) const = 0;
+  virtual double peak_temperature_rise_K(std::size_t muscle) const = 0;
+
+ protected:
+  SharedMotion() = default;
+  ~SharedMotion() = default;
 };
 
 class MuscleChannel {

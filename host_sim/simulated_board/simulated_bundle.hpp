@@ -6,7 +6,6 @@
 
 #include "plant/bundle_plant.hpp"
 #include "simulated_board/muscle_channel.hpp"
-#include "simulated_board/shared_motion.hpp"
 
 namespace supercoil::host_sim {
 

@@ -8,7 +8,6 @@
 
 #include "plant/joint_plant.hpp"
 #include "simulated_board/muscle_channel.hpp"
-#include "simulated_board/shared_motion.hpp"
 
 namespace supercoil::host_sim {
 

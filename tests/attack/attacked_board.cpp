@@ -101,4 +101,27 @@ BoardSettings settings_of(const std::string& text) {
   return config->settings;
 }
 
+void AttackedBoard::harm(std::size_t i, const MuscleHarm& harm) {
+  constexpr double hardly = 1e-9;
+  host_sim::MuscleChannel& channel = board_.channel(i);
+  host_sim::MuscleChannelSettings changed = simulated_.channels[i];
+  changed.plant.heat_transfer_W_per_K *= harm.cooling_ratio / worst_configured_cooling;
+  if (harm.off) changed.plant.force_per_kelvin_N_per_K *= hardly;
+  channel.set(changed);
+  channel.faults.switch_leak_ratio = harm.switch_leak_ratio;
+  channel.faults.torn = harm.torn;
+  channel.faults.slack_m = harm.slack_m;
+  channel.current.set(host_sim::ConverterFaults{.gain = harm.current_gain});
+}
+
+void AttackedBoard::measure(Verb mode, double then_W) {
+  if (!measure_asked_) {
+    measure_asked_ = true;
+    send(Verb::rest);
+    return send(mode);
+  }
+  if (channel().snapshot().mode != Mode::power) return send(Verb::renew);
+  send(Verb::power, then_W);
+}
+
 }  // namespace supercoil::test

@@ -1,10 +1,12 @@
 // The whole firmware over a simulated board that is attacked.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
 
+#include "attack/group_attack.hpp"
 #include "loop/executive.hpp"
 #include "simulated_board/simulated_board.hpp"
 
@@ -55,6 +57,14 @@ class AttackedBoard {
   /// Ten times a second: commands expire after 0.25 s.
   virtual void command() = 0;
 
+  /// To one muscle, from now on.
+  void harm(std::size_t i, const MuscleHarm& harm);
+  /// Of channel 0: identify or calibrate, once, and after that a power.
+  void measure(Verb mode, double then_W);
+  bool measure_asked() const { return measure_asked_; }
+  /// Disarmed for a moment now and then.
+  bool is_rearmed() const { return std::fmod(elapsed_s(), rearm_every_s) >= rearm_every_s - 0.3; }
+
   void send(Verb verb, double value = 0.0, std::uint8_t channel = 0) {
     loop_.send({channel, verb, value});
   }
@@ -75,6 +85,7 @@ class AttackedBoard {
   bool over() const;
 
   Course course_;
+  bool measure_asked_ = false;
   std::size_t channels_;
   std::uint32_t command_every_;  ///< ticks
   Loop loop_;

@@ -94,17 +94,8 @@ AttackedBundle::AttackedBundle(const BundleAttack& attack, const Muscle& muscle,
       reach_m_(muscle.max_W * simulated_.channels[0].plant.dc_gain_m_per_W()) {}
 
 void AttackedBundle::begin_attack() {
-  for (std::size_t i = 0; i < attack_.muscles.size(); ++i) {
-    const BundledHarm& harm = attack_.muscles.at(i);
-    host_sim::MuscleChannel& channel = board_.channel(i);
-    host_sim::MuscleChannelSettings changed = simulated_.channels[i];
-    changed.plant.heat_transfer_W_per_K *= harm.cooling_ratio / worst_configured_cooling;
-    constexpr double hardly = 1e-9;
-    if (harm.off) changed.plant.force_per_kelvin_N_per_K *= hardly;
-    channel.set(changed);
-    channel.faults.switch_leak_ratio = harm.switch_leak_ratio;
-    channel.current.set(host_sim::ConverterFaults{.gain = harm.current_gain});
-  }
+  for (std::size_t i = 0; i < attack_.muscles.size(); ++i)
+    harm(i, attack_.muscles.at(i));
   board_.bundle(0).update();
   board_.supply.set(host_sim::ConverterFaults{.gain = attack_.supply_gain});
 }
@@ -112,17 +103,6 @@ void AttackedBundle::begin_attack() {
 /// ratio: of what max_W holds.
 void AttackedBundle::follow(double ratio) {
   send(Verb::position, ratio * reach_m_);
-}
-
-/// And gets all its power after that.
-void AttackedBundle::measure(Verb mode) {
-  if (!measure_asked_) {
-    measure_asked_ = true;
-    send(Verb::rest);
-    return send(mode);
-  }
-  if (channel().snapshot().mode != Mode::power) return send(Verb::renew);
-  send(Verb::power, muscle_.max_W);
 }
 
 void AttackedBundle::command_active() {
@@ -133,12 +113,12 @@ void AttackedBundle::command_active() {
     case BundleActivity::press:
       return follow(press_ratio);
     case BundleActivity::rearm:
-      if (std::fmod(elapsed_s(), rearm_every_s) >= rearm_every_s - 0.3) return send(Verb::disarm);
+      if (is_rearmed()) return send(Verb::disarm);
       return send(Verb::power, muscle_.max_W);
     case BundleActivity::identify:
-      return measure(Verb::identify);
+      return measure(Verb::identify, muscle_.max_W);
     case BundleActivity::calibrate:
-      return measure(Verb::calibrate);
+      return measure(Verb::calibrate, muscle_.max_W);
     default:
       return follow(hold_ratio);
   }
@@ -147,7 +127,7 @@ void AttackedBundle::command_active() {
 void AttackedBundle::command() {
   if (activity_ == BundleActivity::disarmed && attacked()) return send(Verb::disarm);
   if (state() == State::disarmed) return send(Verb::arm);
-  if (state() == State::armed && measure_asked_) return send(Verb::power, muscle_.max_W);
+  if (state() == State::armed && measure_asked()) return send(Verb::power, muscle_.max_W);
   if (state() == State::armed) return follow(0.4);
   if (state() == State::active) command_active();
 }

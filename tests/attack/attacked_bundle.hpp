@@ -15,14 +15,12 @@ class AttackedBundle final : public AttackedBoard {
   void begin_attack() override;
   void command() override;
   void command_active();
-  void measure(Verb mode);
   void follow(double ratio);
 
   BundleAttack attack_;
   Muscle muscle_;
   BundleActivity activity_;
   double reach_m_;  ///< where max_W of each holds the load
-  bool measure_asked_ = false;
 };
 
 }  // namespace supercoil::test

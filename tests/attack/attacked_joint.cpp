@@ -103,17 +103,8 @@ AttackedJoint::AttackedJoint(const JointAttack& attack, const Muscle& muscle,
 }
 
 void AttackedJoint::begin_attack() {
-  for (std::size_t i = 0; i < attack_.muscles.size(); ++i) {
-    const MuscleHarm& harm = attack_.muscles[i];
-    host_sim::MuscleChannel& channel = board_.channel(i);
-    host_sim::MuscleChannelSettings changed = simulated_.channels[i];
-    changed.plant.heat_transfer_W_per_K *= harm.cooling_ratio / worst_configured_cooling;
-    channel.set(changed);
-    channel.faults.switch_leak_ratio = harm.switch_leak_ratio;
-    channel.faults.torn = harm.torn;
-    channel.faults.slack_m = harm.slack_m;
-    channel.current.set(host_sim::ConverterFaults{.gain = harm.current_gain});
-  }
+  for (std::size_t i = 0; i < attack_.muscles.size(); ++i)
+    harm(i, attack_.muscles.at(i));
   board_.channel(0).position.set(host_sim::ConverterFaults{.gain = attack_.position_gain});
   board_.supply.set(host_sim::ConverterFaults{.gain = attack_.supply_gain});
   host_sim::SimulatedJointSettings joint = simulated_.joints[0];
@@ -127,17 +118,6 @@ void AttackedJoint::follow(double ratio) {
   send(Verb::position, ratio * reach_m_);
 }
 
-/// The agonist, which gets all its power after that.
-void AttackedJoint::identify() {
-  if (!identify_asked_) {
-    identify_asked_ = true;
-    send(Verb::rest);
-    return send(Verb::identify);
-  }
-  if (channel().snapshot().mode != Mode::power) return send(Verb::renew);
-  send(Verb::power, muscle_.max_W);
-}
-
 void AttackedJoint::command_active() {
   if (!attacked()) return follow(0.5);
   switch (activity_) {
@@ -149,10 +129,10 @@ void AttackedJoint::command_active() {
     case JointActivity::press:
       return follow(press_ratio);
     case JointActivity::rearm:
-      if (std::fmod(elapsed_s(), rearm_every_s) >= rearm_every_s - 0.3) return send(Verb::disarm);
+      if (is_rearmed()) return send(Verb::disarm);
       return follow(press_ratio);
     case JointActivity::identify:
-      return identify();
+      return measure(Verb::identify, muscle_.max_W);
     case JointActivity::alone:
       if (channel().snapshot().mode == Mode::position) send(Verb::rest);
       return send(Verb::power, muscle_.max_W);
@@ -164,7 +144,7 @@ void AttackedJoint::command_active() {
 void AttackedJoint::command() {
   if (activity_ == JointActivity::disarmed && attacked()) return send(Verb::disarm);
   if (state() == State::disarmed) return send(Verb::arm);
-  if (state() == State::armed && identify_asked_) return send(Verb::power, muscle_.max_W);
+  if (state() == State::armed && measure_asked()) return send(Verb::power, muscle_.max_W);
   if (state() == State::armed) return follow(0.5);
   if (state() == State::active) command_active();
 }

@@ -15,14 +15,12 @@ class AttackedJoint final : public AttackedBoard {
   void begin_attack() override;
   void command() override;
   void command_active();
-  void identify();
   void follow(double ratio);
 
   JointAttack attack_;
   Muscle muscle_;
   JointActivity activity_;
   double reach_m_;  ///< where max_W of the agonist holds the joint
-  bool identify_asked_ = false;
 };
 
 }  // namespace supercoil::test

@@ -83,13 +83,10 @@ AttackedMuscle::AttackedMuscle(const Attack& attack, const Muscle& muscle, Activ
       activity_(activity) {}
 
 void AttackedMuscle::begin_attack() {
-  host_sim::MuscleChannel& channel = board_.channel(0);
-  host_sim::MuscleChannelSettings changed = simulated_.channels.front();
-  changed.plant.heat_transfer_W_per_K *= attack_.cooling_ratio / worst_configured_cooling;
-  channel.set(changed);
-  channel.faults.slack = attack_.blocked;
-  channel.faults.switch_leak_ratio = attack_.switch_leak_ratio;
-  channel.current.set(host_sim::ConverterFaults{.gain = attack_.current_gain});
+  harm(0, {.current_gain = attack_.current_gain,
+           .cooling_ratio = attack_.cooling_ratio,
+           .switch_leak_ratio = attack_.switch_leak_ratio});
+  board_.channel(0).faults.slack = attack_.blocked;
   board_.supply.set(host_sim::ConverterFaults{.gain = attack_.supply_gain});
 }
 
@@ -104,15 +101,9 @@ void AttackedMuscle::command_active() {
       return send(Verb::power, max_W * std::min(1.0, warm_ratio + ramp_per_s * elapsed_s()));
     case Activity::identify:
     case Activity::calibrate:
-      if (channel().snapshot().mode == Mode::power && mode_asked_) {
-        return send(Verb::power, max_W);  // the mode has ended
-      }
-      if (mode_asked_) return send(Verb::renew);
-      mode_asked_ = true;
-      send(Verb::rest);
-      return send(activity_ == Activity::identify ? Verb::identify : Verb::calibrate);
+      return measure(activity_ == Activity::identify ? Verb::identify : Verb::calibrate, max_W);
     case Activity::rearm:
-      if (std::fmod(elapsed_s(), rearm_every_s) >= rearm_every_s - 0.3) return send(Verb::disarm);
+      if (is_rearmed()) return send(Verb::disarm);
       return send(Verb::power, max_W);
     default:
       return send(Verb::power, max_W);

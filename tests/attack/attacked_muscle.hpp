@@ -18,7 +18,6 @@ class AttackedMuscle final : public AttackedBoard {
   Attack attack_;
   Muscle muscle_;
   Activity activity_;
-  bool mode_asked_ = false;
 };
 
 }  // namespace supercoil::test

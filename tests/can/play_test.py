@@ -78,7 +78,7 @@ class PlayCase(unittest.TestCase):
 class Refused(unittest.TestCase):
     """By a board's own socket, as supercoild answers."""
 
-    ANSWERS = {"position": "refused: out_of_range; 0.025 would be obeyed", "position -100": "refused: out_of_range; -0.01 would be obeyed",
+    ANSWERS = {"position": "refused: out_of_range; 0.025 would be obeyed", "muscle": " ".join(["1", *["nan"] * 34, "-0.01", "0.025"]) + "\n",
                "knot": "refused: out_of_range; 0.024 would be obeyed", "playback": "1 empty 100 0 0\n", "position 0.003": "ok"}
 
     def setUp(self):

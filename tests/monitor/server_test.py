@@ -273,7 +273,7 @@ class Sources(unittest.TestCase):
         tripped = ((1, "081#1703000000000000"), (1, f"0C1#{cause}"))
         told = text_of(*tripped, (61, "701#0317000000000410"))
         self.assertIn(", FAULT heater_not_responding (measured 0.0008, limit 0.00267)", told)
-        self.assertIn("proof_of_response is false, or not asked of a joint's two muscles", told)
+        self.assertIn("proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle", told)
         told = text_of(*tripped, (60, "081#1E03000000000000"), (61, "701#031E000000000400"))
         self.assertIn(", FAULT over_temperature\n", told)
         self.assertNotIn("proof_of_response", told)

@@ -27,11 +27,11 @@ config::BoardConfig described_board(const HeldOut& muscle, const std::string& co
   std::string text = held_out_board(muscle.answers.of(Asked::cold_resistance_Ohm),
                                     muscle.answers.of(Asked::max_W));
   for (const operating::Entry& entry : entries) {
-    auto changed = config::with_channel_value(text, 0, entry.path, entry.literal);
+    auto changed = config::with_value(text, "channel", 0, entry.path, entry.literal);
     if (!changed) throw std::runtime_error(changed.error());
     text = std::move(*changed);
   }
-  text = config::with_channel_value(text, 0, "controller.kind", '"' + controller + '"').value();
+  text = config::with_value(text, "channel", 0, "controller.kind", '"' + controller + '"').value();
   auto config = config::parse_board_config(text, "held_out.toml");
   if (!config) throw std::runtime_error(config::to_text(config.error()));
   return std::move(*config);

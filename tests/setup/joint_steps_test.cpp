@@ -26,7 +26,7 @@ config::BoardConfig example(std::optional<std::size_t> slow = std::nullopt) {
   std::ifstream file(SUPERCOIL_EXAMPLES "/joint-as5600-ads1115.toml");
   std::string text{std::istreambuf_iterator<char>(file), {}};
   if (slow)
-    text = config::with_channel_value(text, *slow, "thermal.max_mass_J_per_K", "2.0").value();
+    text = config::with_value(text, "channel", *slow, "thermal.max_mass_J_per_K", "2.0").value();
   auto config = config::parse_board_config(text, "joint.toml");
   if (!config) FAIL(config::to_text(config.error()).c_str());
   return std::move(*config);

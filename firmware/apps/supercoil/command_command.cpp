@@ -63,28 +63,26 @@ std::string with_degrees(const CommandOptions& options, const std::string& answe
   return answer + " (" + in_degrees(options, reply->nearest) + ")";
 }
 
-/// Of a position that is out of range: "; 0 to 0.025 are in range". A position beyond the other end
-/// tells that, and is as little obeyed. Empty: it is not known.
+/// Of a position that is out of range: "; -0.025 to 0.025 are in range". Empty: the board does not
+/// tell.
 std::string position_range(BoardLink& board, const CommandOptions& options,
                            const std::string& answer) {
   const auto reply = parse_answer(answer);
   const bool of_position = options.words.size() == 3 && options.words[1] == name(Verb::position);
-  if (!of_position || !reply || std::isnan(reply->nearest)) return "";
-  constexpr double beyond_m = 100.0;
-  const auto end_m = [&](double asked_m) {
-    const auto told = board.ask(options.words[0] + " position " + number_text(asked_m, digits));
-    const auto end = told ? parse_answer(*told) : std::nullopt;
-    return end ? end->nearest : NAN;
-  };
-  const double low_m = end_m(-beyond_m);
-  const double high_m = low_m == reply->nearest ? end_m(beyond_m) : reply->nearest;
-  if (!(low_m < high_m)) return "";
+  if (!of_position || !reply || reply->refusal != Refusal::out_of_range) return "";
+  const auto known = board.muscle(options.words[0]);
+  if (!known) return "";
+  const double min_m = (*known)[known_min_set_point];
+  const double max_m = (*known)[known_max_set_point];
+  if (!(min_m < max_m)) return "";
   const auto shown = [&](double position_m) {
     return options.joint.direction == 0 ? number_text(position_m, digits)
                                         : in_degrees(options, position_m);
   };
-  return "; " + shown(options.joint.direction < 0 ? high_m : low_m) + " to " +
-         shown(options.joint.direction < 0 ? low_m : high_m) + " are in range";
+  // An antagonist's positions grow as the angle falls.
+  const bool turned = options.joint.direction < 0;
+  return "; " + shown(turned ? max_m : min_m) + " to " + shown(turned ? min_m : max_m) +
+         " are in range";
 }
 
 /// One command's end, as text or as JSON on standard output.

@@ -39,8 +39,9 @@ void warn_without_proof(const ChannelSettings& channel, std::size_t index) {
   if (channel.supervision.proof_of_response) return;
   log(Level::warning,
       "channel " + std::to_string(index + 1) +
-          (channel.joint.has_other() ? ": no proof of response is asked of a joint's two muscles"
-                                     : ": detectors.proof_of_response is false") +
+          (channel.joint.has_other()  ? ": no proof of response is asked of a joint's two muscles"
+           : channel.bundle.follows() ? ": only the bundle as a whole proves its response"
+                                      : ": detectors.proof_of_response is false") +
           ": nothing checks that a hot muscle at rest still responds");
 }
 

@@ -96,11 +96,8 @@ void Axis::observe(double supply_V, const board::Measured* air, std::int64_t per
 }
 
 control::PowerRange Axis::range() const {
+  if (bundle_) return bundle_->range;
   const control::PowerRange own = heater_.power_range();
-  if (companions_) {
-    return {std::max(own.min_W, companions_->range.min_W),
-            std::min(own.max_W, companions_->range.max_W)};
-  }
   return {own.min_W - other_.range.max_W, own.max_W - other_.range.min_W};
 }
 
@@ -124,26 +121,24 @@ Opposition Axis::opposition(double gain_ratio, double lever_ratio) const {
           inputs_.expected_anew};
 }
 
-void Axis::lead(const Companions& others) {
-  const bool anew = !companions_ || companions_->max_power_ratio != others.max_power_ratio;
-  companions_ = others;
+void Axis::lead(const WholeBundle& whole) {
+  const bool anew = !bundle_ || bundle_->max_power_ratio != whole.max_power_ratio;
+  bundle_ = whole;
   if (anew) plan_proof();
 }
 
-/// With the widest bounds of power in the bundle.
+/// With the widest bounds of power.
 void Axis::plan_proof() {
   const double own = heater_.power_bounds().true_over_measured().max;
-  proof_.plan(companions_ ? std::max(own, companions_->max_power_ratio) : own, muscle_);
+  proof_.plan(bundle_ ? std::max(own, bundle_->max_power_ratio) : own, muscle_);
 }
 
 double Axis::max_W() const {
-  const double own_W = heater_.limiter().max_W();
-  return companions_ ? std::min(own_W, companions_->max_W) : own_W;
+  return bundle_ ? bundle_->max_W : heater_.limiter().max_W();
 }
 
 double Axis::max_hot_W() const {
-  const double own_W = heater_.limiter().max_W(heater_.heat().hottest_C());
-  return companions_ ? std::min(own_W, companions_->max_hot_W) : own_W;
+  return bundle_ ? bundle_->max_hot_W : heater_.limiter().max_W(heater_.heat().hottest_C());
 }
 
 void Axis::prove(std::int64_t periods) {
@@ -151,9 +146,9 @@ void Axis::prove(std::int64_t periods) {
   const board::Measured& position = inputs_.position;
   const board::AppliedPower& acting = heater_.acting();
   const board::Heat& heat = heater_.heat();
-  const double companions_K = companions_ ? companions_->hottest_K : 0.0;
   proof_.step({acting.power_W, acting.dither_W, periods, position.present, position.value,
-               std::max(heat.hottest_K(), companions_K), heats, heat.air().above_configured_K()});
+               bundle_ ? bundle_->hottest_K : heat.hottest_K(), heats,
+               heat.air().above_configured_K()});
   inputs_.unanswered = proof_.unanswered();
   if (inputs_.unanswered) inputs_.answer = proof_.margin();
 }
@@ -226,7 +221,7 @@ bool Axis::control() {
 LimitedBy Axis::limited_by() const {
   using control::Infeasible;
   LimitedBy by = heater_.allowed().by;
-  if (by == LimitedBy::nothing && companions_limited()) by = companions_->limited_by;
+  if (by == LimitedBy::nothing && followers_limited()) by = bundle_->limited_by;
   const bool at_an_end = by <= LimitedBy::maximum;
   if (!at_an_end || demanded_.infeasible == Infeasible::nothing) return by;
   return demanded_.infeasible == Infeasible::cooling ? LimitedBy::cooling : LimitedBy::maximum;
@@ -266,7 +261,7 @@ void Axis::publish(std::uint32_t selector, Snapshot& s) const {
   s.gain = tracking_.gain(selector);
   estimation_.publish(selector, s);
   heater_.publish(s);
-  s.limited = s.limited || companions_limited();
+  s.limited = s.limited || followers_limited();
 }
 
 }  // namespace supercoil

@@ -40,14 +40,14 @@ struct Opposition {
   bool expected_anew = false;  ///< as AxisInputs'
 };
 
-/// What the other muscles of a bundle do, as the axis that leads it sees them.
-struct Companions {
+/// What all muscles of a bundle can do together, for the axis that leads it.
+struct WholeBundle {
   control::PowerRange range;                  ///< that every heater can give
   double max_W = 0.0;                         ///< that every limiter allows
   double max_hot_W = 0.0;                     ///< likewise, as hot as each muscle may be
   double max_power_ratio = 1.0;               ///< greatest true over measured power
-  LimitedBy limited_by = LimitedBy::nothing;  ///< the first of them that is
   double hottest_K = 0.0;                     ///< above the air
+  LimitedBy limited_by = LimitedBy::nothing;  ///< of those that follow, the first that is
 };
 
 /// Reads the channel's state, and never changes it: what ends by itself is told to the channel.
@@ -65,8 +65,8 @@ class Axis {
     inputs_.in_joint = true;
     inputs_.expected_anew = inputs_.expected_anew || other.expected_anew;
   }
-  /// In a bundle, of its leader: likewise of the others.
-  void lead(const Companions& others);
+  /// In a bundle, of its leader: likewise of all.
+  void lead(const WholeBundle& whole);
   /// In a bundle, of one that follows: it is the leader's motion.
   void follow_knowledge(const Axis& leader);
   /// What acted since the last tick, and whether the muscle answered. As Heater::observe.
@@ -90,8 +90,7 @@ class Axis {
   double demanded_W() const { return demanded_.demanded_power_W; }
   /// That its own heater may get now, as hot as the muscle may be and by what it has proven.
   control::PowerRange allowed_range() const;
-  /// share_W: what its own heater is to give of that.
-  /// max_W: no more with a dither.
+  /// share_W: what its own heater is to give of that; max_W: no more, with a dither either.
   void limit(double share_W, double max_W = std::numeric_limits<double>::infinity()) {
     share_W_ = share_W;
     heater_.limit(state_, proof_.added_to(share_W, max_W), proof_.max_W());
@@ -99,10 +98,10 @@ class Axis {
   bool dithers() const { return proof_.dither_W() != 0.0; }
   /// In a bundle, of one that follows: the leader's demand and, of that, the power of its heater.
   void follow_power(double demanded_W, double power_W);
-  /// Calibrate probes when it has found the zero, and not before.
-  /// A dither that one of a bundle cannot follow is none.
+  /// Calibrate probes when it has found the zero, and not before. A dither that one of a bundle
+  /// cannot follow is none.
   void drive() {
-    const double dither_W = companions_limited() ? 0.0 : proof_.dither_W();
+    const double dither_W = followers_limited() ? 0.0 : proof_.dither_W();
     heater_.drive(state_, mode_ != Mode::calibrate, dither_W);
   }
   /// Its part of what is published, with the heater's. selector: of a full turn, chooses what is
@@ -126,7 +125,10 @@ class Axis {
   Reply admits_against(const Axis& other, double power_W) const;
   double max_travel_m() const { return settings_.supervision.max_travel_m; }
   /// In a joint, of its agonist: how far the other muscle may pull it.
-  void limit_reverse_travel(double max_m) { max_reverse_travel_m_ = max_m; }
+  void limit_reverse_travel(double max_m) {
+    max_reverse_travel_m_ = max_m;
+    publish_muscle();
+  }
   /// m, or W in open loop, in Mode::joint and in Mode::bundle.
   double reference() const { return reference_; }
   /// Follows what was admitted. value: m, or W in open loop.
@@ -175,11 +177,9 @@ class Axis {
   control::PowerRange range() const;
   /// What acts is not what was wanted.
   bool is_limited() const {
-    return heater_.acting().limited || other_.limited || companions_limited();
+    return heater_.acting().limited || other_.limited || followers_limited();
   }
-  bool companions_limited() const {
-    return companions_ && companions_->limited_by != LimitedBy::nothing;
-  }
+  bool followers_limited() const { return bundle_ && bundle_->limited_by != LimitedBy::nothing; }
   void prove(std::int64_t periods);
   void plan_proof();
   /// Of all muscles that move together, allowed by their limiters; as hot as they may be.
@@ -228,7 +228,7 @@ class Axis {
   AxisInputs inputs_;
   Heater heater_;
   Opposition other_;
-  std::optional<Companions> companions_;
+  std::optional<WholeBundle> bundle_;  ///< that it leads
   Tracking tracking_;
   Estimation estimation_;
   std::int64_t ticks_per_s_;

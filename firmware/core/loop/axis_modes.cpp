@@ -80,7 +80,7 @@ bool Axis::learn_cooling() {
 bool Axis::step_calibrate() {
   if (heater_.probing()) return false;
   // The others of a joint or a bundle move it as well.
-  const double others_K = companions_ ? companions_->hottest_K : other_.hottest_K;
+  const double others_K = bundle_ ? bundle_->hottest_K : other_.hottest_K;
   const double hottest_K = std::max(heater_.heat().hottest_K(), others_K);
   const ModeResult now = calibrate_.step(hottest_K, inputs_.position.value, step_s_);
   if (now != ModeResult::running) return end_mode(now);

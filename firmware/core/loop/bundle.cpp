@@ -11,28 +11,32 @@ control::PowerRange within_both(const control::PowerRange& a, const control::Pow
   return {std::max(a.min_W, b.min_W), std::min(a.max_W, b.max_W)};
 }
 
+WholeBundle alone(const Heater& heater) {
+  return {heater.power_range(), heater.limiter().max_W(),
+          heater.limiter().max_W(heater.heat().hottest_C()),
+          heater.power_bounds().true_over_measured().max, heater.heat().hottest_K()};
+}
+
 }  // namespace
 
 Bundle::Bundle(Axis& leader, std::vector<Axis*> followers)
     : leader_(leader), followers_(std::move(followers)) {}
 
 void Bundle::observe() {
-  Companions others{leader_.heater().power_range(), leader_.heater().limiter().max_W(),
-                    leader_.heater().limiter().max_W(leader_.heater().heat().hottest_C())};
-  for (Axis* const follower : followers_) {
+  for (Axis* const follower : followers_)
     follower->follow_knowledge(leader_);
-    const Heater& heater = follower->heater();
-    others.range = within_both(others.range, heater.power_range());
-    others.max_W = std::min(others.max_W, heater.limiter().max_W());
-    others.max_hot_W =
-        std::min(others.max_hot_W, heater.limiter().max_W(heater.heat().hottest_C()));
-    others.max_power_ratio =
-        std::max(others.max_power_ratio, heater.power_bounds().true_over_measured().max);
-    others.hottest_K = std::max(others.hottest_K, heater.heat().hottest_K());
-    if (others.limited_by == LimitedBy::nothing && is_led(follower->mode()))
-      others.limited_by = heater.allowed().by;
+  WholeBundle whole = alone(leader_.heater());
+  for (const Axis* const follower : followers_) {
+    const WholeBundle one = alone(follower->heater());
+    whole.range = within_both(whole.range, one.range);
+    whole.max_W = std::min(whole.max_W, one.max_W);
+    whole.max_hot_W = std::min(whole.max_hot_W, one.max_hot_W);
+    whole.max_power_ratio = std::max(whole.max_power_ratio, one.max_power_ratio);
+    whole.hottest_K = std::max(whole.hottest_K, one.hottest_K);
+    if (whole.limited_by == LimitedBy::nothing && is_led(follower->mode()))
+      whole.limited_by = follower->heater().allowed().by;
   }
-  leader_.lead(others);
+  leader_.lead(whole);
 }
 
 void Bundle::limit() {

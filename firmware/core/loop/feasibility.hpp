@@ -34,8 +34,7 @@ struct Feasibility {
 
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
 
-/// A step asks for a peak of power at its beginning: of one by 1 m through the
-/// reference model.
+/// A step asks for a peak of power at its beginning: of one by 1 m through the reference model.
 double peak_W_per_m(const control::ReferenceModelSettings& settings,
                     const control::PhysicalParameters& muscle);
 

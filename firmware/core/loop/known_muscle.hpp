@@ -17,7 +17,7 @@ namespace supercoil {
 
 /// In the order of Muscle.quantity in the DBC. The deviations are NaN until identify has found a
 /// muscle since the start, unexplained_ratio until it ever has found the one that is known.
-inline constexpr std::array<std::string_view, 34> known_quantities{
+inline constexpr std::array<std::string_view, 36> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
     "position_scale",
@@ -34,7 +34,9 @@ inline constexpr std::array<std::string_view, 34> known_quantities{
     // As control::Lever has them, of a lever that depends on the angle; NaN: it has fewer.
     "joint_lever_first_rad", "joint_lever_last_rad", "joint_lever_1_m", "joint_lever_2_m",
     "joint_lever_3_m", "joint_lever_4_m", "joint_lever_5_m", "joint_lever_6_m", "joint_lever_7_m",
-    "bundle_leader_node_offset"};  ///< minus this node; NaN: it leads, or there is no bundle
+    "bundle_leader_node_offset",  ///< minus this node; NaN: it leads, or there is no bundle
+    // Between which a position may be commanded.
+    "min_set_point_m", "max_set_point_m"};
 /// Places of those that follow the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
@@ -50,15 +52,19 @@ enum KnownPlace : std::uint8_t {
   known_lever_last,
   known_lever_points,  ///< the first of control::Lever::max_points
   known_bundle_leader_node_offset = known_lever_points + control::Lever::max_points,
+  known_min_set_point,
+  known_max_set_point,
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
-/// What a board's file says.
+/// What a board's file says, of set points also what its joint allows.
 struct ConfiguredMuscle {
   control::PhysicalParameters muscle;
   double cold_resistance_Ohm;
   PlaceInJoint joint;
   PlaceInBundle bundle{};
+  double min_set_point_m = NAN;
+  double max_set_point_m = NAN;
 };
 
 inline void tell_lever(const PlaceInJoint& joint, KnownMuscle& known) {
@@ -123,6 +129,8 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
                     configured.joint.other_channel_offset};
   tell_lever(configured.joint, known);
   known[known_bundle_leader_node_offset] = configured.bundle.leader_offset;
+  known[known_min_set_point] = configured.min_set_point_m;
+  known[known_max_set_point] = configured.max_set_point_m;
   return known;
 }
 

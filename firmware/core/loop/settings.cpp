@@ -78,23 +78,35 @@ std::optional<SettingsProblem> check_joints(const BoardSettings& settings,
   return std::nullopt;
 }
 
-/// What of a channel that follows in a bundle must be as its leader's, or no stricter: travel,
-/// proof and ramps are the bundle's, and go by the leader. Empty: it is.
+/// Of two channels of a bundle: travel, proof and ramps are the bundle's, and go by the leader.
+struct GoesByLeader {
+  const char* key;
+  double leaders;
+  double followers;
+  bool may_be_more;  ///< of one that follows
+};
+
+/// What contradicts the leader; empty: nothing does.
 std::string contradiction(const ChannelSettings& leader, const ChannelSettings& follower) {
-  const auto stricter = [&](auto value_of) { return value_of(follower) < value_of(leader); };
-  using Channel = const ChannelSettings&;
-  if (stricter([](Channel c) { return c.supervision.max_travel_m; }))
-    return "limits.max_travel_m is less";
-  if (stricter([](Channel c) { return c.supervision.trip_C; })) return "limits.trip_C is less";
-  if (stricter([](Channel c) { return c.limiter.derate_from_C; }))
-    return "limits.derate_from_C is less";
-  if (stricter([](Channel c) { return c.thermal.bounds.min_mass_J_per_K; }))
-    return "thermal.min_mass_J_per_K is less";
-  if (stricter([](Channel c) { return c.thermal.bounds.min_transfer_W_per_K; }))
-    return "thermal.min_transfer_W_per_K is less";
-  if (leader.limiter.min_W != follower.limiter.min_W) return "limits.min_W is not";
-  if (leader.limiter.slew_W_per_s != follower.limiter.slew_W_per_s)
-    return "limits.slew_W_per_s is not";
+  const control::ThermalBounds& of_leader = leader.thermal.bounds;
+  const control::ThermalBounds& of_follower = follower.thermal.bounds;
+  for (const GoesByLeader& one :
+       {GoesByLeader{"limits.max_travel_m", leader.supervision.max_travel_m,
+                     follower.supervision.max_travel_m, true},
+        {"limits.trip_C", leader.supervision.trip_C, follower.supervision.trip_C, true},
+        {"limits.derate_from_C", leader.limiter.derate_from_C, follower.limiter.derate_from_C,
+         true},
+        {"thermal.min_mass_J_per_K", of_leader.min_mass_J_per_K, of_follower.min_mass_J_per_K,
+         true},
+        {"thermal.min_transfer_W_per_K", of_leader.min_transfer_W_per_K,
+         of_follower.min_transfer_W_per_K, true},
+        {"limits.min_W", leader.limiter.min_W, follower.limiter.min_W, false},
+        {"limits.slew_W_per_s", leader.limiter.slew_W_per_s, follower.limiter.slew_W_per_s,
+         false}}) {
+    if (one.followers < one.leaders) return std::string(one.key) + " is less than";
+    if (one.followers > one.leaders && !one.may_be_more)
+      return std::string(one.key) + " is more than";
+  }
   return "";
 }
 

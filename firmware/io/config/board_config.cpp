@@ -56,8 +56,7 @@ void read_channels(std::vector<Section> sections, Section& every, const BoardCon
   config.wiring.channels.resize(channels);
   config.labels.resize(channels);
   for (const std::size_t i : reading_order(channels, joints, bundles)) {
-    ReadGroup group{joints.place_of(i), joints.max_travel_m(i), bundles.leader_of(i).has_value(),
-                    std::nullopt};
+    ReadGroup group{joints.place_of(i), joints.max_travel_m(i), std::nullopt};
     if (const auto owner = position_owner(i, joints, bundles)) {
       group.position_owner.emplace(PositionOwner{*owner, config.settings.channels[*owner],
                                                  config.wiring.channels[*owner],

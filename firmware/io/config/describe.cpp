@@ -1,12 +1,15 @@
 #include "config/describe.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "config/bus_time.hpp"
 #include "loop/loop.hpp"
 #include "recorder/flight_recorder.hpp"
 #include "telemetry/schedule.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::config {
 
@@ -133,6 +136,23 @@ Memory memory_of(const BoardSettings& settings) {
                    (channel.thermal.weighed() ? sizeof(control::CoolingFit) : 0);
   }
   return memory;
+}
+
+std::string describe_bundle(const BoardConfig& config, std::size_t index) {
+  const auto& channels = config.settings.bundles[index].channels;
+  double max_W = std::numeric_limits<double>::infinity();
+  for (const std::size_t channel : channels)
+    max_W = std::min(max_W, config.settings.channels[channel].limiter.max_W);
+  std::ostringstream out;
+  out << "bundle " << index + 1 << ": " << config.bundles[index] << "\n  muscles     channels ";
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    if (i > 0) out << (i + 1 < channels.size() ? ", " : " and ");
+    out << channels[i] + 1;
+  }
+  out << " pull together; commands go to channel " << channels.front() + 1
+      << "\n  power       the same for each, at most " << number_text(max_W, 4)
+      << " W: " << number_text(max_W * static_cast<double>(channels.size()), 4) << " W together\n";
+  return out.str();
 }
 
 std::string describe(const BoardConfig& config) {

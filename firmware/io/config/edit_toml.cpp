@@ -112,11 +112,4 @@ tl::expected<std::string, std::string> with_value(const std::string& text, const
   return tl::unexpected(path + " = " + literal + ": " + std::string(error.description()));
 }
 
-tl::expected<std::string, std::string> with_channel_value(const std::string& text,
-                                                          std::size_t channel,
-                                                          const std::string& path,
-                                                          const std::string& literal) {
-  return with_value(text, "channel", channel, path, literal);
-}
-
 }  // namespace supercoil::config

@@ -16,10 +16,5 @@ namespace supercoil::config {
 tl::expected<std::string, std::string> with_value(const std::string& text, const std::string& kind,
                                                   std::size_t place, const std::string& path,
                                                   const std::string& literal);
-/// Of a channel, from 0.
-tl::expected<std::string, std::string> with_channel_value(const std::string& text,
-                                                          std::size_t channel,
-                                                          const std::string& path,
-                                                          const std::string& literal);
 
 }  // namespace supercoil::config

@@ -145,10 +145,6 @@ ReadChannel read_channel(Section section, int number, const BoardContext& contex
   ReadChannel channel;
   ChannelSettings& c = channel.settings;
   c.joint = group.joint;
-  c.bundle.bundled = group.follows_in_bundle;
-  if (group.follows_in_bundle) {
-    c.bundle.leader_offset = static_cast<double>(group.position_owner->index + 1) - number;
-  }
   c.supervision.command_timeout_s = context.command_timeout_s;
   c.supervision.damaged_in_a_row = context.damaged_in_a_row;
   c.supervision.refused_in_a_row = context.refused_in_a_row;

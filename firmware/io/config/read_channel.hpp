@@ -40,7 +40,6 @@ struct PositionOwner {
 struct ReadGroup {
   PlaceInJoint joint;
   std::optional<double> max_travel_m;  ///< by range_deg; empty: by the channel's own limits
-  bool follows_in_bundle;
   std::optional<PositionOwner> position_owner;  ///< empty: it has a sensor of its own
 };
 

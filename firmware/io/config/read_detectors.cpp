@@ -64,16 +64,12 @@ void read_heater_detectors(Section& section, Thresholds& read, const BoardContex
   read.number("responding_window_s", s.responding_window_s, {1.0, 600.0});
   read.number("responding_ratio", s.responding_ratio, {0.01, 0.9});
   read.number("responding_min_m", s.responding_min_m, {1e-6, 1.0});
-  const bool possible = !c.joint.has_other() && !c.bundle.follows();
-  const bool by_default = s.proof_of_response && possible;
+  const bool by_default = s.proof_of_response && !c.joint.has_other();
   s.proof_of_response = section.flag("proof_of_response", by_default);
   if (s.proof_of_response && c.joint.has_other()) {
     section.wrong("proof_of_response",
                   "cannot be had in a joint: the other muscle moves it as well; leave it out, or "
                   "say false");
-  } else if (s.proof_of_response && c.bundle.follows()) {
-    // Written for every channel, it is the leader's.
-    s.proof_of_response = false;
   }
   // A buffered duty reads back as what it was until the bus's thread has written it.
   const double lag_ticks = wiring.pwm.access.buffered() ? 5.0 : 2.0;

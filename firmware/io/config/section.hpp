@@ -63,8 +63,8 @@ class Section {
   /// Each of [[key]], named key[1], key[2], …; a single table counts as one. Empty when absent.
   std::vector<Section> sections(std::string_view key);
 
-  /// As those above, for keys without a default. NaN, the lowest or empty when
-  /// it is absent or wrong.
+  /// As those above, for keys without a default. NaN, the lowest or empty when it is absent or
+  /// wrong.
   double required_number(std::string_view key, Range range);
   std::vector<double> required_numbers(std::string_view key, Range range, std::size_t least,
                                        std::size_t most);

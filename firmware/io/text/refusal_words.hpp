@@ -8,8 +8,7 @@
 
 namespace supercoil {
 
-/// "it has no fault". verb: what was refused, where that is known. Empty: it was
-/// not refused.
+/// "it has no fault". verb: what was refused, where that is known. Empty: it was not refused.
 std::string_view refusal_words(Refusal refusal, Verb verb = Verb::none);
 
 /// answer_text() with the words behind it: "refused: wrong_state: it has no fault". A nearest value

@@ -510,6 +510,8 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_6_M_CHOICE (31u)
 #define SUPERCOIL_MUSCLE_QUANTITY_JOINT_LEVER_7_M_CHOICE (32u)
 #define SUPERCOIL_MUSCLE_QUANTITY_BUNDLE_LEADER_NODE_OFFSET_CHOICE (33u)
+#define SUPERCOIL_MUSCLE_QUANTITY_MIN_SET_POINT_M_CHOICE (34u)
+#define SUPERCOIL_MUSCLE_QUANTITY_MAX_SET_POINT_M_CHOICE (35u)
 
 #define SUPERCOIL_SETTING_SETTING_MAX_POWER_W_CHOICE (0u)
 #define SUPERCOIL_SETTING_SETTING_MEASUREMENT_HZ_CHOICE (1u)
@@ -610,6 +612,8 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_6_M_CHOICE (31u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_JOINT_LEVER_7_M_CHOICE (32u)
 #define SUPERCOIL_MUSCLE_READ_QUANTITY_BUNDLE_LEADER_NODE_OFFSET_CHOICE (33u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_MIN_SET_POINT_M_CHOICE (34u)
+#define SUPERCOIL_MUSCLE_READ_QUANTITY_MAX_SET_POINT_M_CHOICE (35u)
 
 #define SUPERCOIL_TUNING_TUNABLE_KIND_CHOICE (0u)
 #define SUPERCOIL_TUNING_TUNABLE_PROPORTIONAL_W_PER_M_CHOICE (1u)
@@ -1941,14 +1945,14 @@ struct supercoil_muscle_t {
     /**
      * Which one.
      *
-     * Range: 0..33 (0..33 -)
+     * Range: 0..35 (0..35 -)
      * Scale: 1
      * Offset: 0
      */
     uint8_t quantity;
 
     /**
-     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) are of the last identify since the start that found a muscle; unexplained_ratio is stored with what it found. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. NaN: not known, or no such quantity.
+     * What the board goes by now, in the unit of the quantity's name: configured, or what identify and calibrate found. Deviations (standard, relative) are of the last identify since the start that found a muscle; unexplained_ratio is stored with what it found. configured: by the board's file, whatever was found since. joint_lever_m: the angle of the joint in rad is position_m over it (negative of the muscle that turns it back); joint_other_node_offset: the node of the other muscle, minus this one. Where the lever depends on the angle, joint_lever_m is the one at 0, and joint_lever_1_m and on are the levers at angles evenly spaced from joint_lever_first_rad to joint_lever_last_rad, straight lines between them and constant beyond: position_m is their integral from the angle 0, with the sign of joint_lever_m, and not the quotient. bundle_leader_node_offset: the node that leads the bundle of this one, minus this one. min_set_point_m, max_set_point_m: between which a position may be commanded. NaN: not known, or no such quantity.
      *
      * Range: -
      * Scale: 1
@@ -2103,7 +2107,7 @@ struct supercoil_muscle_read_t {
     /**
      * Which one.
      *
-     * Range: 0..33 (0..33 -)
+     * Range: 0..35 (0..35 -)
      * Scale: 1
      * Offset: 0
      */
@@ -2308,7 +2312,7 @@ struct supercoil_status_t {
     uint8_t result;
 
     /**
-     * 1: proof_of_response is false, or not asked of a joint's two muscles: an identified muscle that no longer reaches its sensor may overheat unseen. 0 also from boards that do not tell it.
+     * 1: proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle: an identified muscle that no longer reaches its sensor may overheat unseen. 0 also from boards that do not tell it.
      *
      * Range: 0..1 (0..1 -)
      * Scale: 1

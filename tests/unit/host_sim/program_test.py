@@ -288,8 +288,9 @@ class Results(ProgramCase):
             done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
             ratio = json.loads((self.path / "out/summary.json").read_text())["infeasible_ratio"]
             self.assertEqual(ratio > 0.01, told, (ratio, done.stdout))
-            line = re.findall(r"asked for more than the muscle can do in (.*) % of the ticks that followed it: .*shape_reference", done.stdout)
-            self.assertEqual(line, [f"{100 * ratio:.1f}"] if told else [])
+            line = re.findall(r"asked for more than the muscle can do in (.*) % of the ticks that followed it: a slower or smaller one(.*)", done.stdout)
+            advice = ", or shape_reference = true" if shape == "false" else ""
+            self.assertEqual(line, [(f"{100 * ratio:.1f}", advice)] if told else [])
 
     def test_a_loop_that_oscillates_is_told_with_its_period(self):
         text = ("simulation.duration_s = 60.0\nplant.damping_Ns_per_m = 0.12\nmuscle.damping_Ns_per_m = 0.12\n"

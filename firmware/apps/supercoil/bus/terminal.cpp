@@ -113,7 +113,8 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
   }
   if (value(node, "Status", "proof_off") == 1.0) {
     text +=
-        "  proof_of_response is false, or not asked of a joint's two muscles: a muscle that is off "
+        "  proof_of_response is false, or not asked of a joint's two muscles, nor of one that "
+        "follows in a bundle: a muscle that is off "
         "its sensor may overheat unseen\n";
   }
   if (value(node, "Status", "oscillated") == 1.0)

@@ -67,9 +67,9 @@ class Commission {
 
   /// Which identify and calibrate go on with; empty: this channel is no agonist.
   std::optional<Measured> antagonist() const;
-  /// The longest of its own muscle and, in a joint, of the other one: both have to be cold.
   /// Channels, from 0, that calibrate and are armed with this one; itself among them.
   std::vector<std::size_t> together() const;
+  /// The longest of them: all have to be cold.
   double longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
   /// What was found, of an agonist also the antagonist's.
   StepResult tell(Tell found);

@@ -1,5 +1,3 @@
-#include "apps/supercoil/setup/describe_step.hpp"
-
 #include <nlohmann/json.hpp>
 
 #include "apps/common/feasibility_json.hpp"
@@ -7,6 +5,7 @@
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/describe_muscle.hpp"
 #include "apps/supercoil/setup/file_joint.hpp"
+#include "apps/supercoil/setup/file_steps.hpp"
 #include "apps/supercoil/setup/next_question.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/script.hpp"

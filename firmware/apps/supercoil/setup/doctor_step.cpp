@@ -1,11 +1,10 @@
-#include "apps/supercoil/setup/doctor_step.hpp"
-
 #include <filesystem>
 
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/doctor/check_board.hpp"
 #include "apps/supercoil/doctor/report.hpp"
+#include "apps/supercoil/setup/file_steps.hpp"
 
 namespace supercoil::operating {
 

@@ -95,8 +95,7 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   suits.model_reason =
       suits.pole_rad_per_s < suits.bandwidth_rad_per_s
           ? "just so quick that a step by a quarter of the travel from its middle, up or down, "
-            "needs "
-            "no shaping: the muscle falls from 90 to 10 % in " +
+            "needs no shaping: the muscle falls from 90 to 10 % in " +
                 number_text(tau_s * std::log(9.0), 3) + " s by itself"
           : "no quicker than the feedback: the muscle, which falls from 90 to 10 % in " +
                 number_text(tau_s * std::log(9.0), 3) + " s by itself, would be";

@@ -7,8 +7,8 @@
 
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
-#include "apps/supercoil/setup/doctor_step.hpp"
 #include "apps/supercoil/setup/file_joint.hpp"
+#include "apps/supercoil/setup/file_steps.hpp"
 #include "apps/supercoil/setup/other_muscle.hpp"
 #include "apps/supercoil/setup/steps.hpp"
 

@@ -10,7 +10,7 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/setup/board_file.hpp"
-#include "apps/supercoil/setup/describe_step.hpp"
+#include "apps/supercoil/setup/file_steps.hpp"
 #include "apps/supercoil/setup/options.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/script.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/supercoil/setup/board_file.hpp"
-#include "apps/supercoil/setup/describe_step.hpp"
+#include "apps/supercoil/setup/file_steps.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/setup_board.hpp"
 #include "apps/supercoil/setup/steps.hpp"

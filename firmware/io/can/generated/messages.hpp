@@ -132,7 +132,7 @@ inline constexpr std::array<ValueName, 6> names_of_playback{{
     {5, "dry"},
 }};
 
-inline constexpr std::array<ValueName, 34> names_of_quantity{{
+inline constexpr std::array<ValueName, 36> names_of_quantity{{
     {0, "thermal_mass_J_per_K"},
     {1, "heat_transfer_W_per_K"},
     {2, "stiffness_N_per_m"},
@@ -167,6 +167,8 @@ inline constexpr std::array<ValueName, 34> names_of_quantity{{
     {31, "joint_lever_6_m"},
     {32, "joint_lever_7_m"},
     {33, "bundle_leader_node_offset"},
+    {34, "min_set_point_m"},
+    {35, "max_set_point_m"},
 }};
 
 inline constexpr std::array<ValueName, 16> names_of_refusal{{

@@ -167,6 +167,8 @@ class Quantity(Named):
     joint_lever_6_m = 31
     joint_lever_7_m = 32
     bundle_leader_node_offset = 33
+    min_set_point_m = 34
+    max_set_point_m = 35
 
 
 class Refusal(Named):

@@ -86,6 +86,13 @@ TEST(BundleScenario, WrongOnesAreToldWhatIsAllowed) {
                       "[plant]\nresistance_Ohm = 0.01\n[bundle]\n");
   check_bundle_answer("2: injected_fault.open_heater_in_bundle = 2: needs a [bundle]",
                       "[injected_fault]\nopen_heater_in_bundle = 2\n");
+  for (const char* broken : {"4", "1.5"}) {
+    check_bundle_answer(
+        ("4: injected_fault.open_heater_in_bundle = " + std::string(broken) +
+         ": must be the number of a muscle, 1 to 3, or 0")
+            .c_str(),
+        std::string("[bundle]\nmuscles = 3\n[injected_fault]\nopen_heater_in_bundle = ") + broken);
+  }
   check_bundle_answer("2: event.bundle: needs a [bundle] from the start",
                       "[[event]]\nbundle.2.draught_ratio = 2.0\nat_s = 1.0");
   check_bundle_answer("4: event.bundle.muscles: cannot change during a run",

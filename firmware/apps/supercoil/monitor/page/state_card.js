@@ -69,7 +69,7 @@ export class StateCard {
     this.fault = element("p", { class: "fault", role: "alert", hidden: true }, this.fault_button);
     this.foreign = element("p", { class: "foreign", role: "alert", hidden: true });
     this.unproven = element("p", { class: "foreign", hidden: true },
-      "proof_of_response is false, or not asked of a joint's two muscles: nothing proves that this muscle still reaches its sensor, and it may overheat unseen.");
+      "proof_of_response is false, or not asked of a joint's two muscles, nor of one that follows in a bundle: nothing proves that this muscle still reaches its sensor, and it may overheat unseen.");
     this.oscillated = element("p", { class: "foreign", hidden: true },
       "The control loop oscillated by itself: its feedback is slower now. Identify the muscle, or lower the controller's bandwidth or gains.");
     this.element = element("section", { class: "card state", "aria-label": `state of node ${node}` },

@@ -195,7 +195,8 @@ TEST(LocalCommands, WhatIsKnownOfEachMuscleIsALine) {
   const std::string answer = answer_to(asking, "muscle");
   STRCMP_CONTAINS(
       "1 0.162 0.089 16 2 0.09 0.0086 10 0 1 0 nan nan nan nan nan "
-      "0.162 0.089 16 2 0.09 0.0086 10 nan nan nan nan nan nan nan nan nan nan nan nan\n2 ",
+      "0.162 0.089 16 2 0.09 0.0086 10 nan nan nan nan nan nan nan nan nan nan nan nan -0.025 "
+      "0.025\n2 ",
       answer.c_str());
 }
 

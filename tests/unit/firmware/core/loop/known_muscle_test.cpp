@@ -36,10 +36,12 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   CHECK(known_quantities[known_lever_first] == "joint_lever_first_rad");
   CHECK(known_quantities[known_lever_points] == "joint_lever_1_m");
   LONGS_EQUAL(control::Lever::max_points, known_bundle_leader_node_offset - known_lever_points);
-  LONGS_EQUAL(1, known_quantities.size() - known_bundle_leader_node_offset);
+  CHECK(known_quantities[known_min_set_point] == "min_set_point_m");
+  CHECK(known_quantities[known_max_set_point] == "max_set_point_m");
+  LONGS_EQUAL(1, known_quantities.size() - known_max_set_point);
   const KnownMuscle known = known_muscle(
       {}, {.position_offset_m = 0.25, .position_scale = 1.5, .cold_resistance_Ohm = 9.0}, 0.75, {},
-      {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}, {}});
+      {{.stiffness_N_per_m = 14.0}, 8.0, {-1, control::Lever(0.015), -1.0}, {}, NAN, NAN});
   modes::Identify::Quality quality;
   quality.deviation_ratio << 0.1, 0.2, 0.3, 0.4;
   quality.unexplained_ratio = 0.5;
@@ -58,6 +60,9 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   CHECK(std::isnan(known[known_bundle_leader_node_offset]));
   const KnownMuscle third = known_muscle({}, {}, 0.0, {}, {{}, 8.0, {}, {true, -2.0}});
   DOUBLES_EQUAL(-2.0, third[known_bundle_leader_node_offset], 0.0);
+  const KnownMuscle ranged = known_muscle({}, {}, 0.0, {}, {{}, 8.0, {}, {}, -0.005, 0.02});
+  DOUBLES_EQUAL(-0.005, ranged[known_min_set_point], 0.0);
+  DOUBLES_EQUAL(0.02, ranged[known_max_set_point], 0.0);
 }
 
 namespace {

@@ -113,14 +113,15 @@ TEST(BundleConfig, WhatTheLeaderGoesByForAllIsNotStricterElsewhere) {
     check_refused("channel 2's " + what + " that of channel 1, which leads",
                   small_board + replaced(second_of_bundle, old, replacement) + one_bundle);
   };
-  refused("limits.max_travel_m is less", "max_travel_m = 0.025", "max_travel_m = 0.02");
-  refused("limits.trip_C is less", "max_W = 4.0", "max_W = 4.0\ntrip_C = 150");
-  refused("limits.derate_from_C is less", "max_W = 4.0", "max_W = 4.0\nderate_from_C = 100");
-  refused("thermal.min_mass_J_per_K is less", "min_mass_J_per_K = 0.13", "min_mass_J_per_K = 0.12");
-  refused("thermal.min_transfer_W_per_K is less", "min_transfer_W_per_K = 0.045",
+  refused("limits.max_travel_m is less than", "max_travel_m = 0.025", "max_travel_m = 0.02");
+  refused("limits.trip_C is less than", "max_W = 4.0", "max_W = 4.0\ntrip_C = 150");
+  refused("limits.derate_from_C is less than", "max_W = 4.0", "max_W = 4.0\nderate_from_C = 100");
+  refused("thermal.min_mass_J_per_K is less than", "min_mass_J_per_K = 0.13",
+          "min_mass_J_per_K = 0.12");
+  refused("thermal.min_transfer_W_per_K is less than", "min_transfer_W_per_K = 0.045",
           "min_transfer_W_per_K = 0.04");
-  refused("limits.min_W is not", "max_W = 4.0", "max_W = 4.0\nmin_W = 0.1");
-  refused("limits.slew_W_per_s is not", "max_W = 4.0", "max_W = 4.0\nslew_W_per_s = 2.0");
+  refused("limits.min_W is more than", "max_W = 4.0", "max_W = 4.0\nmin_W = 0.1");
+  refused("limits.slew_W_per_s is less than", "max_W = 4.0", "max_W = 4.0\nslew_W_per_s = 2.0");
 }
 
 TEST(BundleConfig, OfAWrongOneOnlyWhatIsWrongIsTold) {

@@ -19,14 +19,14 @@ std::string text_of_example(const std::string& name) {
 
 void check_edit(const std::string& before, std::size_t channel, const std::string& path,
                 const std::string& literal, const std::string& after) {
-  const auto edited = with_channel_value(before, channel, path, literal);
+  const auto edited = with_value(before, "channel", channel, path, literal);
   CHECK_TRUE_TEXT(edited.has_value(), edited ? "" : edited.error().c_str());
   STRCMP_EQUAL(after.c_str(), edited->c_str());
 }
 
 std::string why_not(const std::string& text, std::size_t channel, const std::string& path,
                     const std::string& literal) {
-  const auto edited = with_channel_value(text, channel, path, literal);
+  const auto edited = with_value(text, "channel", channel, path, literal);
   CHECK_FALSE(edited.has_value());
   return edited.error();
 }
@@ -89,7 +89,7 @@ TEST(EditToml, EveryExampleTakesANewMuscle) {
          {std::pair{"limits.max_W", "0.75"}, std::pair{"muscle.stiffness_N_per_m", "21.5"},
           std::pair{"heater.cold_resistance_Ohm", "9.5"},
           std::pair{"controller", "{ kind = \"learned_ff\" }"}}) {
-      const auto edited = with_channel_value(text, last, path, literal);
+      const auto edited = with_value(text, "channel", last, path, literal);
       CHECK_TRUE_TEXT(edited.has_value(), edited ? "" : edited.error().c_str());
       text = *edited;
     }

@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   const int muscles = argc > 1 ? std::atoi(argv[1]) : 20;
   const double error = argc > 2 ? 1e-2 * std::atof(argv[2]) : 0.5;
   const int first = argc > 3 ? std::atoi(argv[3]) : 1;
-  int followed = 0, kept = 0, near = 0, in_time = 0, untold = 0;
+  int followed = 0, kept = 0, near = 0, in_time = 0, both = 0, untold = 0;
   std::printf(
       "seed linear   tau_s travel_mm promised_um probe_um unexplained error_um ratio "
       "calibrated_s identified_s took_s rise_K untold_K\n");
@@ -36,15 +36,17 @@ int main(int argc, char** argv) {
       ++followed;
       kept += ratio <= 1.0 ? 1 : 0;
       near += ratio <= 1.0 && ratio > 1.0 / 3.0 ? 1 : 0;
-      in_time += c.took_s <= std::max(600.0, 15.0 * muscle.time_constant_s) ? 1 : 0;
+      const bool soon = c.took_s <= std::max(600.0, 15.0 * muscle.time_constant_s);
+      in_time += soon ? 1 : 0;
+      both += soon && ratio <= 1.0 ? 1 : 0;
     }
   } catch (const std::exception& wrong) {
     std::fprintf(stderr, "setup_study: %s\n", wrong.what());
     return 1;
   }
   std::printf(
-      "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time\n"
+      "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time, %d both\n"
       "%d were hotter at times than their board told that they may be\n",
-      followed, muscles, kept, near, in_time, untold);
+      followed, muscles, kept, near, in_time, both, untold);
   return 0;
 }

@@ -47,9 +47,13 @@ void BatchLeastSquares::Sums::add(const Sums& other, double sign) {
   count += sign * other.count;
 }
 
-void BatchLeastSquares::start(double position_m) {
+void BatchLeastSquares::start_anew() {
   blocks_ = 0;
   sums_.fill({});
+}
+
+void BatchLeastSquares::start(double position_m) {
+  start_anew();
   power_.settle(0.0);
   position_.settle(position_m * position_scale_);
   believed_.settle(0.0);

@@ -20,7 +20,7 @@ constexpr double min_period_s = 5.0;
 
 /// One period's error differs from the next one's, and motion from that of identify: of 200 muscles
 /// (tests/setup/setup_study.cpp, 1 to 200) 97 % stay below.
-constexpr double allowance = 1.6;
+constexpr double allowance = 1.8;
 /// White noise of each tick through a loop of this bandwidth, and what its damping adds.
 constexpr double noise_gain = 2.5;
 /// Motion that is quicker than a drift, over the sensor's noise, which needs no dither.

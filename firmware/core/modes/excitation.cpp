@@ -49,9 +49,8 @@ double Excitation::next_W(double position_m, double max_W) {
     case Phase::rest:
       if (still) {
         cold_m_ = position_m_;
-        const bool knows_power = reach_m_ > 0.0;
-        if (!knows_power) power_W_ = first_ratio * max_W;
-        begin(knows_power ? Phase::heat : Phase::search);
+        power_W_ = first_ratio * max_W;
+        begin(Phase::search);
       }
       return 0.0;
     case Phase::search:

@@ -32,17 +32,13 @@ class Excitation {
     position_m_ = position_m;
     begin(Phase::rest);
   }
-  /// Once more, with the power and the reach that are known by now, and shorter strokes: they show
-  /// less of what is not linear.
-  void start_shorter(double position_m) {
-    Excitation shorter(settings_);
-    shorter.position_m_ = position_m;
-    shorter.power_W_ = power_W_;
-    shorter.reach_m_ = shorter_ratio * reach_m_;
-    shorter.energy_J_ = energy_J_;
-    shorter.risen_m_s_ = risen_m_s_;
-    shorter.begin(Phase::rest);
-    *this = shorter;
+  /// Once more, from where the last stroke ended, with the power and the reach that are known by
+  /// now, and shorter strokes: they show less of what is not linear.
+  void start_shorter() {
+    reach_m_ *= shorter_ratio;
+    cycle_ = 0;
+    goes_on_ = false;
+    begin(Phase::heat);
   }
 
   /// As many strokes again, after those that are done. False: that was done before.

@@ -66,6 +66,7 @@ ModeResult Identify::judge() {
   }
   const auto fit = fit_.fit();
   notes_ = fit ? reasons_against(*fit) : uncertain;
+  theta_ = fit ? fit->theta : control::Theta::Constant(NAN);
   double unexplained_ratio = fit ? fit->unexplained_ratio : NAN;
   if (fit && shortened()) {
     const double of_full_ratio = fit_.unexplained_ratio(full_strokes_, fit->theta);
@@ -86,9 +87,45 @@ ModeResult Identify::judge() {
   }
   found_ = *physical;
   quality_ = {fit->deviation, unexplained_ratio};
+  for (int i = 0; i < 4 && shortened() && full_theta_.allFinite(); ++i)
+    quality_.deviation_ratio[i] =
+        std::hypot(quality_.deviation_ratio[i], full_theta_[i] / fit->theta[i] - 1.0);
   if ((notes_ & note_theta1_kept) != 0) quality_.deviation_ratio[0] = NAN;
   if (shortened()) notes_ |= note_poor_fit;
   return ModeResult::found;
+}
+
+ModeResult Identify::shorten(ModeResult because) {
+  if (shortened_ == 0) {
+    full_strokes_ = fit_.experiment();
+    full_theta_ = theta_;
+    full_result_ = because;
+    full_notes_ = notes_;
+  }
+  ++shortened_;
+  ++again_;
+  excitation_.start_shorter();
+  fit_.start_anew();
+  return go_on();
+}
+
+ModeResult Identify::conclude(bool ends) {
+  const ModeResult result = judge();
+  const bool in_time = elapsed_s_ < settings_.max_s;
+  const bool can_shorten = in_time && shortened_ < max_shortened;
+  if (result == ModeResult::found) return result;
+  if (result == ModeResult::poor_fit && can_shorten) return shorten(result);
+  if (!ends) return go_on();
+  if (result == ModeResult::uncertain && in_time && excitation_.go_on()) {
+    ++again_;
+    return go_on();
+  }
+  if (shortened_ == 0 && result != ModeResult::uncertain) return result;
+  if (can_shorten) return shorten(result);
+  if (shortened_ == 0) return result;
+  // Whatever speaks against the shorter strokes, the full ones did not find it either.
+  notes_ |= full_notes_;
+  return full_result_;
 }
 
 }  // namespace supercoil::modes

@@ -16,11 +16,15 @@ namespace supercoil::modes {
 /// the experiment, and lie within a span of what is believed. What is not known of θ1 stays as
 /// believed; position and power never give γ and m̂, so they do too. Strokes that leave a parameter
 /// uncertain are followed by as many more, which are judged together with them. A muscle of which
-/// the model explains too little is excited again, with shorter strokes, twice at most.
+/// the model explains too little, or that stays uncertain, is excited with shorter strokes, twice
+/// at most. A slow muscle is judged after each stroke: once it is found, or does not fit, more of
+/// the same strokes would only take time.
 class Identify {
  public:
   struct Settings {
     double max_s = 1200.0;  ///< then what there is must do: five cycles of a time constant of 60 s
+    /// From then on the muscle is judged after each stroke, as soon as these can be fitted.
+    double patience_s = 100.0;
     /// Of the unseen third's variance. Muscles with the effects of docs/muscles.md leave up to
     /// 0.02; one whose stiffness changes by a third under way, 0.13 and more.
     double max_unexplained = 0.06;
@@ -35,7 +39,9 @@ class Identify {
 
   /// How sure the last muscle that was found is. NaN: none was.
   struct Quality {
-    control::Theta deviation_ratio = control::Theta::Constant(NAN);  ///< standard; NaN: kept
+    /// Standard; NaN: kept. Of a muscle that shorter strokes found, with how far the full ones' fit
+    /// is from theirs.
+    control::Theta deviation_ratio = control::Theta::Constant(NAN);
     /// As BatchLeastSquares::Fit has it. Where it took shorter strokes, what the muscle that they
     /// found leaves of the full ones, if that is more.
     double unexplained_ratio = NAN;
@@ -69,25 +75,11 @@ class Identify {
     fit_.step(position_m, applied_power_W,
               cycle > 0 ? std::optional(cycle - 1) : std::optional<std::size_t>());
     power_W_ = excitation_.step(position_m, max_W);
-    const bool in_time = elapsed_s_ < settings_.max_s;
-    if (!excitation_.done() && in_time) return ModeResult::running;
-    const ModeResult result = judge();
-    if (result == ModeResult::uncertain && in_time && excitation_.go_on()) {
-      ++again_;
-      notes_ = 0;
-      return ModeResult::running;
-    }
-    if (result == ModeResult::found || (result != ModeResult::poor_fit && shortened_ == 0))
-      return result;
-    if (shortened_ == max_shortened || !in_time) return poor_fit();
-    if (shortened_ == 0) full_strokes_ = fit_.experiment();
-    ++shortened_;
-    ++again_;
-    notes_ = 0;
-    excitation_.start_shorter(position_m);
-    fit_.start(position_m);
-    power_W_ = 0.0;
-    return ModeResult::running;
+    const bool ends = excitation_.done() || elapsed_s_ >= settings_.max_s;
+    const bool stroke_ended = excitation_.cycle() != cycle;
+    const bool early =
+        stroke_ended && elapsed_s_ > settings_.patience_s && fit_.blocks() >= fit_.min_blocks;
+    return ends || early ? conclude(ends) : ModeResult::running;
   }
 
   double power_W() const { return power_W_; }
@@ -95,7 +87,7 @@ class Identify {
   float progress() const {
     return 1.0F - std::ldexp(1.0F - excitation_.progress(), -static_cast<int>(again_));
   }
-  /// The full strokes did not fit.
+  /// The full strokes did not fit, or left the muscle uncertain.
   bool shortened() const { return shortened_ > 0; }
   /// Above the cold muscle's position, smoothed.
   double risen_m() const { return excitation_.risen_m(); }
@@ -108,12 +100,14 @@ class Identify {
  private:
   static constexpr std::uint8_t max_shortened = 2;
 
+  /// What the strokes so far say; ends: no more of them are to come.
+  ModeResult conclude(bool ends);
   ModeResult judge();
-  /// The full strokes did not fit, whatever speaks against the shorter ones.
-  ModeResult poor_fit() {
-    notes_ |= note_poor_fit;
-    return ModeResult::poor_fit;
+  ModeResult go_on() {
+    notes_ = 0;
+    return ModeResult::running;
   }
+  ModeResult shorten(ModeResult because);
   bool knows(const control::BatchLeastSquares::Fit& fit, int i) const;
   bool usable_theta2(const control::BatchLeastSquares::Fit& fit) const;
   bool plausible(double theta, double believed) const;
@@ -127,7 +121,12 @@ class Identify {
   double power_W_ = 0.0;
   std::uint8_t again_ = 0;                         ///< excited so often, after the first time
   std::uint8_t shortened_ = 0;                     ///< so often of these, by shorter strokes
-  control::BatchLeastSquares::Sums full_strokes_;  ///< where they are shortened
+  /// The full ones, where they are shortened: what they showed, and how they ended.
+  control::BatchLeastSquares::Sums full_strokes_;
+  control::Theta full_theta_ = control::Theta::Constant(NAN);
+  ModeResult full_result_ = ModeResult::none;
+  std::uint8_t full_notes_ = 0;
+  control::Theta theta_ = control::Theta::Constant(NAN);  ///< last fitted
   std::uint8_t notes_ = 0;
   Excitation excitation_;
   control::BatchLeastSquares fit_;

@@ -56,6 +56,18 @@ TEST(Identify, FindsEveryMuscleWithinItsTravelAndItsTemperature) {
   }
 }
 
+/// Nine strokes of a muscle with a time constant of 20 s take 570 s.
+TEST(Identify, EndsOnceASlowMuscleIsFound) {
+  for (const MuscleKind& kind : muscle_kinds) {
+    if (kind.name != "slow, 20 s") continue;
+    const Identified run = run_identify(kind, 1);
+    const std::string text = described(kind, 1, run);
+    LONGS_EQUAL_TEXT(static_cast<int>(ModeResult::found), static_cast<int>(run.result),
+                     text.c_str());
+    CHECK_COMPARE_TEXT(run.took_s, <, 430.0, text.c_str());
+  }
+}
+
 /// Seven strokes of 3 mm leave θ2 and θ4 of such a muscle uncertain, and fifteen do not.
 TEST(Identify, GoesOnWhereTheFirstStrokesLeaveTheMuscleUncertain) {
   const auto scenario = host_sim::parse_scenario(

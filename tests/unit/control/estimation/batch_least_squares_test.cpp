@@ -34,7 +34,7 @@ struct PowerSteps {
   std::optional<BatchLeastSquares::Fit> run(unsigned seed = 1) const {
     return experiment(seed).fit();
   }
-  BatchLeastSquares experiment(unsigned seed = 1) const {
+  BatchLeastSquares experiment(unsigned seed = 1, double anew_at_s = 1e6) const {
     constexpr double step_s = 1e-3;
     BatchLeastSquares fit(half_wrong_belief(), step_s);
     fit.start(0.0);
@@ -51,9 +51,12 @@ struct PowerSteps {
         muscle.change(parameters);
       }
       muscle.step(power_W);
-      const auto block = static_cast<std::size_t>(time_s / block_s);
+      if (std::abs(time_s - anew_at_s) < 0.5 * step_s) fit.start_anew();
+      // The first one lets the filters settle, once.
+      const double from_s = time_s < anew_at_s ? block_s : anew_at_s;
       fit.step(muscle.position_m() + noise(random), power_W + bias_W,
-               block > 0 ? std::optional(block - 1) : std::optional<std::size_t>());
+               time_s < from_s ? std::optional<std::size_t>()
+                               : static_cast<std::size_t>((time_s - from_s) / block_s));
       const bool heats = std::fmod(time_s, block_s) < 0.4 * block_s;
       power_W = scale *
                 ((heats ? 3.5 : 0.4) +
@@ -98,6 +101,17 @@ TEST(BatchLeastSquares, JudgesAMuscleByAnExperimentThatItWasNotFittedTo) {
     fit.start(0.0);
     DOUBLES_EQUAL(unexplained, fit.unexplained_ratio(before, wrong), 1e-15);
   }
+}
+
+/// In the middle of a stroke: nothing has to settle.
+TEST(BatchLeastSquares, AnExperimentThatBeginsAnewUnderWayFindsTheSame) {
+  const BatchLeastSquares anew =
+      PowerSteps{.noise_rms_m = 0.0, .blocks = 14}.experiment(1, 7.6 * block_s);
+  CHECK_EQUAL(8U, anew.blocks());
+  const auto fit = anew.fit();
+  CHECK(fit.has_value());
+  for (int i = 0; i < 4; ++i)
+    DOUBLES_EQUAL(paper_theta()[i], fit->theta[i], 0.005 * paper_theta()[i]);
 }
 
 TEST(BatchLeastSquares, FindsAConstantBiasOfThePower) {

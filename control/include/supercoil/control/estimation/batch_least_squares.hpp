@@ -49,6 +49,9 @@ class BatchLeastSquares {
   /// Forgets all. The muscle is at rest at this position, without power.
   void start(double position_m);
 
+  /// Begins another experiment, which the motion goes on into.
+  void start_anew();
+
   /// One tick: this tick's position, and the power applied since the last one. block: which it
   /// counts to, below max_blocks; empty: to none, while the filters settle.
   void step(double position_m, double applied_power_W, std::optional<std::size_t> block);

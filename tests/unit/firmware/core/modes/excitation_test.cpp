@@ -48,6 +48,35 @@ Strokes strokes_of(double overpowered, bool goes_on = false) {
   return all;
 }
 
+struct FirstShorterStroke {
+  double began_m = 0.0;
+  double lowest_m = 0.0;  ///< until it was at its highest
+  double highest_m = 0.0;
+};
+
+FirstShorterStroke first_shorter_stroke() {
+  Excitation excitation({max_travel_m, tick_s});
+  excitation.start(0.0);
+  double position_m = 0.0;
+  const auto step = [&] {
+    const double steady_m = max_travel_m * excitation.step(position_m, 4.0);
+    position_m += tick_s / thermal_s * (steady_m - position_m);
+  };
+  while (!excitation.done())
+    step();
+  excitation.start_shorter();
+  FirstShorterStroke stroke{position_m, position_m, position_m};
+  while (excitation.cycle() == 0) {
+    step();
+    if (position_m > stroke.highest_m) {
+      stroke.highest_m = position_m;
+    } else if (stroke.highest_m == stroke.began_m) {
+      stroke.lowest_m = std::min(stroke.lowest_m, position_m);
+    }
+  }
+  return stroke;
+}
+
 }  // namespace
 
 TEST_GROUP(Excitation){};
@@ -74,4 +103,11 @@ TEST(Excitation, GoesOnOnceWithAsManyStrokesAtTheSamePace) {
   for (std::size_t i = 0; i < once.lowest_m.size(); ++i)
     DOUBLES_EQUAL(once.lowest_m[i], twice.lowest_m[i], 1e-12);
   DOUBLES_EQUAL(2.0 * once.took_s, twice.took_s, 0.2 * once.took_s);
+}
+
+/// Not from rest: a slow muscle would take five of its time constants to come to it.
+TEST(Excitation, ShorterStrokesBeginWhereTheLastOneEnded) {
+  const FirstShorterStroke stroke = first_shorter_stroke();
+  CHECK_COMPARE(stroke.lowest_m, >, 0.95 * stroke.began_m);
+  DOUBLES_EQUAL(0.7 * 0.85 * 0.55 * max_travel_m, stroke.highest_m, 0.03 * max_travel_m);
 }

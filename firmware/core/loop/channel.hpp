@@ -19,7 +19,7 @@ struct BoardTick {
   hal::Time time{};
   double supply_V = 0.0;
   Fault fault = Fault::none;  ///< of the board, latched or present: every channel is made safe
-  detectors::Margin margin;   ///< of that fault
+  detectors::Margin margin;   ///< of that fault; the bus's faults are told with it
   bool testing = true;        ///< the self-test runs: nothing is latched
   bool proven = false;        ///< it has passed: both ways of cutting cut
   std::int64_t periods = 1;   ///< since the last tick

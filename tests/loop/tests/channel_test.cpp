@@ -65,6 +65,18 @@ TEST(Channel, TellsByHowMuchTheBoardsFaultWasPassed) {
   CHECK_COMPARE(s.margin.measured, <, s.margin.limit);
 }
 
+TEST(Channel, TellsByHowMuchAFaultOfTheBusWasPassed) {
+  rig.boot();
+  rig.arm();
+  // Of each channel by itself, and yet judged once for the whole board.
+  rig.loop.health().bus.store(hal::CanState::error_passive);
+  CHECK(rig.run_until([&] { return rig.fault() == Fault::bus_error_passive; }, 10.0));
+  const Snapshot& s = rig.snapshot();
+  CHECK(s.margin_selector == Fault::bus_error_passive);
+  DOUBLES_EQUAL(rough_board().firmware.supervision.bus_error_passive_s, s.margin.limit, 1e-12);
+  DOUBLES_EQUAL(s.margin.limit, s.margin.measured, 0.01);
+}
+
 TEST(Channel, OnlyAnObeyedCommandEndsARowOfDamagedOnes) {
   heat(1.0);
   for (int i = 0; i < 3; ++i) {

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import re
+import socket
 import subprocess
 import unittest
 from unittest import mock
@@ -80,6 +81,11 @@ class PythonCan(unittest.TestCase):
             self.assertFalse(address._is_reliable())
             with self.assertRaisesRegex(supercoil.BusError, "needs python-can 4.4"):
                 address.open_bus("socketcand:1", {})
+
+    def test_a_server_that_says_nothing_is_not_waited_for_without_end(self):
+        with socket.create_server(("127.0.0.1", 0)) as server, mock.patch.object(address, "_GREETED_WITHIN_S", 0.01), \
+                self.assertRaisesRegex(supercoil.BusError, "timed out"):
+            address.open_bus(f"socketcand:{server.getsockname()[1]}", {})
 
 
 if __name__ == "__main__":

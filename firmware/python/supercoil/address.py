@@ -11,6 +11,7 @@ from supercoil.errors import BusError
 
 _SOCKETCAND = re.compile(r"socketcand:(?:(?P<host>.+):)?(?P<port>\d+)(?:/(?P<channel>[^ <>/]+))?")
 _CONNECT_WITHIN_S = 5.0
+_GREETED_WITHIN_S = 10.0
 _TRIES = 5
 _FIRST_RELIABLE = (4, 4)
 
@@ -34,9 +35,11 @@ def _open_socketcand(host: str, port: int, channel: str) -> can.BusABC:
     if not _is_reliable():
         raise BusError(f"socketcand needs python-can 4.4 or newer, this is {can.__version__}: older ones lose frames "
                        "that TCP brings in two parts")
-    # python-can asks for 10 s without a pause where nobody listens.
+    # python-can asks for 10 s without a pause where nobody listens, and waits without end where nobody speaks.
     try:
-        socket.create_connection((host, port), _CONNECT_WITHIN_S).close()
+        with socket.create_connection((host, port), _CONNECT_WITHIN_S) as tried:
+            tried.settimeout(_GREETED_WITHIN_S)
+            tried.recv(1)
     except OSError as error:
         raise BusError(f"socketcand on {host}:{port}: {error}") from error
     # It wants each answer alone in what it reads, and fails where it was kept from reading.

@@ -3,15 +3,12 @@
 import contextlib
 import os
 import signal
-import subprocess
-import sys
 import time
 import unittest
 
 import numpy as np
 from bridged import ERROR, STALE, STOP_TYPE, WARN, Bridged
 from patience import DEADLINE_S, QUICK
-from peer import LOOPBACK
 
 from supercoil import Fault, State, messages, sync
 
@@ -195,16 +192,27 @@ class Live(Bridged):
 
     def test_it_ends_also_when_its_bus_ends_first(self):
         with sync.Simulation(QUICK, deadline_s=1e6) as alone:
-            bridge = subprocess.Popen(
-                [sys.executable, "-m", "supercoil.ros", alone.address, "--joint", "last=1", "--name", "last", "--arm",
-                 "--states", "last_states", "--domain", str(self.domain)],
-                env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
-            self.addCleanup(bridge.wait)
-            self.addCleanup(bridge.kill)
+            bridge = self.another_bridge(alone.address, "last", "--joint", "last=1", "--arm")
             commands = self.peer.writer("rt/last/joint_commands", "sensor_msgs/msg/JointState")
             self.wait(lambda: alone.muscle.state == State.active, lambda: self.command({"last": 0.001}, commands))
         bridge.send_signal(signal.SIGTERM)
         self.assertEqual(bridge.wait(DEADLINE_S), 0)
+
+    def test_a_board_that_falls_silent_is_stale_and_comes_back(self):
+        with sync.Simulation(QUICK, deadline_s=1e6) as alone:
+            bridge = self.another_bridge(alone.address, "mute", "--joint", "mute=1", "--arm")
+
+            def seen(wanted, meanwhile=lambda: None):
+                self.wait(lambda: self.assertIsNone(bridge.poll(), "it has ended") or wanted(), meanwhile)
+            commands = self.peer.writer("rt/mute/joint_commands", "sensor_msgs/msg/JointState")
+            seen(lambda: alone.muscle.state == State.active, lambda: self.command({"mute": 0.001}, commands))
+            seen(lambda: self.diagnosed("mute") not in (None, STALE))
+            board = alone._simulation._process
+            self.addCleanup(board.send_signal, signal.SIGCONT)
+            board.send_signal(signal.SIGSTOP)
+            seen(lambda: self.diagnosed("mute") == STALE)
+            board.send_signal(signal.SIGCONT)
+            seen(lambda: self.diagnosed("mute") not in (None, STALE))
 
     def test_at_the_end_it_disarms(self):
         self.arm()
@@ -224,12 +232,7 @@ class Live(Bridged):
         self.start_bridge()
 
     def test_a_board_that_is_not_there_is_stale_and_comes_later(self):
-        absent = subprocess.Popen(
-            [sys.executable, "-m", "supercoil.ros", self.simulation.address, "--joint", "ghost=9", "--name", "other",
-             "--states", "other_states", "--domain", str(self.domain)], stderr=subprocess.DEVNULL,
-            env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
-        self.addCleanup(absent.wait)
-        self.addCleanup(absent.kill)
+        self.another_bridge(self.simulation.address, "other", "--joint", "ghost=9")
         told = self.wait(lambda: next((status for array in self.diagnostics.take() for status in array.status
                                        if status.name == "supercoil: ghost" and "heartbeat" in status.message), None))
         self.assertEqual(told.level, STALE)

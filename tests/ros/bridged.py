@@ -55,6 +55,15 @@ class Bridged(unittest.TestCase):
         cls.bridge.kill()
         cls.bridge.communicate()
 
+    def another_bridge(self, address, name, *words):
+        """Beside the one that all tests share, of the joint of that name."""
+        bridge = subprocess.Popen(
+            [sys.executable, "-m", "supercoil.ros", address, "--name", name, "--states", f"{name}_states", "--domain",
+             str(self.domain), *words], env={**os.environ, "CYCLONEDDS_URI": LOOPBACK})
+        self.addCleanup(bridge.wait)
+        self.addCleanup(bridge.kill)
+        return bridge
+
     def setUp(self):
         """An earlier test leaves nothing behind."""
         self.wait(lambda: self.commands.matched())

@@ -8,9 +8,11 @@ import unittest
 from typing import ClassVar
 from unittest import mock
 
-from supercoil import BusError, Fault, NotReachedError, State, messages, refusals
+from supercoil import BusError, Fault, FaultError, NoAnswerError, NotReachedError, State, messages, refusals
 from supercoil import joints as pairs
 from supercoil.ros import joint as joints
+from supercoil.ros.diagnostics import diagnostics_of
+from supercoil.ros.messages import STALE, WARN
 
 WITHIN_S = 30.0
 
@@ -23,16 +25,24 @@ class Muscle:
     def __init__(self, address, node):
         self.node = node
         self.state, self.fault, self.told = State.armed, Fault.none, []
-        self.arming = asyncio.Event()
-        self.telemetry = types.SimpleNamespace(newest=lambda kind: None)
+        self.arming, self.silent, self.let_go = asyncio.Event(), asyncio.Event(), asyncio.Event()
+        self.let_go.set()
+        self._telemetry = types.SimpleNamespace(newest=lambda kind: None)
         self.at_close = self.refuses = None
         MADE.append(self)
+
+    @property
+    def telemetry(self):
+        if "close" in self.told:
+            raise RuntimeError(f"node {self.node} is not connected")
+        return self._telemetry
 
     async def __aenter__(self):
         return self
 
     async def __aexit__(self, *cause):
         self.told.append("close")
+        await self.let_go.wait()
         if self.at_close:
             raise self.at_close
 
@@ -40,7 +50,8 @@ class Muscle:
         return self.PAIRS.get(self.node)
 
     async def stream(self, kind):
-        await asyncio.Event().wait()
+        await self.silent.wait()
+        raise NoAnswerError("no Status within 2 s\nand more")
         yield
 
     async def arm(self):
@@ -62,6 +73,11 @@ class Muscle:
 MADE = []
 
 
+class FaultWithoutText(FaultError):
+    def __str__(self):
+        return ""
+
+
 class Connected(unittest.IsolatedAsyncioTestCase):
     async def asyncSetUp(self):
         patched = mock.patch.object(joints, "Muscle", Muscle)
@@ -75,6 +91,7 @@ class Connected(unittest.IsolatedAsyncioTestCase):
 
     async def asyncTearDown(self):
         self.muscle.at_close = None
+        self.muscle.let_go.set()
         self.running.cancel()
         with contextlib.suppress(asyncio.CancelledError):
             await self.running
@@ -96,6 +113,47 @@ class JointAlone(Connected):
         done, _ = await asyncio.wait([self.running], timeout=WITHIN_S)
         self.assertEqual(done, {self.running})
         self.assertTrue(self.running.cancelled())
+
+    async def test_while_a_silent_board_is_let_go_it_is_not_there(self):
+        self.muscle.let_go.clear()
+        self.muscle.silent.set()
+        await self.until(lambda: "close" in self.muscle.told)
+        self.assertTrue(math.isnan(self.joint.position))
+        told = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((told.level, told.message), (STALE, "its connection has ended"))
+        with self.assertRaisesRegex(NotReachedError, "its connection has ended"):
+            await self.joint.reset()
+        self.muscle.let_go.set()
+        await self.until(lambda: self.joint.problem.startswith("no Status"))
+        told = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((told.level, told.message), (STALE, "no Status within 2 s"))
+
+    async def test_a_board_that_was_silent_is_looked_for_again(self):
+        patched = mock.patch.object(joints, "_TRY_AGAIN_S", 0.0)
+        patched.start()
+        self.addCleanup(patched.stop)
+        for times in range(1, 3):
+            MADE[-1].silent.set()
+            await self.until(lambda times=times: len(MADE) > times and self.joint.muscle is MADE[-1])
+        self.want(0.001)
+        await self.until(lambda: 0.001 in MADE[-1].told)
+
+    async def test_an_error_without_a_text_is_diagnosed_by_its_kind(self):
+        self.muscle.at_close = BusError()
+        self.muscle.silent.set()
+        await self.until(lambda: self.muscle.told == ["close"] and self.joint.muscle is None)
+        await self.until(lambda: self.joint.problem != "its connection has ended")
+        told = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((told.level, told.message), (STALE, "BusError"))
+
+    async def test_a_refusal_without_a_text_is_diagnosed_by_its_kind(self):
+        async def refuse(position_m):
+            raise FaultWithoutText(1, math.nan, math.nan)
+        self.muscle.refuses = refuse
+        self.want(0.001)
+        await self.until(lambda: self.joint.refusal)
+        told = diagnostics_of([self.joint], stopped=False).status[1]
+        self.assertEqual((told.level, told.message), (WARN, "FaultWithoutText"))
 
     async def test_a_set_point_that_is_let_go_before_a_heartbeat_rests(self):
         self.want(0.001)

@@ -14,7 +14,7 @@ from supercoil.errors import SupercoilError
 from supercoil.generated.names import State
 from supercoil.ros.diagnostics import diagnostics_of
 from supercoil.ros.graph import Graph
-from supercoil.ros.joint import Joint
+from supercoil.ros.joint import Joint, reason_of
 from supercoil.ros.messages import Bool, DiagnosticArray, Header, JointState, JointTrajectory, Time
 from supercoil.ros.motion import Held, Knot, Trajectory, knots_of
 from supercoil.ros.names import resolved
@@ -113,7 +113,7 @@ class Bridge:
             try:
                 await do()
             except (SupercoilError, RuntimeError) as error:  # RuntimeError: the connection has just been closed
-                joint.refuse(str(error).splitlines()[0])
+                joint.refuse(reason_of(error))
 
         name = f"{joint.name} {do.__name__}"
         if name not in self._aside:
@@ -190,5 +190,5 @@ class Bridge:
         for joint, outcome in zip(joints, done, strict=True):
             if isinstance(outcome, BaseException) and not isinstance(outcome, (SupercoilError, RuntimeError)):
                 raise outcome
-            told.append(f"{joint.name}: {str(outcome).splitlines()[0]}")
+            told.append(f"{joint.name}: {reason_of(outcome) if isinstance(outcome, BaseException) else outcome}")
         return not any(isinstance(outcome, BaseException) for outcome in done), "; ".join(told)

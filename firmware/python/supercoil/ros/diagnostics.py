@@ -72,7 +72,7 @@ def _status_of(joint: Joint) -> DiagnosticStatus:
     name = f"supercoil: {joint.name}"
     muscle = joint.muscle
     if muscle is None:
-        return DiagnosticStatus(STALE, name, joint.problem.splitlines()[0], joint.hardware_id)
+        return DiagnosticStatus(STALE, name, joint.problem, joint.hardware_id)
     level, message = _judged(muscle, joint.refusal, _doing(joint, muscle))
     return DiagnosticStatus(level, name, message, joint.hardware_id, [*_angles(joint), *_values(muscle)])
 

@@ -20,8 +20,14 @@ _TELL_REFUSALS_S = 5.0
 _SAY_AGAIN_S = 0.5
 
 _UNKNOWN_RANGE_M = (-math.inf, math.inf)
+_ENDED = "its connection has ended"  # until it is known why
 
 _log = logging.getLogger("supercoil.ros")
+
+
+def reason_of(error: BaseException) -> str:
+    """The first line of its text, or its kind where it has none: never empty."""
+    return str(error).partition("\n")[0] or type(error).__name__
 
 
 class _Refused(Exception):
@@ -36,7 +42,7 @@ class Joint:
         self.node = node
         self.hardware_id = f"{address} node {node}"
         self.pair: Pair | None = None  # as the board told it last
-        self.problem = "not connected yet"  # why the board is not reached; empty: it is
+        self.problem = "not connected yet"  # why the board is not reached, while it is not
         self.motion: Motion | None = None
         self.address = address
         self._muscle: Muscle | None = None
@@ -130,27 +136,30 @@ class Joint:
             try:
                 async with Muscle(self.address, self.node) as muscle:
                     self.pair = await muscle.joint()
-                    self._muscle, self.problem = muscle, ""
+                    self._muscle, self.problem = muscle, _ENDED
                     _log.info("%s: %s is there", self.name, self.hardware_id)
                     try:
-                        async with asyncio.TaskGroup() as tasks:
-                            tasks.create_task(self._watch(muscle))
-                            tasks.create_task(self._obey(muscle))
-                            tasks.create_task(self._listen())
+                        # A task of its own: Python 3.11 leaves the one in which a TaskGroup fails cancelled.
+                        await asyncio.create_task(self._use(muscle))
                     finally:
+                        # It tells nothing any more, but to let go of a silent board takes a while.
+                        self._muscle = None
                         self._stop_arming()
             except* SupercoilError as errors:
-                self._muscle = None
-                problem = str(errors.exceptions[0])
-                if problem != self.problem:
-                    _log.error("%s: %s", self.name, problem)
-                self.problem = problem
-            finally:
-                self._muscle = None
+                error = errors.exceptions[0]
+                if reason_of(error) != self.problem:
+                    _log.error("%s: %s", self.name, error)
+                self.problem = reason_of(error)
             if (task := asyncio.current_task()) is not None and task.cancelling():
                 raise asyncio.CancelledError  # an error on the way out must not keep it here
             self.let_go()
             await asyncio.sleep(_TRY_AGAIN_S)
+
+    async def _use(self, muscle: Muscle) -> None:
+        async with asyncio.TaskGroup() as tasks:
+            tasks.create_task(self._watch(muscle))
+            tasks.create_task(self._obey(muscle))
+            tasks.create_task(self._listen())
 
     async def _watch(self, muscle: Muscle) -> None:
         """Ends when the board is silent. What was wanted before a stop or a fault is not wanted after it."""
@@ -215,7 +224,7 @@ class Joint:
             low_m, high_m = self._range_m
             self._range_m = (low_m, error.nearest) if position_m > error.nearest else (error.nearest, high_m)
             return self._out_of_range(position_m, error.nearest)
-        return str(error).splitlines()[0]
+        return reason_of(error)
 
     async def arm(self) -> str:
         """What came of it; so do the others. SupercoilError: it did not."""

@@ -21,7 +21,7 @@ double Bundle::unseen_ratio(const ChannelSettings& channel) const {
 }
 
 std::optional<Bundle> read_bundle(Section section, const ChannelSettings& c) {
-  if (section.table() == nullptr) return std::nullopt;
+  if (!section.given()) return std::nullopt;
   Bundle bundle;
   bundle.muscles = static_cast<int>(section.required_integer("muscles", 2, max_muscles));
   bundle.wired = section.choice("wired", Wiring::series, wiring_names);

@@ -78,6 +78,8 @@ class Section {
   }
 
   bool has(std::string_view key) const { return look(key).node != nullptr; }
+  /// The table is there, or one is laid under it.
+  bool given() const { return table_ != nullptr || under_ != nullptr; }
   /// Not in the table laid under it.
   bool has_own(std::string_view key) const { return table_ != nullptr && table_->contains(key); }
   const toml::table* table() const { return table_; }

@@ -72,7 +72,7 @@ void Section::refuse_missing(const std::vector<std::string>& meant) {
   for (const Missing& missing : missing_) {
     // Said already: it is there under a misspelt name.
     if (std::find(meant.begin(), meant.end(), missing.key) != meant.end()) continue;
-    if (table_ != nullptr || under_ != nullptr) {
+    if (given()) {
       diagnostics_->add(line(), path_.empty() ? missing.key : path_ + "." + missing.key,
                         "is missing: it must be " + missing.rule);
     } else {

@@ -52,6 +52,12 @@ TEST(BoardConfig, ABundleIsToldWithWhatHappensWhenOneOfItIsLost) {
              "one shorted muscle of 3 in series is 33 % less resistance");
 }
 
+TEST(BoardConfig, ABundleMayBeThatOfEveryChannel) {
+  const BoardConfig c =
+      read(test::small_board + "[every_channel.bundle]\nmuscles = 3\nwired = 'parallel'\n");
+  CHECK(c.labels[0].bundle && c.labels[0].bundle->muscles == 3 && c.labels[0].bundle->parallel());
+}
+
 TEST(BoardConfig, JointExampleIsTwoChannelsAtOneSensor) {
   const BoardConfig c = example("joint-as5600-ads1115.toml");
   UNSIGNED_LONGS_EQUAL(2, c.settings.channels.size());

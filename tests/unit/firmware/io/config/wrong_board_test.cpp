@@ -119,6 +119,18 @@ TEST(WrongBoard, ABundleOfWhichABrokenThreadIsNotSeen) {
                  "b.toml:34: channel[1].bundle.wired = 'both': must be one of: series, parallel");
 }
 
+TEST(WrongBoard, ABundleOfEveryChannelIsCheckedAsItsOwn) {
+  const auto problems = [](const std::string& keys) {
+    return problems_of(small_board + "[every_channel.bundle]\n" + keys + "\n");
+  };
+  STRCMP_CONTAINS("every_channel.bundle.muscles = 5: with this many in parallel, a broken thread",
+                  problems("muscles = 5\nwired = 'parallel'").c_str());
+  STRCMP_CONTAINS(
+      "every_channel.bundle.muscle = 3: is not a key of [every_channel.bundle]; did "
+      "you mean muscles?",
+      problems("muscle = 3").c_str());
+}
+
 TEST(WrongBoard, ErrorOfAMassThatWasNotWeighed) {
   check_replaced("min_mass_J_per_K = 0.13",
                  "min_mass_J_per_K = 0.13\nweighed_mass_error_ratio = 0.03",

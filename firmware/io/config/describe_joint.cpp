@@ -61,6 +61,18 @@ std::string turning_stiffness(double stiffness_N_per_m, const control::Lever& le
   return out.str();
 }
 
+/// By how much it resists being turned. Where the lever depends on the angle, what both pull with
+/// changes nothing either as long as their moments are equal: a load makes them differ.
+std::string stiffness_text(const JointSettings& joint, double stiffness_N_per_m) {
+  const bool constant = joint.lever.is_constant();
+  std::ostringstream out;
+  out << stiffness_N_per_m << " N/m at the "
+      << (joint.antagonist_lever_ratio == 1.0 ? "lever" : "agonist's lever")
+      << (constant ? "" : " of 0°") << ", " << turning_stiffness(stiffness_N_per_m, joint.lever)
+      << ", however much both pull: linear muscles" << (constant ? "" : " without a load");
+  return out.str();
+}
+
 /// What both muscles describe of the whole joint, as it is configured, is the same of both.
 void advise_alike(const BoardSettings& board, const JointSettings& joint,
                   std::vector<std::string>& lines) {
@@ -130,9 +142,7 @@ std::string describe_joint(const BoardConfig& config, std::size_t index) {
       << greatest_pull(config.joints[index], hottest_pull_N(agonist, joint.max_co_contraction_W),
                        hottest_pull_N(antagonist, joint.max_co_contraction_W / gain_ratio))
       << "\n"
-      << "  stiffness   " << agonist.muscle.stiffness_N_per_m << " N/m at the lever, "
-      << turning_stiffness(agonist.muscle.stiffness_N_per_m, joint.lever)
-      << ", however much both pull: linear muscles at the same lever\n";
+      << "  stiffness   " << stiffness_text(joint, agonist.muscle.stiffness_N_per_m) << "\n";
   return out.str();
 }
 

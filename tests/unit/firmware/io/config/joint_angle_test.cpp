@@ -58,6 +58,10 @@ TEST(JointInDegrees, TheAntagonistMayPullAtALeverOfItsOwn) {
   DOUBLES_EQUAL(0.010, antagonist.joint.lever.zero_radius_m(), 1e-12);
   const std::string told = describe(c);
   STRCMP_CONTAINS("lever of 15 mm, the antagonist's of 10 mm\n", told.c_str());
+  STRCMP_CONTAINS(
+      "stiffness   16 N/m at the agonist's lever, 0.0036 Nm/rad, however much both pull: linear "
+      "muscles\n",
+      told.c_str());
   // So many watts more than at the agonist's lever.
   const double alike_W =
       read_in_degrees(ranged("[-20, 30.0]")).settings.joints[0].gain_ratio(c.settings.channels);

@@ -205,7 +205,7 @@ TEST(JointConfig, CheckSaysWhatTheJointCanDo) {
         "the heat of these measured watts adds at most 0.43 N and 0.35 N to the pretension; "
         "max_pull_N, which "
         "they bear, is not configured",
-        "stiffness   16 N/m"})
+        "stiffness   16 N/m at the lever, 0.0036 Nm/rad, however much both pull: linear muscles\n"})
     STRCMP_CONTAINS(part, text.c_str());
 }
 
@@ -220,7 +220,9 @@ TEST(JointConfig, ALeverMayDependOnTheAngle) {
   LONGS_EQUAL(-1, c.settings.channels[1].joint.direction);
   const std::string text = describe(c);
   for (const char* part :
-       {"lever of 12 to 16 mm over -40° to 40°; 16 mm at 0°", "0.002304 to 0.004096 Nm/rad"})
+       {"lever of 12 to 16 mm over -40° to 40°; 16 mm at 0°",
+        "16 N/m at the lever of 0°, 0.002304 to 0.004096 Nm/rad, however much both pull: linear "
+        "muscles without a load\n"})
     STRCMP_CONTAINS(part, text.c_str());
 }
 

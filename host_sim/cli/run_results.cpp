@@ -26,7 +26,7 @@ void note_signal(int) {
 }
 
 /// "at a limit in 12.3 % of the ticks: maximum 10.0 %, slew 2.3 %"
-void print_limits(const Summary& summary) {
+void print_limits(const char* whose, const LimitCount& count, const Summary& summary) {
   std::string limits;
   const auto percent = [&](std::int64_t ticks) {
     std::array<char, 32> text{};
@@ -36,13 +36,14 @@ void print_limits(const Summary& summary) {
   };
   std::int64_t all = 0;
   for (std::size_t i = 1; i < limit_names.size(); ++i) {
-    const std::int64_t ticks = summary.limit_ticks(static_cast<LimitedBy>(i));
+    const std::int64_t ticks = count.ticks.at(i);
     if (ticks == 0) continue;
     all += ticks;
     limits += (limits.empty() ? "" : ", ") + std::string(limit_names[i]) + " " + percent(ticks);
   }
   if (all > 0)
-    std::printf("at a limit in %s of the ticks: %s\n", percent(all).c_str(), limits.c_str());
+    std::printf("%sat a limit in %s of the ticks: %s\n", whose, percent(all).c_str(),
+                limits.c_str());
 }
 
 /// How identify, calibrate and the first motion ended, if there were any.
@@ -87,7 +88,8 @@ void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
     std::printf("that is %.3f degrees rms, %.3f at most\n", json["tracking_rms_deg"].get<double>(),
                 json["tracking_max_deg"].get<double>());
   }
-  print_limits(summary);
+  print_limits("", summary.limits(), summary);
+  print_limits("antagonist ", summary.antagonist_limits(), summary);
   // A loop that oscillates asks for too much by itself.
   if (summary.infeasible_ratio() > told_infeasible_ratio && std::isnan(summary.oscillated_at_s())) {
     std::printf(

@@ -116,6 +116,11 @@ constexpr std::array antagonist_columns{
     TraceColumn{"antagonist_temperature_rise_K", of_other<&AntagonistRecord::temperature_rise_K>},
     TraceColumn{"antagonist_coldest_K", of_other<&AntagonistRecord::coldest_K>},
     TraceColumn{"antagonist_hottest_K", of_other<&AntagonistRecord::hottest_K>},
+    TraceColumn{"antagonist_limited_by", nullptr,
+                [](const TraceRow& row) {
+                  const auto& other = row.record.antagonist;
+                  return name(other ? other->limited_by : LimitedBy::nothing);
+                }},
 };
 
 constexpr std::array bundle_columns{

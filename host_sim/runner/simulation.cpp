@@ -286,7 +286,7 @@ TickRecord Simulation::record(double time_s, double reference) const {
 AntagonistRecord Simulation::antagonist_record() const {
   const Snapshot& s = loop_.channel(1).snapshot();
   const double ambient_C = conditions_->ambient.air_C;
-  return {s.applied_W, rise_K(1), s.coldest_C - ambient_C, s.hottest_C - ambient_C};
+  return {s.applied_W, rise_K(1), s.coldest_C - ambient_C, s.hottest_C - ambient_C, s.limited_by};
 }
 
 BundleRecord Simulation::bundle_record(const TickRecord& first) const {

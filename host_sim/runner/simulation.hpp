@@ -23,6 +23,7 @@ struct AntagonistRecord {
   double temperature_rise_K = 0.0;
   double coldest_K = 0.0;
   double hottest_K = 0.0;
+  LimitedBy limited_by = LimitedBy::nothing;
 };
 
 /// Of all muscles of a bundle; rises as TickRecord's.

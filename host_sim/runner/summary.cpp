@@ -66,6 +66,17 @@ ordered_json estimate_json(const control::Estimate& e, const control::PhysicalPa
   return result;
 }
 
+/// The share of all ticks at each limit that occurred.
+ordered_json limits_json(const LimitCount& limits, std::int64_t all_ticks) {
+  ordered_json json = ordered_json::object();
+  for (std::size_t i = 1; i < limit_names.size(); ++i) {
+    if (limits.ticks.at(i) == 0) continue;
+    json[std::string(limit_names.at(i))] =
+        static_cast<double>(limits.ticks.at(i)) / static_cast<double>(all_ticks);
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string fault_text(Fault fault) {
@@ -137,12 +148,9 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["ticks_outside_temperature_interval"] = outside_interval_ticks_;
   json["hottest_temperature_rise_K"] = finite(simulation.peak_temperature_rise_K());
   json["limited_ticks"] = limited_ticks_;
-  json["limited_by_ratio"] = ordered_json::object();
-  for (std::size_t i = 1; i < limit_names.size(); ++i) {
-    if (limit_ticks_.at(i) == 0) continue;
-    json["limited_by_ratio"][std::string(limit_names.at(i))] =
-        static_cast<double>(limit_ticks_.at(i)) / static_cast<double>(ticks_);
-  }
+  json["limited_by_ratio"] = limits_json(limits_, ticks_);
+  if (scenario.start.antagonist() != nullptr)
+    json["antagonist_limited_by_ratio"] = limits_json(antagonist_limits_, ticks_);
   json["not_finite_ticks"] = not_finite_ticks_;
   json["oscillated_at_s"] = finite(oscillated_at_s_);
   json["oscillation_period_s"] = finite(oscillation_period_s_);

@@ -38,6 +38,11 @@ class ErrorMeter {
   std::int64_t count_ = 0;
 };
 
+/// Of a muscle: at how many ticks each limit held.
+struct LimitCount {
+  std::array<std::int64_t, limit_names.size()> ticks{};  ///< in the order of LimitedBy
+};
+
 /// "fault 20 heater_open; docs/faults/heater_open.md"
 std::string fault_text(Fault fault);
 
@@ -57,7 +62,8 @@ class Summary {
         (record.bundle && record.bundle->outside);
     outside_interval_ticks_ += outside ? 1 : 0;
     limited_ticks_ += record.limited ? 1 : 0;
-    ++limit_ticks_[static_cast<std::size_t>(record.limited_by)];
+    ++limits_.ticks[static_cast<std::size_t>(record.limited_by)];
+    if (other) ++antagonist_limits_.ticks[static_cast<std::size_t>(other->limited_by)];
     state_ = record.state;
     armed_ = armed_ || state_ == State::armed || state_ == State::active;
     if (record.oscillation_period_s > 0.0 && std::isnan(oscillated_at_s_)) {
@@ -66,7 +72,9 @@ class Summary {
     }
     if (!record.open_loop) {
       ++following_ticks_;
-      infeasible_ticks_ += is_infeasible(record.limited_by) ? 1 : 0;
+      const bool infeasible =
+          is_infeasible(record.limited_by) || (other && is_infeasible(other->limited_by));
+      infeasible_ticks_ += infeasible ? 1 : 0;
     }
     if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
       first_not_finite_s_ = record.time_s;
@@ -85,10 +93,9 @@ class Summary {
   /// In the order in which they latched.
   const std::vector<FaultAt>& faults() const { return faults_; }
   std::int64_t ticks() const { return ticks_; }
-  /// Ticks at which this limit held; a limit of LimitedBy.
-  std::int64_t limit_ticks(LimitedBy limit) const {
-    return limit_ticks_[static_cast<std::size_t>(limit)];
-  }
+  const LimitCount& limits() const { return limits_; }
+  /// Of a joint's other muscle; without one there are none.
+  const LimitCount& antagonist_limits() const { return antagonist_limits_; }
   /// At any tick.
   bool armed() const { return armed_; }
   /// What is still latched; none: it did not end in a fault.
@@ -141,7 +148,8 @@ class Summary {
   ErrorMeter tracking_;
   std::int64_t ticks_ = 0;
   std::int64_t limited_ticks_ = 0;
-  std::array<std::int64_t, limit_names.size()> limit_ticks_{};
+  LimitCount limits_;
+  LimitCount antagonist_limits_;
   State state_ = State::disarmed;
   bool armed_ = false;
   std::int64_t not_finite_ticks_ = 0;

@@ -55,6 +55,13 @@ class Told(ModulesCase):
                                    "both pull with: –"])
         self.assertEqual(told[1], told[0])
 
+    def test_the_limit_that_a_muscle_is_at_is_told_of_either(self):
+        limits = self.ask(TOLD + """muscle(3, 0.02, -1); muscle(2, -0.02, 1);
+            const by = (name) => Number(Object.entries(protocol.Power.limited_by.values).find(([, is]) => is === name)[0]);
+            hear(3, "Power", { applied_W: 0, limited_by: by("nothing") }); hear(2, "Power", { applied_W: 2, limited_by: by("maximum") });
+            return shown(3).slice(3, 5);""")
+        self.assertEqual(limits, ["node 3, turns right: 0.00 W, – … – °C", "node 2, turns left: 2.00 W, – … – °C, limited by maximum"])
+
     def test_a_spring_has_no_node_and_no_other_way(self):
         told = self.ask(TOLD + """const { joint_of, measure_of } = await import("/joint.js");
             muscle(1, 0.015, null);

@@ -29,7 +29,7 @@ class OutcomeTest(ModulesCase):
 
     def test_a_reference_that_was_not_feasible_is_told_of_while_a_position_is_followed(self):
         self.assertEqual(self.ask(OUTCOME + """const mode = (name) => ({ ...state("active"), mode: number("Status", "mode", name) });
-            hear("Status", 0, 100, 0.1, (time) => mode(time < 5 ? "power" : "position"));
+            hear("Status", 0, 100, 0.1, (time) => mode(time < 5 ? "power" : time < 7 ? "position" : "joint"));
             hear("Power", 0, 500, 0.02, (time) => by(time < 5.5 ? "maximum" : time < 6 ? "cooling" : time < 8 ? "slew" : "nothing"));
             return [infeasible_told(store, 1, range), infeasible_told(store, 1, { from_s: 6.1, to_s: 10 }), infeasible_told(store, 1, { from_s: 0, to_s: 4 })];"""),
             ["The reference asked for more than the muscle can do in 20.0 % of the time that it was followed: take a slower or a smaller one, or shape_reference.", "", ""])

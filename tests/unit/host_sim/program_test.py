@@ -221,13 +221,20 @@ class Results(ProgramCase):
         steps = "[reference]\nkind = 'steps'\nlevels_m = [0.007, -0.007]\nhold_s = 6.0\n"
         event = "[[event]]\nat_s = 0.5\njoint.load_Nm = 0.0001\n"  # which changes no limit
         for channel in (1, 2):
-            self.run_program("run", self.scenario(f"simulation.duration_s = 24.0\n[joint]\n{steps}{event}"), "--board", "board.toml",
-                             "--channel", channel, "--out", "out", "--no-plot")
+            done = self.run_program("run", self.scenario(f"simulation.duration_s = 24.0\n[joint]\n{steps}{event}"), "--board", "board.toml",
+                                    "--channel", channel, "--out", "out", "--no-plot")
             with (self.path / "out/trace.csv").open(newline="") as file:
                 rows = list(csv.DictReader(file))
             most_W = [max(float(row[key]) for row in rows) for key in ("applied_power_W", "antagonist_applied_power_W")]
             self.assertGreater(most_W[0], 3.0)
             self.assertLess(abs(most_W[1] - 2.0), 0.05)
+            # Each muscle's limits are told, and the reference asked for more than this joint can do.
+            limited = [sum(row[key] == "maximum" for row in rows) / len(rows) for key in ("limited_by", "antagonist_limited_by")]
+            summary = json.loads((self.path / "out/summary.json").read_text())
+            self.assertEqual([summary[key].get("maximum", 0) for key in ("limited_by_ratio", "antagonist_limited_by_ratio")], limited)
+            self.assertGreater(limited[1], 0.1)
+            self.assertGreaterEqual(summary["infeasible_ratio"], limited[1])
+            self.assertIn(f"\nantagonist at a limit in {100 * sum(summary['antagonist_limited_by_ratio'].values()):.1f} % of the ticks: ", done.stdout)
 
     def test_a_joint_of_any_two_channels_of_a_boards_own_file(self):
         example = EXAMPLES / "joint-as5600-ads1115.toml"

@@ -48,14 +48,15 @@ TEST(Report, AJointsTraceEndsWithItsAntagonist) {
   conditions.joint.emplace().antagonist.emplace();
   const auto writer = write_trace(folder / "trace.csv", TraceFormat::csv, 1, &conditions);
   TickRecord record;
-  record.antagonist = AntagonistRecord{0.5, 12.0, 10.0, 14.5};
+  record.antagonist = AntagonistRecord{0.5, 12.0, 10.0, 14.5, LimitedBy::maximum};
   writer->add(record, std::nullopt);
   CHECK(writer->finish().has_value());
   const std::string text = content(folder / "trace.csv");
   CHECK(text.find(",thermometer_C,joint_angle_deg,joint_reference_deg,antagonist_applied_power_W,"
                   "antagonist_temperature_rise_K,"
-                  "antagonist_coldest_K,antagonist_hottest_K\n") != std::string::npos);
-  CHECK(text.find(",0,0,0.5,12,10,14.5\n") != std::string::npos);
+                  "antagonist_coldest_K,antagonist_hottest_K,antagonist_limited_by\n") !=
+        std::string::npos);
+  CHECK(text.find(",0,0,0.5,12,10,14.5,maximum\n") != std::string::npos);
 }
 
 TEST(Report, ABundlesTraceEndsWithWhatItsMusclesHave) {

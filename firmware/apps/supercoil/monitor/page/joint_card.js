@@ -1,7 +1,7 @@
 // A joint of two muscles, as the board of its nodes tells of it: a picture of its angle, and what each muscle does.
 
 import { element, show } from "./dom.js";
-import { fixed } from "./format.js";
+import { fixed, words } from "./format.js";
 import { DEGREES, joint_of } from "./joint.js";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -56,10 +56,11 @@ export class JointCard {
     const is_led = this.store.word("Status", "mode", this.store.at(antagonist, "Status", now_s)?.mode) === "joint";
     show(this.values[4].value, is_led ? `${fixed(this.store.at(antagonist, "Power", now_s)?.demanded_W, 2)} W of node ${antagonist}, commanded` : "–");
     [right, left].filter((node) => node !== null).forEach((node, i) => {
-      const hot = this.store.at(node, "Temperature", now_s);
+      const hot = this.store.at(node, "Temperature", now_s), power = this.store.at(node, "Power", now_s);
+      const limit = power?.limited_by > 0 ? `, limited by ${words(this.store.word("Power", "limited_by", power.limited_by))}` : "";
       const { title, value } = this.values[2 + i];
       show(title, `node ${node}, turns ${i === 0 ? "right" : "left"}`);
-      show(value, `${fixed(this.store.at(node, "Power", now_s)?.applied_W, 2)} W, ${fixed(hot?.coldest_C, 0)} … ${fixed(hot?.hottest_C, 0)} °C`);
+      show(value, `${fixed(power?.applied_W, 2)} W, ${fixed(hot?.coldest_C, 0)} … ${fixed(hot?.hottest_C, 0)} °C${limit}`);
     });
   }
 

@@ -26,16 +26,17 @@ function* samples(table, columns, from_s, to_s) {
 
 const number_of = (store, message, signal, name) => Number(Object.entries(store.protocol[message]?.[signal]?.values ?? {}).find(([, is]) => is === name)?.[0]);
 
-/** What limited the power while the channel was active, and in a mode if one is named: counts by name, and their sum. */
-function limit_counts(store, node, { from_s, to_s }, mode) {
-  const wanted = [number_of(store, "Status", "state", "active"), ...(mode ? [number_of(store, "Status", "mode", mode)] : [])];
-  const states = [...samples(store.table(node, "Status"), mode ? ["state", "mode"] : ["state"], from_s, to_s)];
+/** What limited the power while the channel was active, and in some modes if they are named: counts by name, and their sum. */
+function limit_counts(store, node, { from_s, to_s }, modes = []) {
+  const active = number_of(store, "Status", "state", "active"), wanted = modes.map((mode) => number_of(store, "Status", "mode", mode));
+  const states = [...samples(store.table(node, "Status"), modes.length > 0 ? ["state", "mode"] : ["state"], from_s, to_s)];
   const counts = new Map();
   let all = 0;
   let place = 0;
   for (const [time_s, by] of samples(store.table(node, "Power"), ["limited_by"], from_s, to_s)) {
     while (place < states.length - 1 && states[place + 1][0] <= time_s) ++place;
-    if (!states[place] || wanted.some((is, i) => states[place][1 + i] !== is)) continue;
+    const [, state, mode] = states[place] ?? [];
+    if (state !== active || (modes.length > 0 && !wanted.includes(mode))) continue;
     ++all;
     const name = store.word("Power", "limited_by", by);
     counts.set(name, (counts.get(name) ?? 0) + 1);
@@ -54,9 +55,9 @@ export function limits_told(store, node, range) {
   return `At a limit in ${percent(sum, all)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count, all)}`).join(", ")}.`;
 }
 
-/** That the reference was none that the muscle can follow, as the simulator's summary counts it; or "". */
+/** That the reference was none that the muscle can follow, by itself or as a joint's antagonist, as the simulator's summary counts it; or "". */
 export function infeasible_told(store, node, range) {
-  const { counts, all } = limit_counts(store, node, range, "position");
+  const { counts, all } = limit_counts(store, node, range, ["position", "joint"]);
   const missed = [...counts].reduce((sum, [name, count]) => sum + (FEASIBLE.has(name) ? 0 : count), 0);
   if (!(missed / all >= INFEASIBLE_SHARE)) return "";
   return `The reference asked for more than the muscle can do in ${percent(missed, all)} of the time that it was followed: take a slower or a smaller one, or shape_reference.`;

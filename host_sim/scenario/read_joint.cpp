@@ -40,8 +40,6 @@ JointPlantSettings read_lever(Section& section) {
       section.choice("opposed_by", OpposedBy::muscle, opposed_by_names) == OpposedBy::muscle;
   if (pair) p.antagonist.emplace();
   p.lever = config::read_lever(section, {1e-3, 1.0}, p.lever.zero_radius_m());
-  if (!pair && !p.lever.is_constant())
-    section.wrong("lever_m", "may be a list only where the joint is opposed_by \"muscle\"");
   if (pair) {
     const double lever_m = p.lever.zero_radius_m();
     p.antagonist_lever_ratio = section.number("antagonist_lever_m", lever_m, {1e-3, 1.0}) / lever_m;

@@ -158,11 +158,26 @@ TEST(JointScenario, ItsLeverMayDependOnTheAngle) {
       "[joint]\nlever_m = [0.01, 0.02]");
 }
 
-TEST(JointScenario, BesideASpringTheLeverIsConstant) {
-  check_joint_answer(
-      "3: joint.lever_m = [0.01, 0.02]: may be a list only where the joint is opposed_by "
-      "\"muscle\"",
-      "[joint]\nopposed_by = 'spring'\nlever_m = [0.01, 0.02]\nlever_range_deg = [-9.0, 9.0]");
+TEST(JointScenario, BesideASpringTheLeverMayDependOnTheAngleAsWell) {
+  const Scenario s = read(
+      "simulation.duration_s = 20.0\n[joint]\nopposed_by = 'spring'\nspring_Nm_per_rad = 0.009\n"
+      "pretension_N = 0.4\nlever_m = [0.015, 0.015, 0.012]\nlever_range_deg = [-40.0, 40.0]\n"
+      "[reference]\nkind = 'step'\nto_m = 0.006\n[controller]\nkind = 'pi'\n");
+  const control::Lever& lever = s.start.joint->plant.lever;
+  CHECK(firmware_of(s).channels[0].joint.lever == lever);
+
+  Simulation simulation(s);
+  Summary summary({});
+  const TickRecord last = last_of(simulation, summary);
+  CHECK(last.fault == Fault::none);
+  DOUBLES_EQUAL(0.006, last.position_m, 1e-4);
+  const double angle_rad = simulation.joint()->angle_rad();
+  DOUBLES_EQUAL(lever.arc_m(angle_rad), last.position_m, 1e-9);
+  // At rest the muscle's pull at its lever there holds the spring, which holds the pretension at 0.
+  const double pull_N =
+      s.start.joint->plant.pretension_N + 8.6e-3 * last.temperature_rise_K - 16.0 * last.position_m;
+  const double spring_Nm = 0.009 * angle_rad + s.start.joint->plant.pretension_N * 0.015;
+  DOUBLES_EQUAL(spring_Nm, pull_N * lever.radius_m(angle_rad), 0.02 * spring_Nm);
 }
 
 TEST(JointScenario, AMistakeInPlantIsToldOnce) {

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "apps/supercoil/setup/recommended_controller.hpp"
+#include "config/recommended_controller.hpp"
 #include "text/number_text.hpp"
 
 namespace supercoil::operating {
@@ -132,7 +132,7 @@ tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers
   keep("heater.cold_resistance_Ohm", a.of(Asked::cold_resistance_Ohm));
   keep("limits.max_W", a.of(Asked::max_W));
   keep("limits.max_travel_m", 1e-3 * a.of(Asked::max_travel_mm));
-  const RecommendedController controller = recommended_controller(d.muscle);
+  const config::RecommendedController controller = config::recommended_controller(d.muscle);
   d.entries.push_back({"controller", controller.literal(), controller.reason});
   d.entries.push_back({"reference_model", controller.model_literal(), controller.model_reason});
   return d;

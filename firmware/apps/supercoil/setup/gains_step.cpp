@@ -5,9 +5,9 @@
 #include "apps/supercoil/change_tuning.hpp"
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/muscle_answers.hpp"
-#include "apps/supercoil/setup/recommended_controller.hpp"
 #include "apps/supercoil/tuning_table.hpp"
 #include "config/describe.hpp"
+#include "config/recommended_controller.hpp"
 
 namespace supercoil::operating {
 
@@ -69,7 +69,7 @@ TuningDone take_over(BoardLink& board, const std::string& channel, const Control
 StepResult choose_gains(BoardLink& board, const std::string& channel, const ChannelNow& now,
                         const BoardSettings& settings, Operator& who) {
   const ControllerSettings& in_use = now.settings.controllers.front();
-  const RecommendedController suits = recommended_controller(now.settings.muscle);
+  const config::RecommendedController suits = config::recommended_controller(now.settings.muscle);
   const ControllerSettings recommended = suits.in_place_of(in_use);
   const FirstMotion motion =
       plan_first_motion(feasibility(now.settings, settings), now.settings.unexplained_ratio);

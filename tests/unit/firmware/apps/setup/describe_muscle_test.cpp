@@ -5,9 +5,6 @@
 
 #include <CppUTest/TestHarness.h>
 
-#include "apps/supercoil/setup/recommended_controller.hpp"
-#include "loop/feasibility.hpp"
-
 using namespace supercoil::operating;
 
 namespace {
@@ -96,61 +93,4 @@ TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
   const auto d = describe_muscle(a);
   CHECK_FALSE(d.has_value());
   STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08, and it must be 0.01 to 1e+06", d.error().c_str());
-}
-
-TEST(DescribeMuscle, ASlowMuscleGetsALowerBandwidth) {
-  supercoil::control::PhysicalParameters muscle;
-  const std::string usual = recommended_controller(muscle).literal();
-  STRCMP_EQUAL("{ kind = \"learned_ff\", shape_reference = true, bandwidth_rad_per_s = 8 }",
-               usual.c_str());
-  muscle.thermal_mass_J_per_K *= 4.0;
-  const RecommendedController slow = recommended_controller(muscle);
-  DOUBLES_EQUAL(4.0, slow.bandwidth_rad_per_s, 2e-3);
-  STRCMP_CONTAINS("8 rad/s over the root of its time constant, 7.28 s, in units of",
-                  slow.reason.c_str());
-  muscle.thermal_mass_J_per_K /= 100.0;
-  DOUBLES_EQUAL(8.0, recommended_controller(muscle).bandwidth_rad_per_s, 0.0);
-}
-
-TEST(DescribeMuscle, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferenceModel) {
-  using namespace supercoil;
-  control::PhysicalParameters muscle;
-  const auto asks = [&](const RecommendedController& suits) {
-    return peak_W_per_m(suits.in_place_of({}).model, muscle) * muscle.dc_gain_m_per_W();
-  };
-  const RecommendedController usual = recommended_controller(muscle);
-  DOUBLES_EQUAL(2.0, asks(usual), 5e-3);
-  STRCMP_CONTAINS("falls from 90 to 10 % in 4 s by itself", usual.model_reason.c_str());
-  STRCMP_EQUAL("{ kind = \"poles\", poles_rad_per_s = [3.276, 3.276, 3.276] }",
-               usual.model_literal().c_str());
-  muscle.thermal_mass_J_per_K *= 4.0;
-  const RecommendedController slow = recommended_controller(muscle);
-  DOUBLES_EQUAL(2.0, asks(slow), 5e-3);
-  CHECK(slow.pole_rad_per_s < 0.3 * usual.pole_rad_per_s);
-  // No quicker than the feedback, however quick the muscle.
-  muscle.thermal_mass_J_per_K /= 100.0;
-  DOUBLES_EQUAL(8.0, recommended_controller(muscle).pole_rad_per_s, 0.0);
-  STRCMP_CONTAINS("no quicker than the feedback",
-                  recommended_controller(muscle).model_reason.c_str());
-}
-
-TEST(DescribeMuscle, AControllerDiffersByItsLawItsShapingOrATenthOfItsBandwidth) {
-  const RecommendedController suits = recommended_controller({});
-  supercoil::control::ControllerSettings controller = suits.in_place_of({});
-  CHECK_FALSE(suits.differs_from(controller));
-  controller.learned_ff.bandwidth_rad_per_s *= 1.09;
-  CHECK_FALSE(suits.differs_from(controller));
-  controller.learned_ff.bandwidth_rad_per_s *= 1.02;
-  CHECK_TRUE(suits.differs_from(controller));
-  controller = suits.in_place_of({});
-  controller.model = supercoil::control::poles_model({1.0, 1.0, 1.0});
-  CHECK_TRUE(suits.differs_from(controller));
-  controller.model = supercoil::control::design_model();
-  CHECK_TRUE(suits.differs_from(controller));
-  controller = suits.in_place_of({});
-  controller.shape_reference = false;
-  CHECK_TRUE(suits.differs_from(controller));
-  controller = suits.in_place_of({});
-  controller.kind = supercoil::control::ControllerKind::adaptive_ff;
-  CHECK_TRUE(suits.differs_from(controller));
 }

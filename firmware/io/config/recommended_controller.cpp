@@ -1,4 +1,4 @@
-#include "apps/supercoil/setup/recommended_controller.hpp"
+#include "config/recommended_controller.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "loop/feasibility.hpp"
 #include "text/number_text.hpp"
 
-namespace supercoil::operating {
+namespace supercoil::config {
 
 namespace {
 
@@ -102,4 +102,4 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   return suits;
 }
 
-}  // namespace supercoil::operating
+}  // namespace supercoil::config

@@ -6,7 +6,7 @@
 #include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/tracking/controller_settings.hpp"
 
-namespace supercoil::operating {
+namespace supercoil::config {
 
 /// learned_ff with shape_reference, the closest by docs/control.md, behind a reference model that
 /// is as quick as the muscle.
@@ -28,4 +28,4 @@ struct RecommendedController {
 
 RecommendedController recommended_controller(const control::PhysicalParameters& muscle);
 
-}  // namespace supercoil::operating
+}  // namespace supercoil::config

@@ -71,7 +71,12 @@ void tell_check_as_json(const Scenario& scenario) {
   Json reference;
   if (const auto f = reference_feasibility(scenario)) {
     reference = {{"infeasible_ratio", f->infeasible_ratio},
+                 {"limited_by", name(f->limited_by)},
                  {"first_s", f->infeasible_ratio > 0.0 ? Json(f->first_s) : Json()},
+                 {"max_m", f->max_m},
+                 {"held_m", f->held_m},
+                 {"held_by", name(f->held_by)},
+                 {"held_so_once_identified", f->once_identified},
                  {"feasible_motion_ratio", f->feasible_motion_ratio},
                  {"feasible_slowing", json_number(f->feasible_slowing)},
                  {"told", describe_reference(scenario, false)}};

@@ -1,15 +1,19 @@
 #include "runner/reference_feasibility.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 
 #include "supercoil/control/actuator/conversions.hpp"
-#include "supercoil/control/tracking/reference_model.hpp"
+#include "supercoil/control/tracking/reference_shaper.hpp"
 
-#include "text/number_text.hpp"
+#include "loop/feasibility.hpp"
+#include "runner/board_of.hpp"
+#include "runner/power_left.hpp"
 
 namespace supercoil::host_sim {
 
@@ -20,7 +24,6 @@ constexpr double steps_per_period = 100.0;
 /// Of a reference that is longer, the rest is not looked at: a tenth of a second is enough to wait.
 constexpr std::int64_t max_steps = 2'000'000;
 constexpr double max_slowing = 100.0;
-constexpr int digits = 3;  ///< these are predictions
 
 bool is_periodic(const Reference& reference) {
   return reference.kind == ReferenceKind::sine || reference.kind == ReferenceKind::multisine;
@@ -55,13 +58,15 @@ double power_amplitude_W(const Conditions& c, double slowing = 1.0) {
 }
 
 /// How far the power may go to both sides of what the middle needs; below 0: not even that.
-double room_W(const Conditions& c) {
+double room_W(const Conditions& c, double max_W) {
   const double middle_W = c.reference.offset / c.muscle.dc_gain_m_per_W();
-  return std::fmin(middle_W - c.power.min_W, c.power.max_W - middle_W);
+  return std::fmin(middle_W - c.power.min_W, max_W - middle_W);
 }
 
-double feasible_slowing(const Conditions& c) {
-  const auto fits = [&](double slowing) { return power_amplitude_W(c, slowing) <= room_W(c); };
+double feasible_slowing(const Conditions& c, double max_W) {
+  const auto fits = [&](double slowing) {
+    return power_amplitude_W(c, slowing) <= room_W(c, max_W);
+  };
   if (!fits(max_slowing)) return INFINITY;
   double too_fast = 1.0;
   double slow = max_slowing;
@@ -72,25 +77,73 @@ double feasible_slowing(const Conditions& c) {
   return slow;
 }
 
-/// Tells how much of the time, and when first.
-void find_infeasible(const Conditions& c, double duration_s, ReferenceFeasibility& f) {
-  const double step = step_s(c.reference);
+constexpr bool is_of_heat(LimitedBy limit) {
+  return limit == LimitedBy::temperature || limit == LimitedBy::unproven;
+}
+
+/// Tells of sines what would be feasible in place of them.
+void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibility& f) {
+  f.feasible_motion_ratio = room_W(c, max_W) / power_amplitude_W(c);
+  double amplitude_m = 0.0;
+  for (const Sinusoid& term : c.reference.terms)
+    amplitude_m += std::abs(term.amplitude);
+  const double held_ratio = (f.held_m - c.reference.offset) / amplitude_m;
+  // However slow, it stays there for long.
+  const bool too_far = is_of_heat(f.limited_by) && held_ratio < 1.0;
+  if (too_far) f.feasible_motion_ratio = std::fmin(f.feasible_motion_ratio, held_ratio);
+  f.feasible_motion_ratio = std::clamp(f.feasible_motion_ratio, 0.0, 1.0);
+  if (f.feasible_motion_ratio < 1.0)
+    f.feasible_slowing = too_far ? INFINITY : feasible_slowing(c, max_W);
+}
+
+/// How often each limit would take something, and when first.
+class Limits {
+ public:
+  void note(LimitedBy limit, double time_s) {
+    const auto place = static_cast<std::size_t>(limit);
+    if (counts_.at(place)++ == 0) first_s_.at(place) = time_s;
+    ++all_;
+  }
+  void tell(std::int64_t steps, ReferenceFeasibility& f) const {
+    f.infeasible_ratio = static_cast<double>(all_) / static_cast<double>(steps);
+    if (all_ == 0) return;
+    const auto most = std::ranges::max_element(counts_) - counts_.begin();
+    f.limited_by = static_cast<LimitedBy>(most);
+    f.first_s = first_s_.at(static_cast<std::size_t>(most));
+  }
+
+ private:
+  std::array<std::int64_t, limit_names.size()> counts_{};
+  std::array<double, limit_names.size()> first_s_{};
+  std::int64_t all_ = 0;
+};
+
+/// Tells how much of the time, when first, and how far it leads.
+void find_infeasible(const Conditions& c, double duration_s, double step, PowerLeft left,
+                     ReferenceFeasibility& f) {
   const auto steps = std::clamp<std::int64_t>(std::llround(duration_s / step), 1, max_steps);
   const control::ReferenceShaper inverse(
       c.controller.model, {control::theta_from(c.muscle), {}, c.muscle.moving_mass_kg});
   control::ReferenceModel<double> model(c.controller.model, step);
-  std::int64_t infeasible = 0;
+  const PowerLeft::Most cold = left.cold();
+  Limits limits;
   for (std::int64_t i = 0; i < steps; ++i) {
     const double time_s = static_cast<double>(i) * step;
     const double reference_m = c.reference.at(time_s);
     const double power_W = inverse.power_W(reference_m, model.motion());
     model.step(reference_m);
-    if (power_W >= c.power.min_W && power_W <= c.power.max_W) continue;
-    if (infeasible++ > 0) continue;
-    f.first_s = time_s;
-    f.first = power_W < c.power.min_W ? control::Infeasible::cooling : control::Infeasible::heating;
+    f.max_m = std::fmax(f.max_m, model.motion().position);
+    const PowerLeft::Most most = left.now();
+    left.step(std::fmin(std::fmax(power_W, c.power.min_W), most.power_W));
+    if (power_W < c.power.min_W) {
+      limits.note(LimitedBy::cooling, time_s);
+    } else if (power_W > most.power_W) {
+      // Heat is no reason where a cold muscle could not either.
+      limits.note(power_W > cold.power_W ? cold.by : most.by, time_s);
+    }
   }
-  f.infeasible_ratio = static_cast<double>(infeasible) / static_cast<double>(steps);
+  f.max_m = std::fmin(f.max_m, c.reference.highest());  // a model may swing beyond
+  limits.tell(steps, f);
 }
 
 }  // namespace
@@ -101,51 +154,21 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
                        c.controller.kind != control::ControllerKind::power &&
                        c.antagonist() == nullptr;
   if (!follows) return std::nullopt;
+  const BoardSettings board = firmware_of(scenario);
+  const ChannelSettings& channel = board.channels[0];
+  const Feasibility muscle = feasibility(channel, board);
   ReferenceFeasibility f;
+  f.held_m = muscle.held_W * channel.muscle.dc_gain_m_per_W();
+  f.held_by = muscle.held_by;
+  f.once_identified = muscle.held_by == LimitedBy::unproven && !channel.muscle_identified;
+  const double step = step_s(c.reference);
+  const PowerLeft left(board, step);
   // An event may change all of it.
   const double end_s = scenario.events.empty() ? scenario.duration_s : scenario.events[0].at_s;
-  find_infeasible(c, end_s, f);
-  if (is_periodic(c.reference) && f.infeasible_ratio > told_infeasible_ratio) {
-    f.feasible_motion_ratio = std::clamp(room_W(c) / power_amplitude_W(c), 0.0, 1.0);
-    if (f.feasible_motion_ratio < 1.0) f.feasible_slowing = feasible_slowing(c);
-  }
+  find_infeasible(c, end_s, step, left, f);
+  if (is_periodic(c.reference) && f.infeasible_ratio > told_infeasible_ratio)
+    find_feasible_motion(c, left.cold().power_W, f);
   return f;
-}
-
-std::string describe_reference(const Scenario& scenario, bool in_brief) {
-  const auto f = reference_feasibility(scenario);
-  if (!f) return {};
-  if (f->infeasible_ratio <= told_infeasible_ratio)
-    return in_brief ? "" : "asks for no more than the muscle can do";
-  std::string line =
-      "asks for more than the muscle can do for " +
-      number_text(100.0 * f->infeasible_ratio, digits) + " % of the time, first at " +
-      number_text(f->first_s, digits) + " s, when it would have to be " +
-      (f->first == control::Infeasible::cooling
-           ? "cooled"
-           : "heated with more than " + number_text(scenario.start.power.max_W, digits) + " W");
-  if (f->feasible_motion_ratio == 0.0) return line + "; not even its middle can be held";
-  if (f->feasible_motion_ratio < 1.0) {
-    line += "; " + number_text(f->feasible_motion_ratio, digits) +
-            " of its motion about the middle is feasible";
-    if (std::isfinite(f->feasible_slowing))
-      line += ", or all of it " + number_text(f->feasible_slowing, digits) + " times as slow";
-  }
-  return line + (scenario.start.controller.shape_reference
-                     ? "; it is shaped, so that the muscle follows it as it can"
-                     : "; with shape_reference = true the muscle follows it as it can");
-}
-
-std::string describe_unseen_rest(const Scenario& scenario) {
-  const Conditions& c = scenario.start;
-  const double rest_m = -c.plant.load_N / c.plant.parameters.stiffness_N_per_m;
-  const double min_m = c.position_sensor.min_m;
-  if (c.joint || rest_m >= min_m) return {};
-  return "plant.load_N holds the muscle at " + number_text(1e3 * rest_m, digits) +
-         " mm while it is cold, and the sensor reads no less than " +
-         number_text(1e3 * min_m, digits) +
-         " mm: it stands still there and looks frozen (docs/faults/sensor_frozen.md); lower "
-         "sensor.position.min_m";
 }
 
 }  // namespace supercoil::host_sim

@@ -4,9 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "supercoil/control/tracking/reference_shaper.hpp"
-
 #include "scenario/scenario.hpp"
+#include "supervisor/limiter.hpp"
 
 namespace supercoil::host_sim {
 
@@ -14,13 +13,21 @@ namespace supercoil::host_sim {
 /// model from rest on.
 struct ReferenceFeasibility {
   double infeasible_ratio = 0.0;  ///< of the time
-  double first_s = 0.0;           ///< when it asks for too much first; 0: never
-  control::Infeasible first = control::Infeasible::nothing;
+  /// What it asks too much of for most of that time, and when first.
+  LimitedBy limited_by = LimitedBy::nothing;
+  double first_s = 0.0;
+  double max_m = 0.0;   ///< how far it leads
+  double held_m = 0.0;  ///< how far the muscle can be held for good
+  LimitedBy held_by = LimitedBy::maximum;
+  bool once_identified = false;  ///< nothing bounds it so before
   /// Of a sine or several, once it has come up to them: how much of their motion about the middle
   /// is feasible, up to 1; 0: not even the middle is.
   double feasible_motion_ratio = 1.0;
   /// How many times as slow they are feasible, 1 or more; infinite: not at 100 times.
   double feasible_slowing = 1.0;
+
+  /// The muscle cannot stay as far as it leads.
+  bool leads_too_far() const { return max_m > (1.0 + 1e-6) * held_m; }
 };
 
 /// At the start, of a muscle alone or against a spring. Empty: it follows no position.

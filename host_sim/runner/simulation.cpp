@@ -10,8 +10,6 @@ namespace supercoil::host_sim {
 
 namespace {
 
-/// Arming probes the heater, which moves the muscle by some 40 µm; after so long it is at rest.
-constexpr double boot_s = 15.0;
 /// Seconds for which a slow muscle may have to be known to cool before it can be armed.
 constexpr int max_waits = 3600;
 /// Marks command()'s; those of the scenario have none.

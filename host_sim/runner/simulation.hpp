@@ -67,6 +67,10 @@ constexpr bool is_outside(double rise_K, double coldest_K, double hottest_K) {
            rise_K <= hottest_K + temperature_rounding_K);
 }
 
+/// After boot, and again where arming had to wait. It probes the heater, which moves the muscle by
+/// some 40 µm; after so long it is at rest.
+inline constexpr double boot_s = 15.0;
+
 /// Boots the firmware, lets it arm, and commands it as the scenario says. The same scenario gives
 /// the same records, to the bit.
 class Simulation {

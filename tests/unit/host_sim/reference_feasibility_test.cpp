@@ -1,6 +1,7 @@
 // Whether a reference can be followed, told before it is run.
 #include "runner/reference_feasibility.hpp"
 
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -22,6 +23,15 @@ const std::string slow =
 
 double infeasible_ratio(const Scenario& scenario) {
   return reference_feasibility(scenario)->infeasible_ratio;
+}
+
+/// As its controller counts it.
+double infeasible_ratio_of_run(const Scenario& scenario) {
+  Simulation simulation(scenario);
+  Summary summary({});
+  while (!simulation.done())
+    summary.add(simulation.step());
+  return summary.infeasible_ratio();
 }
 
 }  // namespace
@@ -67,20 +77,69 @@ TEST(ReferenceFeasibility, ASlowMusclesSineIsFeasibleAsItSays) {
   STRCMP_CONTAINS("; it is shaped", describe_reference(shaped, true).c_str());
 }
 
-/// As its controller counts it, where that goes by the same muscle.
+/// Where its controller goes by the same muscle.
 TEST(ReferenceFeasibility, AgreesWithWhatARunFinds) {
   const Scenario scenario = read(
       "simulation.duration_s = 100.0\nplant.thermal_mass_J_per_K = 0.5\n"
       "muscle.thermal_mass_J_per_K = 0.5\nreference.angular_frequency_rad_per_s = 0.5\n"
       "[controller]\nkind = 'learned_ff'\nlearn = false\nshape_reference = true\n");
-  Simulation simulation(scenario);
-  Summary summary({});
-  while (!simulation.done())
-    summary.add(simulation.step());
-  printf("found %g, told %g\n", summary.infeasible_ratio(), infeasible_ratio(scenario));
-  CHECK_COMPARE(summary.infeasible_ratio(), >, 0.05);
-  CHECK_COMPARE(infeasible_ratio(scenario), >, 0.5 * summary.infeasible_ratio());
-  CHECK_COMPARE(infeasible_ratio(scenario), <, 1.5 * summary.infeasible_ratio());
+  const double found = infeasible_ratio_of_run(scenario);
+  printf("found %g, told %g\n", found, infeasible_ratio(scenario));
+  CHECK_COMPARE(found, >, 0.05);
+  CHECK_COMPARE(infeasible_ratio(scenario), >, 0.5 * found);
+  CHECK_COMPARE(infeasible_ratio(scenario), <, 1.5 * found);
+}
+
+/// Badly cooled, for all that its board knows: at rest it may be too hot for 18 mm.
+TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
+  const std::string hot =
+      "simulation.duration_s = 100.0\n[thermal]\ntransfer_ratio = [0.25, 2.2]\n"
+      "power_ratio = [1.0, 1.3]\n[controller]\nkind = 'learned_ff'\nlearn = false\n";
+  const auto steps_of = [&](const std::string& level_m) {
+    return read(hot + "[reference]\nkind = 'steps'\nlevels_m = [" + level_m + "]\nhold_s = 99.0\n");
+  };
+  const Scenario high = steps_of("0.018");
+  const auto f = reference_feasibility(high);
+  CHECK(f->limited_by == LimitedBy::temperature);
+  CHECK(f->held_by == LimitedBy::temperature);
+  DOUBLES_EQUAL(0.018, f->max_m, 1e-5);
+  const double found = infeasible_ratio_of_run(high);
+  printf("found %g, told %g\n", found, f->infeasible_ratio);
+  DOUBLES_EQUAL(found, f->infeasible_ratio, 0.05);
+  STRCMP_CONTAINS(
+      "when it may be so hot that it gets less power than that (limited_by temperature); the "
+      "muscle holds 12.1 mm for good (limited_by temperature)",
+      describe_reference(high, true).c_str());
+  STRCMP_CONTAINS("limited_by temperature)", describe_reference(high, true).c_str());
+  // What is told to be held is held.
+  const Scenario held = steps_of(std::to_string(0.999 * f->held_m));
+  DOUBLES_EQUAL(0.0, infeasible_ratio(held), 0.01);
+  STRCMP_EQUAL("asks for no more than the muscle can do", describe_reference(held, false).c_str());
+  // A sine may lead there for a short time, or stay below.
+  const auto sine_about = [&](const std::string& offset_m) {
+    return read(hot + "[reference]\nkind = 'sine'\namplitude_m = 0.005\noffset_m = " + offset_m);
+  };
+  STRCMP_CONTAINS("as it does not stay where it leads to, at 12.5 mm: the muscle holds 12.1 mm",
+                  describe_reference(sine_about("0.0075"), true).c_str());
+  const auto too_high = reference_feasibility(sine_about("0.009"));
+  DOUBLES_EQUAL((f->held_m - 0.009) / 0.005, too_high->feasible_motion_ratio, 1e-3);
+  CHECK_TRUE(std::isinf(too_high->feasible_slowing));
+}
+
+TEST(ReferenceFeasibility, WhatAnIdentifiedMuscleCannotProveIsTold) {
+  Scenario scenario = read(
+      "thermal.power_ratio = [0.75, 1.0]\nsensor.position.noise_rms_m = 100e-6\n[reference]\nkind "
+      "= 'steps'\nlevels_m = [0.011]\n");
+  STRCMP_EQUAL(
+      "asks for no more than the muscle can do until it is identified; from then on it holds 6.1 "
+      "mm for good (limited_by unproven), and not the 11 mm that this leads to",
+      describe_reference(scenario, true).c_str());
+  scenario.known[0].muscle_identified = true;
+  CHECK(reference_feasibility(scenario)->limited_by == LimitedBy::unproven);
+  const double found = infeasible_ratio_of_run(scenario);
+  DOUBLES_EQUAL(found, infeasible_ratio(scenario), 0.05);
+  STRCMP_CONTAINS("more power than it can prove to answer (limited_by unproven); the muscle holds ",
+                  describe_reference(scenario, true).c_str());
 }
 
 TEST(ReferenceFeasibility, AMuscleThatIsTooWeakCannotEvenHoldTheMiddle) {
@@ -96,7 +155,7 @@ TEST(ReferenceFeasibility, OfStepsItTellsHowOften) {
                               "[reference]\nkind = 'steps'\nlevels_m = [0.004, 0.016]\n"
                               "hold_s = 30.0\n");
   const auto f = reference_feasibility(steps);
-  CHECK(f->first == control::Infeasible::heating);
+  CHECK(f->limited_by == LimitedBy::maximum);
   CHECK_COMPARE(f->infeasible_ratio, >, 0.02);
   CHECK_COMPARE(f->infeasible_ratio, <, 0.3);
   DOUBLES_EQUAL(1.0, f->feasible_motion_ratio, 0.0);

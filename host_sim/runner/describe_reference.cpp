@@ -1,0 +1,96 @@
+#include <cmath>
+#include <string>
+
+#include "runner/reference_feasibility.hpp"
+#include "text/number_text.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+constexpr int digits = 3;  ///< these are predictions
+
+std::string in_digits(double value) {
+  return number_text(value, digits);
+}
+
+std::string in_mm(double metres) {
+  return in_digits(1e3 * metres) + " mm";
+}
+
+/// "holds 12.1 mm for good (limited_by temperature)"
+std::string held_text(const ReferenceFeasibility& f) {
+  return "holds " + in_mm(f.held_m) + " for good (limited_by " + std::string(name(f.held_by)) + ")";
+}
+
+std::string feasible_text(const ReferenceFeasibility& f) {
+  const std::string line = "asks for no more than the muscle can do";
+  if (!f.leads_too_far()) return line;
+  if (f.once_identified) {
+    return line + " until it is identified; from then on it " + held_text(f) + ", and not the " +
+           in_mm(f.max_m) + " that this leads to";
+  }
+  return line + ", as it does not stay where it leads to, at " + in_mm(f.max_m) + ": the muscle " +
+         held_text(f);
+}
+
+std::string cause_text(const ReferenceFeasibility& f, const Conditions& c) {
+  switch (f.limited_by) {
+    case LimitedBy::cooling:
+      return "it would have to be cooled";
+    case LimitedBy::temperature:
+      return "it may be so hot that it gets less power than that (limited_by temperature)";
+    case LimitedBy::unproven:
+      return "it would get more power than it can prove to answer (limited_by unproven)";
+    default:
+      return "it would have to be heated with more than " + in_digits(c.power.max_W) + " W";
+  }
+}
+
+/// What would be feasible in place of sines.
+std::string motion_text(const ReferenceFeasibility& f) {
+  if (f.feasible_motion_ratio == 1.0) return "";
+  std::string text =
+      "; " + in_digits(f.feasible_motion_ratio) + " of its motion about the middle is feasible";
+  if (std::isfinite(f.feasible_slowing))
+    text += ", or all of it " + in_digits(f.feasible_slowing) + " times as slow";
+  return text;
+}
+
+}  // namespace
+
+std::string describe_reference(const Scenario& scenario, bool in_brief) {
+  const auto f = reference_feasibility(scenario);
+  if (!f) return {};
+  if (f->infeasible_ratio <= told_infeasible_ratio)
+    return in_brief && !f->leads_too_far() ? "" : feasible_text(*f);
+  std::string line = "asks for more than the muscle can do for " +
+                     in_digits(100.0 * f->infeasible_ratio) + " % of the time, first at " +
+                     in_digits(f->first_s) + " s, when " + cause_text(*f, scenario.start);
+  if (f->leads_too_far()) {
+    line += "; the muscle " + held_text(*f);
+    if (f->once_identified) line += " once it is identified";
+  }
+  if (f->feasible_motion_ratio == 0.0) return line + "; not even its middle can be held";
+  line += motion_text(*f);
+  // It knows the greatest power and no heat.
+  const bool shapes = f->limited_by == LimitedBy::cooling || f->limited_by == LimitedBy::maximum;
+  if (!shapes) return line;
+  return line + (scenario.start.controller.shape_reference
+                     ? "; it is shaped, so that the muscle follows it as it can"
+                     : "; with shape_reference = true the muscle follows it as it can");
+}
+
+std::string describe_unseen_rest(const Scenario& scenario) {
+  const Conditions& c = scenario.start;
+  const double rest_m = -c.plant.load_N / c.plant.parameters.stiffness_N_per_m;
+  const double min_m = c.position_sensor.min_m;
+  if (c.joint || rest_m >= min_m) return {};
+  return "plant.load_N holds the muscle at " + in_mm(rest_m) +
+         " while it is cold, and the sensor reads no less than " +
+         number_text(1e3 * min_m, digits) +
+         " mm: it stands still there and looks frozen (docs/faults/sensor_frozen.md); lower "
+         "sensor.position.min_m";
+}
+
+}  // namespace supercoil::host_sim

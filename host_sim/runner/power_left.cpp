@@ -1,0 +1,52 @@
+#include "runner/power_left.hpp"
+
+#include <cmath>
+
+#include "loop/feasibility.hpp"
+#include "runner/simulation.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+/// What only an identified muscle has to prove.
+double provable_W(const ChannelSettings& channel, const BoardSettings& board) {
+  const bool proves = channel.supervision.proof_of_response && channel.muscle_identified;
+  if (!proves) return INFINITY;
+  return plan_proof(proof_settings(channel, board), channel.muscle, board.rate_Hz).provable_W;
+}
+
+/// What is left of the heat that it may have had at boot.
+double first_rise_K(const ChannelSettings& channel, const BoardSettings& board,
+                    const control::ThermalBounds& bounds) {
+  const double armable_s = feasibility(channel, board).armable_s;
+  const double cooled_s = armable_s > boot_s ? armable_s + boot_s : boot_s;
+  return channel.thermal.boot_rise_K *
+         std::exp(-cooled_s * bounds.min_transfer_W_per_K / bounds.max_mass_J_per_K);
+}
+
+}  // namespace
+
+PowerLeft::PowerLeft(const BoardSettings& board, double step_s)
+    : limiter_(board.channels[0].limiter, step_s),
+      provable_W_(provable_W(board.channels[0], board)),
+      warmest_C_(board.channels[0].thermal.air.warmest_C),
+      max_power_ratio_(power_bounds(board.channels[0], board).true_over_measured().max),
+      hot_(board::known_thermal_bounds(board.channels[0].thermal, board.channels[0].heat).bounds,
+           step_s) {
+  const ChannelSettings& channel = board.channels[0];
+  hot_.reset(first_rise_K(channel, board,
+                          board::known_thermal_bounds(channel.thermal, channel.heat).bounds));
+}
+
+PowerLeft::Most PowerLeft::at(double hottest_C) const {
+  Most most{limiter_.max_W(), LimitedBy::maximum};
+  const auto bound = [&](double power_W, LimitedBy by) {
+    if (power_W < most.power_W) most = {power_W, by};
+  };
+  bound(limiter_.max_W(hottest_C), LimitedBy::temperature);
+  bound(provable_W_, LimitedBy::unproven);
+  return most;
+}
+
+}  // namespace supercoil::host_sim

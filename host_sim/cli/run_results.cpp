@@ -73,8 +73,8 @@ bool arms_later(const Scenario& scenario) {
                      [](const Event& event) { return arms(event.conditions.action); });
 }
 
-void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
-                   const std::string& folder, bool shapes) {
+void print_summary(const Summary& summary, const Scenario& scenario,
+                   const nlohmann::ordered_json& json, const std::string& folder) {
   std::printf("%s: %" PRId64 " ticks in %.2f s, %.0f x real time\n",
               json["scenario"].get<std::string>().c_str(), json["ticks"].get<std::int64_t>(),
               json["wall_s"].get<double>(), json["realtime_factor"].get<double>());
@@ -91,12 +91,9 @@ void print_summary(const Summary& summary, const nlohmann::ordered_json& json,
   print_limits("", summary.limits(), summary);
   print_limits("antagonist ", summary.antagonist_limits(), summary);
   // A loop that oscillates asks for too much by itself.
-  if (summary.infeasible_ratio() > told_infeasible_ratio && std::isnan(summary.oscillated_at_s())) {
-    std::printf(
-        "the reference asked for more than the muscle can do in %.1f %% of the ticks that followed "
-        "it: a slower or smaller one%s\n",
-        100.0 * summary.infeasible_ratio(), shapes ? "" : ", or shape_reference = true");
-  }
+  const std::string infeasible = describe_infeasible(summary.infeasible(), scenario);
+  if (!infeasible.empty() && std::isnan(summary.oscillated_at_s()))
+    std::printf("%s\n", infeasible.c_str());
   print_modes(json);
   for (const auto& fault : json["faults"]) {
     std::printf("fault %d %s at %.3f s (%s)\n", fault["number"].get<int>(),
@@ -148,9 +145,7 @@ tl::expected<void, std::string> conclude(const Summary& summary, const Scenario&
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
   if (auto written = folder.write("summary.json", text); !written) return written;
   if (auto done = folder.commit(); !done) return done;
-  if (!quiet) {
-    print_summary(summary, json, folder.path().string(), scenario.start.controller.shape_reference);
-  }
+  if (!quiet) print_summary(summary, scenario, json, folder.path().string());
   return {};
 }
 

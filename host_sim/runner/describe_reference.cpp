@@ -1,6 +1,9 @@
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
+#include "loop/feasibility.hpp"
 #include "runner/reference_feasibility.hpp"
 #include "text/number_text.hpp"
 
@@ -74,11 +77,30 @@ std::string describe_reference(const Scenario& scenario, bool in_brief) {
   if (f->feasible_motion_ratio == 0.0) return line + "; not even its middle can be held";
   line += motion_text(*f);
   // It knows the greatest power and no heat.
-  const bool shapes = f->limited_by == LimitedBy::cooling || f->limited_by == LimitedBy::maximum;
-  if (!shapes) return line;
+  if (is_of_heat(f->limited_by)) return line;
   return line + (scenario.start.controller.shape_reference
                      ? "; it is shaped, so that the muscle follows it as it can"
                      : "; with shape_reference = true the muscle follows it as it can");
+}
+
+std::string describe_infeasible(const InfeasibleTime& found, const Scenario& scenario) {
+  if (!(found.ratio() > told_infeasible_ratio)) return {};
+  const Event* before = nullptr;
+  for (const Event& event : scenario.events) {
+    if (event.at_s <= found.first_s()) before = &event;
+  }
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "the reference asked for more than the muscle can do in %.1f %% of the ticks that "
+                "followed it, first at %.1f s (limited_by %s)",
+                100.0 * found.ratio(), found.first_s(), name(found.first_by()).data());
+  std::string line = text.data();
+  if (before != nullptr && !before->changes.empty())
+    line += ", after the event at " + number_text(before->at_s, 6) + " s, " + before->changes;
+  const Conditions& then = before != nullptr ? before->conditions : scenario.start;
+  if (is_of_heat(found.first_by())) return line + ": a smaller one";
+  return line + ": a slower or smaller one" +
+         (then.controller.shape_reference ? "" : ", or shape_reference = true");
 }
 
 std::string describe_unseen_rest(const Scenario& scenario) {

@@ -77,10 +77,6 @@ double feasible_slowing(const Conditions& c, double max_W) {
   return slow;
 }
 
-constexpr bool is_of_heat(LimitedBy limit) {
-  return limit == LimitedBy::temperature || limit == LimitedBy::unproven;
-}
-
 /// Tells of sines what would be feasible in place of them.
 void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibility& f) {
   f.feasible_motion_ratio = room_W(c, max_W) / power_amplitude_W(c);

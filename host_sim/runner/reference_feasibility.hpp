@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "runner/infeasible_time.hpp"
 #include "scenario/scenario.hpp"
 #include "supervisor/limiter.hpp"
 
@@ -33,11 +34,11 @@ struct ReferenceFeasibility {
 /// At the start, of a muscle alone or against a spring. Empty: it follows no position.
 std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenario);
 
-/// From this part of the time on a reference is told to be infeasible, as it is after a run.
-inline constexpr double told_infeasible_ratio = 0.01;
-
 /// What to tell of that; empty where there is no position to follow, or, in brief, all is feasible.
 std::string describe_reference(const Scenario& scenario, bool in_brief);
+
+/// The same after a run: how much of it, since when, and what to do; empty: it was feasible.
+std::string describe_infeasible(const InfeasibleTime& found, const Scenario& scenario);
 
 /// That the load holds the cold muscle where its sensor does not see it; empty: it sees it.
 std::string describe_unseen_rest(const Scenario& scenario);

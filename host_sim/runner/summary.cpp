@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 
 /// Of summary.json: grows when a key is renamed or means something else. Version 0.1.0 of the
 /// programs wrote 1, without saying so.
-constexpr int schema_version = 2;
+constexpr int schema_version = 3;
 
 std::string page_of(Fault fault) {
   return "docs/faults/" + std::string(name(fault)) + ".md";
@@ -154,7 +154,8 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["not_finite_ticks"] = not_finite_ticks_;
   json["oscillated_at_s"] = finite(oscillated_at_s_);
   json["oscillation_period_s"] = finite(oscillation_period_s_);
-  json["infeasible_ratio"] = finite(infeasible_ratio());
+  json["infeasible_ratio"] = finite(infeasible_.ratio());
+  json["infeasible_from_s"] = finite(infeasible_.first_s());
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;
   json["realtime_factor"] =

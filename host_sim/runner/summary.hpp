@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "runner/infeasible_time.hpp"
 #include "runner/simulation.hpp"
 
 namespace supercoil::host_sim {
@@ -70,11 +71,11 @@ class Summary {
       oscillated_at_s_ = record.time_s;
       oscillation_period_s_ = record.oscillation_period_s;
     }
-    if (!record.open_loop) {
-      ++following_ticks_;
-      const bool infeasible =
-          is_infeasible(record.limited_by) || (other && is_infeasible(other->limited_by));
-      infeasible_ticks_ += infeasible ? 1 : 0;
+    if (record.open_loop) {
+      infeasible_.interrupt();
+    } else {
+      const bool others = other && !is_infeasible(record.limited_by);
+      infeasible_.add(others ? other->limited_by : record.limited_by, record.time_s);
     }
     if (!std::isfinite(record.power_W) && not_finite_ticks_++ == 0) {
       first_not_finite_s_ = record.time_s;
@@ -109,11 +110,8 @@ class Summary {
   /// When a controller first saw its loop oscillate; NaN: never.
   double oscillated_at_s() const { return oscillated_at_s_; }
   double oscillation_period_s() const { return oscillation_period_s_; }
-  /// Of the ticks at which a position was followed: the reference asked for more than the muscle
-  /// can do, and was shaped or cut. NaN: none was followed.
-  double infeasible_ratio() const {
-    return static_cast<double>(infeasible_ticks_) / static_cast<double>(following_ticks_);
-  }
+  /// When the reference asked for more than the muscle can do, and was shaped or cut.
+  const InfeasibleTime& infeasible() const { return infeasible_; }
 
   /// In words; empty: it was armed.
   std::string never_armed_because(const Scenario& scenario, const Simulation& simulation) const;
@@ -123,11 +121,6 @@ class Summary {
                                  double wall_s) const;
 
  private:
-  /// Not slew: it ends by itself, nor what is no number.
-  static constexpr bool is_infeasible(LimitedBy limit) {
-    return limit != LimitedBy::nothing && limit != LimitedBy::slew && limit != LimitedBy::invalid;
-  }
-
   void note_fault(const TickRecord& record) {
     if (record.fault != fault_ && record.fault != Fault::none) {
       faults_.push_back({record.fault, record.time_s});
@@ -156,8 +149,7 @@ class Summary {
   double first_not_finite_s_ = 0.0;
   double oscillated_at_s_ = NAN;
   double oscillation_period_s_ = NAN;
-  std::int64_t following_ticks_ = 0;
-  std::int64_t infeasible_ticks_ = 0;
+  InfeasibleTime infeasible_;
 };
 
 }  // namespace supercoil::host_sim

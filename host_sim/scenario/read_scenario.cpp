@@ -92,6 +92,17 @@ struct WrittenEvent {
   toml::table changes;
 };
 
+/// "plant.load_N, power.gain"
+std::string keys_of(const toml::table& changes, const std::string& path = "") {
+  std::string keys;
+  for (const auto& [key, node] : changes) {
+    const std::string full = path + std::string(key.str());
+    const toml::table* inner = node.as_table();
+    keys += (keys.empty() ? "" : ", ") + (inner != nullptr ? keys_of(*inner, full + ".") : full);
+  }
+  return keys;
+}
+
 /// Takes the events out of the document, earliest first; notes each that has no time or a wrong
 /// one.
 std::vector<WrittenEvent> take_events(toml::table& document, double duration_s,
@@ -197,6 +208,8 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
     moment.reset |= event->reset;
     moment.new_controller |= event->changes.contains("controller");
     moment.new_estimator |= event->changes.contains("estimator");
+    const std::string keys = keys_of(event->changes);
+    moment.changes += (moment.changes.empty() || keys.empty() ? "" : ", ") + keys;
     apply_changes(document, std::move(event->changes));
     const bool last_of_its_time = event + 1 == events.end() || (event + 1)->at_s != event->at_s;
     if (last_of_its_time) {

@@ -19,9 +19,10 @@ namespace supercoil::host_sim {
 struct Event {
   double at_s;
   Conditions conditions;
-  bool new_controller;  ///< the event names [controller]: it starts anew with the new settings
-  bool new_estimator;   ///< likewise [estimator]
-  bool reset;           ///< the operator resets a fault and arms again, where it is possible
+  bool new_controller;    ///< the event names [controller]: it starts anew with the new settings
+  bool new_estimator;     ///< likewise [estimator]
+  bool reset;             ///< the operator resets a fault and arms again, where it is possible
+  std::string changes{};  ///< its keys: "plant.load_N, power.gain"
 };
 
 /// What a channel knew of its muscle before it started.

@@ -11,6 +11,7 @@ import re
 import unittest
 
 import jsonschema
+from hour_source import INFEASIBLE
 from openapi_spec_validator import validate
 from programs import OnSimulatedBoard, SLACK_S, monitor, until
 
@@ -87,6 +88,7 @@ class Answers(OnSimulatedBoard):
     def test_what_is_looked_at(self):
         about = self.check("get", "/api/about", 200)
         self.assertEqual(str(about["protocol_version"]), DOCUMENT["info"]["version"])
+        self.assertEqual(about["infeasible"], INFEASIBLE)
         self.check("get", "/api/history", 200, "/api/history?from_s=-1")
         self.check("get", "/api/history", 400, "/api/history?from_s=x")
         self.check("get", "/api/history", 403, Host="example.org")

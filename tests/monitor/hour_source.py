@@ -22,6 +22,8 @@ PROTOCOL = {message.name: {signal.name: {"unit": signal.unit or "", "digits": 8 
                            for signal in message.signals} for message in DATABASE.messages}
 PARAMETERS = len(PROTOCOL["Estimate"]["parameter"]["values"])
 CONSTANT = {"state": 2, "mode": 1, "fault": 0, "leased": 1, "protocol_version": 3, "error_bound": 0.1}
+# As the monitor's own: api_document_test compares them.
+INFEASIBLE = {"limits": ["minimum", "maximum", "temperature", "cooling", "unproven"], "lasts_s": 0.2, "told_ratio": 0.01}
 
 
 def value(signal, time_s, node, turn):
@@ -81,7 +83,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if path == "/api/about":
             return self.answer("application/json", json.dumps(
                 {"version": "0", "source": "an hour", "kind": "live", "read_only": True, "may_command": False,
-                 "stop_port": 1, "page_timeout_s": 1.5, "protocol_version": CONSTANT["protocol_version"], "protocol": PROTOCOL}).encode())
+                 "stop_port": 1, "page_timeout_s": 1.5, "protocol_version": CONSTANT["protocol_version"], "protocol": PROTOCOL,
+                 "infeasible": INFEASIBLE}).encode())
         if path == "/api/history":
             return self.answer("application/json", b'{"newest_s": null, "nodes": {}}')
         file = FILES.get(path, PAGE / path.removeprefix("/"))

@@ -5,7 +5,7 @@ import unittest
 from modules import ModulesCase
 
 OUTCOME = """const { infeasible_told, limits_told, never_armed_told, swing_told } = await import("/outcome.js");
-    const { protocol } = await (await fetch("/api/about")).json();
+    const { protocol, infeasible } = await (await fetch("/api/about")).json();
     const number = (message, signal, name) => Number(Object.entries(protocol[message][signal].values).find(([, is]) => is === name)[0]);
     const store = new Store(protocol, true);
     const hear = (message, from_s, count, period_s, row) => {
@@ -31,8 +31,20 @@ class OutcomeTest(ModulesCase):
         self.assertEqual(self.ask(OUTCOME + """const mode = (name) => ({ ...state("active"), mode: number("Status", "mode", name) });
             hear("Status", 0, 100, 0.1, (time) => mode(time < 5 ? "power" : time < 7 ? "position" : "joint"));
             hear("Power", 0, 500, 0.02, (time) => by(time < 5.5 ? "maximum" : time < 6 ? "cooling" : time < 8 ? "slew" : "nothing"));
-            return [infeasible_told(store, 1, range), infeasible_told(store, 1, { from_s: 6.1, to_s: 10 }), infeasible_told(store, 1, { from_s: 0, to_s: 4 })];"""),
-            ["The reference asked for more than the muscle can do in 20.0 % of the time that it was followed: take a slower or a smaller one, or shape_reference.", "", ""])
+            const told = (from_s, to_s) => infeasible_told(store, 1, { from_s, to_s }, infeasible);
+            return [told(0, 100), told(5, 5.49), told(6.1, 10), told(0, 4)];"""),
+            # A shaped reference says so: cooling.
+            ["The reference asked for more than the muscle can do in 20.0 % of the time that it was followed: take a slower or a smaller one.",
+             "The reference asked for more than the muscle can do in 100.0 % of the time that it was followed: take a slower or a smaller one, or shape_reference.", "", ""])
+
+    def test_noise_at_a_limit_is_no_infeasible_reference(self):
+        self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, () => ({ ...state("active"), mode: number("Status", "mode", "position") }));
+            // 0.18 of each 0.2 s, then 0.22 of each 0.25 s.
+            hear("Power", 0, 250, 0.02, (time) => by(Math.round(time / 0.02) % 10 < 9 ? "maximum" : "nothing"));
+            const told = (from_s, to_s) => infeasible_told(store, 1, { from_s, to_s }, infeasible);
+            const short = told(0, 4.99);
+            hear("Power", 5, 250, 0.02, (time) => by(Math.round((time - 5) / 0.02) % 13 < 12 ? "maximum" : "nothing"));
+            return [short, /in 9\\d\\.\\d % of the time/.test(told(5, 10))];"""), ["", True])
 
     def test_why_it_was_never_armed(self):
         self.assertEqual(self.ask(OUTCOME + """const told = [never_armed_told(store, 1, range)];

@@ -32,6 +32,16 @@ struct Feasibility {
   std::vector<std::optional<FeasibleSteps>> steps;  ///< of each controller; empty: in open loop
 };
 
+/// That a limit takes power because the reference is none that the muscle can follow. Not a rise
+/// that is slowed, which ends by itself, nor what is no number.
+constexpr bool is_infeasible(LimitedBy limit) {
+  return limit != LimitedBy::nothing && limit != LimitedBy::slew && limit != LimitedBy::invalid;
+}
+/// For so long on end. Shorter, noise or a first step is at a limit as well.
+inline constexpr double infeasible_lasts_s = 0.2;
+/// From this part of the time on a reference is told to be infeasible, before a run and after.
+inline constexpr double told_infeasible_ratio = 0.01;
+
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
 
 /// A step asks for a peak of power at its beginning: of one by 1 m through the reference model.

@@ -31,7 +31,7 @@ double infeasible_ratio_of_run(const Scenario& scenario) {
   Summary summary({});
   while (!simulation.done())
     summary.add(simulation.step());
-  return summary.infeasible_ratio();
+  return summary.infeasible().ratio();
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "apps/supercoil/monitor/command_request.hpp"
 #include "apps/supercoil/monitor/trajectory_request.hpp"
 #include "apps/supercoil/monitor/tuning_request.hpp"
+#include "loop/feasibility.hpp"
 #include "telemetry/opcodes.hpp"
 #include "text/program_version.hpp"
 #include "text/refusal_words.hpp"
@@ -37,6 +38,16 @@ std::optional<hal::Time> time_of(const httplib::Request& request, const std::str
   const bool right = read.ec == std::errc{} && read.ptr == text.data() + text.size();
   if (!right || !(std::abs(time_s) < max_s)) return std::nullopt;
   return hal::duration_from(time_s);
+}
+
+/// By which limits, and for how long on end, a reference shows to have been infeasible.
+json infeasible_json() {
+  json limits = json::array();
+  for (std::size_t i = 0; i < limit_names.size(); ++i) {
+    if (is_infeasible(static_cast<LimitedBy>(i))) limits.push_back(limit_names.at(i));
+  }
+  return {
+      {"limits", limits}, {"lasts_s", infeasible_lasts_s}, {"told_ratio", told_infeasible_ratio}};
 }
 
 /// Where the page may post STOP to: this server's other port, under whatever name the page was
@@ -201,7 +212,8 @@ void Api::about(const Request& request, Response& response) const {
       {"page_timeout_s", std::chrono::duration<double>(ManualControl::page_timeout).count()},
       {"protocol", json::parse(protocol_json())},
       {"protocol_version", telemetry::protocol_version},
-      {"refusals", refusals_json()}};
+      {"refusals", refusals_json()},
+      {"infeasible", infeasible_json()}};
   answer_json(response, told.dump());
 }
 

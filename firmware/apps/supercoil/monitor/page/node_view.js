@@ -35,7 +35,7 @@ export class NodeView {
     this.tuning = new Tuning(node, may, (text, kind) => this.journal.add(text, kind));
     this.tuning.element.hidden = about.kind === "log";
     this.margins = new Margins(node, store, on_fault);
-    this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins, new OutcomeCard(node, store, view), new JointCard(node, store)];
+    this.cards = [new Readouts(node, store), new Parameters(node, store), new Identified(node, store, about.kind !== "log"), new Gains(node, store), this.margins, new OutcomeCard(node, store, view, about.infeasible), new JointCard(node, store)];
     this.plots = [];
     this.place_of_plots = element("div", { class: "plots" });
     this.lay_out_plots();

@@ -8,9 +8,6 @@ const SWING_S = 60;
 const STILL_M = 1e-5;
 const LEAST_PERIODS = 4;
 const LEAST_SHARE = 0.0005; // else 0.0 %
-// A rise of the power that is limited ends by itself.
-const FEASIBLE = new Set(["nothing", "slew", "invalid"]);
-const INFEASIBLE_SHARE = 0.01;
 // Of the periods' spread over their mean: noise crosses at no rhythm.
 const RHYTHM = 0.2;
 
@@ -26,41 +23,60 @@ function* samples(table, columns, from_s, to_s) {
 
 const number_of = (store, message, signal, name) => Number(Object.entries(store.protocol[message]?.[signal]?.values ?? {}).find(([, is]) => is === name)?.[0]);
 
-/** What limited the power while the channel was active, and in some modes if they are named: counts by name, and their sum. */
-function limit_counts(store, node, { from_s, to_s }, modes = []) {
+/** [time, name] of what limited the power; null while the channel was not active, or in none of the modes if some are named. */
+function* limits(store, node, { from_s, to_s }, modes = []) {
   const active = number_of(store, "Status", "state", "active"), wanted = modes.map((mode) => number_of(store, "Status", "mode", mode));
   const states = [...samples(store.table(node, "Status"), modes.length > 0 ? ["state", "mode"] : ["state"], from_s, to_s)];
-  const counts = new Map();
-  let all = 0;
   let place = 0;
   for (const [time_s, by] of samples(store.table(node, "Power"), ["limited_by"], from_s, to_s)) {
     while (place < states.length - 1 && states[place + 1][0] <= time_s) ++place;
     const [, state, mode] = states[place] ?? [];
-    if (state !== active || (modes.length > 0 && !wanted.includes(mode))) continue;
-    ++all;
-    const name = store.word("Power", "limited_by", by);
-    counts.set(name, (counts.get(name) ?? 0) + 1);
+    const counts = state === active && (modes.length === 0 || wanted.includes(mode));
+    yield [time_s, counts ? store.word("Power", "limited_by", by) : null];
   }
-  return { counts, all };
 }
 
 const percent = (count, all) => `${fixed((100 * count) / all, 1)} %`;
 
 /** "at a limit in 12.3 % of the time that it heated: maximum 10.0 %, slew 2.3 %", or "". */
 export function limits_told(store, node, range) {
-  const { counts, all } = limit_counts(store, node, range);
+  const counts = new Map();
+  let all = 0;
+  for (const [, name] of limits(store, node, range)) {
+    if (name === null) continue;
+    ++all;
+    counts.set(name, (counts.get(name) ?? 0) + 1);
+  }
   const names = [...counts].filter(([name, count]) => name !== "nothing" && count / all >= LEAST_SHARE).sort((a, b) => b[1] - a[1]);
   if (names.length === 0) return "";
   const sum = names.reduce((total, [, count]) => total + count, 0);
   return `At a limit in ${percent(sum, all)} of the time that it heated: ${names.map(([name, count]) => `${words(name)} ${percent(count, all)}`).join(", ")}.`;
 }
 
-/** That the reference was none that the muscle can follow, by itself or as a joint's antagonist, as the simulator's summary counts it; or "". */
-export function infeasible_told(store, node, range) {
-  const { counts, all } = limit_counts(store, node, range, ["position", "joint"]);
-  const missed = [...counts].reduce((sum, [name, count]) => sum + (FEASIBLE.has(name) ? 0 : count), 0);
-  if (!(missed / all >= INFEASIBLE_SHARE)) return "";
-  return `The reference asked for more than the muscle can do in ${percent(missed, all)} of the time that it was followed: take a slower or a smaller one, or shape_reference.`;
+/** That the reference was none that the muscle can follow, by itself or as a joint's antagonist, as the simulator's summary counts it; or "". rule: infeasible of /api/about. */
+export function infeasible_told(store, node, range, rule) {
+  const too_much = new Set(rule.limits);
+  let all = 0;
+  let missed = 0;
+  let in_a_row = 0;
+  let since_s = null;
+  let shaped = false;
+  for (const [time_s, name] of limits(store, node, range, ["position", "joint"])) {
+    if (name !== null) ++all;
+    if (!too_much.has(name)) {
+      since_s = null;
+      in_a_row = 0;
+      continue;
+    }
+    since_s ??= time_s;
+    ++in_a_row;
+    shaped ||= name === "cooling";
+    if (time_s - since_s < rule.lasts_s) continue;
+    missed += in_a_row;
+    in_a_row = 0;
+  }
+  if (!(missed / all > rule.told_ratio)) return "";
+  return `The reference asked for more than the muscle can do in ${percent(missed, all)} of the time that it was followed: take a slower or a smaller one${shaped ? "" : ", or shape_reference"}.`;
 }
 
 /** Why it was never armed, or "" when it was. */

@@ -7,9 +7,10 @@ import { infeasible_told, limits_told, never_armed_told, swing_told } from "./ou
 const every_ms = (span_s) => Math.max(2000, 5 * span_s);
 
 export class OutcomeCard {
-  constructor(node, store, view) {
+  /** infeasible: by what a reference shows to have been none, as /api/about has it. */
+  constructor(node, store, view, infeasible) {
     Object.assign(this, { node, store, view, told_ms: -Infinity });
-    this.lines = [limits_told, infeasible_told, never_armed_told, swing_told].map((tell) => ({ tell, line: element("p") }));
+    this.lines = [limits_told, (...shown) => infeasible_told(...shown, infeasible), never_armed_told, swing_told].map((tell) => ({ tell, line: element("p") }));
     this.none = element("p", { class: "hint" }, "Armed, at no limit, and no swing by itself.");
     this.element = element("section", { class: "card full-only outcome", "aria-label": `what was, node ${node}` },
       element("h2", {}, "In the time shown"), this.none, ...this.lines.map(({ line }) => line));

@@ -1,0 +1,62 @@
+// Which part of a run followed a reference that the muscle could not follow.
+#include "runner/infeasible_time.hpp"
+
+#include <cmath>
+
+#include <CppUTest/TestHarness.h>
+
+#include "runner/reference_feasibility.hpp"
+#include "unit/host_sim/support/scenarios.hpp"
+
+using namespace supercoil;
+using namespace supercoil::host_sim;
+
+TEST_GROUP(InfeasibleTime) {
+  static constexpr double step_s = 0.001;
+  InfeasibleTime found;
+  double time_s = 0.0;
+
+  void follow(LimitedBy limit, double duration_s) {
+    const double end_s = time_s + duration_s;
+    for (; time_s < end_s - 0.5 * step_s; time_s += step_s)
+      found.add(limit, time_s);
+  }
+};
+
+TEST(InfeasibleTime, CountsWhatLastsFromItsBeginningOn) {
+  follow(LimitedBy::nothing, 1.0);
+  follow(LimitedBy::minimum, 0.19);
+  follow(LimitedBy::slew, 0.01);
+  follow(LimitedBy::minimum, 0.19);
+  follow(LimitedBy::nothing, 0.61);
+  DOUBLES_EQUAL(0.0, found.ratio(), 0.0);
+  CHECK_TRUE(std::isnan(found.first_s()));
+  // One limit after the other.
+  follow(LimitedBy::maximum, 0.1);
+  follow(LimitedBy::temperature, 0.4);
+  DOUBLES_EQUAL(0.5 / 2.5, found.ratio(), 1e-9);
+  DOUBLES_EQUAL(2.0, found.first_s(), 1e-9);
+  CHECK(found.first_by() == LimitedBy::temperature);
+}
+
+TEST(InfeasibleTime, EndsWhereNoPositionIsFollowed) {
+  for (int i = 0; i < 10; ++i) {
+    follow(LimitedBy::cooling, 0.15);
+    found.interrupt();
+  }
+  DOUBLES_EQUAL(0.0, found.ratio(), 0.0);
+}
+
+TEST(InfeasibleTime, TheEventBeforeItIsNamedWithAllThatItChanges) {
+  const Scenario scenario = test::read(
+      "[[event]]\nat_s = 0.5\nplant.load_N = 0.01\n[[event]]\nat_s = 1.0\n"
+      "plant.load_N = 0.05\npower.gain = 0.9\n[[event]]\nat_s = 1.0\nreset = true\n"
+      "[[event]]\nat_s = 9.0\npower.gain = 1.0\n");
+  follow(LimitedBy::nothing, 1.5);
+  follow(LimitedBy::temperature, 0.5);
+  STRCMP_EQUAL(
+      "the reference asked for more than the muscle can do in 25.0 % of the ticks that followed "
+      "it, first at 1.5 s (limited_by temperature), after the event at 1 s, plant.load_N, "
+      "power.gain: a smaller one",
+      describe_infeasible(found, scenario).c_str());
+}

@@ -1,0 +1,80 @@
+"""What supercoil-sim run tells of the muscle and its reference, beforehand and afterwards."""
+
+import json
+import re
+import unittest
+
+from sim_program import SHORT, ProgramCase
+
+# So badly may it be cooled that it holds 12.1 mm.
+HOT = "thermal = {transfer_ratio = [0.25, 2.2], power_ratio = [1.0, 1.3]}\n"
+
+
+class Told(ProgramCase):
+    def after(self, text):
+        """What a run prints, and its summary."""
+        done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, json.loads((self.path / "out/summary.json").read_text())
+
+    def test_says_beforehand_that_a_slow_muscle_cannot_follow_its_reference_model(self):
+        slow = SHORT + "[plant]\nthermal_mass_J_per_K = 2.0\n"
+        told = self.run_program("run", self.scenario(slow), "--check").stdout
+        self.assertRegex(told, r"\nadvice: controller 0: .* shape_reference = true")
+        shaped = slow + "[controller]\nshape_reference = true\n"
+        self.assertNotIn("advice", self.run_program("run", self.scenario(shaped), "--check").stdout)
+
+    def test_check_tells_programs_what_it_tells_people(self):
+        scenario = self.scenario(SHORT + "[controller]\nkind = 'learned_ff'\n[plant]\nthermal_mass_J_per_K = 2.0\n")
+        told = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)
+        can, controller = told["feasibility"], told["feasibility"]["controllers"][0]
+        text = self.run_program("run", scenario, "--check").stdout
+        self.assertIn(f"holds {1e3 * can['travel_m']:.3g} mm for good, at {can['held_W']:.3g} W", text)
+        self.assertIn(f"margin {controller['margin']:.2g}, ", text)
+        self.assertIn(f"bandwidth {controller['bandwidth_rad_per_s']:.3g} rad/s\n", text)
+        self.assertIn(f"at most {1e6 * controller['promised_m']:.3g} um rms", text)
+        self.assertEqual([line in text for line in told["advice"]], [True])
+        self.assertEqual(told["reference"]["told"], re.search("\nreference: (.*)\n", text)[1])
+        refused = self.run_program("run", scenario, "--json")
+        self.assertEqual((refused.returncode, "--json requires --check" in refused.stderr), (2, True))
+
+    def test_a_reference_that_is_not_feasible_is_told_with_its_share_and_what_to_do(self):
+        for turn_rad_per_s, shape, told in ((2.0, "false", True), (2.0, "true", True), (0.2, "false", False)):
+            text = (f"simulation.duration_s = 120.0\ncontroller = {{kind = 'learned_ff', shape_reference = {shape}}}\n"
+                    f"reference.angular_frequency_rad_per_s = {turn_rad_per_s}\nreference_model.poles_rad_per_s = [4.0, 5.0, 6.0]\n")
+            done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
+            ratio = json.loads((self.path / "out/summary.json").read_text())["infeasible_ratio"]
+            self.assertEqual(ratio > 0.01, told, (ratio, done.stdout))
+            line = re.findall(r"asked for more than the muscle can do in (.*) % of the ticks that followed it, first at .* s "
+                              r"\(limited_by \w+\): a slower or smaller one(.*)", done.stdout)
+            advice = ", or shape_reference = true" if shape == "false" else ""
+            self.assertEqual(line, [(f"{100 * ratio:.1f}", advice)] if told else [])
+
+    def test_noise_at_a_limit_is_no_reference_that_is_not_feasible(self):
+        told, summary = self.after("simulation.duration_s = 60.0\n")
+        self.assertGreater(sum(summary["limited_by_ratio"].values()), 0.03)
+        self.assertEqual((summary["infeasible_ratio"], summary["infeasible_from_s"]), (0, None))
+        self.assertNotIn("asked for more", told)
+
+    def test_a_reference_that_is_not_feasible_from_an_event_on_is_told_with_the_event(self):
+        step = "reference = {kind = 'steps', levels_m = [0.010], hold_s = 50.0}\ncontroller.kind = 'pi'\n"
+        told, summary = self.after(HOT + "simulation.duration_s = 40.0\n" + step + "[[event]]\nat_s = 15.0\nplant.load_N = 0.06\n")
+        self.assertGreater(summary["infeasible_from_s"], 15.0)
+        self.assertIn(f"first at {summary['infeasible_from_s']:.1f} s (limited_by temperature), after the event at 15 s, "
+                      "plant.load_N: a smaller one\n", told)
+
+    def test_shaping_is_no_advice_where_an_event_has_switched_it_on(self):
+        fast = "simulation.duration_s = 40.0\nreference.angular_frequency_rad_per_s = 2.0\ncontroller.kind = 'learned_ff'\n"
+        told, _ = self.after(fast + "[[event]]\nat_s = 0.0\ncontroller.shape_reference = true\n")
+        self.assertRegex(told, r"after the event at 0 s, controller\.shape_reference: a slower or smaller one\n")
+
+    def test_what_may_become_too_hot_is_told_beforehand(self):
+        scenario = self.scenario(HOT + "reference = {kind = 'steps', levels_m = [0.018], hold_s = 50.0}\n")
+        reference = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["reference"]
+        self.assertEqual((reference["limited_by"], reference["held_by"]), ("temperature", "temperature"))
+        self.assertIn(f"holds {1e3 * reference['held_m']:.3g} mm for good (limited_by temperature)", reference["told"])
+        self.assertGreater(reference["max_m"], reference["held_m"])
+
+
+if __name__ == "__main__":
+    unittest.main()

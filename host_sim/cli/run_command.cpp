@@ -59,6 +59,8 @@ void tell_feasibility(const Scenario& scenario, bool in_brief) {
   }
   for (const std::string& line : lines)
     std::printf("muscle: %s\n", line.c_str());
+  for (const std::string& line : config::describe_recommendation(board, 0, in_brief))
+    std::printf("recommended: %s\n", line.c_str());
   if (const std::string line = describe_reference(scenario, in_brief); !line.empty())
     std::printf("reference: %s\n", line.c_str());
   for (const std::string& line : advice_of(scenario, board))

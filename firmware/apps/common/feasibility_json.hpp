@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/describe.hpp"
+#include "config/recommended_controller.hpp"
 #include "loop/promise.hpp"
 
 namespace supercoil {
@@ -36,6 +37,24 @@ inline nlohmann::ordered_json controller_json(const control::ControllerSettings&
           {"step_up_m", json_number(steps ? steps->up_m : NAN)},
           {"step_down_m", json_number(steps ? steps->down_m : NAN)},
           {"shaped", steps && steps->shaped}};
+}
+
+/// What suits the channel's muscle. in_use: the first of its controllers that is so.
+inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel) {
+  if (is_led(channel)) return nullptr;
+  const config::RecommendedController suits = config::recommended_controller(channel.muscle);
+  const control::ControllerSettings controller = suits.in_place_of({});
+  nlohmann::ordered_json in_use;
+  for (std::size_t i = channel.controllers.size(); i-- > 0;) {
+    if (!suits.differs_from(channel.controllers[i])) in_use = i;
+  }
+  return {{"kind", control::name_of(control::controller_names, controller.kind)},
+          {"shape_reference", controller.shape_reference},
+          {"bandwidth_rad_per_s", suits.bandwidth_rad_per_s},
+          {"reason", suits.reason},
+          {"model_poles_rad_per_s", controller.model.poles_rad_per_s},
+          {"model_reason", suits.model_reason},
+          {"in_use", in_use}};
 }
 
 /// channel: from 0. Of a joint's antagonist controllers is empty, and of a joint nothing is
@@ -66,7 +85,8 @@ inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::
            {{"middle_m", motion.middle_m},
             {"amplitude_m", motion.amplitude_m},
             {"period_s", motion.period_s}}},
-          {"controllers", controllers}};
+          {"controllers", controllers},
+          {"recommended", recommendation_json(c)}};
 }
 
 }  // namespace supercoil

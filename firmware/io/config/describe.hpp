@@ -46,6 +46,10 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel);
 /// "14 um rms on a sine of 4 to 9 mm, 6 s a period", and from what.
 std::string describe_promise(const Promise& promise, const FirstMotion& motion);
+/// The controller and the reference model that suit the channel's muscle, and why; which of its own
+/// that is. in_brief: only what to change. None, where another channel leads it.
+std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel,
+                                                 bool in_brief);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
 /// Likewise, so that a joint's muscles last. index: of BoardSettings::joints.

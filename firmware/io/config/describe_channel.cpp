@@ -196,6 +196,11 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
     out << title_of_line << line << "\n";
     title_of_line = "              ";
   }
+  title_of_line = "  recommended ";
+  for (const std::string& line : describe_recommendation(config.settings, index, false)) {
+    out << title_of_line << line << "\n";
+    title_of_line = "              ";
+  }
   return out.str();
 }
 

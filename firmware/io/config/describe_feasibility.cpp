@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -6,7 +5,6 @@
 #include "supercoil/control/tracking/tunable.hpp"
 
 #include "config/describe.hpp"
-#include "config/findings.hpp"
 #include "loop/feasibility.hpp"
 #include "text/number_text.hpp"
 
@@ -119,42 +117,6 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
   }
   for (std::string& line : describe_promises(board, channel))
     lines.push_back(std::move(line));
-  return lines;
-}
-
-std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& board) {
-  const Feasibility f = feasibility(c, board);
-  std::vector<std::string> lines;
-  if (!f.rest_seen) {
-    lines.push_back("in the coldest air it rests " + in_mm(f.air_shift_m) +
-                    " below its zero, and the sensor reads no less than " +
-                    in_mm(c.supervision.min_position_m) + ": a colder start looks like a fault");
-  }
-  if (is_led(c)) return lines;
-  for (std::size_t i = 0; i < f.steps.size(); ++i) {
-    const auto& steps = f.steps[i];
-    const bool small = steps && std::min(steps->up_m, steps->down_m) < 0.5 * f.travel_m;
-    if (small && !steps->shaped) {
-      lines.push_back("controller " + std::to_string(i) +
-                      ": a step over half of the travel asks for more than the muscle can do; "
-                      "shape_reference = true makes it feasible");
-    }
-  }
-  return lines;
-}
-
-std::vector<std::string> advice(const BoardConfig& config) {
-  Findings findings;
-  for (std::size_t i = 0; i < config.settings.channels.size(); ++i) {
-    findings.enter(i + 1);
-    for (const std::string& line : advice(config.settings.channels[i], config.settings))
-      findings.add(line);
-  }
-  std::vector<std::string> lines = findings.lines();
-  for (std::size_t i = 0; i < config.settings.joints.size(); ++i) {
-    for (const std::string& line : joint_advice(config, i))
-      lines.push_back("joint " + std::to_string(i + 1) + ": " + line);
-  }
   return lines;
 }
 

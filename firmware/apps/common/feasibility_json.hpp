@@ -80,6 +80,7 @@ inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::
           {"half_travel_period_s", json_number(f.half_travel_period_s)},
           {"armable_s", json_number(f.armable_s)},
           {"air_shift_m", f.air_shift_m},
+          {"cold_travel_m", f.cold_travel_m},
           {"rest_seen", f.rest_seen},
           {"first_motion",
            {{"middle_m", motion.middle_m},

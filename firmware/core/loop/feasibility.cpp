@@ -15,31 +15,43 @@ namespace {
 
 /// The steady power at which derating leaves just that power: the hottest that the muscle may be
 /// rises with it, and the limiter falls from max_W at derate_from_C to none at derate_to_C.
-double derated_W(const ChannelSettings& c, const BoardSettings& board, double max_W) {
+double derated_W(const ChannelSettings& c, const BoardSettings& board, double max_W,
+                 double warmest_C) {
   const LimiterSettings& l = c.limiter;
   const double ratio = power_bounds(c, board).true_over_measured().max;
   const double eta = board::known_thermal_bounds(c.thermal, c.heat).bounds.min_transfer_W_per_K;
-  const double warmest_C = c.thermal.air.warmest_C;
   if (warmest_C + max_W * ratio / eta <= l.derate_from_C) return max_W;
   const double crossing_W = l.max_W * (l.derate_to_C - warmest_C) /
                             (l.derate_to_C - l.derate_from_C + l.max_W * ratio / eta);
   return std::clamp(crossing_W, 0.0, max_W);
 }
 
-void find_power(const ChannelSettings& c, const BoardSettings& board, Feasibility& f) {
-  const double supply_V = board.supervision.min_supply_V;
-  f.max_W = std::min(c.limiter.max_W, supply_V * supply_V / c.heater.cold_resistance_Ohm);
-  f.held_W = f.max_W;
+struct Held {
+  double power_W = 0.0;
+  LimitedBy by = LimitedBy::maximum;
+};
+
+/// In air of which the board knows that it is no warmer.
+Held held_in(const ChannelSettings& c, const BoardSettings& board, double max_W, double warmest_C) {
+  Held held{max_W};
   const auto bound = [&](double power_W, LimitedBy by) {
-    if (power_W >= f.held_W) return;
-    f.held_W = power_W;
-    f.held_by = by;
+    if (power_W < held.power_W) held = {power_W, by};
   };
-  bound(derated_W(c, board, f.max_W), LimitedBy::temperature);
+  bound(derated_W(c, board, max_W, warmest_C), LimitedBy::temperature);
+  // Colder air proves nothing sooner.
   if (c.supervision.proof_of_response) {
     bound(plan_proof(proof_settings(c, board), c.muscle, board.rate_Hz).provable_W,
           LimitedBy::unproven);
   }
+  return held;
+}
+
+void find_power(const ChannelSettings& c, const BoardSettings& board, Feasibility& f) {
+  const double supply_V = board.supervision.min_supply_V;
+  f.max_W = std::min(c.limiter.max_W, supply_V * supply_V / c.heater.cold_resistance_Ohm);
+  const Held held = held_in(c, board, f.max_W, c.thermal.air.warmest_C);
+  f.held_W = held.power_W;
+  f.held_by = held.by;
 }
 
 /// Rise and fall are the heat's: the spring and the load follow it.
@@ -55,10 +67,21 @@ void find_motion(const ChannelSettings& c, Feasibility& f) {
   f.half_travel_period_s = 2.0 * std::numbers::pi * tau_s / std::numbers::sqrt3;
 }
 
-void find_rest(const ChannelSettings& c, Feasibility& f) {
+/// The coldest air draws it down, and leaves it the more power where a sensor tells of it.
+double cold_travel_m(const ChannelSettings& c, const BoardSettings& board, const Feasibility& f) {
+  const board::AirSettings& air = c.thermal.air;
+  double warmest_C = air.warmest_C;
+  if (air.error_K > 0.0) warmest_C = std::min(warmest_C, air.coldest_C + 2.0 * air.error_K);
+  const double held_m =
+      c.muscle.dc_gain_m_per_W() * held_in(c, board, f.max_W, warmest_C).power_W - f.air_shift_m;
+  return std::clamp(held_m, 0.0, c.supervision.max_travel_m);
+}
+
+void find_rest(const ChannelSettings& c, const BoardSettings& board, Feasibility& f) {
   const board::ThermalSettings& t = c.thermal;
   const double metres_per_K = c.muscle.force_per_kelvin_N_per_K / c.muscle.stiffness_N_per_m;
   f.air_shift_m = metres_per_K * (t.air.warmest_C - t.air.coldest_C);
+  f.cold_travel_m = cold_travel_m(c, board, f);
   // The sensor's range is as it reads, before the calibration.
   const double rest_m =
       c.calibration.position_offset_m - f.air_shift_m / c.calibration.position_scale;
@@ -85,7 +108,7 @@ Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& boa
   Feasibility f;
   find_power(channel, board, f);
   find_motion(channel, f);
-  find_rest(channel, f);
+  find_rest(channel, board, f);
   for (const control::ControllerSettings& controller : channel.controllers)
     f.steps.push_back(feasible_steps(controller, channel, f));
   return f;

@@ -27,8 +27,9 @@ struct Feasibility {
   double half_travel_period_s = 0.0;       ///< the fastest sine over the middle half of the travel
   /// How far the coldest air draws the rest position below that in the warmest.
   double air_shift_m = 0.0;
-  bool rest_seen = true;                            ///< the sensor reads so far below its zero
-  double armable_s = 0.0;                           ///< after boot, at the latest; infinite: never
+  double cold_travel_m = 0.0;  ///< held in the coldest, above a zero that was taken in the warmest
+  bool rest_seen = true;       ///< the sensor reads so far below its zero
+  double armable_s = 0.0;      ///< after boot, at the latest; infinite: never
   std::vector<std::optional<FeasibleSteps>> steps;  ///< of each controller; empty: in open loop
 };
 

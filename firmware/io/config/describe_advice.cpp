@@ -15,6 +15,39 @@ std::string length_text(double metres) {
   return number_text(1e3 * metres, 3) + " mm";
 }
 
+/// A smaller part of the travel is little.
+constexpr double little_ratio = 0.25;
+
+/// What allows more power for good.
+std::string remedy(LimitedBy held_by) {
+  switch (held_by) {
+    case LimitedBy::temperature:
+      return "narrower bounds in [thermal] allow more, and what tells how hot it is "
+             "(docs/safety.md)";
+    case LimitedBy::unproven:
+      return "senses that are compared with a meter and a sensor with less noise allow more "
+             "(docs/faults/heater_not_responding.md)";
+    default:
+      return "a greater max_W, or supply, allows more";
+  }
+}
+
+void advise_travel(const ChannelSettings& c, const Feasibility& f,
+                   std::vector<std::string>& lines) {
+  const double max_m = c.supervision.max_travel_m;
+  if (f.travel_m < little_ratio * max_m) {
+    lines.push_back("of max_travel_m = " + length_text(max_m) + " it holds " +
+                    length_text(f.travel_m) + " for good (limited_by " +
+                    std::string(name(f.held_by)) + "): " + remedy(f.held_by));
+  }
+  if (f.cold_travel_m < little_ratio * f.travel_m) {
+    lines.push_back("in the coldest air it holds no more than " + length_text(f.cold_travel_m) +
+                    " above a zero that was taken in the warmest, where it holds " +
+                    length_text(f.travel_m) +
+                    ": calibrate in the air in which it works, or narrow [ambient]");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel,
@@ -44,6 +77,8 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
                     length_text(c.supervision.min_position_m) +
                     ": a colder start looks like a fault");
   }
+  if (c.bundle.follows()) return lines;
+  advise_travel(c, f, lines);
   if (is_led(c)) return lines;
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     const auto& steps = f.steps[i];

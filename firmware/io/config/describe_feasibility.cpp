@@ -38,6 +38,7 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
     line += "; rests up to " + in_mm(f.air_shift_m) + " lower in the coldest air";
     if (!f.rest_seen)
       line += ", where the sensor reads no less than " + in_mm(c.supervision.min_position_m);
+    line += ", and holds up to " + in_mm(f.cold_travel_m) + " above its zero there";
   }
   return line;
 }

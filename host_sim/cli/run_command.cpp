@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "apps/common/feasibility_json.hpp"
+#include "apps/common/problems_json.hpp"
 #include "cli/commands.hpp"
 #include "cli/learned_folder.hpp"
 #include "cli/runs.hpp"
@@ -15,6 +16,7 @@
 #include "runner/summary.hpp"
 #include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::host_sim {
 
@@ -89,51 +91,88 @@ void tell_check_as_json(const Scenario& scenario) {
   std::puts(told.dump(2).c_str());
 }
 
-/// Of --board, if there is one. The error is whole lines.
-tl::expected<void, std::string> use_own_board(const RunOptions& options,
-                                              const LearnedMuscles& learned, Scenario& scenario) {
+using Problems = std::vector<config::Problem>;
+using OrProblems = tl::expected<void, Problems>;
+
+/// With an option, or what it names.
+Problems wrong_option(const std::string& option, const std::string& value,
+                      const std::string& message) {
+  return {{.key = option, .message = message, .value = value}};
+}
+
+/// As every command says it, or with --check --json for programs.
+int refuse(const RunOptions& options, const Problems& problems) {
+  if (options.check && options.json) {
+    std::puts(problems_json(problems).dump(2).c_str());
+    return exit_wrong_input;
+  }
+  for (const config::Problem& problem : problems) {
+    const bool of_option = problem.file.empty();
+    const std::string value = problem.value.empty() ? "" : " " + problem.value;
+    const std::string what = problem.key + value + ": " + problem.message;
+    std::fprintf(stderr, "%s\n",
+                 of_option ? ("supercoil-sim: " + what).c_str() : problem.text().c_str());
+  }
+  return exit_wrong_input;
+}
+
+/// Of --board, if there is one.
+OrProblems use_own_board(const RunOptions& options, const LearnedMuscles& learned,
+                         Scenario& scenario) {
   if (options.board.empty()) return {};
   const auto config = config::read_board_config(options.board);
-  if (!config) return tl::unexpected(config::to_text(config.error()));
+  if (!config) return tl::unexpected(config.error());
   const auto channels = static_cast<int>(config->settings.channels.size());
   if (options.channel > channels) {
-    return tl::unexpected("supercoil-sim: --channel " + std::to_string(options.channel) + ": " +
-                          options.board + " has " + std::to_string(channels) + "\n");
+    return tl::unexpected(wrong_option("--channel", std::to_string(options.channel),
+                                       options.board + " has " + std::to_string(channels)));
   }
   const auto used =
       use_board(scenario, *config, static_cast<std::size_t>(options.channel) - 1, learned);
   if (used) return {};
-  return tl::unexpected(options.scenario + " on " + options.board + ": " + used.error() + "\n");
+  return tl::unexpected(
+      Problems{{.file = options.scenario + " on " + options.board, .message = used.error()}});
+}
+
+/// The scenario with the board that the options want.
+tl::expected<Scenario, Problems> read_input(const RunOptions& options,
+                                            LearnedFolder& folder_of_learned) {
+  const auto learned = folder_of_learned.load();
+  if (!learned) return tl::unexpected(wrong_option("--learned", "", learned.error()));
+  auto scenario = read_scenario(options.scenario, *learned);
+  if (!scenario) return scenario;
+  if (auto used = use_own_board(options, *learned, *scenario); !used)
+    return tl::unexpected(std::move(used.error()));
+  return scenario;
+}
+
+tl::expected<Window, Problems> window_of(const RunOptions& options, const Scenario& scenario) {
+  const auto window = read_window(options.window, scenario.duration_s, scenario.step_s());
+  if (window) return *window;
+  return tl::unexpected(wrong_option("--window", options.window,
+                                     "must be FROM:TO in seconds, a tick or more within 0 to " +
+                                         number_text(scenario.duration_s, 9)));
+}
+
+OrProblems check_nodes(const RunOptions& options, const Scenario& scenario) {
+  const int most = (can::max_nodes + 1 - scenario.can.first_node) / scenario.channels();
+  if (options.nodes <= most) return {};
+  return tl::unexpected(wrong_option("--nodes", std::to_string(options.nodes),
+                                     "must be 1 to " + std::to_string(most) +
+                                         ", as the first is node " +
+                                         std::to_string(int{scenario.can.first_node})));
 }
 
 }  // namespace
 
 int run_command(const RunOptions& options) {
   LearnedFolder folder_of_learned(options.learned);
-  const auto learned = folder_of_learned.load();
-  if (!learned) return fail(exit_wrong_input, learned.error());
-  auto scenario = read_scenario(options.scenario, *learned);
-  if (!scenario) {
-    std::fputs(config::to_text(scenario.error()).c_str(), stderr);
-    return exit_wrong_input;
-  }
-  if (const auto used = use_own_board(options, *learned, *scenario); !used) {
-    std::fputs(used.error().c_str(), stderr);
-    return exit_wrong_input;
-  }
-  const auto window = read_window(options.window, scenario->duration_s, scenario->step_s());
-  if (!window) {
-    return fail(exit_wrong_input, "--window " + options.window +
-                                      ": must be FROM:TO in seconds, a tick or more within 0 to " +
-                                      std::to_string(scenario->duration_s));
-  }
-  const int of_each = scenario->channels();
-  const int most = (can::max_nodes + 1 - scenario->can.first_node) / of_each;
-  if (options.nodes > most) {
-    return fail(exit_wrong_input, "--nodes " + std::to_string(options.nodes) + ": must be 1 to " +
-                                      std::to_string(most) + ", as the first is node " +
-                                      std::to_string(int{scenario->can.first_node}));
-  }
+  const auto scenario = read_input(options, folder_of_learned);
+  if (!scenario) return refuse(options, scenario.error());
+  const auto window = window_of(options, *scenario);
+  if (!window) return refuse(options, window.error());
+  if (const auto checked = check_nodes(options, *scenario); !checked)
+    return refuse(options, checked.error());
   if (options.check && options.json) {
     tell_check_as_json(*scenario);
     return exit_done;

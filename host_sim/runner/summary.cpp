@@ -103,6 +103,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["program_version"] = program_version();
   json["scenario"] = scenario.name;
   json["scenario_crc32"] = scenario.crc32;
+  json["board_crc32"] = scenario.board ? ordered_json(scenario.board_crc32) : nullptr;
   json["seed"] = scenario.seed;
   json["controller"] = control::name_of(control::controller_names, scenario.start.controller.kind);
   json["arithmetic"] =

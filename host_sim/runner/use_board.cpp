@@ -206,6 +206,7 @@ OrRefused use_board(Scenario& scenario, const config::BoardConfig& config, std::
     }
   }
   scenario.board = std::move(board);
+  scenario.board_crc32 = config.crc32;
   return {};
 }
 

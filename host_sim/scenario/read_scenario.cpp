@@ -4,13 +4,11 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 
 #include "config/section.hpp"
 #include "config/toml_file.hpp"
 #include "scenario/builtin.hpp"
 #include "scenario/read_tables.hpp"
-#include "storage/crc32.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::host_sim {
@@ -77,12 +75,6 @@ void refuse_fixed_keys(const toml::table& event, bool has_joint, bool has_bundle
     const auto line = static_cast<int>(node->source().begin.line);
     diagnostics.add(line, std::string("event.") + fixed, "cannot change during a run");
   }
-}
-
-std::uint32_t crc32_of(const toml::table& document) {
-  std::ostringstream text;
-  text << document;
-  return storage::crc32(text.str());
 }
 
 /// An event as it is written, without its time.
@@ -183,7 +175,7 @@ ScenarioOrProblems scenario_from(toml::table document, const std::string& name,
   config::Diagnostics diagnostics(name);
   Scenario scenario;
   scenario.name = std::filesystem::path(name).stem().string();
-  scenario.crc32 = crc32_of(document);
+  scenario.crc32 = config::crc32_of(document);
   read_simulation(document, scenario, diagnostics);
   std::vector<WrittenEvent> events = take_events(document, scenario.duration_s, diagnostics);
   const BelievedMuscles configured = read_muscles(document, diagnostics);

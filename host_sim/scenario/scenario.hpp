@@ -51,6 +51,7 @@ struct Scenario {
   /// The firmware of a board of the user's own, with one channel, joint or bundle; empty: one for
   /// the scenario.
   std::optional<BoardSettings> board;
+  std::uint32_t board_crc32 = 0;  ///< of what its file says
   telemetry::CanSettings can;
   Conditions start;
   std::vector<Event> events;  ///< in the order of their times

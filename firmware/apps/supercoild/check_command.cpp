@@ -5,6 +5,7 @@
 
 #include "apps/common/exit_status.hpp"
 #include "apps/common/feasibility_json.hpp"
+#include "apps/common/problems_json.hpp"
 #include "apps/supercoild/commands.hpp"
 #include "apps/supercoild/locked_memory.hpp"
 #include "apps/supercoild/storage_worker.hpp"
@@ -40,18 +41,6 @@ std::vector<std::uint32_t> recall_learned(config::BoardConfig& config) {
   return versions;
 }
 
-Json json_of(const std::vector<config::Problem>& problems) {
-  Json json = Json::array();
-  for (const config::Problem& problem : problems) {
-    json.push_back({{"file", problem.file},
-                    {"line", problem.line},
-                    {"key", problem.key},
-                    {"value", problem.value},
-                    {"message", problem.message}});
-  }
-  return json;
-}
-
 Json json_of(const config::BoardConfig& config, const std::vector<std::uint32_t>& versions) {
   Json channels = Json::array();
   for (std::size_t i = 0; i < versions.size(); ++i) {
@@ -83,7 +72,7 @@ int check_command(const std::string& file, bool as_json) {
   auto config = config::read_board_config(file);
   if (!config) {
     if (as_json) {
-      print({{"problems", json_of(config.error())}});
+      print(problems_json(config.error()));
     } else {
       std::fputs(config::to_text(config.error()).c_str(), stderr);
     }

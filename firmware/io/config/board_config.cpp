@@ -100,6 +100,7 @@ BoardConfigOrProblems parse_board_config(const std::string& text, const std::str
   Section root(&document, "", diagnostics);
   BoardConfig config;
   config.name = std::filesystem::path(name).stem().string();
+  config.crc32 = crc32_of(document);
   config.settings.channels.clear();
   std::vector<Section> buses = root.sections("bus");
   config.wiring.buses = read_buses(buses);

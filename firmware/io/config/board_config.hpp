@@ -1,6 +1,7 @@
 // A board as its owner describes it: what the loop needs, and what it is wired to.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,9 @@ struct JointLabel {
 
 struct BoardConfig {
   std::string name;
-  BoardSettings settings;  ///< passes check()
-  BoardWiring wiring;      ///< as many channels as the settings
+  std::uint32_t crc32 = 0;  ///< of what the file says, as of a scenario
+  BoardSettings settings;   ///< passes check()
+  BoardWiring wiring;       ///< as many channels as the settings
   std::vector<ChannelLabel> labels;
   std::vector<JointLabel> joints;    ///< as many as the settings have
   std::vector<std::string> bundles;  ///< their names, likewise

@@ -1,6 +1,7 @@
 // A TOML file from disk, with every way in which that can fail said in words.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include <toml++/toml.h>
@@ -14,5 +15,8 @@ std::string read_text(const std::string& path, Diagnostics& diagnostics);
 
 /// The text as a table; notes a syntax error with its line.
 toml::table parse(const std::string& text, Diagnostics& diagnostics);
+
+/// Of what a document says: without comments, spaces and the order of its keys.
+std::uint32_t crc32_of(const toml::table& document);
 
 }  // namespace supercoil::config

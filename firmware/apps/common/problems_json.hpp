@@ -1,0 +1,24 @@
+// What is wrong with an input, for programs.
+#pragma once
+
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "config/diagnostics.hpp"
+
+namespace supercoil {
+
+inline nlohmann::ordered_json problems_json(const std::vector<config::Problem>& problems) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const config::Problem& problem : problems) {
+    list.push_back({{"file", problem.file},
+                    {"line", problem.line},
+                    {"key", problem.key},
+                    {"value", problem.value},
+                    {"message", problem.message}});
+  }
+  return {{"problems", list}};
+}
+
+}  // namespace supercoil

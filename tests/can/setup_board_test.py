@@ -202,6 +202,30 @@ class SetupOfABoard(SetupCase):
         state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertRegex(state.stdout, "node 1: disarmed")
 
+    def test_a_script_answers_for_meter_and_watcher_without_anybody(self):
+        power_W, supply_V = 0.1, 12.0
+        script = self.script("[senses]", f"power_W = {power_W}", f"supply_V = [{supply_V}, {supply_V}]",
+                             f"current_A = [{0.5 * power_W / supply_V}, {power_W / supply_V}]", "[limits]", "stop_mm = 4")
+        self.assertEqual(self.setup_program(*script).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        def unattended():
+            subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
+            return self.setup_program(*script, *bus, stdin=subprocess.DEVNULL)
+
+        told = self.patiently(unattended).stdout
+        self.assertIn("left; supercoil setup scale does it", told)
+        self.assertIn("lets go where the script says", told)
+        limit = float(re.search(r"limit: ([\d.]+) mm \(configured: 25 mm\)", told)[1])
+        self.assertTrue(3.4 < limit < 4.5, limit)
+        self.assertIn(f"max_travel_m = {1e-3 * limit:.4g}", self.board.read_text())
+        record = json.loads(self.record.read_text())["channel-1"]
+        self.assertEqual(set(record), {"describe", "doctor", "senses", "calibrate", "limits"})
+        self.assertEqual(record["senses"]["power_W"], power_W)
+        self.assertAlmostEqual(record["senses"]["supply_gain"], 1.0, delta=0.02)
+
     def test_a_joint_is_set_up_by_its_agonist(self):
         self.example = (EXAMPLE.parent / "joint-as5600-ads1115.toml").read_text()
         self.board.write_text(self.example)

@@ -102,10 +102,10 @@ class SetupCase(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
-    def script(self, **changes):
+    def script(self, *tables, **changes):
         answers = {key: value for key, value in {**ANSWERS, **changes}.items() if value is not None}
         path = self.path / "answers.toml"
-        path.write_text("[muscle]\n" + "".join(f"{key} = {value}\n" for key, value in answers.items()))
+        path.write_text("[muscle]\n" + "".join(f"{key} = {value}\n" for key, value in answers.items()) + "\n".join(tables))
         return "--script", path
 
     def assert_refused(self, done, *told):

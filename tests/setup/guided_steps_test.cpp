@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/supercoil/setup/channel_steps.hpp"
+#include "apps/supercoil/setup/sense_comparison.hpp"
 #include "setup/commissioned.hpp"
+#include "setup/listener.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -74,6 +76,15 @@ double tuned(HeldOutBoard& board, std::string_view name, TuningSet set) {
   return board.link().tuning("1", 0, control::tunable_named(name), set).value();
 }
 
+/// What a meter shows at half of that power and at all of it.
+operating::ScriptedAnswers meter_readings(double power_W, double shown_V = supply_V) {
+  operating::ScriptedAnswers script("answers.toml");
+  script.add("senses", "power_W", {power_W});
+  script.add("senses", "supply_V", {shown_V});
+  script.add("senses", "current_A", {0.5 * power_W / supply_V, power_W / supply_V});
+  return script;
+}
+
 constexpr auto adaptive_ff = static_cast<double>(control::ControllerKind::adaptive_ff);
 constexpr auto learned_ff = static_cast<double>(control::ControllerKind::learned_ff);
 
@@ -111,6 +122,36 @@ TEST(GuidedSteps, AMeterThatAgreesNarrowsThePowersBounds) {
   STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
 }
 
+TEST(GuidedSteps, AScriptTellsWhatTheMeterShowsAtBothPowers) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  const double power_W =
+      0.8 * operating::plan_comparison("1", board.channel(), board.settings()).power_W;
+  Listener who(meter_readings(power_W));
+  const auto found = board.steps(who).compare_senses();
+  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  DOUBLES_EQUAL(power_W, (*found)["power_W"].get<double>(), 0.0);
+  DOUBLES_EQUAL(1.0, (*found)["supply_gain"].get<double>(), 0.01);
+  DOUBLES_EQUAL(1.0, (*found)["current_gain"].get<double>(), 0.02);
+}
+
+TEST(GuidedSteps, AScriptedReadingThatNoMeterCouldShowIsRefusedWithItsRange) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  const double most_W = operating::plan_comparison("1", board.channel(), board.settings()).power_W;
+  const auto refused = [&](const operating::ScriptedAnswers& script) {
+    Listener who(script);
+    const auto found = board.steps(who).compare_senses();
+    CHECK_FALSE(found.has_value());
+    STRCMP_EQUAL("disarmed", board.link().status("1")->state.c_str());
+    return found.error();
+  };
+  STRCMP_CONTAINS("answers.toml: senses.power_W = ", refused(meter_readings(1.2 * most_W)).c_str());
+  const std::string most = " to " + operating::range_text({0.0, most_W}).substr(5) + " here";
+  STRCMP_CONTAINS(most.c_str(), refused(meter_readings(1.2 * most_W)).c_str());
+  CHECK(board.link().time_s() < 20.0);  // nothing was heated
+  STRCMP_CONTAINS("answers.toml: senses.supply_V = 30: must be ",
+                  refused(meter_readings(most_W, 30.0)).c_str());
+}
+
 TEST(GuidedSteps, AReadingThatContradictsTheOthersChangesNothing) {
   ends_with("do not fit one another", [](Person& person) { person.second_reading_ratio = 1.25; });
 }
@@ -137,6 +178,23 @@ TEST(GuidedSteps, ASecondKnownPlaceGivesThePositionsScale) {
   STRCMP_EQUAL("", found ? "" : found.error().c_str());
   DOUBLES_EQUAL(1.1, (*found)["position_scale"].get<double>(), 0.02);
   STRCMP_CONTAINS("scale of the position: ", person.told().c_str());
+}
+
+TEST(GuidedSteps, AScriptTellsWhereTheEndIsHeld) {
+  HeldOutBoard board(pulled_by(-0.03), "learned_ff", 0.02);
+  operating::ScriptedAnswers script("answers.toml");
+  script.add("scale", "place_mm", {1e6});
+  Listener who(script);
+  CHECK(board.steps(who).calibrate().has_value());
+  board.link().wait(std::chrono::seconds(120));
+  STRCMP_CONTAINS("answers.toml: scale.place_mm = 1000000: must be ",
+                  board.steps(who).scale().error().c_str());
+  const double shown_m = board.simulation().loop().channel(0).snapshot().position_m;
+  script.add("scale", "place_mm", {1e3 * 1.1 * shown_m});
+  Listener again(script);
+  const auto found = board.steps(again).scale();
+  STRCMP_EQUAL("", found ? "" : found.error().c_str());
+  DOUBLES_EQUAL(1.1, (*found)["position_scale"].get<double>(), 0.02);
 }
 
 TEST(GuidedSteps, APlaceThatNoSensorCouldBeSoWrongAboutIsRefused) {

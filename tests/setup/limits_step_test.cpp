@@ -9,6 +9,7 @@
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/stall_watch.hpp"
 #include "setup/commissioned.hpp"
+#include "setup/listener.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -89,6 +90,34 @@ TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
   STRCMP_CONTAINS("limit: 1.4", watcher->told.c_str());
   board->link().wait(std::chrono::seconds(1));
   CHECK(watcher->truth_m() < 0.0019);
+}
+
+TEST(LimitsStep, AScriptLetsGoWhereItSays) {
+  board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
+  operating::ScriptedAnswers script("answers.toml");
+  script.add("limits", "stop_mm", {2.0});
+  Listener who(script);
+  const auto limits = board->steps(who).limits();
+  STRCMP_EQUAL("", limits ? "" : limits.error().c_str());
+  DOUBLES_EQUAL(0.0015, limit_m(limits), 5e-5);
+  const std::string told = who.take();
+  STRCMP_CONTAINS("lets go where the script says, when its end rises no more, at ", told.c_str());
+  STRCMP_CONTAINS("let go at 2.0", told.c_str());
+  STRCMP_EQUAL("disarmed", board->link().status("1")->state.c_str());
+}
+
+TEST(LimitsStep, AScriptedPlaceThatIsNoneIsRefusedBeforeItPulls) {
+  board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
+  for (const double stop_mm : {1.4, 1e3 * board->channel().supervision.max_travel_m}) {
+    operating::ScriptedAnswers script("answers.toml");
+    script.add("limits", "stop_mm", {stop_mm});
+    Listener who(script);
+    const auto limits = board->steps(who).limits();
+    CHECK_FALSE(limits.has_value());
+    STRCMP_CONTAINS("answers.toml: limits.stop_mm = ", limits.error().c_str());
+    STRCMP_CONTAINS(": must be 1.51 to ", limits.error().c_str());
+  }
+  CHECK(board->simulation().plant().temperature_rise_K() < 0.5);
 }
 
 TEST(LimitsStep, ABoardThatWasNeverCalibratedIsSaid) {

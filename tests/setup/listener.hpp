@@ -1,27 +1,36 @@
 // An operator of setup for tests.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "apps/supercoil/setup/operator.hpp"
+#include "apps/supercoil/setup/script.hpp"
 
 namespace supercoil::test {
 
-/// Nobody is there, and all that is said is heard.
+/// Nobody is there, at most a script, and all that is said is heard.
 class Listener final : public operating::Operator {
  public:
+  Listener() = default;
+  explicit Listener(operating::ScriptedAnswers script) : script_(std::move(script)) {}
+
   void say(const std::string& line) override { told_ += line + "\n"; }
   void show_progress(const std::string&, double) override {}
   bool sees_progress() const override { return false; }
   bool interrupted() const override { return false; }
-  OrWhy ask(const operating::Question&, const std::function<Done()>&) override {
-    return tl::unexpected<std::string>("nobody answers");
+  OrWhy ask(const operating::Question& question, const std::function<Done()>&) override {
+    return scripted(question).value_or(tl::unexpected<std::string>("nobody answers"));
+  }
+  std::optional<OrWhy> scripted(const operating::Question& question) override {
+    return script_.next(question);
   }
   /// Since the last time.
   std::string take() { return std::exchange(told_, {}); }
 
  private:
+  operating::ScriptedAnswers script_;
   std::string told_;
 };
 

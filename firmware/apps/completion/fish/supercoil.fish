@@ -92,7 +92,7 @@ complete -c supercoil -n __fish_use_subcommand -f -a setup -d 'From a muscle of 
 complete -c supercoil -n '__fish_seen_subcommand_from setup' -s h -l help -d 'Print this help message and exit'
 complete -c supercoil -n '__fish_seen_subcommand_from setup' -l config -r -F -d 'The board'\''s configuration, which is completed'
 complete -c supercoil -n '__fish_seen_subcommand_from setup' -l channel -x -d 'Of that file, from 1'
-complete -c supercoil -n '__fish_seen_subcommand_from setup' -l script -r -F -d 'Answers in a TOML file'\''s table [muscle]; then nothing is asked'
+complete -c supercoil -n '__fish_seen_subcommand_from setup' -l script -r -F -d 'Answers in a TOML file'\''s tables [muscle], [nameplate], [senses], [scale] and [limits]; a step that they do not answer is left'
 complete -c supercoil -n '__fish_seen_subcommand_from setup' -l socket -r -F -d 'Where supercoild listens'
 complete -c supercoil -n '__fish_seen_subcommand_from setup' -l can -x -d 'The board is on this bus'
 complete -c supercoil -n '__fish_seen_subcommand_from setup' -l undo -d 'Put the file back as it was before setup'\''s last change, and forget the step that made it and those behind it'

@@ -210,13 +210,19 @@ StepResult Commission::tell_calibration(const Measured& whose) {
 }
 
 StepResult Commission::compare_senses() {
-  const ComparisonPlan plan = plan_comparison(channel_, configured_, settings_);
+  ComparisonPlan plan = plan_comparison(channel_, configured_, settings_);
+  // A meter's amperes mean nothing without the power at which they were read.
+  const auto power_W = who_.scripted(
+      {"power_W", "the greater of the two powers, in W", {1e-3 * plan.power_W, plan.power_W}, NAN});
+  if (power_W && !*power_W) return tl::unexpected(power_W->error());
+  if (power_W) plan.power_W = **power_W;
   who_.say(describe_plan(plan));
   const auto senses = operating::compare_senses(board_, plan, who_);
   if (!senses) return tl::unexpected(senses.error());
   who_.say(describe_comparison(*senses));
   who_.say(power_bounds_text(configured_, settings_, *senses));
-  return Json{{"supply_gain", senses->supply_gain},
+  return Json{{"power_W", plan.power_W},
+              {"supply_gain", senses->supply_gain},
               {"current_gain", senses->current_gain},
               {"error_ratio", senses->error_ratio}};
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -54,6 +56,7 @@ struct SlowPull {
   double rise_s;
   double settle_s;
   double stop_m;
+  double scripted_m = INFINITY;  ///< where a script answers that it has come far enough
 
   double power_W(double time_s) const { return top_W * std::min(1.0, time_s / rise_s); }
 };
@@ -70,47 +73,66 @@ struct Pulled {
   Ending ending;
 };
 
+double distance_m(double position_m) {
+  return std::max(min_distance_m, distance_ratio * position_m);
+}
+
+double min_limit(const ChannelSettings& channel) {
+  return std::max(min_limit_m, min_limit_noises * channel.supervision.position_noise_rms_m);
+}
+
+/// Until a person answers; a script has done so, and look() compares.
+Operator::OrWhy wait_for_answer(BoardLink& board, const SlowPull& plan, Operator& who,
+                                const std::function<Operator::Done()>& look) {
+  if (std::isinf(plan.scripted_m)) return who.ask(at_limit, look);
+  for (;;) {
+    if (auto goes_on = look(); !goes_on) return tl::unexpected(goes_on.error());
+    board.wait(Operator::look_every);
+  }
+}
+
 tl::expected<Pulled, std::string> pull_slowly(BoardLink& board, const std::string& channel,
                                               const SlowPull& plan, double noise_m, Operator& who) {
   Heated heated(board, channel, who);
   StallWatch stall(stall_step_ratio * plan.top_W, noise_m);
-  Pulled pulled{NAN, Ending::answered};
+  double position_m = NAN;
+  std::optional<Ending> ending;
   double told_m = 0.0;
   const double begin_s = heated.time_s();
   const auto end = [&](Ending why) -> Operator::Done {
-    pulled.ending = why;
+    ending = why;
     return tl::unexpected<std::string>("ended");
   };
   const auto look = [&]() -> Operator::Done {
     const double time_s = heated.time_s() - begin_s;
     const double power_W = plan.power_W(time_s);
     if (auto heats = heated.heat(power_W); !heats) return heats;
-    const auto position_m = board.position_m(channel);
-    if (!position_m) return tl::unexpected(position_m.error());
-    pulled.position_m = *position_m;
-    if (std::isnan(*position_m)) {
+    const auto told = board.position_m(channel);
+    if (!told) return tl::unexpected(told.error());
+    position_m = *told;
+    if (std::isnan(position_m)) {
       if (time_s < first_position_s) return {};
       return tl::unexpected<std::string>("the board tells no position");
     }
-    if (*position_m >= told_m + told_every_ratio * plan.stop_m) {
-      told_m = *position_m;
+    if (position_m >= told_m + told_every_ratio * plan.stop_m) {
+      told_m = position_m;
       who.say(in_mm(told_m) + " at " + number_text(power_W, 3) + " W");
     }
-    if (*position_m >= plan.stop_m) return end(Ending::at_travel);
-    if (stall.step(power_W, *position_m)) return end(Ending::touched);
+    if (position_m >= plan.scripted_m) return end(Ending::answered);
+    if (position_m >= plan.stop_m) return end(Ending::at_travel);
+    if (stall.step(power_W, position_m)) return end(Ending::touched);
     return time_s < plan.rise_s + plan.settle_s ? Operator::Done() : end(Ending::at_power);
   };
-  const auto answer = who.ask(at_limit, look);
-  if (answer && *answer == 0.0) pulled.ending = Ending::left;
-  if (!answer && pulled.ending == Ending::answered) return tl::unexpected(answer.error());
-  return pulled;
+  const auto answer = wait_for_answer(board, plan, who, look);
+  if (answer) ending = *answer == 0.0 ? Ending::left : Ending::answered;
+  if (!ending) return tl::unexpected(answer.error());
+  return Pulled{position_m, *ending};
 }
 
 StepResult limit_at(double position_m, const ChannelSettings& channel, Operator& who) {
-  const double kept_m = position_m - std::max(min_distance_m, distance_ratio * position_m);
+  const double kept_m = position_m - distance_m(position_m);
   const double limit_m = limit_step_m * std::floor(kept_m / limit_step_m);
-  const double least_m =
-      std::max(min_limit_m, min_limit_noises * channel.supervision.position_noise_rms_m);
+  const double least_m = min_limit(channel);
   if (!(limit_m >= least_m)) {
     return tl::unexpected("a limit of " + in_mm(limit_m) + " leaves no travel, less than " +
                           in_mm(least_m) + "; nothing changed");
@@ -126,10 +148,19 @@ StepResult limit_at(double position_m, const ChannelSettings& channel, Operator&
 StepResult find_travel_limit(BoardLink& board, const std::string& channel, const ChannelNow& now,
                              const BoardSettings& settings, Operator& who) {
   const ChannelSettings& configured = now.settings;
-  const SlowPull plan = plan_slow_pull(configured, settings);
+  SlowPull plan = plan_slow_pull(configured, settings);
+  const double least_m = min_limit(configured);
+  const auto scripted_mm =
+      who.scripted({"stop_mm",
+                    "position at which its end has come as far as it may, in mm",
+                    {1e3 * (least_m + distance_m(least_m) + limit_step_m), 1e3 * plan.stop_m},
+                    NAN});
+  if (scripted_mm && !*scripted_mm) return tl::unexpected(scripted_mm->error());
+  if (scripted_mm) plan.scripted_m = 1e-3 * **scripted_mm;
   who.say("pulls with a power that rises to " + number_text(plan.top_W, 3) + " W in " +
-          number_text(plan.rise_s, 3) + " s, and lets go when you answer, when its end rises no " +
-          "more, at " + in_mm(plan.stop_m) + ", or after " +
+          number_text(plan.rise_s, 3) + " s, and lets go " +
+          (scripted_mm ? "where the script says" : "when you answer") +
+          ", when its end rises no more, at " + in_mm(plan.stop_m) + ", or after " +
           duration_text(plan.rise_s + plan.settle_s));
   const auto pulled =
       pull_slowly(board, channel, plan, configured.supervision.position_noise_rms_m, who);

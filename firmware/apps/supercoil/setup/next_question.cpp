@@ -8,17 +8,10 @@ namespace supercoil::operating {
 
 namespace {
 
-/// As range_text() shows it, so that what is shown is allowed.
-double rounded_down(double value) {
-  constexpr int shown_digits = 5;
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - (shown_digits - 1));
-  return step * std::floor(value / step + 1e-6);
-}
-
 /// What is not known leaves the question's own limit.
 void allow_at_most(double highest, Question& q) {
   if (highest >= q.allowed.lowest)
-    q.allowed.highest = std::min(q.allowed.highest, rounded_down(highest));
+    q.allowed.highest = std::min(q.allowed.highest, rounded_down(highest, range_digits));
 }
 
 /// Without both nothing says how hot the muscle gets.

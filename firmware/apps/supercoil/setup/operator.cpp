@@ -1,13 +1,21 @@
 #include "apps/supercoil/setup/operator.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include "text/number_text.hpp"
 
 namespace supercoil::operating {
 
 std::string range_text(const config::Range& range) {
-  return number_text(range.lowest, 5) + " to " + number_text(range.highest, 5);
+  return number_text(range.lowest, range_digits) + " to " +
+         number_text(range.highest, range_digits);
+}
+
+double rounded_down(double value, int digits) {
+  if (!(value > 0.0)) return 0.0;
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - (digits - 1));
+  return step * std::floor(value / step + 1e-6);
 }
 
 Operator::OrWhy read_answer(const Question& question, const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -46,8 +47,14 @@ class Operator {
   /// Waits for an answer in the allowed range. meanwhile: called every look_every; an error of it
   /// ends the waiting. The error: why there is no answer.
   virtual OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) = 0;
+  /// What only a script answers, as no person is asked for it. Empty: there is none, or it does not
+  /// say. The error: the board does not allow that.
+  virtual std::optional<OrWhy> scripted(const Question&) { return std::nullopt; }
 };
 
+inline constexpr int range_digits = 5;
+/// To so many digits, so that what is shown is allowed; 0 of what is not positive.
+double rounded_down(double value, int digits);
 /// "0.1 to 10000"
 std::string range_text(const config::Range& range);
 /// The error: why it is no answer, with what is allowed.

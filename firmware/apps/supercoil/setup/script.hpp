@@ -1,7 +1,11 @@
 // What a person would answer, in a file.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -10,13 +14,35 @@
 
 namespace supercoil::operating {
 
+/// To what the steps of a running board ask, by a question's key.
+class ScriptedAnswers {
+ public:
+  /// path: of the file, for errors.
+  explicit ScriptedAnswers(std::string path = "") : path_(std::move(path)) {}
+
+  /// values: each time that it is asked the next one, and in the end the last one.
+  void add(const std::string& table, std::string_view key, std::vector<double> values);
+  /// Answers a step that needs a person; its table has the step's name.
+  bool has_table(std::string_view table) const;
+  /// Empty: it does not answer that. The error: what is allowed, as the board is now.
+  std::optional<Operator::OrWhy> next(const Question& question);
+
+ private:
+  struct Answers {
+    std::string table;
+    std::vector<double> values;
+    std::size_t next = 0;
+  };
+  std::string path_;
+  std::map<std::string, Answers, std::less<>> by_key_;
+};
+
 struct Script {
   Nameplate nameplate;
   MuscleAnswers muscle;  ///< a key that is not there is not answered
-  double take_gains = operating::take_gains.fallback;
+  ScriptedAnswers answers;
 };
-/// The tables [muscle] and [nameplate] of a file, the second of which may be absent. The error is
-/// whole lines.
+/// The tables of a file, all but [muscle] may be absent. The error is whole lines.
 tl::expected<Script, std::string> read_script(const std::string& path);
 
 }  // namespace supercoil::operating

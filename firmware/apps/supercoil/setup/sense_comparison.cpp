@@ -22,8 +22,10 @@ constexpr std::chrono::milliseconds probing{300};
 constexpr std::chrono::milliseconds settling{2500};
 constexpr double max_question_s = 300.0;
 
+constexpr int shown_digits = 3;
+
 std::string shown(double value) {
-  return number_text(value, 3);
+  return number_text(value, shown_digits);
 }
 
 OrEnded<void> tell(Heated& heated, const std::string& verb, double value) {
@@ -69,9 +71,10 @@ ComparisonPlan plan_comparison(std::string channel, ChannelSettings settings,
   const double unseen = power_bounds(settings, board).true_over_measured().max;
   const double rise_K = settings.limiter.derate_from_C - settings.thermal.air.warmest_C;
   const double true_W = rise_K * 0.25 * settings.thermal.bounds.min_transfer_W_per_K;
-  return {std::move(channel),
-          std::min(settings.limiter.max_W, std::max(0.0, true_W) / unseen),
-          {board.supervision.min_supply_V, board.supervision.max_supply_V}};
+  return {
+      std::move(channel),
+      rounded_down(std::min(settings.limiter.max_W, std::max(0.0, true_W) / unseen), shown_digits),
+      {board.supervision.min_supply_V, board.supervision.max_supply_V}};
 }
 
 std::string describe_plan(const ComparisonPlan& plan) {

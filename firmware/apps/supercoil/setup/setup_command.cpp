@@ -1,6 +1,7 @@
 // supercoil setup: from a muscle that somebody has to one that follows.
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include <unistd.h>
 
@@ -38,13 +39,13 @@ bool wanted(const SetupStep& step, const SetupOptions& options, const SetupRecor
   return std::ranges::find(options.steps, name) != options.steps.end();
 }
 
-/// A step that needs a person is asked for; where nobody answers, it is left.
-bool takes(const SetupStep& step, const SetupOptions& options, Operator& who) {
+/// A step that needs a person is asked for; where nobody answers, nor the script, it is left.
+bool takes(const SetupStep& step, const SetupOptions& options,
+           const std::optional<ScriptedAnswers>& script, Operator& who) {
   if (!step.needs_person || !options.steps.empty()) return true;
-  const bool unattended = !options.script.empty();
-  const auto now = unattended ? Operator::OrWhy(0.0)
-                              : who.ask({step.name, "1: now, 0: leave it", {0.0, 1.0}, 0.0},
-                                        [] { return Operator::Done(); });
+  const auto now = script ? Operator::OrWhy(script->has_table(step.name) ? 1.0 : 0.0)
+                          : who.ask({step.name, "1: now, 0: leave it", {0.0, 1.0}, 0.0},
+                                    [] { return Operator::Done(); });
   if (now && *now > 0.0) return true;
   if (!who.interrupted()) who.say("left; supercoil setup " + std::string(step.name) + " does it");
   return false;
@@ -68,10 +69,12 @@ std::string of_step(const std::string& step, const std::string& error) {
 
 int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) {
   TerminalOperator terminal(out);
+  std::optional<ScriptedAnswers> scripted;
   if (!options.script.empty()) {
     const auto script = read_script(options.script);
     if (!script) return concluded(options, Json::object(), exit_wrong_input, script.error());
-    terminal.answer(take_gains.key, script->take_gains);
+    scripted = script->answers;
+    terminal.take(*scripted);
   }
   SetupBoard board(options, terminal);
   if (options.steps.empty()) {
@@ -92,7 +95,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
       some_left = true;
       continue;
     }
-    if (!takes(step, options, terminal)) {
+    if (!takes(step, options, scripted, terminal)) {
       if (terminal.interrupted()) return concluded(options, results, exit_failed, "interrupted");
       continue;
     }
@@ -177,7 +180,8 @@ void add_setup(CLI::App& app, SetupOptions& o) {
       ->capture_default_str();
   setup
       ->add_option("--script", o.script,
-                   "Answers in a TOML file's table [muscle]; then nothing is asked")
+                   "Answers in a TOML file's tables [muscle], [nameplate], [senses], [scale] and "
+                   "[limits]; a step that they do not answer is left")
       ->type_name("FILE");
   CLI::Option* socket =
       setup->add_option("--socket", o.socket, "Where supercoild listens")->capture_default_str();

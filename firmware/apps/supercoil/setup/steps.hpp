@@ -12,9 +12,10 @@ namespace supercoil::operating {
 
 struct SetupStep {
   std::string_view name;
-  std::string_view does;      ///< said before it begins
-  bool optional = false;      ///< may be left
-  bool needs_person = false;  ///< who is asked first whether it is to be left; a script leaves it
+  std::string_view does;  ///< said before it begins
+  bool optional = false;  ///< may be left
+  bool needs_person =
+      false;  ///< who is asked first whether it is to be left; a script without its table leaves it
   enum class InJoint { of_each, of_agonist, never } in_joint = InJoint::of_each;
   bool of_each_in_bundle = false;  ///< else of the channel that leads, for all
   bool of_machine =

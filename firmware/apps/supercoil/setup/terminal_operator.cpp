@@ -42,13 +42,16 @@ tl::expected<std::string, std::string> TerminalOperator::next_line(
   }
 }
 
+std::optional<TerminalOperator::OrWhy> TerminalOperator::scripted(const Question& q) {
+  auto value = script_.next(q);
+  if (value && *value) say(std::string(q.text) + ": " + number_text(**value, 9));
+  return value;
+}
+
 TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
                                               const std::function<Done()>& meanwhile) {
   progress_.reset();
-  if (const auto known = answered_.find(q.key); known != answered_.end()) {
-    say(std::string(q.text) + ": " + number_text(known->second, 9));
-    return known->second;
-  }
+  if (const auto value = scripted(q)) return *value;
   // A person may try as often as it takes; what is no terminal would answer wrong for ever.
   const bool patient = isatty(STDIN_FILENO) == 1;
   for (int i = 0; patient || i < max_tries; ++i) {

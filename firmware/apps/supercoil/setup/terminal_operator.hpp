@@ -2,15 +2,15 @@
 #pragma once
 
 #include <cstdio>
-#include <map>
 #include <optional>
-#include <string_view>
+#include <utility>
 
 #include <unistd.h>
 
 #include "apps/common/progress.hpp"
 #include "apps/supercoil/answer_lines.hpp"
 #include "apps/supercoil/setup/operator.hpp"
+#include "apps/supercoil/setup/script.hpp"
 
 namespace supercoil::operating {
 
@@ -24,8 +24,9 @@ class TerminalOperator final : public Operator {
   bool interrupted() const override;
   /// The next message has a line of its own.
   void end_progress() { progress_.reset(); }
-  /// By a script: this is not asked any more.
-  void answer(std::string_view key, double value) { answered_.emplace(key, value); }
+  /// What a script answers is not asked any more.
+  void take(ScriptedAnswers answers) { script_ = std::move(answers); }
+  std::optional<OrWhy> scripted(const Question& question) override;
   /// Three tries, where standard input is no terminal.
   OrWhy ask(const Question& question, const std::function<Done()>& meanwhile) override;
 
@@ -33,7 +34,7 @@ class TerminalOperator final : public Operator {
   tl::expected<std::string, std::string> next_line(const std::function<Done()>& meanwhile);
 
   std::FILE* out_;
-  std::map<std::string_view, double> answered_;
+  ScriptedAnswers script_;
   AnswerLines answers_{STDIN_FILENO};
   std::string progress_of_;
   std::optional<Progress> progress_;

@@ -114,10 +114,15 @@ class SetupOfABoard(SetupCase):
         self.addCleanup(simulator.end)
         bus = ("--can", f"socketcand:{simulator.port}")
 
-        def interrupted(step, shown):
+        def command(*words):
+            return subprocess.run([SUPERCOIL, "command", "1", *words, *bus], capture_output=True, timeout=DEADLINE_S)
+
+        def interrupted(shown, *arguments, program="setup"):
             for _ in range(TRIES):
-                subprocess.run([SUPERCOIL, "command", "1", "reset", *bus], capture_output=True, timeout=DEADLINE_S)
-                with Terminal(step, "--config", self.board, *bus) as terminal:
+                command("reset")
+                if program == "command":
+                    command("arm")
+                with Terminal(*arguments, *bus, command=program) as terminal:
                     try:
                         terminal.until(shown)
                     except AssertionError:
@@ -125,13 +130,20 @@ class SetupOfABoard(SetupCase):
                             raise
                         continue
                     terminal.type("\x03")
-                    self.assertEqual(terminal.ended(), 1)
+                    terminal.ended()
                     return terminal.told
             raise AssertionError(terminal.told)
 
-        self.assertRegex(interrupted("senses", r"volts at the supply terminals \S+ to \S+: $"), r": \^C\r\nsupercoil: senses: interrupted\r\n$")
-        told = interrupted("identify", r"identify: \d+ %")
-        self.assertTrue(told.endswith("\r\x1b[Ksupercoil: identify: interrupted\r\n"), told[-200:])
+        config = ("--config", self.board)
+        self.assertRegex(interrupted(r"volts at the supply terminals \S+ to \S+: $", "senses", *config),
+                         r": \^C\r\nsupercoil: senses: interrupted\r\n$")
+        self.assertRegex(interrupted("channel 1 gets .* W", "senses", *config), r"\n\^C\r\nsupercoil: senses: interrupted\r\n$")
+        for shown in (r"identify: \d+ %", "identify: heats .*\n"):  # with progress, and before it
+            self.assertRegex(interrupted(shown, "identify", *config), r"\^C\r\n(\r\x1b\[K)?supercoil: identify: interrupted\r\n$")
+        told = interrupted(r"1 identify: \d+ %", "1", "identify", "--hold", program="command")
+        self.assertRegex(told, r"\^C\r\n(\r\x1b\[K)?supercoil: 1 identify ended: interrupted, by Ctrl-C\r\n$")
+        told = interrupted("1 position 0.001:", "1", "position", "0.001", "--hold", program="command")
+        self.assertRegex(told, r"\^C\r\n(\r\x1b\[K)?$")
 
     def test_the_recommended_controller_is_taken_by_whom_or_what_answers(self):
         self.assertEqual(self.setup_program(*self.script()).returncode, 0)

@@ -25,14 +25,14 @@ STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready"
 
 
 class Terminal:
-    """supercoil setup on a terminal of its own; what it tells is one text, as somebody sees it come."""
+    """supercoil setup, or another command, on a terminal of its own; what it tells is one text, as somebody sees it come."""
 
-    def __init__(self, *arguments):
+    def __init__(self, *arguments, command="setup"):
         terminal, self.end = pty.openpty()
         self.file = terminal
         self.told = ""
         self.answers = 0
-        self.program = subprocess.Popen([SUPERCOIL, "setup", *arguments], stdin=self.end, stdout=self.end, stderr=self.end,
+        self.program = subprocess.Popen([SUPERCOIL, command, *arguments], stdin=self.end, stdout=self.end, stderr=self.end,
                                         start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
         os.close(self.end)
 

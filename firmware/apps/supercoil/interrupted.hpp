@@ -1,14 +1,27 @@
 // Ctrl-C and SIGTERM, seen at the next look.
 #pragma once
 
+#include <cerrno>
 #include <csignal>
+
+#include <unistd.h>
 
 namespace supercoil::operating {
 
 inline volatile std::sig_atomic_t interrupted = 0;
+inline volatile std::sig_atomic_t terminal_echoes = 0;
 
+/// On a terminal what is said after Ctrl-C has a line of its own: ^C is echoed wherever the cursor
+/// is, behind a question or progress that is redrawn in place.
 inline void watch_for_interrupts() {
-  const auto note = [](int) { interrupted = 1; };
+  terminal_echoes = isatty(STDERR_FILENO);
+  const auto note = [](int signal) {
+    interrupted = 1;
+    if (signal != SIGINT || terminal_echoes == 0) return;
+    const int error = errno;
+    static_cast<void>(!::write(STDERR_FILENO, "\n", 1));
+    errno = error;
+  };
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
 }

@@ -60,8 +60,9 @@ TerminalOperator::OrWhy TerminalOperator::ask(const Question& q,
     std::fflush(out_);
     const auto line = next_line(meanwhile);
     if (!line) {
-      // What is said next has a line of its own; where answers come from a file, it goes on there.
-      if (patient) std::fputs("\n", out_);
+      // What is said next has a line of its own, which Ctrl-C ended already; where answers come
+      // from a file, it goes on there.
+      if (patient && !interrupted()) std::fputs("\n", out_);
       return tl::unexpected(line.error());
     }
     OrWhy value = read_answer(q, *line);

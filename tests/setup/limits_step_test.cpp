@@ -161,6 +161,30 @@ TEST(LimitsStep, WhoLetsGoWithoutALimitChangesNothing) {
   STRCMP_CONTAINS("let go at 1.9", watcher->told.c_str());
 }
 
+/// A bus on which no position was heard yet.
+class DeafLink final : public SimulatedLink {
+ public:
+  using SimulatedLink::SimulatedLink;
+  tl::expected<double, std::string> position_m(const std::string&) override { return NAN; }
+};
+
+TEST(LimitsStep, AnAnswerBeforeAnyPositionWasHeardChangesNothing) {
+  board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
+  watcher.emplace(*board);
+  watcher->answers_at_m = -INFINITY;
+  DeafLink deaf(board->simulation(), board->settings().rate_Hz);
+  operating::Commission steps(deaf, "1", board->settings(), 0, *watcher);
+  const auto limits = steps.limits();
+  CHECK_FALSE(limits.has_value());
+  STRCMP_EQUAL("answered before the board told a position; nothing changed",
+               limits.error().c_str());
+  watcher->answer = 0.0;
+  const auto left = steps.limits();
+  CHECK(left.has_value() && left->at("position_m").is_null() && !left->contains(travel_key));
+  STRCMP_CONTAINS("let go before the board told a position; the limit stays",
+                  watcher->told.c_str());
+}
+
 TEST(LimitsStep, AnInterruptionEndsTheHeating) {
   board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   watcher.emplace(*board);

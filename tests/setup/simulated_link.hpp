@@ -12,7 +12,7 @@
 namespace supercoil::test {
 
 /// Its time goes on while it is asked or waited for, and at no other moment.
-class SimulatedLink final : public operating::BoardLink {
+class SimulatedLink : public operating::BoardLink {
  public:
   SimulatedLink(host_sim::Simulation& simulation, double rate_Hz)
       : simulation_(simulation), rate_Hz_(rate_Hz) {}

@@ -130,6 +130,8 @@ TEST(Commission, AFaultUnderWayIsNamedWithItsPage) {
   HeldOut muscle = held_out_muscle(24, error);
   muscle.scenario += "[[event]]\nat_s = 20.0\ninjected_fault.heater_open = true\n";
   const Commissioned c = commission(muscle);
-  STRCMP_EQUAL("identify ended: interrupted, fault heater_open; docs/faults/heater_open.md",
-               c.refused.c_str());
+  STRCMP_EQUAL(
+      "identify ended: interrupted, fault heater_open; docs/faults/heater_open.md; when "
+      "its cause is gone: supercoil command 1 reset",
+      c.refused.c_str());
 }

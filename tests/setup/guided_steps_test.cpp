@@ -152,6 +152,24 @@ TEST(GuidedSteps, AScriptedReadingThatNoMeterCouldShowIsRefusedWithItsRange) {
                   refused(meter_readings(most_W, 30.0)).c_str());
 }
 
+TEST(GuidedSteps, AFaultThatKeepsTheMuscleFromArmingIsNamedWithItsReset) {
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  STRCMP_EQUAL("ok", operating::arm(board.link(), "1")->c_str());
+  STRCMP_EQUAL("ok", board.link().ask("1 power 0.01")->c_str());
+  board.link().wait(std::chrono::seconds(2));  // and nobody renews it
+  Person person(board.link());
+  for (const char* step : {"senses", "calibrate", "limits", "identify", "move"}) {
+    const auto found = board.steps(person).run(step);
+    CHECK_FALSE(found.has_value());
+    STRCMP_CONTAINS(
+        "fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: supercoil "
+        "command 1 reset",
+        found.error().c_str());
+  }
+  STRCMP_EQUAL("ok", board.link().ask("1 reset")->c_str());
+  CHECK(board.steps(person).calibrate().has_value());
+}
+
 TEST(GuidedSteps, AReadingThatContradictsTheOthersChangesNothing) {
   ends_with("do not fit one another", [](Person& person) { person.second_reading_ratio = 1.25; });
 }

@@ -36,6 +36,19 @@ BoardLink::Answer arm(BoardLink& board, const std::string& channel) {
   return tl::unexpected<std::string>("its heater is still being measured after 2 s");
 }
 
+std::string present_fault(BoardLink& board, const std::string& channel) {
+  const auto now = board.status(channel);
+  if (!now || now->fault == "none") return "";
+  return fault_text(now->fault) + "; when its cause is gone: supercoil command " + channel +
+         " reset";
+}
+
+std::string with_present_fault(const std::string& error, BoardLink& board,
+                               const std::string& channel) {
+  const std::string fault = present_fault(board, channel);
+  return fault.empty() ? error : error + ", " + fault;
+}
+
 BoardLink::Answer interruption(BoardLink& board, const std::string& channel) {
   return board.status(channel).map([](const BoardLink::Status& now) -> std::string {
     if (now.fault != "none") return fault_text(now.fault);

@@ -147,6 +147,13 @@ class CanBoardLink final : public BoardLink {
 /// "ok", "refused: why", or "fault heater_open; docs/faults/heater_open.md". The error: no answer.
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
+/// "fault heater_open; docs/faults/heater_open.md; when its cause is gone: supercoil command 1
+/// reset". Empty: it has none, or does not answer.
+std::string present_fault(BoardLink& board, const std::string& channel);
+/// An error with that behind it.
+std::string with_present_fault(const std::string& error, BoardLink& board,
+                               const std::string& channel);
+
 /// What interrupted identify or calibrate, as long as nothing came after it: "fault heater_open;
 /// docs/faults/heater_open.md", "disarmed" or "by another command". The error: no answer.
 BoardLink::Answer interruption(BoardLink& board, const std::string& channel);

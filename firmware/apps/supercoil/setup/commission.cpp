@@ -73,22 +73,16 @@ Commission::Done Commission::ask(const std::string& command) {
   const auto answer = board_.ask(channel_ + " " + command);
   if (!answer) return tl::unexpected(answer.error());
   if (*answer == "ok") return {};
-  return tl::unexpected(command + ": " + *answer + present_fault());
-}
-
-/// ", fault heater_open; docs/faults/heater_open.md"; empty: there is none.
-std::string Commission::present_fault() {
-  const auto now = board_.status(channel_);
-  if (!now || now->fault == "none") return "";
-  return ", fault " + now->fault + "; docs/faults/" + now->fault + ".md";
+  return tl::unexpected(with_present_fault(command + ": " + *answer, board_, channel_));
 }
 
 Commission::Done Commission::only_found(const std::string& mode, const OrWhy& result) {
   if (!result) return tl::unexpected(result.error());
   if (*result == "found") return {};
-  const std::string fault = present_fault();
-  return tl::unexpected(mode + " ended: " + *result +
-                        (fault.empty() ? "; docs/running.md says what each result means" : fault));
+  const std::string fault = present_fault(board_, channel_);
+  return tl::unexpected(
+      mode + " ended: " + *result +
+      (fault.empty() ? "; docs/running.md says what each result means" : ", " + fault));
 }
 
 /// A board that was just started waits until its muscle must be cool.
@@ -101,9 +95,14 @@ Commission::Done Commission::arm() {
     const double elapsed_s = board_.time_s() - begin_s;
     const auto answer = operating::arm(board_, channel_);
     if (!answer) return tl::unexpected(answer.error());
-    if (*answer == "ok" || refuses(*answer, Refusal::wrong_state)) return {};
-    if (!refuses(*answer, Refusal::not_ready) || elapsed_s >= max_s)
+    if (*answer == "ok") return {};
+    if (!refuses(*answer, Refusal::not_ready) || elapsed_s >= max_s) {
+      const std::string fault = present_fault(board_, channel_);
+      if (!fault.empty()) return tl::unexpected("cannot be armed: " + fault);
+      // Without a fault it is armed already.
+      if (refuses(*answer, Refusal::wrong_state)) return {};
       return tl::unexpected("arm: " + *answer);
+    }
     who_.show_progress("waiting until the muscle must be cool", elapsed_s / max_s);
     if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
     board_.wait(std::chrono::seconds(1));
@@ -256,7 +255,7 @@ StepResult Commission::limits() {
   }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   auto found = find_travel_limit(board_, channel_, *now, settings_, who_);
-  if (!found) return tl::unexpected(found.error() + present_fault());
+  if (!found) return tl::unexpected(with_present_fault(found.error(), board_, channel_));
   return found;
 }
 

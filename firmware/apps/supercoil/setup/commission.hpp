@@ -53,7 +53,6 @@ class Commission {
   using OrWhy = tl::expected<std::string, std::string>;
 
   Done ask(const std::string& command);
-  std::string present_fault();
   /// Of a mode that ended with this.
   Done only_found(const std::string& mode, const OrWhy& result);
   Done arm();

@@ -88,12 +88,15 @@ std::string describe_plan(const ComparisonPlan& plan) {
 OrEnded<board::SenseComparison> compare_senses(BoardLink& board, const ComparisonPlan& plan,
                                                Operator& who) {
   Heated heated(board, plan.channel, who);
-  if (const auto armed = heated.ask("arm"); !armed) return tl::unexpected(armed.error());
+  const auto ended = [&](const std::string& why) {
+    return tl::unexpected(with_present_fault(why, board, plan.channel));
+  };
+  if (const auto armed = heated.ask("arm"); !armed) return ended(armed.error());
   // The probe of arming refuses to be disturbed.
   board.wait(probing);
   for (const double part : {0.5, 1.0}) {
     if (const auto asked = compare_at(part * plan.power_W, plan, heated, who); !asked)
-      return tl::unexpected(asked.error());
+      return ended(asked.error());
   }
   auto found = board.senses(plan.channel);
   if (found && !found->compared())

@@ -204,11 +204,30 @@ class SetupProgram(SetupCase):
         self.assertEqual(self.board.read_text(), both)
         done = self.setup_program("--undo", "--json")
         self.assertEqual(json.loads(done.stdout), {"file": str(self.board), "channel": 1, "step": "describe",
-                                                   "kept_as": f"{self.board}.undone-2"})
+                                                   "kept_as": f"{self.board}.undone-2", "on_board": []})
         self.assertIn("max_W = 4.5", self.board.read_text())
         self.setup_program("--undo")
         self.assertEqual(self.board.read_text(), self.example)
         self.assertFalse(self.record.exists())
+
+    def test_undo_names_what_stays_on_the_board_and_the_command_that_forgets_it(self):
+        self.setup_program(*self.script())
+        record = json.loads(self.record.read_text())
+
+        def undone(*arguments, **steps):
+            self.setup_program("describe", *self.script(max_W=3))
+            self.record.write_text(json.dumps({**json.loads(self.record.read_text()), "channel-1": {**record["channel-1"], **steps}}))
+            return self.setup_program("--undo", *arguments)
+
+        done = undone(senses={}, calibrate={}, identify={}, gains={"taken": True}, move={})
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertTrue(done.stdout.endswith(
+            "\non the board stays, from start to start, what was found of the muscle (supercoil command 1 clear forgets it); "
+            "the tuning that gains stored (supercoil tune 1 --clear forgets it); "
+            "the comparison with a meter (supercoil command 1 compare_supply 0 forgets it)\n"), done.stdout)
+        self.assertNotIn("on the board", undone(gains={"taken": False}).stdout)
+        self.assertEqual(json.loads(undone("--json", "--can", "can0", scale={}).stdout)["on_board"],
+                         [{"what": "what was found of the muscle", "forgotten_by": "supercoil command 1 clear --can can0"}])
 
     def test_undo_does_not_throw_away_what_somebody_else_changed(self):
         self.setup_program(*self.script())

@@ -33,10 +33,17 @@ tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions&
 /// That a step wrote the file: what it found has keys of it, which have dots.
 bool wrote_file(const nlohmann::ordered_json& found);
 
+/// What a step left on the board, which has no part in the file.
+struct OnBoard {
+  std::string what;
+  std::string forgotten_by;  ///< a command
+};
+
 struct Undone {
   int channel = 1;
   std::string step;     ///< that had written
   std::string kept_as;  ///< the file as it was until now
+  std::vector<OnBoard> on_board;
 };
 
 /// The last change of the channel that is set up, with its step and those behind it. anyway:

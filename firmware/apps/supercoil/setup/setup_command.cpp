@@ -140,10 +140,14 @@ int undo_command(const SetupOptions& options) {
       undo_setup(options, [&](const std::string& why) { return undo_anyway(options, why); });
   if (!undone) return refuse(options.json, exit_failed, undone.error());
   if (options.json) {
+    Json on_board = Json::array();
+    for (const OnBoard& one : undone->on_board)
+      on_board.push_back({{"what", one.what}, {"forgotten_by", one.forgotten_by}});
     const Json told{{"file", options.config},
                     {"channel", undone->channel},
                     {"step", undone->step},
-                    {"kept_as", undone->kept_as}};
+                    {"kept_as", undone->kept_as},
+                    {"on_board", on_board}};
     std::printf("%s\n", told.dump(2).c_str());
   } else {
     std::printf("%s\n", undone_text(options.config, *undone).c_str());

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
 #include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/record.hpp"
+#include "apps/supercoil/setup/steps.hpp"
 #include "apps/supercoil/user_file.hpp"
 #include "storage/crc32.hpp"
 
@@ -10,6 +12,7 @@ namespace supercoil::operating {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
 using Write = SetupRecord::Write;
 
 std::string change_text(const Write& write) {
@@ -34,6 +37,38 @@ tl::expected<Write, std::string> own_write(const SetupOptions& options, const Se
                         ": --channel " + other + " --undo takes that back first");
 }
 
+/// Of the steps from this one on that are done. The channel is as the commands would call it.
+std::vector<OnBoard> left_on_board(const SetupOptions& options, const SetupRecord& record,
+                                   const std::string& first) {
+  int channel = options.channel;
+  std::string bus;
+  if (!options.can.empty()) {
+    const auto config = config::read_board_config(options.config);
+    if (config && config->can) channel += config->can->first_node - 1;
+    bus = " --can " + options.can;
+  }
+  const std::string of_channel = " " + std::to_string(channel);
+  const auto* const from = std::ranges::find(setup_steps, first, &SetupStep::name);
+  const auto found = [&](std::string_view name) {
+    const auto* const step = std::ranges::find(setup_steps, name, &SetupStep::name);
+    return step < from ? Json() : record.found(std::string(name));
+  };
+  const auto done = [&](std::string_view name) { return !found(name).is_null(); };
+  std::vector<OnBoard> all;
+  if (done("calibrate") || done("scale") || done("identify")) {
+    all.push_back(
+        {"what was found of the muscle", "supercoil command" + of_channel + " clear" + bus});
+  }
+  if (const Json gains = found("gains"); gains.is_object() && gains.value("taken", false))
+    all.push_back(
+        {"the tuning that gains stored", "supercoil tune" + of_channel + " --clear" + bus});
+  if (done("senses")) {
+    all.push_back({"the comparison with a meter",
+                   "supercoil command" + of_channel + " compare_supply 0" + bus});
+  }
+  return all;
+}
+
 }  // namespace
 
 tl::expected<Undone, std::string> undo_setup(
@@ -52,7 +87,8 @@ tl::expected<Undone, std::string> undo_setup(
                             " wrote it, and that change would be taken back too";
     if (!anyway(why)) return tl::unexpected(why + "; --undo --force does it");
   }
-  Undone undone{last->channel, last->step, free_name(options.config + ".undone")};
+  Undone undone{last->channel, last->step, free_name(options.config + ".undone"),
+                left_on_board(options, *record, last->step)};
   if (auto kept = write_whole(undone.kept_as, *now); !kept) return tl::unexpected(kept.error());
   std::error_code error;
   std::filesystem::rename(last->before, options.config, error);
@@ -62,9 +98,16 @@ tl::expected<Undone, std::string> undo_setup(
 }
 
 std::string undone_text(const std::string& config, const Undone& undone) {
-  return config + " is as it was before " + undone.step + " of channel " +
-         std::to_string(undone.channel) + ", and that step and those behind it are to be done; " +
-         "what it was until now is kept as " + undone.kept_as;
+  std::string text = config + " is as it was before " + undone.step + " of channel " +
+                     std::to_string(undone.channel) +
+                     ", and that step and those behind it are to be done; " +
+                     "what it was until now is kept as " + undone.kept_as;
+  const char* before = "\non the board stays, from start to start, ";
+  for (const OnBoard& one : undone.on_board) {
+    text += before + one.what + " (" + one.forgotten_by + " forgets it)";
+    before = "; ";
+  }
+  return text;
 }
 
 }  // namespace supercoil::operating

@@ -118,6 +118,14 @@ class Scripts(OnSimulatedBoard):
         self.assertTrue(nearest, refused.stderr)
         self.assertEqual(self.command("1", "controller", nearest[1]).returncode, 0)
         self.assertNotEqual(self.command("1", "controller", str(int(nearest[1]) + 1)).returncode, 0)
+        places = ", ".join(rf"{place} \(\w+\)" for place in range(int(nearest[1]) + 1))
+        self.assertRegex(refused.stderr, rf"; there (is|are) {places}\n$")
+        self.assertRegex(self.command("1", "estimator", "77").stderr, r"would be obeyed; there (is|are) 0 \(\w+\)")
+
+    def test_a_refused_scale_comes_with_what_the_sensor_shows_and_allows(self):
+        refused = self.command("1", "scale", "1")
+        self.assertRegex(refused.stderr, r"^supercoil: 1 scale 1: refused: out_of_range; the sensor shows \S+ m there: "
+                         r"(\S+ to \S+ are in range|no scale makes a place of that)\n$")
 
     def test_a_refusal_is_told_in_words_behind_its_name(self):
         self.command("1", "disarm")
@@ -141,7 +149,13 @@ class Scripts(OnSimulatedBoard):
         self.assertEqual(setting("1", "measurement_Hz").stdout, "measurement_Hz = 50\n")
         refused = setting("1", "max_power_W", "5")
         self.assertEqual((refused.returncode, refused.stdout), (1, "max_power_W = 4.5\n"))
-        self.assertEqual(refused.stderr, "supercoil: max_power_W: refused: out_of_range; 4.5 would be obeyed\n")
+        self.assertEqual(refused.stderr, "supercoil: max_power_W: refused: out_of_range; 4.5 would be obeyed; 0 to 4.5 are in range\n")
+        outside = "refused: out_of_range: the value is not within its range; "
+        room = " are in range, up to its ticks a second, as far as its bus has room"
+        for name, value, told in (("status_Hz", "0", f"{outside}1 to 1000{room}"),
+                                  ("measurement_Hz", "0.001", f"{outside}0, for never, and 0.01 to 1000{room}"),
+                                  ("supply_gain", "1.1", f"{outside}it is only read: supercoil doctor --compare-senses finds it")):
+            self.assertEqual(setting("1", name, value).stderr, f"supercoil: {name}: {told}\n")
         for written, meant in (("mesurement_Hz", "did you mean measurement_Hz?"), ("max_powr_W", "did you mean max_power_W?"),
                                ("loudness", "there are: max_power_W, measurement_Hz, ")):
             unknown = setting("1", written)

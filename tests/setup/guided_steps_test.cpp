@@ -221,7 +221,7 @@ TEST(GuidedSteps, APlaceThatNoSensorCouldBeSoWrongAboutIsRefused) {
   person.place_mm = 5.0;  // the muscle rests at its zero
   const auto found = board.steps(person).scale();
   CHECK(!found);
-  STRCMP_CONTAINS("scale 0.005: refused: out_of_range", found.error().c_str());
+  STRCMP_CONTAINS("scale 0.005: refused: out_of_range; the sensor shows ", found.error().c_str());
 }
 
 TEST(GuidedSteps, TheRecommendedControllerIsTakenStoredAndFollowsAsItPromises) {

@@ -16,6 +16,7 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
 #include "apps/supercoil/tuned_place.hpp"
+#include "apps/supercoil/value_range.hpp"
 #include "telemetry/frames.hpp"
 #include "text/command_text.hpp"
 #include "text/number_text.hpp"
@@ -63,13 +64,15 @@ std::string with_degrees(const CommandOptions& options, const std::string& answe
   return answer + " (" + in_degrees(options, reply->nearest) + ")";
 }
 
-/// Of a position that is out of range: "; -0.025 to 0.025 are in range". Empty: the board does not
+/// Of a value that is out of range: "; -0.025 to 0.025 are in range". Empty: the board does not
 /// tell.
-std::string position_range(BoardLink& board, const CommandOptions& options,
-                           const std::string& answer) {
-  const auto reply = parse_answer(answer);
-  const bool of_position = options.words.size() == 3 && options.words[1] == name(Verb::position);
-  if (!of_position || !reply || reply->refusal != Refusal::out_of_range) return "";
+std::string range_of_refused(BoardLink& board, const CommandOptions& options,
+                             const std::string& answer) {
+  if (options.words.size() != 3 || !refuses(answer, Refusal::out_of_range)) return "";
+  for (const Verb verb : {Verb::scale, Verb::controller, Verb::estimator}) {
+    if (options.words[1] == name(verb)) return told_range(board, options.words[0], verb);
+  }
+  if (options.words[1] != name(Verb::position)) return "";
   const auto known = board.muscle(options.words[0]);
   if (!known) return "";
   const double min_m = (*known)[known_min_set_point];
@@ -99,7 +102,7 @@ int concluded(const CommandOptions& options, const std::string& line,
 
 int ask(BoardLink& board, const CommandOptions& options, const std::string& line) {
   const auto answer = board.ask(line);
-  const std::string range = answer ? position_range(board, options, *answer) : "";
+  const std::string range = answer ? range_of_refused(board, options, *answer) : "";
   return concluded(options, line, answer, range);
 }
 

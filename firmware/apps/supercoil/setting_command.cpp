@@ -10,6 +10,7 @@
 #include "config/renamed_keys.hpp"
 #include "telemetry/run_settings.hpp"
 #include "text/nearest.hpp"
+#include "text/number_text.hpp"
 #include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
@@ -41,14 +42,34 @@ void tell(const can_client::Master::Setting& heard, bool json) {
   }
 }
 
+/// Of a value that is out of range. nearest: that would have been obeyed; NaN: the node tells none.
+std::string range_of_refused(const can_client::Master::Setting& heard, double value,
+                             double nearest) {
+  using telemetry::Message;
+  if (heard.setting >= telemetry::supply_gain)
+    return "; it is only read: supercoil doctor --compare-senses finds it";
+  if (std::isnan(heard.value)) return "; the first node of its board sends that one";
+  const auto allowed = [](double lowest, double highest) {
+    return "; " + number_text(lowest, 7) + " to " + number_text(highest, 7) + " are in range";
+  };
+  constexpr double max_Hz = telemetry::max_rate(INFINITY);
+  const char* as_far = ", up to its ticks a second, as far as its bus has room";
+  if (heard.setting == 0) return value > nearest ? allowed(0.0, nearest) : "";
+  if (heard.setting == 1 + static_cast<std::uint8_t>(Message::status))
+    return allowed(telemetry::min_status_Hz, max_Hz) + as_far;
+  return "; 0, for never, and " + allowed(telemetry::min_rate_Hz, max_Hz).substr(2) + as_far;
+}
+
 int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
   const auto heard = options.value ? node.write(setting, *options.value) : node.read(setting);
   if (!heard) return refuse(options.json, exit_failed, heard.error());
   tell(*heard, options.json);
   if (heard->refusal == Refusal::none) return exit_done;
   const bool out = heard->refusal == Refusal::out_of_range;
-  return fail(exit_failed,
-              options.name + ": " + told_answer({heard->refusal, out ? node.nearest() : NAN}));
+  const double nearest = out ? node.nearest() : NAN;
+  const std::string range =
+      out ? range_of_refused(*heard, options.value.value_or(NAN), nearest) : "";
+  return fail(exit_failed, options.name + ": " + told_answer({heard->refusal, nearest}) + range);
 }
 
 /// Those that this node has: the board's own are its first node's.

@@ -15,14 +15,6 @@ std::optional<std::size_t> number_of(std::string_view word) {
   return whole ? std::optional(number) : std::nullopt;
 }
 
-/// "0 (mrac), 1 (pi)"
-std::string told(const std::vector<std::string>& kinds) {
-  std::string all;
-  for (std::size_t i = 0; i < kinds.size(); ++i)
-    all += (i == 0 ? "" : ", ") + std::to_string(i) + " (" + kinds[i] + ")";
-  return all;
-}
-
 bool is_estimator(std::string_view word) {
   if (const auto number = number_of(word)) return *number >= first_estimator_place;
   return std::ranges::any_of(control::estimator_names,
@@ -30,6 +22,13 @@ bool is_estimator(std::string_view word) {
 }
 
 }  // namespace
+
+std::string places_text(const std::vector<std::string>& kinds) {
+  std::string all;
+  for (std::size_t i = 0; i < kinds.size(); ++i)
+    all += (i == 0 ? "" : ", ") + std::to_string(i) + " (" + kinds[i] + ")";
+  return all;
+}
 
 AskTuning ask_tuning(BoardLink& board, const std::string& channel) {
   return [&board, channel](int place, std::size_t tunable, TuningSet set) {
@@ -47,13 +46,13 @@ tl::expected<std::size_t, std::string> find_place(Tuned what, std::string_view w
   if (of_kind == 1) return static_cast<std::size_t>(found - kinds.begin());
   if (of_kind > 1) {
     return tl::unexpected("several " + whose + "s are " + std::string(word) +
-                          ": write the number; there are " + told(kinds));
+                          ": write the number; there are " + places_text(kinds));
   }
   return tl::unexpected("there is no " + whose + " " + std::string(word) +
                         (kinds.empty()       ? ""
                          : kinds.size() == 1 ? "; there is "
                                              : "; there are ") +
-                        told(kinds));
+                        places_text(kinds));
 }
 
 tl::expected<std::size_t, WrongPlace> find_place(Tuned what, std::string_view word,

@@ -16,6 +16,9 @@ namespace supercoil::operating {
 /// channel: as in a line.
 AskTuning ask_tuning(BoardLink& board, const std::string& channel);
 
+/// "0 (mrac), 1 (pi)"
+std::string places_text(const std::vector<std::string>& kinds);
+
 /// What a word means among the kinds that are in use, by their places: "1", or "pi" where there is
 /// but one. The error says what there is.
 tl::expected<std::size_t, std::string> find_place(Tuned what, std::string_view word,

@@ -12,10 +12,12 @@
 #include "apps/supercoil/setup/identified.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
+#include "apps/supercoil/value_range.hpp"
 #include "config/describe.hpp"
 #include "modes/calibrate.hpp"
 #include "text/command_text.hpp"
 #include "text/number_text.hpp"
+#include "text/refusal_words.hpp"
 
 namespace supercoil::operating {
 
@@ -236,8 +238,16 @@ StepResult Commission::scale() {
        NAN},
       [] { return Done(); });
   if (!place_mm) return tl::unexpected(place_mm.error());
-  if (auto taken = ask("scale " + number_text(1e-3 * *place_mm, 9)); !taken)
-    return tl::unexpected(taken.error());
+  const std::string line = channel_ + " scale " + number_text(1e-3 * *place_mm, 9);
+  const auto taken = board_.ask(line);
+  if (!taken) return tl::unexpected(taken.error());
+  if (*taken != "ok") {
+    const std::string range =
+        refuses(*taken, Refusal::out_of_range) ? told_range(board_, channel_, Verb::scale) : "";
+    return tl::unexpected(with_present_fault(
+        line.substr(channel_.size() + 1) + ": " + told_answer(line, *taken + range), board_,
+        channel_));
+  }
   const auto known = board_.muscle(channel_);
   if (!known) return tl::unexpected(known.error());
   const double scale = (*known)[known_position_scale];

@@ -1,0 +1,15 @@
+// What a board would have taken in place of a value that it refused as out of range.
+#pragma once
+
+#include <string>
+
+#include "apps/supercoil/board_link.hpp"
+#include "loop/command.hpp"
+
+namespace supercoil::operating {
+
+/// Of scale, controller and estimator: "; there are 0 (learned_ff), 1 (pi)". Empty: of another
+/// command, or the board does not tell. channel: as in a line.
+std::string told_range(BoardLink& board, const std::string& channel, Verb verb);
+
+}  // namespace supercoil::operating

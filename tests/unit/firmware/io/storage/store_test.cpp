@@ -129,6 +129,24 @@ TEST(LearnedStore, MakesSureOfTheFolderWhenAnEarlierSaveDidNot) {
   LONGS_EQUAL(before + 2 * with_sync - 1, failing.calls());
 }
 
+TEST(LearnedStore, IsNotSureOfTheFolderAnyMoreAfterALaterSaveThatFailed) {
+  const int calls = [] {
+    Disk trial;
+    SimulatedFiles counted(trial);
+    LearnedStore sure("/d", 3, counted);
+    static_cast<void>(sure.save(nth_set(1)));
+    static_cast<void>(sure.save(nth_set(2)));
+    return counted.calls();
+  }();
+  SimulatedFiles failing(disk, {calls - 1, EIO, false, false});
+  LearnedStore unsure("/d", 3, failing);
+  CHECK(unsure.save(nth_set(1)).has_value());
+  CHECK_FALSE(unsure.save(nth_set(2)).has_value());
+  CHECK(disk.survivors().size() > 1);
+  CHECK(unsure.save(nth_set(2)).has_value());
+  LONGS_EQUAL(1, disk.survivors().size());
+}
+
 TEST(LearnedStore, RefusesASetThatFailsItsCheckAndTouchesNothing) {
   save(1);
   const Content before = disk.seen();

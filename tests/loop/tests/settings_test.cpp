@@ -151,6 +151,16 @@ TEST(Settings, NeitherTheHeartbeatNorTheBusMayBeLost) {
   CHECK(telemetry::bus_load(rig.link.publisher().rates_Hz(), rig.can.bit_rate) <= rig.can.max_load);
 }
 
+TEST(Settings, TheSensesAreOnlyRead) {
+  rig.run(0.1);
+  rig.claim(master);
+  for (std::uint8_t i = telemetry::supply_gain; i < telemetry::run_settings; ++i) {
+    const double before = read(i);
+    CHECK(write(i, 10.0F) == Refusal::out_of_range);
+    DOUBLES_EQUAL(before, read(i), 0.0);
+  }
+}
+
 TEST(Settings, DamagedWritesAreNotObeyedAndCount) {
   rig.run(16.0);
   rig.claim(master);

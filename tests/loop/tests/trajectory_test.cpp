@@ -301,6 +301,7 @@ TEST(TrajectoryOverCan, KnotsOfAMasterThatWasReplacedHarmNobody) {
   CHECK(rig.command(master, telemetry::Opcode::lease, telemetry::releases) == Refusal::none);
   master.name = 0x3333;
   CHECK(rig.claim(master) == Refusal::none);
+  CHECK(rig.claim(master) == Refusal::none);  // as if the first answer had been lost
   CHECK(rig.command(master, Verb::position, 0.005F) == Refusal::none);
   // It does not know yet.
   for (int i = 0; i < 20; ++i) {

@@ -21,6 +21,7 @@ TEST_GROUP(DevWatchdog) {
   unsigned options = WDIOF_MAGICCLOSE | WDIOF_SETTIMEOUT;
   int max_s = 60;
   int has_s = 30;
+  int step_s = 1;
   bool nowayout = false;
 
   void setup() override {
@@ -38,7 +39,7 @@ TEST_GROUP(DevWatchdog) {
     } else if (request == WDIOC_SETTIMEOUT) {
       int& wanted_s = *static_cast<int*>(argument);
       if (wanted_s > max_s) return -EINVAL;
-      has_s = wanted_s;
+      has_s = wanted_s = (wanted_s + step_s - 1) / step_s * step_s;
     } else if (request == WDIOC_GETTIMEOUT) {
       *static_cast<int*>(argument) = has_s;
     } else if (request == WDIOC_SETOPTIONS) {
@@ -63,6 +64,11 @@ TEST(DevWatchdog, TakesWholeSecondsAndNeverFewerThanAsked) {
   LONGS_EQUAL(5, (*open(5.0))->timeout_s());
   LONGS_EQUAL(2, (*open(1.2))->timeout_s());
   LONGS_EQUAL(1, (*open(0.1))->timeout_s());
+}
+
+TEST(DevWatchdog, TellsTheTimeThatTheDriverTookForTheOneAsked) {
+  step_s = 8;
+  LONGS_EQUAL(8, (*open(5.0))->timeout_s());
 }
 
 TEST(DevWatchdog, RefusesTimesThatCannotBe) {

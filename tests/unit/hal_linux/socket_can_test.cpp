@@ -54,6 +54,17 @@ TEST(SocketCan, HearsOnlyWhatItListensToAndTheControllersErrors) {
   CHECK(can->state() == hal::CanState::active);
 }
 
+TEST(SocketCan, HearsNothingOrAllWhereNothingIsListed) {
+  place.listen.clear();
+  static_cast<void>(opened());
+  LONGS_EQUAL(0, kernel.filters.size());
+  place.listen_to_all = true;
+  static_cast<void>(opened());
+  LONGS_EQUAL(1, kernel.filters.size());
+  LONGS_EQUAL(0, kernel.filters[0].can_id);
+  UNSIGNED_LONGS_EQUAL(CAN_EFF_FLAG | CAN_RTR_FLAG, kernel.filters[0].can_mask);
+}
+
 TEST(SocketCan, GivesFramesInTheirOrderAndThenNothing) {
   const auto can = opened();
   kernel.deliver(0x201, {1, 2, 3});

@@ -160,9 +160,9 @@ TEST(JointScenario, ItsLeverMayDependOnTheAngle) {
 
 TEST(JointScenario, BesideASpringTheLeverMayDependOnTheAngleAsWell) {
   const Scenario s = read(
-      "simulation.duration_s = 20.0\n[joint]\nopposed_by = 'spring'\nspring_Nm_per_rad = 0.009\n"
-      "pretension_N = 0.4\nlever_m = [0.015, 0.015, 0.012]\nlever_range_deg = [-40.0, 40.0]\n"
-      "[reference]\nkind = 'step'\nto_m = 0.006\n[controller]\nkind = 'pi'\n");
+      "simulation.duration_s = 20.0\n[joint]\nopposed_by = 'spring'\nspring_Nm_per_rad = 0.006\n"
+      "pretension_N = 0.3\nlever_m = [0.015, 0.015, 0.012]\nlever_range_deg = [-40.0, 40.0]\n"
+      "[reference]\nkind = 'step'\nto_m = 0.005\n[controller]\nkind = 'pi'\n");
   const control::Lever& lever = s.start.joint->plant.lever;
   CHECK(firmware_of(s).channels[0].joint.lever == lever);
 
@@ -170,13 +170,13 @@ TEST(JointScenario, BesideASpringTheLeverMayDependOnTheAngleAsWell) {
   Summary summary({});
   const TickRecord last = last_of(simulation, summary);
   CHECK(last.fault == Fault::none);
-  DOUBLES_EQUAL(0.006, last.position_m, 1e-4);
+  DOUBLES_EQUAL(0.005, last.position_m, 1e-4);
   const double angle_rad = simulation.joint()->angle_rad();
   DOUBLES_EQUAL(lever.arc_m(angle_rad), last.position_m, 1e-9);
   // At rest the muscle's pull at its lever there holds the spring, which holds the pretension at 0.
   const double pull_N =
       s.start.joint->plant.pretension_N + 8.6e-3 * last.temperature_rise_K - 16.0 * last.position_m;
-  const double spring_Nm = 0.009 * angle_rad + s.start.joint->plant.pretension_N * 0.015;
+  const double spring_Nm = 0.006 * angle_rad + s.start.joint->plant.pretension_N * 0.015;
   DOUBLES_EQUAL(spring_Nm, pull_N * lever.radius_m(angle_rad), 0.02 * spring_Nm);
 }
 

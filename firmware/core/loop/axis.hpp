@@ -144,6 +144,8 @@ class Axis {
   Opposition opposition(double gain_ratio, double lever_ratio) const;
   /// Of the muscle as it is known.
   double dc_gain_m_per_W() const { return muscle_.dc_gain_m_per_W(); }
+  /// Another number whenever something else is known of the muscle's motion.
+  std::uint32_t knowledge() const { return knowledge_; }
   Mode mode() const { return mode_; }
   /// The last identify or calibrate did.
   bool has_found() const {

@@ -51,6 +51,7 @@ void Heater::observe(double supply_V, const board::Measured* air, std::int64_t p
   supply_V_ = supply_V * senses_.supply_gain;
   observe_power(periods);
   follow_probe();
+  calculate_full_scale();
   // How hot it was before boot is not known: nothing is armed before it must have cooled.
   heat_known_ = heat_known_ || heat_.hottest_C() < derate_from_C_;
 }
@@ -169,11 +170,6 @@ void Heater::drive(const ChannelState& state, bool may_probe, double dither_W) {
   acting_ = delay_.step(set);
 }
 
-control::PowerRange Heater::power_range() const {
-  return {limiter_.min_W(),
-          std::min(limiter_.max_W(), supply_V_ * supply_V_ / resistance_.value_Ohm())};
-}
-
 void Heater::cut() {
   probe_.stop();
   write_duty(0);
@@ -206,6 +202,7 @@ void Heater::write_enable(bool high) {
 
 void Heater::apply_comparison(const board::SenseComparison& senses, double resistance_scale) {
   resistance_.set(resistance_.value_Ohm() * resistance_scale);
+  calculate_full_scale();
   current_.value *= senses.current_gain / senses_.current_gain;
   senses_ = senses;
   published_senses_.set(senses_);

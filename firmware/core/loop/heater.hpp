@@ -1,6 +1,7 @@
 // A muscle's heater: what is measured of it, how hot it makes the muscle, and what drives it.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 
@@ -102,7 +103,9 @@ class Heater {
   /// Of this tick, as compared senses tell it.
   board::PowerBounds::Interval measured_power_W() const;
   /// What a controller may count on.
-  control::PowerRange power_range() const;
+  control::PowerRange power_range() const {
+    return {limiter_.min_W(), std::min(limiter_.max_W(), full_scale_W_)};
+  }
   const Limiter& limiter() const { return limiter_; }
   const Limiter::Result& allowed() const { return allowed_; }
   const board::AppliedPower& acting() const { return acting_; }
@@ -111,6 +114,8 @@ class Heater {
  private:
   void observe_power(std::int64_t periods);
   void follow_probe();
+  /// Of what was measured last.
+  void calculate_full_scale() { full_scale_W_ = supply_V_ * supply_V_ / resistance_.value_Ohm(); }
   void write_duty(int step);
   void write_enable(bool high);
 
@@ -128,6 +133,7 @@ class Heater {
   board::ThermalFacts facts_;
   board::Measured current_;
   double supply_V_ = 0.0;
+  double full_scale_W_ = 0.0;  ///< at a duty of 1
   HeaterInputs inputs_;
   board::Resistance resistance_;
   board::PowerBounds power_bounds_;

@@ -12,22 +12,35 @@ Joint::Joint(const JointSettings& settings, Axis& agonist, Axis& antagonist, dou
       antagonist_(antagonist),
       first_W_(settings.co_contraction_W),
       max_W_(settings.max_co_contraction_W),
-      lag_ratio_(step_s / co_contraction_lag_s) {
+      lag_ratio_(step_s / co_contraction_lag_s),
+      inverse_lever_ratio_(1.0 / settings.antagonist_lever_ratio),
+      knowledge_{agonist.knowledge(), antagonist.knowledge()},
+      gains_(calculated_gains()) {
   agonist_.limit_reverse_travel(antagonist_.max_travel_m() / settings_.antagonist_lever_ratio);
 }
 
-double Joint::gain_ratio() const {
-  return settings_.gain_ratio(agonist_.dc_gain_m_per_W(), antagonist_.dc_gain_m_per_W());
+Joint::Gains Joint::calculated_gains() const {
+  const double ratio =
+      settings_.gain_ratio(agonist_.dc_gain_m_per_W(), antagonist_.dc_gain_m_per_W());
+  return {ratio, 1.0 / ratio, max_W_ / ratio};
+}
+
+const Joint::Gains& Joint::gains() {
+  const std::array knowledge{agonist_.knowledge(), antagonist_.knowledge()};
+  if (knowledge != knowledge_) {
+    knowledge_ = knowledge;
+    gains_ = calculated_gains();
+  }
+  return gains_;
 }
 
 void Joint::observe() {
-  const double ratio = gain_ratio();
-  const double lever_ratio = settings_.antagonist_lever_ratio;
-  const Opposition of_antagonist = antagonist_.opposition(ratio, 1.0 / lever_ratio);
-  antagonist_.oppose(agonist_.opposition(1.0 / ratio, lever_ratio));
+  const Gains& known = gains();
+  const Opposition of_antagonist = antagonist_.opposition(known.ratio, inverse_lever_ratio_);
+  antagonist_.oppose(agonist_.opposition(known.inverse_ratio, settings_.antagonist_lever_ratio));
   agonist_.oppose(of_antagonist);
   agonist_.limit_pull(max_W_);
-  antagonist_.limit_pull(max_W_ / ratio);
+  antagonist_.limit_pull(known.max_antagonist_W);
 }
 
 /// The antagonist's reference is what it is to pull with while the joint asks for no effort.
@@ -47,10 +60,9 @@ void Joint::follow_co_contraction(bool active, double gain_ratio) {
 
 /// Each muscle by itself. What was commanded may be more than the limit once the muscles are known
 /// better.
-void Joint::limit_each(double gain_ratio) {
+void Joint::limit_each(double max_antagonist_W) {
   const double agonist_W = agonist_.demanded_W();
   double antagonist_W = antagonist_.demanded_W();
-  const double max_antagonist_W = max_W_ / gain_ratio;
   if (agonist_W > max_W_ && antagonist_W > max_antagonist_W) antagonist_W = max_antagonist_W;
   agonist_.limit(agonist_W);
   antagonist_.limit(antagonist_W);
@@ -58,9 +70,10 @@ void Joint::limit_each(double gain_ratio) {
 
 void Joint::limit() {
   const bool active = agonist_.follows_position();
-  const double ratio = gain_ratio();
+  const Gains& known = gains();
+  const double ratio = known.ratio;
   follow_co_contraction(active, ratio);
-  if (!active) return limit_each(ratio);
+  if (!active) return limit_each(known.max_antagonist_W);
   const control::JointAllocation allocation(ratio);
   const double effort_W = agonist_.demanded_W();
   control::PairPower power = allocation.divide(

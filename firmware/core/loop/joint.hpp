@@ -1,6 +1,9 @@
 // A joint: the axes of two channels whose muscles pull against each other.
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "loop/axis.hpp"
 #include "loop/settings.hpp"
 
@@ -23,10 +26,18 @@ class Joint {
   /// Slow against every controller, so that what the muscles differ in is not seen at the joint.
   static constexpr double co_contraction_lag_s = 10.0;
 
+  /// What follows from the muscles' gains.
+  struct Gains {
+    double ratio;  ///< a watt of the antagonist turns the joint so much further
+    double inverse_ratio;
+    double max_antagonist_W;  ///< of co-contraction, in watts of its own
+  };
+
+  Gains calculated_gains() const;
   /// Of the muscles as they are known.
-  double gain_ratio() const;
+  const Gains& gains();
   void follow_co_contraction(bool active, double gain_ratio);
-  void limit_each(double gain_ratio);
+  void limit_each(double max_antagonist_W);
 
   JointSettings settings_;
   Axis& agonist_;
@@ -34,6 +45,10 @@ class Joint {
   double first_W_;    ///< of co-contraction, in watts of the agonist as all here
   double max_W_;      ///< likewise
   double lag_ratio_;  ///< of a tick to co_contraction_lag_s
+  double inverse_lever_ratio_;
+  /// Of both muscles when gains_ were calculated, with divisions that a tick need not make.
+  std::array<std::uint32_t, 2> knowledge_;
+  Gains gains_;
   bool was_active_ = false;
   double nearly_W_ = 0.0;
   double co_contraction_W_ = 0.0;  ///< through two low-passes, so that its rate does not jump

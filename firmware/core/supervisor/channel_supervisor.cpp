@@ -106,16 +106,14 @@ void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs&
   if (axis.recalibrated || axis.expected_anew) loose_.reset();
   if (!heater.current.present) return;
   if (axis.position.present) {
-    verdict_.note(heater_not_responding,
-                  not_responding_.step(axis.position.value, heater.expected_m,
-                                       axis.in_joint ? &axis.opposed_m : nullptr),
+    const auto motions = detectors::NotResponding::possible(
+        heater.expected_m, axis.in_joint ? &axis.opposed_m : nullptr);
+    verdict_.note(heater_not_responding, not_responding_.step(axis.position.value, motions),
                   not_responding_);
-  }
-  if (axis.position.present && axis.in_joint) {
-    verdict_.note(muscle_loose,
-                  loose_.step(!heater.off && wants_more(axis, heater), axis.position.value,
-                              heater.expected_m, axis.opposed_m),
-                  loose_);
+    if (axis.in_joint) {
+      const bool limited = !heater.off && wants_more(axis, heater);
+      verdict_.note(muscle_loose, loose_.step(limited, axis.position.value, motions), loose_);
+    }
   }
   if (axis.unanswered) {
     verdict_.note(heater_not_responding, unanswered_.step(true, axis.answer), unanswered_);

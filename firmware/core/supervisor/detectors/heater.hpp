@@ -103,34 +103,47 @@ class NotResponding final : public Detector {
   /// nothing.
   static constexpr std::array gains{0.0, 0.1,  0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0,
                                     1.1, 1.25, 1.4, 1.6, 1.8, 2.1, 2.5, 3.0, 4.0, 6.0, 10.0};
-  using Motions = std::array<double, steps + 2 + gains.size()>;
 
-  /// Where the muscle may be. Without an other one the first steps + 2 only.
-  static Motions possible(const Expected& expected_m, const Expected* opposed_m) {
-    const Expected none{};
-    const Expected& opposed = opposed_m != nullptr ? *opposed_m : none;
-    const double believed = expected_m[0] - opposed[0];
-    const double fastest = expected_m[1] - opposed[1];
-    const double slowest = expected_m[2] - opposed[2];
-    Motions motions{believed};
-    for (std::size_t i = 0; i <= steps; ++i)
-      motions[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
-    if (opposed_m == nullptr) return motions;
-    for (std::size_t i = 0; i < gains.size(); ++i)
-      motions[steps + 2 + i] = expected_m[0] - gains[i] * opposed[0];
-    return motions;
-  }
+  /// Where the muscle may be: the first `count` of them.
+  struct Motions {
+    std::array<double, steps + 2 + gains.size()> m;
+    std::size_t count = steps + 2;  ///< of a muscle alone
+
+    /// The least that one of them has risen. In four rows side by side: one waits for itself.
+    double least_above(const Motions& low) const {
+      std::array<double, 4> least{};
+      least.fill(m[0] - low.m[0]);
+      std::size_t i = 0;
+      for (; i + least.size() <= count; i += least.size()) {
+        for (std::size_t row = 0; row < least.size(); ++row)
+          least[row] = std::min(least[row], m[i + row] - low.m[i + row]);
+      }
+      for (; i < count; ++i)
+        least[0] = std::min(least[0], m[i] - low.m[i]);
+      return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+    }
+  };
 
   /// opposed_m: by how much the other muscle of a joint takes that back; null: there is none. What
   /// is believed of both gains may be wrong, and two muscles then hold still what believed ones
   /// would move: that is judged only if no gain of the other muscle explains it.
-  bool step(double position_m, const Expected& expected_m, const Expected* opposed_m = nullptr) {
-    return step(position_m, possible(expected_m, opposed_m),
-                opposed_m != nullptr ? std::tuple_size_v<Motions> : steps + 2);
+  static Motions possible(const Expected& expected_m, const Expected* opposed_m = nullptr) {
+    const Expected none{};
+    const Expected& opposed = opposed_m != nullptr ? *opposed_m : none;
+    const double fastest = expected_m[1] - opposed[1];
+    const double slowest = expected_m[2] - opposed[2];
+    Motions motions;  // filled as far as it counts; zeros first took a fifth of the judgement
+    motions.m[0] = expected_m[0] - opposed[0];
+    for (std::size_t i = 0; i <= steps; ++i)
+      motions.m[i + 1] = fastest + static_cast<double>(i) / steps * (slowest - fastest);
+    if (opposed_m == nullptr) return motions;
+    for (std::size_t i = 0; i < gains.size(); ++i)
+      motions.m[steps + 2 + i] = expected_m[0] - gains[i] * opposed[0];
+    motions.count = motions.m.size();
+    return motions;
   }
-  /// count: of the motions that are possible.
-  bool step(double position_m, const Motions& motions, std::size_t count) {
-    count_ = count;
+
+  bool step(double position_m, const Motions& motions) {
     if (elapsed_s_ == 0.0) {
       low_ = high_ = position_m;
       expected_low_ = expected_high_ = motions;
@@ -140,9 +153,9 @@ class NotResponding final : public Detector {
     high_ = std::max(high_, position_m);
     // The models have heat only: a muscle may still be on its way.
     if (elapsed_s_ <= in_time_ratio * settings_.window_s) {
-      for (std::size_t i = 0; i < count_; ++i) {
-        expected_low_[i] = std::min(expected_low_[i], motions[i]);
-        expected_high_[i] = std::max(expected_high_[i], motions[i]);
+      for (std::size_t i = 0; i < motions.count; ++i) {
+        expected_low_.m[i] = std::min(expected_low_.m[i], motions.m[i]);
+        expected_high_.m[i] = std::max(expected_high_.m[i], motions.m[i]);
       }
     }
     if (elapsed_s_ + 0.5 * step_s_ < settings_.window_s) return false;
@@ -160,9 +173,7 @@ class NotResponding final : public Detector {
   }
   /// Of the window so far.
   Margin margin() const override {
-    double expected = expected_high_[0] - expected_low_[0];
-    for (std::size_t i = 1; i < count_; ++i)
-      expected = std::min(expected, expected_high_[i] - expected_low_[i]);
+    const double expected = expected_high_.least_above(expected_low_);
     const bool judged = expected >= settings_.min_expected_m;
     return {high_ - low_, settings_.min_ratio * expected, true, judged};
   }
@@ -175,7 +186,6 @@ class NotResponding final : public Detector {
   double elapsed_s_ = 0.0;
   double low_ = 0.0;
   double high_ = 0.0;
-  std::size_t count_ = steps + 2;  ///< of the motions that are possible
   Motions expected_low_{};
   Motions expected_high_{};
 };

@@ -23,9 +23,7 @@ class MovesAway {
       from_m_ = position_m;
       expected_from_m_ = motions_m;
     }
-    double expected_m = motions_m[0] - expected_from_m_[0];
-    for (std::size_t i = 1; i < motions_m.size(); ++i)
-      expected_m = std::min(expected_m, motions_m[i] - expected_from_m_[i]);
+    const double expected_m = motions_m.least_above(expected_from_m_);
     if (expected_m >= expected_each_m_) {
       begins_ = true;
       margin_ = {from_m_ - position_m, min_ratio_ * expected_m, false, true};
@@ -72,15 +70,13 @@ class MuscleLoose final : public Detector {
 
   /// limited: the muscle gets less than is asked of it. Positions as NotResponding's: each time
   /// that the joint has moved, what is expected counts anew.
-  bool step(bool limited, double position_m, const NotResponding::Expected& expected_m,
-            const NotResponding::Expected& opposed_m) {
+  bool step(bool limited, double position_m, const NotResponding::Motions& motions) {
     if (!limited) {
       reset();
       margin_ = {0.0, 0.0, true, false};
       return held_.step(false);
     }
-    const NotResponding::Motions motions = NotResponding::possible(expected_m, &opposed_m);
-    motion_.step(position_m, motions, motions.size());
+    motion_.step(position_m, motions);
     margin_ = motion_.margin();
     if (margin_.measured >= moved_m_) motion_.reset();
     const bool away = away_.step(position_m, motions);

@@ -76,7 +76,8 @@ TEST(HeaterDetectors, NotRespondingTripsWhenTheMuscleDoesNotMoveAsItShould) {
   const int ticks = ticks_until([&](int tick) {
     const double t = tick * tick_s;
     const double expected = 0.002 * t / 20.0;
-    return detector.step(0.0003 * t / 20.0, {expected, expected, expected});
+    return detector.step(0.0003 * t / 20.0,
+                         NotResponding::possible({expected, expected, expected}));
   });
   LONGS_EQUAL(20000, ticks);
   DOUBLES_EQUAL(0.0003, detector.margin().measured, 1e-6);
@@ -88,13 +89,15 @@ TEST(HeaterDetectors, NotRespondingIsContentWithAMuscleThatMoves) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int tick) {
     const double expected = 0.011 + 0.009 * std::sin(0.25 * tick * tick_s);
-    return detector.step(0.8 * expected, {expected, expected, expected});
+    return detector.step(0.8 * expected, NotResponding::possible({expected, expected, expected}));
   }));
 }
 
 TEST(HeaterDetectors, NotRespondingDoesNotJudgeRest) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
-  LONGS_EQUAL(-1, ticks_until([&](int) { return detector.step(0.01, {0.011, 0.011, 0.011}); }));
+  LONGS_EQUAL(-1, ticks_until([&](int) {
+    return detector.step(0.01, NotResponding::possible({0.011, 0.011, 0.011}));
+  }));
 }
 
 TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
@@ -105,7 +108,7 @@ TEST(HeaterDetectors, NotRespondingJudgesNoMotionThatAMuscleMayHaveEnded) {
     LONGS_EQUAL(-1, ticks_until([&](int tick) {
       expected = {0.011, 0.011, 0.011};
       expected[slow] += 0.005 * tick * tick_s / 20.0;
-      return detector.step(0.011, expected);
+      return detector.step(0.011, NotResponding::possible(expected));
     }));
   }
 }
@@ -115,18 +118,21 @@ TEST(HeaterDetectors, NotRespondingDoesNotJudgeBetweenAModelThatRisesAndOneThatF
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
   LONGS_EQUAL(-1, ticks_until([&](int tick) {
     const double moved = 0.004 * tick * tick_s / 20.0;
-    return detector.step(0.011, {0.011 + moved, 0.011 + moved, 0.011 - moved});
+    return detector.step(0.011,
+                         NotResponding::possible({0.011 + moved, 0.011 + moved, 0.011 - moved}));
   }));
 }
 
 TEST(HeaterDetectors, NotRespondingDoesNotExpectAtOnceWhatIsAskedForAtItsWindowsEnd) {
   NotResponding detector({20.0, 0.3, 0.001}, tick_s);
-  LONGS_EQUAL(-1, ticks_until(
-                      [&](int tick) {
-                        const double expected = tick < 19'500 ? 0.011 : 0.008;
-                        return detector.step(0.011, {expected, expected, expected});
-                      },
-                      20'000));
+  LONGS_EQUAL(
+      -1,
+      ticks_until(
+          [&](int tick) {
+            const double expected = tick < 19'500 ? 0.011 : 0.008;
+            return detector.step(0.011, NotResponding::possible({expected, expected, expected}));
+          },
+          20'000));
 }
 
 TEST(HeaterDetectors, WrongDutyTripsWhenItPersists) {
@@ -143,7 +149,8 @@ TEST(HeaterDetectors, NotRespondingJudgesEachWindowByItself) {
   const int ticks = ticks_until([&](int tick) {
     const double t = tick * tick_s;
     const double expected = 0.002 * t / 20.0;
-    return detector.step(std::min(0.002, expected), {expected, expected, expected});
+    return detector.step(std::min(0.002, expected),
+                         NotResponding::possible({expected, expected, expected}));
   });
   LONGS_EQUAL(40000, ticks);
   DOUBLES_EQUAL(0.0, detector.margin().measured, 1e-6);

@@ -149,6 +149,7 @@ void Axis::prove(std::int64_t periods) {
   proof_.step({acting.power_W, acting.dither_W, periods, position.present, position.value,
                bundle_ ? bundle_->hottest_K : heat.hottest_K(), heats,
                heat.air().above_configured_K()});
+  inputs_.answered = proof_.answered();
   inputs_.unanswered = proof_.unanswered();
   if (inputs_.unanswered) inputs_.answer = proof_.margin();
 }

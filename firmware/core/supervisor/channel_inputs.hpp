@@ -19,6 +19,7 @@ struct AxisInputs {
   /// By how much the other muscle of the joint moves it away, as HeaterInputs::expected_m.
   detectors::NotResponding::Expected opposed_m{};
   double from_position_K = 0.0;  ///< temperature that the position tells, beside the resistance's
+  bool answered = false;         ///< the muscle was seen to follow its power
   bool unanswered = false;       ///< the muscle was asked to prove that it answers, and did not,
   detectors::Margin answer;      ///< and by how much
   std::optional<detectors::Recalibration> recalibrated;  ///< positions jumped

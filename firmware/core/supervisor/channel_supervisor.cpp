@@ -104,6 +104,7 @@ void ChannelSupervisor::judge_answer(const AxisInputs& axis, const HeaterInputs&
   if (axis.recalibrated) not_responding_.recalibrate(*axis.recalibrated);
   if (axis.expected_anew) not_responding_.reset();
   if (axis.recalibrated || axis.expected_anew) loose_.reset();
+  if (axis.answered) not_responding_.count_anew();
   if (!heater.current.present) return;
   if (axis.position.present) {
     const auto motions = detectors::NotResponding::possible(

@@ -170,7 +170,7 @@ double Proof::time_to_limit_s(double hottest_K) const {
 }
 
 void Proof::step(const Input& in) {
-  unanswered_ = false;
+  answered_ = unanswered_ = false;
   if (!active()) return;
   const auto periods = static_cast<double>(in.periods);
   sums_.power_W += in.power_W * periods;
@@ -225,11 +225,12 @@ void Proof::rest() {
 }
 
 void Proof::judge(double power_W, double hottest_K) {
+  answered_ = all_.answered() || dither_.answered();
   const bool silent = stage_ == Stage::watching ? dither_.silent() : all_.silent() && must_move();
   unproven_s_ = power_W > above_safe_ratio * plan_.safe_W ? unproven_s_ + step_s_ : 0.0;
   if (stage_ == Stage::released) {
     judge_release();
-  } else if (all_.answered() || dither_.answered()) {
+  } else if (answered_) {
     unproven_s_ = 0.0;
     if (stage_ == Stage::overdue) enter(Stage::watching);
     begin_block();

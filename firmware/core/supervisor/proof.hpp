@@ -75,6 +75,8 @@ class Proof {
   /// Every position moved, by a new calibration.
   void recalibrated() { settled_ = false; }
 
+  /// At this tick it was seen to follow its power.
+  bool answered() const { return answered_; }
   /// At this tick neither a dither nor the removal of power was answered.
   bool unanswered() const { return unanswered_; }
   /// The dither at this tick; 0: none.
@@ -174,6 +176,7 @@ class Proof {
 
   Stage stage_ = Stage::watching;
   bool settled_ = false;
+  bool answered_ = false;
   bool unanswered_ = false;
   int dither_place_ = -1;  ///< -1: none
   double dither_W_ = 0.0;

@@ -54,6 +54,25 @@ TEST(Simulation, DependsOnItsSeed) {
   CHECK(first.back().measured_m != second.back().measured_m);
 }
 
+/// Of a muscle that is identified, as such: it may be asked to answer, and is held still by more
+/// power than any muscle of a constant cooling would be.
+TEST(Simulation, ADraughtIsNoMuscleThatDoesNotRespond) {
+  const std::string text =
+      "simulation.duration_s = 46.0\nsensor.position.noise_rms_m = 1e-5\n"
+      "[reference]\nkind = 'step'\nto_m = 0.010\n[controller]\nkind = 'pi'\n"
+      "[[event]]\nat_s = 30.0\nplant.heat_transfer_W_per_K = 0.107\n";
+  LearnedMuscles learned;
+  learned[0].emplace();
+  learned[0]->muscle = read(text).start.muscle;
+  learned[0]->muscle.stiffness_N_per_m *= 1.001;  // found, and not what was configured
+  learned[0]->calibration.cold_resistance_Ohm = 10.0;
+  learned[0]->response_ratio = 1.0;
+  const auto known = parse_scenario(text, "s.toml", learned);
+  CHECK(known.has_value());
+  for (const TickRecord& r : records_of(*known))
+    CHECK(r.fault == Fault::none);
+}
+
 TEST(Simulation, GivesNoPowerOutsideTheLimits) {
   for (const TickRecord& r : records_of(read("simulation.duration_s = 60.0\npower.max_W = 3.0"))) {
     CHECK(r.applied_power_W >= 0.0 && r.applied_power_W <= 3.0);

@@ -144,9 +144,10 @@ class NotResponding final : public Detector {
   }
 
   bool step(double position_m, const Motions& motions) {
-    if (elapsed_s_ == 0.0) {
+    if (elapsed_s_ == 0.0 || counts_anew_) {
       low_ = high_ = position_m;
       expected_low_ = expected_high_ = motions;
+      counts_anew_ = false;
     }
     elapsed_s_ += step_s_;
     low_ = std::min(low_, position_m);
@@ -164,6 +165,9 @@ class NotResponding final : public Detector {
     return seen.judged && !(seen.measured >= seen.limit);
   }
   void reset() { elapsed_s_ = 0.0; }
+  /// The muscle was proven to live: what was expected before, and what moved, counts no more in
+  /// this window. A muscle in a draught is held still by more power, which no model of it expects.
+  void count_anew() { counts_anew_ = true; }
   /// That positions are others from now on is no motion, and no reason to begin anew: who
   /// calibrates again and again would never be judged.
   void recalibrate(const Recalibration& change) {
@@ -184,6 +188,7 @@ class NotResponding final : public Detector {
   Settings settings_;
   double step_s_;
   double elapsed_s_ = 0.0;
+  bool counts_anew_ = false;
   double low_ = 0.0;
   double high_ = 0.0;
   Motions expected_low_{};

@@ -156,6 +156,24 @@ TEST(HeaterDetectors, NotRespondingJudgesEachWindowByItself) {
   DOUBLES_EQUAL(0.0, detector.margin().measured, 1e-6);
 }
 
+TEST(HeaterDetectors, NotRespondingCountsAnewFromAnAnswerToTheSameEnd) {
+  NotResponding detector({20.0, 0.3, 0.001}, tick_s);
+  const auto step = [&](double expected_m) {
+    return detector.step(0.011, NotResponding::possible({expected_m, expected_m, expected_m}));
+  };
+  // More power held it still in a draught; it answered, and after that nothing more is expected.
+  const auto in_draught = [&](int tick) {
+    if (tick == 10000) detector.count_anew();
+    return step(0.011 + 0.002 * std::min(tick, 10000) / 10000.0);
+  };
+  LONGS_EQUAL(-1, ticks_until(in_draught, 20000));
+  // What is lost after it has answered is found where the window ends.
+  LONGS_EQUAL(20000, ticks_until([&](int tick) {
+                if (tick == 10000) detector.count_anew();
+                return step(0.011 + 0.004 * tick / 20000.0);
+              }));
+}
+
 TEST(HeaterDetectors, StuckOnAllowsFor50MillisecondsUnlessTold) {
   StuckOn detector({.max_A = 0.02}, tick_s);
   LONGS_EQUAL(50, ticks_until([&](int) { return detector.step(true, 0.4); }));

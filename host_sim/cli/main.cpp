@@ -1,4 +1,5 @@
 // supercoil-sim: the muscle and its firmware on any PC.
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -10,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/common/commands.hpp"
+#include "apps/common/problems_json.hpp"
 #include "campaign/study.hpp"
 #include "cli/commands.hpp"
 #include "text/program_version.hpp"
@@ -191,6 +193,16 @@ void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   estimators->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
+/// A wrong option, for whom run --check --json is.
+bool tell_as_json(int count, char** arguments, const CLI::ParseError& error) {
+  const auto given = [&](std::string_view option) {
+    return std::find(arguments, arguments + count, option) != arguments + count;
+  };
+  if (!given("run") || !given("--check") || !given("--json")) return false;
+  std::puts(problems_json({{"", 0, "", error.what()}}).dump(2).c_str());
+  return true;
+}
+
 int run_program(int count, char** arguments) {
   CLI::App app{"Simulates super-coiled polymer muscles under supercoil's control.",
                "supercoil-sim"};
@@ -212,6 +224,8 @@ int run_program(int count, char** arguments) {
   try {
     app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
+    const bool wrong = error.get_exit_code() != 0;
+    if (wrong && tell_as_json(count, arguments, error)) return exit_wrong_input;
     const int status = app.exit(error);
     return status == 0 ? exit_done : exit_wrong_input;
   }

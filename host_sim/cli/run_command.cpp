@@ -97,7 +97,7 @@ using OrProblems = tl::expected<void, Problems>;
 /// With an option, or what it names.
 Problems wrong_option(const std::string& option, const std::string& value,
                       const std::string& message) {
-  return {{.key = option, .message = message, .value = value}};
+  return {{"", 0, option, message, value}};
 }
 
 /// As every command says it, or with --check --json for programs.
@@ -130,8 +130,7 @@ OrProblems use_own_board(const RunOptions& options, const LearnedMuscles& learne
   const auto used =
       use_board(scenario, *config, static_cast<std::size_t>(options.channel) - 1, learned);
   if (used) return {};
-  return tl::unexpected(
-      Problems{{.file = options.scenario + " on " + options.board, .message = used.error()}});
+  return tl::unexpected(Problems{{options.scenario + " on " + options.board, 0, "", used.error()}});
 }
 
 /// The scenario with the board that the options want.

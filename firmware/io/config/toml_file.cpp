@@ -7,6 +7,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "storage/crc32.hpp"
+
 namespace supercoil::config {
 
 namespace {
@@ -69,6 +71,12 @@ toml::table parse(const std::string& text, Diagnostics& diagnostics) {
                     "is not valid TOML: " + std::string(error.description()));
     return {};
   }
+}
+
+std::uint32_t crc32_of(const toml::table& document) {
+  std::ostringstream text;
+  text << document;
+  return storage::crc32(text.str());
 }
 
 }  // namespace supercoil::config

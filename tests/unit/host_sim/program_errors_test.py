@@ -113,6 +113,28 @@ class Errors(ProgramCase):
             self.check_refused("must be FROM:TO", "run", self.scenario(SHORT), "--out", "out",
                                "--window", window)
 
+    def test_what_is_wrong_with_a_check_is_told_programs(self):
+        board = self.path / "board.toml"
+        board.write_text("[bord]\n")
+        right = EXAMPLES / "raspberry-pi-pwm-ads1115.toml"
+        last = self.path / "last.toml"
+        last.write_text(re.sub(r"first_node = \d+", "first_node = 62", right.read_text()))
+        for text, options, found in (
+                ("\nplant.moving_mass_kg = -0.09", [], ("s.toml", 2, "plant.moving_mass_kg", "-0.09")),
+                (SHORT, ["--window", "1:99"], ("", 0, "--window", "1:99")),
+                (SHORT, ["--board", last, "--nodes", 8], ("", 0, "--nodes", "8")),
+                (SHORT, ["--nodes", 9], ("", 0, "", "")),
+                (SHORT, ["--learned", "nowhere"], ("", 0, "--learned", "")),
+                (SHORT, ["--board", "board.toml"], ("board.toml", 1, "bord", "")),
+                (SHORT, ["--board", right, "--channel", 3], ("", 0, "--channel", "3")),
+                (SHORT + "power.supply_V = 24.0\n", ["--board", right], (f"s.toml on {right}", 0, "", ""))):
+            with self.subTest(options):
+                done = self.run_program("run", self.scenario(text), "--check", "--json", *options)
+                self.assertEqual((done.returncode, done.stderr), (2, ""))
+                problems = json.loads(done.stdout)["problems"]
+                self.assertIn(found, [tuple(problem[key] for key in ("file", "line", "key", "value")) for problem in problems])
+                self.assertTrue(all(problem["message"] for problem in problems))
+
     def test_unknown_options_and_commands(self):
         self.assertEqual(self.run_program("run").returncode, 2)
         self.assertEqual(self.run_program("fly").returncode, 2)

@@ -329,6 +329,17 @@ class Results(ProgramCase):
         self.assertEqual(self.summary_of("# another comment\n" + SHORT)["scenario_crc32"], summary["scenario_crc32"])
         self.assertNotEqual(self.summary_of(SHORT + "power.pwm_bits = 11\n")["scenario_crc32"], summary["scenario_crc32"])
 
+    def test_summary_has_a_hash_of_the_boards_file(self):
+        self.assertIsNone(self.summary_of(SHORT)["board_crc32"])
+        board = (EXAMPLES / "raspberry-pi-pwm-ads1115.toml").read_text()
+        found = []
+        for text in (board, "# another comment\n" + board, board.replace("max_travel_m = 0.025", "max_travel_m = 0.024")):
+            (self.path / "board.toml").write_text(text)
+            self.run_program("run", "s.toml", "--board", "board.toml", "--out", "out", "--no-plot", "--quiet")
+            found.append(json.loads((self.path / "out/summary.json").read_text())["board_crc32"])
+        self.assertEqual(found[0], found[1])
+        self.assertNotEqual(found[0], found[2])
+
     def test_summary_has_the_share_of_ticks_at_each_limit(self):
         summary = self.summary_of(SHORT + "power.max_W = 0.01\n")
         self.assertGreater(summary["limited_by_ratio"]["maximum"], 0.5)

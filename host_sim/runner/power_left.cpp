@@ -27,11 +27,11 @@ double first_rise_K(const ChannelSettings& channel, const BoardSettings& board,
 
 }  // namespace
 
-PowerLeft::PowerLeft(const BoardSettings& board, double step_s)
+PowerLeft::PowerLeft(const BoardSettings& board, double supply_V, double step_s)
     : limiter_(board.channels[0].limiter, step_s),
       provable_W_(provable_W(board.channels[0], board)),
       warmest_C_(board.channels[0].thermal.air.warmest_C),
-      max_power_ratio_(power_bounds(board.channels[0], board).true_over_measured().max),
+      max_power_ratio_(power_bounds(board.channels[0], board).true_over_measured(supply_V).max),
       hot_(board::known_thermal_bounds(board.channels[0].thermal, board.channels[0].heat).bounds,
            step_s) {
   const ChannelSettings& channel = board.channels[0];

@@ -15,7 +15,8 @@ class PowerLeft {
     LimitedBy by = LimitedBy::nothing;
   };
 
-  PowerLeft(const BoardSettings& board, double step_s);
+  /// supply_V: that it has.
+  PowerLeft(const BoardSettings& board, double supply_V, double step_s);
 
   Most now() const { return at(warmest_C_ + hot_.max_K()); }
   /// Of a cold muscle.

@@ -158,7 +158,7 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
   f.held_by = muscle.held_by;
   f.once_identified = muscle.held_by == LimitedBy::unproven && !channel.muscle_identified;
   const double step = step_s(c.reference);
-  const PowerLeft left(board, step);
+  const PowerLeft left(board, c.power.supply_V, step);
   // An event may change all of it.
   const double end_s = scenario.events.empty() ? scenario.duration_s : scenario.events[0].at_s;
   find_infeasible(c, end_s, step, left, f);

@@ -119,11 +119,22 @@ TEST(ReferenceFeasibility, WhatMayBecomeTooHotToBeHeldIsTold) {
   const auto sine_about = [&](const std::string& offset_m) {
     return read(hot + "[reference]\nkind = 'sine'\namplitude_m = 0.005\noffset_m = " + offset_m);
   };
-  STRCMP_CONTAINS("as it does not stay where it leads to, at 12.5 mm: the muscle holds 12.1 mm",
+  STRCMP_CONTAINS("as it does not stay where it leads to, at 12.3 mm: the muscle holds 12.1 mm",
                   describe_reference(sine_about("0.0075"), true).c_str());
   const auto too_high = reference_feasibility(sine_about("0.009"));
   DOUBLES_EQUAL((f->held_m - 0.009) / 0.005, too_high->feasible_motion_ratio, 1e-3);
   CHECK_TRUE(std::isinf(too_high->feasible_slowing));
+}
+
+/// How wrong senses may be that were never compared depends on the supply that they read.
+TEST(ReferenceFeasibility, GoesByTheSupplyThatThereIs) {
+  const Scenario scenario = read(
+      "simulation.duration_s = 60.0\nsenses.error_ratio = 0.0\n"
+      "[reference]\nkind = 'steps'\nlevels_m = [0.010]\nhold_s = 60.0\n");
+  const auto f = reference_feasibility(scenario);
+  CHECK_COMPARE(f->held_m, <, 0.010);
+  DOUBLES_EQUAL(0.0, infeasible_ratio_of_run(scenario), 0.0);
+  DOUBLES_EQUAL(0.0, f->infeasible_ratio, 0.01);
 }
 
 TEST(ReferenceFeasibility, WhatAnIdentifiedMuscleCannotProveIsTold) {

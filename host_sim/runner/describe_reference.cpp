@@ -92,13 +92,14 @@ std::string describe_infeasible(const InfeasibleTime& found, const Scenario& sce
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(),
                 "the reference asked for more than the muscle can do in %.1f %% of the ticks that "
-                "followed it, first at %.1f s (limited_by %s)",
-                100.0 * found.ratio(), found.first_s(), name(found.first_by()).data());
+                "followed it, first at %.1f s",
+                100.0 * found.ratio(), found.first_s());
   std::string line = text.data();
   if (before != nullptr && !before->changes.empty())
-    line += ", after the event at " + number_text(before->at_s, 6) + " s, " + before->changes;
+    line += ", after the event at " + number_text(before->at_s, 6) + " s (" + before->changes + ")";
+  line += ", mostly limited_by " + std::string(name(found.mostly_by()));
   const Conditions& then = before != nullptr ? before->conditions : scenario.start;
-  if (is_of_heat(found.first_by())) return line + ": a smaller one";
+  if (is_of_heat(found.mostly_by())) return line + ": a smaller one";
   return line + ": a slower or smaller one" +
          (then.controller.shape_reference ? "" : ", or shape_reference = true");
 }

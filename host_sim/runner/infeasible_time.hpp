@@ -1,8 +1,13 @@
 // How long a reference was none that the muscle could follow, found in a run.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 
 #include "loop/feasibility.hpp"
 
@@ -21,38 +26,39 @@ class InfeasibleTime {
     ++following_;
     if (!is_infeasible(limit)) return interrupt();
     if (std::isnan(since_s_)) since_s_ = time_s;
-    ++open_;
+    ++open_.at(static_cast<std::size_t>(limit));
     if (time_s - since_s_ < infeasible_lasts_s - rounding_s) return;
-    if (infeasible_ == 0) {
-      first_s_ = since_s_;
-      first_by_ = limit;
-    }
-    infeasible_ += open_;
-    open_ = 0;
+    if (std::isnan(first_s_)) first_s_ = since_s_;
+    for (std::size_t i = 0; i < open_.size(); ++i)
+      counted_.at(i) += std::exchange(open_.at(i), 0);
   }
   /// No position is followed at this tick.
   void interrupt() {
     since_s_ = NAN;
-    open_ = 0;
+    open_.fill(0);
   }
 
   /// NaN: none was followed.
   double ratio() const {
-    return static_cast<double>(infeasible_) / static_cast<double>(following_);
+    const auto all = std::accumulate(counted_.begin(), counted_.end(), std::int64_t{0});
+    return static_cast<double>(all) / static_cast<double>(following_);
   }
   /// When that began first; NaN: never.
   double first_s() const { return first_s_; }
-  LimitedBy first_by() const { return first_by_; }
+  /// At which limit for most of it.
+  LimitedBy mostly_by() const {
+    return static_cast<LimitedBy>(std::ranges::max_element(counted_) - counted_.begin());
+  }
 
  private:
   static constexpr double rounding_s = 1e-9;
+  using Ticks = std::array<std::int64_t, limit_names.size()>;
 
   std::int64_t following_ = 0;
-  std::int64_t infeasible_ = 0;
-  std::int64_t open_ = 0;  ///< at a limit, and not for long enough yet
-  double since_s_ = NAN;   ///< at a limit
+  Ticks counted_{};
+  Ticks open_{};          ///< at a limit, and not for long enough yet
+  double since_s_ = NAN;  ///< at a limit
   double first_s_ = NAN;
-  LimitedBy first_by_ = LimitedBy::nothing;
 };
 
 }  // namespace supercoil::host_sim

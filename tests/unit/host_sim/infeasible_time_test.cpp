@@ -36,7 +36,7 @@ TEST(InfeasibleTime, CountsWhatLastsFromItsBeginningOn) {
   follow(LimitedBy::temperature, 0.4);
   DOUBLES_EQUAL(0.5 / 2.5, found.ratio(), 1e-9);
   DOUBLES_EQUAL(2.0, found.first_s(), 1e-9);
-  CHECK(found.first_by() == LimitedBy::temperature);
+  CHECK(found.mostly_by() == LimitedBy::temperature);
 }
 
 TEST(InfeasibleTime, EndsWhereNoPositionIsFollowed) {
@@ -56,7 +56,7 @@ TEST(InfeasibleTime, TheEventBeforeItIsNamedWithAllThatItChanges) {
   follow(LimitedBy::temperature, 0.5);
   STRCMP_EQUAL(
       "the reference asked for more than the muscle can do in 25.0 % of the ticks that followed "
-      "it, first at 1.5 s (limited_by temperature), after the event at 1 s, plant.load_N, "
-      "power.gain: a smaller one",
+      "it, first at 1.5 s, after the event at 1 s (plant.load_N, power.gain), mostly limited_by "
+      "temperature: a smaller one",
       describe_infeasible(found, scenario).c_str());
 }

@@ -84,7 +84,7 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
   const std::string usual = number_text(usual_time_constant_s, 3) + " s";
   const std::string own = number_text(tau_s, 3) + " s";
   const std::string why =
-      slowness > 1.0
+      own != usual && slowness > 1.0
           ? " over the root of its time constant, " + own + ", in units of the paper's " + usual
           : ", as its time constant, " + own + ", does not exceed the paper's " + usual;
   RecommendedController suits;

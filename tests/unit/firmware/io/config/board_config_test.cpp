@@ -5,6 +5,7 @@
 
 #include "config/bus_time.hpp"
 #include "config/describe.hpp"
+#include "config/recommended_controller.hpp"
 #include "unit/firmware/io/config/support/small_board.hpp"
 
 using namespace supercoil;
@@ -312,6 +313,25 @@ TEST(BoardConfig, PromisesAnErrorOfLearnedFeedforwardAndSaysSoOfOthers) {
   check_says(of_learned[0], describe_promise(promise, motion));
   channel.supervision.max_travel_m = 0.0;
   check_says(describe_promises(board, 0)[0], "no promise");
+}
+
+TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {
+  BoardConfig c = read(test::small_board);
+  ChannelSettings& channel = c.settings.channels[0];
+  const std::string law =
+      "controller = { kind = \"learned_ff\", shape_reference = true, bandwidth_rad_per_s = 8 }";
+  const std::string model =
+      "reference_model = { kind = \"poles\", poles_rad_per_s = [3.276, 3.276, 3.276] }";
+  check_says(describe(c), "\n  recommended " + law + ": follows closest");
+  check_says(describe(c), "\n              " + model + ": just so quick");
+  STRCMP_EQUAL((law + " with " + model).c_str(),
+               describe_recommendation(c.settings, 0, true).at(0).c_str());
+  channel.controllers.push_back(
+      recommended_controller(channel.muscle).in_place_of(channel.controllers[0]));
+  check_says(describe(c), "\n  recommended controller 1, as it is: it follows closest");
+  CHECK(describe_recommendation(c.settings, 0, true).empty());
+  channel.bundle.leader_offset = -1;
+  CHECK(describe_recommendation(c.settings, 0, false).empty());
 }
 
 TEST(BoardConfig, AdviceNamesWhomItConcernsAndWhatToChange) {

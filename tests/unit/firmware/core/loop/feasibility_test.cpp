@@ -153,6 +153,23 @@ TEST(Feasibility, TheSensorMustSeeWhereTheColdestAirDrawsIt) {
   CHECK_FALSE(found().rest_seen);
 }
 
+TEST(Feasibility, InTheColdestAirItIsHeldSoMuchLower) {
+  channel.supervision.proof_of_response = false;
+  channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 20.0};
+  const Feasibility f = found();
+  DOUBLES_EQUAL(f.travel_m - f.air_shift_m, f.cold_travel_m, 1e-12);
+  // A sensor tells that it is cold: then it gets as much as where it is never warmer than that.
+  channel.thermal.air.error_K = 1.0;
+  const Feasibility measured = found();
+  channel.thermal.air = {.warmest_C = 22.0, .coldest_C = 22.0};
+  DOUBLES_EQUAL(found().travel_m - measured.air_shift_m, measured.cold_travel_m, 1e-12);
+  CHECK(measured.cold_travel_m > f.cold_travel_m);
+  DOUBLES_EQUAL(f.travel_m, measured.travel_m, 0.0);
+  // A wide span leaves nothing.
+  channel.thermal.air = {.warmest_C = 70.0, .coldest_C = -30.0};
+  DOUBLES_EQUAL(0.0, found().cold_travel_m, 0.0);
+}
+
 TEST(Feasibility, HeldStillTheWorstCooledMusclePullsHardest) {
   channel.thermal.air = {.warmest_C = 30.0, .coldest_C = 15.0};
   channel.thermal.bounds.min_transfer_W_per_K = 0.045;

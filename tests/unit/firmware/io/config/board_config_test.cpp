@@ -6,6 +6,8 @@
 #include "config/bus_time.hpp"
 #include "config/describe.hpp"
 #include "config/recommended_controller.hpp"
+#include "loop/feasibility.hpp"
+#include "text/number_text.hpp"
 #include "unit/firmware/io/config/support/small_board.hpp"
 
 using namespace supercoil;
@@ -332,6 +334,23 @@ TEST(BoardConfig, RecommendsAControllerOrSaysWhichIsSo) {
   CHECK(describe_recommendation(c.settings, 0, true).empty());
   channel.bundle.leader_offset = -1;
   CHECK(describe_recommendation(c.settings, 0, false).empty());
+}
+
+TEST(BoardConfig, AdvisesWhereLittleOfTheTravelIsHeld) {
+  BoardConfig c = read(test::small_board_with("min_m = -0.001", "min_m = -0.03"));
+  ChannelSettings& channel = c.settings.channels[0];
+  const Feasibility f = feasibility(channel, c.settings);
+  check_says(describe(c), "and holds up to " + number_text(1e3 * f.cold_travel_m, 3) +
+                              " mm above its zero there");
+  channel.supervision.max_travel_m = 3.9 * f.travel_m;
+  CHECK(advice(c).empty());
+  channel.supervision.max_travel_m = 4.1 * f.travel_m;
+  LONGS_EQUAL(1, advice(c).size());
+  check_says(advice(c)[0], "for good (limited_by unproven): senses that are compared");
+  channel.supervision.max_travel_m = 0.025;
+  channel.thermal.air.coldest_C -= 9.0;
+  LONGS_EQUAL(1, advice(c).size());
+  check_says(advice(c)[0], "in the coldest air it holds no more than ");
 }
 
 TEST(BoardConfig, AdviceNamesWhomItConcernsAndWhatToChange) {

@@ -1,15 +1,19 @@
 #include <chrono>
 #include <cinttypes>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <string>
 
 #include <unistd.h>
 
+#include "apps/common/progress.hpp"
 #include "cli/nodes.hpp"
 #include "cli/run_results.hpp"
 #include "cli/runs.hpp"
 #include "runner/pace.hpp"
 #include "socketcand/server.hpp"
+#include "text/number_text.hpp"
 
 namespace supercoil::host_sim {
 
@@ -36,6 +40,15 @@ tl::expected<std::unique_ptr<SocketcandServer>, std::string> serve(Nodes& nodes,
   return server;
 }
 
+/// Ticks from one look at the clock to the next.
+constexpr std::int64_t ticks_a_look = 16;
+
+/// "12 s of 86400 s simulated": without a fraction, that the line does not flicker.
+std::string in_seconds(const Simulation& simulation, const Scenario& scenario) {
+  return std::to_string(static_cast<std::int64_t>(simulation.time_s())) + " s of " +
+         number_text(scenario.duration_s, 9) + " s simulated";
+}
+
 }  // namespace
 
 int live_run(const RunOptions& options, const Scenario& scenario, const Window& window,
@@ -52,14 +65,20 @@ int live_run(const RunOptions& options, const Scenario& scenario, const Window& 
   }
   if (!options.quiet) std::printf("%s in real time; Ctrl-C ends it\n", scenario.name.c_str());
   std::fflush(stdout);
+  Progress progress(scenario.name, options.quiet);
   Pace pace(scenario.step_s());
   const Simulation& first = nodes->first();
   const auto is_orphan = [&] { return options.end_with_parent && getppid() != parent; };
   while (!first.done() && !interrupted() && !is_orphan()) {
     nodes->step();
     if (server) server->poll();
+    if (first.tick() % ticks_a_look == 0) {
+      progress.show(static_cast<double>(first.tick()) / static_cast<double>(first.ticks()),
+                    in_seconds(first, scenario));
+    }
     pace.wait();
   }
+  progress.end();
   if (!first.done() && !options.quiet) {
     // The terminal has shown ^C on this line.
     std::printf("\nended at %s\n", reached(first, scenario).c_str());

@@ -213,6 +213,20 @@ class Errors(ProgramCase):
                                      "recordings of faults\n$")
             self.assertFalse((self.path / "out").exists())
 
+    def test_on_a_terminal_a_run_in_real_time_shows_how_far_it_is(self):
+        self.scenario("simulation.duration_s = 86400.0\n")
+        screen, terminal = pty.openpty()
+        running = subprocess.Popen([PROGRAM, "run", "s.toml", "--out", "out", "--real-time"], cwd=self.path,
+                                   stdout=subprocess.DEVNULL, stderr=terminal)
+        os.close(terminal)
+        seen = ""
+        while not seen.endswith(" left"):
+            seen += os.read(screen, 4096).decode()
+        running.send_signal(signal.SIGINT)
+        running.wait()
+        os.close(screen)
+        self.assertRegex(seen, r"\r\x1b\[Ks: 0 %  \d+ s of 86400 s simulated, \d+ min left$")
+
     def test_on_a_terminal_the_message_of_an_interruption_has_a_line_of_its_own(self):
         self.scenario("simulation.duration_s = 20000.0\n")
         screen, terminal = pty.openpty()

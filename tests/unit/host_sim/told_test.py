@@ -50,6 +50,21 @@ class Told(ProgramCase):
             advice = ", or shape_reference = true" if shape == "false" else ""
             self.assertEqual(line, [(f"{100 * ratio:.1f}", advice)] if told else [])
 
+    def test_the_controller_that_suits_is_recommended_where_none_is_so(self):
+        scenario = self.scenario(SHORT)
+        suits = json.loads(self.run_program("run", scenario, "--check", "--json").stdout)["feasibility"]["recommended"]
+        self.assertIsNone(suits["in_use"])
+        law = (f"{{ kind = \"{suits['kind']}\", shape_reference = {str(suits['shape_reference']).lower()}, "
+               f"bandwidth_rad_per_s = {suits['bandwidth_rad_per_s']:.4g} }}")
+        model = "{ kind = \"poles\", poles_rad_per_s = [" + ", ".join(f"{p:.4g}" for p in suits["model_poles_rad_per_s"]) + "] }"
+        self.assertIn(f"\nrecommended: controller = {law}: {suits['reason']}\nrecommended: reference_model = {model}: {suits['model_reason']}\n",
+                      self.run_program("run", scenario, "--check").stdout)
+        self.assertIn(f"\nrecommended: controller = {law} with reference_model = {model}\n", self.after(SHORT)[0])
+        taken = f"controller = {law}\nreference_model = {model}\n" + SHORT
+        self.assertNotIn("recommended", self.after(taken)[0])
+        self.assertIn("\nrecommended: controller 0, as it is: it follows closest", self.run_program("run", "s.toml", "--check").stdout)
+        self.assertEqual(json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)["feasibility"]["recommended"]["in_use"], 0)
+
     def test_noise_at_a_limit_is_no_reference_that_is_not_feasible(self):
         told, summary = self.after("simulation.duration_s = 60.0\n")
         self.assertGreater(sum(summary["limited_by_ratio"].values()), 0.03)

@@ -59,6 +59,8 @@ class Program(unittest.TestCase):
         text = self.run_program("--check", EXAMPLES / "raspberry-pi-pwm-ads1115.toml").stdout
         self.assertIn(f"  can do      holds {1e3 * can['travel_m']:.3g} mm for good, at {can['held_W']:.3g} W", text)
         self.assertIn(f"controller 0: margin {can['controllers'][0]['margin']:.2g}, holds if no parameter is off by more than", text)
+        self.assertIn(f"and holds up to {1e3 * can['cold_travel_m']:.3g} mm above its zero there", text)
+        self.assertIn(f"\n  recommended controller = {{ kind = \"{can['recommended']['kind']}\", shape_reference = true, ", text)
 
     def test_check_prints_every_mistake_as_json(self):
         file, line = self.changed("rate_Hz", "rate_kHz")

@@ -8,8 +8,8 @@
 #include "loop/feasibility.hpp"
 
 using namespace supercoil;
-using config::RecommendedController;
 using config::recommended_controller;
+using config::RecommendedController;
 
 TEST_GROUP(RecommendedController){};
 

@@ -116,9 +116,13 @@ class CompareSenses(unittest.TestCase):
         self.assert_nothing_changed()
 
     def test_a_power_must_come_from_somewhere(self):
-        done = self.supercoil("doctor", "--compare-senses", "--config", "/no/board.toml")
+        done = self.supercoil("doctor", "--compare-senses", "--config", "/no/board.toml", "--json")
         self.assertEqual(done.returncode, 2)
         self.assertIn("/no/board.toml", done.stderr)
+        self.assertIn("/no/board.toml", json.loads(done.stdout)["error"])
+        done = self.supercoil("doctor", "--compare-senses", "--config", EXAMPLE, "--channel", "40", "--json")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has no channel 40", json.loads(done.stdout)["error"])
 
 
 if __name__ == "__main__":

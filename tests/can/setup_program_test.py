@@ -265,5 +265,15 @@ class SetupProgram(SetupCase):
         self.assertIn(f"{self.board}.before-setup is the file as it was before", done.stderr)
         self.assertEqual(self.board.read_text(), described)
 
+    def test_an_error_is_told_in_json_as_well(self):
+        self.record.write_text("{")
+        done = self.setup_program("calibrate", "--json")
+        self.assertEqual(done.returncode, 1)
+        told = json.loads(done.stdout)
+        self.assertEqual(told["steps"], {})
+        self.assertIn("is damaged", told["error"])
+        self.assertEqual(done.stderr, f"supercoil: {told['error']}\n")
+
+
 if __name__ == "__main__":
     unittest.main()

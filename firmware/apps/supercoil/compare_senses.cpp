@@ -49,13 +49,15 @@ int concluded(const tl::expected<board::SenseComparison, std::string>& found,
 int compare_senses(const DoctorOptions& options) {
   const auto config = config::read_board_config(options.config);
   if (!config && options.power_W <= 0.0) {
-    std::fputs(config::to_text(config.error()).c_str(), stderr);
+    const std::string problems = config::to_text(config.error());
+    if (options.json) tell_error(problems.substr(0, problems.find_last_not_of('\n') + 1));
+    std::fputs(problems.c_str(), stderr);
     return exit_wrong_input;
   }
   const std::size_t place = config ? channel_of(options, *config) : 0;
   if (config && place == 0) {
-    return fail(exit_wrong_input,
-                options.config + " has no channel " + std::to_string(options.channel));
+    return refuse(options.json, exit_wrong_input,
+                  options.config + " has no channel " + std::to_string(options.channel));
   }
   ComparisonPlan plan{std::to_string(options.channel)};
   if (config) {
@@ -73,7 +75,7 @@ int compare_senses(const DoctorOptions& options) {
   std::fflush(out);
   watch_for_interrupts();
   const auto board = open_link(options.can, options.socket);
-  if (!board) return fail(exit_failed, board.error());
+  if (!board) return refuse(options.json, exit_failed, board.error());
   TerminalOperator terminal(out);
   const auto found = compare_senses(**board, plan, terminal);
   std::string bounds;

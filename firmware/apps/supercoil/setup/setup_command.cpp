@@ -207,7 +207,7 @@ int setup_command(const SetupOptions& options) {
   watch_for_interrupts();
   if (options.undo) return undo_command(options);
   auto record = SetupRecord::open(options.config, options.channel);
-  if (!record) return fail(exit_failed, record.error());
+  if (!record) return concluded(options, Json::object(), exit_failed, record.error());
   return run_steps(options, *record, options.json ? stderr : stdout);
 }
 

@@ -61,6 +61,12 @@ class Wizard(Page):
         """The key of what is asked now."""
         return self.run("""return document.querySelector("#setup form input")?.id.slice(6) ?? "" """)
 
+    def in_view(self, place):
+        """Not scrolled out of the dialog."""
+        return self.run(f"""const part = document.querySelector("{place}").getBoundingClientRect();
+            const dialog = document.querySelector("#setup").getBoundingClientRect();
+            return part.top >= dialog.top && part.bottom <= dialog.bottom""")
+
     def answer(self, key, value):
         self.wait(lambda: self.asked() == key, SLACK_S, f"{key} is asked")
         self.find("#setup form input").send_keys(str(value), Keys.ENTER)
@@ -132,9 +138,36 @@ class SetupCase(unittest.TestCase):
         raise AssertionError(f"{name} did not end well in {TRIES} tries")
 
 
+    def audit(self, page, view):
+        """Of the dialog as it is now, with all that can be opened."""
+        if not page.run("return 'axe' in window"):
+            page.run(accessibility_test.AXE)
+        page.run("for (const details of document.querySelectorAll('#setup details')) details.open = true")
+        # axe looks at nothing that is scrolled out of view: a screen on which all has room.
+        page.run("for (const lines of document.querySelectorAll('#setup .lines')) lines.style.maxHeight = 'none'")
+        for width, scheme in ((1440, "light"), (1440, "dark"), (390, "light"), (390, "dark")):
+            accessibility_test.AccessibilityTest.settle(self, page, width, 5000, scheme, width < 600)
+            with self.subTest(view, width=width, scheme=scheme):
+                self.assertEqual(page.driver.execute_async_script(accessibility_test.AUDIT, "#setup"), [])
+                self.assertLessEqual(page.run("return document.querySelector('#setup').scrollWidth - document.querySelector('#setup').clientWidth"), 0)
+        accessibility_test.AccessibilityTest.settle(self, page, 1440, 1000)
+
+
 class SetupTest(SetupCase):
     def test_from_a_muscle_to_one_that_follows(self):
-        self.follow_all_steps(lambda page, name: None)
+        audited = set()
+
+        def see(page, view):
+            # limits pulls meanwhile, and asks as the others do.
+            if view in audited | {"question", "limits"}:
+                return
+            audited.add(view)
+            if view == "identify":
+                page.wait(lambda: " %" in page.text("#setup .progress span"), STEP_S, "its progress")
+            self.audit(page, view)
+
+        self.follow_all_steps(see)
+        self.assertEqual(audited, {"described", "senses", "identify", "gains", "moved"})
 
     def follow_all_steps(self, see):
         board = self.start_board()
@@ -210,7 +243,9 @@ class SetupTest(SetupCase):
         page.begin("describe")
         page.answer("nameplate", 0)
         page.answer("cold_resistance_Ohm", "10Ohm")  # a space is STOP, as everywhere
-        page.wait(lambda: "'10Ohm' is refused: it must be a number from 0.1 to 10000" in page.text("#setup > .answer"), SLACK_S, "refused")
+        page.wait(lambda: "'10Ohm' is refused: it must be a number from 0.1 to 10000" in page.text("#setup form [role=alert]"), SLACK_S, "refused")
+        self.assertTrue(page.in_view("#setup form [role=alert]"))
+        self.assertEqual(page.find("#setup form input").get_attribute("aria-describedby"), page.find("#setup form [role=alert]").get_attribute("id"))
         self.assertEqual(page.asked(), "cold_resistance_Ohm")
         page.press("end describe")
         step = page.ended("describe", SLACK_S)
@@ -254,13 +289,15 @@ class SetupTest(SetupCase):
     def test_it_is_for_everybody(self):
         page = self.described()
         page.begin("describe")
-        page.wait(page.asked, SLACK_S, "a question")
-        page.run(accessibility_test.AXE)
-        for width, height, scheme in ((1440, 1000, "light"), (1440, 1000, "dark"), (390, 844, "light")):
-            accessibility_test.AccessibilityTest.settle(self, page, width, height, scheme, width < 600)
-            with self.subTest(width=width, scheme=scheme):
-                self.assertEqual(page.driver.execute_async_script(accessibility_test.AUDIT, "#setup"), [])
-                self.assertLessEqual(page.run("return document.querySelector('#setup').scrollWidth - document.querySelector('#setup').clientWidth"), 0)
+        page.answer("nameplate", 0)
+        page.wait(lambda: page.asked() == "cold_resistance_Ohm", SLACK_S, "a question")
+        self.audit(page, "question")
+        page.answer("cold_resistance_Ohm", "10Ohm")
+        page.wait(lambda: "is refused" in page.text("#setup form"), SLACK_S, "refused")
+        self.audit(page, "refused")
+        page.press("end describe")
+        page.ended("describe", SLACK_S)
+        self.audit(page, "problem")
 
     def test_undo_puts_the_file_back(self):
         page = self.described()

@@ -13,7 +13,7 @@ const text_of = (value) => (value === null ? "–" : typeof value === "number" ?
 export class Setup {
   /** opener: the button that opens it. store: while the bus tells something, so that a hidden page is not put to sleep. */
   constructor(dialog, opener, store) {
-    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, asked: 0, time_left: new TimeLeft() });
+    Object.assign(this, { dialog, state: null, shown: "", looked_ms: 0, asked: 0, refusal: null, time_left: new TimeLeft() });
     const [close, undo] = dialog.querySelectorAll(":scope > button");
     const [what, answer] = dialog.querySelectorAll(":scope > p");
     Object.assign(this, { undo, what, answer, list: dialog.querySelector("ol") });
@@ -48,11 +48,22 @@ export class Setup {
     this.asked++;
     try {
       const { done, ...state } = await ask_setup(asked);
+      this.refusal = null;
       this.#take(state);
       this.#say(done);
     } catch (problem) {
+      const { question } = this.state;
+      if (asked.do === "answer" && question) return this.#refuse_answer(question.key, problem.message);
       this.#say(problem.message, true);
+      this.answer.scrollIntoView({ block: "nearest" });
     }
+  }
+
+  /** Said where the eyes are: at the question. */
+  #refuse_answer(key, text) {
+    this.refusal = { key, text };
+    this.#draw();
+    this.#draw_progress();
   }
 
   #say(text, refused = false) {
@@ -122,9 +133,15 @@ export class Setup {
 
   #question({ key, text, range, fallback }) {
     const input = element("input", { type: "text", inputmode: "decimal", id: `setup-${key}`, placeholder: fallback ?? "", autocomplete: "off" });
+    const refused = this.refusal?.key === key;
+    if (refused) {
+      input.setAttribute("aria-invalid", "true");
+      input.setAttribute("aria-describedby", "setup-refusal");
+    }
     return element("form", { novalidate: true, onsubmit: (event) => { event.preventDefault(); this.#ask({ do: "answer", text: input.value.trim() }); } },
       element("label", { for: input.id }, text), element("p", { class: "hint" }, `${range}${fallback === null ? "" : `; nothing means ${fallback}`}`),
-      input, " ", element("button", { type: "submit" }, "next"));
+      input, " ", element("button", { type: "submit" }, "next"),
+      refused ? element("p", { class: "answer refused", role: "alert", id: "setup-refusal" }, this.refusal.text) : "");
   }
 
   #draw_progress() {

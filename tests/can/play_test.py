@@ -1,5 +1,6 @@
 """supercoil play: motions of a file on two simulated boards of one bus, in real time over socketcand."""
 
+import json
 import os
 import pathlib
 import signal
@@ -155,9 +156,12 @@ class Files(PlayCase):
         done = self.supercoil("play", "not-there.csv")
         self.assertEqual(done.returncode, 2)
         self.assertIn("not-there.csv: there is no such file", done.stderr)
-        done = self.supercoil("play", motion(self.folder, {1: 1.0}))
+        done = self.supercoil("play", motion(self.folder, {1: 1.0}), "--json")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertIn("socketcand", done.stderr)
+        self.assertIn("socketcand", json.loads(done.stdout)["error"])
+        done = self.supercoil("play", "not-there.csv", "--json")
+        self.assertEqual(json.loads(done.stdout), {"error": "not-there.csv: there is no such file"})
 
 
 class Play(PlayCase):
@@ -193,9 +197,10 @@ class Play(PlayCase):
     def test_two_nodes_go_their_ways_in_step(self):
         recorder = Recorder(self.simulator.port)
         recorder.start()
-        done = self.play(motion(self.folder, {1: 1.0, 2: 0.5}))
+        done = self.play(motion(self.folder, {1: 1.0, 2: 0.5}), "--json")
         references = recorder.end()
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout), {"played": True})
         # The last play's: it ends with the references.
         ways = {}
         for node, scale in ((1, 1.0), (2, 0.5)):

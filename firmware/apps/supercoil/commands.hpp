@@ -65,6 +65,7 @@ struct PlayOptions {
   int node = 1;           ///< of columns without a number
   double settle_s = 3.0;  ///< at the first knot, before the start
   bool hold = false;      ///< the last knot, until Ctrl-C
+  bool json = false;
 };
 int play_command(const PlayOptions& options);
 

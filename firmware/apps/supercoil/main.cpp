@@ -124,6 +124,7 @@ void add_play(CLI::App& app, PlayOptions& options) {
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   play->add_flag("--hold", options.hold, "Hold the last row until Ctrl-C [the muscle rests]");
+  play->add_flag("--json", options.json, "Print how it ended as one line of JSON");
 }
 
 void add_setting(CLI::App& app, SettingOptions& options) {

@@ -29,6 +29,7 @@ complete -c supercoil -n '__fish_seen_subcommand_from play' -l can -x -d 'Play o
 complete -c supercoil -n '__fish_seen_subcommand_from play' -l node -l channel -x -d 'Of columns without a number'
 complete -c supercoil -n '__fish_seen_subcommand_from play' -l settle -x -d 'At the first row before the start, in s'
 complete -c supercoil -n '__fish_seen_subcommand_from play' -l hold -d 'Hold the last row until Ctrl-C [the muscle rests]'
+complete -c supercoil -n '__fish_seen_subcommand_from play' -l json -d 'Print how it ended as one line of JSON'
 complete -c supercoil -n __fish_use_subcommand -f -a setting -d 'Read or change what may be changed on a running board, until it starts again'
 complete -c supercoil -n '__fish_seen_subcommand_from setting' -s h -l help -d 'Print this help message and exit'
 complete -c supercoil -n '__fish_seen_subcommand_from setting' -l can -x -d 'The bus'

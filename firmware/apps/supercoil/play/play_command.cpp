@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <thread>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/common/progress.hpp"
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/interrupted.hpp"
@@ -48,17 +50,22 @@ Player::Problem play(Player& player, const PlayOptions& options, Progress& progr
 
 int play_command(const PlayOptions& options) {
   auto motions = read_motions(options.file, static_cast<std::uint8_t>(options.node));
-  if (!motions) return fail(exit_wrong_input, motions.error());
+  if (!motions) return refuse(options.json, exit_wrong_input, motions.error());
   auto player = options.can.empty() ? Player::open_local(options.socket, std::move(*motions))
                                     : Player::open(options.can, std::move(*motions));
-  if (!player) return fail(exit_failed, player.error());
+  if (!player) return refuse(options.json, exit_failed, player.error());
   watch_for_interrupts();
   Progress progress("play", false);
   const auto problem = play(*player, options, progress);
   progress.end();
   player->rest();
-  if (problem) return fail(exit_failed, *problem);
-  if (interrupted != 0 && !options.hold) return fail(exit_failed, "interrupted; the muscle rests");
+  if (problem) return refuse(options.json, exit_failed, *problem);
+  if (interrupted != 0 && !options.hold)
+    return refuse(options.json, exit_failed, "interrupted; the muscle rests");
+  if (options.json) {
+    const nlohmann::json told{{"played", true}};
+    std::printf("%s\n", told.dump().c_str());
+  }
   return exit_done;
 }
 

@@ -102,10 +102,13 @@ class Refused(unittest.TestCase):
                     known = self.ANSWERS.get(line, self.ANSWERS.get(line.split()[0], "ok"))
                     client.send(known.encode())
 
-    def told(self, *arguments):
+    def program(self, *arguments):
         done = subprocess.run([SUPERCOIL, *arguments, "--socket", self.socket], capture_output=True, text=True, timeout=DEADLINE_S)
         self.assertEqual(done.returncode, 1)
-        return done.stderr
+        return done
+
+    def told(self, *arguments):
+        return self.program(*arguments).stderr
 
     def test_of_a_knot_the_nearest_that_would_be_obeyed_is_told(self):
         path = motion(self.folder, {1: 1.0})
@@ -114,6 +117,8 @@ class Refused(unittest.TestCase):
     def test_of_a_position_the_whole_range_is_told(self):
         self.assertEqual(self.told("command", "1", "position", "0.9"), "supercoil: 1 position 0.9: refused: out_of_range; "
                          "0.025 would be obeyed; -0.01 to 0.025 are in range\n")
+        told = json.loads(self.program("command", "1", "position", "0.9", "--json").stdout)
+        self.assertEqual(told["range"], "-0.01 to 0.025 are in range")
 
 
 class Files(PlayCase):

@@ -94,6 +94,7 @@ int concluded(const CommandOptions& options, const std::string& line,
   if (options.json) {
     nlohmann::ordered_json told{{"command", line}};
     told[answer && is_answer(*answer) ? "answer" : "error"] = answer ? *answer : answer.error();
+    if (!range.empty()) told["range"] = range.substr(range.find_first_not_of("; "));
     std::printf("%s\n", told.dump().c_str());
   }
   return answer ? judged(line, with_degrees(options, *answer) + range)

@@ -138,7 +138,8 @@ TEST(LearnedFeedforwardOnMuscles, FollowsARealMuscleAndAgainAfterItSoftened) {
 TEST(LearnedFeedforwardOnMuscles, FollowsAHardMuscleAndAgainAfterItSoftenedWhileWarmOrCold) {
   LearningLoop loop = believed_cold(host_sim::MusclePreset::real_hard);
   CHECK(loop.rms_um(150.0, 1.6 * sine_period_s) <= 11.0);
-  for (const double soft_from_s : {100.0, 116.0}) {
+  // Softened at 116.8, 118.9 or 121 s it is coldest: there a change shows no direction.
+  for (const double soft_from_s : {100.0, 116.0, 116.8, 118.9, 121.0}) {
     loop.soft_from_s = soft_from_s;
     CHECK(loop.rms_um(soft_from_s + 6.0 * sine_period_s, 3.0 * sine_period_s) <= 16.0);
   }

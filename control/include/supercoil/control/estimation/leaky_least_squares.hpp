@@ -87,13 +87,19 @@ class LeakyLeastSquares {
     }
   }
 
+  /// The muscle has changed, nobody knows how: w stays, and little of the information is kept.
+  void forget() {
+    const double kept = settings_.kept_after_change;
+    information_ = (information_ * kept).eval();
+    information_.diagonal() += (1.0 - kept) * lost * prior_information_;
+    moment_ = information_.template selfadjointView<Eigen::Lower>() * weights_;
+  }
+
   /// The muscle has changed by `amount` along `direction`: w goes there, the information along it
   /// is gone, and little of the rest is kept.
   void move(const Weights& direction, double amount) {
     weights_ += amount * direction;
-    const double kept = settings_.kept_after_change;
-    information_ = (information_ * kept).eval();
-    information_.diagonal() += (1.0 - kept) * lost * prior_information_;
+    forget();
     const Weights along = information_.template selfadjointView<Eigen::Lower>() * direction;
     const double spread = 1.0 / regained_variance + direction.dot(along);
     for (int j = 0; j < N; ++j) {

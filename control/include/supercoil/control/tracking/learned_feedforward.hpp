@@ -28,8 +28,9 @@ namespace supercoil::control {
 /// The PID's gains are those of FixedPid at the feedback bandwidth that the muscle allows. g
 /// follows the learned slope of power over velocity, since a cold muscle needs more power for a
 /// metre than a hot one. A ChangeDetector tells changes of stiffness, gain, load and cooling; along
-/// the one that it names, w is moved at once and learned anew. Where the reference repeats itself,
-/// IterativeLearning adds what this leaves.
+/// the one that it names, w is moved at once and learned anew. A change that has the direction of
+/// none of these leaves more residual than there ever was: then w is learned anew from where it is.
+/// Where the reference repeats itself, IterativeLearning adds what this leaves.
 struct LearnedFeedforwardSettings {
   RegressionScale scale;                      ///< of the nominal muscle
   double max_W = 4.5;                         ///< > 0: the scale of powers
@@ -76,6 +77,7 @@ class LearnedFeedforward {
   using R = MotionRegressors;
   enum Direction : int { stiffness, power_gain, load, cooling, directions };
   using Detector = ChangeDetector<directions>;
+  using MismatchDetector = ChangeDetector<1>;
 
   struct LowPass {
     Weights regressors = Weights::Zero();
@@ -84,6 +86,7 @@ class LearnedFeedforward {
 
   LeakyLeastSquares<R::count>::Settings prior() const;
   typename Detector::Settings detection() const;
+  typename MismatchDetector::Settings mismatch_detection() const;
   IterativeLearning::Settings repetition() const;
   LearnedShare share() const;
   double period_s() const { return step_s_ * static_cast<double>(ticks_per_update_); }
@@ -98,7 +101,9 @@ class LearnedFeedforward {
   void learn(int unit);
   double variance_W2(double residual_W);
   void judge(double power_W);
+  void watch_for_mismatch(double residual_W);
   void watch_for_change(double residual_W);
+  void learn_anew();
   Weights along(int direction) const;
 
   /// Of one update: the observation, the factoring in steps of three columns, the solution.
@@ -132,6 +137,7 @@ class LearnedFeedforward {
   MotionRegressors regressors_;
   LeakyLeastSquares<R::count> least_squares_;
   Detector detector_;
+  MismatchDetector mismatch_;  ///< of no direction
   IterativeLearning iterative_;
   PeriodFinder period_finder_;
   double repeated_W_ = 0.0;  ///< of a period that has ended, which fades

@@ -233,7 +233,7 @@ class Results(ProgramCase):
             summary = json.loads((self.path / "out/summary.json").read_text())
             self.assertEqual([summary[key].get("maximum", 0) for key in ("limited_by_ratio", "antagonist_limited_by_ratio")], limited)
             self.assertGreater(limited[1], 0.1)
-            self.assertGreaterEqual(summary["infeasible_ratio"], limited[1])
+            self.assertGreater(summary["infeasible_ratio"], 0.95 * limited[1])  # not what is short
             self.assertIn(f"\nantagonist at a limit in {100 * sum(summary['antagonist_limited_by_ratio'].values()):.1f} % of the ticks: ", done.stdout)
 
     def test_a_joint_of_any_two_channels_of_a_boards_own_file(self):

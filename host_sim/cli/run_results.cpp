@@ -41,9 +41,8 @@ void print_limits(const char* whose, const LimitCount& count, const Summary& sum
     all += ticks;
     limits += (limits.empty() ? "" : ", ") + std::string(limit_names[i]) + " " + percent(ticks);
   }
-  if (all > 0)
-    std::printf("%sat a limit in %s of the ticks: %s\n", whose, percent(all).c_str(),
-                limits.c_str());
+  if (all == 0) return;
+  std::printf("%sat a limit in %s of the ticks: %s\n", whose, percent(all).c_str(), limits.c_str());
 }
 
 /// How identify, calibrate and the first motion ended, if there were any.

@@ -31,6 +31,14 @@ class Stream(OnServedBoard):
                 self.assertIn(wanted, text)
                 text = text[text.index(wanted) + len(wanted):]
 
+    def test_a_stream_says_after_how_long_to_come_again(self):
+        with self.serve().open_stream() as stream:
+            text = b""
+            end_s = time.monotonic() + SLACK_S
+            while b"\nretry: 1000\nid: " not in text and time.monotonic() < end_s:
+                text += stream.recv(4096)
+        self.assertIn(b"\nretry: 1000\nid: ", text)
+
     def measured_s(self, batches):
         return [at_s for batch in batches for at_s in batch["nodes"].get("1", {}).get("Measurement", {}).get("time_s", [])]
 

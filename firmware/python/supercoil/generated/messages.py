@@ -208,7 +208,7 @@ class Gain(NamedTuple):
 
 
 class RefusedValue(NamedTuple):
-    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: which one, and what would have been obeyed. Told by boards of version 4 only, and not by all of them."""
+    """Sent right after an Acknowledge or a Setting that refuses a value as out_of_range: which one, and what would have been obeyed. Boards of protocol version 3 and older do not tell it, nor do the first of version 4."""
 
     time_s: float  # on the bus, by the clock of whoever received it
     value: float

@@ -171,7 +171,7 @@ class DeafLink final : public SimulatedLink {
 TEST(LimitsStep, AnAnswerBeforeAnyPositionWasHeardChangesNothing) {
   board.emplace(held_out_muscle(24, 0.3), "learned_ff", 0.02);
   watcher.emplace(*board);
-  watcher->answers_at_m = -INFINITY;
+  watcher->answers_at_m = -1.0;  // at once
   DeafLink deaf(board->simulation(), board->settings().rate_Hz);
   operating::Commission steps(deaf, "1", board->settings(), 0, *watcher);
   const auto limits = steps.limits();

@@ -166,9 +166,10 @@ StepResult find_travel_limit(BoardLink& board, const std::string& channel, const
       pull_slowly(board, channel, plan, configured.supervision.position_noise_rms_m, who);
   if (!pulled) return tl::unexpected(pulled.error());
   if (std::isnan(pulled->position_m)) {
-    if (pulled->ending == Ending::answered)
+    if (pulled->ending == Ending::answered) {
       return tl::unexpected<std::string>(
           "answered before the board told a position; nothing changed");
+    }
     who.say("let go before the board told a position; the limit stays");
     return Json{{"position_m", nullptr}};
   }

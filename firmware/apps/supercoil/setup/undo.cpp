@@ -59,9 +59,10 @@ std::vector<OnBoard> left_on_board(const SetupOptions& options, const SetupRecor
     all.push_back(
         {"what was found of the muscle", "supercoil command" + of_channel + " clear" + bus});
   }
-  if (const Json gains = found("gains"); gains.is_object() && gains.value("taken", false))
+  if (const Json gains = found("gains"); gains.is_object() && gains.value("taken", false)) {
     all.push_back(
         {"the tuning that gains stored", "supercoil tune" + of_channel + " --clear" + bus});
+  }
   if (done("senses")) {
     all.push_back({"the comparison with a meter",
                    "supercoil command" + of_channel + " compare_supply 0" + bus});

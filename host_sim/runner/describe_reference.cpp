@@ -27,7 +27,7 @@ std::string held_text(const ReferenceFeasibility& f) {
 }
 
 std::string feasible_text(const ReferenceFeasibility& f) {
-  const std::string line = "asks for no more than the muscle can do";
+  std::string line = "asks for no more than the muscle can do";
   if (!f.leads_too_far()) return line;
   if (f.once_identified) {
     return line + " until it is identified; from then on it " + held_text(f) + ", and not the " +

@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 from bridged import ERROR, STALE, STOP_TYPE, WARN, Bridged
-from patience import DEADLINE_S, QUICK
+from patience import DEADLINE_S, QUICK, TRIES
 
 from supercoil import Fault, State, messages, sync
 
@@ -226,10 +226,19 @@ class Live(Bridged):
             self.assertLess(time.monotonic(), end)
             time.sleep(0.01)
         self.assertIn(State.disarmed, [one.state for one in self.observers.values()])
-        self.start_bridge("--arm")  # which arms without a service
-        self.wait(lambda: self.all_are(State.armed) or State.fault in [one.state for one in self.observers.values()])
-        self.end_bridge()
+        # It arms without a service; once, which fails where a busy machine keeps the boards silent meanwhile.
+        self.assertTrue(any(self.starts_armed() for _ in range(TRIES)))
         self.start_bridge()
+
+    def starts_armed(self):
+        self.start_bridge("--arm")
+        end = time.monotonic() + DEADLINE_S / TRIES
+        armed = False
+        while not armed and time.monotonic() < end:
+            armed = self.all_are(State.armed) or State.fault in [one.state for one in self.observers.values()]
+            time.sleep(0.01)
+        self.end_bridge()
+        return armed
 
     def test_a_board_that_is_not_there_is_stale_and_comes_later(self):
         self.another_bridge(self.simulation.address, "other", "--joint", "ghost=9")

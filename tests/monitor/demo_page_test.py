@@ -16,6 +16,9 @@ PROGRAMS = pathlib.Path(SUPERCOIL).parent
 
 class DemoPage(unittest.TestCase):
     def test_the_muscle_moves_by_its_page_and_both_programs_end_with_the_command(self):
+        out = ROOT / "supercoil-out" / "page"
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "run.txt").write_text("serving can0 on 127.0.0.1:9 by an earlier run\n")
         port = free_ports()
         demo = Program(["env", f"SUPERCOIL_PROGRAMS={PROGRAMS}", DEMO, "--page", port], r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")
         self.addCleanup(demo.stop)

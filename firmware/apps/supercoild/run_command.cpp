@@ -21,6 +21,7 @@
 #include "apps/supercoild/telemetry.hpp"
 #include "linux_board/linux_board.hpp"
 #include "linux_board/lock_file.hpp"
+#include "text/program_version.hpp"
 
 namespace supercoil::daemon {
 
@@ -151,6 +152,7 @@ int run_command(const RunOptions& options) {
   auto lock = linux_board::LockFile::take(options.run_folder + "/lock");
   if (!lock) return fail(lock.error());
   parts.lock.emplace(std::move(*lock));
+  log(Level::info, "version " + std::string(program_version()));
   for (std::size_t i = 0; i < config->settings.channels.size(); ++i)
     parts.stores.emplace_back(config->storage_folder, static_cast<int>(i + 1), parts.files);
   if (const auto known = load_learned(*config, parts.stores); !known) {

@@ -170,6 +170,10 @@ class Program(unittest.TestCase):
         self.assertIn("b.toml: channel 3, pwm: ", done.stderr)
         self.assertTrue(done.stderr.endswith("supercoild: problem: nothing was started\n"), done.stderr)
 
+    def test_a_start_says_the_version(self):
+        version = self.run_program("--version").stdout
+        self.assertTrue(self.run_program(*self.no_such_board()).stderr.startswith(f"supercoild: version {version}"))
+
     def test_a_log_that_nobody_reads_does_not_end_it_by_a_signal(self):
         reader, log = os.pipe()
         os.close(reader)

@@ -40,10 +40,10 @@ void add_log(CLI::App& app, LogOptions& options) {
   CLI::Option* summary =
       log->add_flag("--summary", options.summary, "Say what happened, in words; no CSV");
   CLI::Option* mcap = log->add_flag("--mcap", options.mcap, "Write MCAP in place of CSV");
-  log->add_option("--node", options.node, "Of a CAN log only this node [all]")
+  log->add_option("--node", options.node, "Only this node of a CAN log [all]")
       ->check(CLI::Range(1, can::max_nodes));
   log->add_option("--message", options.message,
-                  "Of a CAN log only this message, a column for each signal [a row for each value]")
+                  "Only this message of a CAN log, a column for each signal [a row for each value]")
       ->type_name("NAME");
   for (CLI::Option* of_csv : {out, from, to, channel, mcap})
     summary->excludes(of_csv);
@@ -82,11 +82,12 @@ void add_command(CLI::App& app, CommandOptions& options) {
   CLI::Option* amplitude =
       command
           ->add_option("--amplitude", options.sine_amplitude,
-                       "With --for: the value is the middle of a sine, and both have the same unit "
-                       "(0.003, or of a joint 3deg)")
+                       "Amplitude of a sine about the value, in the same unit (0.003; of a joint "
+                       "also 3deg); needs --for or --hold")
           ->type_name("VALUE");
-  CLI::Option* period = command->add_option("--period", options.sine_period_s, "Of the sine, in s")
-                            ->check(CLI::Range(0.2, 1e4));
+  CLI::Option* period =
+      command->add_option("--period", options.sine_period_s, "Period of the sine in s")
+          ->check(CLI::Range(0.2, 1e4));
   amplitude->needs(period);
   period->needs(amplitude);
   CLI::Option* socket = command->add_option("--socket", options.socket, "Where supercoild listens")
@@ -117,10 +118,10 @@ void add_play(CLI::App& app, PlayOptions& options) {
       ->type_name("BUS")
       ->check(is_named)
       ->excludes(socket);
-  play->add_option("--node,--channel", options.node, "Of columns without a number")
+  play->add_option("--node,--channel", options.node, "Node of the columns without a number")
       ->check(CLI::Range(1, can::max_nodes))
       ->capture_default_str();
-  play->add_option("--settle", options.settle_s, "At the first row before the start, in s")
+  play->add_option("--settle", options.settle_s, "Seconds to hold the first row before the start")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   play->add_flag("--hold", options.hold, "Hold the last row until Ctrl-C [the muscle rests]");
@@ -199,10 +200,10 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   doctor->add_option("--run-folder", options.run_folder, "Where supercoild's lock is")
       ->type_name("DIR")
       ->capture_default_str();
-  doctor->add_option("--priority", options.priority, "As given to supercoild")
+  doctor->add_option("--priority", options.priority, "Priority that supercoild is given")
       ->check(CLI::Range(1, 99))
       ->capture_default_str();
-  doctor->add_option("--cpu", options.cpu, "As given to supercoild [any]")
+  doctor->add_option("--cpu", options.cpu, "Processor that supercoild is given [any]")
       ->check(CLI::Range(0, 1023));
   doctor
       ->add_option("--can", options.can,
@@ -214,7 +215,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
       "--compare-senses", options.compare_senses,
       "Instead compare the senses of a running board with a meter: heats a little, asks for the "
       "meter's volts and amperes at two powers, and makes the bounds of its power narrow");
-  doctor->add_option("--channel", options.channel, "To compare: from 1; over CAN its node")
+  doctor->add_option("--channel", options.channel, "Channel to compare, from 1; over CAN its node")
       ->check(CLI::Range(1, can::max_nodes))
       ->capture_default_str()
       ->needs(compare);
@@ -236,7 +237,7 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
       ->add_option("SOURCE", options.source,
                    "can0, socketcand:[HOST:]PORT[/INTERFACE], or a log of candump -L")
       ->required();
-  monitor->add_option("--port", options.port, "Of the page; 0 takes a free one")
+  monitor->add_option("--port", options.port, "Port of the page; 0 takes a free one")
       ->check(CLI::Range(0, 65534))
       ->capture_default_str();
   monitor
@@ -251,7 +252,9 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
   monitor->add_option("--keep", options.keep_s, "Seconds that a page opened later still sees")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
-  monitor->add_option("--bit-rate", options.bit_rate, "Of the bus in bit/s, to work out its load")
+  monitor
+      ->add_option("--bit-rate", options.bit_rate,
+                   "Bit rate of the bus in bit/s, from which its load is computed")
       ->check(CLI::Range(1e4, 1e6))
       ->capture_default_str();
   CLI::Option* setup =
@@ -262,7 +265,7 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
           ->check(CLI::ExistingFile)
           ->excludes(read_only)
           ->excludes(text);
-  monitor->add_option("--channel", options.channel, "Of that file, from 1")
+  monitor->add_option("--channel", options.channel, "Channel of that file, from 1")
       ->check(CLI::Range(1, 16))
       ->needs(setup)
       ->capture_default_str();
@@ -281,7 +284,7 @@ void add_dbc(CLI::App& app, DbcOptions& options) {
 void add_docs(CLI::App& app, DocsOptions& options) {
   CLI::App* docs = app.add_subcommand(
       "docs", "Serve this documentation to a browser of this machine, until Ctrl-C");
-  docs->add_option("--port", options.port, "Of the site; 0 takes a free one")
+  docs->add_option("--port", options.port, "Port of the site; 0 takes a free one")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   docs->add_flag("--open", options.open, "Open it in the browser too, with xdg-open");

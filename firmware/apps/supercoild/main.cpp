@@ -61,7 +61,7 @@ int run_program(int count, char** arguments) {
       ->type_name("DIR")
       ->capture_default_str();
   app.add_option("--priority", options.priority,
-                 "Of the loop, in SCHED_FIFO; 0 runs without real time")
+                 "Priority of the loop in SCHED_FIFO; 0 runs without real time")
       ->check(CLI::Range(0, 99))
       ->capture_default_str();
   app.add_option("--cpu", options.cpu, "The loop's own CPU; any if not given")

@@ -40,7 +40,9 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
                    "Times this: of a column that is 1 while heated, the power")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  identify->add_option("--channel", o.columns.channel, "Of a file with several, 1 to 16")
+  identify
+      ->add_option("--channel", o.columns.channel,
+                   "Channel to fit, 1 to 16, of a file with several")
       ->check(CLI::Range(1, 16));
   identify->add_option("--from", o.from_s, "Use nothing before this time in s [the first]");
   identify->add_option("--to", o.to_s, "Use nothing after this time in s [the last]");
@@ -55,8 +57,9 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
   identify->add_flag("--bridge-gaps", o.bridge_gaps,
                      "Where rows are missing, power stayed as it was");
   identify
-      ->add_option("--thermal-mass", o.thermal_mass_J_per_K,
-                   "Of the muscle in J/K, which position and power cannot give [0.162]")
+      ->add_option(
+          "--thermal-mass", o.thermal_mass_J_per_K,
+          "Thermal mass of the muscle in J/K, which position and power cannot tell [0.162]")
       ->check(CLI::Range(1e-4, 1e3));
   CLI::Option* stiffness = identify
                                ->add_option("--stiffness", o.stiffness_N_per_m,

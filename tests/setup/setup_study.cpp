@@ -45,7 +45,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   std::printf(
-      "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time, %d both\n"
+      "%d of %d followed; of them %d kept the promise, %d by less than a factor of 3; %d in time, "
+      "%d both\n"
       "%d were hotter at times than their board told that they may be\n",
       followed, muscles, kept, near, in_time, both, untold);
   return 0;

@@ -119,8 +119,8 @@ class Identify {
   double step_s_;
   double elapsed_s_ = 0.0;
   double power_W_ = 0.0;
-  std::uint8_t again_ = 0;                         ///< excited so often, after the first time
-  std::uint8_t shortened_ = 0;                     ///< so often of these, by shorter strokes
+  std::uint8_t again_ = 0;      ///< excited so often, after the first time
+  std::uint8_t shortened_ = 0;  ///< so often of these, by shorter strokes
   /// The full ones, where they are shortened: what they showed, and how they ended.
   control::BatchLeastSquares::Sums full_strokes_;
   control::Theta full_theta_ = control::Theta::Constant(NAN);

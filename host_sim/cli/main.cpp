@@ -58,7 +58,7 @@ void add_run(CLI::App& app, RunOptions& options) {
                       "Run the firmware as this board's file configures it, over the scenario's "
                       "muscle [as the scenario does]")
           ->type_name("FILE");
-  run->add_option("--channel", options.channel, "Of that board, from 1")
+  run->add_option("--channel", options.channel, "Channel of that board, from 1")
       ->check(CLI::Range(1, 16))
       ->capture_default_str()
       ->needs(board);

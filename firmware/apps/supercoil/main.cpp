@@ -32,7 +32,7 @@ void add_log(CLI::App& app, LogOptions& options) {
   CLI::Option* from = log->add_option("--from", options.from_s,
                                       "First time in s: of a recording relative to the fault, of a "
                                       "CAN log its own [the first]");
-  CLI::Option* to = log->add_option("--to", options.to_s, "Last time in s, likewise [the last]");
+  CLI::Option* to = log->add_option("--to", options.to_s, "Last time in s [the last]");
   CLI::Option* channel =
       log->add_option("--channel", options.channel, "Only this channel, 1 to 16 [all]")
           ->check(CLI::Range(1, 16));
@@ -137,7 +137,7 @@ void add_setting(CLI::App& app, SettingOptions& options) {
       ->required()
       ->check(CLI::Range(1, can::max_nodes));
   setting->add_option("NAME", options.name, "e.g. max_power_W [all]");
-  setting->add_option("VALUE", options.value, "To write [read it]");
+  setting->add_option("VALUE", options.value, "New value; without one the present value is read");
   setting->add_option("--can", options.can, "The bus: can0, or socketcand:[HOST:]PORT[/INTERFACE]")
       ->type_name("BUS")
       ->required();
@@ -150,7 +150,7 @@ void add_tune(CLI::App& app, TuneOptions& options) {
       "Show or change the values of a channel's controllers and estimators while the board runs: "
       "gains, reference model, shaping, the law itself. A controller that is at work takes them "
       "over without a jump; an estimator begins anew");
-  tune->add_option("CHANNEL", options.channel, "From 1; over CAN its node")
+  tune->add_option("CHANNEL", options.channel, "Channel, from 1; over CAN its node")
       ->required()
       ->check(CLI::Range(1, can::max_nodes));
   tune->add_option("ASSIGNMENT", options.assignments,

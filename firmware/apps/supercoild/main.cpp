@@ -22,7 +22,7 @@ void add_latency(CLI::App& app, daemon::LatencyOptions& options, bool& wanted) {
       "Measure how late the loop wakes and how long its ticks take, without opening any device, "
       "and end");
   CLI::Option* rate =
-      app.add_option("--rate", options.rate_Hz, "Without --config: Hz of one channel")
+      app.add_option("--rate", options.rate_Hz, "Loop rate in Hz of one channel, without --config")
           ->check(CLI::Range(100.0, 10e3))
           ->capture_default_str();
   CLI::Option* seconds = app.add_option("--seconds", options.seconds, "How long it measures")

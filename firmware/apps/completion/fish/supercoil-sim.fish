@@ -9,7 +9,7 @@ complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l every -x -d 'T
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l learned -r -F -d 'Folder of what the board learned'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l nodes -x -d 'Boards on one CAN bus, each with a muscle and noise of its own'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l board -r -F -d 'Run the firmware as this board'\''s file configures it, over the scenario'\''s muscle [as the scenario does]'
-complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l channel -x -d 'Of that board, from 1'
+complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l channel -x -d 'Channel of that board, from 1'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l no-trace -d 'Write no trace'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l npy -d 'Write trace.npy for numpy and pandas in place of trace.csv'
 complete -c supercoil-sim -n '__fish_seen_subcommand_from run' -l no-plot -d 'Write no plot.svg'

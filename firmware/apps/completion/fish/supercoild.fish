@@ -9,7 +9,7 @@ complete -c supercoild -n true -l priority -x -d 'Priority of the loop in SCHED_
 complete -c supercoild -n true -l cpu -x -d 'The loop'\''s own CPU; any if not given'
 complete -c supercoild -n true -l latency -d 'Measure how late the loop wakes and how long its ticks take, without opening any device, and end'
 complete -c supercoild -n true -l json -d 'With --check or --latency'
-complete -c supercoild -n true -l rate -x -d 'Without --config'
+complete -c supercoild -n true -l rate -x -d 'Loop rate in Hz of one channel, without --config'
 complete -c supercoild -n true -l seconds -x -d 'How long it measures'
 complete -c supercoild -n true -l ticks -x -d 'How many ticks it measures'
 complete -c supercoild -n true -l plot -r -F -d 'Draw the histograms (gnuplot)'

@@ -12,9 +12,9 @@ std::string range_text(const config::Range& range) {
          number_text(range.highest, range_digits);
 }
 
-double rounded_down(double value, int digits) {
+double rounded_down(double value, int significant_digits) {
   if (!(value > 0.0)) return 0.0;
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - (digits - 1));
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - (significant_digits - 1));
   return step * std::floor(value / step + 1e-6);
 }
 

@@ -54,7 +54,7 @@ class Operator {
 
 inline constexpr int range_digits = 5;
 /// To so many digits, so that what is shown is allowed; 0 of what is not positive.
-double rounded_down(double value, int digits);
+double rounded_down(double value, int significant_digits);
 /// "0.1 to 10000"
 std::string range_text(const config::Range& range);
 /// The error: why it is no answer, with what is allowed.

@@ -179,7 +179,7 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   setup->add_option("--config", o.config, "The board's configuration, which is completed")
       ->type_name("FILE")
       ->capture_default_str();
-  setup->add_option("--channel", o.channel, "Of that file, from 1")
+  setup->add_option("--channel", o.channel, "Channel of that file, from 1")
       ->check(CLI::Range(1, 16))
       ->capture_default_str();
   setup

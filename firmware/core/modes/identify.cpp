@@ -87,9 +87,10 @@ ModeResult Identify::judge() {
   }
   found_ = *physical;
   quality_ = {fit->deviation, unexplained_ratio};
-  for (int i = 0; i < 4 && shortened() && full_theta_.allFinite(); ++i)
+  for (int i = 0; i < 4 && shortened() && full_theta_.allFinite(); ++i) {
     quality_.deviation_ratio[i] =
         std::hypot(quality_.deviation_ratio[i], full_theta_[i] / fit->theta[i] - 1.0);
+  }
   if ((notes_ & note_theta1_kept) != 0) quality_.deviation_ratio[0] = NAN;
   if (shortened()) notes_ |= note_poor_fit;
   return ModeResult::found;

@@ -21,7 +21,7 @@ ANSWERS = {"cold_resistance_Ohm": 10, "load_g": 90, "stretch_weight_g": 100, "st
            "heated_mm": 13, "half_cooling_s": 1.3, "thread_g": 0.1, "max_W": 4.5, "max_travel_mm": 25,
            "uncertainty_percent": 30}
 # What a busy machine does to any master in real time.
-STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready", "command_timeout")
+STARVED = ("wrong_state", "no_lease", "no answer from node", "busy", "not_ready")
 
 
 class Terminal:

@@ -1,7 +1,7 @@
 // What identify finds on muscles of which the board believes up to half too much or too little:
 //   identify_figures SEEDS [track|no [MUSCLE]]
 // SEEDS beliefs of each muscle; track: also how learned_ff follows a sine after each of the first
-// three. The figures of docs/control.md.
+// three. The figures of docs/identify-theory.md.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Identify on muscles of which the board believes up to half too much or too little. More seeds,
-// and the figures of docs/control.md: identify_figures.
+// and the figures of docs/identify-theory.md: identify_figures.
 #include <cmath>
 #include <cstdlib>
 #include <string>

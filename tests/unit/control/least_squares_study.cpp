@@ -1,5 +1,5 @@
 // Least squares over many seeds: how soon it knows, how far off it stays, whether it says so. Fails
-// where a figure of docs/control.md no longer holds.
+// where a figure of docs/estimation-theory.md no longer holds.
 #include <algorithm>
 #include <array>
 #include <cmath>

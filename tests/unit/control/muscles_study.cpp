@@ -1,5 +1,5 @@
 // Least squares over many muscles that are not its own model: false changes, and whether its
-// deviations and its trust are honest. Fails where a figure of docs/control.md no longer holds.
+// deviations and its trust are honest. Fails where a figure of estimation-theory.md is wrong now.
 #include <cstdio>
 #include <string>
 #include <vector>

@@ -12,7 +12,7 @@
 
 namespace supercoil::control {
 
-/// Design C of docs/control.md. The constants were found by trials on the paper's muscle at 10 µm
+/// mrac-c of docs/compare.md. The constants were found by trials on the paper's muscle at 10 µm
 /// of noise; signals are in watts at rest.
 struct MracLeastSquaresSettings {
   /// θ1 (on s·u/λ, u/λ), θ2 (on s·y/λ, y/λ), θ3 (on y), c0 (on r), a power bias.
@@ -37,7 +37,7 @@ struct MracLeastSquaresSettings {
 /// λ and α of the same law with constants of its own.
 MracSettings filters_of(const MracLeastSquaresSettings& settings);
 
-/// θ* of the nominal muscle; any valid one has it. Its compensator need not be stable (control.md).
+/// θ* of the nominal muscle; any valid one has it. Its compensator may be unstable: see the docs.
 std::optional<MracMatching> match(const MracLeastSquaresSettings& settings,
                                   const ReferenceModelSettings& model);
 

@@ -2,12 +2,15 @@
 
 Every fault has a page of its name, headed by its number, and a row in docs/faults/README.md with its number, group and
 scope. Links in README.md and docs/ are followed as far as the file and the heading; web addresses are not. The list of
-all pages, which is the site's navigation, has each page of docs/ once, and each manual page with what it says it is.
+all pages, which is the site's navigation, has each page of docs/ once, and each manual page with what it says it is. The drawing of the
+wiring is as its program draws it.
 """
 
 import pathlib
 import re
+import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 FAULTS = ROOT / "docs" / "faults"
@@ -110,7 +113,16 @@ def problems_of_navigation():
         yield f"docs/README.md: {page} is listed more than once"
 
 
+def problems_of_drawing():
+    """Of the wiring, whose lines and addresses are a configuration's."""
+    with tempfile.TemporaryDirectory() as folder:
+        drawn = pathlib.Path(folder, "wiring.svg")
+        subprocess.run([ROOT / "toolchain" / "wiring", drawn], check=True)
+        if drawn.read_text() != (ROOT / "docs/pictures/wiring.svg").read_text():
+            yield "docs/pictures/wiring.svg: not as toolchain/wiring draws it"
+
+
 if __name__ == "__main__":
-    found = [*problems_of_faults(), *problems_of_links(), *problems_of_navigation()]
+    found = [*problems_of_faults(), *problems_of_links(), *problems_of_navigation(), *problems_of_drawing()]
     print("\n".join(found) or "every fault has its page and its row, every page is listed, every link leads to a file")
     sys.exit(bool(found))

@@ -90,7 +90,7 @@ class Log(unittest.TestCase):
         self.assertGreater(count, 4000)
         self.assertEqual({message for _, message, _ in self.frames},
                          {"Emergency", "FirstCause", "Measurement", "Tracking", "Power", "Heater", "Temperature", "Estimate", "Margin",
-                          "Limit", "Timing", "Gain", "Status"})
+                          "Limit", "Timing", "Gain", "Status", "Boot"})
 
     def test_of_one_message_a_row_is_a_frame(self):
         for message in ("Tracking", "Estimate", "Emergency"):

@@ -61,6 +61,7 @@ OTHERWISE = {"Tracking": {"error_m"},
                           "damping_Ns_per_m"},
              "Timing": {"late_s", "execution_s", "overruns", "dropped_frames"},
              "Status": {"leased", "counter", "protocol_version", "proof_off", "oscillated", "friction"},
+             "Boot": {"version_major", "version_minor", "version_patch", "commit"},
              "Emergency": {"fault", "state", "board_time_s"}}
 MUSCLE = ("thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m")
 FROM_MASTER = {"Command", "Acknowledge", "RefusedValue", "Setting", "SettingWrite", "SettingRead", "Muscle",
@@ -232,6 +233,16 @@ class Run(unittest.TestCase):
         self.assertEqual((str(values["fault"]), str(values["state"])), ("heater_open", "fault"))
         # The board's clock began with its boot, 15 s before the scenario.
         self.assertAlmostEqual(values["board_time_s"], 15.0 + self.fault_tick * TICK_S, delta=2 * TICK_S)
+
+    def test_boot_says_once_a_second_what_the_program_says_of_its_version(self):
+        told = subprocess.run([os.environ["SUPERCOIL_SIM"], "--version"], check=True, capture_output=True, text=True).stdout.strip()
+        numbers, _, commit = told.partition("+")
+        boots = [(tick, raw) for tick, message, _, raw in self.frames if message == "Boot"]
+        self.assertLessEqual({after - before for (before, _), (after, _) in zip(boots, boots[1:])}, {999, 1000, 1001})
+        self.assertGreaterEqual(len(boots), 12)
+        for _, raw in boots:
+            self.assertEqual(".".join(str(raw[f"version_{part}"]) for part in ("major", "minor", "patch")), numbers)
+            self.assertEqual(f"{raw['commit']:07x}", commit.rsplit(".", 1)[-1][:7] if commit else "0000000")
 
     def test_the_heartbeat_counts_and_the_board_is_in_time(self):
         counters = [raw["counter"] for _, message, _, raw in self.frames if message == "Status"]

@@ -3,17 +3,21 @@
 import importlib.util
 import pathlib
 import random
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
 import can
+import cantools
 
 import e2e
 from live import COMMAND, DEADLINE_S, FROM_BOARD, TRIES, Master, Simulator
 
-EXAMPLE = pathlib.Path(__file__).resolve().parents[2] / "examples/python/move_muscle.py"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLE = ROOT / "examples/python/move_muscle.py"
+DBC = ROOT / "firmware/io/can/supercoil.dbc"
 TARGET_M = 0.005
 OF_NODE_2 = 0x2C2  # its Tracking; the simulated board is node 1
 
@@ -167,9 +171,23 @@ class Example(OnTheBus):
         self.assertNotEqual(example.claim(), 0)
 
     def test_it_moves_the_muscle_and_lets_it_go(self):
+        self.assert_it_moves_the_muscle(EXAMPLE)
+
+    def test_it_does_so_by_the_protocol_of_before_boot(self):
+        folder = pathlib.Path(self.simulator.out).with_name("old")
+        folder.mkdir()
+        old = folder / EXAMPLE.name
+        old.write_text(EXAMPLE.read_text())
+        dbc = re.sub(r"BO_ 1857 Boot.*?\n\n", "", DBC.read_text(), flags=re.S)
+        (folder / "supercoil.dbc").write_text("".join(line for line in dbc.splitlines(True) if " 1857 " not in line))
+        self.assertNotIn("Boot", [message.name for message in cantools.database.load_file(folder / "supercoil.dbc").messages])
+        self.master.hear_next("Boot")
+        self.assert_it_moves_the_muscle(old)
+
+    def assert_it_moves_the_muscle(self, example):
         words = ["interface=socketcand", "host=127.0.0.1", f"port={self.simulator.port}", "channel=can0"]
         for _ in range(TRIES):
-            done = subprocess.run([sys.executable, EXAMPLE, *words], capture_output=True, text=True, timeout=DEADLINE_S)
+            done = subprocess.run([sys.executable, example, *words], capture_output=True, text=True, timeout=DEADLINE_S)
             if done.returncode == 0:
                 break
             # Starved: its command expired.

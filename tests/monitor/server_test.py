@@ -262,6 +262,16 @@ class Sources(unittest.TestCase):
         done = subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S)
         self.assertNotIn("version", done.stdout)
 
+    def test_text_says_which_program_a_board_runs(self):
+        log = self.path / "can.log"
+
+        def text_of(boot):
+            log.write_text(f"(0000000001.000000) can0 701#0000000000000500\n(0000000001.100000) can0 741#{boot}\n")
+            return subprocess.run([SUPERCOIL, "monitor", log, "--text"], capture_output=True, text=True, timeout=SLACK_S).stdout
+
+        self.assertIn("\n  program 0.2.1 (080ebf0)\n", text_of("00020100F0EB8000"))
+        self.assertIn("\n  program 1.0.0\n", text_of("0100000000000000"))
+
     def test_text_says_by_how_much_a_fault_tripped_and_that_a_proof_is_off(self):
         log = self.path / "can.log"
         cause = struct.pack("<ff", 0.0008, 0.00267).hex()

@@ -95,7 +95,7 @@ class Codec(unittest.TestCase):
 
     def test_what_is_of_another_length_or_unknown_is_no_message(self):
         self.assertIsNone(codec.decode(0x280, bytes(7)))
-        self.assertIsNone(codec.decode(0x740, bytes(8)))
+        self.assertIsNone(codec.decode(0x780, bytes(8)))
 
     def test_a_number_without_a_name_keeps_its_number(self):
         fault = codec.decode(0x700, bytes([0, 99, 0, 0, 0, 0, 4, 0])).fault

@@ -260,6 +260,7 @@ class OnOneBoard(unittest.TestCase):
             self.assertEqual({base for _, base, _ in few.frames}, {messages.STATUS})
             self.assertLessEqual(len(few.frames), 3)
             self.assertIn(supercoil.Parameter.theta4, self.observer.telemetry.estimates)
+            self.assertRegex(muscle.program(), r"^\d+\.\d+\.\d+( \([0-9a-f]{7}\))?$")
             self.assertIn(supercoil.Gain.proportional, self.observer.telemetry.gains)
             self.assertIn(supercoil.Fault.over_temperature, self.observer.telemetry.margins)
             self.assertIn(supercoil.Fault.over_temperature, self.observer.telemetry.limits)

@@ -6,6 +6,7 @@
 #include "can/generated/messages.hpp"
 #include "can/nodes.hpp"
 #include "telemetry/opcodes.hpp"
+#include "text/program_version.hpp"
 
 namespace supercoil::telemetry {
 
@@ -76,7 +77,18 @@ void CanEndpoint::poll(hal::Time now) {
   loop_->health().node_conflict.store(now < conflict_until_, std::memory_order_relaxed);
   while (const auto news = trajectory_.news())
     publisher_.send(*news);
+  tell_program(now);
   publisher_.poll(now, [&](std::uint8_t channel) { return leases_.held(channel, now); });
+}
+
+/// Evenly over the period, so that Boot of many channels does not come in a burst.
+void CanEndpoint::tell_program(hal::Time now) {
+  if (now < next_boot_ || !loop_runs_) return;
+  const auto node = static_cast<can::Node>(first_node_ + boot_channel_);
+  publisher_.send(boot(node, program_version()));
+  loop_runs_ = false;
+  boot_channel_ = (boot_channel_ + 1) % leases_.channels();
+  next_boot_ = now + boot_period / leases_.channels();
 }
 
 bool CanEndpoint::is_own(const hal::CanFrame& frame) const {

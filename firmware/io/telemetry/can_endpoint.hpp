@@ -21,7 +21,10 @@ class CanEndpoint {
               Leases::Random random);
 
   /// The newest row of a channel.
-  void offer(const Row& row) { publisher_.offer(row); }
+  void offer(const Row& row) {
+    loop_runs_ = true;
+    publisher_.offer(row);
+  }
   /// The loop's answer to a command with Source::can, in their order.
   void answer(const Answer& answer);
   /// Takes what came, sends what is due, and tells the loop how the bus is.
@@ -31,6 +34,7 @@ class CanEndpoint {
 
  private:
   void receive(hal::Time now);
+  void tell_program(hal::Time now);
   std::optional<hal::CanFrame> muscle_asked_for(const hal::CanFrame& frame) const;
   /// A frame that only the board of its node sends: this bus never gives a board its own.
   bool is_own(const hal::CanFrame& frame) const;
@@ -50,6 +54,9 @@ class CanEndpoint {
   TrajectoryFrames trajectory_;
   can::Node first_node_;
   hal::Time conflict_until_{};
+  hal::Time next_boot_{};
+  std::size_t boot_channel_ = 0;  ///< whose Boot is sent next
+  bool loop_runs_ = false;        ///< there was a row since the last Boot
 };
 
 }  // namespace supercoil::telemetry

@@ -1,6 +1,7 @@
 #include "telemetry/frames.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
@@ -133,6 +134,29 @@ hal::CanFrame status(can::Node node, const Row& row, bool leased, std::uint8_t c
       .set("friction", (row.identify_notes & note_friction) != 0)
       .set("counter", counter)
       .set("protocol_version", protocol_version)
+      .frame();
+}
+
+hal::CanFrame boot(can::Node node, std::string_view version) {
+  // 0.2.0+git20261122.150233.2780ebf, or 0.2.0 of a release.
+  constexpr std::size_t commit_digits = 7;
+  std::array<std::uint32_t, 3> numbers{};
+  const char* at = version.data();
+  const char* const end = version.data() + version.size();
+  for (std::uint32_t& number : numbers) {
+    at = std::from_chars(at, end, number).ptr;
+    if (at != end) ++at;  // the dot
+  }
+  const bool released = version.find('+') == std::string_view::npos;
+  const std::string_view hash = version.substr(released ? version.size() : version.rfind('.') + 1);
+  const std::string_view digits = hash.substr(0, commit_digits);
+  std::uint32_t commit = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), commit, 16);
+  return can::Encoder<message::boot>(node)
+      .set("version_major", numbers[0])
+      .set("version_minor", numbers[1])
+      .set("version_patch", numbers[2])
+      .set("commit", commit)
       .frame();
 }
 

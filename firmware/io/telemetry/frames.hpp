@@ -80,5 +80,7 @@ hal::CanFrame limit(can::Node node, const Row& row);
 hal::CanFrame gain(can::Node node, const Row& row);
 hal::CanFrame timing(can::Node node, const BoardTiming& timing);
 hal::CanFrame status(can::Node node, const Row& row, bool leased, std::uint8_t counter);
+/// version: as program_version() tells it. What is no number there is 0.
+hal::CanFrame boot(can::Node node, std::string_view version);
 
 }  // namespace supercoil::telemetry

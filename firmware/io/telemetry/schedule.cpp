@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "can/generated/messages.hpp"
+
 namespace supercoil::telemetry {
 
 namespace {
@@ -38,6 +40,7 @@ double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate) {
       if (is_sent(rates_Hz, i, channel))
         bits_per_s += rates_Hz[i] * max_bits(periodic_messages()[i].info->length);
     }
+    bits_per_s += max_bits(can::message::boot.length) / hal::seconds(boot_period);
   }
   return bits_per_s / bit_rate;
 }

@@ -19,8 +19,8 @@ constexpr int max_bits(int bytes) {
   return exposed + 8 * bytes + 13 + stuffed;
 }
 
-/// The part of the bus that is busy with what is sent at a rate: 1 is all of it. Commands, their
-/// answers and emergencies come on top.
+/// The part of the bus that is busy with what is sent at a rate and with Boot: 1 is all of it.
+/// Commands, their answers and emergencies come on top.
 double bus_load(const std::vector<Rates>& of_channels_Hz, double bit_rate);
 /// With the rates that are configured, for all channels.
 double bus_load(const CanSettings& can, std::size_t channels);

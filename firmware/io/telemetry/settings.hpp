@@ -21,6 +21,8 @@ inline constexpr double min_rate_Hz = 0.01;
 constexpr double max_rate(double tick_Hz) {
   return tick_Hz < 1000.0 ? tick_Hz : 1000.0;
 }
+/// Each node tells so often which program it runs (Boot): no load that needs a setting.
+inline constexpr hal::Duration boot_period = std::chrono::seconds(1);
 /// Between the least and the most, or 0 for never, which a heartbeat may not be.
 bool is_allowed(Message message, double rate_Hz, double tick_Hz);
 /// Whether this channel's node (from 0) sends it; the board's first node sends what is the board's.

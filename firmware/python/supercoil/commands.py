@@ -1,6 +1,7 @@
 """What a muscle can be told."""
 
 import asyncio
+import contextlib
 import time
 from typing import NamedTuple
 
@@ -119,6 +120,15 @@ class Commands(Connection):
         """Until the board starts again; what holds from now on."""
         self._kept.alive()
         return await self._link.write(setting, value)
+
+    async def program(self) -> str:
+        """Which program the board runs, "0.2.0 (2780ebf)": version, and commit unless it is a release. Boards tell it
+        once a second, over CAN; NoAnswerError: an older board, or over the board's own socket."""
+        if (boot := self.telemetry.newest(messages.Boot)) is None:
+            async with contextlib.aclosing(self.stream(messages.Boot)) as boots:
+                boot = await anext(boots)
+        commit = f" ({boot.commit:07x})" if boot.commit else ""
+        return f"{boot.version_major}.{boot.version_minor}.{boot.version_patch}{commit}"
 
     async def quantities(self) -> dict[Quantity, float]:
         """What the board knows of its muscle and goes by now; NaN: not known."""

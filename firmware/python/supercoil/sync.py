@@ -180,6 +180,9 @@ class Muscle:
     def change(self, setting: Setting, value: float) -> float:
         return run(self._muscle.change(setting, value))
 
+    def program(self) -> str:
+        return run(self._muscle.program())
+
     def quantities(self) -> dict[Quantity, float]:
         return run(self._muscle.quantities())
 

@@ -4623,6 +4623,143 @@ bool supercoil_status_friction_is_in_phys_range(double value)
     return ((value >= 0.0) && (value <= 1.0));
 }
 
+int supercoil_boot_pack(
+    uint8_t *dst_p,
+    const struct supercoil_boot_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    memset(&dst_p[0], 0, 8);
+
+    dst_p[0] |= pack_left_shift_u8(src_p->version_major, 0u, 0xffu);
+    dst_p[1] |= pack_left_shift_u8(src_p->version_minor, 0u, 0xffu);
+    dst_p[2] |= pack_left_shift_u8(src_p->version_patch, 0u, 0xffu);
+    dst_p[4] |= pack_left_shift_u32(src_p->commit, 0u, 0xffu);
+    dst_p[5] |= pack_right_shift_u32(src_p->commit, 8u, 0xffu);
+    dst_p[6] |= pack_right_shift_u32(src_p->commit, 16u, 0xffu);
+    dst_p[7] |= pack_right_shift_u32(src_p->commit, 24u, 0x0fu);
+
+    return (8);
+}
+
+int supercoil_boot_unpack(
+    struct supercoil_boot_t *dst_p,
+    const uint8_t *src_p,
+    size_t size)
+{
+    if (size < 8u) {
+        return (-EINVAL);
+    }
+
+    dst_p->version_major = unpack_right_shift_u8(src_p[0], 0u, 0xffu);
+    dst_p->version_minor = unpack_right_shift_u8(src_p[1], 0u, 0xffu);
+    dst_p->version_patch = unpack_right_shift_u8(src_p[2], 0u, 0xffu);
+    dst_p->commit = unpack_right_shift_u32(src_p[4], 0u, 0xffu);
+    dst_p->commit |= unpack_left_shift_u32(src_p[5], 8u, 0xffu);
+    dst_p->commit |= unpack_left_shift_u32(src_p[6], 16u, 0xffu);
+    dst_p->commit |= unpack_left_shift_u32(src_p[7], 24u, 0x0fu);
+
+    return (0);
+}
+
+int supercoil_boot_init(struct supercoil_boot_t *msg_p)
+{
+    if (msg_p == NULL) return -1;
+
+    memset(msg_p, 0, sizeof(struct supercoil_boot_t));
+
+    return 0;
+}
+
+uint8_t supercoil_boot_version_major_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_boot_version_major_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_boot_version_major_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_boot_version_major_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_boot_version_minor_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_boot_version_minor_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_boot_version_minor_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_boot_version_minor_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint8_t supercoil_boot_version_patch_encode(double value)
+{
+    return (uint8_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_boot_version_patch_decode(uint8_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_boot_version_patch_is_in_range(uint8_t value)
+{
+    (void)value;
+
+    return (true);
+}
+
+bool supercoil_boot_version_patch_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 255.0));
+}
+
+uint32_t supercoil_boot_commit_encode(double value)
+{
+    return (uint32_t)(cantools_unsigned_from_double(round(value)));
+}
+
+double supercoil_boot_commit_decode(uint32_t value)
+{
+    return ((double)value);
+}
+
+bool supercoil_boot_commit_is_in_range(uint32_t value)
+{
+    return (value <= 268435455u);
+}
+
+bool supercoil_boot_commit_is_in_phys_range(double value)
+{
+    return ((value >= 0.0) && (value <= 268435455.0));
+}
+
 int supercoil_tuning_write_pack(
     uint8_t *dst_p,
     const struct supercoil_tuning_write_t *src_p,

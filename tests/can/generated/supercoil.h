@@ -72,6 +72,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_FRAME_ID (0x681u)
 #define SUPERCOIL_TUNING_FRAME_ID (0x641u)
 #define SUPERCOIL_STATUS_FRAME_ID (0x701u)
+#define SUPERCOIL_BOOT_FRAME_ID (0x741u)
 #define SUPERCOIL_TUNING_WRITE_FRAME_ID (0x6c1u)
 
 /* Frame lengths in bytes. */
@@ -102,6 +103,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_LENGTH (1u)
 #define SUPERCOIL_TUNING_LENGTH (8u)
 #define SUPERCOIL_STATUS_LENGTH (8u)
+#define SUPERCOIL_BOOT_LENGTH (8u)
 #define SUPERCOIL_TUNING_WRITE_LENGTH (8u)
 
 /* Extended or standard frame types. */
@@ -132,6 +134,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_IS_EXTENDED (0)
 #define SUPERCOIL_TUNING_IS_EXTENDED (0)
 #define SUPERCOIL_STATUS_IS_EXTENDED (0)
+#define SUPERCOIL_BOOT_IS_EXTENDED (0)
 #define SUPERCOIL_TUNING_WRITE_IS_EXTENDED (0)
 
 /* Frame cycle times in milliseconds. */
@@ -146,6 +149,7 @@ extern "C" {
 #define SUPERCOIL_TIMING_CYCLE_TIME_MS (100u)
 #define SUPERCOIL_GAIN_CYCLE_TIME_MS (200u)
 #define SUPERCOIL_STATUS_CYCLE_TIME_MS (100u)
+#define SUPERCOIL_BOOT_CYCLE_TIME_MS (1000u)
 
 /* Signal choices. */
 #define SUPERCOIL_EMERGENCY_FAULT_NONE_CHOICE (0u)
@@ -836,6 +840,7 @@ extern "C" {
 #define SUPERCOIL_MUSCLE_READ_NAME "MuscleRead"
 #define SUPERCOIL_TUNING_NAME "Tuning"
 #define SUPERCOIL_STATUS_NAME "Status"
+#define SUPERCOIL_BOOT_NAME "Boot"
 #define SUPERCOIL_TUNING_WRITE_NAME "TuningWrite"
 
 /* Signal Names. */
@@ -964,6 +969,10 @@ extern "C" {
 #define SUPERCOIL_STATUS_PROOF_OFF_NAME "proof_off"
 #define SUPERCOIL_STATUS_OSCILLATED_NAME "oscillated"
 #define SUPERCOIL_STATUS_FRICTION_NAME "friction"
+#define SUPERCOIL_BOOT_VERSION_MAJOR_NAME "version_major"
+#define SUPERCOIL_BOOT_VERSION_MINOR_NAME "version_minor"
+#define SUPERCOIL_BOOT_VERSION_PATCH_NAME "version_patch"
+#define SUPERCOIL_BOOT_COMMIT_NAME "commit"
 #define SUPERCOIL_TUNING_WRITE_CRC_NAME "crc"
 #define SUPERCOIL_TUNING_WRITE_COUNTER_NAME "counter"
 #define SUPERCOIL_TUNING_WRITE_PLACE_NAME "place"
@@ -2337,6 +2346,51 @@ struct supercoil_status_t {
      * Offset: 0
      */
     uint8_t friction;
+};
+
+/**
+ * Signals in message Boot.
+ *
+ * Which program the board runs: within a second of its start, and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not tell it.
+ *
+ * All signal values are as on the CAN bus.
+ */
+struct supercoil_boot_t {
+    /**
+     * 0 of 0.2.1.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t version_major;
+
+    /**
+     * 2 of 0.2.1.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t version_minor;
+
+    /**
+     * 1 of 0.2.1.
+     *
+     * Range: 0..255 (0..255 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint8_t version_patch;
+
+    /**
+     * The first seven hexadecimal digits of the commit's hash: 0x2780EBF of 0.2.0+git20261122.150233.2780ebf. 0: a release.
+     *
+     * Range: 0..268435455 (0..268435455 -)
+     * Scale: 1
+     * Offset: 0
+     */
+    uint32_t commit;
 };
 
 /**
@@ -8400,6 +8454,203 @@ bool supercoil_status_friction_is_in_range(uint8_t value);
  * @return true if in range, false otherwise.
  */
 bool supercoil_status_friction_is_in_phys_range(double value);
+
+/**
+ * Pack message Boot.
+ *
+ * @param[out] dst_p Buffer to pack the message into.
+ * @param[in] src_p Data to pack.
+ * @param[in] size Size of dst_p.
+ *
+ * @return Size of packed data, or negative error code.
+ */
+int supercoil_boot_pack(
+    uint8_t *dst_p,
+    const struct supercoil_boot_t *src_p,
+    size_t size);
+
+/**
+ * Unpack message Boot.
+ *
+ * @param[out] dst_p Object to unpack the message into.
+ * @param[in] src_p Message to unpack.
+ * @param[in] size Size of src_p.
+ *
+ * @return zero(0) or negative error code.
+ */
+int supercoil_boot_unpack(
+    struct supercoil_boot_t *dst_p,
+    const uint8_t *src_p,
+    size_t size);
+
+/**
+ * Init message fields to default values from Boot.
+ *
+ * @param[in] msg_p Message to init.
+ *
+ * @return zero(0) on success or (-1) in case of nullptr argument.
+ */
+int supercoil_boot_init(struct supercoil_boot_t *msg_p);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_boot_version_major_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_boot_version_major_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_version_major_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_version_major_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_boot_version_minor_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_boot_version_minor_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_version_minor_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_version_minor_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint8_t supercoil_boot_version_patch_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_boot_version_patch_decode(uint8_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_version_patch_is_in_range(uint8_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_version_patch_is_in_phys_range(double value);
+
+/**
+ * Encode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to encode.
+ *
+ * @return Encoded signal.
+ */
+uint32_t supercoil_boot_commit_encode(double value);
+
+/**
+ * Decode given signal by applying scaling and offset.
+ *
+ * @param[in] value Signal to decode.
+ *
+ * @return Decoded signal.
+ */
+double supercoil_boot_commit_decode(uint32_t value);
+
+/**
+ * Check that given signal is in allowed range.
+ *
+ * @param[in] value Signal to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_commit_is_in_range(uint32_t value);
+
+/**
+ * Check that given physical value is in allowed range before encoding.
+ *
+ * Use this BEFORE calling _encode() to avoid silent integer overflow:
+ *   encode(-1.0) on a [0,100] signal wraps to 255 and passes is_in_range().
+ *   is_in_phys_range(-1.0) correctly returns false.
+ *
+ * @param[in] value Physical signal value to check.
+ *
+ * @return true if in range, false otherwise.
+ */
+bool supercoil_boot_commit_is_in_phys_range(double value);
 
 /**
  * Pack message TuningWrite.

@@ -7,6 +7,7 @@
 #include <CppUTest/TestHarness.h>
 
 #include "loop/support/can_rig.hpp"
+#include "text/program_version.hpp"
 
 using namespace supercoil;
 using namespace supercoil::test;
@@ -67,6 +68,21 @@ TEST(OverCan, TheMasterGetsTheLoopsRefusal) {
   CHECK(rig.command(master, Verb::position, 0.5F) == Refusal::out_of_range);
   CHECK(rig.command(master, Verb::arm) == Refusal::wrong_state);
   LONGS_EQUAL(static_cast<int>(Verb::arm), rig.answers.back().opcode);
+}
+
+TEST(OverCan, EachNodeTellsItsProgramOnceASecondWhileTheLoopRuns) {
+  rig.run(10.0);
+  DOUBLES_EQUAL(10, rig.heard_of[SUPERCOIL_BOOT_FRAME_ID], 1);
+  DOUBLES_EQUAL(10, rig.heard_of[SUPERCOIL_BOOT_FRAME_ID + 1], 1);
+  supercoil_boot_t told{};
+  const hal::CanFrame& frame = rig.last_of[SUPERCOIL_BOOT_FRAME_ID];
+  LONGS_EQUAL(0, supercoil_boot_unpack(&told, frame.data.data(), frame.length));
+  const hal::CanFrame expected = telemetry::boot(1, program_version());
+  MEMCMP_EQUAL(expected.data.data(), frame.data.data(), frame.length);
+  const int before = rig.heard_of[SUPERCOIL_BOOT_FRAME_ID];
+  for (int i = 0; i < 10'000; ++i)
+    rig.link.poll(rig.board.now() + i * std::chrono::milliseconds(1));
+  CHECK(rig.heard_of[SUPERCOIL_BOOT_FRAME_ID] <= before + 1);
 }
 
 /// Whoever asks needs no lease; what calibrate finds is what is told from then on.

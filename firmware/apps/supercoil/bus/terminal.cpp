@@ -80,6 +80,23 @@ std::map<int, Newest> newest_of(const FrameHistory& frame_history) {
   return nodes;
 }
 
+/// "  program 0.2.0 (2780ebf)"; empty: a board that does not tell it.
+std::string program_text(const Newest& node) {
+  const auto part = [&](const char* signal) {
+    return static_cast<unsigned>(value(node, "Boot", signal));
+  };
+  if (!node.contains("Boot")) return "";
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "  program %u.%u.%u", part("version_major"),
+                part("version_minor"), part("version_patch"));
+  std::string told = text.data();
+  if (const unsigned commit = part("commit"); commit != 0) {
+    std::snprintf(text.data(), text.size(), " (%07x)", commit);
+    told += text.data();
+  }
+  return told + '\n';
+}
+
 std::string node_text(int number, const Newest& node, const std::string& law) {
   const std::string fault = named(node, "Status", "fault");
   const std::string state = named(node, "Status", "state");
@@ -111,6 +128,7 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
             " of the protocol, this program " + std::to_string(telemetry::protocol_version) +
             ": numbers may be wrong; take the supercoil that belongs to it\n";
   }
+  text += program_text(node);
   if (value(node, "Status", "proof_off") == 1.0) {
     text +=
         "  proof_of_response is false, or not asked of a joint's two muscles, nor of one that "

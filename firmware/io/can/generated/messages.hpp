@@ -501,6 +501,13 @@ inline constexpr std::array<SignalInfo, 16> signals_of_Status{{
     {"friction", "", 62, 1, Raw::unsigned_integer, 1.0, no_value, always, {}},
 }};
 
+inline constexpr std::array<SignalInfo, 4> signals_of_Boot{{
+    {"version_major", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"version_minor", "", 8, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"version_patch", "", 16, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
+    {"commit", "", 32, 28, Raw::unsigned_integer, 1.0, no_value, always, {}},
+}};
+
 inline constexpr std::array<SignalInfo, 6> signals_of_TuningWrite{{
     {"crc", "", 0, 8, Raw::unsigned_integer, 1.0, no_value, always, {}},
     {"counter", "", 8, 4, Raw::unsigned_integer, 1.0, no_value, always, {}},
@@ -538,11 +545,12 @@ inline constexpr MessageInfo setting_read{"SettingRead", 0x600, 1, 0, signals_of
 inline constexpr MessageInfo muscle_read{"MuscleRead", 0x680, 1, 0, signals_of_MuscleRead};
 inline constexpr MessageInfo tuning{"Tuning", 0x640, 8, 0, signals_of_Tuning};
 inline constexpr MessageInfo status{"Status", 0x700, 8, 100, signals_of_Status};
+inline constexpr MessageInfo boot{"Boot", 0x740, 8, 1000, signals_of_Boot};
 inline constexpr MessageInfo tuning_write{"TuningWrite", 0x6c0, 8, 0, signals_of_TuningWrite};
 }  // namespace message
 
 /// In the order of identifiers.
-inline constexpr std::array<MessageInfo, 28> all_messages{{
+inline constexpr std::array<MessageInfo, 29> all_messages{{
     message::sync,
     message::emergency,
     message::first_cause,
@@ -570,6 +578,7 @@ inline constexpr std::array<MessageInfo, 28> all_messages{{
     message::muscle_read,
     message::tuning,
     message::status,
+    message::boot,
     message::tuning_write,
 }};
 

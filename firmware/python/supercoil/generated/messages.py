@@ -295,6 +295,16 @@ class Status(NamedTuple):
     friction: bool
 
 
+class Boot(NamedTuple):
+    """Which program the board runs: within a second of its start, and once a second. The version is that of --version, without the commit's time. Boards older than supercoil 0.2.0, and the first builds of 0.2.0, do not tell it."""
+
+    time_s: float  # on the bus, by the clock of whoever received it
+    version_major: int
+    version_minor: int
+    version_patch: int
+    commit: int
+
+
 class TuningWrite(NamedTuple):
     """Prepares one value of a controller or estimator of this node: nothing changes until controller is commanded with 1000 added to the place. Under the lease, and protected, as Command is; the counter goes on from the last Command, SettingWrite or TuningWrite."""
 
@@ -487,6 +497,12 @@ LAYOUTS = (
         Signal("oscillated", "", 61, 1, Raw.unsigned, 1.0, None, None, bool),
         Signal("friction", "", 62, 1, Raw.unsigned, 1.0, None, None, bool),
     )),
+    Layout(Boot, 0x740, 8, 1000, True, (
+        Signal("version_major", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("version_minor", "", 8, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("version_patch", "", 16, 8, Raw.unsigned, 1.0, None, None, int),
+        Signal("commit", "", 32, 28, Raw.unsigned, 1.0, None, None, int),
+    )),
     Layout(TuningWrite, 0x6c0, 8, 0, False, (
         Signal("crc", "", 0, 8, Raw.unsigned, 1.0, None, None, int),
         Signal("counter", "", 8, 4, Raw.unsigned, 1.0, None, None, int),
@@ -525,4 +541,5 @@ SETTING_READ = 0x600
 MUSCLE_READ = 0x680
 TUNING = 0x640
 STATUS = 0x700
+BOOT = 0x740
 TUNING_WRITE = 0x6c0

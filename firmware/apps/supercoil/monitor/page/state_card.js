@@ -46,6 +46,13 @@ const NOTES = [
 // Status has this one.
 const FRICTION = "; friction takes more than half of a small motion, and the power may be held to less for it";
 
+/** 0.2.0 (2780ebf), as the board tells it; older ones do not. */
+function program_text(row) {
+  if (!row) return "–";
+  const commit = row.commit === 0 ? "" : ` (${row.commit.toString(16).padStart(7, "0")})`;
+  return `${row.version_major}.${row.version_minor}.${row.version_patch}${commit}`;
+}
+
 const notes_text = (bits) => NOTES.filter((_, i) => (bits >> i) & 1).map((note) => `; ${note}`).join("");
 
 export class StateCard {
@@ -55,7 +62,7 @@ export class StateCard {
     this.word = element("strong", { class: "word", role: "status" });
     this.means = element("span", { class: "means" });
     this.facts = element("dl", { class: "facts" });
-    this.values = ["mode", "controller", "commanded by", "limited by"].map((name) => {
+    this.values = ["mode", "controller", "commanded by", "limited by", "program"].map((name) => {
       const value = element("dd", {}, "–");
       this.facts.append(element("div", {}, element("dt", {}, name), value));
       return value;
@@ -90,8 +97,8 @@ export class StateCard {
       : row ? `was ${name("state")}; no heartbeat since ${duration(silent_s)}` : "its heartbeat was never heard");
     const facts = row
       ? [name("mode"), `${this.kind_of(row.controller) ?? `number ${row.controller}`}${row.trusted ? ", estimates trusted" : ""}`, row.leased ? "a master on the bus" : "nobody on the bus",
-        row.limited || name("limited_by") === "cooling" ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing"]
-      : ["–", "–", "–", "–"];
+        row.limited || name("limited_by") === "cooling" ? words(name("limited_by")).replace("nothing", "supply or probe") : "nothing", program_text(this.store.at(this.node, "Boot", now_s))]
+      : ["–", "–", "–", "–", "–"];
     this.values.forEach((value, i) => show(value, facts[i]));
     this.#show_fault(status, row, now_s);
     this.unproven.hidden = row?.proof_off !== 1;

@@ -287,3 +287,21 @@ TEST(Frames, TimesOfTicksSaturateAndCountsGoRound) {
   LONGS_EQUAL(1, m.dropped_frames);
   LONGS_EQUAL(0xFFFFF, unpacked(timing(1, {}), supercoil_timing_unpack).late_s);
 }
+
+TEST(Frames, BootHasTheVersionAndTheCommitOfAProgram) {
+  struct Case {
+    const char* version;
+    int major, minor, patch;
+    unsigned commit;
+  };
+  for (const Case& c : {Case{"0.2.0", 0, 2, 0, 0},
+                        Case{"12.34.56+git20261122.150233.2780ebf", 12, 34, 56, 0x2780ebf},
+                        Case{"0.2.1+git20261122.150233.0780ebf12", 0, 2, 1, 0x0780ebf},
+                        Case{"0.2", 0, 2, 0, 0}, Case{"", 0, 0, 0, 0}}) {
+    const auto m = unpacked(boot(1, c.version), supercoil_boot_unpack);
+    LONGS_EQUAL_TEXT(c.major, m.version_major, c.version);
+    LONGS_EQUAL_TEXT(c.minor, m.version_minor, c.version);
+    LONGS_EQUAL_TEXT(c.patch, m.version_patch, c.version);
+    UNSIGNED_LONGS_EQUAL_TEXT(c.commit, m.commit, c.version);
+  }
+}

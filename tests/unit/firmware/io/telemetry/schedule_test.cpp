@@ -96,6 +96,7 @@ TEST(Schedule, TellsTheLoadOfTheBus) {
   Rates rates{};
   rates[static_cast<std::size_t>(Message::measurement)] = 100.0;
   rates[static_cast<std::size_t>(Message::timing)] = 10.0;
-  // 4 channels x 100 x 135 + 10 x 135 bits, as the board's timing is sent once.
-  DOUBLES_EQUAL(55350.0 / 500e3, bus_load(std::vector<Rates>(4, rates), 500e3), 1e-12);
+  // 4 channels x 100 x 135 + 10 x 135 bits, as the board's timing is sent once, and 4 x 135 of
+  // Boot.
+  DOUBLES_EQUAL(55890.0 / 500e3, bus_load(std::vector<Rates>(4, rates), 500e3), 1e-12);
 }

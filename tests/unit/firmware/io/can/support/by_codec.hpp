@@ -217,6 +217,13 @@ inline Values trajectory(const hal::CanFrame& frame) {
        supercoil_trajectory_playback_decode(m.playback), supercoil_trajectory_room_decode(m.room),
        unless<std::uint16_t>(65535, m.buffered_s, supercoil_trajectory_buffered_s_decode)});
 }
+inline Values boot(const hal::CanFrame& frame) {
+  const auto m = unpacked(frame, supercoil_boot_unpack);
+  return values({supercoil_boot_version_major_decode(m.version_major),
+                 supercoil_boot_version_minor_decode(m.version_minor),
+                 supercoil_boot_version_patch_decode(m.version_patch),
+                 supercoil_boot_commit_decode(m.commit)});
+}
 inline Values status(const hal::CanFrame& frame) {
   const auto m = unpacked(frame, supercoil_status_unpack);
   return values(
@@ -240,7 +247,7 @@ struct CodecMessage {
   Values (*read)(const hal::CanFrame& frame);
 };
 
-constexpr std::array<CodecMessage, 28> codec_messages{{
+constexpr std::array<CodecMessage, 29> codec_messages{{
     {"Sync", SUPERCOIL_SYNC_FRAME_ID, SUPERCOIL_SYNC_LENGTH, sync},
     {"Knot", SUPERCOIL_KNOT_FRAME_ID, SUPERCOIL_KNOT_LENGTH, knot},
     {"Play", SUPERCOIL_PLAY_FRAME_ID, SUPERCOIL_PLAY_LENGTH, play},
@@ -270,6 +277,7 @@ constexpr std::array<CodecMessage, 28> codec_messages{{
     {"Tuning", SUPERCOIL_TUNING_FRAME_ID, SUPERCOIL_TUNING_LENGTH, tuning},
     {"TuningWrite", SUPERCOIL_TUNING_WRITE_FRAME_ID, SUPERCOIL_TUNING_WRITE_LENGTH, tuning_write},
     {"TuningRead", SUPERCOIL_TUNING_READ_FRAME_ID, SUPERCOIL_TUNING_READ_LENGTH, tuning_read},
+    {"Boot", SUPERCOIL_BOOT_FRAME_ID, SUPERCOIL_BOOT_LENGTH, boot},
     {"Status", SUPERCOIL_STATUS_FRAME_ID, SUPERCOIL_STATUS_LENGTH, status},
 }};
 

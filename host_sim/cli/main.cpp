@@ -69,9 +69,9 @@ void add_run(CLI::App& app, RunOptions& options) {
       ->excludes(no_trace);
   run->add_flag("!--no-plot", options.plot, "Write no plot.svg");
   run->add_flag("!--no-can", options.can, "Write no can.log, what the board sends on its CAN bus");
-  CLI::Option* real_time = run->add_flag("--real-time", options.real_time,
-                                         "In real time, without trace, plot and CAN log; until "
-                                         "Ctrl-C or its end");
+  CLI::Option* real_time =
+      run->add_flag("--real-time", options.real_time,
+                    "Run in real time, without trace, plot and CAN log, until its end or Ctrl-C");
   run->add_option_function<std::string>(
          "--can", [&](const std::string& where) { options.socketcand_port = port_of(where); },
          "socketcand:PORT: serve the board's CAN bus on that port of loopback; 0 takes a free one")
@@ -81,7 +81,7 @@ void add_run(CLI::App& app, RunOptions& options) {
                 "End also when the program that started it has ended, however it did")
       ->needs(real_time);
   CLI::Option* check = run->add_flag("--check", options.check,
-                                     "Check the scenario and exit, and what the muscle can do");
+                                     "Only check the scenario, and print what the muscle can do");
   run->add_flag("--json", options.json, "With --check: print JSON instead of text")->needs(check);
   run->add_flag("--allow-fault", options.allow_fault,
                 "Exit status 0 although the muscle never armed or the run ended in a fault");
@@ -111,7 +111,8 @@ batch::Shard shard_of(const std::string& text) {
 
 void add_compare(CLI::App& app, CompareOptions& options) {
   CLI::App* compare = app.add_subcommand(
-      "compare", "Compare controllers against disturbances over many seeds; goes on where it was");
+      "compare",
+      "Compare controllers against disturbances over many seeds; resume where it was interrupted");
   const auto add_names = [&](const char* option, std::vector<std::string>& names,
                              const char* what) {
     compare->add_option(option, names, what)->delimiter(',')->type_name("NAMES");
@@ -119,10 +120,10 @@ void add_compare(CLI::App& app, CompareOptions& options) {
   add_names("--controllers", options.selection.controllers,
             "Names, or files with [controller] and [estimator], separated by commas [all]");
   add_names("--disturbances", options.selection.disturbances,
-            "Names, or scenario files, separated by commas; NAME+SECONDS is that much later [all]");
+            "Names, or scenario files, separated by commas; NAME+SECONDS delays its events [all]");
   add_names("--arithmetic", options.selection.arithmetics, "double, float, q8.24 [double]");
-  compare->add_option("--seeds", options.selection.seeds, "Seeds, from 1 on [20]");
-  compare->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
+  compare->add_option("--seeds", options.selection.seeds, "Number of seeds, from 1 on [20]");
+  compare->add_option("--jobs", options.jobs, "Runs at the same time [one per processor]")
       ->check(CLI::Range(1, 1024));
   compare->add_option("--out", options.out, "Folder for the results [supercoil-out/compare]");
   CLI::Option* shard = compare->add_option_function<std::string>(
@@ -136,16 +137,16 @@ void add_compare(CLI::App& app, CompareOptions& options) {
       ->excludes(shard);
   compare->add_flag("!--no-plot", options.plot, "Write no compare.svg");
   compare->add_flag("--quiet", options.quiet, "Print nothing but errors");
-  compare->add_flag("--list", options.list, "Say what there is to compare");
+  compare->add_flag("--list", options.list, "List controllers, disturbances and arithmetics");
 }
 
 void add_campaign(CLI::App& app, CampaignOptions& options) {
-  CLI::App* campaign =
-      app.add_subcommand("campaign", "Run a study over many random muscles; goes on where it was");
+  CLI::App* campaign = app.add_subcommand(
+      "campaign", "Run a study over many random muscles; resume where it was interrupted");
   campaign->add_option("STUDY", options.study, "A TOML file, or a name of --list");
-  campaign->add_option("--runs", options.runs, "Runs, in place of what the study says")
+  campaign->add_option("--runs", options.runs, "Number of runs, in place of the study's own")
       ->check(CLI::Range(std::int64_t{1}, max_runs));
-  campaign->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
+  campaign->add_option("--jobs", options.jobs, "Runs at the same time [one per processor]")
       ->check(CLI::Range(1, 1024));
   campaign->add_option("--out", options.out,
                        "Folder for the results [supercoil-out/campaign-NAME]");
@@ -162,31 +163,32 @@ void add_campaign(CLI::App& app, CampaignOptions& options) {
   CLI::Option* slurm =
       campaign
           ->add_option("--slurm", options.slurm,
-                       "Write scripts for so many jobs of a Slurm cluster, and submit them")
+                       "Write scripts for this many jobs of a Slurm cluster, and submit them")
           ->check(CLI::Range(1, max_parts))
           ->excludes(shard)
           ->excludes(merge);
-  campaign->add_flag("!--no-submit", options.submit, "Only write them")->needs(slurm);
+  campaign->add_flag("!--no-submit", options.submit, "Write the scripts without submitting them")
+      ->needs(slurm);
   constexpr std::int64_t max_search = 1'000'000;
   campaign
       ->add_option("--search", options.search,
-                   "Search for each controller's worst run, in so many runs, instead")
+                   "Instead search for each controller's worst run, within this number of runs")
       ->check(CLI::Range(std::int64_t{1}, max_search))
       ->excludes(shard)
       ->excludes(slurm)
       ->excludes(merge);
   campaign->add_flag("!--no-plot", options.plot, "Write no campaign.svg");
   campaign->add_flag("--quiet", options.quiet, "Print nothing but errors");
-  campaign->add_flag("--list", options.list, "Say which studies and quantities there are");
+  campaign->add_flag("--list", options.list, "List studies and quantities");
 }
 
 void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   CLI::App* estimators = app.add_subcommand(
       "estimators", "Compare estimators on the same data over many seeds, beside what is possible");
   constexpr std::int64_t max_seeds = 1000000;
-  estimators->add_option("--seeds", options.seeds, "Seeds, from 1 on [20]")
+  estimators->add_option("--seeds", options.seeds, "Number of seeds, from 1 on [20]")
       ->check(CLI::Range(std::int64_t{1}, max_seeds));
-  estimators->add_option("--jobs", options.jobs, "Runs at a time [one a processor]")
+  estimators->add_option("--jobs", options.jobs, "Runs at the same time [one per processor]")
       ->check(CLI::Range(1, 1024));
   estimators->add_option("--out", options.out, "Folder for the results [supercoil-out/estimators]");
   estimators->add_flag("!--no-plot", options.plot, "Write no estimators.svg");

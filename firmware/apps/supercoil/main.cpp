@@ -129,10 +129,10 @@ void add_play(CLI::App& app, PlayOptions& options) {
 }
 
 void add_setting(CLI::App& app, SettingOptions& options) {
-  CLI::App* setting = app.add_subcommand(
-      "setting",
-      "Read or change what may be changed on a running board, until it starts again: the greatest "
-      "power, and how often it sends each message");
+  CLI::App* setting =
+      app.add_subcommand("setting",
+                         "Read or change settings of a running board, until it starts again: "
+                         "maximum power, and how often it sends each message");
   setting->add_option("NODE", options.node, "1 to 63")
       ->required()
       ->check(CLI::Range(1, can::max_nodes));
@@ -166,9 +166,9 @@ void add_tune(CLI::App& app, TuneOptions& options) {
                    "Change this estimator instead: its place, or its kind, e.g. gradient")
       ->type_name("PLACE")
       ->excludes(controller);
-  tune->add_option("--from", options.from,
-                   "What is changed: the values in_use, configured (the way back), stored or "
-                   "prepared before")
+  tune->add_option(
+          "--from", options.from,
+          "Start from the values in_use, configured (the way back), stored, or prepared before")
       ->check(CLI::IsMember({"in_use", "configured", "stored", "prepared"}))
       ->capture_default_str();
   tune->add_flag("--prepare", options.only_prepare,
@@ -192,7 +192,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   CLI::App* doctor = app.add_subcommand(
       "doctor",
       "Check the board on which this runs before anything is heated: kernel, rights, lines, "
-      "PWM, converters, watchdog. Heats nothing, but with --compare-senses; opens devices only "
+      "PWM, converters, watchdog. Heats nothing, except with --compare-senses; opens devices only "
       "while no supercoild runs");
   doctor->add_option("--config", options.config, "The board's configuration")
       ->type_name("FILE")
@@ -214,7 +214,7 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
   CLI::Option* compare = doctor->add_flag(
       "--compare-senses", options.compare_senses,
       "Instead compare the senses of a running board with a meter: heats a little, asks for the "
-      "meter's volts and amperes at two powers, and makes the bounds of its power narrow");
+      "meter's volts and amperes at two powers, and narrows the bounds of its power");
   doctor->add_option("--channel", options.channel, "Channel to compare, from 1; over CAN its node")
       ->check(CLI::Range(1, can::max_nodes))
       ->capture_default_str()
@@ -246,10 +246,12 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
       ->type_name("ADDRESS")
       ->capture_default_str();
   CLI::Option* read_only =
-      monitor->add_flag("--read-only", options.read_only, "Nobody may command");
+      monitor->add_flag("--read-only", options.read_only, "Refuse all commands");
   CLI::Option* text =
       monitor->add_flag("--text", options.text, "Show it on this terminal; serve no page");
-  monitor->add_option("--keep", options.keep_s, "Seconds that a page opened later still sees")
+  monitor
+      ->add_option("--keep", options.keep_s,
+                   "History in seconds that a page opened later still shows")
       ->check(CLI::Range(1.0, 1e6))
       ->capture_default_str();
   monitor
@@ -273,9 +275,9 @@ void add_monitor(CLI::App& app, MonitorOptions& options) {
 
 void add_dbc(CLI::App& app, DbcOptions& options) {
   CLI::App* dbc = app.add_subcommand(
-      "dbc", "Print the DBC of the CAN protocol: of node 1, or of a bus with certain nodes");
+      "dbc", "Print the DBC of the CAN protocol, for node 1 or for the nodes of a bus");
   dbc->add_option("--nodes", options.nodes,
-                  "The bus's nodes, e.g. 1,2,5: messages' names end with their node's")
+                  "Nodes of the bus, e.g. 1,2,5; each message's name then ends with its node")
       ->delimiter(',')
       ->check(CLI::Range(1, can::max_nodes));
   dbc->add_option("--out", options.out, "Write it to this file [standard output]");

@@ -47,10 +47,10 @@ int run_program(int count, char** arguments) {
   app.set_version_flag("--version", std::string(program_version()));
   std::string file;
   daemon::RunOptions options;
-  CLI::Option* check = app.add_option("--check", file,
-                                      "Read a board's configuration, say what was understood, "
-                                      "and end")
-                           ->type_name("FILE");
+  CLI::Option* check =
+      app.add_option("--check", file,
+                     "Read a board's configuration, print what was understood, and exit")
+          ->type_name("FILE");
   bool off = false;
   app.add_flag("--off", off, "Set every line low and every duty to 0, and end")->excludes(check);
   app.add_option("--config", options.config, "The board's configuration")

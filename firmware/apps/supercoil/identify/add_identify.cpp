@@ -11,7 +11,7 @@ void add_column(CLI::App& identify, const std::string& quantity, identification:
                 const std::string& units) {
   identify
       .add_option("--" + quantity + "-column", column.name,
-                  "Its name, or its number from 1 [found by its name]")
+                  "Name of the " + quantity + " column, or its number from 1 [found by its name]")
       ->type_name("NAME");
   identify.add_option("--" + quantity + "-unit", column.unit, units)->type_name("UNIT");
 }
@@ -31,13 +31,14 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
   add_column(*identify, "position", o.columns.position, "m, cm, mm or um [by the name, else m]");
   identify
       ->add_option("--position-scale", o.columns.position.scale,
-                   "Times this; −1 where the sensor counts the other way: position grows when the "
+                   "Factor on the position; −1 where the sensor counts the other way: position "
+                   "grows when the "
                    "muscle is heated")
       ->capture_default_str();
   add_column(*identify, "power", o.columns.power, "W or mW [by the name, else W]");
   identify
       ->add_option("--power-scale", o.columns.power.scale,
-                   "Times this: of a column that is 1 while heated, the power")
+                   "Factor on the power: for a column that is 1 while heated, the power itself")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   identify
@@ -55,24 +56,25 @@ void add_identify(CLI::App& app, IdentifyOptions& o) {
       ->add_option("--judge", o.judge, "FROM:TO in s: judge by this [what is not fitted after it]")
       ->type_name("SPAN");
   identify->add_flag("--bridge-gaps", o.bridge_gaps,
-                     "Where rows are missing, power stayed as it was");
+                     "Where rows are missing, take the power as unchanged");
   identify
       ->add_option(
           "--thermal-mass", o.thermal_mass_J_per_K,
           "Thermal mass of the muscle in J/K, which position and power cannot tell [0.162]")
       ->check(CLI::Range(1e-4, 1e3));
-  CLI::Option* stiffness = identify
-                               ->add_option("--stiffness", o.stiffness_N_per_m,
-                                            "In N/m, which position and power cannot give [16]")
-                               ->check(CLI::Range(1e-2, 1e6));
+  CLI::Option* stiffness =
+      identify
+          ->add_option("--stiffness", o.stiffness_N_per_m,
+                       "Stiffness in N/m, which position and power cannot tell [16]")
+          ->check(CLI::Range(1e-2, 1e6));
   identify
       ->add_option("--moving-mass", o.moving_mass_kg,
-                   "In kg, the load's with it: then the stiffness follows")
+                   "Moving mass in kg, the load included; the stiffness then follows from it")
       ->check(CLI::Range(1e-5, 1e3))
       ->excludes(stiffness);
   identify->add_option("--muscle", o.muscle, "Write the [muscle] table to this file [print it]")
       ->type_name("TOML");
-  identify->add_option("--plot", o.plot, "Draw measured, predicted and what is left (gnuplot)")
+  identify->add_option("--plot", o.plot, "Draw measurement, prediction and residual (gnuplot)")
       ->type_name("SVG");
   identify->add_flag("--json", o.json, "Print one JSON object instead of text");
 }

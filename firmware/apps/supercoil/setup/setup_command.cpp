@@ -185,7 +185,7 @@ void add_setup(CLI::App& app, SetupOptions& o) {
   setup
       ->add_option("--script", o.script,
                    "Answers in a TOML file's tables [muscle], [nameplate], [senses], [scale] and "
-                   "[limits]; a step that they do not answer is left")
+                   "[limits]; a step that they do not answer is skipped")
       ->type_name("FILE");
   CLI::Option* socket =
       setup->add_option("--socket", o.socket, "Where supercoild listens")->capture_default_str();

@@ -41,6 +41,14 @@ struct RunOptions {
 };
 int run_command(const RunOptions& options);
 
+/// A simulated board, and the page on which it is watched and commanded.
+struct PageOptions {
+  std::string scenario = "bench";
+  std::string out;  ///< empty: supercoil-out/NAME
+  int port = 8080;  ///< of the page; 0: a free one
+};
+int page_command(const PageOptions& options);
+
 struct ReproduceOptions {
   std::string out = "supercoil-out/reproduction";
   bool plots = true;

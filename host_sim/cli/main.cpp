@@ -88,6 +88,17 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
+void add_page(CLI::App& app, PageOptions& options) {
+  CLI::App* page = app.add_subcommand(
+      "page", "Simulate a board in real time; serve a page that shows its muscle and moves it");
+  page->add_option("SCENARIO", options.scenario, "A TOML file, or a name from supercoil-sim list")
+      ->capture_default_str();
+  page->add_option("--port", options.port, "Port of the page, on 127.0.0.1; 0 takes a free one")
+      ->check(CLI::Range(0, 65534))
+      ->capture_default_str();
+  page->add_option("--out", options.out, "Folder for the results [supercoil-out/NAME]");
+}
+
 void add_reproduce(CLI::App& app, ReproduceOptions& options) {
   CLI::App* reproduce = app.add_subcommand(
       "reproduce", "Repeat the paper's figures and numbers; print them beside ours");
@@ -211,11 +222,13 @@ int run_program(int count, char** arguments) {
   app.set_version_flag("--version", std::string(program_version()));
   app.require_subcommand(1);
   RunOptions run;
+  PageOptions page;
   ReproduceOptions reproduce;
   CompareOptions compare;
   CampaignOptions campaign;
   EstimatorsOptions estimators;
   add_run(app, run);
+  add_page(app, page);
   add_reproduce(app, reproduce);
   add_compare(app, compare);
   add_campaign(app, campaign);
@@ -232,6 +245,7 @@ int run_program(int count, char** arguments) {
     return status == 0 ? exit_done : exit_wrong_input;
   }
   if (app.got_subcommand("run")) return run_command(run);
+  if (app.got_subcommand("page")) return page_command(page);
   if (app.got_subcommand("reproduce")) return reproduce_command(reproduce);
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("campaign")) return campaign_command(campaign);

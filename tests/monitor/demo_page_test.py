@@ -1,10 +1,12 @@
-"""toolchain/demo --page: one command to a page whose muscle moves, and nothing is left when it is ended.
+"""toolchain/demo --page, and supercoil-sim page: one command to a page whose muscle moves; nothing is left when it is ended.
 
 Programs: environment SUPERCOIL, and supercoil-sim beside it, else those of build/release.
 """
 
 import pathlib
+import shutil
 import subprocess
+import tempfile
 import unittest
 
 from programs import ROOT, SLACK_S, SUPERCOIL, Program, free_ports, until
@@ -16,25 +18,44 @@ PROGRAMS = pathlib.Path(SUPERCOIL).parent
 
 class DemoPage(unittest.TestCase):
     def test_the_muscle_moves_by_its_page_and_both_programs_end_with_the_command(self):
-        out = ROOT / "supercoil-out" / "page"
-        out.mkdir(parents=True, exist_ok=True)
-        (out / "run.txt").write_text("serving can0 on 127.0.0.1:9 by an earlier run\n")
         port = free_ports()
         demo = Program(["env", f"SUPERCOIL_PROGRAMS={PROGRAMS}", DEMO, "--page", port], r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")
         self.addCleanup(demo.stop)
         served = Served(demo)
 
         def moved():
-            served.command("position", 0.006)
+            if served.command("position", 0.006)[1] != {"refusal": "none"}:  # starved: its last command expired
+                served.command("reset")
+                served.command("arm")
             node = served.get("/api/history?from_s=-1")[1]["nodes"].get("1", {})
             return max(node.get("Measurement", {}).get("position_m", [0.0])) > 0.002
 
         until(lambda: served.command("arm")[1] == {"refusal": "none"}, 3 * SLACK_S)
         until(moved, 3 * SLACK_S)
-        begun = subprocess.run(["pgrep", "-P", str(demo.process.pid)], capture_output=True, text=True).stdout.split()
-        self.assertEqual(len(begun), 2)
+        board, = subprocess.run(["pgrep", "-P", str(demo.process.pid)], capture_output=True, text=True).stdout.split()
         demo.stop()
-        self.assertEqual([one for one in begun if pathlib.Path("/proc", one).exists()], [])
+        until(lambda: not pathlib.Path("/proc", board).exists(), SLACK_S)
+
+    def test_the_simulators_package_brings_the_page(self):
+        with tempfile.TemporaryDirectory() as folder:
+            prefix = pathlib.Path(folder)
+            (prefix / "bin").mkdir()
+            (prefix / "libexec/supercoil-sim").mkdir(parents=True)
+            shutil.copy(PROGRAMS / "supercoil-sim", prefix / "bin")
+            words = [prefix / "bin/supercoil-sim", "page", "--port", "0", "--out", prefix / "out"]
+            done = subprocess.run(words, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout), (1, ""))
+            self.assertIn("the program supercoil, which serves the page, is not beside", done.stderr)
+            shutil.copy(SUPERCOIL, prefix / "libexec/supercoil-sim")
+            page = Program(words, r"(http://[^#\s]+/)(#token=[0-9a-f]+)?")
+            self.addCleanup(page.stop)
+            self.assertEqual(Served(page).get("/api/about")[0], 200)
+            page.stop()
+
+    def test_a_wrong_scenario_is_told_before_there_is_a_page(self):
+        done = subprocess.run([PROGRAMS / "supercoil-sim", "page", "benhc"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("benhc", done.stderr)
 
     def test_what_is_no_option_is_refused(self):
         done = subprocess.run([DEMO, "--pages"], capture_output=True, text=True)

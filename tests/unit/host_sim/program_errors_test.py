@@ -143,7 +143,7 @@ class Errors(ProgramCase):
 
     def test_a_misspelt_name_is_told_with_the_one_that_was_meant(self):
         self.check_refused("supercoil-sim: 'rum' is not a command; did you mean run?", "rum", "sine")
-        self.check_refused("'fly' is not a command; the commands are: run, reproduce, ", "fly")
+        self.check_refused("'fly' is not a command; the commands are: run, page, reproduce, ", "fly")
         self.check_refused("sin: there is no such file, and no built-in scenario has that name; did you mean sine?", "run", "sin", "--out", "out")
         self.check_refused("no built-in scenario has that name; they are: b, bench, ", "run", "zzz", "--out", "out")
 

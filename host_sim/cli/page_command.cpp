@@ -1,0 +1,107 @@
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli/commands.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (std::string& word : words)
+    pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// The program that serves the page: of the same build, beside this one; else that of the
+/// simulator's package, which brings it where no other package has a file of that name.
+std::string page_program(const std::filesystem::path& own) {
+  for (const char* place : {"supercoil", "../libexec/supercoil-sim/supercoil"}) {
+    const std::filesystem::path file = own.parent_path() / place;
+    if (access(file.c_str(), X_OK) == 0) return file;
+  }
+  return "";
+}
+
+struct Board {
+  pid_t process = 0;
+  int told = -1;  ///< what it prints
+};
+
+/// A simulated board on a bus of its own, which ends with this program.
+std::optional<Board> start_board(const std::filesystem::path& own, const PageOptions& options) {
+  std::vector<std::string> words{own.string(), "run",   options.scenario, "--real-time",
+                                 "--quiet",    "--can", "socketcand:0",   "--end-with-parent"};
+  if (!options.out.empty()) words.insert(words.end(), {"--out", options.out});
+  std::array<int, 2> ends{};
+  if (pipe(ends.data()) != 0) return std::nullopt;
+  posix_spawn_file_actions_t actions{};
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+  for (const int end : ends)
+    posix_spawn_file_actions_addclose(&actions, end);
+  Board board{0, ends[0]};
+  const int error = posix_spawn(&board.process, own.c_str(), &actions, nullptr,
+                                pointers_to(words).data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  close(ends[1]);
+  errno = error;
+  return error == 0 ? std::optional(board) : std::nullopt;
+}
+
+/// The port of its bus, from its first line; 0: it has ended.
+int bus_port(const Board& board) {
+  constexpr std::string_view before = "127.0.0.1:";
+  std::string line;
+  for (char next = 0; read(board.told, &next, 1) == 1 && next != '\n';)
+    line += next;
+  const std::size_t at = line.find(before);
+  int port = 0;
+  if (at != std::string::npos)
+    std::from_chars(line.data() + at + before.size(), line.data() + line.size(), port);
+  return port;
+}
+
+}  // namespace
+
+int page_command(const PageOptions& options) {
+  const std::filesystem::path own = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string page = page_program(own);
+  if (page.empty()) {
+    return fail(exit_failed, "the program supercoil, which serves the page, is not beside " +
+                                 own.string() + ": build or install it too");
+  }
+  const auto board = start_board(own, options);
+  if (!board) {
+    return fail(exit_failed,
+                std::string("cannot start a simulated board: ") + std::strerror(errno));
+  }
+  const int port = bus_port(*board);
+  if (port == 0) {  // it has said why
+    int status = 0;
+    waitpid(board->process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : exit_failed;
+  }
+  std::vector<std::string> words{page, "monitor", "socketcand:" + std::to_string(port), "--port",
+                                 std::to_string(options.port)};
+  std::puts("Open the address that follows, arm, and move the muscle. Ctrl-C ends it.");
+  std::fflush(stdout);
+  // In place of this program, so that the board sees its end, however that comes. What the board
+  // prints stays open: writing to it must not fail.
+  execv(page.c_str(), pointers_to(words).data());
+  return fail(exit_failed, "cannot start " + page + ": " + std::strerror(errno));
+}
+
+}  // namespace supercoil::host_sim

@@ -21,6 +21,24 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("has no channel 3, but 2", done.stderr)
 
+    def test_a_board_that_does_not_run_the_file_is_neither_heated_nor_taught(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench")  # whose muscle is another one
+        self.addCleanup(simulator.end)
+        bus = f"socketcand:{simulator.port}"
+        start = f"supercoil-sim run bench --board {self.board} --real-time --learned learned --can {bus}"
+        self.record.write_text("{}")  # all but the file is to be done
+        for step in ("senses", "calibrate", "scale", "limits", "identify", "gains", "move"):
+            done = self.setup_program(step, "--can", bus, input="5\n")
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"supercoil: {step}: {self.board}: the board does not run with this file: channel 1: muscle.", done.stderr)
+            self.assertRegex(done.stderr, r"muscle\.stiffness_N_per_m = 17\.84 \(the board: [\d.]+\), .*limits\.max_travel_m = 0\.025 \(the board: 0\.0\d+\)")
+            self.assertIn(start, done.stderr)
+        self.assertEqual(self.record.read_text(), "{}")
+        state = subprocess.run([SUPERCOIL, "command", "state", "--can", bus], capture_output=True, text=True, timeout=DEADLINE_S)
+        self.assertRegex(state.stdout, "node 1: disarmed, rest")  # it was never armed, and has found nothing
+        self.assertNotIn("last identification or calibration", state.stdout)
+
     def test_what_another_board_does_not_have_is_not_done(self):
         self.assertEqual(self.setup_program(*self.script()).returncode, 0)
         simulator = Simulator(self.path, "bench", "--board", self.board)

@@ -92,8 +92,10 @@ class SetupCase(unittest.TestCase):
         self.boards = []
 
     def start_board(self, port=0, scenario="bench"):
-        """With the file as it is now; its senses were never compared with a meter."""
-        board = Program([SIMULATOR, "run", scenario, "--board", self.file, "--real-time",
+        """With the file as it is now, and what it learned before; at first its senses were never compared with a meter."""
+        learned = self.file.with_name("learned")
+        learned.mkdir(exist_ok=True)
+        board = Program([SIMULATOR, "run", scenario, "--board", self.file, "--real-time", "--learned", learned,
                          "--can", f"socketcand:{port or free_ports()}"], r"serving can0 on 127\.0\.0\.1:(\d+)")
         self.addCleanup(board.stop)
         return board
@@ -183,8 +185,12 @@ class SetupTest(SetupCase):
         self.assertIn("muscle.stiffness", described["found"])
         self.assertIn("stiffness_N_per_m = 17.84", self.file.read_text())
         self.assertIn("start the board with it", described["text"])
+        page.begin("calibrate")
+        refused = page.ended("calibrate")["problem"]
+        self.assertIn("the board does not run with this file: channel 1: muscle.", refused)
+        self.assertIn("muscle.stiffness_N_per_m = 17.84 (the board: ", refused)
         board.stop()
-        self.start_board(port)
+        board = self.start_board(port)
 
         def compare():
             for _ in range(2):
@@ -218,6 +224,8 @@ class SetupTest(SetupCase):
         limit = re.search(r"let go at [\d.]+ mm limit: ([\d.]+) mm \(configured: 25 mm\)", " ".join(limits["lines"]))
         self.assertIn(f"max_travel_m = {1e-3 * float(limit[1]):.4g}", self.file.read_text())
         self.assertIn("start the board with it", limits["text"])
+        board.stop()
+        self.start_board(port)
         identified = self.run_step(page, "identify", lambda: see(page, "identify"))
         self.assertRegex(" ".join(identified["lines"]), r"stiffness_N_per_m: \S+ (± \S+ % )?\(configured: 17\.84, ")
         tuned = subprocess.run([SUPERCOIL, "tune", "1", "bandwidth_rad_per_s=3", "--can", self.source], capture_output=True, timeout=SLACK_S)

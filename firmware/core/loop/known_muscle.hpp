@@ -46,7 +46,8 @@ enum KnownPlace : std::uint8_t {
   known_theta1_deviation,
   known_unexplained_ratio = 14,
   known_configured,  ///< the first of the configured ones
-  known_joint_lever = 22,
+  known_configured_resistance = 21,
+  known_joint_lever,
   known_joint_other_node_offset,
   known_lever_first,
   known_lever_last,

@@ -11,6 +11,7 @@
 #include "apps/supercoil/setup/figures.hpp"
 #include "apps/supercoil/setup/identified.hpp"
 #include "apps/supercoil/setup/record.hpp"
+#include "apps/supercoil/setup/running_file.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
 #include "apps/supercoil/value_range.hpp"
 #include "config/describe.hpp"
@@ -147,7 +148,9 @@ Commission::OrWhy Commission::calibrate_when_cold() {
   const double begin_s = board_.time_s();
   for (;;) {
     // One muscle after the other.
-    auto result = run_mode("calibrate", max_calibrate_s * static_cast<double>(together().size()));
+    auto result =
+        run_mode("calibrate",
+                 max_calibrate_s * static_cast<double>(heated_together(settings_, index_).size()));
     const double left_s = cold_after_s - (board_.time_s() - begin_s);
     if (!result || *result != "not_cold" || left_s < 0.0) return result;
     who_.say("not cold yet, by the bounds of its heat; in " + in_digits(left_s) +
@@ -163,16 +166,9 @@ std::optional<Commission::Measured> Commission::antagonist() const {
                   settings_.channels[joint->antagonist]};
 }
 
-std::vector<std::size_t> Commission::together() const {
-  if (const JointSettings* joint = settings_.joint_of(index_))
-    return {joint->agonist, joint->antagonist};
-  if (const BundleSettings* bundle = settings_.bundle_of(index_)) return bundle->channels;
-  return {index_};
-}
-
 double Commission::longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const {
   double max_s = 0.0;
-  for (const std::size_t channel : together())
+  for (const std::size_t channel : heated_together(settings_, index_))
     max_s = std::max(max_s, time_s_of(settings_.channels[channel]));
   return max_s;
 }

@@ -66,9 +66,7 @@ class Commission {
 
   /// Which identify and calibrate go on with; empty: this channel is no agonist.
   std::optional<Measured> antagonist() const;
-  /// Channels, from 0, that calibrate and are armed with this one; itself among them.
-  std::vector<std::size_t> together() const;
-  /// The longest of them: all have to be cold.
+  /// The longest of those that are heated together: all have to be cold.
   double longest_s(const std::function<double(const ChannelSettings&)>& time_s_of) const;
   /// What was found, of an agonist also the antagonist's.
   StepResult tell(Tell found);

@@ -10,6 +10,7 @@
 #include "apps/supercoil/setup/file_joint.hpp"
 #include "apps/supercoil/setup/file_steps.hpp"
 #include "apps/supercoil/setup/other_muscle.hpp"
+#include "apps/supercoil/setup/running_file.hpp"
 #include "apps/supercoil/setup/steps.hpp"
 
 namespace supercoil::operating {
@@ -19,6 +20,8 @@ SetupBoard::~SetupBoard() {
 }
 
 StepResult SetupBoard::run(const std::string& step) {
+  // A step before may have changed the file.
+  config_.reset();
   if (const std::string why = left_out(step); !why.empty()) return tl::unexpected(why);
   if (step == "doctor") {
     if (auto done = read(); !done) return tl::unexpected(done.error());
@@ -75,21 +78,40 @@ tl::expected<void, std::string> SetupBoard::read() {
 }
 
 tl::expected<void, std::string> SetupBoard::open() {
-  if (link_) return {};
   if (auto done = read(); !done) return done;
-  auto link = open_link(options_.can, options_.socket);
-  if (!link) {
-    return tl::unexpected(link.error() + "; start the board with " + options_.config +
-                          " first (supercoild --config, or supercoil-sim run bench --board; "
-                          "joint-bench for a joint)");
+  if (!link_) {
+    auto link = open_link(options_.can, options_.socket);
+    if (!link) return tl::unexpected(link.error() + "; " + how_to_start());
+    link_ = std::move(*link);
   }
-  link_ = std::move(*link);
+  // What a step heats with, and what the board makes of it, is by the file.
+  const auto others = differences_of_board(*link_, first_address(), config_->settings, index());
+  if (!others) return tl::unexpected(others.error() + "; " + how_to_start());
+  if (!others->empty()) {
+    return tl::unexpected(options_.config + ": the board does not run with this file: " + *others +
+                          "; " + how_to_start());
+  }
   return {};
 }
 
+std::string SetupBoard::how_to_start() const {
+  const std::string by_hand = "supercoild --config " + options_.config;
+  if (!options_.can.starts_with("socketcand:"))
+    return "start the board with it: " + by_hand + ", or systemctl restart supercoild";
+  const BoardSettings& board = config_->settings;
+  const std::string scenario = board.joint_of(index()) != nullptr    ? "joint-bench"
+                               : board.bundle_of(index()) != nullptr ? "bundle-bench"
+                                                                     : "bench";
+  return "start the board with it: " + by_hand + ", or simulated: supercoil-sim run " + scenario +
+         " --board " + options_.config + " --real-time --learned learned --can " + options_.can;
+}
+
+int SetupBoard::first_address() const {
+  return options_.can.empty() || !config_->can ? 1 : config_->can->first_node;
+}
+
 std::string SetupBoard::address() const {
-  const int first = options_.can.empty() || !config_->can ? 1 : config_->can->first_node;
-  return std::to_string(first + options_.channel - 1);
+  return std::to_string(first_address() + options_.channel - 1);
 }
 
 }  // namespace supercoil::operating

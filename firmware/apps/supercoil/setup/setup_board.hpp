@@ -34,9 +34,13 @@ class SetupBoard {
 
  private:
   tl::expected<void, std::string> read();
+  /// Refuses a board that runs with another file.
   tl::expected<void, std::string> open();
+  /// The board with the file, as commands to copy.
+  std::string how_to_start() const;
   std::size_t index() const { return static_cast<std::size_t>(options_.channel) - 1; }
-  /// On a bus channels are nodes.
+  /// Of the file's first channel: on a bus channels are nodes.
+  int first_address() const;
   std::string address() const;
 
   const SetupOptions& options_;

@@ -30,7 +30,7 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   LONGS_EQUAL(14, known_unexplained_ratio);
   CHECK(known_quantities[known_unexplained_ratio] == "unexplained_ratio");
   CHECK(known_quantities[known_configured] == "configured_thermal_mass_J_per_K");
-  CHECK(known_quantities[known_joint_lever - 1] == "configured_cold_resistance_Ohm");
+  CHECK(known_quantities[known_configured_resistance] == "configured_cold_resistance_Ohm");
   CHECK(known_quantities[known_joint_lever] == "joint_lever_m");
   CHECK(known_quantities[known_joint_other_node_offset] == "joint_other_node_offset");
   CHECK(known_quantities[known_lever_first] == "joint_lever_first_rad");
@@ -53,7 +53,7 @@ TEST(PublishedMuscle, PlacesHaveTheNamesOfTheirQuantities) {
   DOUBLES_EQUAL(1.5, known[known_position_scale], 0.0);
   DOUBLES_EQUAL(0.75, known[known_response_ratio], 0.0);
   DOUBLES_EQUAL(14.0, known[known_configured + 2], 0.0);
-  DOUBLES_EQUAL(8.0, known[known_joint_lever - 1], 0.0);
+  DOUBLES_EQUAL(8.0, known[known_configured_resistance], 0.0);
   DOUBLES_EQUAL(-0.015, known[known_joint_lever], 0.0);
   DOUBLES_EQUAL(-1.0, known[known_joint_other_node_offset], 0.0);
   CHECK(known_quantities[known_bundle_leader_node_offset] == "bundle_leader_node_offset");

@@ -65,11 +65,11 @@ void SocketcandServer::poll() {
 
 void SocketcandServer::take(const hal::CanFrame& frame, const SocketcandClient& from) {
   deliver_(frame);
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  send(frame, std::chrono::duration_cast<hal::Time>(now), &from);
+  send(frame, newest_, &from);
 }
 
 void SocketcandServer::send(const hal::CanFrame& frame, hal::Time at, const SocketcandClient* but) {
+  newest_ = at;
   const std::string text = can_client::frame_text(frame, at);
   for (const auto& client : clients_) {
     if (client.get() != but && client->is_open()) client->hear(text);

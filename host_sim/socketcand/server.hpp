@@ -61,6 +61,9 @@ class SocketcandServer {
   boost::asio::steady_timer retry_;
   std::string interface_;
   Deliver deliver_;
+  /// The board's clock, by which clients' frames are told as well: on a machine that is too slow it
+  /// lags behind the machine's, and a bus has one clock.
+  hal::Time newest_{};
   std::vector<std::shared_ptr<SocketcandClient>> clients_;
 };
 

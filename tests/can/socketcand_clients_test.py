@@ -148,6 +148,16 @@ class HostileClients(unittest.TestCase):
         self.assertEqual(statuses, [(statuses[0] + i) % 256 for i in range(len(statuses))])
         self.assert_goes_on()
 
+    def test_a_board_whose_clock_lags_is_told_of_as_before(self):
+        self.simulator.process.send_signal(signal.SIGSTOP)
+        time.sleep(5.0)  # the board's time stands still, this machine's does not
+        self.simulator.process.send_signal(signal.SIGCONT)
+        for _ in range(5):  # it asks for the controller meanwhile, which the others on the bus hear at that time or a moment later
+            told = subprocess.run([os.environ["SUPERCOIL"], "command", "state", "--can", f"socketcand:{self.simulator.port}"],
+                                  capture_output=True, text=True, timeout=DEADLINE_S)
+            self.assertRegex(told.stdout, r"node 1: disarmed, rest, \w+ \(controller 0\), off; at most")
+            self.assertRegex(told.stdout, r"position +-?\d")
+
     def test_of_forty_programs_as_many_as_may_are_served(self):
         clients = [self.client() for _ in range(40)]
         greeted = [client.element() == "hi" for client in clients]

@@ -102,17 +102,16 @@ std::string node_text(int number, const Newest& node, const std::string& law) {
   const std::string state = named(node, "Status", "state");
   std::string text =
       "node " + std::to_string(number) + ": " + state + ", " + named(node, "Status", "mode");
-  if (!law.empty()) {
-    text += ", " + law + " (controller " +
-            std::to_string(std::lround(value(node, "Status", "controller"))) + ")";
-  }
+  const double controller = value(node, "Status", "controller");
+  if (!law.empty() && std::isfinite(controller))
+    text += ", " + law + " (controller " + std::to_string(std::lround(controller)) + ")";
   if (state == "disarmed" || state == "armed" || state == "fault") text += ", " + off_text(node);
   if (fault != "none" && fault != "-") text += ", FAULT " + fault + margin_text(node);
   const std::string limit = named(node, "Power", "limited_by");
   if (limit != "nothing" && limit != "-") text += ", limited by " + limit;
   const double progress = value(node, "Status", "progress");
   const std::string mode = named(node, "Status", "mode");
-  if (mode == "identify" || mode == "calibrate")
+  if ((mode == "identify" || mode == "calibrate") && std::isfinite(progress))
     text += ", " + std::to_string(std::lround(100.0 * progress)) + " %";
   const std::string result = named(node, "Status", "result");
   if (result != "none" && result != "running" && result != "-")

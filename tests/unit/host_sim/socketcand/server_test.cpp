@@ -65,6 +65,21 @@ TEST(SocketcandServer, AnOkComesAloneAndWhatIsHeardThenFollowsWithTheNextWord) {
   STRCMP_EQUAL("< frame 123 0000000000.000000  >", hear(4).c_str());
 }
 
+/// Whatever this machine's clock says.
+TEST(SocketcandServer, AClientsFrameIsToldByTheBoardsClock) {
+  connect();
+  tcp::socket other(io);
+  other.connect({boost::asio::ip::address_v4::loopback(), server->port()});
+  for (tcp::socket* each : {&client, &other})
+    boost::asio::write(*each, boost::asio::buffer(std::string("< open can0 >< rawmode >< echo >")));
+  hear(8);
+  hal::CanFrame frame;
+  frame.id = 0x123;
+  server->send(frame, std::chrono::seconds(7));
+  boost::asio::write(other, boost::asio::buffer(std::string("< send 201 0 >")));
+  STRCMP_EQUAL("< frame 123 0000000007.000000  >< frame 201 0000000007.000000  >", hear(8).c_str());
+}
+
 /// Each try to accept fails at once then: a poll must not try until one succeeds.
 TEST(SocketcandServer, APollEndsWithoutFreeDescriptors) {
   connect();

@@ -1,0 +1,39 @@
+// What is told of a node of which only part was heard.
+#include "apps/supercoil/bus/terminal.hpp"
+
+#include <cmath>
+#include <string>
+
+#include <CppUTest/TestHarness.h>
+
+#include "can/codec.hpp"
+#include "can/generated/messages.hpp"
+#include "loop/snapshot.hpp"
+
+using namespace supercoil;
+using namespace supercoil::operating;
+
+TEST_GROUP(Terminal) {
+  FrameHistory heard{10.0, 500e3};
+
+  std::string told() {
+    return state_text(heard, {{1, "mrac"}});
+  }
+};
+
+TEST(Terminal, WithoutAStatusNoControllerIsNumbered) {
+  can::Encoder<can::message::measurement> frame(can::Node{1});
+  frame.set("position_m", 0.005);
+  heard.add({frame.frame()});
+  STRCMP_CONTAINS("node 1: -, -\n  position          5.000 mm", told().c_str());
+}
+
+TEST(Terminal, AModeWithoutProgressHasNoPercent) {
+  can::Encoder<can::message::status> frame(can::Node{1});
+  frame.set("mode", static_cast<double>(Mode::identify)).set("progress", NAN);
+  heard.add({frame.frame()});
+  const std::string text = told();
+  const std::string of_node = text.substr(text.find("node 1"));
+  STRCMP_CONTAINS(", identify, mrac (controller 0)", of_node.c_str());
+  CHECK(of_node.find('%') == std::string::npos);
+}

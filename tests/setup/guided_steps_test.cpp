@@ -54,7 +54,7 @@ class Person final : public operating::Operator {
   double second_reading_ratio = 1.0;  ///< of amperes, told over shown
   double place_mm = NAN;
   double gains = NAN;  ///< 1: takes what is recommended
-  int reads_looks = 10;
+  int reads_looks = 20;
   int asked = 0;
   bool tired = false;
 

@@ -87,7 +87,7 @@ TEST(LimitsStep, AnAnswerLetsGoAtOnceAndTheLimitKeepsADistance) {
   CHECK(limit_m(limits) < board->channel().supervision.max_travel_m);
   STRCMP_CONTAINS("pulls with a power that rises to ", watcher->told.c_str());
   STRCMP_CONTAINS(" mm, or after ", watcher->told.c_str());
-  STRCMP_CONTAINS("limit: 1.4", watcher->told.c_str());
+  STRCMP_CONTAINS("limit: 1.5 mm", watcher->told.c_str());
   board->link().wait(std::chrono::seconds(1));
   CHECK(watcher->truth_m() < 0.0019);
 }
@@ -158,7 +158,7 @@ TEST(LimitsStep, APlaceThatLeavesNoTravelIsRefused) {
 TEST(LimitsStep, WhoLetsGoWithoutALimitChangesNothing) {
   const auto limits = found(held_out_muscle(24, 0.3), 0.002, 0.0);
   CHECK(limits.has_value() && !limits->contains(travel_key));
-  STRCMP_CONTAINS("let go at 1.9", watcher->told.c_str());
+  STRCMP_CONTAINS("let go at 2.0", watcher->told.c_str());
 }
 
 /// A bus on which no position was heard yet.

@@ -231,7 +231,7 @@ int hold(BoardLink& board, const CommandOptions& options) {
     if (!goes_on) return concluded(options, line, answer);
     if (progress.shows()) progress.show(done(board, options, time_s), "");
     if (interrupted != 0 || time_s >= options.hold_s) break;
-    next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 100);
+    next += std::chrono::milliseconds(options.sine_period_s > 0.0 ? 20 : 50);
     std::this_thread::sleep_until(next);
   }
   progress.end();

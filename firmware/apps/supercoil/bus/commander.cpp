@@ -1,5 +1,6 @@
 #include "apps/supercoil/bus/commander.hpp"
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <thread>
@@ -8,13 +9,22 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr auto answer_within = std::chrono::milliseconds(500);
+constexpr std::chrono::milliseconds answer_within{500};
+/// What heats expires after 250 ms by default: by then a renewal was sent three times.
+constexpr std::array<std::chrono::milliseconds, 3> renewal_within{
+    std::chrono::milliseconds(60), std::chrono::milliseconds(120), std::chrono::milliseconds(320)};
 /// A lease lasts a second by default; what may have run out is claimed again.
 constexpr auto lease_lasts = std::chrono::milliseconds(400);
 /// It follows the answer at once, where the board sends it.
 constexpr auto nearest_within = std::chrono::milliseconds(50);
 constexpr int claims_in_a_row = 3;
 constexpr auto nap = std::chrono::milliseconds(1);
+
+/// It is the same whether the board obeys once or twice.
+bool may_come_twice(Verb verb) {
+  return verb == Verb::renew || verb == Verb::position || verb == Verb::power ||
+         verb == Verb::disarm;
+}
 
 Refusal refusal_of(Refusal answer) {
   return answer;
@@ -37,8 +47,9 @@ void Commander::drain() {
 template <class Heard>
 tl::expected<Heard, std::string> Commander::exchange(
     const hal::CanFrame& frame,
-    const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear) {
-  const auto deadline = Clock::now() + answer_within;
+    const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
+    std::chrono::milliseconds within) {
+  const auto deadline = Clock::now() + within;
   hal::Status sent = bus_->send(frame);
   while (sent == hal::Status::busy && Clock::now() < deadline) {
     std::this_thread::sleep_for(nap);
@@ -55,21 +66,23 @@ tl::expected<Heard, std::string> Commander::exchange(
   return tl::unexpected("no answer from node " + std::to_string(master_.node()) + " within 0.5 s");
 }
 
-Commander::Answer Commander::exchange(const hal::CanFrame& frame) {
-  return exchange<Refusal>(frame, [&](const hal::CanFrame& heard) -> std::optional<Refusal> {
+Commander::Answer Commander::exchange(const hal::CanFrame& frame,
+                                      std::chrono::milliseconds within) {
+  const auto hear = [&](const hal::CanFrame& heard) -> std::optional<Refusal> {
     const auto answer = master_.hear(heard);
     if (!answer) return std::nullopt;
     return answer->refusal;
-  });
+  };
+  return exchange<Refusal>(frame, hear, within);
 }
 
 Commander::Answer Commander::claim() {
   if (master_.holds_lease() && Clock::now() - lease_from_ <= lease_lasts) return Refusal::none;
   const bool anew = !master_.holds_lease();
-  Answer answer = exchange(master_.claim());
+  Answer answer = exchange(master_.claim(), answer_within);
   // Another master may use a nonce first.
   for (int i = 0; i < claims_in_a_row && answer && *answer == Refusal::claim_again; ++i)
-    answer = exchange(master_.claim());
+    answer = exchange(master_.claim(), answer_within);
   // To a board of an older version the claim was a command without a lease.
   if (anew && answer && *answer == Refusal::no_lease) return Refusal::protocol_mismatch;
   return answer;
@@ -80,7 +93,13 @@ Commander::Answer Commander::command(Verb verb, double value) {
     Answer claimed = claim();
     if (!claimed || *claimed != Refusal::none) return claimed;
   }
-  return exchange(master_.command(verb, value));
+  if (!may_come_twice(verb)) return exchange(master_.command(verb, value), answer_within);
+  Answer answer;
+  for (const auto within : renewal_within) {
+    answer = exchange(master_.command(verb, value), within);
+    if (answer) break;
+  }
+  return answer;
 }
 
 template <class Once>
@@ -113,8 +132,8 @@ template <class Heard>
 tl::expected<Heard, std::string> Commander::read_value(
     const hal::CanFrame& frame,
     const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear) {
-  auto heard = exchange(frame, hear);
-  return heard ? heard : exchange(frame, hear);
+  auto heard = exchange(frame, hear, answer_within);
+  return heard ? heard : exchange(frame, hear, answer_within);
 }
 
 Commander::Setting Commander::read(std::uint8_t setting) {
@@ -134,7 +153,8 @@ Commander::Setting Commander::write(std::uint8_t setting, double value) {
     if (*claimed != Refusal::none) return can_client::Master::Setting{setting, *claimed, NAN};
     return exchange<can_client::Master::Setting>(
         master_.setting_write(setting, value),
-        [&](const hal::CanFrame& frame) { return master_.receive_setting(frame, true); });
+        [&](const hal::CanFrame& frame) { return master_.receive_setting(frame, true); },
+        answer_within);
   });
 }
 
@@ -153,7 +173,8 @@ Commander::Tuned Commander::prepare(const can_client::TunedPlace& place, double 
     if (*claimed != Refusal::none) return can_client::TunedValue{*claimed, NAN, 0};
     return exchange<can_client::TunedValue>(
         master_.tuning_write(place, value),
-        [&](const hal::CanFrame& frame) { return master_.receive_tuning(place, frame); });
+        [&](const hal::CanFrame& frame) { return master_.receive_tuning(place, frame); },
+        answer_within);
   });
 }
 
@@ -164,7 +185,8 @@ Commander::Played Commander::play(const std::function<hal::CanFrame()>& frame) {
     if (*claimed != Refusal::none)
       return can_client::Played{*claimed, PlaybackState::empty, 0, NAN};
     return exchange<can_client::Played>(
-        frame(), [&](const hal::CanFrame& heard) { return master_.receive_played(heard); });
+        frame(), [&](const hal::CanFrame& heard) { return master_.receive_played(heard); },
+        answer_within);
   });
 }
 
@@ -204,7 +226,7 @@ tl::expected<KnownMuscle, std::string> Commander::muscle() {
 }
 
 void Commander::release() {
-  if (master_.holds_lease()) static_cast<void>(exchange(master_.release()));
+  if (master_.holds_lease()) static_cast<void>(exchange(master_.release(), answer_within));
 }
 
 }  // namespace supercoil::operating

@@ -19,8 +19,8 @@ class Commander {
  public:
   Commander(std::unique_ptr<hal::CanBus> bus, std::uint8_t node);
 
-  /// Waits at most half a second for the answer. Claims the lease when it has run out. The error
-  /// says that there was no answer, or that the bus is gone.
+  /// Waits at most half a second for the answer, and meanwhile sends again what renews. Claims the
+  /// lease when it has run out. The error says that there was no answer, or that the bus is gone.
   tl::expected<Refusal, std::string> ask(Verb verb, double value);
   /// After an answer out_of_range: the nearest value that would have been obeyed. NaN: there is
   /// none, or the board does not say.
@@ -56,8 +56,9 @@ class Commander {
   template <class Heard>
   tl::expected<Heard, std::string> exchange(
       const hal::CanFrame& frame,
-      const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear);
-  Answer exchange(const hal::CanFrame& frame);
+      const std::function<std::optional<Heard>(const hal::CanFrame&)>& hear,
+      std::chrono::milliseconds within);
+  Answer exchange(const hal::CanFrame& frame, std::chrono::milliseconds within);
   /// frame(): made anew for each try.
   Played play(const std::function<hal::CanFrame()>& frame);
   /// A question that changes nothing is asked once more when it, or its answer, was lost.

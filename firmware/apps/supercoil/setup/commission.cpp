@@ -26,7 +26,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::chrono::milliseconds renewal{100};
+constexpr std::chrono::milliseconds renewal{50};
 constexpr std::chrono::milliseconds reference_step{20};
 /// A muscle that is cold by all bounds is armed at once; the file says how long it may take else.
 constexpr double arming_s = 5.0;

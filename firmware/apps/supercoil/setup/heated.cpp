@@ -8,7 +8,7 @@ namespace supercoil::operating {
 
 namespace {
 
-constexpr std::chrono::milliseconds heat_renewal{100};
+constexpr std::chrono::milliseconds heat_renewal{50};
 constexpr int power_digits = 3;
 
 }  // namespace

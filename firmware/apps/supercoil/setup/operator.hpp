@@ -28,8 +28,8 @@ class Operator {
   using Done = tl::expected<void, std::string>;
   using OrWhy = tl::expected<double, std::string>;
 
-  /// How often a question that waits lets the rest go on.
-  static constexpr std::chrono::milliseconds look_every{100};
+  /// How often a question that waits lets the rest go on, which renews a command to heat.
+  static constexpr std::chrono::milliseconds look_every{50};
 
   Operator() = default;
   Operator(const Operator&) = delete;

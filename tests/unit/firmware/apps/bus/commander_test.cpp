@@ -7,6 +7,7 @@
 
 #include "can/codec.hpp"
 #include "can/generated/messages.hpp"
+#include "telemetry/opcodes.hpp"
 
 using namespace supercoil;
 using operating::Commander;
@@ -42,6 +43,38 @@ class LossyBus final : public hal::CanBus {
   std::deque<hal::CanFrame> answers_;
 };
 
+/// A board behind it obeys every command; the first ones but claims are lost.
+class LossyCommands final : public hal::CanBus {
+ public:
+  /// heard counts commands but claims, also lost ones.
+  LossyCommands(int lost, int& heard) : lost_(lost), heard_(heard) {}
+
+  hal::Status send(const hal::CanFrame& frame) override {
+    const can::Reader<can::message::command> asked(frame);
+    const bool claims = asked.get<std::uint8_t>("opcode") == telemetry::lease;
+    if (!claims && ++heard_ <= lost_) return hal::Status::ok;
+    answers_.push_back(can::Encoder<can::message::acknowledge>(node)
+                           .set("counter", asked.get("counter"))
+                           .set("opcode", asked.get("opcode"))
+                           .set("session", asked.get("session"))
+                           .set("granted", 0x4321)
+                           .protected_frame());
+    return hal::Status::ok;
+  }
+  hal::Status receive(hal::CanFrame& frame) override {
+    if (answers_.empty()) return hal::Status::not_ready;
+    frame = answers_.front();
+    answers_.pop_front();
+    return hal::Status::ok;
+  }
+  hal::CanState state() const override { return hal::CanState::active; }
+
+ private:
+  int lost_;
+  int& heard_;
+  std::deque<hal::CanFrame> answers_;
+};
+
 tl::expected<KnownMuscle, std::string> asked(int lost) {
   return Commander(std::make_unique<LossyBus>(lost), node).muscle();
 }
@@ -61,4 +94,26 @@ TEST(Commander, SaysThatNobodyAnswers) {
   const auto known = asked(2);
   CHECK_FALSE(known.has_value());
   STRCMP_CONTAINS("no answer from node 3", known.error().c_str());
+}
+
+/// A person or a step renews: one lost frame must not end what heats.
+TEST(Commander, SendsARenewalAgainBeforeWhatHeatsExpires) {
+  for (const Verb verb : {Verb::renew, Verb::power, Verb::position, Verb::disarm}) {
+    int heard = 0;
+    Commander commander(std::make_unique<LossyCommands>(2, heard), node);
+    const auto answer = commander.ask(verb, 0.0);
+    CHECK(answer.has_value());
+    CHECK(*answer == Refusal::none);
+    LONGS_EQUAL(3, heard);
+  }
+}
+
+/// What begins something may have been obeyed although its answer was lost.
+TEST(Commander, SendsNothingTwiceThatBeginsSomething) {
+  for (const Verb verb : {Verb::identify, Verb::store, Verb::reset}) {
+    int heard = 0;
+    Commander commander(std::make_unique<LossyCommands>(1, heard), node);
+    CHECK_FALSE(commander.ask(verb, 0.0).has_value());
+    LONGS_EQUAL(1, heard);
+  }
 }

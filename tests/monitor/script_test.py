@@ -75,9 +75,13 @@ class Scripts(OnSimulatedBoard):
             self.assertIn(told, done.stderr)
 
     def test_a_script_is_told_how_calibrate_ended(self):
-        self.arm_by_script()
-        done = self.command("1", "calibrate", "--for", "60", "--json")
-        self.assertEqual((done.returncode, json.loads(done.stdout)), (0, {"command": "1 calibrate", "result": "found"}))
+        for words in (("--for", "60"), ()):  # by itself it is renewed until it ends
+            self.arm_by_script()
+            done = self.command("1", "calibrate", "--json", *words)
+            self.assertEqual((done.returncode, json.loads(done.stdout)), (0, {"command": "1 calibrate", "result": "found"}))
+        self.command("1", "disarm")
+        refused = self.command("1", "identify", "--json")
+        self.assertEqual((refused.returncode, json.loads(refused.stdout)), (1, {"command": "1 identify", "answer": "refused: wrong_state"}))
 
     def test_a_script_is_told_that_calibrate_was_interrupted(self):
         self.arm_by_script()
@@ -110,7 +114,8 @@ class Scripts(OnSimulatedBoard):
             until(lambda: program.poll() is not None or "node 1: active, identify" in self.command("state").stdout)
             program.send_signal(signal.SIGINT)
 
-        self.assertEqual(self.identify_by_script("--hold", meanwhile=interrupt), (1, "", ended + "Ctrl-C\n"))
+        for words in (("--hold",), ()):
+            self.assertEqual(self.identify_by_script(*words, meanwhile=interrupt), (1, "", ended + "Ctrl-C\n"))
 
     def test_a_refused_value_comes_with_the_nearest_one_that_is_obeyed(self):
         refused = self.command("1", "controller", "77")

@@ -168,7 +168,14 @@ int refused(const CommandOptions& options, int status, const std::string& why) {
 
 /// identify and calibrate end by themselves, with a result.
 bool has_result(const CommandOptions& options) {
+  if (options.words.size() < 2) return false;
   return options.words[1] == name(Verb::identify) || options.words[1] == name(Verb::calibrate);
+}
+
+/// Given once they would end as the fault command_timeout.
+double held_s(const CommandOptions& options) {
+  const bool until_it_ends = options.words.size() == 2 && has_result(options);
+  return options.hold_s == 0.0 && until_it_ends ? INFINITY : options.hold_s;
 }
 
 /// One channel's, as text or as JSON. own: how this program ended it; empty: it did not.
@@ -320,6 +327,7 @@ int command_command(CommandOptions options) {
   if (!board) return refused(options, exit_failed, board.error());
   if (const int status = take_joint(**board, options); status != exit_done) return status;
   if (const int status = take_place(**board, options); status != exit_done) return status;
+  options.hold_s = held_s(options);
   const std::string line = line_at(options, 0.0);
   if (line == "state") return tell_state(**board, options);
   if (options.hold_s > 0.0) return hold(**board, options);

@@ -72,7 +72,8 @@ void add_command(CLI::App& app, CommandOptions& options) {
       ->expected(1, 3);
   CLI::Option* hold = command->add_option(
       "--for", options.hold_s,
-      "Renew it for this many seconds or until Ctrl-C; then the muscle rests [once: it expires]");
+      "Renew it for this many seconds or until Ctrl-C; then the muscle rests [once: it expires; "
+      "identify and calibrate: until they end]");
   hold->check(CLI::PositiveNumber);
   command
       ->add_flag_callback(

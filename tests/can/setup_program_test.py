@@ -96,7 +96,7 @@ class SetupProgram(SetupCase):
         done = self.setup_program("describe", input="\n".join(questions) + "\n")
         self.assertEqual(done.returncode, 2)
         self.assertIn("the answers make a muscle with ", done.stderr)
-        self.assertIn("the answers are kept: supercoil setup describe offers them again", done.stdout)
+        self.assertIn(f"the answers are kept: supercoil setup describe --config {self.board} offers them again", done.stdout)
         self.assertEqual(self.board.read_text(), self.example)
         self.assertNotRegex(self.setup_program(*self.script(max_W=40)).stderr, r"board\.toml:\d")
 

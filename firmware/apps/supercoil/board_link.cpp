@@ -40,7 +40,7 @@ std::string present_fault(BoardLink& board, const std::string& channel) {
   const auto now = board.status(channel);
   if (!now || now->fault == "none") return "";
   return fault_text(now->fault) + "; when its cause is gone: supercoil command " + channel +
-         " reset";
+         " reset" + board.words();
 }
 
 std::string with_present_fault(const std::string& error, BoardLink& board,
@@ -81,7 +81,7 @@ tl::expected<std::unique_ptr<BoardLink>, std::string> open_link(const std::strin
   if (!can.empty()) return std::make_unique<CanBoardLink>(can);
   auto opened = BoardSocket::open(socket);
   if (!opened) return tl::unexpected(opened.error());
-  return std::make_unique<LocalBoardLink>(std::move(*opened));
+  return std::make_unique<LocalBoardLink>(std::move(*opened), socket);
 }
 
 }  // namespace supercoil::operating

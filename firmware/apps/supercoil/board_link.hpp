@@ -32,6 +32,8 @@ class BoardLink {
 
   /// "1 arm": "ok", "refused: why", or what is wrong with the line. The error: no answer.
   virtual Answer ask(const std::string& line) = 0;
+  /// " --can can0" or " --socket PATH", as a command to it takes it; empty: neither is needed.
+  virtual std::string words() const { return ""; }
   /// What is known of the board, in lines.
   virtual Answer state() = 0;
   /// The same for programs, as one JSON object.
@@ -77,7 +79,9 @@ class BoardLink {
 
 class LocalBoardLink final : public BoardLink {
  public:
-  explicit LocalBoardLink(BoardSocket socket) : socket_(std::move(socket)) {}
+  explicit LocalBoardLink(BoardSocket socket, std::string path = default_socket)
+      : socket_(std::move(socket)), path_(std::move(path)) {}
+  std::string words() const override { return socket_words(path_); }
   Answer ask(const std::string& line) override { return socket_.ask(line); }
   Answer state() override { return socket_.ask("state"); }
   Answer state_json() override;
@@ -98,6 +102,7 @@ class LocalBoardLink final : public BoardLink {
   Answer line_of(const std::string& request, const std::string& channel);
 
   BoardSocket socket_;
+  std::string path_;
 };
 
 /// The first number of a line is a node. Leases are given back at the end.
@@ -105,6 +110,7 @@ class CanBoardLink final : public BoardLink {
  public:
   explicit CanBoardLink(std::string bus) : bus_(std::move(bus)) {}
   ~CanBoardLink() override;
+  std::string words() const override { return " --can " + bus_; }
   Answer ask(const std::string& line) override;
   /// Listens for a second and a half.
   Answer state() override;
@@ -148,7 +154,7 @@ class CanBoardLink final : public BoardLink {
 BoardLink::Answer arm(BoardLink& board, const std::string& channel);
 
 /// "fault heater_open; docs/faults/heater_open.md; when its cause is gone: supercoil command 1
-/// reset". Empty: it has none, or does not answer.
+/// reset --can can0". Empty: it has none, or does not answer.
 std::string present_fault(BoardLink& board, const std::string& channel);
 /// An error with that behind it.
 std::string with_present_fault(const std::string& error, BoardLink& board,

@@ -8,6 +8,14 @@
 
 namespace supercoil::operating {
 
+/// Where supercoild listens, if nothing else is said.
+inline constexpr const char* default_socket = "/run/supercoil/commands";
+
+/// " --socket PATH", as a command takes it; empty: it is that one.
+inline std::string socket_words(const std::string& path) {
+  return path == default_socket ? "" : " --socket " + path;
+}
+
 /// The socket for local commands (docs/running.md). Move-only.
 class BoardSocket {
  public:

@@ -12,6 +12,7 @@
 #include <tl/expected.hpp>
 
 #include "apps/common/exit_status.hpp"
+#include "apps/supercoil/board_socket.hpp"
 #include "loop/settings.hpp"
 #include "recorder/recording.hpp"
 
@@ -49,7 +50,7 @@ int write_output(const std::string& path, const std::string& nothing, const Prod
 struct CommandOptions {
   std::string can;  ///< a bus; empty: the board on which this runs
   bool json = false;
-  std::string socket = "/run/supercoil/commands";
+  std::string socket = default_socket;
   std::vector<std::string> words;  ///< "state", or channel, verb, value
   double hold_s = 0.0;             ///< 0: once
   std::string sine_amplitude;      ///< a number, in degrees as 3deg
@@ -61,7 +62,7 @@ int command_command(CommandOptions options);
 struct PlayOptions {
   std::string file;
   std::string can;  ///< a bus; empty: the board's own socket
-  std::string socket = "/run/supercoil/commands";
+  std::string socket = default_socket;
   int node = 1;           ///< of columns without a number
   double settle_s = 3.0;  ///< at the first knot, before the start
   bool hold = false;      ///< the last knot, until Ctrl-C
@@ -80,7 +81,7 @@ int setting_command(const SettingOptions& options);
 
 struct TuneOptions {
   std::string can;  ///< a bus; empty: the board on which this runs
-  std::string socket = "/run/supercoil/commands";
+  std::string socket = default_socket;
   int channel = 1;
   std::string controller = "0";          ///< its place or kind
   std::optional<std::string> estimator;  ///< its place or kind: that is tuned instead
@@ -103,7 +104,7 @@ struct DoctorOptions {
   bool compare_senses = false;  ///< then can is a bus to command over; empty: the socket
   int channel = 1;
   double power_W = 0.0;  ///< of the comparison; 0: what is safe by the configuration
-  std::string socket = "/run/supercoil/commands";
+  std::string socket = default_socket;
 };
 /// Leads a person with a meter through a comparison of a running board's senses.
 int compare_senses(const DoctorOptions& options);

@@ -257,7 +257,7 @@ StepResult Commission::limits() {
   if (!is_calibrated(now->settings.calibration, configured_.calibration)) {
     who_.say(
         "warning: this board was never calibrated: its zero may be anywhere, and so may the limit "
-        "that is found from it; supercoil setup calibrate takes the zero");
+        "that is found from it; the step calibrate takes the zero");
   }
   if (auto armed = arm(); !armed) return tl::unexpected(armed.error());
   auto found = find_travel_limit(board_, channel_, *now, settings_, who_);

@@ -158,7 +158,8 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   }
   if (!said) return tl::unexpected(said.error());
   auto written = write_description(*said, options, *text, who);
-  if (!written && asks) who.say("the answers are kept: supercoil setup describe offers them again");
+  if (!written && asks)
+    who.say("the answers are kept: " + options.command("describe") + " offers them again");
   return written;
 }
 

@@ -99,13 +99,13 @@ StepResult choose_gains(BoardLink& board, const std::string& channel, const Chan
   const auto take = who.ask(take_gains, [] { return Operator::Done(); });
   if (!take && who.interrupted()) return tl::unexpected(take.error());
   if (!take || *take == 0.0) {
-    who.say("kept as it is; supercoil setup gains asks again");
+    who.say("kept as it is; the step gains asks again");
     return found;
   }
   if (auto taken = take_over(board, channel, in_use, recommended); !taken)
     return tl::unexpected(taken.error());
   who.say("taken over, and stored for the next start; supercoil tune " + channel +
-          " --from configured --store goes back to the file's");
+          " --from configured --store" + board.words() + " goes back to the file's");
   found["taken"] = true;
   return found;
 }

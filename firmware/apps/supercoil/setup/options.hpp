@@ -2,7 +2,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "apps/supercoil/board_socket.hpp"
 
 namespace CLI {
 class App;
@@ -10,16 +13,24 @@ class App;
 
 namespace supercoil::operating {
 
+inline constexpr const char* default_config = "/etc/supercoil/board.toml";
+
 struct SetupOptions {
   std::vector<std::string> steps;  ///< of setup_steps; empty: what was not done yet
-  std::string config = "/etc/supercoil/board.toml";
+  std::string config = default_config;
   int channel = 1;     ///< of the file, from 1
   std::string script;  ///< answers; empty: they are asked for
   std::string can;     ///< a bus; empty: the board on which this runs
-  std::string socket = "/run/supercoil/commands";
+  std::string socket = default_socket;
   bool undo = false;
   bool force = false;  ///< undo also what somebody else changed
   bool json = false;
+
+  /// " --can can0" or " --socket PATH", as commands to this board take it; empty: neither is
+  /// needed.
+  std::string board_words() const;
+  /// "supercoil setup calibrate --config board.toml --can can0"
+  std::string command(std::string_view step) const;
 };
 void add_setup(CLI::App& app, SetupOptions& options);
 /// Returns the program's exit status.

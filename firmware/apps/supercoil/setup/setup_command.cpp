@@ -47,7 +47,7 @@ bool takes(const SetupStep& step, const SetupOptions& options,
                           : who.ask({step.name, "1: now, 0: leave it", {0.0, 1.0}, 0.0},
                                     [] { return Operator::Done(); });
   if (now && *now > 0.0) return true;
-  if (!who.interrupted()) who.say("left; supercoil setup " + std::string(step.name) + " does it");
+  if (!who.interrupted()) who.say("left; " + options.command(step.name) + " does it");
   return false;
 }
 

@@ -41,12 +41,11 @@ tl::expected<Write, std::string> own_write(const SetupOptions& options, const Se
 std::vector<OnBoard> left_on_board(const SetupOptions& options, const SetupRecord& record,
                                    const std::string& first) {
   int channel = options.channel;
-  std::string bus;
   if (!options.can.empty()) {
     const auto config = config::read_board_config(options.config);
     if (config && config->can) channel += config->can->first_node - 1;
-    bus = " --can " + options.can;
   }
+  const std::string board = options.board_words();
   const std::string of_channel = " " + std::to_string(channel);
   const auto* const from = std::ranges::find(setup_steps, first, &SetupStep::name);
   const auto found = [&](std::string_view name) {
@@ -57,15 +56,15 @@ std::vector<OnBoard> left_on_board(const SetupOptions& options, const SetupRecor
   std::vector<OnBoard> all;
   if (done("calibrate") || done("scale") || done("identify")) {
     all.push_back(
-        {"what was found of the muscle", "supercoil command" + of_channel + " clear" + bus});
+        {"what was found of the muscle", "supercoil command" + of_channel + " clear" + board});
   }
   if (const Json gains = found("gains"); gains.is_object() && gains.value("taken", false)) {
     all.push_back(
-        {"the tuning that gains stored", "supercoil tune" + of_channel + " --clear" + bus});
+        {"the tuning that gains stored", "supercoil tune" + of_channel + " --clear" + board});
   }
   if (done("senses")) {
     all.push_back({"the comparison with a meter",
-                   "supercoil command" + of_channel + " compare_supply 0" + bus});
+                   "supercoil command" + of_channel + " compare_supply 0" + board});
   }
   return all;
 }

@@ -126,6 +126,37 @@ class SetupOfABoard(SetupCase):
         self.assertIn("identify: ", error)
         self.assertEqual(set(json.loads(self.record.read_text())["channel-1"]), {"describe", "calibrate"})
 
+    def test_after_a_master_that_was_killed_its_fault_is_told_and_reset_by_whoever_says_so(self):
+        self.assertEqual(self.setup_program(*self.script()).returncode, 0)
+        simulator = Simulator(self.path, "bench", "--board", self.board)
+        self.addCleanup(simulator.end)
+        bus = ("--can", f"socketcand:{simulator.port}")
+
+        def command(*words):
+            return subprocess.run([SUPERCOIL, "command", *words, *bus], capture_output=True, text=True, timeout=DEADLINE_S)
+
+        def until(text, *words):
+            end_s = time.monotonic() + DEADLINE_S
+            while text not in command("state").stdout:
+                self.assertLess(time.monotonic(), end_s)
+                for word in words:
+                    command("1", word)
+
+        until("node 1: armed", "arm")
+        with subprocess.Popen([SUPERCOIL, "command", "1", "power", "0.05", "--hold", *bus], stderr=subprocess.DEVNULL) as heats:
+            time.sleep(1.0)
+            heats.kill()
+        until("FAULT command_timeout")
+        told = f"fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: supercoil command 1 reset {' '.join(bus)}\n"
+        done = self.setup_program("calibrate", *bus, stdin=subprocess.DEVNULL)
+        self.assertEqual((done.returncode, done.stderr), (1, f"supercoil: calibrate: cannot be armed: {told}"))
+        self.assertIn("FAULT command_timeout", command("state").stdout)
+        done = self.setup_program("calibrate", *bus, *self.script(), stdin=subprocess.DEVNULL)
+        self.assertEqual((done.returncode, done.stderr), (1, f"supercoil: calibrate: cannot be armed: {told}"))
+        done = self.patiently(lambda: self.setup_program("calibrate", *bus, *self.script(reset_fault=1), stdin=subprocess.DEVNULL))
+        self.assertIn(f"  channel 1: {told}", done.stdout)
+        self.assertIn("  1: its cause is gone, reset the fault; 0: leave it: 1\n", done.stdout)
+
     def test_on_a_terminal_an_interruption_is_said_on_a_line_of_its_own(self):
         self.assertEqual(self.setup_program(*self.script()).returncode, 0)
         simulator = Simulator(self.path, "bench", "--board", self.board)

@@ -43,6 +43,8 @@ class Person final : public operating::Operator {
       if (tired) return tl::unexpected<std::string>("interrupted");
       return gains;
     }
+    if (question.key == "reset_fault")
+      return std::isnan(resets) ? OrWhy(tl::unexpected<std::string>("nobody answers")) : resets;
     if (question.key == "supply_V") return supply_V;
     if (question.key == "place_mm") return place_mm;
     const double slip = currents_read_++ == 1 ? second_reading_ratio : 1.0;
@@ -53,7 +55,8 @@ class Person final : public operating::Operator {
 
   double second_reading_ratio = 1.0;  ///< of amperes, told over shown
   double place_mm = NAN;
-  double gains = NAN;  ///< 1: takes what is recommended
+  double gains = NAN;   ///< 1: takes what is recommended
+  double resets = NAN;  ///< 1: a fault from before
   int reads_looks = 20;
   int asked = 0;
   bool tired = false;
@@ -83,6 +86,14 @@ operating::ScriptedAnswers meter_readings(double power_W, double shown_V = suppl
   script.add("senses", "supply_V", {shown_V});
   script.add("senses", "current_A", {0.5 * power_W / supply_V, power_W / supply_V});
   return script;
+}
+
+/// As after a master that was killed while it heated.
+void leave_a_command_to_expire(HeldOutBoard& board) {
+  STRCMP_EQUAL("ok", board.link().ask("1 disarm")->c_str());
+  STRCMP_EQUAL("ok", operating::arm(board.link(), "1")->c_str());
+  STRCMP_EQUAL("ok", board.link().ask("1 power 0.01")->c_str());
+  board.link().wait(std::chrono::seconds(2));
 }
 
 constexpr auto adaptive_ff = static_cast<double>(control::ControllerKind::adaptive_ff);
@@ -154,9 +165,7 @@ TEST(GuidedSteps, AScriptedReadingThatNoMeterCouldShowIsRefusedWithItsRange) {
 
 TEST(GuidedSteps, AFaultThatKeepsTheMuscleFromArmingIsNamedWithItsReset) {
   HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
-  STRCMP_EQUAL("ok", operating::arm(board.link(), "1")->c_str());
-  STRCMP_EQUAL("ok", board.link().ask("1 power 0.01")->c_str());
-  board.link().wait(std::chrono::seconds(2));  // and nobody renews it
+  leave_a_command_to_expire(board);
   Person person(board.link());
   for (const char* step : {"senses", "calibrate", "limits", "identify", "move"}) {
     const auto found = board.steps(person).run(step);
@@ -168,6 +177,35 @@ TEST(GuidedSteps, AFaultThatKeepsTheMuscleFromArmingIsNamedWithItsReset) {
   }
   STRCMP_EQUAL("ok", board.link().ask("1 reset")->c_str());
   CHECK(board.steps(person).calibrate().has_value());
+}
+
+TEST(GuidedSteps, AFaultFromBeforeIsToldAndResetByWhoeverSaysSo) {
+  const std::string told =
+      "channel 1: fault command_timeout; docs/faults/command_timeout.md; when its cause is gone: ";
+  HeldOutBoard board(held_out_muscle(24, 0.3), "learned_ff", 0.0);
+  leave_a_command_to_expire(board);
+  Person person(board.link());
+  person.resets = 0.0;
+  const auto left = board.steps(person).calibrate();
+  CHECK_FALSE(left.has_value());
+  STRCMP_CONTAINS("cannot be armed: fault command_timeout", left.error().c_str());
+  STRCMP_EQUAL("command_timeout", board.link().status("1")->fault.c_str());
+  person.resets = 1.0;
+  CHECK(board.steps(person).calibrate().has_value());
+  STRCMP_CONTAINS(told.c_str(), person.told().c_str());
+  LONGS_EQUAL(2, person.asked);
+  // Without one nothing is asked.
+  CHECK(board.steps(person).calibrate().has_value());
+  LONGS_EQUAL(2, person.asked);
+  for (const double allowed : {0.0, 1.0}) {
+    leave_a_command_to_expire(board);
+    operating::ScriptedAnswers script("answers.toml");
+    script.add("muscle", "reset_fault", {allowed});
+    Listener nobody(script);
+    LONGS_EQUAL(allowed > 0.0, board.steps(nobody).calibrate().has_value());
+    STRCMP_CONTAINS(told.c_str(), nobody.take().c_str());
+    static_cast<void>(board.link().ask("1 reset"));
+  }
 }
 
 TEST(GuidedSteps, AReadingThatContradictsTheOthersChangesNothing) {

@@ -10,6 +10,7 @@
 #include "apps/supercoil/setup/channel_steps.hpp"
 #include "apps/supercoil/setup/figures.hpp"
 #include "apps/supercoil/setup/identified.hpp"
+#include "apps/supercoil/setup/muscle_answers.hpp"
 #include "apps/supercoil/setup/record.hpp"
 #include "apps/supercoil/setup/running_file.hpp"
 #include "apps/supercoil/setup/sense_comparison.hpp"
@@ -88,8 +89,25 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
       (fault.empty() ? "; docs/running.md says what each result means" : ", " + fault));
 }
 
+Commission::Done Commission::reset_faults() {
+  for (const std::size_t one : heated_together(settings_, index_)) {
+    const std::string channel = std::to_string(std::stoul(channel_) + one - index_);
+    const std::string fault = present_fault(board_, channel);
+    if (fault.empty()) continue;
+    who_.say("channel " + channel + ": " + fault);
+    const auto answer = who_.ask(reset_fault, [] { return Done(); });
+    if (who_.interrupted()) return tl::unexpected<std::string>("interrupted");
+    if (!answer || *answer == 0.0) return tl::unexpected("cannot be armed: " + fault);
+    const auto done = board_.ask(channel + " reset");
+    if (!done) return tl::unexpected(done.error());
+    if (*done != "ok") return tl::unexpected("reset: " + *done + ", " + fault);
+  }
+  return {};
+}
+
 /// A board that was just started waits until its muscle must be cool.
 Commission::Done Commission::arm() {
+  if (auto reset = reset_faults(); !reset) return reset;
   const double max_s = arming_s + longest_s([&](const ChannelSettings& channel) {
                          return feasibility(channel, settings_).armable_s;
                        });
@@ -214,6 +232,7 @@ StepResult Commission::compare_senses() {
   if (power_W && !*power_W) return tl::unexpected(power_W->error());
   if (power_W) plan.power_W = **power_W;
   who_.say(describe_plan(plan));
+  if (auto reset = reset_faults(); !reset) return tl::unexpected(reset.error());
   const auto senses = operating::compare_senses(board_, plan, who_);
   if (!senses) return tl::unexpected(senses.error());
   who_.say(describe_comparison(*senses));

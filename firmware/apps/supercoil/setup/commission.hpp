@@ -53,6 +53,8 @@ class Commission {
   using OrWhy = tl::expected<std::string, std::string>;
 
   Done ask(const std::string& command);
+  /// A fault from before this step is told, and reset where that is wanted.
+  Done reset_faults();
   /// Of a mode that ended with this.
   Done only_found(const std::string& mode, const OrWhy& result);
   Done arm();

@@ -67,6 +67,10 @@ class MuscleAnswers {
   std::array<double, questions.size()> values_{};
 };
 
+/// Of each step that arms a muscle which has a fault from before.
+inline constexpr Question reset_fault{
+    "reset_fault", "1: its cause is gone, reset the fault; 0: leave it", {0.0, 1.0}, NAN};
+
 /// Of the step gains, which comes when the muscle was found.
 inline constexpr Question take_gains{
     "take_gains",

@@ -91,6 +91,8 @@ tl::expected<Script, std::string> read_script(const std::string& path) {
     }
     script.answers.add("muscle", take_gains.key,
                        {muscle.number(take_gains.key, take_gains.fallback, take_gains.allowed)});
+    script.answers.add("muscle", reset_fault.key,
+                       {muscle.number(reset_fault.key, 0.0, reset_fault.allowed)});
     muscle.finish();
     if (root.has("nameplate")) {
       script.nameplate = read_nameplate(root.section("nameplate"));

@@ -18,7 +18,7 @@ class SetupOfABoard(SetupCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("start the board with", done.stderr)
         done = self.setup_program("identify", "--channel", "3")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("has no channel 3, but 2", done.stderr)
 
     def test_a_board_that_does_not_run_the_file_is_neither_heated_nor_taught(self):

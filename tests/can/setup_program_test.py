@@ -49,7 +49,7 @@ class SetupProgram(SetupCase):
             terminal.answer("4.5")
             terminal.until(r"at most what its sensor reads \(0\.01 to 41\): $")
             terminal.type("\x03")
-            self.assertEqual(terminal.ended(), 2)
+            self.assertEqual(terminal.ended(), 1)
         self.assertTrue(terminal.told.endswith("41): ^C\r\nsupercoil: interrupted\r\n"), terminal.told[-200:])
         self.assertEqual(self.board.read_text(), self.example)
         self.assertEqual(self.setup_program("describe", input="\n" * 11 + "25\n\n").returncode, 0)
@@ -115,12 +115,14 @@ class SetupProgram(SetupCase):
         self.assert_refused(self.setup_program(*self.script("[limits]\nstop_m = 0.008")), "limits.stop_m", "did you mean stop_mm?")
         self.assert_refused(self.setup_program(*self.script("[scale]")), "scale.place_mm: is missing")
         self.assert_refused(self.setup_program("--script", "missing.toml"), "missing.toml")
-        self.assert_refused(self.setup_program("--channel", "3", *self.script()), "there is no channel 3")
+        self.assert_refused(self.setup_program("--channel", "3", *self.script()), "board.toml has no channel 3, but 2")
+        self.assertEqual(self.setup_program("--channel", "3", input="10\n").stdout, "")  # before anything is asked
         self.assert_refused(self.setup_program("calibrat"), "did you mean calibrate?")
 
     def test_a_muscle_that_this_board_cannot_have_is_refused_by_its_key(self):
-        self.assert_refused(self.setup_program(*self.script(max_W=40)),
-                            "channel[1].limits.max_W = 40", "min_V²/cold_resistance_Ohm = 11.664 W")
+        self.assert_refused(self.setup_program(*self.script(max_W=40, max_travel_mm=50)),
+                            "answers.toml:10: muscle.max_W = 40: must be 0.001 to 11.664 here: The most power", "at most what the supply gives it",
+                            "answers.toml:11: muscle.max_travel_mm = 50: must be 0.01 to 41 here: ")
 
     def test_a_list_of_controllers_stays_as_it_was_chosen(self):
         self.board.write_text((EXAMPLE.parent / "on-chip-pwm-fast-converter.toml").read_text())

@@ -370,6 +370,7 @@ class SetupTest(SetupCase):
 
     def test_what_setup_cannot_be_for_is_told_at_the_start(self):
         for words, told in ((("--setup", "missing.toml"), "missing.toml"),
+                            (("--setup", self.file, "--channel", "3"), "board.toml has no channel 3, but 2"),
                             (("--setup", self.file, "--read-only"), "--read-only excludes --setup"),
                             (("--channel", "2"), "--channel requires --setup")):
             done = subprocess.run([SUPERCOIL, "monitor", "socketcand:29536", *words], capture_output=True, text=True, timeout=60)

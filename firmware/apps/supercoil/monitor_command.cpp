@@ -14,6 +14,7 @@
 #include "apps/supercoil/monitor/api.hpp"
 #include "apps/supercoil/monitor/server_thread.hpp"
 #include "apps/supercoil/monitor/stop.hpp"
+#include "apps/supercoil/setup/board_file.hpp"
 #include "apps/supercoil/setup/setup_session.hpp"
 
 namespace supercoil::operating {
@@ -138,6 +139,9 @@ int monitor_command(const MonitorOptions& options) {
   if (!source) return fail(exit_wrong_input, source.error());
   if (!options.setup.empty() && source->log)
     return fail(exit_wrong_input, options.source + " is a log: --setup needs a board on a bus");
+  const std::string missing =
+      options.setup.empty() ? "" : missing_channel(options.setup, options.channel);
+  if (!missing.empty()) return fail(exit_wrong_input, missing);
   watch_for_interrupts();
   if (!options.text) return serve_page(options, *source);
   return show_on_terminal(*source->frame_history, source->log, [] { return interrupted != 0; });

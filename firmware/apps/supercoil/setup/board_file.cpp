@@ -28,6 +28,16 @@ tl::expected<std::string, std::string> read_board_text(const std::string& config
   return text;
 }
 
+std::string missing_channel(const std::string& config, int channel) {
+  const auto text = read_board_text(config);
+  if (!text) return "";
+  const toml::table document = toml::parse(*text);
+  const toml::array* const channels = document["channel"].as_array();
+  const std::size_t count = channels == nullptr ? document.contains("channel") : channels->size();
+  if (static_cast<std::size_t>(channel) <= count) return "";
+  return config + " has no channel " + std::to_string(channel) + ", but " + std::to_string(count);
+}
+
 tl::expected<config::BoardConfig, std::string> write_entries(const SetupOptions& options,
                                                              const std::string& step,
                                                              const std::string& text,

@@ -22,6 +22,8 @@ std::string free_name(const std::string& path);
 
 /// Its text. The error, of a file that is no TOML, is whole lines.
 tl::expected<std::string, std::string> read_board_text(const std::string& config);
+/// "board.toml has no channel 3, but 2"; empty: it has that one, or is no file that says.
+std::string missing_channel(const std::string& config, int channel);
 /// Puts entries into that text, of the channel that is set up, and writes the file only if it is in
 /// order then; what it was before is kept, and the record tells that the step wrote it. The error
 /// is whole lines.

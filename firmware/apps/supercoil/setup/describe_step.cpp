@@ -60,23 +60,36 @@ Or<Said> answered(const BoardRanges& board, SetupRecord& record, Operator& who) 
   return said;
 }
 
+/// That the board does not allow. As a person is told where it is asked.
+config::Problem beyond(const Question& q, double value, const std::string& script, int line) {
+  return {script, line, "muscle." + std::string(q.key),
+          "must be " + range_text(q.allowed) + " here: " + std::string(q.text),
+          number_text(value, range_digits)};
+}
+
 /// What a script leaves open, or an error for each.
-Or<Said> completed(const Script& script, const SetupOptions& options) {
+Or<Said> completed(const Script& script, const SetupOptions& options, const BoardRanges& board) {
   MuscleAnswers answers = script.muscle;
-  std::string missing;
+  std::string wrong;
   for (std::size_t i = 0; i < questions.size(); ++i) {
-    if (answers.has(i)) continue;
+    if (answers.has(i)) {
+      const Question q = next_question(i, answers, board);
+      const double value = answers.of(static_cast<Asked>(i));
+      if (value > q.allowed.highest)
+        wrong += beyond(q, value, options.script, script.lines[i]).text() + "\n";
+      continue;
+    }
     const Question& q = questions[i];
     const double rated = script.nameplate.suggested(static_cast<Asked>(i));
     const double offered = std::isnan(rated) ? q.fallback : rated;
     if (!std::isnan(offered)) {
       answers.set(i, offered);
     } else {
-      missing += options.script + ": muscle." + std::string(q.key) +
-                 ": is missing: " + std::string(q.text) + ", " + range_text(q.allowed) + "\n";
+      wrong += options.script + ": muscle." + std::string(q.key) +
+               ": is missing: " + std::string(q.text) + ", " + range_text(q.allowed) + "\n";
     }
   }
-  if (!missing.empty()) return tl::unexpected(missing);
+  if (!wrong.empty()) return tl::unexpected(wrong);
   return Said{script.nameplate, answers};
 }
 
@@ -141,19 +154,19 @@ Or<Json> describe_step(const SetupOptions& options, Operator& who) {
   const auto text = read_board_text(options.config);
   if (!text) return tl::unexpected(text.error());
   const auto joint = joint_in_file(*text, options.channel);
+  BoardRanges ranges = board_ranges(*text, options.channel);
+  if (joint) ranges.max_position_m = NAN;
   Or<Said> said;
   const bool asks = options.script.empty();
   if (!asks) {
     const auto script = read_script(options.script);
     if (!script) return tl::unexpected(script.error());
-    said = completed(*script, options);
+    said = completed(*script, options, ranges);
   }
   if (joint) say_how_a_joint_is_measured(joint->lever.zero_radius_m(), who);
   if (asks) {
     auto record = SetupRecord::open(options.config, options.channel);
     if (!record) return tl::unexpected(record.error() + "\n");
-    BoardRanges ranges = board_ranges(*text, options.channel);
-    if (joint) ranges.max_position_m = NAN;
     said = answered(ranges, *record, who);
   }
   if (!said) return tl::unexpected(said.error());

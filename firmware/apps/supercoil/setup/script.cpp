@@ -85,6 +85,7 @@ tl::expected<Script, std::string> read_script(const std::string& path) {
       // An absent key is known nevertheless: to be meant by a misspelt one.
       if (muscle.has(q.key)) {
         script.muscle.set(i, muscle.number(q.key, NAN, q.allowed));
+        script.lines.at(i) = static_cast<int>(muscle.table()->get(q.key)->source().begin.line);
       } else {
         muscle.allow({q.key});
       }

@@ -1,6 +1,7 @@
 // What a person would answer, in a file.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -39,7 +40,8 @@ class ScriptedAnswers {
 
 struct Script {
   Nameplate nameplate;
-  MuscleAnswers muscle;  ///< a key that is not there is not answered
+  MuscleAnswers muscle;                       ///< a key that is not there is not answered
+  std::array<int, questions.size()> lines{};  ///< of those that are
   ScriptedAnswers answers;
 };
 /// The tables of a file, all but [muscle] may be absent. The error is whole lines.

@@ -68,11 +68,8 @@ tl::expected<void, std::string> SetupBoard::read() {
   if (config_) return {};
   auto config = config::read_board_config(options_.config);
   if (!config) return tl::unexpected(config::to_text(config.error()));
-  const auto channels = static_cast<int>(config->settings.channels.size());
-  if (options_.channel > channels) {
-    return tl::unexpected(options_.config + " has no channel " + std::to_string(options_.channel) +
-                          ", but " + std::to_string(channels));
-  }
+  if (const std::string why = missing_channel(options_.config, options_.channel); !why.empty())
+    return tl::unexpected(why);
   config_ = std::move(*config);
   return {};
 }

@@ -102,7 +102,7 @@ int run_steps(const SetupOptions& options, SetupRecord& record, std::FILE* out) 
     const bool describes = name == "describe";
     const StepResult found = describes ? describe_step(options, terminal) : board.run(name);
     if (!found) {
-      const int why = describes ? exit_wrong_input : exit_failed;
+      const int why = describes && !terminal.interrupted() ? exit_wrong_input : exit_failed;
       terminal.end_progress();
       if (!describes) return concluded(options, results, why, of_step(name, found.error()));
       return concluded(options, results, why, found.error());
@@ -206,6 +206,9 @@ void add_setup(CLI::App& app, SetupOptions& o) {
 int setup_command(const SetupOptions& options) {
   watch_for_interrupts();
   if (options.undo) return undo_command(options);
+  if (const std::string missing = missing_channel(options.config, options.channel);
+      !missing.empty())
+    return concluded(options, Json::object(), exit_wrong_input, missing);
   auto record = SetupRecord::open(options.config, options.channel);
   if (!record) return concluded(options, Json::object(), exit_failed, record.error());
   return run_steps(options, *record, options.json ? stderr : stdout);

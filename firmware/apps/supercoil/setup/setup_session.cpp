@@ -54,7 +54,8 @@ Json SetupSession::state() const {
   const auto config = config::read_board_config(options_.config);
   const auto channel = static_cast<std::size_t>(options_.channel) - 1;
   for (const SetupStep& step : setup_steps) {
-    if (config && !left_out(step, config->settings, channel).empty()) continue;
+    const bool known = config && channel < config->settings.channels.size();
+    if (known && !left_out(step, config->settings, channel).empty()) continue;
     steps.push_back({{"name", step.name},
                      {"does", step.does},
                      {"optional", step.optional},

@@ -162,10 +162,12 @@ class Scripts(OnSimulatedBoard):
                                   ("supply_gain", "1.1", f"{outside}it is only read: supercoil doctor --compare-senses finds it")):
             self.assertEqual(setting("1", name, value).stderr, f"supercoil: {name}: {told}\n")
         for written, meant in (("mesurement_Hz", "did you mean measurement_Hz?"), ("max_powr_W", "did you mean max_power_W?"),
-                               ("loudness", "there are: max_power_W, measurement_Hz, ")):
+                               ("max_power_W=2", "write max_power_W 2"), ("loudness", "there are: max_power_W, measurement_Hz, ")):
             unknown = setting("1", written)
             self.assertEqual(unknown.returncode, 2)
             self.assertIn(f"'{written}' is not a setting; {meant}", unknown.stderr)
+        self.assertEqual(setting("1", "bandwidth_rad_per_s", "3").stderr, "supercoil: 'bandwidth_rad_per_s' is tuned: "
+                         f"supercoil tune 1 bandwidth_rad_per_s=3 --can {self.source}\n")
         renamed = setting("1", "most_power_W")
         self.assertEqual((renamed.returncode, renamed.stderr),
                          (2, "supercoil: 'most_power_W' was renamed in 0.2.0: write max_power_W\n"))

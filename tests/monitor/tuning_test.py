@@ -97,6 +97,13 @@ class ByCommand(PageCase):
 
     def test_what_is_wrong_is_told(self):
         for words, status, told in ((("volume=1",), 2, "volume cannot be tuned; there are: kind, "),
+                                    (("bandwith=3",), 2, "bandwith cannot be tuned; did you mean bandwidth_rad_per_s (the unit is part of the name)?"),
+                                    (("gain=",), 2, "gain cannot be tuned; did you mean gain_1?"),
+                                    (("gain_1=",), 2, "gain_1: has no value: must be 1e-06 to 1e+12"),
+                                    (("kind=",), 2, "kind: has no value: there are: "),
+                                    (("=3",), 2, "=3: write NAME=VALUE"),
+                                    (("max_power_W=9",), 2, "max_power_W is a setting, which tune does not change: "
+                                     f"supercoil setting 1 max_power_W 9 --can {self.source}"),
                                     (("integral_W_per_m=1",), 2, "did you mean integral_W_per_m_s"),
                                     (("kind=mrack",), 2, "kind = mrack: did you mean mrac?"),
                                     (("shape_reference=1",), 2, "there are: false, true"),

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "supercoil/control/tracking/tunable.hpp"
+
 #include "apps/supercoil/bus/bus_name.hpp"
 #include "apps/supercoil/bus/commander.hpp"
 #include "apps/supercoil/commands.hpp"
@@ -60,6 +62,22 @@ std::string range_of_refused(const can_client::Master::Setting& heard, double va
   return "; 0, for never, and " + allowed(telemetry::min_rate_Hz, max_Hz).substr(2) + as_far;
 }
 
+/// What was meant, also of another command.
+std::string no_setting(const SettingOptions& options) {
+  const std::string& written = options.name;
+  if (const auto renamed = config::renamed_to("setting", written); !renamed.empty())
+    return "was renamed in 0.2.0: write " + std::string(renamed);
+  const std::size_t equals = written.find('=');
+  const std::string name = written.substr(0, equals);
+  if (equals != std::string::npos && setting_of(name))
+    return "is not a setting; write " + name + " " + written.substr(equals + 1);
+  if (control::tunable_named(name) == control::tunable_count)
+    return "is not a setting; " + meant_or_all(name, all_names(), "there are");
+  const std::string value = options.value ? number_text(*options.value, 9) : "VALUE";
+  return "is tuned: supercoil tune " + std::to_string(options.node) + " " + name + "=" + value +
+         " --can " + options.can;
+}
+
 int one(Commander& node, std::uint8_t setting, const SettingOptions& options) {
   const auto heard = options.value ? node.write(setting, *options.value) : node.read(setting);
   if (!heard) return refuse(options.json, exit_failed, heard.error());
@@ -86,14 +104,8 @@ int all(Commander& node, bool json) {
 
 int setting_command(const SettingOptions& options) {
   const auto setting = setting_of(options.name);
-  if (!options.name.empty() && !setting) {
-    const std::string_view renamed = config::renamed_to("setting", options.name);
-    return refuse(options.json, exit_wrong_input,
-                  "'" + options.name + "' " +
-                      (renamed.empty() ? "is not a setting; " +
-                                             meant_or_all(options.name, all_names(), "there are")
-                                       : "was renamed in 0.2.0: write " + std::string(renamed)));
-  }
+  if (!options.name.empty() && !setting)
+    return refuse(options.json, exit_wrong_input, "'" + options.name + "' " + no_setting(options));
   const auto id = static_cast<std::uint8_t>(options.node);
   auto bus = open_bus(options.can, can_client::answer_ids(id));
   if (!bus) return refuse(options.json, exit_failed, bus.error());

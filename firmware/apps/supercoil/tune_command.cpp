@@ -10,6 +10,7 @@
 #include "apps/supercoil/commands.hpp"
 #include "apps/supercoil/tuned_place.hpp"
 #include "apps/supercoil/tuning_table.hpp"
+#include "telemetry/run_settings.hpp"
 #include "text/nearest.hpp"
 
 namespace supercoil::operating {
@@ -18,18 +19,31 @@ namespace {
 
 using control::Tunable;
 
-tl::expected<std::vector<TuningChange>, std::string> parse(Tuned what,
-                                                           const std::vector<std::string>& words) {
+/// That nothing of this name can be tuned: what was meant, also of another command.
+std::string not_tunable(const std::string& name, const std::string& value,
+                        const std::vector<std::string>& known, const TuneOptions& options) {
+  for (std::uint8_t i = 0; i < telemetry::run_settings; ++i) {
+    if (telemetry::run_setting_name(i) != name) continue;
+    return name + " is a setting, which tune does not change: supercoil setting " +
+           std::to_string(options.channel) + " " + name + (value.empty() ? "" : " " + value) +
+           " --can " + (options.can.empty() ? "BUS" : options.can);
+  }
+  return name + " cannot be tuned; " + meant_or_all(name, known, "there are");
+}
+
+tl::expected<std::vector<TuningChange>, std::string> parse(Tuned what, const TuneOptions& options) {
   const std::vector<std::string> known = tunable_names(what);
   std::vector<TuningChange> all;
-  for (const std::string& word : words) {
+  for (const std::string& word : options.assignments) {
     const std::size_t equals = word.find('=');
-    if (equals == std::string::npos) return tl::unexpected(word + ": write NAME=VALUE");
     const std::string name = word.substr(0, equals);
+    const std::string text = equals == std::string::npos ? "" : word.substr(equals + 1);
+    if (name.empty()) return tl::unexpected(word + ": write NAME=VALUE");
     if (std::ranges::find(known, name) == known.end())
-      return tl::unexpected(name + " cannot be tuned; " + meant_or_all(name, known, "there are"));
+      return tl::unexpected(not_tunable(name, text, known, options));
+    if (equals == std::string::npos) return tl::unexpected(word + ": write NAME=VALUE");
     const std::size_t tunable = control::tunable_named(name);
-    const auto value = tuning_value(what, control::tunables()[tunable], word.substr(equals + 1));
+    const auto value = tuning_value(what, control::tunables()[tunable], text);
     if (!value) return tl::unexpected(value.error());
     all.push_back({tunable, *value});
   }
@@ -77,7 +91,7 @@ TuningDone tell(BoardLink& board, const std::string& channel, bool json) {
 
 int tune_command(const TuneOptions& options) {
   const Tuned what = options.estimator ? Tuned::estimator : Tuned::controller;
-  const auto changes = parse(what, options.assignments);
+  const auto changes = parse(what, options);
   if (!changes) return refuse(options.json, exit_wrong_input, changes.error());
   const auto board = open_link(options.can, options.socket);
   if (!board) return refuse(options.json, exit_failed, board.error());

@@ -178,7 +178,7 @@ tl::expected<double, std::string> tuning_value(Tuned what, const Tunable& tunabl
   std::array<char, 64> range{};
   std::snprintf(range.data(), range.size(), "must be %g to %g", tunable.lowest, tunable.highest);
   return tl::unexpected(
-      std::string(tunable.name) + " = " + text + ": " +
+      std::string(tunable.name) + (text.empty() ? ": has no value: " : " = " + text + ": ") +
       (names.empty() ? std::string(range.data()) : meant_or_all(text, names, "there are")));
 }
 

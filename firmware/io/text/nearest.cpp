@@ -27,6 +27,24 @@ std::size_t edits(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// What is written may lack the last parts of a name, and be misspelt besides.
+Nearest nearest_beginning(std::string_view written, const std::vector<std::string>& known) {
+  Nearest best;
+  std::size_t fewest = 0;
+  for (const std::string& name : known) {
+    for (std::size_t end = name.find('_'); end != std::string::npos;
+         end = name.find('_', end + 1)) {
+      const std::size_t distance = edits(written, std::string_view(name).substr(0, end));
+      const bool nearer = best.name.empty() || distance < fewest ||
+                          (distance == fewest && name.size() < best.name.size());
+      if (distance > end / 4 || !nearer) continue;
+      best = {name, true};
+      fewest = distance;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 Nearest nearest_name(std::string_view written, const std::vector<std::string>& known) {
@@ -44,15 +62,17 @@ Nearest nearest_name(std::string_view written, const std::vector<std::string>& k
       fewest = distance;
     }
   }
-  return best;
+  return best.name.empty() ? nearest_beginning(written, known) : best;
 }
 
 std::string meant_or_all(std::string_view written, const std::vector<std::string>& known,
                          std::string_view otherwise) {
   const Nearest nearest = nearest_name(written, known);
   if (nearest.name.empty()) return std::string(otherwise) + ": " + joined(known);
-  return "did you mean " + nearest.name +
-         (nearest.lacks_unit ? " (the unit is part of the name)?" : "?");
+  // One of several that are numbered, "gain_1", has none.
+  const bool lacks_unit =
+      nearest.lacks_unit && (nearest.name.back() < '0' || nearest.name.back() > '9');
+  return "did you mean " + nearest.name + (lacks_unit ? " (the unit is part of the name)?" : "?");
 }
 
 std::string joined(const std::vector<std::string>& names) {

@@ -13,7 +13,8 @@ struct Nearest {
 };
 
 /// The shortest known name that starts with what was written and "_", or else the one with the
-/// fewest edits, up to a third of its length; two letters that are exchanged are one edit.
+/// fewest edits, up to a third of its length; two letters that are exchanged are one edit. Or else
+/// the shortest that starts nearly so, up to a quarter: "bandwith" is bandwidth_rad_per_s.
 Nearest nearest_name(std::string_view written, const std::vector<std::string>& known);
 
 /// What to say after "…; ": "did you mean NAME?", or where nothing is near all: "OTHERWISE: a, b".

@@ -33,6 +33,14 @@ TEST(Nearest, OtherwiseTheFewestEdits) {
   CHECK_FALSE(nearest.lacks_unit);
 }
 
+TEST(Nearest, OfANameThatLacksItsUnitAndIsMisspeltTheBeginningCounts) {
+  const Nearest nearest = nearest_name("bandwith", {"max_W", "bandwidth_rad_per_s", "band"});
+  STRCMP_EQUAL("bandwidth_rad_per_s", nearest.name.c_str());
+  CHECK(nearest.lacks_unit);
+  STRCMP_EQUAL("",
+               nearest_name("volume", {"gain_1", "max_W", "model_pole_1_rad_per_s"}).name.c_str());
+}
+
 TEST(Nearest, NothingWhenAllAreFar) {
   STRCMP_EQUAL("", nearest_name("banana", {"seed", "rate_Hz"}).name.c_str());
   STRCMP_EQUAL("", nearest_name("banana", {}).name.c_str());

@@ -122,7 +122,19 @@ def problems_of_drawing():
             yield "docs/pictures/wiring.svg: not as toolchain/wiring draws it"
 
 
+def problems_of_results():
+    """Programs say of each bad end of identify and calibrate that docs/troubleshooting.md says what to do."""
+    source = (ROOT / "firmware" / "core" / "modes" / "result.hpp").read_text()
+    names = re.findall(r'"(\w+)"', re.search(r"mode_result_names\{(.*?)\}", source, re.S)[1])
+    page = (ROOT / "docs" / "troubleshooting.md").read_text()
+    part = page[page.index("## identify refuses the muscle"):].split("\n## ")[0]
+    for name in set(names) - {"none", "running", "found"}:
+        if f"`{name}`" not in part:
+            yield f"docs/troubleshooting.md: does not say what to do about {name}"
+
+
 if __name__ == "__main__":
-    found = [*problems_of_faults(), *problems_of_links(), *problems_of_navigation(), *problems_of_drawing()]
+    found = [*problems_of_faults(), *problems_of_results(), *problems_of_links(), *problems_of_navigation(),
+             *problems_of_drawing()]
     print("\n".join(found) or "every fault has its page and its row, every page is listed, every link leads to a file")
     sys.exit(bool(found))

@@ -122,7 +122,7 @@ TEST(Commission, NothingIsPromisedOfALawThatWasNotTried) {
 TEST(Commission, AMuscleThatIsNoneOfItsModelsIsRefusedWithItsReason) {
   const Commissioned c = commissioned(69);
   STRCMP_CONTAINS("identify ended: poor_fit", c.refused.c_str());
-  STRCMP_CONTAINS("docs/running.md", c.refused.c_str());
+  STRCMP_CONTAINS("; docs/troubleshooting.md says what to do", c.refused.c_str());
   CHECK(c.fault == Fault::none);
 }
 

@@ -194,7 +194,9 @@ int tell_ending(BoardLink& board, const CommandOptions& options, const ChannelEn
   }
   const std::string all = line + " ended: " + result + (notes.empty() ? "" : " (" + notes + ")") +
                           (cause.empty() ? "" : ", " + cause);
-  if (result != "found") return fail(exit_failed, all);
+  const bool has_remedy = result != "interrupted";
+  if (result != "found")
+    return fail(exit_failed, all + (has_remedy ? "; docs/troubleshooting.md says what to do" : ""));
   if (!notes.empty() && !options.json) std::printf("%s\n", all.c_str());
   return exit_done;
 }

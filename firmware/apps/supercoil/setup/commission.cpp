@@ -86,7 +86,7 @@ Commission::Done Commission::only_found(const std::string& mode, const OrWhy& re
   const std::string fault = present_fault(board_, channel_);
   return tl::unexpected(
       mode + " ended: " + *result +
-      (fault.empty() ? "; docs/running.md says what each result means" : ", " + fault));
+      (fault.empty() ? "; docs/troubleshooting.md says what to do" : ", " + fault));
 }
 
 Commission::Done Commission::reset_faults() {

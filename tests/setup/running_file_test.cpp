@@ -72,6 +72,13 @@ TEST(RunningFile, EachKeyThatTheBoardTellsOtherwiseIsNamedWithBothValues) {
                board.differences(with(text, "channel", 0, "limits.max_travel_m", "0.02")).c_str());
   STRCMP_EQUAL("",
                board.differences(with(text, "channel", 1, "limits.max_travel_m", "0.02")).c_str());
+  STRCMP_EQUAL("channel 1: limits.max_W = 1 (the board: 4.5)",
+               board.differences(with(text, "channel", 0, "limits.max_W", "1")).c_str());
+  STRCMP_EQUAL("channel 1: limits.trip_C = 145 (the board: 160)",
+               board.differences(with(text, "channel", 0, "limits.trip_C", "145")).c_str());
+  STRCMP_EQUAL(
+      "channel 1: thermal.max_mass_J_per_K = 0.3 (the board: 0.2)",
+      board.differences(with(text, "channel", 0, "thermal.max_mass_J_per_K", "0.3")).c_str());
   STRCMP_EQUAL(
       "channel 1: heater.cold_resistance_Ohm = 11 (the board: 10)",
       board.differences(with(text, "channel", 0, "heater.cold_resistance_Ohm", "11")).c_str());

@@ -29,8 +29,7 @@ void Axis::publish_muscle() {
   published_muscle_.set(known_muscle(
       muscle_, calibration_, response_ratio_,
       {identify_.quality().deviation_ratio, unexplained_ratio_ > 0.0 ? unexplained_ratio_ : NAN},
-      {settings_.configured_muscle.value_or(settings_.muscle), settings_.heater.cold_resistance_Ohm,
-       settings_.joint, settings_.bundle, -max_reverse_travel_m_, max_travel_m()}));
+      configured_muscle(settings_, -max_reverse_travel_m_)));
 }
 
 void Axis::calibrate(const board::Calibration& calibration) {

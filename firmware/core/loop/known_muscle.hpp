@@ -17,7 +17,7 @@ namespace supercoil {
 
 /// In the order of Muscle.quantity in the DBC. The deviations are NaN until identify has found a
 /// muscle since the start, unexplained_ratio until it ever has found the one that is known.
-inline constexpr std::array<std::string_view, 36> known_quantities{
+inline constexpr std::array<std::string_view, 42> known_quantities{
     "thermal_mass_J_per_K", "heat_transfer_W_per_K", "stiffness_N_per_m", "damping_Ns_per_m",
     "moving_mass_kg", "force_per_kelvin_N_per_K", "cold_resistance_Ohm", "position_offset_m",
     "position_scale",
@@ -36,7 +36,11 @@ inline constexpr std::array<std::string_view, 36> known_quantities{
     "joint_lever_3_m", "joint_lever_4_m", "joint_lever_5_m", "joint_lever_6_m", "joint_lever_7_m",
     "bundle_leader_node_offset",  ///< minus this node; NaN: it leads, or there is no bundle
     // Between which a position may be commanded.
-    "min_set_point_m", "max_set_point_m"};
+    "min_set_point_m", "max_set_point_m",
+    // By the board's file as well: its limits, and the bounds of [thermal].
+    "configured_max_W", "configured_trip_C", "configured_min_mass_J_per_K",
+    "configured_max_mass_J_per_K", "configured_min_transfer_W_per_K",
+    "configured_max_transfer_W_per_K"};
 /// Places of those that follow the six physical parameters.
 enum KnownPlace : std::uint8_t {
   known_cold_resistance = 6,
@@ -55,6 +59,8 @@ enum KnownPlace : std::uint8_t {
   known_bundle_leader_node_offset = known_lever_points + control::Lever::max_points,
   known_min_set_point,
   known_max_set_point,
+  known_configured_limits,                                ///< the first of two
+  known_configured_bounds = known_configured_limits + 2,  ///< the first of four
 };
 using KnownMuscle = std::array<double, known_quantities.size()>;
 
@@ -66,7 +72,22 @@ struct ConfiguredMuscle {
   PlaceInBundle bundle{};
   double min_set_point_m = NAN;
   double max_set_point_m = NAN;
+  double max_W = NAN;
+  double trip_C = NAN;
+  control::ThermalBounds bounds{};
 };
+/// min_set_point_m: in a joint the antagonist's limits say it.
+inline ConfiguredMuscle configured_muscle(const ChannelSettings& c, double min_set_point_m) {
+  return {c.configured_muscle.value_or(c.muscle),
+          c.heater.cold_resistance_Ohm,
+          c.joint,
+          c.bundle,
+          min_set_point_m,
+          c.supervision.max_travel_m,
+          c.limiter.max_W,
+          c.supervision.trip_C,
+          c.thermal.bounds};
+}
 
 inline void tell_lever(const PlaceInJoint& joint, KnownMuscle& known) {
   const control::Lever& lever = joint.lever;
@@ -132,6 +153,11 @@ inline KnownMuscle known_muscle(const control::PhysicalParameters& m, const boar
   known[known_bundle_leader_node_offset] = configured.bundle.leader_offset;
   known[known_min_set_point] = configured.min_set_point_m;
   known[known_max_set_point] = configured.max_set_point_m;
+  const control::ThermalBounds& b = configured.bounds;
+  const std::array limits{configured.max_W,   configured.trip_C,      b.min_mass_J_per_K,
+                          b.max_mass_J_per_K, b.min_transfer_W_per_K, b.max_transfer_W_per_K};
+  static_assert(known_configured_limits + limits.size() == std::tuple_size_v<KnownMuscle>);
+  std::ranges::copy(limits, known.begin() + known_configured_limits);
   return known;
 }
 

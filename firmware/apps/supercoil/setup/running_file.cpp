@@ -18,6 +18,8 @@ std::string place_in_file(std::size_t quantity) {
   if (quantity == known_max_set_point) return "limits.max_travel_m";
   if (quantity == known_configured_resistance) return "heater.cold_resistance_Ohm";
   const std::size_t prefix = name.find('_');
+  if (quantity >= known_configured_bounds) return "thermal." + name.substr(prefix + 1);
+  if (quantity >= known_configured_limits) return "limits." + name.substr(prefix + 1);
   if (quantity < known_joint_lever) return "muscle." + name.substr(prefix + 1);
   return "[[" + name.substr(0, prefix) + "]] " + name.substr(prefix + 1);
 }
@@ -37,9 +39,7 @@ std::vector<std::string> differences(const KnownMuscle& board, const BoardSettin
                                      std::size_t channel) {
   const ChannelSettings& c = file.channels[channel];
   const KnownMuscle expected =
-      known_muscle(c.muscle, c.calibration, 0.0, {},
-                   {c.configured_muscle.value_or(c.muscle), c.heater.cold_resistance_Ohm, c.joint,
-                    c.bundle, NAN, c.supervision.max_travel_m});
+      known_muscle(c.muscle, c.calibration, 0.0, {}, configured_muscle(c, NAN));
   std::vector<std::string> all;
   for (std::size_t i = known_configured; i < known_quantities.size(); ++i) {
     // Follows from the other muscle's limits, which are compared as well.

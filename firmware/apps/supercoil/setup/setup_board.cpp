@@ -99,8 +99,9 @@ std::string SetupBoard::how_to_start() const {
   const std::string scenario = board.joint_of(index()) != nullptr    ? "joint-bench"
                                : board.bundle_of(index()) != nullptr ? "bundle-bench"
                                                                      : "bench";
-  return "start the board with it: " + by_hand + ", or simulated: supercoil-sim run " + scenario +
-         " --board " + options_.config + " --real-time --learned learned --can " + options_.can;
+  return "start the board with it: " + by_hand +
+         ", or simulated: mkdir -p learned; supercoil-sim run " + scenario + " --board " +
+         options_.config + " --real-time --learned learned --can " + options_.can;
 }
 
 int SetupBoard::first_address() const {

@@ -135,13 +135,13 @@ int serve_page(const MonitorOptions& options, Source& source) {
 }  // namespace
 
 int monitor_command(const MonitorOptions& options) {
+  const std::string missing =
+      options.setup.empty() ? "" : missing_channel(options.setup, options.channel);
+  if (!missing.empty()) return fail(exit_wrong_input, missing);
   auto source = open_source(options);
   if (!source) return fail(exit_wrong_input, source.error());
   if (!options.setup.empty() && source->log)
     return fail(exit_wrong_input, options.source + " is a log: --setup needs a board on a bus");
-  const std::string missing =
-      options.setup.empty() ? "" : missing_channel(options.setup, options.channel);
-  if (!missing.empty()) return fail(exit_wrong_input, missing);
   watch_for_interrupts();
   if (!options.text) return serve_page(options, *source);
   return show_on_terminal(*source->frame_history, source->log, [] { return interrupted != 0; });

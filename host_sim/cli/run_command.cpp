@@ -74,9 +74,14 @@ void tell_check_as_json(const Scenario& scenario) {
   const BoardSettings board = firmware_of(scenario);
   Json reference;
   if (const auto f = reference_feasibility(scenario)) {
-    reference = {{"infeasible_ratio", f->infeasible_ratio},
+    reference = {{"feasible", f->feasible()},
+                 {"first_s", json_number(f->first_s)},
+                 {"first_lasts_s", json_number(f->first_lasts_s)},
+                 {"first_ends", f->first_ends},
                  {"limited_by", name(f->limited_by)},
-                 {"first_s", f->infeasible_ratio > 0.0 ? Json(f->first_s) : Json()},
+                 {"excess_W", f->excess_W},
+                 {"behind_m", f->behind_m},
+                 {"infeasible_ratio", f->infeasible_ratio},
                  {"max_m", f->max_m},
                  {"held_m", f->held_m},
                  {"held_by", name(f->held_by)},

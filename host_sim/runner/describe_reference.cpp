@@ -38,16 +38,30 @@ std::string feasible_text(const ReferenceFeasibility& f) {
 }
 
 std::string cause_text(const ReferenceFeasibility& f, const Conditions& c) {
+  const std::string excess = "up to " + in_digits(f.excess_W) + " W";
   switch (f.limited_by) {
     case LimitedBy::cooling:
-      return "it would have to be cooled";
+      return "it would have to be cooled with " + excess;
     case LimitedBy::temperature:
-      return "it may be so hot that it gets less power than that (limited_by temperature)";
+      return "it may be so hot that it gets " + excess +
+             " less power than that (limited_by temperature)";
     case LimitedBy::unproven:
-      return "it would get more power than it can prove to answer (limited_by unproven)";
+      return "it would get " + excess +
+             " more power than it can prove to answer (limited_by unproven)";
     default:
-      return "it would have to be heated with more than " + in_digits(c.power.max_W) + " W";
+      return "it would have to be heated with " + excess + " more than " +
+             in_digits(c.power.max_W) + " W";
   }
+}
+
+/// When, by how much, and what that does.
+std::string infeasible_text(const ReferenceFeasibility& f, const Conditions& c) {
+  const std::string lasts = f.first_ends
+                                ? " for " + in_digits(f.first_lasts_s) + " s until it has caught up"
+                                : ", and does not catch up";
+  return "asks for more than the muscle can do, first at " + in_digits(f.first_s) + " s" + lasts +
+         ", when " + cause_text(f, c) + "; it falls behind by up to " + in_mm(f.behind_m) +
+         "; so it is for " + in_digits(100.0 * f.infeasible_ratio) + " % of the time";
 }
 
 /// What would be feasible in place of sines.
@@ -65,11 +79,8 @@ std::string motion_text(const ReferenceFeasibility& f) {
 std::string describe_reference(const Scenario& scenario, bool in_brief) {
   const auto f = reference_feasibility(scenario);
   if (!f) return {};
-  if (f->infeasible_ratio <= told_infeasible_ratio)
-    return in_brief && !f->leads_too_far() ? "" : feasible_text(*f);
-  std::string line = "asks for more than the muscle can do for " +
-                     in_digits(100.0 * f->infeasible_ratio) + " % of the time, first at " +
-                     in_digits(f->first_s) + " s, when " + cause_text(*f, scenario.start);
+  if (f->feasible()) return in_brief && !f->leads_too_far() ? "" : feasible_text(*f);
+  std::string line = infeasible_text(*f, scenario.start);
   if (f->leads_too_far()) {
     line += "; the muscle " + held_text(*f);
     if (f->once_identified) line += " once it is identified";
@@ -84,16 +95,17 @@ std::string describe_reference(const Scenario& scenario, bool in_brief) {
 }
 
 std::string describe_infeasible(const InfeasibleTime& found, const Scenario& scenario) {
-  if (!(found.ratio() > told_infeasible_ratio)) return {};
+  if (!found.found()) return {};
   const Event* before = nullptr;
   for (const Event& event : scenario.events) {
     if (event.at_s <= found.first_s()) before = &event;
   }
   std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(),
-                "the reference asked for more than the muscle can do in %.1f %% of the ticks that "
-                "followed it, first at %.1f s",
-                100.0 * found.ratio(), found.first_s());
+  std::snprintf(
+      text.data(), text.size(),
+      "the reference asked for more than the muscle can do, first at %.1f s for %.3g s and "
+      "in %.1f %% of all ticks that followed it",
+      found.first_s(), found.first_lasts_s(), 100.0 * found.ratio());
   std::string line = text.data();
   if (before != nullptr && !before->changes.empty())
     line += ", after the event at " + number_text(before->at_s, 6) + " s (" + before->changes + ")";

@@ -29,6 +29,7 @@ class InfeasibleTime {
     ++open_.at(static_cast<std::size_t>(limit));
     if (time_s - since_s_ < infeasible_lasts_s - rounding_s) return;
     if (std::isnan(first_s_)) first_s_ = since_s_;
+    if (first_s_ == since_s_) first_until_s_ = time_s;
     for (std::size_t i = 0; i < open_.size(); ++i)
       counted_.at(i) += std::exchange(open_.at(i), 0);
   }
@@ -38,13 +39,18 @@ class InfeasibleTime {
     open_.fill(0);
   }
 
-  /// NaN: none was followed.
+  /// For how long is no matter: a step that cannot be made is none in a long run either.
+  bool found() const { return !std::isnan(first_s_); }
+  /// Of the ticks that followed a position; NaN: none did.
   double ratio() const {
     const auto all = std::accumulate(counted_.begin(), counted_.end(), std::int64_t{0});
     return static_cast<double>(all) / static_cast<double>(following_);
   }
   /// When that began first; NaN: never.
   double first_s() const { return first_s_; }
+  /// From then to the last of these ticks on end.
+  double first_lasts_s() const { return first_until_s_ - first_s_; }
+  bool first_ended() const { return since_s_ != first_s_; }
   /// At which limit for most of it.
   LimitedBy mostly_by() const {
     return static_cast<LimitedBy>(std::ranges::max_element(counted_) - counted_.begin());
@@ -59,6 +65,7 @@ class InfeasibleTime {
   Ticks open_{};          ///< at a limit, and not for long enough yet
   double since_s_ = NAN;  ///< at a limit
   double first_s_ = NAN;
+  double first_until_s_ = NAN;
 };
 
 }  // namespace supercoil::host_sim

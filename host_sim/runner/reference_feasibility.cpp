@@ -14,6 +14,7 @@
 #include "loop/feasibility.hpp"
 #include "runner/board_of.hpp"
 #include "runner/power_left.hpp"
+#include "runner/wanted_motion.hpp"
 
 namespace supercoil::host_sim {
 
@@ -92,54 +93,50 @@ void find_feasible_motion(const Conditions& c, double max_W, ReferenceFeasibilit
     f.feasible_slowing = too_far ? INFINITY : feasible_slowing(c, max_W);
 }
 
-/// How often each limit would take something, and when first.
-class Limits {
- public:
-  void note(LimitedBy limit, double time_s) {
-    const auto place = static_cast<std::size_t>(limit);
-    if (counts_.at(place)++ == 0) first_s_.at(place) = time_s;
-    ++all_;
-  }
-  void tell(std::int64_t steps, ReferenceFeasibility& f) const {
-    f.infeasible_ratio = static_cast<double>(all_) / static_cast<double>(steps);
-    if (all_ == 0) return;
-    const auto most = std::ranges::max_element(counts_) - counts_.begin();
-    f.limited_by = static_cast<LimitedBy>(most);
-    f.first_s = first_s_.at(static_cast<std::size_t>(most));
-  }
-
- private:
-  std::array<std::int64_t, limit_names.size()> counts_{};
-  std::array<double, limit_names.size()> first_s_{};
-  std::int64_t all_ = 0;
-};
-
-/// Tells how much of the time, when first, and how far it leads.
+/// Tells when first and for how long, by how much, and how far it leads.
 void find_infeasible(const Conditions& c, double duration_s, double step, PowerLeft left,
                      ReferenceFeasibility& f) {
   const auto steps = std::clamp<std::int64_t>(std::llround(duration_s / step), 1, max_steps);
-  const control::ReferenceShaper inverse(
-      c.controller.model, {control::theta_from(c.muscle), {}, c.muscle.moving_mass_kg});
-  control::ReferenceModel<double> model(c.controller.model, step);
+  WantedMotion motion(c, step);
+  Lag lag(c.muscle, step);
   const PowerLeft::Most cold = left.cold();
-  Limits limits;
+  const double rounding_W = 1e-9 * c.power.max_W;
+  InfeasibleTime found;
+  std::array<double, limit_names.size()> excess_W{};
   for (std::int64_t i = 0; i < steps; ++i) {
     const double time_s = static_cast<double>(i) * step;
     const double reference_m = c.reference.at(time_s);
-    const double power_W = inverse.power_W(reference_m, model.motion());
-    model.step(reference_m);
-    f.max_m = std::fmax(f.max_m, model.motion().position);
+    const double asked_W = motion.power_W(reference_m);
+    const double needed_W = motion.left_W(asked_W);
+    motion.step(reference_m);
     const PowerLeft::Most most = left.now();
-    left.step(std::fmin(std::fmax(power_W, c.power.min_W), most.power_W));
-    if (power_W < c.power.min_W) {
-      limits.note(LimitedBy::cooling, time_s);
-    } else if (power_W > most.power_W) {
+    const double wanted_W = needed_W + lag.made_up_by_W();
+    const double given_W = std::fmin(std::fmax(wanted_W, c.power.min_W), most.power_W);
+    left.step(given_W);
+    lag.step(needed_W - given_W);
+    f.max_m = std::fmax(f.max_m, motion.asked_m());
+    f.behind_m =
+        std::fmax(f.behind_m, std::abs(motion.asked_m() - motion.shaped_m() + lag.behind_m()));
+
+    LimitedBy by = LimitedBy::nothing;
+    if (std::fmin(asked_W, wanted_W) < c.power.min_W - rounding_W) {
+      by = LimitedBy::cooling;
+    } else if (std::fmax(asked_W, wanted_W) > most.power_W + rounding_W) {
       // Heat is no reason where a cold muscle could not either.
-      limits.note(power_W > cold.power_W ? cold.by : most.by, time_s);
+      by = asked_W > cold.power_W + rounding_W ? cold.by : most.by;
     }
+    found.add(by, time_s);
+    double& excess = excess_W.at(static_cast<std::size_t>(by));
+    excess = std::fmax(excess, std::fmax(c.power.min_W - asked_W, asked_W - most.power_W));
   }
   f.max_m = std::fmin(f.max_m, c.reference.highest());  // a model may swing beyond
-  limits.tell(steps, f);
+  f.infeasible_ratio = found.ratio();
+  if (!found.found()) return;
+  f.first_s = found.first_s();
+  f.first_lasts_s = found.first_lasts_s() + step;
+  f.first_ends = found.first_ended();
+  f.limited_by = found.mostly_by();
+  f.excess_W = excess_W.at(static_cast<std::size_t>(f.limited_by));
 }
 
 }  // namespace
@@ -162,8 +159,7 @@ std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenar
   // An event may change all of it.
   const double end_s = scenario.events.empty() ? scenario.duration_s : scenario.events[0].at_s;
   find_infeasible(c, end_s, step, left, f);
-  if (is_periodic(c.reference) && f.infeasible_ratio > told_infeasible_ratio)
-    find_feasible_motion(c, left.cold().power_W, f);
+  if (is_periodic(c.reference) && !f.feasible()) find_feasible_motion(c, left.cold().power_W, f);
   return f;
 }
 

@@ -1,6 +1,7 @@
 // Whether a muscle can follow a scenario's reference, told before it is run.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -13,12 +14,18 @@ namespace supercoil::host_sim {
 /// By the linear model of the muscle that the board believes in, through the controller's reference
 /// model from rest on.
 struct ReferenceFeasibility {
-  double infeasible_ratio = 0.0;  ///< of the time
-  /// What it asks too much of for most of that time, and when first.
+  /// When it first asks for more than the muscle can do for infeasible_lasts_s or longer on end;
+  /// NaN: never. The muscle has caught up when its heat is what the motion needs.
+  double first_s = NAN;
+  double first_lasts_s = NAN;  ///< from then until it has caught up
+  bool first_ends = true;      ///< it does so while this is looked at
+  /// What it asks too much of for most of all that time, and by how much at most.
   LimitedBy limited_by = LimitedBy::nothing;
-  double first_s = 0.0;
-  double max_m = 0.0;   ///< how far it leads
-  double held_m = 0.0;  ///< how far the muscle can be held for good
+  double excess_W = 0.0;
+  double behind_m = 0.0;          ///< how far the muscle falls behind at most
+  double infeasible_ratio = 0.0;  ///< of the time, which says nothing of a single step
+  double max_m = 0.0;             ///< how far it leads
+  double held_m = 0.0;            ///< how far the muscle can be held for good
   LimitedBy held_by = LimitedBy::maximum;
   bool once_identified = false;  ///< nothing bounds it so before
   /// Of a sine or several, once it has come up to them: how much of their motion about the middle
@@ -27,6 +34,7 @@ struct ReferenceFeasibility {
   /// How many times as slow they are feasible, 1 or more; infinite: not at 100 times.
   double feasible_slowing = 1.0;
 
+  bool feasible() const { return std::isnan(first_s); }
   /// The muscle cannot stay as far as it leads.
   bool leads_too_far() const { return max_m > (1.0 + 1e-6) * held_m; }
 };

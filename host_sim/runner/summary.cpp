@@ -157,6 +157,7 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["oscillation_period_s"] = finite(oscillation_period_s_);
   json["infeasible_ratio"] = finite(infeasible_.ratio());
   json["infeasible_from_s"] = finite(infeasible_.first_s());
+  json["infeasible_lasts_s"] = finite(infeasible_.first_lasts_s());
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;
   json["realtime_factor"] =

@@ -23,7 +23,7 @@ PROTOCOL = {message.name: {signal.name: {"unit": signal.unit or "", "digits": 8 
 PARAMETERS = len(PROTOCOL["Estimate"]["parameter"]["values"])
 CONSTANT = {"state": 2, "mode": 1, "fault": 0, "leased": 1, "protocol_version": 3, "error_bound": 0.1}
 # As the monitor's own: api_document_test compares them.
-INFEASIBLE = {"limits": ["minimum", "maximum", "temperature", "cooling", "unproven"], "lasts_s": 0.2, "told_ratio": 0.01}
+INFEASIBLE = {"limits": ["minimum", "maximum", "temperature", "cooling", "unproven"], "lasts_s": 0.2}
 
 
 def value(signal, time_s, node, turn):

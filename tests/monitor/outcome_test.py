@@ -34,8 +34,8 @@ class OutcomeTest(ModulesCase):
             const told = (from_s, to_s) => infeasible_told(store, 1, { from_s, to_s }, infeasible);
             return [told(0, 100), told(5, 5.49), told(6.1, 10), told(0, 4)];"""),
             # A shaped reference says so: cooling.
-            ["The reference asked for more than the muscle can do in 20.0 % of the time that it was followed: take a slower or a smaller one.",
-             "The reference asked for more than the muscle can do in 100.0 % of the time that it was followed: take a slower or a smaller one, or shape_reference.", "", ""])
+            ["The reference asked for more than the muscle can do, for up to 0.980 s on end and in 20.0 % of the time that it was followed: take a slower or a smaller one.",
+             "The reference asked for more than the muscle can do, for up to 0.480 s on end and in 100.0 % of the time that it was followed: take a slower or a smaller one, or shape_reference.", "", ""])
 
     def test_noise_at_a_limit_is_no_infeasible_reference(self):
         self.assertEqual(self.ask(OUTCOME + """hear("Status", 0, 100, 0.1, () => ({ ...state("active"), mode: number("Status", "mode", "position") }));

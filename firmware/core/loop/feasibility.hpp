@@ -38,10 +38,10 @@ struct Feasibility {
 constexpr bool is_infeasible(LimitedBy limit) {
   return limit != LimitedBy::nothing && limit != LimitedBy::slew && limit != LimitedBy::invalid;
 }
-/// For so long on end. Shorter, noise or a first step is at a limit as well.
+/// For so long on end: one rule before a run, after it and on the page. Shorter, noise or a first
+/// step is at a limit as well. Part of the time is no rule: a step that cannot be made would be
+/// none in a long run.
 inline constexpr double infeasible_lasts_s = 0.2;
-/// From this part of the time on a reference is told to be infeasible, before a run and after.
-inline constexpr double told_infeasible_ratio = 0.01;
 
 Feasibility feasibility(const ChannelSettings& channel, const BoardSettings& board);
 

@@ -55,8 +55,9 @@ TEST(InfeasibleTime, TheEventBeforeItIsNamedWithAllThatItChanges) {
   follow(LimitedBy::nothing, 1.5);
   follow(LimitedBy::temperature, 0.5);
   STRCMP_EQUAL(
-      "the reference asked for more than the muscle can do in 25.0 % of the ticks that followed "
-      "it, first at 1.5 s, after the event at 1 s (plant.load_N, power.gain), mostly limited_by "
+      "the reference asked for more than the muscle can do, first at 1.5 s for 0.499 s and in 25.0 "
+      "% of all ticks that followed it, after the event at 1 s (plant.load_N, power.gain), mostly "
+      "limited_by "
       "temperature: a smaller one",
       describe_infeasible(found, scenario).c_str());
 }

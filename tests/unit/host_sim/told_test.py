@@ -39,13 +39,15 @@ class Told(ProgramCase):
         self.assertEqual((refused.returncode, "--json requires --check" in refused.stderr), (2, True))
 
     def test_a_reference_that_is_not_feasible_is_told_with_its_share_and_what_to_do(self):
-        for turn_rad_per_s, shape, told in ((2.0, "false", True), (2.0, "true", True), (0.2, "false", False)):
+        # Through a quick model already the step to the sine's middle asks for too much.
+        for turn_rad_per_s, shape, poles, told in ((2.0, "false", [4.0, 5.0, 6.0], True), (2.0, "true", [4.0, 5.0, 6.0], True),
+                                                 (0.2, "false", [4.0, 5.0, 6.0], True), (0.2, "false", [2.0, 2.0, 2.0], False)):
             text = (f"simulation.duration_s = 120.0\ncontroller = {{kind = 'learned_ff', shape_reference = {shape}}}\n"
-                    f"reference.angular_frequency_rad_per_s = {turn_rad_per_s}\nreference_model.poles_rad_per_s = [4.0, 5.0, 6.0]\n")
+                    f"reference.angular_frequency_rad_per_s = {turn_rad_per_s}\nreference_model.poles_rad_per_s = {poles}\n")
             done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
             ratio = json.loads((self.path / "out/summary.json").read_text())["infeasible_ratio"]
-            self.assertEqual(ratio > 0.01, told, (ratio, done.stdout))
-            line = re.findall(r"asked for more than the muscle can do in (.*) % of the ticks that followed it, first at .* s, "
+            self.assertEqual(ratio > 0.0, told, (ratio, done.stdout))
+            line = re.findall(r"asked for more than the muscle can do, first at .* s for .* s and in (.*) % of all ticks that followed it, "
                               r"mostly limited_by \w+: a slower or smaller one(.*)", done.stdout)
             advice = ", or shape_reference = true" if shape == "false" else ""
             self.assertEqual(line, [(f"{100 * ratio:.1f}", advice)] if told else [])
@@ -75,7 +77,8 @@ class Told(ProgramCase):
         step = "reference = {kind = 'steps', levels_m = [0.010], hold_s = 50.0}\ncontroller.kind = 'pi'\n"
         told, summary = self.after(HOT + "simulation.duration_s = 40.0\n" + step + "[[event]]\nat_s = 15.0\nplant.load_N = 0.06\n")
         self.assertGreater(summary["infeasible_from_s"], 15.0)
-        self.assertIn(f"first at {summary['infeasible_from_s']:.1f} s, after the event at 15 s (plant.load_N), mostly "
+        self.assertIn(f"first at {summary['infeasible_from_s']:.1f} s for {summary['infeasible_lasts_s']:.3g} s and in "
+                      f"{100 * summary['infeasible_ratio']:.1f} % of all ticks that followed it, after the event at 15 s (plant.load_N), mostly "
                       "limited_by temperature: a smaller one\n", told)
 
     def test_shaping_is_no_advice_where_an_event_has_switched_it_on(self):

@@ -46,8 +46,7 @@ json infeasible_json() {
   for (std::size_t i = 0; i < limit_names.size(); ++i) {
     if (is_infeasible(static_cast<LimitedBy>(i))) limits.push_back(limit_names.at(i));
   }
-  return {
-      {"limits", limits}, {"lasts_s", infeasible_lasts_s}, {"told_ratio", told_infeasible_ratio}};
+  return {{"limits", limits}, {"lasts_s", infeasible_lasts_s}};
 }
 
 /// Where the page may post STOP to: this server's other port, under whatever name the page was

@@ -58,6 +58,7 @@ export function infeasible_told(store, node, range, rule) {
   const too_much = new Set(rule.limits);
   let all = 0;
   let missed = 0;
+  let longest_s = 0;
   let in_a_row = 0;
   let since_s = null;
   let shaped = false;
@@ -73,10 +74,11 @@ export function infeasible_told(store, node, range, rule) {
     shaped ||= name === "cooling";
     if (time_s - since_s < rule.lasts_s) continue;
     missed += in_a_row;
+    longest_s = Math.max(longest_s, time_s - since_s);
     in_a_row = 0;
   }
-  if (!(missed / all > rule.told_ratio)) return "";
-  return `The reference asked for more than the muscle can do in ${percent(missed, all)} of the time that it was followed: take a slower or a smaller one${shaped ? "" : ", or shape_reference"}.`;
+  if (missed === 0) return "";
+  return `The reference asked for more than the muscle can do, for up to ${significant(longest_s)} s on end and in ${percent(missed, all)} of the time that it was followed: take a slower or a smaller one${shaped ? "" : ", or shape_reference"}.`;
 }
 
 /** Why it was never armed, or "" when it was. */

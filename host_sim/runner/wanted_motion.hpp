@@ -1,0 +1,83 @@
+// The motion that a reference asks of a muscle, and how far a muscle falls behind that has not the
+// power for it.
+#pragma once
+
+#include <cmath>
+
+#include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/control/tracking/reference_model.hpp"
+#include "supercoil/control/tracking/reference_shaper.hpp"
+
+#include "scenario/scenario.hpp"
+
+namespace supercoil::host_sim {
+
+/// A muscle that gets less power than its motion needs, or more: how much colder it is than it
+/// should be, and how far behind.
+class Lag {
+ public:
+  Lag(const control::PhysicalParameters& muscle, double step_s)
+      : muscle_(muscle),
+        step_s_(step_s),
+        kept_ratio_(std::exp(muscle.thermal_pole_rad_per_s() * step_s)),
+        K_per_W_((1.0 - kept_ratio_) / muscle.heat_transfer_W_per_K) {}
+
+  /// The power that makes up for it within a step.
+  double made_up_by_W() const { return kept_ratio_ * missing_K_ / K_per_W_; }
+  /// power_W: that it does not get of what its motion needs.
+  void step(double power_W) {
+    missing_K_ = kept_ratio_ * missing_K_ + K_per_W_ * power_W;
+    // Implicit: what is stiff stays stable at any step.
+    const control::PhysicalParameters& m = muscle_;
+    const double force_N =
+        m.force_per_kelvin_N_per_K * missing_K_ - m.stiffness_N_per_m * behind_m_;
+    speed_m_per_s_ =
+        (m.moving_mass_kg * speed_m_per_s_ + step_s_ * force_N) /
+        (m.moving_mass_kg + step_s_ * (m.damping_Ns_per_m + step_s_ * m.stiffness_N_per_m));
+    behind_m_ += step_s_ * speed_m_per_s_;
+  }
+  double behind_m() const { return behind_m_; }
+
+ private:
+  control::PhysicalParameters muscle_;
+  double step_s_;
+  double kept_ratio_;  ///< of a difference in temperature, over a step
+  double K_per_W_;     ///< after a step
+  double missing_K_ = 0.0;
+  double speed_m_per_s_ = 0.0;
+  double behind_m_ = 0.0;
+};
+
+/// The motion that is asked for, and the one that shaping makes of it by the greatest power.
+class WantedMotion {
+ public:
+  WantedMotion(const Conditions& c, double step_s)
+      : inverse_(c.controller.model, {control::theta_from(c.muscle), {}, c.muscle.moving_mass_kg}),
+        asked_(c.controller.model, step_s),
+        shaped_(asked_),
+        range_{c.power.min_W, c.power.max_W},
+        shapes_(c.controller.shape_reference) {}
+
+  /// What the muscle needs for it from now to the next step.
+  double power_W(double reference_m) const {
+    return inverse_.power_W(reference_m, shaped_.motion());
+  }
+  void step(double reference_m) {
+    asked_.step(reference_m);
+    shaped_.step(shapes_ ? inverse_.step(reference_m, shaped_.motion(), range_).reference_m
+                         : reference_m);
+  }
+  /// Of what it needs, the part that shaping leaves to the muscle.
+  double left_W(double power_W) const { return shapes_ ? range_.clip(power_W) : power_W; }
+  double asked_m() const { return asked_.motion().position; }
+  double shaped_m() const { return shaped_.motion().position; }
+
+ private:
+  control::ReferenceShaper inverse_;
+  control::ReferenceModel<double> asked_;
+  control::ReferenceModel<double> shaped_;
+  control::PowerRange range_;
+  bool shapes_;
+};
+
+}  // namespace supercoil::host_sim

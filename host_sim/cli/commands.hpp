@@ -31,7 +31,7 @@ struct RunOptions {
   std::optional<std::uint16_t> socketcand_port;  ///< in real time; 0: a free one
   bool end_with_parent = false;                  ///< in real time
   bool check = false;                            ///< only read the scenario
-  bool json = false;                             ///< what check tells
+  bool json = false;                             ///< on standard output, and no text
   bool quiet = false;
   bool allow_fault = false;  ///< a run that ends in a fault is not a failure
   std::string learned;       ///< folder; empty: nothing is remembered
@@ -92,6 +92,6 @@ struct CampaignOptions {
 };
 int campaign_command(const CampaignOptions& given);
 
-int list_command();
+int list_command(bool as_json);
 
 }  // namespace supercoil::host_sim

@@ -80,11 +80,14 @@ void add_run(CLI::App& app, RunOptions& options) {
   run->add_flag("--end-with-parent", options.end_with_parent,
                 "End also when the program that started it has ended, however it did")
       ->needs(real_time);
-  CLI::Option* check = run->add_flag("--check", options.check,
-                                     "Only check the scenario, and print what the muscle can do");
-  run->add_flag("--json", options.json, "With --check: print JSON instead of text")->needs(check);
+  run->add_flag("--check", options.check,
+                "Only check the scenario, and print what the muscle can do");
+  run->add_flag("--json", options.json,
+                "Print JSON instead of text: summary.json, or what --check tells")
+      ->excludes(real_time);
   run->add_flag("--allow-fault", options.allow_fault,
-                "Exit status 0 although the muscle never armed or the run ended in a fault");
+                "Exit status 0 although the muscle never armed or did not follow, or the run ended "
+                "in a fault");
   run->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
@@ -206,12 +209,12 @@ void add_estimators(CLI::App& app, EstimatorsOptions& options) {
   estimators->add_flag("--quiet", options.quiet, "Print nothing but errors");
 }
 
-/// A wrong option, for whom run --check --json is.
+/// A wrong option, for whom run --json is.
 bool tell_as_json(int count, char** arguments, const CLI::ParseError& error) {
   const auto given = [&](std::string_view option) {
     return std::find(arguments, arguments + count, option) != arguments + count;
   };
-  if (!given("run") || !given("--check") || !given("--json")) return false;
+  if (!given("run") || !given("--json")) return false;
   std::puts(problems_json({{"", 0, "", error.what()}}).dump(2).c_str());
   return true;
 }
@@ -233,7 +236,9 @@ int run_program(int count, char** arguments) {
   add_compare(app, compare);
   add_campaign(app, campaign);
   add_estimators(app, estimators);
-  app.add_subcommand("list", "List built-in scenarios, presets and reference models");
+  bool list_as_json = false;
+  app.add_subcommand("list", "List built-in scenarios, presets and reference models")
+      ->add_flag("--json", list_as_json, "Print JSON instead of text");
   if (const std::string wrong = wrong_command(app, count, arguments); !wrong.empty())
     return fail(exit_wrong_input, wrong);
   try {
@@ -250,7 +255,7 @@ int run_program(int count, char** arguments) {
   if (app.got_subcommand("compare")) return compare_command(compare);
   if (app.got_subcommand("campaign")) return campaign_command(campaign);
   if (app.got_subcommand("estimators")) return estimators_command(estimators);
-  return list_command();
+  return list_command(list_as_json);
 }
 
 }  // namespace

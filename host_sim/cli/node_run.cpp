@@ -66,9 +66,10 @@ int NodeRun::conclude(double wall_s, LearnedFolder& learned) {
       return fail(exit_failed, (folder_->path() / finished.error()).string());
   }
   if (plot_) draw_into(*folder_, plot_->figure(), "plot.svg");
-  const auto concluded =
+  auto concluded =
       host_sim::conclude(summary_, scenario_, simulation_, wall_s, *folder_, options_->quiet);
   if (!concluded) return fail(exit_failed, concluded.error());
+  summary_json_ = std::move(*concluded);
   if (options_->real_time && !asks(scenario_)) return exit_done;
   return judge(summary_, scenario_, simulation_, *options_);
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "cli/commands.hpp"
 #include "cli/learned_folder.hpp"
@@ -28,6 +29,8 @@ class NodeRun {
   const Simulation& simulation() const { return simulation_; }
   /// Writes what is left of the run, and tells its figures. Returns the program's exit status.
   int conclude(double wall_s, LearnedFolder& learned);
+  /// What summary.json holds; empty: it is not written.
+  const std::string& summary_json() const { return summary_json_; }
 
  private:
   void warn() const;
@@ -41,6 +44,7 @@ class NodeRun {
   Summary summary_;
   std::unique_ptr<TraceWriter> trace_;
   std::optional<RunPlot> plot_;
+  std::string summary_json_;
 };
 
 }  // namespace supercoil::host_sim

@@ -1,13 +1,14 @@
 #include "cli/nodes.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 namespace supercoil::host_sim {
 
 tl::expected<Nodes, std::string> Nodes::start(const RunOptions& options, const Scenario& scenario,
                                               const Window& window, OutputFolder& folder) {
-  Nodes all(folder);
+  Nodes all(options, folder);
   for (int i = 0; i < options.nodes; ++i) {
     Scenario its = scenario;
     its.seed += static_cast<std::uint64_t>(i * scenario.channels());
@@ -38,10 +39,22 @@ void Nodes::step() {
     node->step();
 }
 
+void Nodes::print_json() const {
+  std::string text;
+  for (const auto& node : nodes_) {
+    std::string json = node->summary_json();
+    if (json.empty()) return;  // it has said why
+    json.pop_back();
+    text += (text.empty() ? "" : ",\n") + json;
+  }
+  std::puts((nodes_.size() == 1 ? text : "[" + text + "]").c_str());
+}
+
 int Nodes::conclude(double wall_s, LearnedFolder& learned) {
   int status = exit_done;
   for (const auto& node : nodes_)
     status = std::max(status, node->conclude(wall_s, learned));
+  if (options_->json) print_json();
   if (folders_.empty()) return status;
   if (const auto done = folder_->commit(); !done) return fail(exit_failed, done.error());
   return status;

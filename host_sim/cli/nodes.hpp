@@ -30,8 +30,11 @@ class Nodes {
   int conclude(double wall_s, LearnedFolder& learned);
 
  private:
-  explicit Nodes(OutputFolder& folder) : folder_(&folder) {}
+  Nodes(const RunOptions& options, OutputFolder& folder) : options_(&options), folder_(&folder) {}
+  /// All summaries: of several nodes a list.
+  void print_json() const;
 
+  const RunOptions* options_;
   OutputFolder* folder_;
   std::vector<std::unique_ptr<OutputFolder>> folders_;  ///< of several nodes
   std::vector<std::unique_ptr<NodeRun>> nodes_;

@@ -3,16 +3,15 @@
 #include <cstdio>
 #include <optional>
 
-#include "apps/common/feasibility_json.hpp"
+#include <nlohmann/json.hpp>
+
 #include "apps/common/problems_json.hpp"
 #include "cli/commands.hpp"
+#include "cli/forecast.hpp"
 #include "cli/learned_folder.hpp"
 #include "cli/runs.hpp"
 #include "config/board_config.hpp"
-#include "config/describe.hpp"
 #include "report/output_folder.hpp"
-#include "runner/board_of.hpp"
-#include "runner/reference_feasibility.hpp"
 #include "runner/summary.hpp"
 #include "runner/use_board.hpp"
 #include "scenario/read_scenario.hpp"
@@ -42,60 +41,6 @@ std::optional<Window> read_window(const std::string& text, double duration_s, do
   return Window{*from, *to};
 }
 
-/// What to change; one line each.
-std::vector<std::string> advice_of(const Scenario& scenario, const BoardSettings& board) {
-  std::vector<std::string> lines = config::advice(board.channels[0], board);
-  if (std::string line = describe_unseen_rest(scenario); !line.empty())
-    lines.insert(lines.begin(), std::move(line));
-  return lines;
-}
-
-/// What the muscle that is believed can do, beforehand; in brief, and what to change.
-void tell_feasibility(const Scenario& scenario, bool in_brief) {
-  const BoardSettings board = firmware_of(scenario);
-  auto lines = config::describe_feasibility(board, 0);
-  if (in_brief) {
-    lines.resize(1);
-    for (std::string& promise : config::describe_promises(board, 0))
-      lines.push_back(std::move(promise));
-  }
-  for (const std::string& line : lines)
-    std::printf("muscle: %s\n", line.c_str());
-  for (const std::string& line : config::describe_recommendation(board, 0, in_brief))
-    std::printf("recommended: %s\n", line.c_str());
-  if (const std::string line = describe_reference(scenario, in_brief); !line.empty())
-    std::printf("reference: %s\n", line.c_str());
-  for (const std::string& line : advice_of(scenario, board))
-    std::printf("advice: %s\n", line.c_str());
-}
-
-void tell_check_as_json(const Scenario& scenario) {
-  using Json = nlohmann::ordered_json;
-  const BoardSettings board = firmware_of(scenario);
-  Json reference;
-  if (const auto f = reference_feasibility(scenario)) {
-    reference = {{"feasible", f->feasible()},
-                 {"first_s", json_number(f->first_s)},
-                 {"first_lasts_s", json_number(f->first_lasts_s)},
-                 {"first_ends", f->first_ends},
-                 {"limited_by", name(f->limited_by)},
-                 {"excess_W", f->excess_W},
-                 {"behind_m", f->behind_m},
-                 {"infeasible_ratio", f->infeasible_ratio},
-                 {"max_m", f->max_m},
-                 {"held_m", f->held_m},
-                 {"held_by", name(f->held_by)},
-                 {"held_so_once_identified", f->once_identified},
-                 {"feasible_motion_ratio", f->feasible_motion_ratio},
-                 {"feasible_slowing", json_number(f->feasible_slowing)},
-                 {"told", describe_reference(scenario, false)}};
-  }
-  const Json told{{"scenario", scenario.name},        {"ticks", scenario.ticks()},
-                  {"events", scenario.events.size()}, {"feasibility", feasibility_json(board, 0)},
-                  {"reference", reference},           {"advice", advice_of(scenario, board)}};
-  std::puts(told.dump(2).c_str());
-}
-
 using Problems = std::vector<config::Problem>;
 using OrProblems = tl::expected<void, Problems>;
 
@@ -105,9 +50,9 @@ Problems wrong_option(const std::string& option, const std::string& value,
   return {{"", 0, option, message, value}};
 }
 
-/// As every command says it, or with --check --json for programs.
+/// As every command says it, or with --json for programs.
 int refuse(const RunOptions& options, const Problems& problems) {
-  if (options.check && options.json) {
+  if (options.json) {
     std::puts(problems_json(problems).dump(2).c_str());
     return exit_wrong_input;
   }
@@ -169,7 +114,9 @@ OrProblems check_nodes(const RunOptions& options, const Scenario& scenario) {
 
 }  // namespace
 
-int run_command(const RunOptions& options) {
+int run_command(const RunOptions& given) {
+  RunOptions options = given;
+  options.quiet = options.quiet || options.json;
   LearnedFolder folder_of_learned(options.learned);
   const auto scenario = read_input(options, folder_of_learned);
   if (!scenario) return refuse(options, scenario.error());
@@ -178,13 +125,13 @@ int run_command(const RunOptions& options) {
   if (const auto checked = check_nodes(options, *scenario); !checked)
     return refuse(options, checked.error());
   if (options.check && options.json) {
-    tell_check_as_json(*scenario);
+    std::puts(forecast_json(*scenario).dump(2).c_str());
     return exit_done;
   }
   if (options.check) {
     std::printf("%s: in order, %" PRId64 " ticks, %zu events\n", options.scenario.c_str(),
                 scenario->ticks(), scenario->events.size());
-    tell_feasibility(*scenario, false);
+    print_forecast(*scenario);
     return exit_done;
   }
   auto folder =
@@ -192,7 +139,7 @@ int run_command(const RunOptions& options) {
   if (!folder) return fail(exit_wrong_input, folder.error());
 
   if (options.real_time) return live_run(options, *scenario, *window, *folder, folder_of_learned);
-  if (!options.quiet) tell_feasibility(*scenario, true);
+  if (!options.quiet) print_forecast(*scenario);
   return lockstep_run(options, *scenario, *window, *folder, folder_of_learned);
 }
 

@@ -13,6 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/describe.hpp"
 #include "runner/reference_feasibility.hpp"
 
 namespace supercoil::host_sim {
@@ -43,6 +44,25 @@ void print_limits(const char* whose, const LimitCount& count, const Summary& sum
   }
   if (all == 0) return;
   std::printf("%sat a limit in %s of the ticks: %s\n", whose, percent(all).c_str(), limits.c_str());
+}
+
+void print_noise(const Summary& summary, const Scenario& scenario) {
+  const double noise_W = summary.power_noise_W();
+  const double range_W = scenario.start.power.max_W - scenario.start.power.min_W;
+  if (!(noise_W > config::much_noise_ratio * range_W)) return;
+  std::printf(
+      "the controller's power swung by %.3g W rms, %.0f %% of its range, which no motion asked "
+      "for: "
+      "the sensor's noise, or little margin; lower gains, or a sensor with less noise, make it "
+      "less\n",
+      noise_W, 100.0 * noise_W / range_W);
+}
+
+/// What had been promised of it.
+void print_promise(const nlohmann::ordered_json& json) {
+  if (json["promised_rms_m"].is_null() || json["tracking_rms_m"].is_null()) return;
+  std::printf("promised were %.1f um rms%s\n", json["promised_rms_m"].get<double>() * 1e6,
+              json["promised_by"] == "own" ? "" : " of the recommended controller");
 }
 
 /// How identify, calibrate and the first motion ended, if there were any.
@@ -83,16 +103,18 @@ void print_summary(const Summary& summary, const Scenario& scenario,
                 json["tracking_max_m"].get<double>() * 1e6, json["window_s"][0].get<double>(),
                 json["window_s"][1].get<double>());
   }
+  print_promise(json);
   if (json.contains("tracking_rms_deg") && !json["tracking_rms_deg"].is_null()) {
     std::printf("that is %.3f degrees rms, %.3f at most\n", json["tracking_rms_deg"].get<double>(),
                 json["tracking_max_deg"].get<double>());
   }
   print_limits("", summary.limits(), summary);
   print_limits("antagonist ", summary.antagonist_limits(), summary);
-  // A loop that oscillates asks for too much by itself.
-  const std::string infeasible = describe_infeasible(summary.infeasible(), scenario);
-  if (!infeasible.empty() && std::isnan(summary.oscillated_at_s()))
-    std::printf("%s\n", infeasible.c_str());
+  if (summary.infeasible() != nullptr) {
+    const std::string infeasible = describe_infeasible(*summary.infeasible(), scenario);
+    if (!infeasible.empty()) std::printf("%s\n", infeasible.c_str());
+  }
+  print_noise(summary, scenario);
   print_modes(json);
   for (const auto& fault : json["faults"]) {
     std::printf("fault %d %s at %.3f s (%s)\n", fault["number"].get<int>(),
@@ -136,16 +158,17 @@ tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
   return learned.save(simulation);
 }
 
-tl::expected<void, std::string> conclude(const Summary& summary, const Scenario& scenario,
-                                         const Simulation& simulation, double wall_s,
-                                         OutputFolder& folder, bool quiet) {
+tl::expected<std::string, std::string> conclude(const Summary& summary, const Scenario& scenario,
+                                                const Simulation& simulation, double wall_s,
+                                                OutputFolder& folder, bool quiet) {
   const auto json = summary.to_json(scenario, simulation, wall_s);
   const std::string text =
       json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
-  if (auto written = folder.write("summary.json", text); !written) return written;
-  if (auto done = folder.commit(); !done) return done;
+  if (auto written = folder.write("summary.json", text); !written)
+    return tl::unexpected(written.error());
+  if (auto done = folder.commit(); !done) return tl::unexpected(done.error());
   if (!quiet) print_summary(summary, scenario, json, folder.path().string());
-  return {};
+  return text;
 }
 
 bool asks(const Scenario& scenario) {
@@ -157,10 +180,14 @@ int judge(const Summary& summary, const Scenario& scenario, const Simulation& si
   const Fault fault = summary.ended_in();
   const auto& motion = simulation.first_motion();
   const bool unfinished = motion && std::isnan(motion->rms_m());
-  if (summary.armed() && fault == Fault::none && !unfinished) return exit_done;
+  const std::string unfollowed = summary.did_not_follow_because(scenario);
+  const bool ended_well = summary.armed() && fault == Fault::none && !unfinished;
+  if (ended_well && unfollowed.empty()) return exit_done;
   std::string told = prefix(options, scenario);
   if (!summary.armed()) {
     told += "never armed: " + summary.never_armed_because(scenario, simulation);
+  } else if (ended_well) {
+    told += "it did not follow: " + unfollowed;
   } else if (fault == Fault::none) {
     told += "the first motion did not come to its end";
   } else {

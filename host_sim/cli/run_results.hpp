@@ -30,10 +30,11 @@ tl::expected<void, std::string> keep(recorder::FlightRecorder& recorder,
                                      const Simulation& simulation, LearnedFolder& learned,
                                      const RunOptions& options);
 
-/// summary.json in the folder, which is then committed; prints its figures unless quiet.
-tl::expected<void, std::string> conclude(const Summary& summary, const Scenario& scenario,
-                                         const Simulation& simulation, double wall_s,
-                                         OutputFolder& folder, bool quiet);
+/// summary.json in the folder, which is then committed; prints its figures unless quiet. Returns
+/// what it holds.
+tl::expected<std::string, std::string> conclude(const Summary& summary, const Scenario& scenario,
+                                                const Simulation& simulation, double wall_s,
+                                                OutputFolder& folder, bool quiet);
 
 /// The operator arms the muscle at some time: there is something to judge.
 bool asks(const Scenario& scenario);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "loop/feasibility.hpp"
+#include "runner/board_of.hpp"
 #include "runner/reference_feasibility.hpp"
 #include "text/number_text.hpp"
 
@@ -76,10 +77,10 @@ std::string motion_text(const ReferenceFeasibility& f) {
 
 }  // namespace
 
-std::string describe_reference(const Scenario& scenario, bool in_brief) {
+std::string describe_reference(const Scenario& scenario) {
   const auto f = reference_feasibility(scenario);
   if (!f) return {};
-  if (f->feasible()) return in_brief && !f->leads_too_far() ? "" : feasible_text(*f);
+  if (f->feasible()) return feasible_text(*f);
   std::string line = infeasible_text(*f, scenario.start);
   if (f->leads_too_far()) {
     line += "; the muscle " + held_text(*f);
@@ -116,12 +117,42 @@ std::string describe_infeasible(const InfeasibleTime& found, const Scenario& sce
          (then.controller.shape_reference ? "" : ", or shape_reference = true");
 }
 
+std::string describe_out_of_range(const Scenario& scenario) {
+  const double max_m = firmware_of(scenario).channels[0].supervision.max_travel_m;
+  const auto refused = [&](const Conditions& c) {
+    return follows_position(c) && (c.reference.lowest() < 0.0 || c.reference.highest() > max_m);
+  };
+  const auto text = [&](const Conditions& c) {
+    return "goes from " + in_mm(c.reference.lowest()) + " to " + in_mm(c.reference.highest()) +
+           ", and the board takes 0 to " + in_mm(max_m) +
+           " (limits.max_travel_m) and refuses all else: from there on the muscle follows nothing";
+  };
+  if (refused(scenario.start)) return text(scenario.start);
+  for (const Event& event : scenario.events) {
+    if (refused(event.conditions))
+      return "from the event at " + number_text(event.at_s, 6) + " s on it " +
+             text(event.conditions);
+  }
+  return {};
+}
+
+double rest_m(const Scenario& scenario) {
+  const PlantSettings& plant = scenario.start.plant;
+  return 0.0 - plant.load_N / plant.parameters.stiffness_N_per_m;
+}
+
+std::string describe_rest(const Scenario& scenario) {
+  if (scenario.start.joint) return {};
+  return "rests at " + in_mm(rest_m(scenario)) + " while it is cold, and the sensor sees " +
+         in_mm(scenario.start.position_sensor.min_m) + " to " +
+         in_mm(scenario.start.position_sensor.range_m);
+}
+
 std::string describe_unseen_rest(const Scenario& scenario) {
   const Conditions& c = scenario.start;
-  const double rest_m = -c.plant.load_N / c.plant.parameters.stiffness_N_per_m;
   const double min_m = c.position_sensor.min_m;
-  if (c.joint || rest_m >= min_m) return {};
-  return "plant.load_N holds the muscle at " + in_mm(rest_m) +
+  if (c.joint || rest_m(scenario) >= min_m) return {};
+  return "plant.load_N holds the muscle at " + in_mm(rest_m(scenario)) +
          " while it is cold, and the sensor reads no less than " +
          number_text(1e3 * min_m, digits) +
          " mm: it stands still there and looks frozen (docs/faults/sensor_frozen.md); lower "

@@ -22,7 +22,7 @@ FirstMotionRun::FirstMotionRun(const Loop& loop, const BoardSettings& board, std
   const ChannelSettings now = settings_now(channel, board.channels.front());
   motion_ = plan_first_motion(feasibility(now, board), now.unexplained_ratio);
   const control::ControllerSettings& controller = now.controllers[place];
-  if (!is_promised_for(controller)) return;
+  if (!is_promised_for(controller, now, board.step_s())) return;
   promised_rms_m_ = promise_error(controller.learned_ff, now, board, motion_).error_m();
 }
 

@@ -141,12 +141,14 @@ void find_infeasible(const Conditions& c, double duration_s, double step, PowerL
 
 }  // namespace
 
+bool follows_position(const Conditions& c) {
+  return c.action == OperatorAction::track && c.controller.kind != control::ControllerKind::power &&
+         c.antagonist() == nullptr;
+}
+
 std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenario) {
   const Conditions& c = scenario.start;
-  const bool follows = c.action == OperatorAction::track &&
-                       c.controller.kind != control::ControllerKind::power &&
-                       c.antagonist() == nullptr;
-  if (!follows) return std::nullopt;
+  if (!follows_position(c)) return std::nullopt;
   const BoardSettings board = firmware_of(scenario);
   const ChannelSettings& channel = board.channels[0];
   const Feasibility muscle = feasibility(channel, board);

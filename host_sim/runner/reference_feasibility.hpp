@@ -39,16 +39,26 @@ struct ReferenceFeasibility {
   bool leads_too_far() const { return max_m > (1.0 + 1e-6) * held_m; }
 };
 
+/// At the start, of a muscle alone or against a spring.
+bool follows_position(const Conditions& c);
+
 /// At the start, of a muscle alone or against a spring. Empty: it follows no position.
 std::optional<ReferenceFeasibility> reference_feasibility(const Scenario& scenario);
 
-/// What to tell of that; empty where there is no position to follow, or, in brief, all is feasible.
-std::string describe_reference(const Scenario& scenario, bool in_brief);
+/// What to tell of that; empty where there is no position to follow.
+std::string describe_reference(const Scenario& scenario);
+
+/// That it goes, now or after an event, where the board refuses to; empty: it does not, or a
+/// joint's other muscle takes it there.
+std::string describe_out_of_range(const Scenario& scenario);
 
 /// The same after a run: how much of it, since when, and what to do; empty: it was feasible.
 std::string describe_infeasible(const InfeasibleTime& found, const Scenario& scenario);
 
-/// That the load holds the cold muscle where its sensor does not see it; empty: it sees it.
+/// Where the load holds the cold muscle.
+double rest_m(const Scenario& scenario);
+std::string describe_rest(const Scenario& scenario);
+/// That it is where its sensor does not see it; empty: it sees it.
 std::string describe_unseen_rest(const Scenario& scenario);
 
 }  // namespace supercoil::host_sim

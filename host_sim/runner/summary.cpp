@@ -6,6 +6,8 @@
 
 #include "supercoil/control/actuator/conversions.hpp"
 
+#include "runner/scenario_promise.hpp"
+#include "text/number_text.hpp"
 #include "text/program_version.hpp"
 
 namespace supercoil::host_sim {
@@ -95,6 +97,23 @@ std::string Summary::never_armed_because(const Scenario& scenario,
              : "the self-test did not end";
 }
 
+std::string Summary::did_not_follow_because(const Scenario& scenario) const {
+  // A motion that has just begun is small, and its beginning the worst of it.
+  constexpr double least_s = 10.0;
+  if (static_cast<double>(tracking_.count()) * scenario.step_s() < least_s) return {};
+  const auto promise = scenario_promise(scenario);
+  const double limit_m = unfollowed_m(promise, motion_.size_m());
+  if (!(tracking_.rms() > limit_m)) return {};
+  std::string text = number_text(1e3 * tracking_.rms(), 3) +
+                     " mm rms from its reference model, of " +
+                     number_text(1e3 * motion_.size_m(), 3) + " mm that this moves";
+  if (promise) text += " and " + number_text(1e3 * promise->parts.error_m(), 3) + " mm promised";
+  if (oscillated()) return text + ": the loop oscillated";
+  if (infeasible_.found()) return text + ": the reference asked for more than the muscle can do";
+  return text +
+         ": the controller is too weak, or the muscle is not the one that the board believes";
+}
+
 ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simulation,
                               double wall_s) const {
   const bool measured = tracking_.count() > 0;
@@ -115,6 +134,12 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
                       std::fmax(window_.from_s, std::fmin(window_.to_s, reached_s))};
   json["tracking_rms_m"] = measured ? finite(tracking_.rms()) : nullptr;
   json["tracking_max_m"] = measured ? finite(tracking_.largest()) : nullptr;
+  const auto promise = scenario_promise(scenario);
+  json["promised_rms_m"] = promise ? finite(promise->parts.error_m()) : nullptr;
+  json["promised_by"] = nullptr;
+  if (promise) json["promised_by"] = promise->of_own_controller ? "own" : "recommended";
+  const std::string unfollowed = did_not_follow_because(scenario);
+  json["did_not_follow_because"] = unfollowed.empty() ? ordered_json() : ordered_json(unfollowed);
   if (scenario.start.joint) {
     const double deg_per_m =
         180.0 / std::numbers::pi / scenario.start.joint->plant.lever.zero_radius_m();
@@ -155,9 +180,11 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["not_finite_ticks"] = not_finite_ticks_;
   json["oscillated_at_s"] = finite(oscillated_at_s_);
   json["oscillation_period_s"] = finite(oscillation_period_s_);
-  json["infeasible_ratio"] = finite(infeasible_.ratio());
-  json["infeasible_from_s"] = finite(infeasible_.first_s());
-  json["infeasible_lasts_s"] = finite(infeasible_.first_lasts_s());
+  const InfeasibleTime* too_much = infeasible();
+  json["infeasible_ratio"] = too_much != nullptr ? finite(too_much->ratio()) : nullptr;
+  json["infeasible_from_s"] = too_much != nullptr ? finite(too_much->first_s()) : nullptr;
+  json["infeasible_lasts_s"] = too_much != nullptr ? finite(too_much->first_lasts_s()) : nullptr;
+  json["power_noise_W"] = finite(power_noise_W());
   json["ticks"] = ticks_;
   json["wall_s"] = wall_s;
   json["realtime_factor"] =

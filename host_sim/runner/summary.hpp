@@ -11,6 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "runner/infeasible_time.hpp"
+#include "runner/run_meters.hpp"
 #include "runner/simulation.hpp"
 
 namespace supercoil::host_sim {
@@ -19,24 +20,6 @@ namespace supercoil::host_sim {
 struct Window {
   double from_s = 0.0;
   double to_s = INFINITY;
-};
-
-/// Root mean square and largest value of what it is given.
-class ErrorMeter {
- public:
-  void add(double error) {
-    square_sum_ += error * error;
-    max_ = std::fmax(max_, std::abs(error));
-    ++count_;
-  }
-  double rms() const { return std::sqrt(square_sum_ / static_cast<double>(count_)); }
-  double largest() const { return max_; }
-  std::int64_t count() const { return count_; }
-
- private:
-  double square_sum_ = 0.0;
-  double max_ = 0.0;
-  std::int64_t count_ = 0;
 };
 
 /// Of a muscle: at how many ticks each limit held.
@@ -73,7 +56,9 @@ class Summary {
     }
     if (record.open_loop) {
       infeasible_.interrupt();
+      power_noise_.interrupt();
     } else {
+      power_noise_.add(record.time_s, record.power_W);
       const bool others = other && !is_infeasible(record.limited_by);
       infeasible_.add(others ? other->limited_by : record.limited_by, record.time_s);
     }
@@ -82,8 +67,14 @@ class Summary {
     }
     if (record.open_loop || record.time_s < window_.from_s || record.time_s >= window_.to_s) return;
     tracking_.add(record.position_m - record.model_m);
+    motion_.add(record.model_m);
   }
   const ErrorMeter& tracking() const { return tracking_; }
+  /// Of the reference model, within the window as tracking().
+  const MotionMeter& motion() const { return motion_; }
+  /// By which the controller's power swings, rms; NaN: too little was followed, or the loop
+  /// oscillated.
+  double power_noise_W() const { return oscillated() ? NAN : power_noise_.rms_W(); }
   /// Ticks at which the muscle, or another one of its joint or bundle, was not within the
   /// firmware's bounds of its temperature.
   std::int64_t outside_interval_ticks() const { return outside_interval_ticks_; }
@@ -109,12 +100,17 @@ class Summary {
   double first_not_finite_s() const { return first_not_finite_s_; }
   /// When a controller first saw its loop oscillate; NaN: never.
   double oscillated_at_s() const { return oscillated_at_s_; }
+  bool oscillated() const { return !std::isnan(oscillated_at_s_); }
   double oscillation_period_s() const { return oscillation_period_s_; }
-  /// When the reference asked for more than the muscle can do, and was shaped or cut.
-  const InfeasibleTime& infeasible() const { return infeasible_; }
+  /// When the reference asked for more than the muscle can do, and was shaped or cut. Null: nothing
+  /// is known, as a loop that oscillates asks for too much by itself.
+  const InfeasibleTime* infeasible() const { return oscillated() ? nullptr : &infeasible_; }
 
   /// In words; empty: it was armed.
   std::string never_armed_because(const Scenario& scenario, const Simulation& simulation) const;
+
+  /// In words, with the error; empty: it followed, or followed nothing (docs/simulation.md).
+  std::string did_not_follow_because(const Scenario& scenario) const;
 
   /// summary.json; wall_s: how long the run took.
   nlohmann::ordered_json to_json(const Scenario& scenario, const Simulation& simulation,
@@ -139,6 +135,8 @@ class Summary {
   std::vector<FaultAt> faults_;
   std::int64_t outside_interval_ticks_ = 0;
   ErrorMeter tracking_;
+  MotionMeter motion_;
+  PowerNoiseMeter power_noise_;
   std::int64_t ticks_ = 0;
   std::int64_t limited_ticks_ = 0;
   LimitCount limits_;

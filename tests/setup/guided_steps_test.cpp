@@ -335,5 +335,6 @@ TEST(GuidedSteps, ARecommendedControllerThatCannotRunIsNotOffered) {
   const auto found = operating::choose_gains(board.link(), "1", *now, board.settings(), person);
   CHECK_FALSE((*found)["taken"].get<bool>());
   LONGS_EQUAL(0, person.asked);
-  STRCMP_CONTAINS("it cannot run here: arithmetic must be double or float", person.told().c_str());
+  STRCMP_CONTAINS("it cannot run here: controller.arithmetic must be double or float",
+                  person.told().c_str());
 }

@@ -1,44 +1,19 @@
 #include "supercoil/control/tracking/loop_margin.hpp"
 
-#include <complex>
-#include <numbers>
-
-#include "supercoil/control/actuator/conversions.hpp"
+#include "supercoil/control/tracking/frequency_response.hpp"
 #include "supercoil/control/tracking/sampled_loop.hpp"
 
 namespace supercoil::control {
 
 namespace {
 
-/// In continuous time, with half a tick for the hold.
 double modulus(const FixedLaw& law, const PhysicalParameters& muscle, double step_s,
                double delay_s) {
-  using namespace std::complex_literals;
-  constexpr double min_rad_per_s = 0.01;
-  constexpr double finer = 1.01;
-  const Theta theta = theta_from(muscle);
-  const double span = std::log(std::numbers::pi / step_s / min_rad_per_s);
-  const auto points = static_cast<int>(span / std::log(finer));
   double least = 1.0;
-  for (int i = 0; i <= points; ++i) {
-    const std::complex<double> p = 1i * min_rad_per_s * std::pow(finer, i);
-    const auto lag = p / law.derivative_filter_rad_per_s + 1.0;
-    const auto acts = law.proportional_W_per_m + law.integral_W_per_m_s / p +
-                      law.derivative_Ws_per_m * p / (lag * lag);
-    const auto needs =
-        ((theta[0] * muscle.moving_mass_kg * p + theta[1]) * p + theta[2]) * p + theta[3];
-    const auto late = std::exp(-p * (delay_s + 0.5 * step_s));
-    auto loop = acts / needs * late;
-    if (law.filtered) {
-      const FilteredFeedback& f = *law.filtered;
-      const auto lambda = (p + f.lambda[1]) * p + f.lambda[0];
-      const auto by_position =
-          (f.on_position_W_per_m[0] + f.on_position_W_per_m[1] * p) / lambda + f.direct_W_per_m;
-      const auto by_power = (f.on_power[0] + f.on_power[1] * p) / lambda;
-      loop = (loop - by_position / needs * late) / (1.0 - by_power * late);
-    }
-    least = std::fmin(least, std::abs(1.0 + loop));
-  }
+  for_each_frequency(step_s, [&](double frequency_rad_per_s, double) {
+    const auto at = response(law, muscle, step_s, delay_s, frequency_rad_per_s);
+    least = std::fmin(least, std::abs(1.0 + at.loop));
+  });
   return least;
 }
 

@@ -20,9 +20,13 @@ inline nlohmann::ordered_json json_number(double value) {
 }
 
 inline nlohmann::ordered_json promise_json(const Promise& promise) {
-  return {{"promised_m", promise.error_m()}, {"noise_m", promise.noise_m},
-          {"probe_m", promise.probe_m},      {"dither_m", promise.dither_m},
-          {"pwm_m", promise.pwm_m},          {"unexplained_m", promise.unexplained_m}};
+  return {{"promised_m", promise.error_m()},
+          {"noise_m", promise.noise_m},
+          {"probe_m", promise.probe_m},
+          {"dither_m", promise.dither_m},
+          {"pwm_m", promise.pwm_m},
+          {"delay_m", promise.delay_m},
+          {"unexplained_m", promise.unexplained_m}};
 }
 
 /// Of one controller of a channel, without its promise.
@@ -34,16 +38,19 @@ inline nlohmann::ordered_json controller_json(const control::ControllerSettings&
           {"margin", json_number(margin ? margin->modulus : NAN)},
           {"tolerated_ratio", json_number(config::tolerated_ratio(controller, channel, step_s))},
           {"bandwidth_rad_per_s", json_number(config::bandwidth_rad_per_s(controller))},
+          {"noise_power_W", json_number(config::noise_power_W(controller, channel, step_s))},
           {"step_up_m", json_number(steps ? steps->up_m : NAN)},
           {"step_down_m", json_number(steps ? steps->down_m : NAN)},
           {"shaped", steps && steps->shaped}};
 }
 
-/// What suits the channel's muscle. in_use: the first of its controllers that is so.
-inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel) {
+/// What suits the channel's muscle. problem: why the channel cannot have it. in_use: the first of
+/// its controllers that is so.
+inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel, double step_s) {
   if (is_led(channel)) return nullptr;
-  const config::RecommendedController suits = config::recommended_controller(channel.muscle);
+  const config::RecommendedController suits = config::recommended_controller(channel, step_s);
   const control::ControllerSettings controller = suits.in_place_of({});
+  const std::string problem = problem_of(suits, channel, step_s);
   nlohmann::ordered_json in_use;
   for (std::size_t i = channel.controllers.size(); i-- > 0;) {
     if (!suits.differs_from(channel.controllers[i])) in_use = i;
@@ -54,6 +61,7 @@ inline nlohmann::ordered_json recommendation_json(const ChannelSettings& channel
           {"reason", suits.reason},
           {"model_poles_rad_per_s", controller.model.poles_rad_per_s},
           {"model_reason", suits.model_reason},
+          {"problem", problem.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(problem)},
           {"in_use", in_use}};
 }
 
@@ -66,8 +74,8 @@ inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::
   nlohmann::ordered_json controllers = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < c.controllers.size() && !is_led(c); ++i) {
     nlohmann::ordered_json told = controller_json(c.controllers[i], c, board.step_s(), f.steps[i]);
-    if (is_promised_for(c.controllers[i]) && board.joint_of(channel) == nullptr &&
-        motion.amplitude_m > 0.0)
+    if (is_promised_for(c.controllers[i], c, board.step_s()) &&
+        board.joint_of(channel) == nullptr && motion.amplitude_m > 0.0)
       told.update(promise_json(promise_error(c.controllers[i].learned_ff, c, board, motion)));
     controllers.push_back(std::move(told));
   }
@@ -87,7 +95,7 @@ inline nlohmann::ordered_json feasibility_json(const BoardSettings& board, std::
             {"amplitude_m", motion.amplitude_m},
             {"period_s", motion.period_s}}},
           {"controllers", controllers},
-          {"recommended", recommendation_json(c)}};
+          {"recommended", recommendation_json(c, board.step_s())}};
 }
 
 }  // namespace supercoil

@@ -25,6 +25,8 @@ constexpr double allowance = 1.8;
 constexpr double noise_gain = 2.5;
 /// Motion that is quicker than a drift, over the sensor's noise, which needs no dither.
 constexpr double telling_deviations = 20.0;
+/// Below, expect ringing (docs/control.md).
+constexpr double ringing_margin = 0.3;
 /// As dither_for has it.
 constexpr double max_dither_m = 20e-6;
 /// What the linear model leaves unexplained where identify has not told it yet: four of five random
@@ -66,8 +68,21 @@ FirstMotion plan_first_motion(const Feasibility& f, double unexplained_ratio) {
           std::max(min_period_s, slower_than_fastest * f.half_travel_period_s)};
 }
 
+bool is_promised_for(const control::ControllerSettings& controller, const ChannelSettings& channel,
+                     double step_s) {
+  if (controller.kind != control::ControllerKind::learned_ff) return false;
+  const auto margin = margin_of(controller, channel, step_s);
+  return margin && margin->stable() && margin->modulus >= ringing_margin;
+}
+
+double reading_noise_m(const ChannelSettings& channel) {
+  return std::hypot(channel.supervision.position_noise_rms_m,
+                    channel.position.scaling.per_count / std::sqrt(12.0));
+}
+
 double Promise::error_m() const {
-  return allowance * std::hypot(std::hypot(noise_m, probe_m, pwm_m), dither_m, unexplained_m);
+  return allowance * std::hypot(std::hypot(noise_m, probe_m, pwm_m), std::hypot(dither_m, delay_m),
+                                unexplained_m);
 }
 
 Promise promise_error(const control::LearnedFeedforwardSettings& law,
@@ -77,8 +92,7 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
   const control::PhysicalParameters& m = channel.muscle;
   const double bandwidth = law.bandwidth_rad_per_s;
   const double count_m = channel.position.scaling.per_count;
-  const double reading_m =
-      std::hypot(channel.supervision.position_noise_rms_m, count_m / std::sqrt(12.0));
+  const double reading_m = reading_noise_m(channel);
   p.noise_m = reading_m * std::hypot(1.0, noise_gain * std::sqrt(0.5 * bandwidth * board.step_s()));
 
   const double tau_s = -1.0 / m.thermal_pole_rad_per_s();
@@ -100,6 +114,8 @@ Promise promise_error(const control::LearnedFeedforwardSettings& law,
   if (channel.supervision.proof_of_response && quick_m < telling_deviations * reading_m)
     p.dither_m = std::max(max_dither_m, 2.0 * count_m) / std::numbers::sqrt2;
 
+  p.delay_m = motion.amplitude_m / std::numbers::sqrt2 * turn * channel.heater.delay_s *
+              std::min(1.0, turn / bandwidth);
   p.pwm_m = pwm_ripple_m(channel, board, bandwidth);
   p.unexplained_m =
       std::sqrt(unexplained_ratio(channel)) * motion.amplitude_m * std::min(1.0, turn / bandwidth);

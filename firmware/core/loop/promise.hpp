@@ -28,14 +28,18 @@ struct Promise {
   double probe_m = 0.0;   ///< pulses that measure the resistance while there is little power
   double dither_m = 0.0;  ///< by which a muscle that hardly moves proves that it responds
   double pwm_m = 0.0;     ///< power that comes in the PWM's steps
+  double delay_m = 0.0;   ///< by which the power comes later than the motion needs it
   double unexplained_m = 0.0;  ///< what the linear model leaves of the motion
 
   double error_m() const;
 };
-/// It was tried for learned_ff on random muscles (docs/setup.md), and for no other law.
-constexpr bool is_promised_for(const control::ControllerSettings& controller) {
-  return controller.kind == control::ControllerKind::learned_ff;
-}
+/// Of what a channel's sensor reads: its noise and its counts, rms.
+double reading_noise_m(const ChannelSettings& channel);
+
+/// It was tried for learned_ff on random muscles (docs/setup.md), and for no other law; nor for a
+/// loop that has so little margin that it rings.
+bool is_promised_for(const control::ControllerSettings& controller, const ChannelSettings& channel,
+                     double step_s);
 /// channel: with what identify found in it.
 Promise promise_error(const control::LearnedFeedforwardSettings& law,
                       const ChannelSettings& channel, const BoardSettings& board,

@@ -27,6 +27,12 @@ double tolerated_ratio(const control::ControllerSettings& controller,
                        const ChannelSettings& channel, double step_s);
 /// Of a controller's feedback; NaN: it has no such setting.
 double bandwidth_rad_per_s(const control::ControllerSettings& controller);
+/// How far the sensor's noise makes a controller's power swing, rms; NaN: it works in open loop.
+double noise_power_W(const control::ControllerSettings& controller, const ChannelSettings& channel,
+                     double step_s);
+/// A swing that is told, of the power's range: three deviations to both sides are more than half of
+/// it.
+inline constexpr double much_noise_ratio = 0.1;
 /// The room that a controller leaves on the channel's muscle, how far that may be off, and its
 /// bandwidth; empty: it works in open loop.
 std::string describe_margin(const control::ControllerSettings& controller,
@@ -47,9 +53,8 @@ std::vector<std::string> describe_promises(const BoardSettings& board, std::size
 /// "14 um rms on a sine of 4 to 9 mm, 6 s a period", and from what.
 std::string describe_promise(const Promise& promise, const FirstMotion& motion);
 /// The controller and the reference model that suit the channel's muscle, and why; which of its own
-/// that is. in_brief: only what to change. None, where another channel leads it.
-std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel,
-                                                 bool in_brief);
+/// that is, or why it can have none. None, where another channel leads it.
+std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel);
 /// What to change so that a channel can do more, or does not fail; one line each, or none.
 std::vector<std::string> advice(const ChannelSettings& channel, const BoardSettings& board);
 /// Likewise, so that a joint's muscles last. index: of BoardSettings::joints.

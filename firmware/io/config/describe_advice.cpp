@@ -48,24 +48,37 @@ void advise_travel(const ChannelSettings& c, const Feasibility& f,
   }
 }
 
+/// Where noise makes the power swing.
+void advise_noise(const ChannelSettings& c, double step_s, std::vector<std::string>& lines) {
+  const double range_W = c.limiter.max_W - c.limiter.min_W;
+  for (std::size_t i = 0; i < c.controllers.size(); ++i) {
+    const double swing_W = noise_power_W(c.controllers[i], c, step_s);
+    if (!(swing_W > much_noise_ratio * range_W)) continue;
+    lines.push_back("controller " + std::to_string(i) + ": the sensor's noise of " +
+                    number_text(1e6 * reading_noise_m(c), 3) + " um rms makes the power swing by " +
+                    number_text(swing_W, 3) + " W rms, " +
+                    number_text(100.0 * swing_W / range_W, 3) +
+                    " % of its range: lower gains (bandwidth_rad_per_s, derivative_Ws_per_m, "
+                    "derivative_filter_rad_per_s), or a sensor with less noise, make it less");
+  }
+}
+
 }  // namespace
 
-std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel,
-                                                 bool in_brief) {
+std::vector<std::string> describe_recommendation(const BoardSettings& board, std::size_t channel) {
   const ChannelSettings& c = board.channels[channel];
   if (is_led(c) || c.controllers.empty()) return {};
-  const RecommendedController suits = recommended_controller(c.muscle);
+  const RecommendedController suits = recommended_controller(c, board.step_s());
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     if (suits.differs_from(c.controllers[i])) continue;
-    if (in_brief) return {};
     return {"controller " + std::to_string(i) + ", as it is: it " + suits.reason};
   }
   const std::string law = "controller = " + suits.literal();
   const std::string model = "reference_model = " + suits.model_literal();
-  if (const auto problem = check(suits.in_place_of(c.controllers.front()), c, board.step_s()))
-    return {law + " with " + model + ", but here " + problem->key + " " + problem->message};
-  if (in_brief) return {law + " with " + model};
-  return {law + ": " + suits.reason, model + ": " + suits.model_reason};
+  std::vector<std::string> lines{law + ": " + suits.reason, model + ": " + suits.model_reason};
+  if (const std::string problem = problem_of(suits, c, board.step_s()); !problem.empty())
+    lines.push_back("as this channel is, it cannot have it: " + problem);
+  return lines;
 }
 
 std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& board) {
@@ -80,6 +93,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
   if (c.bundle.follows()) return lines;
   advise_travel(c, f, lines);
   if (is_led(c)) return lines;
+  advise_noise(c, board.step_s(), lines);
   for (std::size_t i = 0; i < f.steps.size(); ++i) {
     const auto& steps = f.steps[i];
     const bool small = steps && std::min(steps->up_m, steps->down_m) < 0.5 * f.travel_m;

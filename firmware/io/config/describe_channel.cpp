@@ -197,7 +197,7 @@ std::string describe_channel(const BoardConfig& config, std::size_t index) {
     title_of_line = "              ";
   }
   title_of_line = "  recommended ";
-  for (const std::string& line : describe_recommendation(config.settings, index, false)) {
+  for (const std::string& line : describe_recommendation(config.settings, index)) {
     out << title_of_line << line << "\n";
     title_of_line = "              ";
   }

@@ -2,9 +2,11 @@
 #include <sstream>
 
 #include "supercoil/control/tracking/loop_margin.hpp"
+#include "supercoil/control/tracking/loop_noise.hpp"
 #include "supercoil/control/tracking/tunable.hpp"
 
 #include "config/describe.hpp"
+#include "config/recommended_controller.hpp"
 #include "loop/feasibility.hpp"
 #include "text/number_text.hpp"
 
@@ -43,12 +45,30 @@ std::string start_line(const Feasibility& f, const ChannelSettings& c) {
   return line;
 }
 
+/// Empty: they are too fine to tell.
+std::string pwm_line(const ChannelSettings& c, const BoardSettings& board) {
+  constexpr double fine_ratio = 1e-5;
+  const double supply_V = board.supervision.max_supply_V;
+  const double step_W = supply_V * supply_V / c.heater.cold_resistance_Ohm / c.heater.pwm_steps;
+  if (step_W < fine_ratio * c.limiter.max_W) return "";
+  return "its power comes in PWM steps of up to " + in_digits(1e3 * step_W) + " mW, " +
+         std::to_string(c.heater.pwm_steps) + " of a period";
+}
+
 }  // namespace
 
 double tolerated_ratio(const control::ControllerSettings& controller, const ChannelSettings& c,
                        double step_s) {
   const auto law = control::fixed_law(controller, c.muscle);
   return law ? control::tolerated_span(*law, c.muscle, step_s, loop_delay_s(c, step_s)) : NAN;
+}
+
+double noise_power_W(const control::ControllerSettings& controller, const ChannelSettings& c,
+                     double step_s) {
+  const auto law = control::fixed_law(controller, c.muscle);
+  return law ? reading_noise_m(c) *
+                   control::noise_gain_W_per_m(*law, c.muscle, step_s, loop_delay_s(c, step_s))
+             : NAN;
 }
 
 double bandwidth_rad_per_s(const control::ControllerSettings& controller) {
@@ -77,8 +97,8 @@ std::string describe_promise(const Promise& promise, const FirstMotion& motion) 
          in_digits(1e3 * (motion.middle_m - motion.amplitude_m)) + " to " +
          in_mm(motion.middle_m + motion.amplitude_m) + ", " + in_digits(motion.period_s) +
          " s a period (sensor " + in_um(promise.noise_m) + ", probes " + in_um(promise.probe_m) +
-         ", dither " + in_um(promise.dither_m) + ", PWM " + in_um(promise.pwm_m) + ", not linear " +
-         in_um(promise.unexplained_m) + ")";
+         ", dither " + in_um(promise.dither_m) + ", PWM " + in_um(promise.pwm_m) + ", delay " +
+         in_um(promise.delay_m) + ", not linear " + in_um(promise.unexplained_m) + ")";
 }
 
 std::vector<std::string> describe_promises(const BoardSettings& board, std::size_t channel) {
@@ -89,11 +109,16 @@ std::vector<std::string> describe_promises(const BoardSettings& board, std::size
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < c.controllers.size(); ++i) {
     const control::ControllerSettings& controller = c.controllers[i];
-    const std::string_view kind = control::name_of(control::controller_names, controller.kind);
     std::string line = "controller " + std::to_string(i);
-    if (!is_promised_for(controller))
-      line += " promises no error (" + std::string(kind) + "); learned_ff";
-    const Promise promise = promise_error(controller.learned_ff, c, board, motion);
+    auto law = controller.learned_ff;
+    if (!is_promised_for(controller, c, board.step_s())) {
+      const bool rings = controller.kind == control::ControllerKind::learned_ff;
+      const std::string kind(control::name_of(control::controller_names, controller.kind));
+      line += " promises no error (" + (rings ? "its margin is too small" : kind) +
+              "); the recommended one";
+      law = recommended_controller(c, board.step_s()).in_place_of(controller).learned_ff;
+    }
+    const Promise promise = promise_error(law, c, board, motion);
     lines.push_back(line + " promises, once the muscle is identified, at most " +
                     describe_promise(promise, motion));
   }
@@ -104,6 +129,7 @@ std::vector<std::string> describe_feasibility(const BoardSettings& board, std::s
   const ChannelSettings& c = board.channels[channel];
   const Feasibility f = feasibility(c, board);
   std::vector<std::string> lines{start_line(f, c)};
+  if (std::string line = pwm_line(c, board); !line.empty()) lines.push_back(std::move(line));
   if (c.bundle.follows()) return lines;
   lines.insert(lines.begin(), motion_line(f));
   if (is_led(c)) return lines;

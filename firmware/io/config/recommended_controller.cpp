@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "supercoil/control/tracking/loop_margin.hpp"
+
 #include "loop/feasibility.hpp"
 #include "text/number_text.hpp"
 
@@ -15,10 +17,15 @@ using control::ControllerSettings;
 
 constexpr ControllerKind recommended_kind = ControllerKind::learned_ff;
 constexpr double max_bandwidth_rad_per_s = 8.0;
+constexpr double min_bandwidth_rad_per_s = 0.01;
 /// Of the paper's muscle, for which the controllers' defaults are.
 constexpr double usual_time_constant_s = 1.82;
 constexpr double telling_ratio = 0.1;
 constexpr int told_digits = 4;
+
+/// The least: clear of where it rings (docs/control.md). Without a delay the muscles of tests/setup
+/// have it.
+constexpr double min_margin = 0.4;
 
 /// From the middle of the travel a step by a quarter of it has twice what it moves by to draw on:
 /// falling, all the power that holds it there; rising, at least as much.
@@ -46,6 +53,29 @@ double quickest_pole_rad_per_s(const control::PhysicalParameters& muscle, double
     (fits(between) ? slow : fast) = between;
   }
   return slow;
+}
+
+bool has_margin(const control::PhysicalParameters& muscle, const LoopTime& time,
+                double bandwidth_rad_per_s) {
+  ControllerSettings controller;
+  controller.kind = recommended_kind;
+  controller.learned_ff.bandwidth_rad_per_s = bandwidth_rad_per_s;
+  const auto margin = control::loop_margin(control::fixed_law(controller, muscle).value(), muscle,
+                                           time.step_s, time.delay_s);
+  return margin.stable() && margin.modulus >= min_margin;
+}
+
+/// The greatest with that margin; the less of it, the more.
+double bandwidth_with_margin(const control::PhysicalParameters& muscle, const LoopTime& time,
+                             double greatest) {
+  if (has_margin(muscle, time, greatest)) return greatest;
+  double low = min_bandwidth_rad_per_s;
+  double high = greatest;
+  while (high > 1.002 * low) {
+    const double between = std::sqrt(low * high);
+    (has_margin(muscle, time, between) ? low : high) = between;
+  }
+  return low;
 }
 
 }  // namespace
@@ -77,7 +107,8 @@ bool RecommendedController::differs_from(const ControllerSettings& controller) c
                              [&](double pole) { return differ(pole, pole_rad_per_s); });
 }
 
-RecommendedController recommended_controller(const control::PhysicalParameters& muscle) {
+RecommendedController recommended_controller(const control::PhysicalParameters& muscle,
+                                             const LoopTime& time) {
   // A slow muscle's feedback need not be fast: with the default its noise and its friction show.
   const double tau_s = -1.0 / muscle.thermal_pole_rad_per_s();
   const double slowness = std::max(1.0, tau_s / usual_time_constant_s);
@@ -88,9 +119,16 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
           ? " over the root of its time constant, " + own + ", in units of the paper's " + usual
           : ", as its time constant, " + own + ", does not exceed the paper's " + usual;
   RecommendedController suits;
-  suits.bandwidth_rad_per_s = max_bandwidth_rad_per_s / std::sqrt(slowness);
-  suits.reason = "follows closest, and asks for no motion that the muscle cannot make; " +
-                 number_text(max_bandwidth_rad_per_s, 3) + " rad/s" + why;
+  const double usual_bandwidth = max_bandwidth_rad_per_s / std::sqrt(slowness);
+  suits.bandwidth_rad_per_s = bandwidth_with_margin(muscle, time, usual_bandwidth);
+  suits.reason = "follows closest, and asks for no motion that the muscle cannot make; ";
+  if (suits.bandwidth_rad_per_s < usual_bandwidth) {
+    suits.reason += "with " + number_text(1e3 * time.delay_s, 3) +
+                    " ms of delay more bandwidth would leave a margin below " +
+                    number_text(min_margin, 3);
+  } else {
+    suits.reason += number_text(max_bandwidth_rad_per_s, 3) + " rad/s" + why;
+  }
   suits.pole_rad_per_s = quickest_pole_rad_per_s(muscle, suits.bandwidth_rad_per_s);
   suits.model_reason =
       suits.pole_rad_per_s < suits.bandwidth_rad_per_s
@@ -100,6 +138,14 @@ RecommendedController recommended_controller(const control::PhysicalParameters& 
           : "no quicker than the feedback: the muscle, which falls from 90 to 10 % in " +
                 number_text(tau_s * std::log(9.0), 3) + " s by itself, would be";
   return suits;
+}
+
+std::string problem_of(const RecommendedController& suits, const ChannelSettings& channel,
+                       double step_s) {
+  const ControllerSettings base =
+      channel.controllers.empty() ? ControllerSettings{} : channel.controllers.front();
+  const auto problem = check(suits.in_place_of(base), channel, step_s);
+  return problem ? "controller." + problem->key + " " + problem->message : "";
 }
 
 }  // namespace supercoil::config

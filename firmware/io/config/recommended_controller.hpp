@@ -6,6 +6,8 @@
 #include "supercoil/control/actuator/parameters.hpp"
 #include "supercoil/control/tracking/controller_settings.hpp"
 
+#include "loop/settings.hpp"
+
 namespace supercoil::config {
 
 /// learned_ff with shape_reference, the closest by docs/control.md, behind a reference model that
@@ -26,6 +28,19 @@ struct RecommendedController {
   bool differs_from(const control::ControllerSettings& controller) const;
 };
 
-RecommendedController recommended_controller(const control::PhysicalParameters& muscle);
+/// Of a board's loop: its tick, and loop_delay_s() of a channel.
+struct LoopTime {
+  double step_s = 1e-3;
+  double delay_s = 1e-3;
+};
+/// With the margin that LoopTime leaves (docs/setup.md).
+RecommendedController recommended_controller(const control::PhysicalParameters& muscle,
+                                             const LoopTime& time = {});
+inline RecommendedController recommended_controller(const ChannelSettings& channel, double step_s) {
+  return recommended_controller(channel.muscle, {step_s, loop_delay_s(channel, step_s)});
+}
+/// Why the channel cannot have it, in words; empty: it can.
+std::string problem_of(const RecommendedController& suits, const ChannelSettings& channel,
+                       double step_s);
 
 }  // namespace supercoil::config

@@ -352,7 +352,7 @@ class Results(ProgramCase):
         self.assertEqual(checked.returncode, 0)
         self.assertIn("in order", checked.stdout)
         self.assertRegex(checked.stdout, r"\nmuscle: holds [\d.]+ mm for good, at [\d.]+ W")
-        self.assertRegex(checked.stdout, r"\nmuscle: controller 0 promises no error \(mrac\); learned_ff promises, once "
+        self.assertRegex(checked.stdout, r"\nmuscle: controller 0 promises no error \(mrac\); the recommended one promises, once "
                                          r"the muscle is identified, at most [\d.]+ um rms on a sine of")
         self.assertRegex(checked.stdout, r"\nmuscle: controller 0: once adapted margin 0\.\d+, holds if no parameter moves by more than")
         listed = self.run_program("list")

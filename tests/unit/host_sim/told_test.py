@@ -11,10 +11,10 @@ HOT = "thermal = {transfer_ratio = [0.25, 2.2], power_ratio = [1.0, 1.3]}\n"
 
 
 class Told(ProgramCase):
-    def after(self, text):
+    def after(self, text, status=0):
         """What a run prints, and its summary."""
         done = self.run_program("run", self.scenario(text), "--out", "out", "--no-plot", "--no-trace", "--no-can")
-        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.returncode, status, done.stderr)
         return done.stdout, json.loads((self.path / "out/summary.json").read_text())
 
     def test_says_beforehand_that_a_slow_muscle_cannot_follow_its_reference_model(self):
@@ -33,10 +33,8 @@ class Told(ProgramCase):
         self.assertIn(f"margin {controller['margin']:.2g}, ", text)
         self.assertIn(f"bandwidth {controller['bandwidth_rad_per_s']:.3g} rad/s\n", text)
         self.assertIn(f"at most {1e6 * controller['promised_m']:.3g} um rms", text)
-        self.assertEqual([line in text for line in told["advice"]], [True])
+        self.assertEqual([line in text for line in told["advice"]], [True, True])
         self.assertEqual(told["reference"]["told"], re.search("\nreference: (.*)\n", text)[1])
-        refused = self.run_program("run", scenario, "--json")
-        self.assertEqual((refused.returncode, "--json requires --check" in refused.stderr), (2, True))
 
     def test_a_reference_that_is_not_feasible_is_told_with_its_share_and_what_to_do(self):
         # Through a quick model already the step to the sine's middle asks for too much.
@@ -61,10 +59,8 @@ class Told(ProgramCase):
         model = "{ kind = \"poles\", poles_rad_per_s = [" + ", ".join(f"{p:.4g}" for p in suits["model_poles_rad_per_s"]) + "] }"
         self.assertIn(f"\nrecommended: controller = {law}: {suits['reason']}\nrecommended: reference_model = {model}: {suits['model_reason']}\n",
                       self.run_program("run", scenario, "--check").stdout)
-        self.assertIn(f"\nrecommended: controller = {law} with reference_model = {model}\n", self.after(SHORT)[0])
         taken = f"controller = {law}\nreference_model = {model}\n" + SHORT
-        self.assertNotIn("recommended", self.after(taken)[0])
-        self.assertIn("\nrecommended: controller 0, as it is: it follows closest", self.run_program("run", "s.toml", "--check").stdout)
+        self.assertIn("\nrecommended: controller 0, as it is: it follows closest", self.after(taken)[0])
         self.assertEqual(json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)["feasibility"]["recommended"]["in_use"], 0)
 
     def test_noise_at_a_limit_is_no_reference_that_is_not_feasible(self):
@@ -75,7 +71,7 @@ class Told(ProgramCase):
 
     def test_a_reference_that_is_not_feasible_from_an_event_on_is_told_with_the_event(self):
         step = "reference = {kind = 'steps', levels_m = [0.010], hold_s = 50.0}\ncontroller.kind = 'pi'\n"
-        told, summary = self.after(HOT + "simulation.duration_s = 40.0\n" + step + "[[event]]\nat_s = 15.0\nplant.load_N = 0.06\n")
+        told, summary = self.after(HOT + "simulation.duration_s = 40.0\n" + step + "[[event]]\nat_s = 15.0\nplant.load_N = 0.06\n", 1)
         self.assertGreater(summary["infeasible_from_s"], 15.0)
         self.assertIn(f"first at {summary['infeasible_from_s']:.1f} s for {summary['infeasible_lasts_s']:.3g} s and in "
                       f"{100 * summary['infeasible_ratio']:.1f} % of all ticks that followed it, after the event at 15 s (plant.load_N), mostly "

@@ -5,7 +5,7 @@ namespace supercoil::operating {
 std::optional<Promise> ChannelNow::promise(const control::ControllerSettings& controller,
                                            const BoardSettings& board,
                                            const FirstMotion& motion) const {
-  if (in_joint() || !is_promised_for(controller)) return std::nullopt;
+  if (in_joint() || !is_promised_for(controller, settings, board.step_s())) return std::nullopt;
   return promise_error(controller.learned_ff, settings, board, motion);
 }
 

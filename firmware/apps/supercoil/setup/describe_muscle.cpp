@@ -5,7 +5,6 @@
 #include <numbers>
 #include <sstream>
 
-#include "config/recommended_controller.hpp"
 #include "text/number_text.hpp"
 
 namespace supercoil::operating {
@@ -99,7 +98,8 @@ void add_heat(std::vector<Entry>& entries, const MuscleAnswers& a, const Heat& h
 
 }  // namespace
 
-tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& a) {
+tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& a,
+                                                             const config::LoopTime& time) {
   if (!(a.of(Asked::thread_g) > 0.0) && !(a.of(Asked::heated_K) > 0.0)) {
     return tl::unexpected<std::string>(
         "thread_g or heated_K must be known: without either nothing says how hot the muscle gets");
@@ -132,7 +132,7 @@ tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers
   keep("heater.cold_resistance_Ohm", a.of(Asked::cold_resistance_Ohm));
   keep("limits.max_W", a.of(Asked::max_W));
   keep("limits.max_travel_m", 1e-3 * a.of(Asked::max_travel_mm));
-  const config::RecommendedController controller = config::recommended_controller(d.muscle);
+  const config::RecommendedController controller = config::recommended_controller(d.muscle, time);
   d.entries.push_back({"controller", controller.literal(), controller.reason});
   d.entries.push_back({"reference_model", controller.model_literal(), controller.model_reason});
   return d;

@@ -11,6 +11,7 @@
 #include "supercoil/control/actuator/parameters.hpp"
 
 #include "apps/supercoil/setup/muscle_answers.hpp"
+#include "config/recommended_controller.hpp"
 
 namespace supercoil::operating {
 
@@ -32,7 +33,9 @@ struct MuscleDescription {
 
 /// Every question without a fallback must be answered. Each parameter follows from two or three
 /// answers; its bounds follow from how wrong those may be, all of them to the same side. The error
-/// says which answers contradict each other, or what no muscle of thread has.
-tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& answers);
+/// says which answers contradict each other, or what no muscle of thread has. time: of the board's
+/// loop.
+tl::expected<MuscleDescription, std::string> describe_muscle(const MuscleAnswers& answers,
+                                                             const config::LoopTime& time = {});
 
 }  // namespace supercoil::operating

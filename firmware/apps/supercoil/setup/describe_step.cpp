@@ -124,9 +124,22 @@ void say_how_a_joint_is_measured(double lever_m, Operator& who) {
       "over the lever's square");
 }
 
+/// Of a file that need not be complete yet.
+config::LoopTime loop_time_in_file(const std::string& text, int channel) {
+  const toml::table document = toml::parse(text);
+  const double rate_Hz = document.at_path("board.rate_Hz").value_or(BoardSettings().rate_Hz);
+  const auto at = [&](const char* key) {
+    const auto node = document.at_path("channel[" + std::to_string(channel - 1) + "]." + key);
+    return node ? node : document.at_path(std::string("every_channel.") + key);
+  };
+  // A PWM on a bus takes a tick.
+  const double delay_ms = at("heater.delay_ms").value_or(at("pwm.bus") ? 1e3 / rate_Hz : 0.0);
+  return {1.0 / rate_Hz, 1.0 / rate_Hz + 1e-3 * delay_ms};
+}
+
 Or<Json> write_description(const Said& said, const SetupOptions& options, const std::string& text,
                            Operator& who) {
-  auto described = describe_muscle(said.muscle);
+  auto described = describe_muscle(said.muscle, loop_time_in_file(text, options.channel));
   if (!described) return tl::unexpected(described.error() + "\n");
   for (Entry& limit : said.nameplate.limits(trip_in_file_C(text, options.channel)))
     described->entries.push_back(std::move(limit));

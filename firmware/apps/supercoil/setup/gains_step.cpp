@@ -69,7 +69,8 @@ TuningDone take_over(BoardLink& board, const std::string& channel, const Control
 StepResult choose_gains(BoardLink& board, const std::string& channel, const ChannelNow& now,
                         const BoardSettings& settings, Operator& who) {
   const ControllerSettings& in_use = now.settings.controllers.front();
-  const config::RecommendedController suits = config::recommended_controller(now.settings.muscle);
+  const config::RecommendedController suits =
+      config::recommended_controller(now.settings, settings.step_s());
   const ControllerSettings recommended = suits.in_place_of(in_use);
   const FirstMotion motion =
       plan_first_motion(feasibility(now.settings, settings), now.settings.unexplained_ratio);
@@ -91,8 +92,9 @@ StepResult choose_gains(BoardLink& board, const std::string& channel, const Chan
     who.say("it is in use already: nothing changes");
     return found;
   }
-  if (const auto problem = check(recommended, now.settings, settings.step_s())) {
-    who.say("it cannot run here: " + problem->key + " " + problem->message);
+  if (const std::string problem = problem_of(suits, now.settings, settings.step_s());
+      !problem.empty()) {
+    who.say("it cannot run here: " + problem);
     return found;
   }
   who.say("with it: " + expected_text(recommended, now, settings, motion, better));

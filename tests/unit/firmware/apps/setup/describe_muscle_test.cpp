@@ -94,3 +94,14 @@ TEST(DescribeMuscle, AnswersThatMakeNoMuscleAreNamed) {
   CHECK_FALSE(d.has_value());
   STRCMP_CONTAINS("stiffness_N_per_m = 9.81e+08, and it must be 0.01 to 1e+06", d.error().c_str());
 }
+
+TEST(DescribeMuscle, APowerStageThatActsLateGetsLessBandwidth) {
+  const auto bandwidth_with = [](double delay_s) {
+    const std::string law =
+        literal_of(*describe_muscle(paper_answers(), {1e-3, delay_s}), "controller");
+    const std::string key = "bandwidth_rad_per_s = ";
+    return std::stod(law.substr(law.find(key) + key.size()));
+  };
+  DOUBLES_EQUAL(8.0, bandwidth_with(1e-3), 1e-3);
+  CHECK(bandwidth_with(0.1) < 5.0);
+}

@@ -128,6 +128,26 @@ TEST(Promise, PowerThatComesInStepsCountsForAsLongAsARoundingLasts) {
   DOUBLES_EQUAL(step_m / std::sqrt(12.0), promised().pwm_m, 1e-12);
 }
 
+TEST(Promise, PowerThatComesLateCountsByHowFarTheMotionGoesMeanwhile) {
+  DOUBLES_EQUAL(0.0, promised().delay_m, 0.0);
+  channel.heater.delay_s = 0.02;
+  const double turn = 2.0 * std::numbers::pi / motion.period_s;
+  const double bandwidth = channel.controllers[0].learned_ff.bandwidth_rad_per_s;
+  const double late_m = 0.02 * turn * motion.amplitude_m / std::numbers::sqrt2;
+  DOUBLES_EQUAL(late_m * turn / bandwidth, promised().delay_m, 1e-12);
+  CHECK(promised().error_m() > promised().delay_m);
+}
+
+TEST(Promise, ALoopThatRingsIsPromisedNothing) {
+  CHECK_TRUE(is_promised_for(channel.controllers[0], channel, board.step_s()));
+  channel.heater.delay_s = 0.1;
+  CHECK_FALSE(is_promised_for(channel.controllers[0], channel, board.step_s()));
+  channel.controllers[0].learned_ff.bandwidth_rad_per_s = 2.0;
+  CHECK_TRUE(is_promised_for(channel.controllers[0], channel, board.step_s()));
+  channel.controllers[0].kind = control::ControllerKind::pi;
+  CHECK_FALSE(is_promised_for(channel.controllers[0], channel, board.step_s()));
+}
+
 TEST(Promise, WhatTheBoardGoesByReplacesTheFilesMuscle) {
   KnownMuscle known{};
   for (std::size_t i = 0; i < known.size(); ++i)

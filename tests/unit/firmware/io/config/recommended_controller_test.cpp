@@ -5,6 +5,8 @@
 
 #include <CppUTest/TestHarness.h>
 
+#include "supercoil/control/tracking/loop_margin.hpp"
+
 #include "loop/feasibility.hpp"
 
 using namespace supercoil;
@@ -25,6 +27,40 @@ TEST(RecommendedController, ASlowMuscleGetsALowerBandwidth) {
                   slow.reason.c_str());
   muscle.thermal_mass_J_per_K /= 100.0;
   DOUBLES_EQUAL(8.0, recommended_controller(muscle).bandwidth_rad_per_s, 0.0);
+}
+
+TEST(RecommendedController, ADelayLeavesItAMarginByLessBandwidth) {
+  const control::PhysicalParameters muscle;
+  const auto margin_at = [&](const RecommendedController& suits, double delay_s) {
+    const auto law = control::fixed_law(suits.in_place_of({}), muscle);
+    return control::loop_margin(*law, muscle, 1e-3, delay_s);
+  };
+  const double at_once_s = 1e-3;
+  DOUBLES_EQUAL(8.0, recommended_controller(muscle, {1e-3, at_once_s}).bandwidth_rad_per_s, 1e-3);
+  double before = 8.0;
+  for (const double delay_s : {0.05, 0.1, 0.5, 2.5}) {
+    const RecommendedController suits = recommended_controller(muscle, {1e-3, delay_s});
+    CHECK(suits.bandwidth_rad_per_s < before);
+    before = suits.bandwidth_rad_per_s;
+    CHECK(suits.pole_rad_per_s <= before);
+    const auto margin = margin_at(suits, delay_s);
+    CHECK(margin.stable());
+    CHECK(margin.modulus >= 0.4);
+    CHECK(margin.modulus < 0.41);
+  }
+  STRCMP_CONTAINS("with 100 ms of delay more bandwidth would leave a margin below 0.4",
+                  recommended_controller(muscle, {1e-3, 0.1}).reason.c_str());
+}
+
+TEST(RecommendedController, OfAChannelItKnowsItsDelayAndWhatStandsInItsWay) {
+  ChannelSettings channel;
+  channel.heater.delay_s = 0.1;
+  const RecommendedController suits = recommended_controller(channel, 1e-3);
+  CHECK(suits.bandwidth_rad_per_s < 5.0);
+  STRCMP_EQUAL("", config::problem_of(suits, channel, 1e-3).c_str());
+  channel.controllers.front().arithmetic = control::Arithmetic::q8_24;
+  STRCMP_CONTAINS("controller.arithmetic must be double or float",
+                  config::problem_of(suits, channel, 1e-3).c_str());
 }
 
 TEST(RecommendedController, AStepOfAQuarterOfTheTravelIsJustFeasibleByTheReferenceModel) {

@@ -1,0 +1,62 @@
+#include "runner/scenario_promise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "config/describe.hpp"
+#include "config/recommended_controller.hpp"
+#include "runner/board_of.hpp"
+#include "runner/reference_feasibility.hpp"
+
+namespace supercoil::host_sim {
+
+namespace {
+
+/// Wide: the built-in scenario `c`, whose reference asks for too much, has six times the promise
+/// and a twentieth of the motion.
+constexpr double far_above_promise = 10.0;
+constexpr double large_part = 0.25;
+
+std::optional<FirstMotion> sine_of(const Reference& reference) {
+  if (reference.kind != ReferenceKind::sine || reference.terms.empty()) return std::nullopt;
+  const Sinusoid& sine = reference.terms.front();
+  if (sine.amplitude == 0.0 || sine.angular_frequency_rad_per_s == 0.0) return std::nullopt;
+  return FirstMotion{reference.offset, std::abs(sine.amplitude),
+                     2.0 * std::numbers::pi / std::abs(sine.angular_frequency_rad_per_s)};
+}
+
+}  // namespace
+
+std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario) {
+  if (!follows_position(scenario.start)) return std::nullopt;
+  const BoardSettings board = firmware_of(scenario);
+  const ChannelSettings& channel = board.channels[0];
+  ScenarioPromise promise;
+  promise.motion =
+      sine_of(scenario.start.reference)
+          .value_or(plan_first_motion(feasibility(channel, board), channel.unexplained_ratio));
+  if (!(promise.motion.amplitude_m > 0.0)) return std::nullopt;
+  control::ControllerSettings controller = scenario.start.controller;
+  promise.of_own_controller = is_promised_for(controller, channel, board.step_s());
+  if (!promise.of_own_controller) {
+    controller = config::recommended_controller(channel, board.step_s()).in_place_of(controller);
+  }
+  promise.parts = promise_error(controller.learned_ff, channel, board, promise.motion);
+  return promise;
+}
+
+std::string describe_scenario_promise(const Scenario& scenario) {
+  const auto promise = scenario_promise(scenario);
+  if (!promise || !sine_of(scenario.start.reference)) return {};
+  return std::string(promise->of_own_controller ? "promised is"
+                                                : "the recommended controller promises") +
+         " at most " + config::describe_promise(promise->parts, promise->motion);
+}
+
+double unfollowed_m(const std::optional<ScenarioPromise>& promise, double motion_m) {
+  return std::max(promise ? far_above_promise * promise->parts.error_m() : 0.0,
+                  large_part * motion_m);
+}
+
+}  // namespace supercoil::host_sim

@@ -1,0 +1,100 @@
+"""What supercoil-sim run promises, what it finds afterwards, and that programs get the same as people."""
+
+import json
+import unittest
+
+from sim_program import SHORT, ProgramCase
+
+QUIET = ("--out", "out", "--no-plot", "--no-trace", "--no-can")
+FOLLOWS = "controller.kind = 'learned_ff'\nsimulation.duration_s = 60.0\n"
+WEAK = "simulation.duration_s = 60.0\ncontroller = {kind = 'pi', proportional_W_per_m = 20.0, integral_W_per_m_s = 1.0}\n"
+
+
+class Outcome(ProgramCase):
+    def run_of(self, text, *options):
+        """What a run prints on both channels, its status, and its summary."""
+        done = self.run_program("run", self.scenario(text), *QUIET, *options)
+        return done, json.loads((self.path / "out/summary.json").read_text())
+
+    def check(self, text):
+        told = self.run_program("run", self.scenario(text), "--check")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        return told.stdout, json.loads(self.run_program("run", "s.toml", "--check", "--json").stdout)
+
+    def test_run_tells_beforehand_what_check_does(self):
+        text = FOLLOWS + "power = {pwm_bits = 8, delay_s = 0.01}\nplant.load_N = 0.05\nsensor.position.min_m = -0.01\n"
+        lines = self.check(text)[0].splitlines()[1:]
+        for part in ("margin", "bandwidth", "may be armed", "PWM steps", "rests at -3.12 mm", "recommended: ", "reference: promised is at most"):
+            self.assertIn(part, "\n".join(lines))
+        self.assertEqual(self.run_of(text)[0].stdout.splitlines()[:len(lines)], lines)
+
+    def test_a_run_that_follows_is_compared_with_its_promise(self):
+        told, before = self.check(FOLLOWS)
+        done, summary = self.run_of(FOLLOWS)
+        self.assertEqual((done.returncode, summary["did_not_follow_because"], summary["promised_by"]), (0, None, "own"), done.stderr)
+        self.assertEqual(summary["promised_rms_m"], before["reference"]["promised_rms_m"])
+        self.assertIn(f"promised were {1e6 * summary['promised_rms_m']:.1f} um rms\n", done.stdout)
+
+    def test_a_motion_that_did_not_follow_is_a_failure_with_its_reason(self):
+        done, summary = self.run_of(WEAK)
+        self.assertGreater(summary["tracking_rms_m"], 10 * summary["promised_rms_m"])
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("it did not follow: " + summary["did_not_follow_because"], done.stderr)
+        self.assertRegex(summary["did_not_follow_because"], r"mm rms from its reference model, of .* mm that this moves and .* mm promised: the ")
+        done, _ = self.run_of(WEAK, "--allow-fault")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("it did not follow: ", done.stdout)
+
+    def test_a_delay_is_in_what_is_recommended_and_promised(self):
+        told, before = self.check(FOLLOWS + "power.delay_s = 0.04\n")
+        suits = before["feasibility"]["recommended"]
+        self.assertLess(suits["bandwidth_rad_per_s"], 7.9)
+        self.assertIsNone(suits["problem"])
+        self.assertIn("with 41 ms of delay more bandwidth would leave a margin below 0.4", told)
+        late = self.check(FOLLOWS + "power.delay_s = 0.1\n")[0]
+        self.assertIn("controller 0 promises no error (its margin is too small); the recommended one promises", late)
+        # It does what it says.
+        model = ", ".join(f"{p:.4g}" for p in suits["model_poles_rad_per_s"])
+        taken = (f"simulation.duration_s = 60.0\npower.delay_s = 0.04\nreference_model = {{ kind = 'poles', poles_rad_per_s = [{model}] }}\n"
+                 f"controller = {{ kind = 'learned_ff', shape_reference = true, bandwidth_rad_per_s = {suits['bandwidth_rad_per_s']:.4g} }}\n")
+        _, before = self.check(taken)
+        self.assertGreater(before["feasibility"]["controllers"][0]["margin"], 0.39)
+        done, summary = self.run_of(taken)
+        self.assertEqual((done.returncode, summary["oscillated_at_s"]), (0, None))
+        self.assertLess(summary["tracking_rms_m"], summary["promised_rms_m"])
+
+    def test_power_that_swings_by_noise_is_told_before_and_after(self):
+        noisy = FOLLOWS + "sensor.position.noise_rms_m = 200e-6\n"
+        told, before = self.check(noisy)
+        swing_W = before["feasibility"]["controllers"][0]["noise_power_W"]
+        self.assertIn("makes the power swing by", told)
+        done, summary = self.run_of(noisy)
+        self.assertIn("the controller's power swung by", done.stdout)
+        self.assertLess(abs(summary["power_noise_W"] / swing_W - 1.0), 0.3, (summary["power_noise_W"], swing_W))
+        told, before = self.check(FOLLOWS)
+        self.assertNotIn("swing", told)
+        self.assertNotIn("swung", self.run_of(FOLLOWS)[0].stdout)
+
+    def test_a_loop_that_oscillates_tells_nothing_of_the_reference(self):
+        text = "simulation.duration_s = 40.0\nplant.force_per_kelvin_N_per_K = 0.02\nmuscle.force_per_kelvin_N_per_K = 0.0086\ncontroller = {kind = 'pi', proportional_W_per_m = 4000.0, integral_W_per_m_s = 8000.0}\n"
+        done, summary = self.run_of(text, "--allow-fault")
+        self.assertIsNotNone(summary["oscillated_at_s"], done.stdout)
+        self.assertEqual([summary[key] for key in ("infeasible_ratio", "infeasible_from_s", "infeasible_lasts_s")], [None] * 3)
+        self.assertNotIn("the reference asked for more", done.stdout)
+
+    def test_json_is_all_that_programs_get(self):
+        done, summary = self.run_of(SHORT, "--json")
+        self.assertEqual(json.loads(done.stdout), summary)
+        nodes = self.run_program("run", "s.toml", *QUIET, "--nodes", "2", "--json")
+        self.assertEqual([node["scenario"] for node in json.loads(nodes.stdout)], ["s, node 1", "s, node 2"])
+        wrong = self.run_program("run", self.scenario("plant.stiffness_N_per_m = -1\n"), "--json")
+        self.assertEqual((wrong.returncode, json.loads(wrong.stdout)["problems"][0]["key"]), (2, "plant.stiffness_N_per_m"))
+        listed = json.loads(self.run_program("list", "--json").stdout)
+        text = self.run_program("list").stdout
+        for kind in ("scenarios", "controller_presets", "reference_models"):
+            for entry in listed[kind]:
+                self.assertIn(f"  {entry['name']:14} {entry['description']}\n", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

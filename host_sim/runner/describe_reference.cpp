@@ -125,7 +125,7 @@ std::string describe_out_of_range(const Scenario& scenario) {
   const auto text = [&](const Conditions& c) {
     return "goes from " + in_mm(c.reference.lowest()) + " to " + in_mm(c.reference.highest()) +
            ", and the board takes 0 to " + in_mm(max_m) +
-           " (limits.max_travel_m) and refuses all else: from there on the muscle follows nothing";
+           " (limits.max_travel_m) and refuses all else, which ends in command_timeout";
   };
   if (refused(scenario.start)) return text(scenario.start);
   for (const Event& event : scenario.events) {

@@ -18,7 +18,11 @@ namespace {
 constexpr double far_above_promise = 10.0;
 constexpr double large_part = 0.25;
 
-std::optional<FirstMotion> sine_of(const Reference& reference) {
+std::optional<FirstMotion> feasible_sine_of(const Scenario& scenario) {
+  const auto f = reference_feasibility(scenario);
+  if (!f || f->feasible_motion_ratio < 1.0 || f->leads_too_far()) return std::nullopt;
+  if (!describe_out_of_range(scenario).empty()) return std::nullopt;
+  const Reference& reference = scenario.start.reference;
   if (reference.kind != ReferenceKind::sine || reference.terms.empty()) return std::nullopt;
   const Sinusoid& sine = reference.terms.front();
   if (sine.amplitude == 0.0 || sine.angular_frequency_rad_per_s == 0.0) return std::nullopt;
@@ -33,9 +37,10 @@ std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario) {
   const BoardSettings board = firmware_of(scenario);
   const ChannelSettings& channel = board.channels[0];
   ScenarioPromise promise;
+  const auto sine = feasible_sine_of(scenario);
+  promise.of_reference = sine.has_value();
   promise.motion =
-      sine_of(scenario.start.reference)
-          .value_or(plan_first_motion(feasibility(channel, board), channel.unexplained_ratio));
+      sine.value_or(plan_first_motion(feasibility(channel, board), channel.unexplained_ratio));
   if (!(promise.motion.amplitude_m > 0.0)) return std::nullopt;
   control::ControllerSettings controller = scenario.start.controller;
   promise.of_own_controller = is_promised_for(controller, channel, board.step_s());
@@ -48,7 +53,7 @@ std::optional<ScenarioPromise> scenario_promise(const Scenario& scenario) {
 
 std::string describe_scenario_promise(const Scenario& scenario) {
   const auto promise = scenario_promise(scenario);
-  if (!promise || !sine_of(scenario.start.reference)) return {};
+  if (!promise || !promise->of_reference) return {};
   return std::string(promise->of_own_controller ? "promised is"
                                                 : "the recommended controller promises") +
          " at most " + config::describe_promise(promise->parts, promise->motion);

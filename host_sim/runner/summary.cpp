@@ -138,6 +138,8 @@ ordered_json Summary::to_json(const Scenario& scenario, const Simulation& simula
   json["promised_rms_m"] = promise ? finite(promise->parts.error_m()) : nullptr;
   json["promised_by"] = nullptr;
   if (promise) json["promised_by"] = promise->of_own_controller ? "own" : "recommended";
+  json["promised_on"] = nullptr;
+  if (promise) json["promised_on"] = promise->of_reference ? "reference" : "first_motion";
   const std::string unfollowed = did_not_follow_because(scenario);
   json["did_not_follow_because"] = unfollowed.empty() ? ordered_json() : ordered_json(unfollowed);
   if (scenario.start.joint) {

@@ -48,6 +48,17 @@ void advise_travel(const ChannelSettings& c, const Feasibility& f,
   }
 }
 
+/// The current must be seen before a probe is over.
+void advise_probe(const ChannelSettings& c, double step_s, std::vector<std::string>& lines) {
+  constexpr double rounding_s = 1e-9;
+  const HeaterSettings& h = c.heater;
+  if (h.delay_s + step_s < h.probe_s - rounding_s) return;
+  lines.push_back("its power acts " + number_text(1e3 * h.delay_s, 3) +
+                  " ms late, and a probe of the heater takes " + number_text(1e3 * h.probe_s, 3) +
+                  " ms: it ends in heater_open before any current is seen, and the muscle is never "
+                  "armed; shorten the delay");
+}
+
 /// Where noise makes the power swing.
 void advise_noise(const ChannelSettings& c, double step_s, std::vector<std::string>& lines) {
   const double range_W = c.limiter.max_W - c.limiter.min_W;
@@ -90,6 +101,7 @@ std::vector<std::string> advice(const ChannelSettings& c, const BoardSettings& b
                     length_text(c.supervision.min_position_m) +
                     ": a colder start looks like a fault");
   }
+  advise_probe(c, board.step_s(), lines);
   if (c.bundle.follows()) return lines;
   advise_travel(c, f, lines);
   if (is_led(c)) return lines;

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from sim_program import SHORT, ProgramCase
+from sim_program import EXAMPLES, SHORT, ProgramCase
 
 QUIET = ("--out", "out", "--no-plot", "--no-trace", "--no-can")
 FOLLOWS = "controller.kind = 'learned_ff'\nsimulation.duration_s = 60.0\n"
@@ -35,6 +35,17 @@ class Outcome(ProgramCase):
         self.assertEqual(summary["promised_rms_m"], before["reference"]["promised_rms_m"])
         self.assertIn(f"promised were {1e6 * summary['promised_rms_m']:.1f} um rms\n", done.stdout)
 
+    def test_a_reference_that_the_board_refuses_is_told_beforehand(self):
+        beyond = SHORT + "reference = {kind = 'sine', offset_m = 0.02, amplitude_m = 0.015}\n"
+        board = ("--board", EXAMPLES / "raspberry-pi-pwm-ads1115.toml")
+        told = self.run_program("run", self.scenario(beyond), *board, "--check").stdout
+        self.assertIn("\nreference: goes from 5 mm to 35 mm, and the board takes 0 to 25 mm (limits.max_travel_m) and refuses all else, which ends in "
+                      "command_timeout\n", told)
+        self.assertNotIn("reference: the recommended controller promises", told)
+        self.assertIn("fault 60 command_timeout", self.run_program("run", "s.toml", *board, *QUIET, "--allow-fault").stdout)
+        within = self.check(SHORT)
+        self.assertEqual(("refuses" in within[0], within[1]["reference"]["out_of_range"]), (False, ""))
+
     def test_a_motion_that_did_not_follow_is_a_failure_with_its_reason(self):
         done, summary = self.run_of(WEAK)
         self.assertGreater(summary["tracking_rms_m"], 10 * summary["promised_rms_m"])
@@ -53,6 +64,10 @@ class Outcome(ProgramCase):
         self.assertIn("with 41 ms of delay more bandwidth would leave a margin below 0.4", told)
         late = self.check(FOLLOWS + "power.delay_s = 0.1\n")[0]
         self.assertIn("controller 0 promises no error (its margin is too small); the recommended one promises", late)
+        self.assertIn("advice: its power acts 100 ms late, and a probe of the heater takes 50 ms: it ends in heater_open", late)
+        self.assertIn("fault 20 heater_open", self.run_of(SHORT + "power.delay_s = 0.049\n", "--allow-fault")[0].stdout)
+        self.assertEqual(self.run_of(SHORT + "power.delay_s = 0.048\n")[0].returncode, 0)
+        self.assertEqual(["a probe" in self.check(SHORT + f"power.delay_s = {delay_s}\n")[0] for delay_s in (0.048, 0.049)], [False, True])
         # It does what it says.
         model = ", ".join(f"{p:.4g}" for p in suits["model_poles_rad_per_s"])
         taken = (f"simulation.duration_s = 60.0\npower.delay_s = 0.04\nreference_model = {{ kind = 'poles', poles_rad_per_s = [{model}] }}\n"
